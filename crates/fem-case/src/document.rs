@@ -1,0 +1,242 @@
+//! A case's texts (the file and its overrides) merged into one tree that knows where each key
+//! and value came from.
+//!
+//! All texts share one line of byte offsets: the file begins at 0, each override one byte after
+//! the end of the text before it. A span in the merged tree thus names its text as well.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use crate::error::CaseError;
+use crate::overrides;
+
+/// One text, and where it begins on the common line of offsets.
+#[derive(Clone, Debug)]
+struct Source {
+    name: String,
+    text: String,
+    start: usize,
+}
+
+/// Where a key and its value stand on the common line of offsets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Position {
+    key: Range<usize>,
+    value: Range<usize>,
+}
+
+/// The texts of a case and the positions of its keys, by dotted path (`body.0.sphere.diameter`).
+#[derive(Clone, Debug)]
+pub(crate) struct Document {
+    sources: Vec<Source>,
+    positions: BTreeMap<String, Position>,
+    arrays: Vec<String>,
+}
+
+impl Document {
+    /// Parses `text` and applies the overrides, left to right.
+    ///
+    /// Returns the document and the merged tree as a deserializer.
+    pub(crate) fn parse<'t>(
+        name: &str,
+        text: &'t str,
+        overrides: &'t [String],
+    ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
+        let file = Source {
+            name: name.to_string(),
+            text: text.to_string(),
+            start: 0,
+        };
+        let mut document = Document {
+            sources: vec![file],
+            positions: BTreeMap::new(),
+            arrays: Vec::new(),
+        };
+        let mut tree = DeTable::parse(text).map_err(|error| {
+            document
+                .error_in(0, error.span().unwrap_or(0..0), first_line(error.message()))
+                .with_help(
+                    "the file must be TOML: one `key = value` a line; a value with a unit is a \
+                 string in quotes, \"22.2 mm\"",
+                )
+        })?;
+        for (index, text) in overrides.iter().enumerate() {
+            let previous = &document.sources[index];
+            document.sources.push(Source {
+                name: format!("--set {}=…", overrides::key_text(text)),
+                text: text.clone(),
+                start: previous.start + previous.text.len() + 1,
+            });
+            let start = document.sources[index + 1].start;
+            let fail = |fault: overrides::Fault| {
+                document
+                    .error_on(fault.span, fault.message)
+                    .with_help(fault.help)
+            };
+            let assignment = overrides::parse(text, start).map_err(fail)?;
+            overrides::apply(tree.get_mut(), assignment).map_err(fail)?;
+        }
+        for (key, value) in tree.get_ref() {
+            document.record(quote_key(key.get_ref()), key.span(), value);
+        }
+        Ok((document, tree))
+    }
+
+    fn record(&mut self, path: String, key: Range<usize>, value: &Spanned<DeValue<'_>>) {
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                for (key, value) in table {
+                    self.record(join(&path, &quote_key(key.get_ref())), key.span(), value);
+                }
+            }
+            DeValue::Array(array) => {
+                self.arrays.push(path.clone());
+                for (index, value) in array.iter().enumerate() {
+                    self.record(join(&path, &index.to_string()), value.span(), value);
+                }
+            }
+            _ => {}
+        }
+        self.positions.insert(
+            path,
+            Position {
+                key,
+                value: value.span(),
+            },
+        );
+    }
+
+    /// Whether the case gives a value at this path.
+    pub(crate) fn has(&self, path: &str) -> bool {
+        self.positions.contains_key(path)
+    }
+
+    /// The paths of all arrays.
+    pub(crate) fn arrays(&self) -> &[String] {
+        &self.arrays
+    }
+
+    /// Which of several keys that contradict each other is to blame: the one that an override
+    /// gave last, or else `default`.
+    pub(crate) fn blamed<'p>(&self, default: &'p str, others: &[&'p str]) -> &'p str {
+        let overridden = |path: &str| {
+            let start = self
+                .positions
+                .get(path)
+                .map_or(0, |position| position.value.start);
+            Some(start).filter(|start| self.source_at(*start) > 0)
+        };
+        let paths = [default].into_iter().chain(others.iter().copied());
+        let candidates = paths.filter_map(|path| Some((overridden(path)?, path)));
+        candidates
+            .max_by_key(|(start, _)| *start)
+            .map_or(default, |(_, path)| path)
+    }
+
+    /// An error that points at the value of the key at `path`, or, if it is absent, at the
+    /// nearest table around it.
+    pub(crate) fn error_at(&self, path: &str, message: impl Into<String>) -> CaseError {
+        let mut path = path;
+        loop {
+            if let Some(position) = self.positions.get(path) {
+                return self.error_on(position.value.clone(), message);
+            }
+            match path.rfind('.') {
+                Some(dot) => path = &path[..dot],
+                None => return self.error_in(0, 0..0, message),
+            }
+        }
+    }
+
+    /// An error at a span of the common line of offsets.
+    pub(crate) fn error_on(&self, span: Range<usize>, message: impl Into<String>) -> CaseError {
+        let index = self.source_at(span.start);
+        let start = self.sources[index].start;
+        self.error_in(
+            index,
+            span.start - start..span.end.saturating_sub(start),
+            message,
+        )
+    }
+
+    /// The text at a span of the common line of offsets.
+    pub(crate) fn text_on(&self, span: &Range<usize>) -> &str {
+        let Source { text, start, .. } = &self.sources[self.source_at(span.start)];
+        text.get(span.start - start..span.end.saturating_sub(*start))
+            .unwrap_or("")
+    }
+
+    fn source_at(&self, offset: usize) -> usize {
+        self.sources
+            .partition_point(|source| source.start <= offset)
+            .saturating_sub(1)
+    }
+
+    fn error_in(&self, source: usize, span: Range<usize>, message: impl Into<String>) -> CaseError {
+        let Source { name, text, .. } = &self.sources[source];
+        CaseError::new(name, message).at(text, span)
+    }
+
+    /// The path whose value or else key has this span; the deepest if several have.
+    pub(crate) fn path_of(&self, span: &Range<usize>) -> Option<&str> {
+        let deepest = |is_match: &dyn Fn(&Position) -> bool| {
+            let found = self
+                .positions
+                .iter()
+                .filter(|(_, position)| is_match(position));
+            found
+                .map(|(path, _)| path.as_str())
+                .max_by_key(|path| path.matches('.').count())
+        };
+        deepest(&|position| position.value == *span)
+            .or_else(|| deepest(&|position| position.key == *span))
+    }
+}
+
+/// `path.key`; just the key at the root.
+pub(crate) fn join(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_string()
+    } else {
+        format!("{path}.{key}")
+    }
+}
+
+/// A key as one part of a dotted path: bare if TOML allows that, quoted if not.
+pub(crate) fn quote_key(key: &str) -> String {
+    if !key.is_empty() && key.chars().all(overrides::is_bare) {
+        key.to_string()
+    } else {
+        format!("{key:?}")
+    }
+}
+
+/// The same value with all of its spans moved by `start`.
+pub(crate) fn shift(value: Spanned<DeValue<'_>>, start: usize) -> Spanned<DeValue<'_>> {
+    let span = value.span();
+    let value = match value.into_inner() {
+        DeValue::Array(array) => {
+            let items = array.into_iter().map(|item| shift(item, start));
+            DeValue::Array(items.collect::<DeArray<'_>>())
+        }
+        DeValue::Table(table) => {
+            let mut moved = DeTable::new();
+            for (key, value) in table {
+                let span = key.span();
+                let key = Spanned::new(span.start + start..span.end + start, key.into_inner());
+                moved.insert(key, shift(value, start));
+            }
+            DeValue::Table(moved)
+        }
+        scalar => scalar,
+    };
+    Spanned::new(span.start + start..span.end + start, value)
+}
+
+/// The parser's messages may go on with a list of what it expected.
+pub(crate) fn first_line(message: &str) -> String {
+    message.lines().next().unwrap_or("not TOML").to_string()
+}

@@ -1,0 +1,68 @@
+//! Case files: TOML with units to a validated, resolved case.
+//!
+//! ```text
+//! text, overrides ─ document ─ schema ─ validate ─ Scene
+//!                   merged     CaseFile  units, limits,
+//!                   tree with  as        names
+//!                   positions  written
+//! ```
+//!
+//! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
+//! is allowed. [`Case::load`] does all of it:
+//!
+//! ```
+//! # use std::path::Path;
+//! let case = fem_case::Case::parse(
+//!     "ball.toml",
+//!     r#"
+//!     [material.glass]
+//!     density = "2.39 g/cm^3"
+//!     youngs_modulus = "63 GPa"
+//!     poissons_ratio = 0.244
+//!
+//!     [[body]]
+//!     name = "ball"
+//!     sphere = { diameter = "22.2 mm" }
+//!     material = "glass"
+//!     approach_speed = "50 cm/s"
+//!
+//!     [[body]]
+//!     name = "floor"
+//!     wall = {}
+//!     "#,
+//!     Path::new("."),
+//!     &["body.0.sphere.diameter='1 cm'".to_string()],
+//! )?;
+//! assert_eq!(case.scene.title, "ball");
+//! assert_eq!(case.scene.bodies[0].diameter(), Some(0.01));
+//! assert_eq!(case.scene.bodies[0].velocity, 0.5);
+//!
+//! let error = case.error_at("body.0.sphere.diameter", "too small for the mesh");
+//! assert_eq!(error.source_name(), "--set body.0.sphere.diameter=…");
+//! # Ok::<(), fem_case::CaseError>(())
+//! ```
+
+mod available;
+mod case;
+mod document;
+mod error;
+mod explain;
+mod keyword;
+mod overrides;
+mod quantity;
+mod scene;
+pub mod schema;
+mod unit_table;
+mod units;
+mod validate;
+
+pub use available::Model;
+pub use case::Case;
+pub use error::CaseError;
+pub use quantity::{
+    Bytes, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate, Speed,
+    Stress, Time,
+};
+pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
+pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
+pub use units::{Dimension, UnitError, parse_quantity};

@@ -1,0 +1,116 @@
+//! A validated case in SI units: two bodies that are about to meet, and what the case says on
+//! how to compute it. `None` is left to the plan.
+
+use std::path::PathBuf;
+
+use fem_material::Material;
+
+use crate::available::Model;
+use crate::schema::{EffectsTable, SnapshotLabel};
+
+/// A validated case. Only this crate makes one, so every value keeps the limits stated here.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Scene {
+    /// What the case is about.
+    pub title: String,
+    /// The lower body, then the upper one. They approach each other; at most one is a wall.
+    pub bodies: [Body; 2],
+    /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
+    pub gap: Option<f64>,
+    /// How finely the bodies are divided.
+    pub mesh: MeshSettings,
+    /// Times the default normal stiffness per area, > 0.
+    pub penalty_factor: Option<f64>,
+    /// Times the critical time step, in (0, 1].
+    pub step_factor: Option<f64>,
+    /// Largest added mass as a fraction of a body's mass, in [0, 0.1].
+    pub mass_scaling: Option<f64>,
+    /// Which instants are drawn.
+    pub snapshots: Option<Snapshots>,
+    /// Which model computes the collision.
+    pub model: Model,
+    /// Effects that the case forces on or off.
+    pub effects: EffectsTable,
+    /// What is too dear to start.
+    pub limits: Limits,
+}
+
+/// One of the two bodies.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Body {
+    /// Letters, digits, `_` and `-`; unlike the other body's.
+    pub name: String,
+    /// Its shape and stuff.
+    pub shape: Shape,
+    /// Along +y at time 0, m/s.
+    pub velocity: f64,
+}
+
+impl Body {
+    /// Its material; a wall has none.
+    pub fn material(&self) -> Option<&Material> {
+        match &self.shape {
+            Shape::Sphere { material, .. } => Some(material),
+            Shape::Wall => None,
+        }
+    }
+
+    /// Its diameter, m; a wall has none.
+    pub fn diameter(&self) -> Option<f64> {
+        match self.shape {
+            Shape::Sphere { diameter, .. } => Some(diameter),
+            Shape::Wall => None,
+        }
+    }
+}
+
+/// What a body is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A solid sphere.
+    Sphere {
+        /// m, > 0.
+        diameter: f64,
+        /// A mesh file instead of the built-in mesh.
+        mesh: Option<PathBuf>,
+        /// What it is made of.
+        material: Material,
+    },
+    /// A rigid plane of infinite mass.
+    Wall,
+}
+
+/// `[mesh]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeshSettings {
+    /// Edge length of the elements at the contact, m, > 0.
+    pub contact_element_size: Option<f64>,
+    /// Half-width of the uniformly fine block around the contact, m, > 0.
+    pub refined_radius: Option<f64>,
+    /// Ratio of the sizes of neighbouring elements outside of that block, > 1.
+    pub growth: Option<f64>,
+}
+
+/// The instants at which fields are written.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Snapshots {
+    /// Those with a name, each at most once; none if empty.
+    Labels(Vec<SnapshotLabel>),
+    /// So many, ≥ 1, evenly over the contact.
+    Count(usize),
+    /// s, ≥ 0, ascending.
+    Times(Vec<f64>),
+}
+
+/// `[limits]`: what the case says in place of this program's own limits. All ≥ 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Elements of both bodies together.
+    pub elements: Option<u64>,
+    /// Elements times steps.
+    pub element_updates: Option<u64>,
+    /// Bytes.
+    pub memory: Option<u64>,
+}

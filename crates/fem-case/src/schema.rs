@@ -1,0 +1,357 @@
+//! The case file as written: one struct a table, one field a key, nothing decided yet.
+//!
+//! Everything optional is an `Option`. The plan fills in what is `None`, and the same structs
+//! serialize back to a case file (TOML) or into a summary (JSON), numbers in SI.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::keyword::keywords;
+use crate::quantity::{
+    Bytes, Density, Length, Number, Quantity, QuantityKind, Rate, Speed, Stress, Time,
+};
+
+/// A whole case file.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseFile {
+    /// What the case is about; the file's stem if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// `[material.NAME]`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub material: BTreeMap<String, MaterialTable>,
+    /// `[[body]]`, exactly two; the first lies below the second on the axis y.
+    #[serde(default)]
+    pub body: Vec<BodyTable>,
+    /// Where the bodies start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartTable>,
+    /// How finely the bodies are divided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshTable>,
+    /// How stiff the contact is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactTable>,
+    /// How long a time step is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<TimeTable>,
+    /// Which instants are drawn.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<OutputTable>,
+    /// Which model computes the collision.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<ModelTable>,
+    /// Numerical effects, forced or left to the plan.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub effects: Option<EffectsTable>,
+    /// What is too dear to start.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<LimitsTable>,
+}
+
+/// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as [material.glass]")]
+pub struct MaterialTable {
+    /// Mass per volume, > 0.
+    pub density: Quantity<Density>,
+    /// Young's modulus E, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<Quantity<Stress>>,
+    /// Shear modulus G, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_modulus: Option<Quantity<Stress>>,
+    /// Bulk modulus K, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bulk_modulus: Option<Quantity<Stress>>,
+    /// Poisson's ratio ν, between −1 and 1/2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<Quantity<Number>>,
+    /// Absent: elastic.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxation: Option<RelaxationTable>,
+}
+
+/// `[material.NAME.relaxation]`: a Prony series.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table such as [material.glass.relaxation]"
+)]
+pub struct RelaxationTable {
+    /// Which moduli relax.
+    pub acts_on: ActsOn,
+    /// One table a Prony term.
+    pub terms: Vec<TermTable>,
+}
+
+keywords! {
+    /// Which moduli relax.
+    ActsOn {
+        /// Shear and bulk modulus alike: Poisson's ratio stays constant.
+        All = "all",
+        /// The shear modulus; the bulk modulus stays elastic.
+        Shear = "shear",
+    }
+}
+
+/// A Prony term: its weight and exactly one of decay rate and relaxation time.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table such as { weight = 1.0, decay_rate = \"2708 1/s\" }"
+)]
+pub struct TermTable {
+    /// G_k/G_0, > 0; all weights together at most 1.
+    pub weight: Quantity<Number>,
+    /// 1/τ_k, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_rate: Option<Quantity<Rate>>,
+    /// τ_k, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxation_time: Option<Quantity<Time>>,
+}
+
+/// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [[body]]")]
+pub struct BodyTable {
+    /// Letters, digits, `_` and `-`; unique.
+    pub name: String,
+    /// The name of a `[material.NAME]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Toward the other body; 0 if absent, negative if it recedes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approach_speed: Option<Quantity<Speed>>,
+    /// A solid sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<SphereTable>,
+    /// A rigid plane of infinite mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall: Option<EmptyTable>,
+}
+
+/// `sphere = { … }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table such as { diameter = \"22.2 mm\" }"
+)]
+pub struct SphereTable {
+    /// > 0.
+    pub diameter: Quantity<Length>,
+    /// A mesh file instead of the built-in mesh; relative to the case file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<String>,
+}
+
+/// A table without keys: its presence is the choice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "an empty table, {}")]
+pub struct EmptyTable {}
+
+/// `[start]`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [start]")]
+pub struct StartTable {
+    /// Distance of the surfaces on the axis at time 0, >= 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<Quantity<Length>>,
+}
+
+/// `[mesh]`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [mesh]")]
+pub struct MeshTable {
+    /// Edge length of the elements at the contact, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_element_size: Option<Quantity<Length>>,
+    /// Half-width of the uniformly fine block around the contact, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refined_radius: Option<Quantity<Length>>,
+    /// Ratio of the sizes of neighbouring elements outside of that block, > 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub growth: Option<Quantity<Number>>,
+}
+
+/// `[contact]`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [contact]")]
+pub struct ContactTable {
+    /// Times the default normal stiffness per area, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penalty_factor: Option<Quantity<Number>>,
+}
+
+/// `[time]`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [time]")]
+pub struct TimeTable {
+    /// Times the critical time step, > 0 and at most 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_factor: Option<Quantity<Number>>,
+    /// Largest added mass as a fraction of a body's mass, 0 to 0.1; 0 forbids it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_scaling: Option<Quantity<Number>>,
+}
+
+/// `[output]`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [output]")]
+pub struct OutputTable {
+    /// The instants at which fields are written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub snapshots: Option<SnapshotsValue>,
+}
+
+/// `snapshots`: a count, or a list of labels or of times.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SnapshotsValue {
+    /// So many, evenly over the contact.
+    Count(f64),
+    /// Labels (texts that are among [`SnapshotLabel::WORDS`]) or times.
+    List(Vec<Quantity<Time>>),
+}
+
+keywords! {
+    /// An instant of the collision that has a name.
+    SnapshotLabel {
+        /// The approach reaches half its maximum.
+        MidCompression = "mid-compression",
+        /// The approach is at its maximum.
+        Maximum = "maximum",
+        /// The approach is back at half its maximum.
+        MidSeparation = "mid-separation",
+        /// The last step with a contact force.
+        LastContact = "last-contact",
+    }
+}
+
+impl Serialize for SnapshotsValue {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            SnapshotsValue::Count(count) if count.fract() == 0.0 && count.abs() < 2e9 => {
+                serializer.serialize_i64(*count as i64)
+            }
+            SnapshotsValue::Count(count) => serializer.serialize_f64(*count),
+            SnapshotsValue::List(list) => list.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for SnapshotsValue {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = SnapshotsValue;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                let example = Time::KIND.example;
+                write!(
+                    f,
+                    "a list of labels or of times, [\"maximum\"] or [{example}], or a count"
+                )
+            }
+
+            fn visit_i64<E>(self, count: i64) -> Result<SnapshotsValue, E> {
+                Ok(SnapshotsValue::Count(count as f64))
+            }
+
+            fn visit_f64<E>(self, count: f64) -> Result<SnapshotsValue, E> {
+                Ok(SnapshotsValue::Count(count))
+            }
+
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(
+                self,
+                mut sequence: A,
+            ) -> Result<SnapshotsValue, A::Error> {
+                let mut list = Vec::new();
+                while let Some(item) = sequence.next_element()? {
+                    list.push(item);
+                }
+                Ok(SnapshotsValue::List(list))
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// `[model]`: exactly one key.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table such as [model] with fem = {}"
+)]
+pub struct ModelTable {
+    /// Explicit finite elements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fem: Option<EmptyTable>,
+    /// Linear bodies condensed to their contact nodes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub condensed: Option<toml::Table>,
+    /// Quasi-static viscoelastic half-space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ting: Option<toml::Table>,
+    /// Quasi-static elastic half-space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hertz: Option<toml::Table>,
+    /// A contact law of one degree of freedom.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<toml::Table>,
+    /// The cheapest that serves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub auto: Option<toml::Table>,
+}
+
+/// `[effects]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [effects]")]
+pub struct EffectsTable {
+    /// Large rotations and strains.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_strain: Option<Switch>,
+    /// Two identical bodies as one against a rigid plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mirror_symmetry: Option<Switch>,
+    /// Artificial viscosity against shocks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bulk_viscosity: Option<Switch>,
+}
+
+keywords! {
+    /// Who decides on an effect.
+    Switch {
+        /// The plan.
+        Auto = "auto",
+        /// The case: it is on.
+        On = "on",
+        /// The case: it is off.
+        Off = "off",
+    }
+}
+
+/// `[limits]`: a run that needs more is refused before it starts.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [limits]")]
+pub struct LimitsTable {
+    /// Elements of both bodies together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elements: Option<Quantity<Number>>,
+    /// Elements times steps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub element_updates: Option<Quantity<Number>>,
+    /// Memory of the run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub memory: Option<Quantity<Bytes>>,
+}
+
+/// Whether the value at `path` may be an array. serde alone does not tell: a derived struct
+/// reads `sphere = ["22.2 mm"]` as its fields in order.
+pub(crate) fn is_list(path: &str) -> bool {
+    let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
+    let is_in_a_model = path.starts_with("model.") && path.matches('.').count() > 1;
+    is_terms || is_in_a_model || path == "body" || path == "output.snapshots"
+}

@@ -1,0 +1,218 @@
+//! `--set KEY=VALUE`: what it can do, and that its faults name it and not a line of the file.
+
+use std::path::Path;
+
+use fem_case::{Case, CaseError, Shape, Snapshots};
+
+const CASE: &str = r#"
+[material.glass]
+density = 2390
+youngs_modulus = 63e9
+poissons_ratio = 0.244
+[material."my glass"]
+density = 2500
+youngs_modulus = 63e9
+poissons_ratio = 0.244
+[[body]]
+name = "striker"
+sphere = { diameter = 0.02 }
+material = "glass"
+approach_speed = 0.5
+[[body]]
+name = "target"
+sphere = { diameter = 0.01 }
+material = "glass"
+[output]
+snapshots = ["maximum"]
+"#;
+
+fn with(overrides: &[&str]) -> Result<Case, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
+    Case::parse("pair.toml", CASE, Path::new("."), &overrides)
+}
+
+#[test]
+fn values_are_replaced_and_added() {
+    let case = with(&[
+        "body.0.approach_speed=\"1 m/s\"",
+        "mesh.contact_element_size=28e-6",
+        "title='a pair'",
+        "body.1.sphere={ diameter = '3 mm' }",
+        " time . step_factor = 0.5 ",
+        "\"time\".'mass_scaling'=0",
+        "output.snapshots.0='last-contact'",
+        "material.\"my glass\".density='3 g/cm^3'",
+        "body.1.material='my glass'",
+        "model.fem={}",
+    ])
+    .unwrap();
+    let scene = &case.scene;
+    assert_eq!(scene.bodies[0].velocity, 1.0);
+    assert_eq!(scene.mesh.contact_element_size, Some(28e-6));
+    assert_eq!(scene.title, "a pair");
+    assert_eq!(scene.bodies[1].diameter(), Some(0.003));
+    assert_eq!(scene.step_factor, Some(0.5));
+    assert_eq!(scene.mass_scaling, Some(0.0));
+    assert!(matches!(&scene.snapshots, Some(Snapshots::Labels(labels)) if labels.len() == 1));
+    assert_eq!(scene.bodies[1].material().unwrap().density(), 3000.0);
+}
+
+#[test]
+fn they_are_applied_left_to_right() {
+    let case = with(&["start={gap = 1}", "start.gap=2", "start.gap=3"]).unwrap();
+    assert_eq!(case.scene.gap, Some(3.0));
+    let case = with(&["start.gap=2", "start={}"]).unwrap();
+    assert_eq!(case.scene.gap, None);
+    // Only the case that results is validated.
+    with(&["start.gap=-2", "start.gap=0"]).unwrap();
+}
+
+#[test]
+fn a_table_that_is_absent_is_made() {
+    let case = with(&[
+        "material.ice.density=900",
+        "material.ice.youngs_modulus='10 GPa'",
+        "material.ice.poissons_ratio=0.3",
+        "material.glass.relaxation.acts_on='all'",
+        "material.glass.relaxation.terms=[{weight=1, decay_rate='2708 1/s'}]",
+        "body.1={name='b', wall={}}",
+    ])
+    .unwrap();
+    assert_eq!(case.scene.bodies[1].shape, Shape::Wall);
+    assert!(
+        case.scene.bodies[0]
+            .material()
+            .unwrap()
+            .relaxation()
+            .is_some()
+    );
+}
+
+/// The fault of the override `marked`, in which «» enclose what must be underlined.
+#[track_caller]
+fn fault(key: &str, marked: &str, message: &str) {
+    let (before, rest) = marked.split_once('«').unwrap();
+    let (culprit, after) = rest.split_once('»').unwrap();
+    let text = format!("{before}{culprit}{after}");
+    let error = with(&["title='ä'", &text, "time.step_factor=0.5"]).unwrap_err();
+    assert_eq!(error.source_name(), format!("--set {key}=…"), "{error}");
+    assert_eq!(error.source_text(), Some(text.as_str()));
+    assert_eq!(
+        error.span().unwrap(),
+        before.len()..before.len() + culprit.len(),
+        "{error}"
+    );
+    assert_eq!(
+        (error.line(), error.column()),
+        (Some(1), Some(before.chars().count() + 1))
+    );
+    assert!(error.message().contains(message), "{error}");
+    assert!(
+        error.to_string().contains(&format!("--set {key}=…:1:")),
+        "{error}"
+    );
+}
+
+#[test]
+fn faults_in_the_value() {
+    fault(
+        "body.0.approach_speed",
+        "body.0.approach_speed=«1 m/s»",
+        "no TOML value",
+    );
+    fault("title", "title=«glass»", "no TOML value");
+    fault("title", "title=«\"glass»", "no TOML value");
+    fault("title", "title=«'a' b»", "no TOML value");
+    fault("start.gap", "start.gap=«1\ntitle = 2»", "no TOML value");
+    fault("start.gap", "start.gap«=»", "no value after");
+    fault("start.gap", "start.gap «=» ", "no value after");
+    fault(
+        "start.gap",
+        "start.gap=«\"1 kg\"»",
+        "is a mass; gap wants a length",
+    );
+    fault(
+        "body.0.sphere.diameter",
+        "body.0.sphere.diameter=«nan»",
+        "not finite",
+    );
+    fault(
+        "body.0.sphere",
+        "body.0.sphere={diameter=«true»}",
+        "diameter is a boolean",
+    );
+    fault(
+        "body.0.sphere",
+        "body.0.sphere=«{}»",
+        "`diameter` is missing",
+    );
+    fault(
+        "body.1.approach_speed",
+        "body.1.approach_speed=«-0.5»",
+        "receding or at rest",
+    );
+    fault(
+        "material.glass",
+        "material.glass={«densty»=1}",
+        "unknown key `densty`",
+    );
+    fault("body", "body=«[]»", "no [[body]]");
+    fault("mesh", "mesh=«3»", "mesh is an integer");
+    fault("model.ting", "model.ting=«{}»", "not available");
+}
+
+#[test]
+fn faults_in_the_key() {
+    fault(
+        "body.2.name",
+        "body.«2».name='x'",
+        "no index of this array of 2",
+    );
+    fault("body.2", "body.«2»={}", "no index of this array of 2");
+    fault("body.first.name", "body.«first».name='x'", "no index");
+    fault("body.-1.name", "body.«-1».name='x'", "no index");
+    let long = "body.«99999999999999999999».name='x'";
+    fault("body.99999999999999999999.name", long, "no index");
+    fault(
+        "output.snapshots.1",
+        "output.snapshots.«1»='maximum'",
+        "no index of this array of 1",
+    );
+    fault(
+        "material.glass.density.x",
+        "material.glass.«density».x=1",
+        "a single value",
+    );
+    fault("mesh.size", "mesh.«size»=1", "unknown key `size` in mesh");
+    fault("gravity", "«gravity»=1", "unknown key `gravity`");
+    fault(
+        "material.ice.density",
+        "material.«ice».density=1",
+        "exactly two",
+    );
+    fault("body..name", "body.«.»name='x'", "empty");
+    fault(".body", "«.»body=1", "empty");
+    fault("body.", "body.«=»1", "empty");
+    fault("", "«=»1", "empty");
+    fault("a b", "a «b»=1", "cannot stand in a key");
+    fault("größe", "gr«ö»ße=1", "cannot stand in a key");
+    fault("a[0]", "a«[»0]=1", "cannot stand in a key");
+    fault("\"a=1", "«\"a=1»", "does not end");
+    fault("title", "«title»", "no `=`");
+    fault("", "«»", "empty");
+    let deep = ["a"; 40].join(".");
+    let marked = format!("«{}».{}=1", ["a"; 33].join("."), ["a"; 7].join("."));
+    fault(&deep, &marked, "too many parts");
+}
+
+#[test]
+fn a_fault_of_the_file_still_points_into_the_file() {
+    let error = with(&["body.0.approach_speed=0"]).unwrap_err();
+    // The second body has no approach_speed: the sum is at fault, and the override is to blame.
+    assert_eq!(error.source_name(), "--set body.0.approach_speed=…");
+    let overrides = ["start.gap=0".to_string()];
+    let text = CASE.replace("2390", "-2390");
+    let error = Case::parse("pair.toml", &text, Path::new("."), &overrides).unwrap_err();
+    assert_eq!(error.source_name(), "pair.toml");
+    assert_eq!((error.line(), error.column()), (Some(3), Some(11)));
+}

@@ -1,0 +1,315 @@
+//! A case printed in SI numbers and read again is the same scene, to the last bit; no text makes
+//! the reader panic; the cases of the repository say what they should.
+
+use std::path::{Path, PathBuf};
+
+use fem_case::schema::MeshTable;
+use fem_case::{Case, CaseError, Quantity, Shape, SnapshotLabel, Snapshots};
+use fem_material::{ActsOn, PronyTerm};
+
+const FULL: &str = r#"
+[material."my glass"]
+density = "2.39 g/cm^3"
+youngs_modulus = "9137.4 ksi"
+poissons_ratio = 0.244
+[material."my glass".relaxation]
+acts_on = "shear"
+terms = [{ weight = "10 %", decay_rate = "2.7081 1/ms" }, { weight = 0.1, relaxation_time = "3 h" }]
+[material.unused]
+density = 1
+shear_modulus = "1 psi"
+bulk_modulus = 1e-300
+[[body]]
+name = "a"
+sphere = { diameter = "0.874 in", mesh = "../meshes/ball.vtu" }
+material = "my glass"
+approach_speed = "1.2345 km/h"
+[[body]]
+name = "wall"
+wall = {}
+[start]
+gap = "1.1 um"
+[mesh]
+contact_element_size = "14.3 um"
+refined_radius = "0.31 mm"
+growth = 1.1
+[contact]
+penalty_factor = 0.7
+[time]
+step_factor = "90 %"
+mass_scaling = 2e-4
+[output]
+snapshots = ["3 us", 1.7e-6, 1e-5]
+[model]
+fem = {}
+[effects]
+finite_strain = "auto"
+mirror_symmetry = "off"
+[limits]
+elements = 200000
+element_updates = 1e12
+memory = "8.5 GiB"
+"#;
+
+fn parse(name: &str, text: &str) -> Result<Case, CaseError> {
+    Case::parse(name, text, Path::new("/some/folder"), &[])
+}
+
+/// Numbers as text: `==` on doubles would pass 0 for −0, and their `Debug` is exact.
+fn exactly(case: &Case) -> String {
+    format!("{:?}", case.scene)
+}
+
+#[test]
+fn toml_out_and_in_is_the_same_scene() {
+    for snapshots in [
+        "[\"3 us\", 1.7e-6, 1e-5]",
+        "7",
+        "[]",
+        "[\"maximum\", \"last-contact\"]",
+    ] {
+        let text = FULL.replace("[\"3 us\", 1.7e-6, 1e-5]", snapshots);
+        let case = parse("first.toml", &text).unwrap();
+        let printed = case.file.to_toml().unwrap();
+        // Another name and folder: title and mesh path must have been resolved.
+        let again = Case::parse("second.toml", &printed, Path::new("/elsewhere"), &[]).unwrap();
+        assert_eq!(exactly(&again), exactly(&case), "{printed}");
+        assert_eq!(again.file.to_toml().unwrap(), printed);
+        for with_unit in [" ksi\"", " mm\"", " km/h\"", " %\"", " GiB\"", " h\""] {
+            assert!(!printed.contains(with_unit), "{printed}");
+        }
+    }
+}
+
+#[test]
+fn json_has_the_same_numbers() {
+    let case = parse("first.toml", FULL).unwrap();
+    let json = serde_json::to_value(&case.file).unwrap();
+    assert_eq!(json["body"][0]["sphere"]["diameter"], 0.874 * 25.4e-3);
+    assert_eq!(json["body"][1]["wall"], serde_json::json!({}));
+    assert_eq!(json["title"], "first");
+    assert_eq!(json["body"][1]["approach_speed"], 0.0);
+    assert_eq!(json["mesh"]["contact_element_size"], 14.3e-6);
+    let table: toml::Table = serde_json::from_value(json).unwrap();
+    let again = parse("second.toml", &toml::to_string(&table).unwrap()).unwrap();
+    assert_eq!(exactly(&again), exactly(&case));
+}
+
+#[test]
+fn a_default_that_is_filled_in_is_read_back() {
+    let text = &FULL[..FULL.find("[mesh]").unwrap()];
+    let case = parse("first.toml", text).unwrap();
+    assert_eq!(case.scene.mesh.contact_element_size, None);
+    let mut resolved = case.file.clone();
+    let size = 1.0 / 70_001.0;
+    resolved.mesh = Some(MeshTable {
+        contact_element_size: Some(Quantity::from_si(size)),
+        ..Default::default()
+    });
+    let again = parse("second.toml", &resolved.to_toml().unwrap()).unwrap();
+    assert_eq!(again.scene.mesh.contact_element_size, Some(size));
+}
+
+#[test]
+fn truncated_and_mutated_cases_never_panic() {
+    let (mut n_valid, mut n_faults) = (0, 0);
+    let mut read = |text: &str, overrides: &[String]| match Case::parse(
+        "x.toml",
+        text,
+        Path::new("."),
+        overrides,
+    ) {
+        Ok(case) => {
+            n_valid += 1;
+            let printed = case.file.to_toml().unwrap();
+            let again = Case::parse("x.toml", &printed, Path::new("."), &[]).unwrap();
+            assert_eq!(exactly(&again), exactly(&case), "{text}");
+        }
+        Err(error) => {
+            n_faults += 1;
+            assert!(error.line().is_some() && !error.to_string().is_empty());
+            assert!(!error.message().is_empty(), "{text}");
+        }
+    };
+    for end in (0..FULL.len()).filter(|&end| FULL.is_char_boundary(end)) {
+        read(&FULL[..end], &[]);
+    }
+    // Knuth's MMIX generator: the same mutations on every machine.
+    let mut state = 1u64;
+    let mut random = |below: usize| {
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (state >> 33) as usize % below
+    };
+    let pieces = [
+        "\"",
+        "'",
+        "[",
+        "]",
+        "{",
+        "}",
+        "=",
+        ".",
+        "-",
+        "0",
+        "9",
+        "e",
+        "\n",
+        " ",
+        "nan",
+        "inf",
+        "µ",
+        "²",
+        "/",
+        "^",
+        "(",
+        ")",
+        "[[body]]",
+        "wall = {}",
+        "\u{0}",
+        "\\u0000",
+        "#",
+        ",",
+        "1e999",
+        "true",
+        "1979-05-27",
+        "[[[[",
+        "mesh",
+        "\"\"\"",
+        "\r",
+        "\u{feff}",
+    ];
+    for _ in 0..20_000 {
+        let mut text: Vec<char> = FULL.chars().collect();
+        for _ in 0..=random(3) {
+            let start = random(text.len());
+            let end = (start + random(4)).min(text.len());
+            let piece = pieces[random(pieces.len())].chars();
+            text.splice(start..end, piece.take(random(12)));
+        }
+        read(&text.into_iter().collect::<String>(), &[]);
+    }
+    let overrides = [
+        "body.0.sphere.diameter='1 mm'",
+        "material.\"my glass\".density=1",
+        "a.b=[{}]",
+    ];
+    for _ in 0..20_000 {
+        let mut text: Vec<char> = overrides[random(overrides.len())].chars().collect();
+        for _ in 0..=random(3) {
+            let start = random(text.len());
+            let end = (start + random(4)).min(text.len());
+            text.splice(start..end, pieces[random(pieces.len())].chars());
+        }
+        read(FULL, &[text.into_iter().collect()]);
+    }
+    // Deep nesting must not exhaust the stack.
+    read(&format!("a = {}", "[".repeat(100_000)), &[]);
+    read(&format!("a = {}", "{a=".repeat(100_000)), &[]);
+    read(&format!("{}a = 1", "a.".repeat(100_000)), &[]);
+    read(FULL, &[format!("{}a=1", "a.".repeat(100_000))]);
+    read(FULL, &[format!("model.law={}", "[".repeat(100_000))]);
+    read(&FULL.replace("1.2345 km/h", &"(".repeat(100_000)), &[]);
+    assert!(
+        n_valid > 100 && n_faults > 10_000,
+        "{n_valid} valid, {n_faults} faults"
+    );
+}
+
+fn repository_case(name: &str) -> Case {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("../../cases")
+        .join(name);
+    Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_glass_pair_is_the_contracts() {
+    let scene = repository_case("glass_0.5ms.toml").scene;
+    assert_eq!(
+        scene.title,
+        "Glass on glass, 22.2 mm striking 15.9 mm at 0.5 m/s"
+    );
+    let [striker, target] = &scene.bodies;
+    assert_eq!(
+        (striker.name.as_str(), target.name.as_str()),
+        ("striker", "target")
+    );
+    assert_eq!(
+        (striker.diameter(), target.diameter()),
+        (Some(0.0222), Some(0.0159))
+    );
+    assert_eq!((striker.velocity, target.velocity), (0.5, 0.0));
+    assert_eq!(striker.material(), target.material());
+    let glass = striker.material().unwrap();
+    assert_eq!(glass.density(), 2390.0);
+    // K and G are stored: E and ν come back to rounding.
+    assert!((glass.instantaneous().youngs_modulus() / 63e9 - 1.0).abs() < 1e-15);
+    assert!((glass.instantaneous().poissons_ratio() - 0.244).abs() < 1e-15);
+    let relaxation = glass.relaxation().unwrap();
+    assert_eq!(relaxation.acts_on(), ActsOn::All);
+    assert_eq!(
+        relaxation.terms(),
+        [PronyTerm {
+            weight: 1.0,
+            relaxation_time: 1.0 / 2708.0
+        }]
+    );
+    assert_eq!(scene.snapshots, None);
+    assert_eq!(scene.mesh, Default::default());
+}
+
+#[test]
+fn its_variants_differ_only_in_relaxation() {
+    let pair = repository_case("glass_0.5ms.toml").scene;
+    let elastic = repository_case("glass_0.5ms_elastic.toml").scene;
+    let elastic_bulk = repository_case("glass_0.5ms_elastic_bulk.toml").scene;
+    for other in [&elastic, &elastic_bulk] {
+        for (a, b) in pair.bodies.iter().zip(&other.bodies) {
+            assert_eq!(
+                (&a.name, a.diameter(), a.velocity),
+                (&b.name, b.diameter(), b.velocity)
+            );
+            let (a, b) = (a.material().unwrap(), b.material().unwrap());
+            assert_eq!(
+                (a.density(), a.instantaneous()),
+                (b.density(), b.instantaneous())
+            );
+        }
+    }
+    assert_eq!(elastic.bodies[0].material().unwrap().relaxation(), None);
+    let bulk = elastic_bulk.bodies[0]
+        .material()
+        .unwrap()
+        .relaxation()
+        .unwrap();
+    assert_eq!(bulk.acts_on(), ActsOn::Shear);
+}
+
+#[test]
+fn the_wall_lies_below_the_ball() {
+    let [wall, ball] = repository_case("glass_on_wall.toml").scene.bodies;
+    assert_eq!((wall.shape, wall.velocity), (Shape::Wall, 0.0));
+    assert_eq!((ball.diameter(), ball.velocity), (Some(0.0222), -0.5));
+    assert_eq!(ball.material().unwrap().relaxation(), None);
+}
+
+#[test]
+fn snapshots_are_labels_times_or_a_count() {
+    let snapshots = |value: &str| {
+        let text = FULL.replace("[\"3 us\", 1.7e-6, 1e-5]", value);
+        parse("x.toml", &text).unwrap().scene.snapshots.unwrap()
+    };
+    assert_eq!(snapshots("7"), Snapshots::Count(7));
+    assert_eq!(snapshots("[]"), Snapshots::Labels(vec![]));
+    assert_eq!(
+        snapshots("[\"3 us\", 1e-6, 0, 1e-6]"),
+        Snapshots::Times(vec![0.0, 1e-6, 3e-6])
+    );
+    let all = "[\"mid-compression\", \"maximum\", \"mid-separation\", \"last-contact\"]";
+    let labels = SnapshotLabel::WORDS
+        .iter()
+        .map(|word| SnapshotLabel::from_word(word).unwrap());
+    assert_eq!(snapshots(all), Snapshots::Labels(labels.collect()));
+}

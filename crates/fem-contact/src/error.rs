@@ -1,0 +1,19 @@
+//! What can be wrong with a pair of surfaces.
+
+use thiserror::Error;
+
+/// Why no contact interface can be made.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ContactError {
+    /// Neither body can deform.
+    #[error("two rigid walls cannot be in contact; one body must be a sphere")]
+    TwoWalls,
+    /// A number that must be positive and finite is not.
+    #[error("{name} is {value}; it must be positive and finite")]
+    NotPositive {
+        /// Which number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}

@@ -1,0 +1,169 @@
+//! The integration points of a pair of surfaces.
+
+use std::f64::consts::PI;
+
+use crate::{ContactError, Surface};
+
+/// One body's end of an integration point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Foot {
+    /// Nodes at the inner and the outer end of the segment.
+    pub nodes: [u32; 2],
+    /// Their shape functions at the point; they sum to 1.
+    pub shape: [f64; 2],
+}
+
+/// A Gauss point of the common interface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Point {
+    /// Distance from the axis, m.
+    pub radius: f64,
+    /// Share of the plane's area, 2πr dr, m².
+    pub area: f64,
+    /// Gap of the undeformed arcs, m.
+    pub initial_gap: f64,
+    /// Penalty stiffness per area, Pa/m.
+    pub stiffness: f64,
+    /// Lower and upper body.
+    pub feet: [Foot; 2],
+}
+
+/// All points at which two bodies can touch, from the axis outward.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactInterface {
+    pub(crate) points: Vec<Point>,
+    pub(crate) surfaces: [Surface; 2],
+    candidate_radius: f64,
+}
+
+/// How many times the penalty springs enter the critical time step. A closed
+/// spring is stable with one; a spring that opens and closes within a step or
+/// two can give back up to (1 − s/4)^−1 of the energy put in, s = (ω Δt)², and
+/// a single-step bounce gains none while s ≤ 2, half the limit of a closed one.
+const OPENING_SAFETY: f64 = 2.0;
+
+impl ContactInterface {
+    /// Pairs the lower with the upper surface out to `candidate_radius` (m).
+    ///
+    /// `stiffness` is the penalty factor times the pair's contact modulus E*
+    /// (Pa); the penalty per area is that over the mean length of the two
+    /// segments at a point. `gap` (m) separates the poles.
+    ///
+    /// # Errors
+    /// Two walls; a radius or a stiffness that is not positive and finite.
+    pub fn new(
+        lower: Surface,
+        upper: Surface,
+        stiffness: f64,
+        gap: f64,
+        candidate_radius: f64,
+    ) -> Result<Self, ContactError> {
+        if lower.is_wall() && upper.is_wall() {
+            return Err(ContactError::TwoWalls);
+        }
+        for (name, value) in
+            [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
+        {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(ContactError::NotPositive { name, value });
+            }
+        }
+        let surfaces = [lower, upper];
+        let limit = candidate_radius.min(surfaces[0].extent()).min(surfaces[1].extent());
+        let cuts = cuts(&surfaces, limit);
+        let mut points = Vec::with_capacity(2 * cuts.len());
+        for piece in cuts.windows(2) {
+            let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
+            for offset in [-half / 3f64.sqrt(), half / 3f64.sqrt()] {
+                let radius = middle + offset;
+                let located = surfaces.each_ref().map(|surface| surface.locate(radius));
+                let length = mean_length(&surfaces, located.map(|(segment, _)| segment));
+                points.push(Point {
+                    radius,
+                    area: 2.0 * PI * radius * half,
+                    initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
+                    stiffness: stiffness / length,
+                    feet: std::array::from_fn(|side| {
+                        let (segment, share) = located[side];
+                        let nodes = &surfaces[side].nodes;
+                        Foot {
+                            nodes: [nodes[segment], nodes[segment + 1]],
+                            shape: [1.0 - share, share],
+                        }
+                    }),
+                });
+            }
+        }
+        let candidate_radius = cuts[cuts.len() - 1];
+        Ok(Self { points, surfaces, candidate_radius })
+    }
+
+    /// Radius out to which contact is looked for, m.
+    pub fn candidate_radius(&self) -> f64 {
+        self.candidate_radius
+    }
+
+    /// Number of integration points.
+    pub fn n_points(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Nodes of a side (0 lower, 1 upper) out to the candidate radius.
+    pub fn candidate_nodes(&self, side: usize) -> impl Iterator<Item = u32> + '_ {
+        let surface = &self.surfaces[side];
+        let n = if surface.is_wall() {
+            1
+        } else {
+            surface.radii.partition_point(|&r| r <= self.candidate_radius * (1.0 + 1e-12))
+        };
+        surface.nodes[..n].iter().copied()
+    }
+
+    /// Adds a bound of the contact stiffness at each node (N/m) of a side
+    /// (0 lower, 1 upper): the penalty springs are at most this diagonal,
+    /// whichever of them are closed.
+    ///
+    /// A spring between two bodies, k (a − b)², is at most 2 k a² + 2 k b², and
+    /// a² of interpolated a is at most Σ N a_i² (Jensen). Against a wall the
+    /// first factor is 1. The whole is taken twice, for opening and closing.
+    pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
+        let springs = if self.surfaces[1 - side].is_wall() { 1.0 } else { 2.0 };
+        for point in &self.points {
+            let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
+            let foot = &point.feet[side];
+            for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
+                bound[node as usize] += stiffness * shape;
+            }
+        }
+    }
+}
+
+/// Radii of all nodes of both surfaces out to the limit, and the first beyond.
+fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
+    let mut radii: Vec<f64> = surfaces
+        .iter()
+        .flat_map(|surface| surface.radii.iter().copied())
+        .filter(|r| r.is_finite())
+        .collect();
+    radii.sort_by(f64::total_cmp);
+    // Nodes that lie on each other but for rounding make one cut.
+    radii.dedup_by(|outer, inner| *outer - *inner <= 1e-9 * *outer);
+    let common = surfaces[0].extent().min(surfaces[1].extent());
+    radii.retain(|&r| r <= common * (1.0 + 1e-9));
+    let n = radii.partition_point(|&r| r < limit * (1.0 - 1e-9)) + 1;
+    radii.truncate(n.max(2));
+    radii
+}
+
+/// Mean length of the segments at a point, a wall's not counted.
+fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
+    let lengths = [0, 1].map(|side| {
+        let surface = &surfaces[side];
+        (!surface.is_wall()).then(|| surface.segment_length(segments[side]))
+    });
+    match lengths {
+        [Some(a), Some(b)] => 0.5 * (a + b),
+        [Some(a), None] | [None, Some(a)] => a,
+        [None, None] => f64::INFINITY,
+    }
+}

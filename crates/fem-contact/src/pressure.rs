@@ -1,0 +1,79 @@
+//! Contact radius and pressure, recovered from a configuration.
+
+use crate::ContactInterface;
+
+/// Share of the contact radius over which the pressure on the axis is fitted.
+const FIT_RADIUS: f64 = 0.8;
+/// Fewest nodes for the fit; with fewer the value at the axis node stands.
+const FIT_NODES: usize = 4;
+
+impl ContactInterface {
+    /// Radius at which the pressure falls to zero, m; 0 without contact.
+    ///
+    /// Interpolated linearly in the signed penalty pressure −k g between the
+    /// outermost closed point and the next.
+    pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
+        let mut outside: Option<(f64, f64)> = None;
+        for (radius, pressure) in self.signed_pressure(u).rev() {
+            if pressure > 0.0 {
+                return match outside {
+                    Some((open, tension)) => {
+                        radius + (open - radius) * pressure / (pressure - tension)
+                    }
+                    None => radius,
+                };
+            }
+            outside = Some((radius, pressure));
+        }
+        0.0
+    }
+
+    /// Contact pressure at the nodes of a deformable side, from the axis
+    /// outward: (r in m, p in Pa), the nodal contact force over the nodal area.
+    pub fn nodal_pressure(&self, u: [&[[f64; 2]]; 2]) -> Vec<(f64, f64)> {
+        let side = usize::from(self.surfaces[0].is_wall());
+        let surface = &self.surfaces[side];
+        let n = self.candidate_nodes(side).count();
+        let (mut force, mut area) = (vec![0.0; n], vec![0.0; n]);
+        for (point, (radius, pressure)) in self.points.iter().zip(self.signed_pressure(u)) {
+            let (segment, _) = surface.locate(radius);
+            for end in 0..2 {
+                if let Some(node_area) = area.get_mut(segment + end) {
+                    let share = point.area * point.feet[side].shape[end];
+                    *node_area += share;
+                    force[segment + end] += share * pressure.max(0.0);
+                }
+            }
+        }
+        (0..n).map(|k| (surface.radii[k], if area[k] > 0.0 { force[k] / area[k] } else { 0.0 })).collect()
+    }
+
+    /// Contact pressure on the axis, Pa; 0 without contact there.
+    ///
+    /// The axis node represents a disc of one element's radius and reads low and
+    /// noisy, so p² = α − β r² (exact for Hertz' profile) is fitted to the nodes
+    /// within 0.8 contact radii, weighted with their distance from the axis as
+    /// their areas are, and √α returned; with fewer than four nodes there, or
+    /// a fit that rises outward from nothing, the axis node's own value.
+    pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
+        let pressure = self.nodal_pressure(u);
+        let limit = FIT_RADIUS * self.contact_radius(u);
+        let own = pressure.first().map_or(0.0, |&(_, p)| p);
+        let spacing = pressure.get(1).map_or(0.0, |&(r, _)| r);
+        let inside = pressure.iter().take_while(|&&(r, _)| r < limit);
+        if inside.clone().count() < FIT_NODES {
+            return own;
+        }
+        let mut sums = [0.0; 5];
+        for &(r, p) in inside {
+            let (weight, x, y) = (r.max(0.25 * spacing), (r / limit).powi(2), p * p);
+            let terms = [1.0, x, x * x, y, x * y];
+            for (sum, term) in sums.iter_mut().zip(terms) {
+                *sum += weight * term;
+            }
+        }
+        let [s0, s1, s2, y0, y1] = sums;
+        let squared = (y0 * s2 - y1 * s1) / (s0 * s2 - s1 * s1);
+        if squared > 0.0 { squared.sqrt() } else { own }
+    }
+}

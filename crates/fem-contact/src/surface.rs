@@ -1,0 +1,66 @@
+//! One side of the contact: the part of a boundary that can touch.
+
+use fem_mesh::SphereMesh;
+
+/// The touching side of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surface {
+    /// Nodes from the axis outward; a wall has its one node twice.
+    pub(crate) nodes: Vec<u32>,
+    /// Their distances from the axis, m; a wall's second is infinite.
+    pub(crate) radii: Vec<f64>,
+    /// 1 / radius of the arc, 1/m; 0 for a plane.
+    pub(crate) curvature: f64,
+}
+
+impl Surface {
+    /// The near hemisphere of a sphere.
+    pub fn of_sphere(mesh: &SphereMesh) -> Self {
+        let (mut nodes, mut radii) = (Vec::new(), Vec::new());
+        for &node in mesh.surface() {
+            let r = mesh.nodes()[node as usize][0];
+            if radii.last().is_some_and(|&last| r <= last) {
+                break;
+            }
+            nodes.push(node);
+            radii.push(r);
+        }
+        Self { nodes, radii, curvature: mesh.radius().recip() }
+    }
+
+    /// The rigid plane y = 0: a body of one node, number 0.
+    pub fn wall() -> Self {
+        Self { nodes: vec![0, 0], radii: vec![0.0, f64::INFINITY], curvature: 0.0 }
+    }
+
+    /// Whether this is the rigid plane.
+    pub fn is_wall(&self) -> bool {
+        self.curvature == 0.0
+    }
+
+    /// Distance of the true arc from the plane through its pole, m.
+    pub(crate) fn depth(&self, r: f64) -> f64 {
+        let slope = self.curvature * r;
+        slope * r / (1.0 + (1.0 - slope * slope).max(0.0).sqrt())
+    }
+
+    /// Largest radius that the surface covers, m.
+    pub(crate) fn extent(&self) -> f64 {
+        self.radii[self.radii.len() - 1]
+    }
+
+    /// Segment that contains r: (index of its inner node, share of its outer node).
+    pub(crate) fn locate(&self, r: f64) -> (usize, f64) {
+        if self.is_wall() {
+            return (0, 0.0);
+        }
+        let outer = self.radii.partition_point(|&x| x < r).clamp(1, self.radii.len() - 1);
+        let (start, end) = (self.radii[outer - 1], self.radii[outer]);
+        (outer - 1, (r - start) / (end - start))
+    }
+
+    /// Length of a segment along r, m.
+    pub(crate) fn segment_length(&self, segment: usize) -> f64 {
+        self.radii[segment + 1] - self.radii[segment]
+    }
+}

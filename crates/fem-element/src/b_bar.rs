@@ -1,0 +1,35 @@
+//! Full 2 × 2 integration with mean dilatation (B-bar, Hughes 1980).
+
+use crate::geometry::quadrature;
+use crate::{ElementMatrix, ElementStiffness, QuadGeometry};
+
+/// Element matrices of the B-bar element: the dilatation is the element's mean,
+/// the deviatoric strain is integrated with 2 × 2 Gauss points.
+pub fn b_bar(corners: &[[f64; 2]; 4]) -> ElementStiffness {
+    let geometry = QuadGeometry::new(corners);
+    let mean = geometry.dilatation();
+    let bulk = mean * mean.transpose() * geometry.volume;
+    let mut deviatoric = ElementMatrix::zeros();
+    for p in quadrature(corners) {
+        for i in 0..8 {
+            for j in 0..8 {
+                let (e, f) = (unit_strain(&p, i), unit_strain(&p, j));
+                let trace = (e[0] + e[1] + e[2]) * (f[0] + f[1] + f[2]);
+                let product = e[0] * f[0] + e[1] * f[1] + e[2] * f[2];
+                deviatoric[(i, j)] +=
+                    p.weight * (2.0 * (product - trace / 3.0) + e[3] * f[3]);
+            }
+        }
+    }
+    ElementStiffness { bulk, deviatoric }
+}
+
+/// Strain at a point due to a unit displacement of degree of freedom i.
+fn unit_strain(p: &crate::geometry::QuadraturePoint, i: usize) -> [f64; 4] {
+    let a = i / 2;
+    if i % 2 == 0 {
+        [p.gradient_r[a], 0.0, p.shape[a] / p.radius, p.gradient_y[a]]
+    } else {
+        [0.0, p.gradient_y[a], 0.0, p.gradient_r[a]]
+    }
+}

@@ -1,0 +1,44 @@
+//! Axisymmetric four-node elements.
+//!
+//! Degrees of freedom are ordered (u_r, u_y) of corner 0, of corner 1, …; the
+//! strain is (ε_rr, ε_yy, ε_θθ, γ_ry). All integrals are over the body of
+//! revolution, 2π r dA.
+//!
+//! * [`QuadGeometry`]: everything about an element that its corners decide;
+//! * [`mean_gradient`]: the element of the product, one stress with hourglass
+//!   stiffness, as bulk and deviatoric matrices;
+//! * [`b_bar`]: fully integrated with mean dilatation, the reference that the
+//!   former is measured against;
+//! * [`largest_eigenvalue`]: of an element's stiffness against its masses.
+
+mod b_bar;
+mod eigenvalue;
+mod geometry;
+mod mean_gradient;
+
+use nalgebra::SMatrix;
+
+pub use b_bar::b_bar;
+pub use eigenvalue::largest_eigenvalue;
+pub use geometry::QuadGeometry;
+pub use mean_gradient::mean_gradient;
+
+/// Matrix of an element, 8 × 8.
+pub type ElementMatrix = SMatrix<f64, 8, 8>;
+
+/// Stiffness of an element for unit moduli, in m: the stiffness is
+/// `bulk_modulus * bulk + shear_modulus * deviatoric`, in N/m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElementStiffness {
+    /// For unit bulk modulus.
+    pub bulk: ElementMatrix,
+    /// For unit shear modulus, hourglass stiffness included.
+    pub deviatoric: ElementMatrix,
+}
+
+impl ElementStiffness {
+    /// Stiffness for the given moduli (Pa), N/m.
+    pub fn combine(&self, bulk_modulus: f64, shear_modulus: f64) -> ElementMatrix {
+        self.bulk * bulk_modulus + self.deviatoric * shear_modulus
+    }
+}

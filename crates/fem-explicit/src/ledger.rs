@@ -1,0 +1,178 @@
+//! The running account of energy and momentum.
+//!
+//! At time t_n the leapfrog scheme conserves, for a linear system and to
+//! rounding,
+//!
+//! ```math
+//! E_n = \tfrac12 v_{n-1/2} \cdot M v_{n+1/2} + \tfrac12 u_n \cdot K u_n ,
+//! ```
+//!
+//! so that is the form in which kinetic energy is reported. Strain energy,
+//! contact energy and dissipation are evaluated from the state; what does not
+//! add up is the residual, which can fail. Dissipated power is integrated by the
+//! trapezoidal rule over the rows of the history.
+
+use fem_contact::ContactForces;
+
+use crate::body::Body;
+use crate::history::HistoryRow;
+use crate::model::Model;
+use crate::state::{BodyState, Scratch, State};
+
+/// Running sums and worst imbalances.
+#[derive(Debug, Clone)]
+pub(crate) struct Ledger {
+    /// Kinetic energy at the start, walls not counted, J.
+    pub initial: f64,
+    /// The same in the frame of the centre of mass, J.
+    pub initial_relative: f64,
+    /// Worst imbalance of energy over `initial_relative`.
+    pub worst_residual: f64,
+    /// Worst drift of momentum over Σ m|v| at the start.
+    pub worst_momentum: f64,
+    initial_momentum: f64,
+    momentum_scale: f64,
+    /// ∫ F dt up to t_n − Δt/2, N s.
+    impulse: f64,
+    dissipated: f64,
+    last_power: Option<(f64, f64)>,
+}
+
+/// Kinetic energies and centre of one body.
+struct BodyBalance {
+    kinetic: f64,
+    vibration: f64,
+    velocity: f64,
+    displacement: f64,
+}
+
+impl Ledger {
+    pub fn new(model: &Model) -> Self {
+        let moving = || model.bodies().iter().filter(|body| body.mesh().is_some());
+        let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
+        let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
+        Self {
+            initial: sum(&|body| 0.5 * body.total_mass() * body.velocity.powi(2)),
+            initial_relative: 0.5 * model.approach_speed().powi(2) / inverse_mass,
+            worst_residual: 0.0,
+            worst_momentum: 0.0,
+            initial_momentum: sum(&|body| body.total_mass() * body.velocity),
+            momentum_scale: sum(&|body| body.total_mass() * body.velocity.abs()),
+            impulse: 0.0,
+            dissipated: 0.0,
+            last_power: None,
+        }
+    }
+
+    /// Counts the impulse of the step from t_n to t_n+1.
+    pub fn count_step(&mut self, model: &Model, force: f64) {
+        self.impulse += model.time_step() * force;
+    }
+
+    /// Balances the state at t_n, whose forces are in `scratch`.
+    pub fn balance(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &Scratch,
+        contact: &ContactForces,
+    ) -> HistoryRow {
+        let bodies = model.bodies();
+        let [lower, upper] = [0, 1].map(|side: usize| {
+            balance_body(
+                &bodies[side],
+                model.time_step(),
+                &state.bodies[side],
+                &scratch.forces[side],
+            )
+        });
+        let (mut strain, mut power) = (0.0, 0.0);
+        for (body, state) in bodies.iter().zip(&state.bodies) {
+            let (stored, dissipated) = body.stored_and_dissipated(&state.u, &state.q);
+            strain += stored;
+            power += dissipated;
+        }
+        if let Some((time, last)) = self.last_power {
+            self.dissipated += 0.5 * (last + power) * (state.time - time);
+        }
+        self.last_power = Some((state.time, power));
+
+        let kinetic = lower.kinetic + upper.kinetic;
+        let total = kinetic + strain + contact.energy + self.dissipated;
+        let residual = total - self.initial - self.wall_work(model, contact.force);
+        self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
+        self.balance_momentum(model, state);
+
+        let u = [state.bodies[0].u.as_slice(), state.bodies[1].u.as_slice()];
+        HistoryRow {
+            time: state.time,
+            contact_force: contact.force,
+            contact_radius: model.interface().contact_radius(u),
+            approach: lower.displacement - upper.displacement - model.gap(),
+            centre_pressure: model.interface().centre_pressure(u),
+            velocity: [lower.velocity, upper.velocity],
+            kinetic,
+            strain,
+            contact: contact.energy,
+            viscous_dissipation: self.dissipated,
+            residual,
+            vibration: [lower.vibration, upper.vibration],
+        }
+    }
+
+    /// Work of a moving wall on the other body up to t_n, J.
+    fn wall_work(&self, model: &Model, force: f64) -> f64 {
+        let impulse = self.impulse + 0.5 * model.time_step() * force;
+        let [lower, upper] = model.bodies();
+        match (lower.mesh(), upper.mesh()) {
+            (None, _) => impulse * lower.velocity,
+            (_, None) => -impulse * upper.velocity,
+            _ => 0.0,
+        }
+    }
+
+    fn balance_momentum(&mut self, model: &Model, state: &State) {
+        let mut momentum: f64 = 0.0;
+        let mut expected = self.initial_momentum;
+        for (side, (body, state)) in model.bodies().iter().zip(&state.bodies).enumerate() {
+            momentum += body.sum_mass(&state.v);
+            if body.mesh().is_none() {
+                expected += if side == 0 { self.impulse } else { -self.impulse };
+            }
+        }
+        let drift = (momentum - expected) / self.momentum_scale;
+        self.worst_momentum = worst(self.worst_momentum, drift);
+    }
+}
+
+/// The larger magnitude; NaN wins, so that it cannot pass unseen.
+fn worst(so_far: f64, value: f64) -> f64 {
+    if value.abs() <= so_far { so_far } else { value.abs() }
+}
+
+fn balance_body(
+    body: &Body,
+    time_step: f64,
+    state: &BodyState,
+    forces: &[[f64; 2]],
+) -> BodyBalance {
+    let displacement = body.centre(&state.u);
+    let before = body.centre(&state.v);
+    if body.mesh().is_none() {
+        return BodyBalance { kinetic: 0.0, vibration: 0.0, velocity: before, displacement };
+    }
+    let (mut twice_kinetic, mut total_force) = (0.0, 0.0);
+    for ((mass, v), f) in body.nodal_mass.iter().zip(&state.v).zip(forces) {
+        twice_kinetic +=
+            mass * (v[0] * v[0] + v[1] * v[1]) + time_step * (v[0] * f[0] + v[1] * f[1]);
+        total_force += f[1];
+    }
+    let mass = body.total_mass();
+    let after = before + time_step * total_force / mass;
+    BodyBalance {
+        kinetic: 0.5 * twice_kinetic,
+        vibration: 0.5 * (twice_kinetic - mass * before * after),
+        velocity: 0.5 * (before + after),
+        displacement,
+    }
+}

@@ -1,0 +1,153 @@
+//! The whole problem, constant over a run.
+
+use fem_contact::{ContactInterface, Surface};
+
+use crate::body::{Body, BodyInput};
+use crate::error::ModelError;
+use crate::time_step::NodalBound;
+
+/// Numerical settings of a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Penalty factor times the pair's contact modulus E*, Pa.
+    pub contact_stiffness: f64,
+    /// Radius out to which contact is looked for, m.
+    pub candidate_radius: f64,
+    /// Time step over critical time step, in (0, 1].
+    pub step_factor: f64,
+    /// Largest added mass as a fraction of a body's mass, in [0, 1).
+    pub mass_scaling: f64,
+    /// Distance of the surfaces at time 0, m.
+    pub gap: f64,
+}
+
+/// Two bodies, their contact and the time step. The first body lies below.
+#[derive(Debug, Clone)]
+pub struct Model {
+    bodies: [Body; 2],
+    interface: ContactInterface,
+    time_step: f64,
+    plain_time_step: f64,
+    gap: f64,
+    first_touch: f64,
+}
+
+impl Model {
+    /// Lumps masses, pairs the surfaces, chooses the time step.
+    ///
+    /// # Errors
+    /// Settings out of range, two walls, bodies that do not approach.
+    pub fn new(inputs: [BodyInput; 2], settings: &Settings) -> Result<Self, ModelError> {
+        check(settings)?;
+        let velocities = inputs.each_ref().map(BodyInput::velocity);
+        let approach_speed = velocities[0] - velocities[1];
+        if !(approach_speed > 0.0 && approach_speed.is_finite()) {
+            return Err(ModelError::NotApproaching(approach_speed));
+        }
+        let [lower, upper] = inputs.each_ref().map(|input| match input {
+            BodyInput::Deformable { mesh, .. } => Surface::of_sphere(mesh),
+            BodyInput::Wall { .. } => Surface::wall(),
+        });
+        let interface = ContactInterface::new(
+            lower,
+            upper,
+            settings.contact_stiffness,
+            settings.gap,
+            settings.candidate_radius,
+        )?;
+        let bounds: [Option<NodalBound>; 2] = std::array::from_fn(|side| match &inputs[side] {
+            BodyInput::Deformable { mesh, material, .. } => {
+                let mut bound = NodalBound::of_sphere(mesh, material);
+                interface.add_stiffness_bound(side, &mut bound.stiffness);
+                Some(bound)
+            }
+            BodyInput::Wall { .. } => None,
+        });
+        let smallest = |step: &dyn Fn(&NodalBound) -> f64| {
+            bounds.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
+        };
+        let plain = smallest(&NodalBound::critical_time_step);
+        let critical = smallest(&|bound| bound.scaled_time_step(settings.mass_scaling));
+        let time_step = settings.step_factor * critical;
+        let mut parts = inputs.into_iter().zip(bounds);
+        let mut body = || match parts.next() {
+            Some((BodyInput::Deformable { mesh, material, velocity }, Some(bound))) => {
+                let (nodal_mass, added_mass) = bound.scale_mass(critical);
+                Body::deformable(mesh, &material, velocity, nodal_mass, added_mass, time_step)
+            }
+            Some((input, _)) => Body::wall(input.velocity()),
+            None => Body::wall(0.0),
+        };
+        Ok(Self {
+            bodies: [body(), body()],
+            interface,
+            time_step,
+            plain_time_step: settings.step_factor * plain,
+            gap: settings.gap,
+            first_touch: settings.gap / approach_speed,
+        })
+    }
+
+    /// Lower and upper body.
+    pub fn bodies(&self) -> &[Body; 2] {
+        &self.bodies
+    }
+
+    /// Their contact.
+    pub fn interface(&self) -> &ContactInterface {
+        &self.interface
+    }
+
+    /// Time step, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// What the time step would be without mass scaling, s.
+    pub fn plain_time_step(&self) -> f64 {
+        self.plain_time_step
+    }
+
+    /// Distance of the surfaces at time 0, m.
+    pub fn gap(&self) -> f64 {
+        self.gap
+    }
+
+    /// Time at which the surfaces touch, s: free flight is not stepped.
+    pub fn first_touch(&self) -> f64 {
+        self.first_touch
+    }
+
+    /// Relative velocity of approach at the start, m/s.
+    pub fn approach_speed(&self) -> f64 {
+        self.bodies[0].velocity - self.bodies[1].velocity
+    }
+
+    /// Number of elements of both bodies.
+    pub fn n_elements(&self) -> usize {
+        self.bodies.iter().map(Body::n_elements).sum()
+    }
+}
+
+impl BodyInput {
+    fn velocity(&self) -> f64 {
+        match self {
+            Self::Deformable { velocity, .. } | Self::Wall { velocity } => *velocity,
+        }
+    }
+}
+
+fn check(settings: &Settings) -> Result<(), ModelError> {
+    let &Settings { step_factor, mass_scaling, gap, .. } = settings;
+    let setting = |name, value, allowed| Err(ModelError::Setting { name, value, allowed });
+    if !(step_factor > 0.0 && step_factor <= 1.0) {
+        return setting("step factor", step_factor, "above 0 and at most 1");
+    }
+    if !(0.0..1.0).contains(&mass_scaling) {
+        return setting("mass scaling", mass_scaling, "at least 0 and below 1");
+    }
+    if !(gap >= 0.0 && gap.is_finite()) {
+        return setting("gap", gap, "at least 0");
+    }
+    Ok(())
+}

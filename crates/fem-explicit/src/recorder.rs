@@ -1,0 +1,224 @@
+//! Which states of a run are kept as snapshots.
+//!
+//! Half of the maximum approach is known only once the maximum is past, so a
+//! ladder of states is kept while the bodies approach: a rung each time the
+//! approach has grown by 3 %, rungs below half of the present approach dropped.
+//! Snapshots spread evenly over the contact need its length; states are kept at
+//! an even spacing that doubles whenever there are too many.
+
+use crate::model::Model;
+use crate::snapshot::{Label, Snapshot, SnapshotRequest};
+use crate::state::{Scratch, State};
+
+/// Growth of the approach from rung to rung: the nearest to half of the maximum
+/// is within 1.5 %.
+const RUNG_RATIO: f64 = 1.03;
+/// Share of the expected approach at which the ladder begins.
+const LADDER_START: f64 = 0.02;
+
+/// What the recorder is told of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Instant {
+    pub approach: f64,
+    /// Rate of the approach over the last half step, m/s.
+    pub approach_rate: f64,
+    pub is_closed: bool,
+    /// The first closed step of the run.
+    pub is_first_contact: bool,
+    /// Closed now and open in the next step.
+    pub is_last_contact: bool,
+}
+
+/// Keeps what the request asks for.
+#[derive(Debug)]
+pub(crate) struct Recorder {
+    request: SnapshotRequest,
+    expected_approach: f64,
+    /// Rungs of the ladder, or evenly spaced states.
+    kept: Vec<Snapshot>,
+    pool: Vec<Snapshot>,
+    maximum: Option<Snapshot>,
+    mid_separation: Option<Snapshot>,
+    last_contact: Option<Snapshot>,
+    spacing: f64,
+    next_time: usize,
+}
+
+impl Recorder {
+    pub fn new(
+        request: &SnapshotRequest,
+        model: &Model,
+        expected_approach: f64,
+        expected_contact_time: f64,
+    ) -> Self {
+        let mut request = request.clone();
+        let mut kept = Vec::new();
+        if let SnapshotRequest::Times(times) = &mut request {
+            times.sort_by(f64::total_cmp);
+            let in_flight = times.iter().take_while(|&&time| time < model.first_touch());
+            kept.extend(in_flight.map(|&time| Snapshot::in_free_flight(model, time)));
+        }
+        let spacing = match request {
+            SnapshotRequest::Count(n) => expected_contact_time / (4 * n.max(1)) as f64,
+            _ => 0.0,
+        };
+        Self {
+            request,
+            expected_approach,
+            next_time: kept.len(),
+            kept,
+            pool: Vec::new(),
+            maximum: None,
+            mid_separation: None,
+            last_contact: None,
+            spacing,
+        }
+    }
+
+    /// Keeps the state at t_n if it may be asked for.
+    pub fn observe(&mut self, model: &Model, state: &State, scratch: &Scratch, now: Instant) {
+        let copy = |recycled: Option<Snapshot>, label: Option<Label>| {
+            let mut snapshot = recycled.unwrap_or_else(Snapshot::empty);
+            snapshot.take(model, state, scratch, now.approach, label);
+            snapshot
+        };
+        if now.is_last_contact {
+            self.last_contact = Some(copy(self.last_contact.take(), Some(Label::LastContact)));
+        }
+        match &self.request {
+            SnapshotRequest::Labels(_) => match &self.maximum {
+                None if now.is_closed && now.approach_rate <= 0.0 => {
+                    self.maximum = Some(copy(None, Some(Label::Maximum)));
+                }
+                None => {
+                    let rung = self.kept.last().map_or(
+                        LADDER_START * self.expected_approach,
+                        |snapshot| RUNG_RATIO * snapshot.approach,
+                    );
+                    if now.approach >= rung {
+                        let half = 0.5 * now.approach / RUNG_RATIO;
+                        let first = self.kept.iter().position(|rung| rung.approach >= half);
+                        let n_dropped = first.unwrap_or(self.kept.len());
+                        self.pool.extend(self.kept.drain(..n_dropped));
+                        let snapshot = copy(self.pool.pop(), Some(Label::MidCompression));
+                        self.kept.push(snapshot);
+                    }
+                }
+                Some(maximum) => {
+                    if self.mid_separation.is_none() && now.approach <= 0.5 * maximum.approach {
+                        self.mid_separation = Some(copy(None, Some(Label::MidSeparation)));
+                    }
+                }
+            },
+            SnapshotRequest::Count(n) => {
+                let due = self.kept.last().is_some_and(|last| {
+                    now.is_closed && state.time >= last.time + self.spacing * (1.0 - 1e-9)
+                });
+                if now.is_first_contact || due {
+                    let snapshot = copy(self.pool.pop(), None);
+                    self.kept.push(snapshot);
+                    if self.kept.len() > 8 * (*n).max(1) {
+                        self.thin();
+                    }
+                }
+            }
+            SnapshotRequest::Times(times) => {
+                while let Some(&time) = times.get(self.next_time)
+                    && state.time + 0.5 * model.time_step() >= time
+                {
+                    self.kept.push(copy(None, None));
+                    self.next_time += 1;
+                }
+            }
+        }
+    }
+
+    /// Drops every second of the evenly spaced states.
+    fn thin(&mut self) {
+        let mut k = 0;
+        let pool = &mut self.pool;
+        self.kept.retain_mut(|snapshot| {
+            k += 1;
+            let keep = k % 2 == 1;
+            if !keep {
+                pool.push(std::mem::replace(snapshot, Snapshot::empty()));
+            }
+            keep
+        });
+        self.spacing *= 2.0;
+    }
+
+    /// The snapshots in the order of time, and what could not be had.
+    pub fn finish(self) -> (Vec<Snapshot>, Vec<String>) {
+        let mut missing = Vec::new();
+        let snapshots = match self.request {
+            SnapshotRequest::Labels(labels) => {
+                let half = self.maximum.as_ref().map(|maximum| 0.5 * maximum.approach);
+                let mid_compression = half.and_then(|half| {
+                    let distance = |s: &Snapshot| (s.approach - half).abs();
+                    self.kept
+                        .into_iter()
+                        .filter(|s| distance(s) <= 0.02 * half)
+                        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+                });
+                let mut found = Vec::new();
+                let all =
+                    [mid_compression, self.maximum, self.mid_separation, self.last_contact];
+                for (label, snapshot) in Label::ALL.into_iter().zip(all) {
+                    if !labels.contains(&label) {
+                        continue;
+                    }
+                    match snapshot {
+                        Some(snapshot) => found.push(snapshot),
+                        None => missing.push(format!(
+                            "the instant \"{}\" did not occur; its snapshot is left out",
+                            label.name()
+                        )),
+                    }
+                }
+                found
+            }
+            SnapshotRequest::Count(n) => evenly(self.kept, self.last_contact, n),
+            SnapshotRequest::Times(times) => {
+                for time in &times[self.next_time..] {
+                    missing.push(format!(
+                        "the run ended before {time:e} s; its snapshot is left out"
+                    ));
+                }
+                self.kept
+            }
+        };
+        (snapshots, missing)
+    }
+}
+
+/// The `n` states nearest to an even spacing between the first and the last.
+fn evenly(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) -> Vec<Snapshot> {
+    if let Some(last) = last {
+        kept.retain(|snapshot| snapshot.time < last.time);
+        kept.push(Snapshot { label: None, ..last });
+    }
+    let (Some(first), Some(end)) = (kept.first(), kept.last()) else {
+        return kept;
+    };
+    let (start, length) = (first.time, end.time - first.time);
+    let wanted: Vec<f64> = match n {
+        1 => vec![start + 0.5 * length],
+        _ => (0..n).map(|k| start + length * k as f64 / (n - 1) as f64).collect(),
+    };
+    let mut chosen: Vec<usize> = wanted
+        .iter()
+        .filter_map(|time| {
+            (0..kept.len()).min_by(|&a, &b| {
+                (kept[a].time - time).abs().total_cmp(&(kept[b].time - time).abs())
+            })
+        })
+        .collect();
+    chosen.dedup();
+    let mut position = 0;
+    kept.retain(|_| {
+        position += 1;
+        chosen.contains(&(position - 1))
+    });
+    kept
+}

@@ -1,0 +1,62 @@
+//! What changes in a run.
+
+use crate::model::Model;
+
+/// State of a body at time t_n; velocities belong to t_n − Δt/2.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct BodyState {
+    /// Displacement, m.
+    pub u: Vec<[f64; 2]>,
+    /// Velocity, m/s.
+    pub v: Vec<[f64; 2]>,
+    /// Effective displacement of a relaxing body, m; empty for an elastic one.
+    pub w: Vec<[f64; 2]>,
+    /// Elastic displacement of each Prony branch, m.
+    pub q: Vec<Vec<[f64; 2]>>,
+}
+
+/// State of both bodies: the whole restart.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct State {
+    /// Steps done.
+    pub step: u64,
+    /// Time since the start of the case, s.
+    pub time: f64,
+    pub bodies: [BodyState; 2],
+}
+
+/// Forces of the present step; never read across steps.
+#[derive(Debug, Clone)]
+pub(crate) struct Scratch {
+    /// Nodal forces of both bodies, N.
+    pub forces: [Vec<[f64; 2]>; 2],
+}
+
+impl State {
+    /// The bodies at first touch, undeformed.
+    pub fn at_first_touch(model: &Model) -> Self {
+        let time = model.first_touch();
+        let bodies = model.bodies().each_ref().map(|body| {
+            let n = body.nodal_mass.len();
+            let u = vec![[0.0, body.velocity * time]; n];
+            let v = vec![[0.0, body.velocity]; n];
+            let n_branches = body.n_branches();
+            let w = if n_branches > 0 { vec![[0.0; 2]; n] } else { Vec::new() };
+            // Rigid motion strains nothing: the branches start at zero.
+            BodyState { u, v, w, q: vec![vec![[0.0; 2]; n]; n_branches] }
+        });
+        let mut state = Self { step: 0, time, bodies };
+        for (body, state) in model.bodies().iter().zip(&mut state.bodies) {
+            state.update_effective(body);
+        }
+        state
+    }
+}
+
+impl Scratch {
+    pub fn new(model: &Model) -> Self {
+        Self {
+            forces: model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]),
+        }
+    }
+}

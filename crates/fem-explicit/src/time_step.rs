@@ -1,0 +1,107 @@
+//! The critical time step, and mass scaling.
+//!
+//! An element's stiffness is bounded by its own lumped masses, K_e ≤ λ_e M_e,
+//! and the contact springs by a diagonal D (see
+//! [`fem_contact::ContactInterface::add_stiffness_bound`]). So the assembled
+//! stiffness is bounded by the diagonal κ_i = Σ_e λ_e m_e,i + D_i, and
+//!
+//! ```math
+//! \omega_{max}^2 \le \max_i \kappa_i / m_i, \qquad \Delta t_{crit} = 2/\omega_{max}.
+//! ```
+//!
+//! With m_i = Σ m_e,i and no contact this is never above the largest λ_e, the
+//! bound of Irons and Treharne. Mass scaling turns it round: a step Δt is stable
+//! once every node has m_i ≥ κ_i Δt²/4, so the lightest nodes, which are the
+//! stiffest and hold almost none of the mass, are filled up to that and the step
+//! is the longest for which the added mass stays within its budget.
+
+use fem_element::{QuadGeometry, largest_eigenvalue, mean_gradient};
+use fem_material::Material;
+use fem_mesh::SphereMesh;
+
+use crate::body::lump_mass;
+
+/// Masses of a body's nodes and a bound of the stiffness that pulls at them.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NodalBound {
+    /// Lumped masses, kg.
+    pub mass: Vec<f64>,
+    /// κ_i, N/m.
+    pub stiffness: Vec<f64>,
+}
+
+impl NodalBound {
+    /// Of a sphere without contact.
+    pub fn of_sphere(mesh: &SphereMesh, material: &Material) -> Self {
+        let moduli = material.instantaneous();
+        let mut stiffness = vec![0.0; mesh.nodes().len()];
+        let mut nodal_volumes = Vec::with_capacity(mesh.quads().len());
+        for (element, quad) in mesh.quads().iter().enumerate() {
+            let corners = mesh.corners(element);
+            let geometry = QuadGeometry::new(&corners);
+            let matrix = mean_gradient(&geometry)
+                .combine(moduli.bulk_modulus(), moduli.shear_modulus());
+            let masses = geometry.nodal_volumes.map(|volume| material.density() * volume);
+            let eigenvalue =
+                largest_eigenvalue(&matrix, &masses, corners.map(|corner| corner[0] == 0.0));
+            for (&node, mass) in quad.iter().zip(masses) {
+                stiffness[node as usize] += eigenvalue * mass;
+            }
+            nodal_volumes.push(geometry.nodal_volumes);
+        }
+        Self { mass: lump_mass(mesh, material.density(), &nodal_volumes), stiffness }
+    }
+
+    /// Critical time step without mass scaling, s.
+    pub fn critical_time_step(&self) -> f64 {
+        self.mass
+            .iter()
+            .zip(&self.stiffness)
+            .map(|(mass, stiffness)| 2.0 * (mass / stiffness).sqrt())
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Mass that a critical time step (s) asks for beyond what is there, kg.
+    fn missing_mass(&self, time_step: f64) -> f64 {
+        let missing = |(mass, stiffness): (&f64, &f64)| {
+            (0.25 * time_step * time_step * stiffness - mass).max(0.0)
+        };
+        self.mass.iter().zip(&self.stiffness).map(missing).sum()
+    }
+
+    /// Longest critical time step (s) within a budget of added mass, given as a
+    /// fraction of the body's mass.
+    pub fn scaled_time_step(&self, fraction: f64) -> f64 {
+        let plain = self.critical_time_step();
+        let budget = fraction * self.mass.iter().sum::<f64>();
+        if self.missing_mass(plain * (1.0 + 1e-9)) > budget {
+            return plain;
+        }
+        let (mut stable, mut beyond) = (plain, 2.0 * plain);
+        while self.missing_mass(beyond) <= budget {
+            (stable, beyond) = (beyond, 2.0 * beyond);
+        }
+        while beyond - stable > 1e-12 * stable {
+            let middle = 0.5 * (stable + beyond);
+            if self.missing_mass(middle) <= budget {
+                stable = middle;
+            } else {
+                beyond = middle;
+            }
+        }
+        stable
+    }
+
+    /// Fills the masses up for a critical time step (s). Returns the masses and
+    /// what was added, kg.
+    pub fn scale_mass(self, time_step: f64) -> (Vec<f64>, f64) {
+        let mut added = 0.0;
+        let filled = |(mass, stiffness): (f64, f64)| {
+            let needed = 0.25 * time_step * time_step * stiffness;
+            added += (needed - mass).max(0.0);
+            mass.max(needed)
+        };
+        let masses = self.mass.into_iter().zip(self.stiffness).map(filled).collect();
+        (masses, added)
+    }
+}

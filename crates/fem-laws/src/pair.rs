@@ -1,0 +1,110 @@
+//! Two colliding bodies as one: the effective radius, mass and modulus of their contact.
+//!
+//! ```math
+//! \frac1{R^*} = \frac1{R_1}+\frac1{R_2}, \qquad \frac1{m^*} = \frac1{m_1}+\frac1{m_2}, \qquad
+//! \frac1{E^*} = \frac{1-\nu_1^2}{E_1}+\frac{1-\nu_2^2}{E_2}
+//! ```
+//!
+//! Bordbar & Hyppänen (2007), eqs. 15–17; moduli are the instantaneous ones. A rigid wall is the
+//! limit of infinite radius, mass and modulus and drops out of all three sums.
+
+use std::f64::consts::PI;
+
+use fem_material::Material;
+
+use crate::error::{LawError, positive};
+
+/// One of the two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Partner {
+    /// An elastic sphere.
+    Sphere {
+        /// R, m.
+        radius: f64,
+        /// m, kg.
+        mass: f64,
+        /// E/(1−ν²), Pa.
+        plane_strain_modulus: f64,
+    },
+    /// A rigid, immovable plane.
+    Wall,
+}
+
+impl Partner {
+    /// A solid sphere of a diameter (m) and a material. [`Pair::new`] checks the diameter.
+    pub fn solid_sphere(diameter: f64, material: &Material) -> Self {
+        Self::Sphere {
+            radius: 0.5 * diameter,
+            mass: sphere_mass(diameter, material.density()),
+            plane_strain_modulus: material.instantaneous().plane_strain_modulus(),
+        }
+    }
+
+    /// Radius, mass and modulus; infinite for the wall.
+    fn checked(&self) -> Result<[f64; 3], LawError> {
+        match *self {
+            Self::Sphere {
+                radius,
+                mass,
+                plane_strain_modulus,
+            } => Ok([
+                positive("radius", radius)?,
+                positive("mass", mass)?,
+                positive("plane_strain_modulus", plane_strain_modulus)?,
+            ]),
+            Self::Wall => Ok([f64::INFINITY; 3]),
+        }
+    }
+}
+
+/// ρπD³/6, kg, of a solid sphere of diameter D (m) and density ρ (kg/m³).
+pub fn sphere_mass(diameter: f64, density: f64) -> f64 {
+    density * PI * diameter.powi(3) / 6.0
+}
+
+/// Effective radius, mass and modulus of two bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    effective_radius: f64,
+    effective_mass: f64,
+    contact_modulus: f64,
+}
+
+impl Pair {
+    /// Of two bodies in either order, to the same bits.
+    ///
+    /// # Errors
+    /// Two walls; a radius, mass or modulus that is not positive and finite.
+    pub fn new(first: Partner, second: Partner) -> Result<Self, LawError> {
+        if first == Partner::Wall && second == Partner::Wall {
+            return Err(LawError::TwoWalls);
+        }
+        let ([r1, m1, e1], [r2, m2, e2]) = (first.checked()?, second.checked()?);
+        Ok(Self {
+            effective_radius: in_series(r1, r2),
+            effective_mass: in_series(m1, m2),
+            contact_modulus: in_series(e1, e2),
+        })
+    }
+
+    /// R*, m.
+    pub fn effective_radius(&self) -> f64 {
+        self.effective_radius
+    }
+
+    /// m*, kg.
+    pub fn effective_mass(&self) -> f64 {
+        self.effective_mass
+    }
+
+    /// E*, Pa.
+    pub fn contact_modulus(&self) -> f64 {
+        self.contact_modulus
+    }
+}
+
+/// 1/(1/a + 1/b), at most one of them infinite, without overflow.
+fn in_series(a: f64, b: f64) -> f64 {
+    let (smaller, larger) = (a.min(b), a.max(b));
+    smaller / (1.0 + smaller / larger)
+}

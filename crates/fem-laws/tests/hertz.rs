@@ -1,0 +1,301 @@
+//! Hertz' collision: reference table, scaling, energy, history.
+
+use fem_laws::{HertzImpact, LawError, Pair, Partner, contact_time_coefficient};
+use fem_material::{ElasticModuli, Material};
+
+fn glass() -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    Material::new(2390.0, moduli, None).unwrap()
+}
+
+fn glass_pair() -> Pair {
+    let glass = glass();
+    Pair::new(
+        Partner::solid_sphere(22.2e-3, &glass),
+        Partner::solid_sphere(15.9e-3, &glass),
+    )
+    .unwrap()
+}
+
+fn assert_close(found: f64, expected: f64, relative: f64) {
+    assert!(
+        (found - expected).abs() <= relative * expected.abs(),
+        "found {found:e}, expected {expected:e}"
+    );
+}
+
+/// Reference numbers for glass, 22.2 mm on 15.9 mm, to one unit of the last digit printed: the
+/// table cuts 72.6378 µs to 72.637 and has 1.3550 GPa for 1.35491.
+#[test]
+fn reference_table() {
+    let pair = glass_pair();
+    // m/s; then T in µs, δ_max in µm, F in N, a in mm, p₀ in GPa.
+    let table = [
+        (0.1, "87.247 2.9643 15.513 0.11718 0.5394"),
+        (0.25, "72.637 6.1698 46.581 0.16906 0.7782"),
+        (0.5, "63.235 10.742 107.02 0.22307 1.0268"),
+        (1.0, "55.049 18.703 245.86 0.29435 1.3550"),
+    ];
+    for (speed, row) in table {
+        let impact = HertzImpact::new(&pair, speed).unwrap();
+        let found = [
+            impact.contact_time() * 1e6,
+            impact.max_approach() * 1e6,
+            impact.peak_force(),
+            impact.max_contact_radius() * 1e3,
+            impact.peak_pressure() * 1e-9,
+        ];
+        assert_eq!(row.split(' ').count(), found.len());
+        for (found, printed) in found.into_iter().zip(row.split(' ')) {
+            let n_decimals = printed.len() - printed.find('.').unwrap() - 1;
+            let unit = 10f64.powi(-(n_decimals as i32));
+            let expected: f64 = printed.parse().unwrap();
+            assert!(
+                (found - expected).abs() <= unit,
+                "{speed} m/s: {found}, not {printed}"
+            );
+        }
+        assert_eq!(impact.restitution(), 1.0);
+    }
+    let stiffness = HertzImpact::new(&pair, 0.5).unwrap().stiffness();
+    assert!((stiffness - 3.0395e9).abs() < 0.5e5);
+}
+
+/// T v/δ_max = 2 ∫ dx/√(1−x^(5/2)) by quadrature, with x = sin ψ to remove the singularity.
+#[test]
+fn contact_time_coefficient_is_the_energy_integral() {
+    let n = 100_000;
+    let width = std::f64::consts::FRAC_PI_2 / f64::from(n);
+    let integral: f64 = (0..n)
+        .map(|i| (f64::from(i) + 0.5) * width)
+        .map(|phase| phase.cos() / (1.0 - phase.sin().powf(2.5)).sqrt() * width)
+        .sum();
+    // The midpoint rule leaves width²/24 = 1e-11; the cancellation near the end adds 1e-10.
+    assert!((contact_time_coefficient() - 2.0 * integral).abs() < 1e-9);
+    assert!((contact_time_coefficient() - 2.94328).abs() < 5e-6);
+}
+
+/// T ∝ v^(−1/5), δ ∝ v^(4/5), F ∝ v^(6/5), a ∝ p₀ ∝ v^(2/5), over twelve decades.
+#[test]
+fn speeds_are_similar() {
+    let pair = glass_pair();
+    let unit = HertzImpact::new(&pair, 1.0).unwrap();
+    for exponent in -9..=3 {
+        let speed = 10f64.powi(exponent);
+        let impact = HertzImpact::new(&pair, speed).unwrap();
+        // A power of a number far from 1 costs a few tens of roundings.
+        let scales = |found: f64, at_unit: f64, power: f64| {
+            assert_close(found / at_unit, speed.powf(power), 1e-14);
+        };
+        scales(impact.contact_time(), unit.contact_time(), -0.2);
+        scales(impact.max_approach(), unit.max_approach(), 0.8);
+        scales(impact.peak_force(), unit.peak_force(), 1.2);
+        scales(impact.max_contact_radius(), unit.max_contact_radius(), 0.4);
+        scales(impact.peak_pressure(), unit.peak_pressure(), 0.4);
+    }
+}
+
+/// ½ m* v² = 2/5 K δ^(5/2), p₀ = 3F/2πa² and a² = R*δ for any size, stiffness and speed.
+#[test]
+fn identities_hold_over_all_sizes() {
+    for mass in [1e-12, 1e-6, 1.0, 1e6] {
+        for radius in [1e-6, 1e-2, 10.0] {
+            for plane_strain_modulus in [1e3, 7e10, 1e12] {
+                for speed in [1e-9, 1e-3, 1e3] {
+                    let sphere = Partner::Sphere {
+                        radius,
+                        mass,
+                        plane_strain_modulus,
+                    };
+                    let pair = Pair::new(sphere, Partner::Wall).unwrap();
+                    let impact = HertzImpact::new(&pair, speed).unwrap();
+                    let (approach, force) = (impact.max_approach(), impact.peak_force());
+                    // powf and about ten products.
+                    assert_close(0.4 * force * approach, 0.5 * mass * speed * speed, 1e-13);
+                    assert_close(
+                        impact.max_contact_radius().powi(2),
+                        radius * approach,
+                        1e-14,
+                    );
+                    assert_close(impact.pressure(approach).force(), force, 1e-14);
+                    let middle = impact.at(0.5 * impact.contact_time());
+                    assert_close(middle.force, force, 1e-13);
+                }
+            }
+        }
+    }
+}
+
+/// ½ m* v² = ∫ F dδ, by Simpson's rule in √δ, in which F dδ is a polynomial of fifth degree.
+#[test]
+fn work_of_the_force_is_the_energy_of_the_impact() {
+    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
+    let n = 400;
+    let root = impact.max_approach().sqrt();
+    let work: f64 = (0..=n)
+        .map(|i| {
+            let weight = if i == 0 || i == n {
+                1.0
+            } else {
+                2.0 + 2.0 * f64::from(i % 2)
+            };
+            let s = root * f64::from(i) / f64::from(n);
+            weight * impact.force(s * s) * 2.0 * s
+        })
+        .sum::<f64>()
+        * root
+        / (3.0 * f64::from(n));
+    // Simpson leaves h⁴ f''''/180, some 1e-11 of the whole.
+    assert_close(work, 0.5 * impact.pair().effective_mass() * 0.25, 1e-10);
+}
+
+/// The wall is the limit of a sphere that is larger, heavier and stiffer.
+#[test]
+fn wall_is_the_limit_of_a_huge_stiff_sphere() {
+    let glass = glass();
+    let small = Partner::solid_sphere(15.9e-3, &glass);
+    let onto_wall = HertzImpact::new(&Pair::new(small, Partner::Wall).unwrap(), 0.5).unwrap();
+    let error = |factor: f64| {
+        let huge = Partner::Sphere {
+            radius: 7.95e-3 * factor,
+            mass: 5.03e-3 * factor,
+            plane_strain_modulus: 67e9 * factor,
+        };
+        let impact = HertzImpact::new(&Pair::new(small, huge).unwrap(), 0.5).unwrap();
+        let ratios = [
+            impact.contact_time() / onto_wall.contact_time(),
+            impact.peak_force() / onto_wall.peak_force(),
+            impact.max_contact_radius() / onto_wall.max_contact_radius(),
+        ];
+        ratios
+            .iter()
+            .fold(0.0f64, |max, ratio| max.max((ratio - 1.0).abs()))
+    };
+    // First order in 1/factor, with a coefficient of order 1.
+    assert!(error(1e6) < 2e-6);
+    let order = (error(1e3) / error(1e6)).log10() / 3.0;
+    assert!((order - 1.0).abs() < 0.01, "order {order}");
+}
+
+/// The equation of motion integrated by velocity Verlet shares nothing with the beta function.
+#[test]
+fn history_obeys_the_equation_of_motion() {
+    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
+    let mass = impact.pair().effective_mass();
+    let deviation = |n_steps: usize| {
+        let dt = impact.contact_time() / n_steps as f64;
+        let (mut approach, mut rate, mut worst) = (0.0f64, 0.5f64, 0.0f64);
+        for i in 1..n_steps {
+            rate -= 0.5 * dt * impact.force(approach) / mass;
+            approach += dt * rate;
+            rate -= 0.5 * dt * impact.force(approach) / mass;
+            let instant = impact.at(dt * i as f64);
+            worst = worst.max((instant.approach - approach).abs() / impact.max_approach());
+            worst = worst.max((instant.approach_rate - rate).abs() / 0.5);
+        }
+        worst
+    };
+    let order = (deviation(1000) / deviation(2000)).log2();
+    assert!((order - 2.0).abs() < 0.05, "order {order}");
+    // Verlet leaves (ωΔt)²/24 with ωT near π.
+    assert!(deviation(2000) < 1e-6);
+}
+
+#[test]
+fn history_keeps_the_energy_and_mirrors_itself() {
+    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
+    let (end, mass) = (impact.contact_time(), impact.pair().effective_mass());
+    for i in 0..=200 {
+        let time = end * f64::from(i) / 200.0;
+        let instant = impact.at(time);
+        let energy = 0.5 * mass * instant.approach_rate.powi(2)
+            + 0.4 * impact.force(instant.approach) * instant.approach;
+        assert_close(energy, 0.5 * mass * 0.25, 1e-14);
+        let mirror = impact.at(end - time);
+        // The phase is resolved to 1e-15.
+        assert!((instant.approach - mirror.approach).abs() < 1e-14 * impact.max_approach());
+        // At 0, T/2 and T a rounding of the time decides between two branches.
+        if i % 100 != 0 {
+            assert!((instant.approach_rate + mirror.approach_rate).abs() < 1e-14);
+        }
+        assert_eq!(instant.force, impact.force(instant.approach));
+    }
+    let middle = impact.at(0.5 * end);
+    assert_close(middle.approach, impact.max_approach(), 1e-15);
+    assert!(middle.approach_rate.abs() < 1e-14);
+}
+
+/// The first terms in x = δ/δ_max of the motion: x = τ − τ^(7/2)/7 + O(τ⁶), τ = vt/δ_max.
+#[test]
+fn history_starts_as_its_series() {
+    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
+    for tau in [1e-9, 1e-6, 1e-3] {
+        let x = tau - f64::powf(tau, 3.5) / 7.0;
+        let instant = impact.at(tau * impact.max_approach() / 0.5);
+        // The neglected term is 1e-15 of x at most; the beta function adds a few roundings.
+        assert_close(instant.approach, x * impact.max_approach(), 1e-14);
+    }
+}
+
+#[test]
+fn open_contact_carries_nothing() {
+    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
+    for open in [-1e-3, -1e-12, 0.0] {
+        assert_eq!(impact.force(open), 0.0);
+        assert_eq!(impact.pressure(open).peak_pressure, 0.0);
+        assert_eq!(impact.pressure(open).contact_radius, 0.0);
+    }
+}
+
+#[test]
+fn bodies_fly_freely_before_and_after() {
+    let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
+    let before = impact.at(-2.0);
+    assert_eq!(
+        (before.approach, before.approach_rate, before.force),
+        (-1.0, 0.5, 0.0)
+    );
+    let start = impact.at(0.0);
+    assert_eq!(
+        (start.approach, start.approach_rate, start.force),
+        (0.0, 0.5, 0.0)
+    );
+    let end = impact.at(impact.contact_time());
+    assert_eq!(
+        (end.approach, end.approach_rate, end.force),
+        (0.0, -0.5, 0.0)
+    );
+    let after = impact.at(impact.contact_time() + 2.0);
+    assert!((after.approach + 1.0).abs() < 1e-15);
+    assert_eq!((after.approach_rate, after.force), (-0.5, 0.0));
+}
+
+#[test]
+fn impossible_speeds_are_refused() {
+    let pair = glass_pair();
+    for value in [0.0, -0.5, f64::INFINITY] {
+        assert_eq!(
+            HertzImpact::new(&pair, value),
+            Err(LawError::NotPositive {
+                quantity: "approach_speed",
+                value
+            })
+        );
+    }
+    assert!(HertzImpact::new(&pair, f64::NAN).is_err());
+    // Results beyond the range of f64.
+    assert!(HertzImpact::new(&pair, 1e300).is_err());
+    assert!(HertzImpact::new(&pair, 1e-300).is_err());
+    let needle = Partner::Sphere {
+        radius: 1e-300,
+        mass: 1.0,
+        plane_strain_modulus: 1e200,
+    };
+    assert_eq!(
+        HertzImpact::new(&Pair::new(needle, Partner::Wall).unwrap(), 1.0),
+        Err(LawError::NotPositive {
+            quantity: "hertz peak_pressure",
+            value: f64::INFINITY
+        })
+    );
+}

@@ -1,0 +1,75 @@
+//! Effective radius, mass and modulus.
+
+use fem_laws::{LawError, Pair, Partner, sphere_mass};
+use fem_material::{ElasticModuli, Material};
+
+fn sphere(radius: f64, mass: f64, plane_strain_modulus: f64) -> Partner {
+    Partner::Sphere {
+        radius,
+        mass,
+        plane_strain_modulus,
+    }
+}
+
+/// Reference numbers of the glass pair, to their printed digits.
+#[test]
+fn effective_values_of_the_glass_pair() {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    let glass = Material::new(2390.0, moduli, None).unwrap();
+    let large = Partner::solid_sphere(22.2e-3, &glass);
+    let small = Partner::solid_sphere(15.9e-3, &glass);
+    let pair = Pair::new(large, small).unwrap();
+    assert!((pair.effective_mass() - 3.6787e-3).abs() < 0.5e-7);
+    assert!((pair.effective_radius() - 4.6323e-3).abs() < 0.5e-7);
+    assert!((pair.contact_modulus() - 33.494e9).abs() < 0.5e6);
+    assert_eq!(Pair::new(small, large).unwrap(), pair);
+}
+
+/// Binary fractions: the sums of reciprocals are exact.
+#[test]
+fn unlike_bodies_add_their_reciprocals() {
+    let pair = Pair::new(sphere(1.0, 6.0, 20.0), sphere(3.0, 3.0, 5.0)).unwrap();
+    assert_eq!(pair.effective_radius(), 0.75);
+    assert_eq!(pair.effective_mass(), 2.0);
+    assert_eq!(pair.contact_modulus(), 4.0);
+}
+
+#[test]
+fn wall_leaves_the_sphere_as_it_is() {
+    let pair = Pair::new(Partner::Wall, sphere(0.1, 0.3, 7e10)).unwrap();
+    assert_eq!(pair.effective_radius(), 0.1);
+    assert_eq!(pair.effective_mass(), 0.3);
+    assert_eq!(pair.contact_modulus(), 7e10);
+}
+
+#[test]
+fn mass_of_a_sphere() {
+    // Archimedes: two thirds of the cylinder π/4 D² × D.
+    let cylinder = std::f64::consts::FRAC_PI_4 * 27.0 * 2.0;
+    assert!((sphere_mass(3.0, 2.0) - 2.0 / 3.0 * cylinder).abs() < 1e-14);
+}
+
+#[test]
+fn impossible_partners_are_refused_by_name() {
+    assert_eq!(
+        Pair::new(Partner::Wall, Partner::Wall),
+        Err(LawError::TwoWalls)
+    );
+    for bad in [0.0, -1.0, f64::INFINITY] {
+        for (partner, quantity) in [
+            (sphere(bad, 1.0, 1.0), "radius"),
+            (sphere(1.0, bad, 1.0), "mass"),
+            (sphere(1.0, 1.0, bad), "plane_strain_modulus"),
+        ] {
+            let expected = LawError::NotPositive {
+                quantity,
+                value: bad,
+            };
+            assert_eq!(Pair::new(partner, Partner::Wall), Err(expected.clone()));
+            assert_eq!(Pair::new(sphere(1.0, 1.0, 1.0), partner), Err(expected));
+        }
+    }
+    assert!(Pair::new(sphere(f64::NAN, 1.0, 1.0), Partner::Wall).is_err());
+    assert!(Pair::new(Partner::Wall, sphere(1.0, f64::NAN, 1.0)).is_err());
+    assert!(Pair::new(Partner::Wall, sphere(1.0, 1.0, f64::NAN)).is_err());
+}

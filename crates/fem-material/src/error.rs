@@ -1,0 +1,109 @@
+//! What can be wrong with material data.
+
+use thiserror::Error;
+
+/// A material that cannot exist. Quantities carry the names that case files give them.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MaterialError {
+    /// Zero, negative, infinite or NaN where only a positive number has a meaning.
+    #[error("{quantity} must be positive and finite, found {value:?}")]
+    NotPositive {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Value found.
+        value: f64,
+    },
+
+    /// Negative, infinite or NaN where zero and positive numbers are allowed.
+    #[error("{quantity} must be zero or positive and finite, found {value:?}")]
+    Negative {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Value found.
+        value: f64,
+    },
+
+    /// Poisson's ratio at or beyond a limit of stability, or not a number.
+    #[error("poissons_ratio must lie in -1 < poissons_ratio < 0.5, found {value:?}")]
+    PoissonsRatio {
+        /// Value found.
+        value: f64,
+    },
+
+    /// Two moduli that no stable isotropic solid has together.
+    #[error(
+        "youngs_modulus {youngs_modulus:?} with {other} {other_value:?} implies poissons_ratio \
+         {implied:?}; -1 < poissons_ratio < 0.5 needs youngs_modulus < {limit:?}"
+    )]
+    ImpliedPoissonsRatio {
+        /// Young's modulus found.
+        youngs_modulus: f64,
+        /// Name of the other modulus.
+        other: &'static str,
+        /// Value of the other modulus.
+        other_value: f64,
+        /// Poisson's ratio that the two imply, rounded.
+        implied: f64,
+        /// Bound on Young's modulus that the other modulus sets.
+        limit: f64,
+    },
+
+    /// Fewer or more than two elastic constants.
+    #[error(
+        "exactly two of youngs_modulus, shear_modulus, bulk_modulus, poissons_ratio are needed, \
+         found {}",
+        listed(given)
+    )]
+    ModuliCount {
+        /// Names of those given.
+        given: Vec<&'static str>,
+    },
+
+    /// A relaxation table without terms.
+    #[error("relaxation needs at least one term, found none; leave it out for an elastic material")]
+    NoRelaxationTerms,
+
+    /// A relaxation weight that is negative, infinite or NaN.
+    #[error("relaxation term {index}: weight must be finite and at least 0, found {value:?}")]
+    RelaxationWeight {
+        /// Index of the term, from 0.
+        index: usize,
+        /// Weight found.
+        value: f64,
+    },
+
+    /// Weights that leave a negative equilibrium modulus.
+    #[error("relaxation weights must sum to at most 1, found {sum:?}")]
+    RelaxationWeightSum {
+        /// Sum found.
+        sum: f64,
+    },
+
+    /// A relaxation time that is zero, negative, infinite or NaN.
+    #[error(
+        "relaxation term {index}: relaxation_time must be positive and finite, found {value:?}"
+    )]
+    RelaxationTime {
+        /// Index of the term, from 0.
+        index: usize,
+        /// Relaxation time found, s.
+        value: f64,
+    },
+}
+
+/// `value` if it is positive and finite.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, MaterialError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(MaterialError::NotPositive { quantity, value })
+    }
+}
+
+fn listed(names: &[&str]) -> String {
+    if names.is_empty() {
+        "none".to_owned()
+    } else {
+        names.join(", ")
+    }
+}

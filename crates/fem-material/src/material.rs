@@ -1,0 +1,118 @@
+//! A density, instantaneous moduli and, if the material relaxes, a Prony series.
+//!
+//! ```math
+//! G(t) = G_0\, g(t), \qquad K(t) = K_0\, g(t) \text{ or } K_0, \qquad
+//! c_d = \sqrt{(K_0+\tfrac43 G_0)/\rho}, \quad c_s = \sqrt{G_0/\rho}
+//! ```
+//!
+//! A wave front travels at the speed of the instantaneous moduli. E(t) and ν(t) are formed from
+//! K(t) and G(t) by the elastic identities: what a test of any length t would read off the two
+//! relaxation functions, not the viscoelastic Poisson's ratio of a creep or relaxation test.
+
+use crate::elastic::{poissons_ratio, youngs_modulus};
+use crate::error::{MaterialError, positive};
+use crate::{ActsOn, ElasticModuli, PronySeries};
+
+/// A checked isotropic linear material, elastic or viscoelastic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    density: f64,
+    instantaneous: ElasticModuli,
+    relaxation: Option<PronySeries>,
+}
+
+impl Material {
+    /// From a density (kg/m³), instantaneous moduli and a relaxation; without one it is elastic.
+    ///
+    /// # Errors
+    /// A density that is not positive and finite.
+    pub fn new(
+        density: f64,
+        instantaneous: ElasticModuli,
+        relaxation: Option<PronySeries>,
+    ) -> Result<Self, MaterialError> {
+        Ok(Self {
+            density: positive("density", density)?,
+            instantaneous,
+            relaxation,
+        })
+    }
+
+    /// ρ, kg/m³.
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Moduli at the instant of straining.
+    pub fn instantaneous(&self) -> &ElasticModuli {
+        &self.instantaneous
+    }
+
+    /// The relaxation; `None` for an elastic material.
+    pub fn relaxation(&self) -> Option<&PronySeries> {
+        self.relaxation.as_ref()
+    }
+
+    /// G at `time` (s) after a step of strain.
+    pub fn shear_modulus_at(&self, time: f64) -> f64 {
+        self.instantaneous.shear_modulus() * self.shear_fraction(time)
+    }
+
+    /// K at `time` (s) after a step of strain.
+    pub fn bulk_modulus_at(&self, time: f64) -> f64 {
+        if self.bulk_relaxes() {
+            self.instantaneous.bulk_modulus() * self.shear_fraction(time)
+        } else {
+            self.instantaneous.bulk_modulus()
+        }
+    }
+
+    /// E of G(t) and K(t).
+    pub fn youngs_modulus_at(&self, time: f64) -> f64 {
+        if self.bulk_relaxes() {
+            self.instantaneous.youngs_modulus() * self.shear_fraction(time)
+        } else {
+            youngs_modulus(self.bulk_modulus_at(time), self.shear_modulus_at(time))
+        }
+    }
+
+    /// ν of G(t) and K(t): constant if both relax, rising towards 1/2 if only G does.
+    pub fn poissons_ratio_at(&self, time: f64) -> f64 {
+        if self.bulk_relaxes() {
+            self.instantaneous.poissons_ratio()
+        } else {
+            poissons_ratio(self.bulk_modulus_at(time), self.shear_modulus_at(time))
+        }
+    }
+
+    /// G∞: what is left of the shear modulus after all relaxation.
+    pub fn equilibrium_shear_modulus(&self) -> f64 {
+        let weight = self
+            .relaxation
+            .as_ref()
+            .map_or(1.0, PronySeries::equilibrium_weight);
+        self.instantaneous.shear_modulus() * weight
+    }
+
+    /// c_d, m/s.
+    pub fn dilatational_wave_speed(&self) -> f64 {
+        (self.instantaneous.p_wave_modulus() / self.density).sqrt()
+    }
+
+    /// c_s, m/s.
+    pub fn shear_wave_speed(&self) -> f64 {
+        (self.instantaneous.shear_modulus() / self.density).sqrt()
+    }
+
+    fn shear_fraction(&self, time: f64) -> f64 {
+        self.relaxation
+            .as_ref()
+            .map_or(1.0, |series| series.relaxation(time))
+    }
+
+    fn bulk_relaxes(&self) -> bool {
+        self.relaxation
+            .as_ref()
+            .is_some_and(|series| series.acts_on() == ActsOn::All)
+    }
+}

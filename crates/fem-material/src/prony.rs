@@ -1,0 +1,149 @@
+//! Relaxation as a Prony series: an equilibrium spring beside Maxwell elements.
+//!
+//! ```math
+//! g(t) = g_\infty + \sum_k g_k e^{-t/\tau_k}, \qquad g_\infty = 1 - \sum_k g_k,
+//! \qquad G(t) = G_0\, g(t)
+//! ```
+//!
+//! The weights g_k = G_k/G_0 refer to the instantaneous modulus. Non-negative weights and
+//! positive times make g completely monotonic, so no strain history gains energy.
+
+use crate::error::{MaterialError, positive};
+
+/// One Maxwell element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PronyTerm {
+    /// g_k = G_k/G_0, at least 0.
+    pub weight: f64,
+    /// τ_k, s.
+    pub relaxation_time: f64,
+}
+
+/// Which moduli relax.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ActsOn {
+    /// Shear and bulk modulus alike: Poisson's ratio stays constant.
+    All,
+    /// The shear modulus; the bulk modulus stays elastic.
+    Shear,
+}
+
+/// A checked relaxation function.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PronySeries {
+    terms: Vec<PronyTerm>,
+    acts_on: ActsOn,
+    equilibrium_weight: f64,
+}
+
+/// Weights such as ten times 0.1 sum to 1 only up to rounding.
+const WEIGHT_SUM_ROUNDING: f64 = 1e-12;
+
+impl PronySeries {
+    /// From at least one term; the weights sum to at most 1 (with 1e-12 for rounding).
+    ///
+    /// # Errors
+    /// No term, a negative or non-finite weight, a sum above 1, a relaxation time that is not
+    /// positive and finite.
+    pub fn new(terms: Vec<PronyTerm>, acts_on: ActsOn) -> Result<Self, MaterialError> {
+        if terms.is_empty() {
+            return Err(MaterialError::NoRelaxationTerms);
+        }
+        for (index, term) in terms.iter().enumerate() {
+            let PronyTerm {
+                weight,
+                relaxation_time,
+            } = *term;
+            if !(weight >= 0.0 && weight.is_finite()) {
+                return Err(MaterialError::RelaxationWeight {
+                    index,
+                    value: weight,
+                });
+            }
+            if !(relaxation_time > 0.0 && relaxation_time.is_finite()) {
+                return Err(MaterialError::RelaxationTime {
+                    index,
+                    value: relaxation_time,
+                });
+            }
+        }
+        let sum: f64 = terms.iter().map(|term| term.weight).sum();
+        if sum > 1.0 + WEIGHT_SUM_ROUNDING {
+            return Err(MaterialError::RelaxationWeightSum { sum });
+        }
+        Ok(Self {
+            terms,
+            acts_on,
+            equilibrium_weight: (1.0 - sum).max(0.0),
+        })
+    }
+
+    /// The three-parameter solid: a spring k₁ in series with a Kelvin element (spring k₂ beside
+    /// dashpot η), fig. 5 of Bordbar & Hyppänen (2007).
+    ///
+    /// The stress is common, the strains add: σ = k₁ε₁ = k₂ε₂ + ηε̇₂, ε = ε₁ + ε₂. Hold ε from
+    /// t = 0, when the dashpot has not moved (ε₂ = 0). Eliminating ε₁ leaves
+    ///
+    /// ```math
+    /// \eta\dot\varepsilon_2 + (k_1+k_2)\varepsilon_2 = k_1\varepsilon
+    /// \;\Rightarrow\; \varepsilon_2 = \frac{k_1\varepsilon}{k_1+k_2}\,(1-e^{-t/\tau}),
+    /// \quad \tau = \frac{\eta}{k_1+k_2},
+    /// ```
+    /// ```math
+    /// \frac{\sigma}{k_1\varepsilon} = 1-\frac{\varepsilon_2}{\varepsilon}
+    /// = \frac{k_2}{k_1+k_2} + \frac{k_1}{k_1+k_2}\,e^{-t/\tau}.
+    /// ```
+    ///
+    /// So k₁ is the instantaneous modulus, and one term has the weight k₁/(k₁+k₂). With k₂ = 0
+    /// it is Maxwell's fluid. Moduli in Pa, viscosity in Pa s (or any consistent set).
+    ///
+    /// # Errors
+    /// A series stiffness or viscosity that is not positive and finite, a Kelvin stiffness that
+    /// is negative or not finite.
+    pub fn three_parameter_solid(
+        series_stiffness: f64,
+        kelvin_stiffness: f64,
+        kelvin_viscosity: f64,
+        acts_on: ActsOn,
+    ) -> Result<Self, MaterialError> {
+        let series = positive("series_stiffness", series_stiffness)?;
+        let viscosity = positive("kelvin_viscosity", kelvin_viscosity)?;
+        if !(kelvin_stiffness >= 0.0 && kelvin_stiffness.is_finite()) {
+            return Err(MaterialError::Negative {
+                quantity: "kelvin_stiffness",
+                value: kelvin_stiffness,
+            });
+        }
+        let term = PronyTerm {
+            weight: series / (series + kelvin_stiffness),
+            relaxation_time: viscosity / (series + kelvin_stiffness),
+        };
+        Self::new(vec![term], acts_on)
+    }
+
+    /// g at `time` (s) after a step of strain; 1 at and before 0, up to the rounding of the sum.
+    pub fn relaxation(&self, time: f64) -> f64 {
+        let elapsed = if time < 0.0 { 0.0 } else { time };
+        let decaying: f64 = self
+            .terms
+            .iter()
+            .map(|term| term.weight * (-elapsed / term.relaxation_time).exp())
+            .sum();
+        self.equilibrium_weight + decaying
+    }
+
+    /// g∞, in 0 ..= 1.
+    pub fn equilibrium_weight(&self) -> f64 {
+        self.equilibrium_weight
+    }
+
+    /// The Maxwell elements, in the order given.
+    pub fn terms(&self) -> &[PronyTerm] {
+        &self.terms
+    }
+
+    /// Which moduli relax.
+    pub fn acts_on(&self) -> ActsOn {
+        self.acts_on
+    }
+}

@@ -1,0 +1,315 @@
+//! Prony series, the exact step, and materials that relax.
+
+use fem_material::{
+    ActsOn, ElasticModuli, Material, MaterialError, PronySeries, PronyTerm, RelaxationStep,
+};
+
+fn series(terms: &[(f64, f64)], acts_on: ActsOn) -> Result<PronySeries, MaterialError> {
+    let terms = terms
+        .iter()
+        .map(|&(weight, relaxation_time)| PronyTerm {
+            weight,
+            relaxation_time,
+        })
+        .collect();
+    PronySeries::new(terms, acts_on)
+}
+
+/// Three terms over four decades, and an equilibrium modulus of 0.2.
+fn three_terms() -> PronySeries {
+    series(&[(0.3, 1e-2), (0.4, 1.0), (0.1, 30.0)], ActsOn::Shear).unwrap()
+}
+
+/// Stress over G_0 at the end of a strain history, given by the strain at each of `times`.
+fn march(prony: &PronySeries, times: &[f64], strain: impl Fn(f64) -> f64) -> f64 {
+    let mut branches = vec![0.0; prony.terms().len()];
+    for pair in times.windows(2) {
+        let increment = strain(pair[1]) - strain(pair[0]);
+        for (q, term) in branches.iter_mut().zip(prony.terms()) {
+            let step = RelaxationStep::new(term.relaxation_time, pair[1] - pair[0]);
+            *q = step.advance(*q, increment);
+        }
+    }
+    let viscous: f64 = branches
+        .iter()
+        .zip(prony.terms())
+        .map(|(q, term)| term.weight * q)
+        .sum();
+    prony.equilibrium_weight() * strain(times[times.len() - 1]) + viscous
+}
+
+fn evenly(end: f64, n_steps: usize) -> Vec<f64> {
+    (0..=n_steps)
+        .map(|i| end * i as f64 / n_steps as f64)
+        .collect()
+}
+
+#[test]
+fn limits_of_the_relaxation_function() {
+    let prony = three_terms();
+    assert!((prony.equilibrium_weight() - 0.2).abs() < 1e-15);
+    assert!((prony.relaxation(0.0) - 1.0).abs() < 1e-15);
+    assert_eq!(prony.relaxation(-1.0), prony.relaxation(0.0));
+    assert_eq!(prony.relaxation(f64::INFINITY), prony.equilibrium_weight());
+    // Between the decades only the slower terms are left: the first leaves 0.3 e^{−30} = 3e-14.
+    assert!(
+        (prony.relaxation(0.3) - (0.2 + 0.4 * (-0.3f64).exp() + 0.1 * (-0.01f64).exp())).abs()
+            < 1e-13
+    );
+    let values: Vec<f64> = evenly(100.0, 1000)
+        .iter()
+        .map(|&t| prony.relaxation(t))
+        .collect();
+    assert!(values.windows(2).all(|pair| pair[1] < pair[0]));
+}
+
+/// ∫ g(t−s) ds = g∞ t + Σ g_k τ_k (1 − e^{−t/τ_k}) for a strain that grows as t: the step is
+/// exact for a constant rate, so steps of any length add up to it.
+#[test]
+fn ramp_equals_the_convolution_integral_for_any_steps() {
+    let prony = three_terms();
+    let end = 5.0f64;
+    let viscous: f64 = prony
+        .terms()
+        .iter()
+        .map(|term| -term.weight * term.relaxation_time * (-end / term.relaxation_time).exp_m1())
+        .sum();
+    let expected = prony.equilibrium_weight() * end + viscous;
+    for times in [
+        evenly(end, 1),
+        evenly(end, 7),
+        evenly(end, 1000),
+        vec![0.0, 1e-9, 0.2, 4.9, end],
+    ] {
+        // A thousand roundings of 1e-16.
+        assert!((march(&prony, &times, |t| t) - expected).abs() < 1e-13);
+    }
+}
+
+/// u = sin ωt gives q = ωτ/(1+ω²τ²) (cos ωt + ωτ sin ωt − e^{−t/τ}) in each branch. Chords of a
+/// sine are second order in the step.
+#[test]
+fn harmonic_converges_to_the_convolution_integral_at_second_order() {
+    let prony = three_terms();
+    let (omega, end) = (3.0f64, 2.5f64);
+    let viscous: f64 = prony
+        .terms()
+        .iter()
+        .map(
+            |&PronyTerm {
+                 weight,
+                 relaxation_time: tau,
+             }| {
+                let x = omega * tau;
+                let (sin, cos) = (omega * end).sin_cos();
+                weight * x / (1.0 + x * x) * (cos + x * sin - (-end / tau).exp())
+            },
+        )
+        .sum();
+    let expected = prony.equilibrium_weight() * (omega * end).sin() + viscous;
+    let error = |n| (march(&prony, &evenly(end, n), |t| (omega * t).sin()) - expected).abs();
+    // From 4,000 steps on, Δt is well below the shortest relaxation time (1e-2).
+    let order = (error(4000) / error(8000)).log2();
+    assert!((order - 2.0).abs() < 0.05, "order {order}");
+    // (ωΔt)²/12 at Δt = 3e-4.
+    assert!(error(8000) < 1e-7);
+}
+
+/// A strain put on within 1e-13 s and held relaxes as g(t): the step and the function agree.
+#[test]
+fn step_of_strain_relaxes_as_the_relaxation_function() {
+    let prony = three_terms();
+    for end in [1e-3, 0.1, 1.0, 50.0] {
+        let stress = march(&prony, &[0.0, 1e-13, 0.4 * end, end], |t| {
+            f64::from(t > 0.0)
+        });
+        // The loading takes 1e-13 of the shortest relaxation time 1e-2.
+        assert!((stress - prony.relaxation(end)).abs() < 1e-11);
+    }
+}
+
+#[test]
+fn step_is_accurate_over_24_decades() {
+    for exponent in -12..=12 {
+        let ratio = 10f64.powi(exponent);
+        let step = RelaxationStep::new(1.0, ratio);
+        // (1 − e^{−x})/x by its series up to 0.1, where 14 terms leave nothing; directly above.
+        let gain = if ratio < 0.5 {
+            let mut term = 1.0;
+            (1..=14).fold(0.0, |sum, n| {
+                let next = sum + term;
+                term *= -ratio / f64::from(n + 1);
+                next
+            })
+        } else {
+            (1.0 - (-ratio).exp()) / ratio
+        };
+        assert!(
+            (step.gain / gain - 1.0).abs() < 1e-13,
+            "Δt/τ = {ratio}: {}",
+            step.gain
+        );
+        assert!((step.decay - (1.0 - ratio * gain)).abs() < 1e-15);
+    }
+    assert_eq!(
+        RelaxationStep::new(f64::MAX, 1e-300),
+        RelaxationStep {
+            decay: 1.0,
+            gain: 1.0
+        }
+    );
+    assert_eq!(
+        RelaxationStep::new(f64::MIN_POSITIVE, 1e300),
+        RelaxationStep {
+            decay: 0.0,
+            gain: 0.0
+        }
+    );
+}
+
+/// The ODE of the Kelvin element, integrated by classical Runge–Kutta, knows nothing of Prony.
+#[test]
+fn three_parameter_solid_relaxes_as_its_ode() {
+    let (k1, k2, viscosity) = (3.0, 1.25, 0.7);
+    let prony = PronySeries::three_parameter_solid(k1, k2, viscosity, ActsOn::All).unwrap();
+    assert_eq!(prony.terms().len(), 1);
+    assert_eq!(prony.acts_on(), ActsOn::All);
+
+    let rate = |kelvin_strain: f64| (k1 * (1.0 - kelvin_strain) - k2 * kelvin_strain) / viscosity;
+    let (n_steps, dt) = (1000, 1e-3);
+    let mut kelvin_strain = 0.0;
+    for i in 0..=n_steps {
+        let stress = k1 * (1.0 - kelvin_strain);
+        let time = f64::from(i) * dt;
+        // Runge–Kutta's error (Δt/τ)⁴/120 is 1e-11 here.
+        assert!(
+            (stress / k1 - prony.relaxation(time)).abs() < 1e-10,
+            "t = {time}"
+        );
+        let a = rate(kelvin_strain);
+        let b = rate(kelvin_strain + 0.5 * dt * a);
+        let c = rate(kelvin_strain + 0.5 * dt * b);
+        let d = rate(kelvin_strain + dt * c);
+        kelvin_strain += dt / 6.0 * (a + 2.0 * b + 2.0 * c + d);
+    }
+}
+
+/// Without the Kelvin spring it is Maxwell's fluid; Table 1 of the paper with τ = η/k₁.
+#[test]
+fn three_parameter_solid_without_kelvin_spring_is_maxwells() {
+    let fluid = PronySeries::three_parameter_solid(2.53e10, 0.0, 2.53e10 * 1.676e-4, ActsOn::Shear)
+        .unwrap();
+    assert_eq!(fluid.equilibrium_weight(), 0.0);
+    assert!((fluid.terms()[0].relaxation_time / 1.676e-4 - 1.0).abs() < 1e-15);
+    let stiffness = |k1, k2, eta| PronySeries::three_parameter_solid(k1, k2, eta, ActsOn::All);
+    assert!(stiffness(0.0, 1.0, 1.0).is_err());
+    assert!(stiffness(1.0, -1.0, 1.0).is_err());
+    assert!(stiffness(1.0, f64::NAN, 1.0).is_err());
+    assert!(stiffness(1.0, 1.0, f64::INFINITY).is_err());
+}
+
+#[test]
+fn impossible_series_are_refused() {
+    let refused = |terms: &[(f64, f64)]| series(terms, ActsOn::All).unwrap_err();
+    assert_eq!(refused(&[]), MaterialError::NoRelaxationTerms);
+    assert_eq!(
+        refused(&[(0.1, 1.0), (-0.1, 1.0)]),
+        MaterialError::RelaxationWeight {
+            index: 1,
+            value: -0.1
+        }
+    );
+    assert_eq!(
+        refused(&[(0.1, 0.0)]),
+        MaterialError::RelaxationTime {
+            index: 0,
+            value: 0.0
+        }
+    );
+    assert_eq!(
+        refused(&[(0.75, 1.0), (0.5, 2.0)]),
+        MaterialError::RelaxationWeightSum { sum: 1.25 }
+    );
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(series(&[(bad, 1.0)], ActsOn::All).is_err());
+        assert!(series(&[(0.1, bad)], ActsOn::All).is_err());
+    }
+    // The rounding of a sum is forgiven, a real excess is not.
+    let rounded = series(&[(1.0 + 5e-13, 1.0)], ActsOn::All).unwrap();
+    assert_eq!(rounded.equilibrium_weight(), 0.0);
+    assert!(series(&[(1.0 + 2e-12, 1.0)], ActsOn::All).is_err());
+}
+
+fn glass(relaxation: Option<PronySeries>) -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    Material::new(2390.0, moduli, relaxation).unwrap()
+}
+
+#[test]
+fn elastic_material_does_not_relax() {
+    let material = glass(None);
+    let moduli = *material.instantaneous();
+    for time in [0.0, 1.0, f64::INFINITY] {
+        assert_eq!(material.shear_modulus_at(time), moduli.shear_modulus());
+        assert_eq!(material.bulk_modulus_at(time), moduli.bulk_modulus());
+        assert_eq!(material.youngs_modulus_at(time), moduli.youngs_modulus());
+        assert_eq!(material.poissons_ratio_at(time), moduli.poissons_ratio());
+    }
+    assert_eq!(material.equilibrium_shear_modulus(), moduli.shear_modulus());
+}
+
+#[test]
+fn poissons_ratio_is_constant_when_all_relaxes() {
+    let material = glass(Some(series(&[(1.0, 1.0 / 2708.0)], ActsOn::All).unwrap()));
+    let moduli = *material.instantaneous();
+    for time in [0.0, 3e-5, 1e-3, f64::INFINITY] {
+        let g = (-2708.0 * time).exp();
+        // One or two roundings each.
+        assert!((material.shear_modulus_at(time) - g * moduli.shear_modulus()).abs() < 1e-4);
+        assert!((material.bulk_modulus_at(time) - g * moduli.bulk_modulus()).abs() < 1e-4);
+        assert!((material.youngs_modulus_at(time) - g * 63e9).abs() < 1e-4);
+        assert_eq!(material.poissons_ratio_at(time), moduli.poissons_ratio());
+    }
+    assert_eq!(material.equilibrium_shear_modulus(), 0.0);
+}
+
+#[test]
+fn poissons_ratio_rises_to_one_half_when_shear_alone_relaxes() {
+    let material = glass(Some(series(&[(1.0, 1.0 / 2708.0)], ActsOn::Shear).unwrap()));
+    let bulk_modulus = material.instantaneous().bulk_modulus();
+    assert!((material.poissons_ratio_at(0.0) - 0.244).abs() < 1e-15);
+    assert_eq!(material.poissons_ratio_at(f64::INFINITY), 0.5);
+    assert_eq!(material.youngs_modulus_at(f64::INFINITY), 0.0);
+    for time in [0.0, 3e-5, 1e-3] {
+        assert_eq!(material.bulk_modulus_at(time), bulk_modulus);
+        let (e, nu) = (
+            material.youngs_modulus_at(time),
+            material.poissons_ratio_at(time),
+        );
+        // The elastic identities, up to rounding.
+        assert!((e / (3.0 * bulk_modulus * (1.0 - 2.0 * nu)) - 1.0).abs() < 1e-13);
+        assert!((e / (2.0 * material.shear_modulus_at(time) * (1.0 + nu)) - 1.0).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn equilibrium_shear_modulus_is_the_limit() {
+    let material = glass(Some(three_terms()));
+    let limit = material.shear_modulus_at(f64::INFINITY);
+    assert_eq!(material.equilibrium_shear_modulus(), limit);
+    assert!((limit / material.instantaneous().shear_modulus() - 0.2).abs() < 1e-15);
+}
+
+#[test]
+fn impossible_density_is_refused() {
+    let moduli = *glass(None).instantaneous();
+    for density in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(
+            Material::new(density, moduli, None),
+            Err(MaterialError::NotPositive {
+                quantity: "density",
+                ..
+            })
+        ));
+    }
+}

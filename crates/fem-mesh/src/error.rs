@@ -1,0 +1,47 @@
+//! What can be wrong with the description of a mesh, or with a mesh.
+
+use thiserror::Error;
+
+/// Why a sphere could not be meshed or a mesh not be taken.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MeshError {
+    /// A length that must be positive and finite is not.
+    #[error("{name} is {value} m; it must be positive and finite")]
+    Length {
+        /// Which length.
+        name: &'static str,
+        /// Its value, m.
+        value: f64,
+    },
+    /// The elements at the contact are too large to describe the sphere.
+    #[error(
+        "contact element size {size} m is too large for a sphere of radius {radius} m; \
+         at most a quarter of the radius, {} m, is allowed", radius / 4.0
+    )]
+    ElementSize {
+        /// Element size asked for, m.
+        size: f64,
+        /// Radius of the sphere, m.
+        radius: f64,
+    },
+    /// The uniformly fine block does not fit into the sphere.
+    #[error(
+        "refined radius {refined_radius} m is too large for a sphere of radius {radius} m; \
+         at most its half, {} m, is allowed", radius / 2.0
+    )]
+    RefinedRadius {
+        /// Half-width of the fine block, m.
+        refined_radius: f64,
+        /// Radius of the sphere, m.
+        radius: f64,
+    },
+    /// Successive rings cannot grow by this factor.
+    #[error("growth {0} is not allowed; it must lie above 1 and not above 2")]
+    Growth(f64),
+    /// The mesh would have more nodes than indices.
+    #[error("the mesh would have {0} elements; at most {max} can be numbered", max = u32::MAX / 2)]
+    TooLarge(f64),
+    /// A foreign mesh is not a half disc in the place that is asked for.
+    #[error("{0}")]
+    Import(String),
+}

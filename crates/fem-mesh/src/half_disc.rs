@@ -1,0 +1,238 @@
+//! The graded half disc.
+//!
+//! The half disc of radius R, contact pole at z = 0, is the image of the
+//! quarter plane Re ζ ≥ 0, Im ζ ≥ 0 under the conformal map
+//!
+//! ```math
+//! z = \frac{2 R \zeta}{1 + \zeta}, \qquad z = (\text{depth}) + i\,r .
+//! ```
+//!
+//! The real axis becomes the axis of the sphere, the imaginary axis its
+//! surface, ζ = ∞ the far pole, and ζ → 1/ζ turns the sphere end for end. So a
+//! mesh of the quarter plane that grows geometrically from ζ = 0 becomes a mesh
+//! of the half disc whose cells keep their angles, whose size is in proportion
+//! to the distance from the contact, and whose boundary nodes lie on the true
+//! arc:
+//!
+//! * a block of m × m cells of equal size at ζ = 0, its free corner drawn in;
+//! * rings of 2 m cells, radii in geometric progression;
+//! * the image of such a block around ζ = ∞.
+//!
+//! Between the blocks the angular and (logarithmic) radial deviation of a
+//! block's outline from a circle fades as a power of the radius.
+
+use crate::{MeshError, SphereMesh};
+
+/// Parameters of the graded half disc; lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfDisc {
+    /// Radius of the sphere.
+    pub radius: f64,
+    /// Edge length of the elements at the contact pole.
+    pub contact_element_size: f64,
+    /// Half-width of the block of equal elements at the contact pole.
+    pub refined_radius: f64,
+    /// Ratio of the radii of successive rings; `None` for the one that makes
+    /// their cells square, 1 + π/(4 m).
+    pub growth: Option<f64>,
+}
+
+/// How far the free corner of a block is drawn in, so that the three cells
+/// that meet there have similar angles: the value of the best scaled Jacobian.
+const CORNER_DRAW: f64 = 0.1;
+/// Power of the radius with which a block's outline fades into circles. A true
+/// harmonic would fade with the fourth power (cos 4θ) and squeeze the rings at
+/// the block's corner; 1.5 keeps cells squarest (aspect ratio 1.4).
+const OUTLINE_DECAY: f64 = 1.5;
+/// |ζ| where the far block begins: half of the sphere lies on either side of 1.
+const FAR_BLOCK: f64 = 1.0;
+
+/// Counts and radii in the quarter plane.
+struct Layout {
+    /// Cells along a block's edge.
+    n_block: usize,
+    n_rings: usize,
+    /// Half-width of the near block in ζ.
+    near: f64,
+    /// Inverse half-width of the far block in ζ.
+    far: f64,
+}
+
+impl HalfDisc {
+    /// Number of elements that [`HalfDisc::build`] makes.
+    ///
+    /// # Errors
+    /// As [`HalfDisc::build`].
+    pub fn n_elements(&self) -> Result<usize, MeshError> {
+        let layout = self.layout()?;
+        Ok(2 * layout.n_block * layout.n_block + 2 * layout.n_block * layout.n_rings)
+    }
+
+    /// Makes the mesh, body in y ≥ 0, contact pole at the origin.
+    ///
+    /// # Errors
+    /// Lengths that are not positive and finite, elements or a fine block too
+    /// large for the sphere, a growth outside of (1, 2], more elements than
+    /// can be numbered.
+    pub fn build(&self) -> Result<SphereMesh, MeshError> {
+        let layout = self.layout()?;
+        let (m, n_rings) = (layout.n_block, layout.n_rings);
+        let mut nodes = Vec::new();
+        let mut quads = Vec::new();
+
+        // Near block: node (i, j), i along the axis, j along the surface.
+        let side = m + 1;
+        for i in 0..side {
+            for j in 0..side {
+                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
+                nodes.push(self.image([layout.near * x, layout.near * y]));
+            }
+        }
+        let near_block = |i: usize, j: usize| (i * side + j) as u32;
+        for i in 0..m {
+            for j in 0..m {
+                quads.push(quad(&near_block, i, j));
+            }
+        }
+
+        // Rings between the blocks; station k runs from the axis to the surface.
+        let first_ring = nodes.len();
+        for ring in 1..n_rings {
+            for k in 0..=2 * m {
+                nodes.push(self.image(layout.ring_point(ring, k)));
+            }
+        }
+        // Far block, in 1/ζ; its outline is the last ring.
+        let first_far = nodes.len();
+        for i in 0..side {
+            for j in 0..side {
+                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
+                nodes.push(self.far_image([x / layout.far, y / layout.far]));
+            }
+        }
+        let far_block = |i: usize, j: usize| (first_far + i * side + j) as u32;
+        let outline = |k: usize| if k <= m { (m, k) } else { (2 * m - k, m) };
+        let ring_node = |ring: usize, k: usize| {
+            let (i, j) = outline(k);
+            match ring {
+                0 => near_block(i, j),
+                _ if ring == n_rings => far_block(i, j),
+                _ => (first_ring + (ring - 1) * (2 * m + 1) + k) as u32,
+            }
+        };
+        for ring in 0..n_rings {
+            for k in 0..2 * m {
+                quads.push(quad(&ring_node, ring, k));
+            }
+        }
+        for i in 0..m {
+            for j in 0..m {
+                // ζ → 1/ζ turns the block around: keep the quads counter-clockwise.
+                let [a, b, c, d] = quad(&far_block, i, j);
+                quads.push([a, d, c, b]);
+            }
+        }
+
+        let axis = (0..=m)
+            .map(|i| near_block(i, 0))
+            .chain((1..n_rings).map(|ring| ring_node(ring, 0)))
+            .chain((0..=m).rev().map(|i| far_block(i, 0)))
+            .collect();
+        let surface = (0..=m)
+            .map(|j| near_block(0, j))
+            .chain((1..n_rings).map(|ring| ring_node(ring, 2 * m)))
+            .chain((0..=m).rev().map(|j| far_block(0, j)))
+            .collect();
+        Ok(SphereMesh::from_parts(self.radius, nodes, quads, axis, surface))
+    }
+
+    fn layout(&self) -> Result<Layout, MeshError> {
+        let &HalfDisc { radius, contact_element_size: size, refined_radius, growth } = self;
+        for (name, value) in [
+            ("radius", radius),
+            ("contact element size", size),
+            ("refined radius", refined_radius),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(MeshError::Length { name, value });
+            }
+        }
+        if size > radius / 4.0 {
+            return Err(MeshError::ElementSize { size, radius });
+        }
+        if refined_radius > radius / 2.0 * (1.0 + 1e-12) {
+            return Err(MeshError::RefinedRadius { refined_radius, radius });
+        }
+        if let Some(growth) = growth
+            && !(growth > 1.0 && growth <= 2.0)
+        {
+            return Err(MeshError::Growth(growth));
+        }
+        // A block of fewer than two cells a side has no free corner to draw in.
+        let m = (refined_radius / size * (1.0 - 1e-12)).ceil().max(2.0);
+        let near = m * size / (2.0 * radius);
+        let growth = growth.unwrap_or(1.0 + std::f64::consts::FRAC_PI_4 / m);
+        let far = FAR_BLOCK.max(near * growth);
+        let n_rings = ((far / near).ln() / growth.ln()).round().max(1.0);
+        let n_elements = 2.0 * m * (m + n_rings);
+        if n_elements > f64::from(u32::MAX / 2) {
+            return Err(MeshError::TooLarge(n_elements));
+        }
+        Ok(Layout { n_block: m as usize, n_rings: n_rings as usize, near, far })
+    }
+
+    /// (r, y) of ζ = x + i y.
+    fn image(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let scale = 2.0 * self.radius / ((1.0 + x) * (1.0 + x) + y * y);
+        [scale * y, scale * (x * (1.0 + x) + y * y)]
+    }
+
+    /// (r, y) of ζ with 1/ζ = x − i y.
+    fn far_image(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let scale = 2.0 * self.radius / ((1.0 + x) * (1.0 + x) + y * y);
+        [scale * y, scale * (1.0 + x)]
+    }
+}
+
+impl Layout {
+    /// ζ of station k (0 on the axis, 2 m on the surface) of an inner ring.
+    fn ring_point(&self, ring: usize, k: usize) -> [f64; 2] {
+        let m = self.n_block;
+        let length = (self.far / self.near).ln();
+        let x = length * ring as f64 / self.n_rings as f64;
+        let circle_angle = std::f64::consts::FRAC_PI_4 * k as f64 / m as f64;
+        let [bx, by] = if k <= m {
+            block_point(1.0, k as f64 / m as f64)
+        } else {
+            block_point((2 * m - k) as f64 / m as f64, 1.0)
+        };
+        let outline_angle = by.atan2(bx) - circle_angle;
+        let outline_log_radius = bx.hypot(by).ln();
+        // sinh(p (L − x)) / sinh(p L): 1 at x = 0, 0 at x = L, e^{−p x} between.
+        let fade = |x: f64| {
+            let p = OUTLINE_DECAY;
+            (-p * x).exp() * (-2.0 * p * (length - x)).exp_m1() / (-2.0 * p * length).exp_m1()
+        };
+        let (near_share, far_share) = (fade(x), fade(length - x));
+        let radius = self.near * (x + (near_share - far_share) * outline_log_radius).exp();
+        let angle = circle_angle + (near_share + far_share) * outline_angle;
+        match k {
+            0 => [radius, 0.0],
+            _ if k == 2 * m => [0.0, radius],
+            _ => [radius * angle.cos(), radius * angle.sin()],
+        }
+    }
+}
+
+/// The unit block with its free corner drawn in; its two fixed edges and their
+/// spacing stay as they are.
+fn block_point(u: f64, v: f64) -> [f64; 2] {
+    let draw = 1.0 - CORNER_DRAW * u * u * v * v;
+    [u * draw, v * draw]
+}
+
+/// Counter-clockwise quad (in r, y) between rows i, i+1 (toward the far pole)
+/// and columns j, j+1 (toward the surface).
+fn quad(node: &impl Fn(usize, usize) -> u32, i: usize, j: usize) -> [u32; 4] {
+    [node(i, j), node(i, j + 1), node(i + 1, j + 1), node(i + 1, j)]
+}

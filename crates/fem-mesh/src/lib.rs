@@ -1,0 +1,25 @@
+//! Graded axisymmetric quadrilateral meshes of spheres.
+//!
+//! A sphere is meshed through its meridian half disc in coordinates (r, y):
+//! r radial, y along the axis of revolution. Every mesh of this crate has its
+//! contact pole at the origin, the sphere's centre on the axis, and knows two
+//! boundary curves: the axis and the surface, both ordered from the contact
+//! pole to the far pole.
+//!
+//! * [`HalfDisc`]: the graded mesh, fine at the contact pole;
+//! * [`SphereMesh::import`]: the same from foreign nodes and quads, checked;
+//! * [`SphereMesh`]: nodes, quads, boundary curves and tributary measures;
+//! * [`Quality`]: the figures that tell a good mesh from a bad one.
+
+mod error;
+mod half_disc;
+mod import;
+mod measures;
+mod quality;
+mod sphere_mesh;
+
+pub use error::MeshError;
+pub use half_disc::HalfDisc;
+pub use measures::{cap_volume, segment_measures, sphere_volume};
+pub use quality::Quality;
+pub use sphere_mesh::{Side, SphereMesh};

@@ -1,0 +1,36 @@
+//! Measures of revolved curves and caps.
+
+use std::f64::consts::PI;
+
+/// Shares of the two ends of a straight segment in the area that it sweeps
+/// about the axis, ∫ N 2π r ds with linear N, in m².
+///
+/// Exact: 2π l (2 r_i + r_j) / 6. The shares sum to the lateral area of the
+/// cone, and they are the loads at the nodes under unit pressure.
+pub fn segment_measures(start: [f64; 2], end: [f64; 2]) -> [f64; 2] {
+    let length = (end[0] - start[0]).hypot(end[1] - start[1]);
+    let share = PI * length / 3.0;
+    [share * (2.0 * start[0] + end[0]), share * (start[0] + 2.0 * end[0])]
+}
+
+/// Volume of a sphere, m³.
+pub fn sphere_volume(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * radius.powi(3)
+}
+
+/// Volume between an arc of the circle of the given radius and its chord,
+/// swept about the axis, in m³. Both ends lie on the circle, the centre on the
+/// axis.
+///
+/// With the chord's half angle φ and the distance r̄ of the segment's centroid
+/// from the axis, Pappus gives V = 2π r̄ A, where A = R² (φ − sin φ cos φ) and
+/// the centroid lies at (2/3) R³ sin³φ / A from the centre, in the direction of
+/// the arc's middle. Hence V = (4π/3) R³ sin³φ · cos(latitude of the middle).
+pub fn cap_volume(start: [f64; 2], end: [f64; 2], radius: f64) -> f64 {
+    let [dr, dy] = [end[0] - start[0], end[1] - start[1]];
+    let chord = dr.hypot(dy);
+    let sin_half_angle = (chord / (2.0 * radius)).min(1.0);
+    // The middle's direction is the chord's normal; its radial part is |dy| / chord.
+    let radial = if chord > 0.0 { dy.abs() / chord } else { 0.0 };
+    4.0 / 3.0 * PI * (radius * sin_half_angle).powi(3) * radial
+}

@@ -1,0 +1,180 @@
+//! The graded half disc: geometry, grading, volume, extremes of size.
+
+use fem_mesh::{HalfDisc, MeshError, Quality, Side, SphereMesh, cap_volume, segment_measures, sphere_volume};
+
+fn glass(size: f64) -> HalfDisc {
+    HalfDisc { radius: 11.1e-3, contact_element_size: size, refined_radius: 0.3e-3, growth: None }
+}
+
+/// Volume of the straight-sided quads by the shoelace form of ∫ 2π r dA.
+fn meshed_volume(mesh: &SphereMesh) -> f64 {
+    let mut volume = 0.0;
+    for element in 0..mesh.quads().len() {
+        let corners = mesh.corners(element);
+        for a in 0..4 {
+            let ([r0, y0], [r1, y1]) = (corners[a], corners[(a + 1) % 4]);
+            volume += std::f64::consts::PI / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (y1 - y0);
+        }
+    }
+    volume
+}
+
+#[test]
+fn boundary_nodes_lie_on_the_true_arc_and_the_axis() {
+    let mesh = glass(30e-6).build().unwrap();
+    let radius = mesh.radius();
+    for &node in mesh.surface() {
+        let [r, y] = mesh.nodes()[node as usize];
+        // Rounding of a few operations on numbers of the radius' size.
+        assert!((r.hypot(y - radius) / radius - 1.0).abs() < 1e-14);
+    }
+    assert!(mesh.axis().iter().all(|&node| mesh.nodes()[node as usize][0] == 0.0));
+    let n_axis = mesh.nodes().iter().filter(|p| p[0] == 0.0).count();
+    assert_eq!(n_axis, mesh.axis().len());
+    assert_eq!(mesh.nodes()[mesh.surface()[0] as usize], [0.0, 0.0]);
+    let far_pole = mesh.nodes()[*mesh.surface().last().unwrap() as usize];
+    assert!((far_pole[1] / (2.0 * radius) - 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn elements_at_the_contact_have_the_size_asked_for() {
+    let mesh = glass(30e-6).build().unwrap();
+    let r = |k: usize| mesh.nodes()[mesh.surface()[k] as usize][0];
+    // The map stretches by 1/(1 + η²): 2e-4 over the block of ten cells.
+    for k in 0..10 {
+        assert!(((r(k + 1) - r(k)) / 30e-6 - 1.0).abs() < 1e-3);
+    }
+    assert_eq!(mesh.quads().len(), glass(30e-6).n_elements().unwrap());
+}
+
+#[test]
+fn cells_keep_their_shape_and_grow_slowly() {
+    for size in [60e-6, 30e-6, 15e-6] {
+        let quality = Quality::of(&glass(size).build().unwrap());
+        // sin 60° = 0.87 at best: the three cells that meet at a block's free corner share 360°.
+        assert!(quality.min_scaled_jacobian > 0.82, "{quality:?}");
+        assert!(quality.max_aspect_ratio < 1.6, "{quality:?}");
+    }
+}
+
+#[test]
+fn quads_and_caps_make_the_exact_sphere() {
+    for side in [Side::Above, Side::Below] {
+        let mesh = glass(60e-6).build().unwrap().on_side(side);
+        assert_eq!(mesh.side(), side);
+        let caps: f64 = mesh
+            .surface()
+            .windows(2)
+            .map(|pair| {
+                let [p, q] = [pair[0], pair[1]].map(|node| mesh.nodes()[node as usize]);
+                cap_volume(p, q, mesh.radius())
+            })
+            .sum();
+        let exact = sphere_volume(mesh.radius());
+        let quads = meshed_volume(&mesh);
+        assert!(quads < exact * 0.9999, "the chords cut nothing off");
+        // Rounding of a sum over the elements.
+        assert!(((quads + caps) / exact - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn surface_measures_sum_to_the_lateral_area() {
+    // Cone from r = 1 to r = 3 with slant √(4 + 9): area π (1 + 3) √13.
+    let [inner, outer] = segment_measures([1.0, 0.0], [3.0, 3.0]);
+    let area = std::f64::consts::PI * 4.0 * 13f64.sqrt();
+    assert!(((inner + outer) / area - 1.0).abs() < 1e-15);
+    // A disc's centre node takes π h²/3, not the quarter share π h²/4.
+    let [centre, rim] = segment_measures([0.0, 0.0], [1.0, 0.0]);
+    assert!((centre * 3.0 / std::f64::consts::PI - 1.0).abs() < 1e-15);
+    assert!((rim / centre - 2.0).abs() < 1e-15);
+}
+
+#[test]
+fn spheres_of_all_sizes_mesh() {
+    for radius in [0.5e-6_f64, 1e-3, 5.0, 1e6] {
+        for fraction in [0.25, 0.05, 1e-3, 1e-7] {
+            let size = radius * fraction;
+            let refined_radius = (12.0 * size).min(radius / 2.0);
+            let mesh = HalfDisc { radius, contact_element_size: size, refined_radius, growth: None };
+            let mesh = mesh.build().unwrap();
+            let quality = Quality::of(&mesh);
+            assert!(quality.min_scaled_jacobian > 0.5, "{radius} {fraction} {quality:?}");
+            assert!(quality.max_aspect_ratio < 3.0, "{radius} {fraction} {quality:?}");
+            // The map shrinks cells away from the pole by up to (1 + 1/4)².
+            assert!(quality.min_edge / size > 0.35, "{radius} {fraction} {quality:?}");
+        }
+    }
+}
+
+#[test]
+fn faster_growth_takes_fewer_elements() {
+    let growth = |growth| HalfDisc { growth, ..glass(30e-6) }.n_elements().unwrap();
+    assert!(growth(Some(1.2)) < growth(None));
+    assert!(growth(Some(1.05)) > growth(None));
+}
+
+#[test]
+fn impossible_parameters_are_refused() {
+    let sphere = glass(30e-6);
+    let error = |mesh: HalfDisc| mesh.build().unwrap_err();
+    assert!(matches!(error(HalfDisc { radius: -1.0, ..sphere }), MeshError::Length { .. }));
+    assert!(matches!(error(HalfDisc { radius: f64::NAN, ..sphere }), MeshError::Length { .. }));
+    assert!(matches!(error(glass(0.0)), MeshError::Length { .. }));
+    assert!(matches!(error(glass(3e-3)), MeshError::ElementSize { .. }));
+    assert!(matches!(
+        error(HalfDisc { refined_radius: 8e-3, ..sphere }),
+        MeshError::RefinedRadius { .. }
+    ));
+    assert!(matches!(error(HalfDisc { growth: Some(1.0), ..sphere }), MeshError::Growth(_)));
+    assert!(matches!(error(glass(1e-12)), MeshError::TooLarge(_)));
+}
+
+#[test]
+fn an_exported_mesh_comes_back_the_same() {
+    for side in [Side::Above, Side::Below] {
+        let mesh = glass(60e-6).build().unwrap().on_side(side);
+        let imported =
+            SphereMesh::import(mesh.radius(), mesh.nodes().to_vec(), mesh.quads().to_vec()).unwrap();
+        assert_eq!(imported, mesh);
+    }
+}
+
+#[test]
+fn foreign_meshes_are_repaired_or_refused() {
+    let mesh = glass(60e-6).build().unwrap();
+    let (nodes, quads) = (mesh.nodes().to_vec(), mesh.quads().to_vec());
+    let import = |nodes: &[[f64; 2]], quads: &[[u32; 4]]| {
+        SphereMesh::import(mesh.radius(), nodes.to_vec(), quads.to_vec())
+    };
+
+    let rounded: Vec<_> = nodes.iter().map(|p| p.map(|x| f64::from(x as f32))).collect();
+    let clockwise: Vec<_> = quads.iter().map(|&[a, b, c, d]| [d, c, b, a]).collect();
+    let repaired = import(&rounded, &clockwise).unwrap();
+    assert_eq!(repaired.surface(), mesh.surface());
+    for &node in repaired.surface() {
+        let [r, y] = repaired.nodes()[node as usize];
+        assert!((r.hypot(y - mesh.radius()) / mesh.radius() - 1.0).abs() < 1e-14);
+    }
+
+    let message = |nodes: &[[f64; 2]], quads: &[[u32; 4]]| import(nodes, quads).unwrap_err().to_string();
+    assert!(message(&nodes, &[]).contains("no quadrilaterals"));
+    assert!(message(&nodes, &quads[..10]).contains("belongs to no element"));
+    assert!(message(&nodes[..10], &quads).contains("the mesh has 10 nodes"));
+    let shifted: Vec<_> = nodes.iter().map(|p| [p[0], p[1] + 1e-3]).collect();
+    assert!(message(&shifted, &quads).contains("contact pole must be at y = 0"));
+    let scaled: Vec<_> = nodes.iter().map(|p| p.map(|x| 1.01 * x)).collect();
+    assert!(message(&scaled, &quads).contains("the sphere's diameter"));
+    let mut dented = nodes.clone();
+    dented[mesh.surface()[20] as usize][0] *= 0.99;
+    assert!(message(&dented, &quads).contains("from the sphere's centre"));
+    let mut inverted = nodes.clone();
+    inverted[(quads[0][2]) as usize] = [25e-6, 25e-6];
+    assert!(message(&inverted, &quads).contains("degenerate or inverted"));
+    let mut not_finite = nodes.clone();
+    not_finite[7][1] = f64::NAN;
+    assert!(message(&not_finite, &quads).contains("node 7"));
+    let mut doubled = quads.clone();
+    doubled.push(quads[3]);
+    assert!(message(&nodes, &doubled).contains("two elements on the same side"));
+}

@@ -1,0 +1,2 @@
+//! The fem-run command: how do two viscoelastic spheres collide?.
+fn main() {}

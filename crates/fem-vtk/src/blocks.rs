@@ -1,0 +1,164 @@
+//! The block format of an array's bytes: `vtkZLibDataCompressor`, and its uncompressed sibling.
+//!
+//! Compressed: a header of integers `[n_blocks, block_size, last_size, compressed_size...]`, then
+//! the zlib streams back to back. `last_size` is 0 when the last block is full (VTK) or
+//! `block_size` (meshio). Uncompressed: a header `[n_bytes]`, then the bytes. Integers are
+//! `UInt64` here when written, `UInt32` or `UInt64` when read.
+
+use std::io::{Read, Write};
+
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
+
+/// Uncompressed bytes a block, as VTK's writer has it. A multiple of every number size: meshio
+/// turns each block into numbers on its own.
+pub(crate) const BLOCK_SIZE: usize = 32768;
+
+/// VTK's default level.
+const LEVEL: u32 = 5;
+
+/// zlib cannot shrink by more than this (Technical Details, zlib.net: 1032 to 1).
+const LARGEST_RATIO: usize = 1032;
+
+/// The two parts of a compressed array; base64 encodes each on its own.
+pub(crate) struct Compressed {
+    pub(crate) header: Vec<u8>,
+    pub(crate) blocks: Vec<u8>,
+}
+
+/// Compresses bytes block by block. The same bytes give the same result.
+pub(crate) fn compress(bytes: &[u8]) -> std::io::Result<Compressed> {
+    let n_blocks = bytes.len().div_ceil(BLOCK_SIZE);
+    let mut header = Vec::with_capacity(8 * (3 + n_blocks));
+    for value in [n_blocks, BLOCK_SIZE, bytes.len() % BLOCK_SIZE] {
+        header.extend((value as u64).to_le_bytes());
+    }
+    let mut blocks = Vec::new();
+    for block in bytes.chunks(BLOCK_SIZE) {
+        let start = blocks.len();
+        let mut encoder = ZlibEncoder::new(&mut blocks, Compression::new(LEVEL));
+        encoder.write_all(block)?;
+        encoder.finish()?;
+        header.extend(((blocks.len() - start) as u64).to_le_bytes());
+    }
+    Ok(Compressed { header, blocks })
+}
+
+/// What a header of `[n_blocks, block_size, last_size]` promises.
+pub(crate) struct Layout {
+    pub(crate) n_blocks: usize,
+    block_size: usize,
+    last_size: usize,
+}
+
+impl Layout {
+    /// `None` if the sizes contradict each other or overflow.
+    pub(crate) fn new(n_blocks: usize, block_size: usize, last_size: usize) -> Option<Self> {
+        let last_size = if last_size == 0 {
+            block_size
+        } else {
+            last_size
+        };
+        let sound = n_blocks == 0 || (block_size > 0 && last_size <= block_size);
+        let layout = Self {
+            n_blocks,
+            block_size,
+            last_size,
+        };
+        (sound && n_blocks.checked_mul(block_size).is_some()).then_some(layout)
+    }
+
+    /// Bytes before compression.
+    pub(crate) fn n_bytes(&self) -> usize {
+        match self.n_blocks {
+            0 => 0,
+            n_blocks => (n_blocks - 1) * self.block_size + self.last_size,
+        }
+    }
+
+    /// Decompresses the blocks; `None` if one is not zlib data of the promised size. Memory grows
+    /// with what the streams yield, never with what the header promises.
+    pub(crate) fn decompress(&self, mut blocks: &[u8], sizes: &[usize]) -> Option<Vec<u8>> {
+        if self.n_bytes() / LARGEST_RATIO > blocks.len() {
+            return None;
+        }
+        let mut bytes = Vec::new();
+        for (index, &size) in sizes.iter().enumerate() {
+            let last = index + 1 == self.n_blocks;
+            let expected = if last {
+                self.last_size
+            } else {
+                self.block_size
+            };
+            let (block, rest) = blocks.split_at_checked(size)?;
+            blocks = rest;
+            let before = bytes.len();
+            let limit = u64::try_from(expected).ok()?.checked_add(1)?;
+            ZlibDecoder::new(block)
+                .take(limit)
+                .read_to_end(&mut bytes)
+                .ok()?;
+            if bytes.len() - before != expected {
+                return None;
+            }
+        }
+        Some(bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn header_numbers(header: &[u8]) -> Vec<usize> {
+        let (numbers, _) = header.as_chunks::<8>();
+        numbers
+            .iter()
+            .map(|&bytes| u64::from_le_bytes(bytes) as usize)
+            .collect()
+    }
+
+    #[test]
+    fn lengths_around_the_block_size_come_back() {
+        let cases = [
+            (1, 1, 1),
+            (BLOCK_SIZE - 1, 1, BLOCK_SIZE - 1),
+            (BLOCK_SIZE, 1, 0),
+            (BLOCK_SIZE + 1, 2, 1),
+            (3 * BLOCK_SIZE, 3, 0),
+        ];
+        for (length, n_blocks, last_size) in cases {
+            let bytes: Vec<u8> = (0..length).map(|k| (k * k % 251) as u8).collect();
+            let compressed = compress(&bytes).unwrap();
+            let header = header_numbers(&compressed.header);
+            assert_eq!(header[..3], [n_blocks, BLOCK_SIZE, last_size]);
+            assert_eq!(header[3..].iter().sum::<usize>(), compressed.blocks.len());
+            let layout = Layout::new(header[0], header[1], header[2]).unwrap();
+            assert_eq!(layout.n_bytes(), length);
+            assert_eq!(
+                layout.decompress(&compressed.blocks, &header[3..]).unwrap(),
+                bytes
+            );
+        }
+    }
+
+    #[test]
+    fn a_full_last_block_may_carry_its_size_as_meshio_writes_it() {
+        let layout = Layout::new(2, BLOCK_SIZE, BLOCK_SIZE).unwrap();
+        assert_eq!(layout.n_bytes(), 2 * BLOCK_SIZE);
+    }
+
+    #[test]
+    fn sizes_that_contradict_are_refused() {
+        assert!(Layout::new(1, 0, 0).is_none());
+        assert!(Layout::new(1, 8, 9).is_none());
+        assert!(Layout::new(usize::MAX, 32768, 1).is_none());
+        let compressed = compress(&[7; 100]).unwrap();
+        let sizes = [compressed.blocks.len()];
+        for wrong in [99, 101] {
+            let layout = Layout::new(1, BLOCK_SIZE, wrong).unwrap();
+            assert!(layout.decompress(&compressed.blocks, &sizes).is_none());
+        }
+    }
+}

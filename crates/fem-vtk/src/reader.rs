@@ -1,0 +1,399 @@
+//! Quadrilateral meshes and named arrays out of a `.vtu`.
+
+use std::path::{Path, PathBuf};
+
+use crate::decode::{decode, place};
+use crate::document::{ArrayEntry, Document, Fault};
+use crate::section::Section;
+use crate::values::{Numbers, first_not_finite};
+use crate::{Error, VTK_QUAD};
+
+/// Points and quadrilaterals of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuadMesh {
+    /// Coordinates, all finite.
+    pub points: Vec<[f64; 3]>,
+    /// Point numbers from 0, all below `points.len()`, in the order of the file.
+    pub quads: Vec<[u32; 4]>,
+}
+
+/// A data array of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadArray {
+    /// Values a tuple, at least 1.
+    pub components: usize,
+    /// All values, tuple after tuple; floats are finite.
+    pub values: Numbers,
+}
+
+impl ReadArray {
+    /// The values, if the file has them as floats.
+    pub fn as_float(&self) -> Option<&[f64]> {
+        match &self.values {
+            Numbers::Float(values) => Some(values),
+            Numbers::Integer(_) => None,
+        }
+    }
+
+    /// The values, if the file has them as integers.
+    pub fn as_integer(&self) -> Option<&[i64]> {
+        match &self.values {
+            Numbers::Integer(values) => Some(values),
+            Numbers::Float(_) => None,
+        }
+    }
+}
+
+/// Reads points and quadrilaterals of a `.vtu`; `VtuFile` reads data arrays as well.
+///
+/// # Errors
+///
+/// As [`VtuFile::open`] and [`VtuFile::quad_mesh`].
+pub fn read_quad_mesh(path: impl AsRef<Path>) -> Result<QuadMesh, Error> {
+    VtuFile::open(path)?.quad_mesh()
+}
+
+/// A `.vtu` in memory; arrays are decoded when asked for.
+///
+/// Accepted: one piece; ascii, inline base64, appended base64 or raw; zlib blocks or uncompressed;
+/// headers of 32 or 64 bits; every VTK number type; little-endian.
+#[derive(Debug)]
+pub struct VtuFile {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    document: Document,
+}
+
+impl VtuFile {
+    /// Reads the file and parses its XML.
+    ///
+    /// # Errors
+    ///
+    /// The file system; XML that is broken or ends early; a VTK file of another kind, byte order
+    /// or compressor; not exactly one piece.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let bytes = std::fs::read(path).map_err(|source| Error::Io {
+            path: path.to_path_buf(),
+            source,
+        })?;
+        Self::from_bytes(path, bytes)
+    }
+
+    /// As [`VtuFile::open`], of bytes at hand; `path` only names them in errors.
+    ///
+    /// # Errors
+    ///
+    /// As [`VtuFile::open`].
+    pub fn from_bytes(path: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Self, Error> {
+        let path = path.as_ref().to_path_buf();
+        match Document::parse(&bytes) {
+            Ok(document) => Ok(Self {
+                path,
+                bytes,
+                document,
+            }),
+            Err(fault) => Err(malformed(&path, fault)),
+        }
+    }
+
+    /// Points and cells.
+    ///
+    /// # Errors
+    ///
+    /// No points or cells; points that are not three finite coordinates; a cell that is not a
+    /// `VTK_QUAD` (its number and type are named); a point number out of range; damaged data.
+    pub fn quad_mesh(&self) -> Result<QuadMesh, Error> {
+        let Document {
+            n_points, n_cells, ..
+        } = self.document;
+        if n_points == 0 || n_cells == 0 {
+            return Err(self.fault(
+                "Piece",
+                format!("{n_points} points, {n_cells} cells"),
+                "at least one of each",
+            ));
+        }
+        let points = self.read_points()?;
+        self.check_types()?;
+        self.check_offsets()?;
+        let connectivity = self.read_integers("connectivity")?;
+        self.check_length(
+            "Cells array \"connectivity\"",
+            connectivity.len(),
+            n_cells,
+            4,
+        )?;
+        let (cells, _) = connectivity.as_chunks::<4>();
+        let mut quads = Vec::with_capacity(cells.len());
+        for (cell, corners) in cells.iter().enumerate() {
+            let mut quad = [0; 4];
+            for (corner, &point) in corners.iter().enumerate() {
+                let in_range = usize::try_from(point).is_ok_and(|point| point < n_points);
+                quad[corner] = u32::try_from(point)
+                    .ok()
+                    .filter(|_| in_range)
+                    .ok_or_else(|| {
+                        let found = format!("point {point} at corner {corner} of cell {cell}");
+                        self.fault(
+                            "Cells array \"connectivity\"",
+                            found,
+                            format!("0 to {}", n_points - 1),
+                        )
+                    })?;
+            }
+            quads.push(quad);
+        }
+        Ok(QuadMesh { points, quads })
+    }
+
+    /// Point data: `n_points` tuples.
+    ///
+    /// # Errors
+    ///
+    /// No such array, damaged data, a wrong length, an infinity or NaN.
+    pub fn point_data(&self, name: &str) -> Result<ReadArray, Error> {
+        self.read_sized(Section::PointData, name, self.document.n_points)
+    }
+
+    /// Cell data: `n_cells` tuples.
+    ///
+    /// # Errors
+    ///
+    /// No such array, damaged data, a wrong length, an infinity or NaN.
+    pub fn cell_data(&self, name: &str) -> Result<ReadArray, Error> {
+        self.read_sized(Section::CellData, name, self.document.n_cells)
+    }
+
+    /// An array of the file as a whole, such as `TimeValue`.
+    ///
+    /// # Errors
+    ///
+    /// No such array, damaged data, an incomplete tuple, an infinity or NaN.
+    pub fn field_data(&self, name: &str) -> Result<ReadArray, Error> {
+        let entry = self.find(Section::FieldData, name)?;
+        let array = self.read_entry(entry)?;
+        if !array.values.len().is_multiple_of(array.components) {
+            let found = format!("{} values", array.values.len());
+            return Err(self.fault(
+                place(entry),
+                found,
+                format!("a multiple of {}", array.components),
+            ));
+        }
+        Ok(array)
+    }
+
+    /// The names of the point data, in the order of the file.
+    pub fn point_data_names(&self) -> impl Iterator<Item = &str> {
+        self.names(Section::PointData)
+    }
+
+    /// The names of the cell data, in the order of the file.
+    pub fn cell_data_names(&self) -> impl Iterator<Item = &str> {
+        self.names(Section::CellData)
+    }
+
+    fn names(&self, section: Section) -> impl Iterator<Item = &str> {
+        let arrays = self.document.arrays.iter();
+        arrays
+            .filter(move |entry| entry.section == section)
+            .map(|entry| entry.name.as_str())
+    }
+
+    fn read_points(&self) -> Result<Vec<[f64; 3]>, Error> {
+        let mut arrays = self
+            .document
+            .arrays
+            .iter()
+            .filter(|entry| entry.section == Section::Points);
+        let (Some(entry), None) = (arrays.next(), arrays.next()) else {
+            return Err(self.fault("Points", "none or several arrays", "one DataArray"));
+        };
+        let array = self.read_entry(entry)?;
+        let place = place(entry);
+        match &array.values {
+            Numbers::Float(values) if array.components == 3 => {
+                self.check_length(&place, values.len(), self.document.n_points, 3)?;
+                Ok(values.as_chunks().0.to_vec())
+            }
+            _ => {
+                let found = format!(
+                    "{} components of type {}",
+                    array.components, entry.scalar_type
+                );
+                Err(self.fault(place, found, "3 components of type Float32 or Float64"))
+            }
+        }
+    }
+
+    fn check_types(&self) -> Result<(), Error> {
+        let types = self.read_integers("types")?;
+        self.check_length(
+            "Cells array \"types\"",
+            types.len(),
+            self.document.n_cells,
+            1,
+        )?;
+        match types.iter().position(|&kind| kind != i64::from(VTK_QUAD)) {
+            None => Ok(()),
+            Some(cell) => {
+                let found = format!("cell {cell} of type {}", cell_type_name(types[cell]));
+                Err(self.fault(
+                    "Cells array \"types\"",
+                    found,
+                    "only four-node quadrilaterals (9, VTK_QUAD)",
+                ))
+            }
+        }
+    }
+
+    fn check_offsets(&self) -> Result<(), Error> {
+        let offsets = self.read_integers("offsets")?;
+        self.check_length(
+            "Cells array \"offsets\"",
+            offsets.len(),
+            self.document.n_cells,
+            1,
+        )?;
+        match (4..)
+            .step_by(4)
+            .zip(&offsets)
+            .position(|(expected, &offset)| offset != expected)
+        {
+            None => Ok(()),
+            Some(cell) => {
+                let found = format!("{} at cell {cell}", offsets[cell]);
+                Err(self.fault(
+                    "Cells array \"offsets\"",
+                    found,
+                    "4, 8, 12, ... for quadrilaterals",
+                ))
+            }
+        }
+    }
+
+    fn read_integers(&self, name: &str) -> Result<Vec<i64>, Error> {
+        let entry = self.find(Section::Cells, name)?;
+        match self.read_entry(entry)?.values {
+            Numbers::Integer(values) => Ok(values),
+            Numbers::Float(_) => Err(self.fault(
+                place(entry),
+                format!("type {}", entry.scalar_type),
+                "integers",
+            )),
+        }
+    }
+
+    fn read_sized(
+        &self,
+        section: Section,
+        name: &str,
+        n_tuples: usize,
+    ) -> Result<ReadArray, Error> {
+        let entry = self.find(section, name)?;
+        let array = self.read_entry(entry)?;
+        self.check_length(
+            &place(entry),
+            array.values.len(),
+            n_tuples,
+            array.components,
+        )?;
+        Ok(array)
+    }
+
+    fn find(&self, section: Section, name: &str) -> Result<&ArrayEntry, Error> {
+        let arrays = &self.document.arrays;
+        arrays
+            .iter()
+            .find(|entry| entry.section == section && entry.name == name)
+            .ok_or_else(|| {
+                let available: Vec<&str> = self.names(section).collect();
+                let available = if available.is_empty() {
+                    "none".to_owned()
+                } else {
+                    available.join(", ")
+                };
+                Error::MissingArray {
+                    path: self.path.clone(),
+                    section: section.name(),
+                    name: name.to_owned(),
+                    available,
+                }
+            })
+    }
+
+    fn read_entry(&self, entry: &ArrayEntry) -> Result<ReadArray, Error> {
+        let (components, values) = decode(&self.bytes, &self.document, entry)
+            .map_err(|fault| malformed(&self.path, fault))?;
+        if let Numbers::Float(floats) = &values
+            && let Some((index, value)) = first_not_finite(floats)
+        {
+            let found = format!(
+                "{value} at index {} (component {})",
+                index / components,
+                index % components
+            );
+            return Err(self.fault(place(entry), found, "finite numbers"));
+        }
+        Ok(ReadArray { components, values })
+    }
+
+    fn check_length(
+        &self,
+        place: &str,
+        found: usize,
+        tuples: usize,
+        components: usize,
+    ) -> Result<(), Error> {
+        if tuples.checked_mul(components) == Some(found) {
+            return Ok(());
+        }
+        Err(self.fault(
+            place,
+            format!("{found} values"),
+            format!("{tuples} tuples x {components} components"),
+        ))
+    }
+
+    fn fault(
+        &self,
+        place: impl Into<String>,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Error {
+        malformed(&self.path, Fault::new(place, found, allowed))
+    }
+}
+
+fn malformed(path: &Path, fault: Fault) -> Error {
+    let Fault {
+        place,
+        found,
+        allowed,
+    } = fault;
+    Error::Malformed {
+        path: path.to_path_buf(),
+        place,
+        found,
+        allowed,
+    }
+}
+
+/// The types a mesh of faces, edges and corners usually has.
+fn cell_type_name(kind: i64) -> String {
+    let name = match kind {
+        1 => "VTK_VERTEX",
+        3 => "VTK_LINE",
+        5 => "VTK_TRIANGLE",
+        7 => "VTK_POLYGON",
+        8 => "VTK_PIXEL",
+        10 => "VTK_TETRA",
+        12 => "VTK_HEXAHEDRON",
+        22 => "VTK_QUADRATIC_TRIANGLE",
+        23 => "VTK_QUADRATIC_QUAD",
+        28 => "VTK_BIQUADRATIC_QUAD",
+        _ => return kind.to_string(),
+    };
+    format!("{kind} ({name})")
+}

@@ -1,0 +1,132 @@
+//! Numbers on their way into a file ([`Values`], borrowed) and out of one ([`Numbers`], owned).
+
+use crate::scalar_type::ScalarType;
+
+/// Borrowed numbers to write, tuple after tuple; made from a slice by `into`.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Values<'a> {
+    /// `f64`
+    Float64(&'a [f64]),
+    /// `u8`
+    UInt8(&'a [u8]),
+    /// `i32`
+    Int32(&'a [i32]),
+    /// `u32`
+    UInt32(&'a [u32]),
+    /// `i64`
+    Int64(&'a [i64]),
+}
+
+macro_rules! values_from {
+    ($($variant:ident($number:ty)),*) => {$(
+        impl<'a> From<&'a [$number]> for Values<'a> {
+            fn from(values: &'a [$number]) -> Self {
+                Self::$variant(values)
+            }
+        }
+        impl<'a> From<&'a Vec<$number>> for Values<'a> {
+            fn from(values: &'a Vec<$number>) -> Self {
+                Self::$variant(values)
+            }
+        }
+        impl<'a, const N: usize> From<&'a [$number; N]> for Values<'a> {
+            fn from(values: &'a [$number; N]) -> Self {
+                Self::$variant(values)
+            }
+        }
+    )*};
+}
+
+values_from!(Float64(f64), UInt8(u8), Int32(i32), UInt32(u32), Int64(i64));
+
+impl Values<'_> {
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Float64(values) => values.len(),
+            Self::UInt8(values) => values.len(),
+            Self::Int32(values) => values.len(),
+            Self::UInt32(values) => values.len(),
+            Self::Int64(values) => values.len(),
+        }
+    }
+
+    pub(crate) fn scalar_type(&self) -> ScalarType {
+        match self {
+            Self::Float64(_) => ScalarType::Float64,
+            Self::UInt8(_) => ScalarType::UInt8,
+            Self::Int32(_) => ScalarType::Int32,
+            Self::UInt32(_) => ScalarType::UInt32,
+            Self::Int64(_) => ScalarType::Int64,
+        }
+    }
+
+    /// Index and value of the first infinity or NaN.
+    pub(crate) fn first_not_finite(&self) -> Option<(usize, f64)> {
+        match self {
+            Self::Float64(values) => first_not_finite(values),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn to_le_bytes(self) -> Vec<u8> {
+        match self {
+            Self::Float64(values) => values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect(),
+            Self::UInt8(values) => values.to_vec(),
+            Self::Int32(values) => values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect(),
+            Self::UInt32(values) => values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect(),
+            Self::Int64(values) => values
+                .iter()
+                .flat_map(|value| value.to_le_bytes())
+                .collect(),
+        }
+    }
+}
+
+/// Numbers read from a file, widened without loss.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Numbers {
+    /// From `Float32` or `Float64`.
+    Float(Vec<f64>),
+    /// From any integer type.
+    Integer(Vec<i64>),
+}
+
+impl Numbers {
+    /// The number of values: tuples times components.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Float(values) => values.len(),
+            Self::Integer(values) => values.len(),
+        }
+    }
+
+    /// Whether there is no value.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Index and value of the first infinity or NaN.
+pub(crate) fn first_not_finite(values: &[f64]) -> Option<(usize, f64)> {
+    values
+        .iter()
+        .copied()
+        .enumerate()
+        .find(|(_, value)| !value.is_finite())
+}
+
+/// `(r, y)` pairs as the `(r, y, 0)` triples that readers need; a last odd value is left out.
+pub fn pad_vectors(pairs: &[f64]) -> Vec<f64> {
+    let (pairs, _) = pairs.as_chunks::<2>();
+    pairs.iter().flat_map(|&[r, y]| [r, y, 0.0]).collect()
+}

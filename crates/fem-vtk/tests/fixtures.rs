@@ -1,0 +1,158 @@
+//! Files of VTK's own writer and of meshio (`fixtures/make_fixtures.py`) come in as they are.
+
+use std::path::PathBuf;
+
+use fem_vtk::{Error, VtuFile, read_quad_mesh};
+
+/// All hold the mesh of `make_fixtures.py`; with the number type of its floats.
+const WHOLE: [&str; 12] = [
+    "vtk_ascii.vtu",
+    "vtk_inline_plain_u32.vtu",
+    "vtk_inline_zlib_u64.vtu",
+    "vtk_appended_base64_zlib_u32.vtu",
+    "vtk_appended_base64_plain_u64.vtu",
+    "vtk_appended_raw_zlib_u64.vtu",
+    "vtk_appended_raw_zlib_many_blocks.vtu",
+    "vtk_appended_raw_plain_f32.vtu",
+    "meshio_ascii.vtu",
+    "meshio_plain.vtu",
+    "meshio_zlib.vtu",
+    "meshio_zlib_u64.vtu",
+];
+
+fn fixture(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures")
+        .join(name)
+}
+
+#[test]
+fn every_encoding_gives_the_same_mesh_and_data() {
+    let points: Vec<[f64; 3]> = (0..12)
+        .map(|k| [0.5 * f64::from(k % 4), 0.25 * f64::from(k / 4) - 1.0, 0.0])
+        .collect();
+    let quads = [0, 1, 2, 4, 5, 6].map(|k| [k, k + 1, k + 5, k + 4]);
+    let temperature: Vec<f64> = (0..12).map(|k| 0.5 * f64::from(k) - 1.0).collect();
+    let vector: Vec<f64> = (0..12)
+        .flat_map(|k| [f64::from(k), -f64::from(k), 0.25])
+        .collect();
+    for name in WHOLE {
+        let file = VtuFile::open(fixture(name)).unwrap();
+        let mesh = file.quad_mesh().unwrap();
+        assert_eq!(mesh.points, points, "{name}");
+        assert_eq!(mesh.quads, quads, "{name}");
+        assert_eq!(
+            file.point_data_names().collect::<Vec<_>>(),
+            ["temperature", "vector"],
+            "{name}"
+        );
+        assert_eq!(
+            file.point_data("temperature").unwrap().as_float(),
+            Some(&temperature[..]),
+            "{name}"
+        );
+        let read = file.point_data("vector").unwrap();
+        assert_eq!(
+            (read.components, read.as_float()),
+            (3, Some(&vector[..])),
+            "{name}"
+        );
+        assert_eq!(
+            file.cell_data("body").unwrap().as_integer(),
+            Some(&[0, 1, 0, 1, 0, 1][..]),
+            "{name}"
+        );
+        if name.starts_with("vtk") {
+            assert_eq!(
+                file.field_data("TimeValue").unwrap().as_float(),
+                Some(&[0.125][..]),
+                "{name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn one_quadrilateral_has_one_byte_of_types() {
+    let mesh = read_quad_mesh(fixture("vtk_one_quad_plain_u32.vtu")).unwrap();
+    assert_eq!(mesh.quads, [[0, 1, 5, 4]]);
+}
+
+#[test]
+fn triangles_are_refused_by_number_and_name() {
+    let message = read_quad_mesh(fixture("vtk_triangle.vtu"))
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("vtk_triangle.vtu"), "{message}");
+    assert!(
+        message.contains("cell 1 of type 5 (VTK_TRIANGLE)"),
+        "{message}"
+    );
+    assert!(message.contains("VTK_QUAD"), "{message}");
+}
+
+#[test]
+fn another_compressor_is_refused_with_the_remedy() {
+    let message = read_quad_mesh(fixture("vtk_appended_lz4.vtu"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("vtkLZ4DataCompressor") && message.contains("vtkZLibDataCompressor"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_missing_array_is_named_with_those_that_are_there() {
+    let file = VtuFile::open(fixture("meshio_zlib.vtu")).unwrap();
+    let error = file.point_data("pressure").unwrap_err();
+    assert!(matches!(error, Error::MissingArray { .. }));
+    let message = error.to_string();
+    assert!(
+        message.contains("pressure") && message.contains("temperature, vector"),
+        "{message}"
+    );
+}
+
+#[test]
+fn every_truncation_is_an_error() {
+    for name in WHOLE {
+        let bytes = std::fs::read(fixture(name)).unwrap();
+        let whole = bytes.trim_ascii_end().len();
+        for length in 0..whole {
+            assert!(
+                VtuFile::from_bytes(name, bytes[..length].to_vec()).is_err(),
+                "{name} cut at {length}"
+            );
+        }
+    }
+}
+
+/// Reads everything; only a panic would fail.
+fn read_all(bytes: Vec<u8>) -> Result<(), Error> {
+    let file = VtuFile::from_bytes("damaged.vtu", bytes)?;
+    let mesh = file.quad_mesh();
+    let names: Vec<&str> = file.point_data_names().collect();
+    for name in names {
+        file.point_data(name)?;
+    }
+    file.cell_data("body")?;
+    mesh.map(|_| ())
+}
+
+#[test]
+fn no_damaged_byte_panics() {
+    for name in WHOLE {
+        let bytes = std::fs::read(fixture(name)).unwrap();
+        for position in 0..bytes.len() {
+            for flip in [0x01, 0x80, 0xff] {
+                let mut damaged = bytes.clone();
+                damaged[position] ^= flip;
+                let _ = read_all(damaged);
+            }
+            let mut shorter = bytes.clone();
+            shorter.remove(position);
+            let _ = read_all(shorter);
+        }
+    }
+}

@@ -1,0 +1,307 @@
+//! Files whose numbers lie: an error that says where, no panic, no memory for what is not there.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use fem_vtk::{Error, VtuFile};
+
+const POINTS: &str = "0 0 0 1 0 0 1 1 0 0 1 0";
+
+/// A square in ascii with replaceable parts.
+fn square(piece: &str, points: &str, connectivity: &str, offsets: &str, types: &str) -> String {
+    format!(
+        r#"<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece {piece}>
+        <Points><DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">{points}</DataArray></Points>
+        <Cells><DataArray type="Int32" Name="connectivity" format="ascii">{connectivity}</DataArray>
+        <DataArray type="Int32" Name="offsets" format="ascii">{offsets}</DataArray>
+        <DataArray type="UInt8" Name="types" format="ascii">{types}</DataArray></Cells>
+        </Piece></UnstructuredGrid></VTKFile>"#
+    )
+}
+
+fn ascii(points: &str, connectivity: &str, offsets: &str, types: &str) -> String {
+    square(
+        "NumberOfPoints=\"4\" NumberOfCells=\"1\"",
+        points,
+        connectivity,
+        offsets,
+        types,
+    )
+}
+
+fn message(text: &str) -> String {
+    let file = VtuFile::from_bytes("lie.vtu", text.as_bytes().to_vec());
+    let error = file
+        .and_then(|file| file.quad_mesh())
+        .expect_err("a refusal");
+    assert!(
+        matches!(error, Error::Malformed { .. } | Error::MissingArray { .. }),
+        "{error:?}"
+    );
+    let message = error.to_string();
+    assert!(message.starts_with("lie.vtu: "), "{message}");
+    message
+}
+
+#[track_caller]
+fn refuse(text: &str, words: &str) {
+    let message = message(text);
+    assert!(message.contains(words), "{message}\nlacks: {words}");
+}
+
+#[test]
+fn the_square_itself_is_read() {
+    let bytes = ascii(POINTS, "0 1 2 3", "4", "9").into_bytes();
+    assert_eq!(
+        VtuFile::from_bytes("square.vtu", bytes)
+            .unwrap()
+            .quad_mesh()
+            .unwrap()
+            .quads,
+        [[0, 1, 2, 3]]
+    );
+}
+
+#[test]
+fn wrong_numbers_in_the_mesh() {
+    refuse(
+        &ascii("0 0 0 1 0 0 1 1 0 0 1", "0 1 2 3", "4", "9"),
+        "found 11 values; allowed: 4 tuples x 3",
+    );
+    refuse(
+        &ascii("0 0 0 1 0 0 1 1 0 0 nan 0", "0 1 2 3", "4", "9"),
+        "NaN at index 3 (component 1)",
+    );
+    refuse(
+        &ascii("0 0 0 1 0 0 1 1 0 0 x 0", "0 1 2 3", "4", "9"),
+        "found \"x\"; allowed: numbers of type Float64",
+    );
+    refuse(
+        &ascii(POINTS, "0 1 2 4", "4", "9"),
+        "point 4 at corner 3 of cell 0; allowed: 0 to 3",
+    );
+    refuse(&ascii(POINTS, "0 1 -2 3", "4", "9"), "point -2 at corner 2");
+    refuse(
+        &ascii(POINTS, "0 1 2", "4", "9"),
+        "found 3 values; allowed: 1 tuples x 4",
+    );
+    refuse(
+        &ascii(POINTS, "0 1 2 3", "3", "9"),
+        "found 3 at cell 0; allowed: 4, 8, 12",
+    );
+    refuse(
+        &ascii(POINTS, "0 1 2 3", "4 8", "9"),
+        "found 2 values; allowed: 1 tuples",
+    );
+    refuse(
+        &ascii(POINTS, "0 1 2 3", "4", "23"),
+        "type 23 (VTK_QUADRATIC_QUAD)",
+    );
+    refuse(&ascii(POINTS, "0 1 2 3", "4", ""), "found 0 values");
+}
+
+#[test]
+fn offsets_that_leave_gaps_and_data_in_pieces() {
+    refuse(&ascii(POINTS, "0 1 2 3", "5", "9"), "found 5 at cell 0");
+    let pieces = POINTS.replacen(' ', " <!-- first point --> ", 1);
+    refuse(
+        &ascii(&pieces, "0 1 2 3", "4", "9"),
+        "data in several pieces",
+    );
+}
+
+#[test]
+fn wrong_counts() {
+    let count = |piece: &str| square(piece, POINTS, "0 1 2 3", "4", "9");
+    refuse(
+        &count("NumberOfPoints=\"0\" NumberOfCells=\"0\""),
+        "found 0 points, 0 cells",
+    );
+    refuse(
+        &count("NumberOfPoints=\"-4\" NumberOfCells=\"1\""),
+        "NumberOfPoints \"-4\"",
+    );
+    refuse(&count("NumberOfPoints=\"4\""), "NumberOfCells \"\"");
+    let largest = usize::MAX;
+    refuse(
+        &count(&format!("NumberOfPoints=\"{largest}\" NumberOfCells=\"1\"")),
+        "found 12 values",
+    );
+    refuse(
+        &count(&format!("NumberOfPoints=\"4\" NumberOfCells=\"{largest}\"")),
+        "found 1 values",
+    );
+}
+
+#[test]
+fn other_files() {
+    let square = ascii(POINTS, "0 1 2 3", "4", "9");
+    refuse("", "no VTKFile element");
+    refuse("# vtk DataFile Version 5.1\nASCII\n", "no VTKFile element");
+    refuse("<html></html>", "root element html");
+    refuse("<VTKFile type=\"PolyData\"/>", "type \"PolyData\"");
+    refuse(
+        "<VTKFile type=\"UnstructuredGrid\"/>",
+        "no VTKFile element with a Piece",
+    );
+    refuse(
+        &square.replace("LittleEndian", "BigEndian"),
+        "byte_order \"BigEndian\"",
+    );
+    refuse(
+        &square.replace("<VTKFile", "<VTKFile header_type=\"UInt16\""),
+        "header_type \"UInt16\"",
+    );
+    refuse(&square.replace("Int32", "Int31"), "type \"Int31\"");
+    refuse(
+        &square.replace("\"connectivity\"", "\"other\""),
+        "no array \"connectivity\"; it has: other, offsets, types",
+    );
+    refuse(&square.replace("ascii", "morse"), "format \"morse\"");
+    refuse(&square.replace("ascii", "appended"), "AppendedData element");
+    refuse(
+        &square.replace("NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""),
+        "NumberOfComponents \"0\"",
+    );
+    refuse(
+        &square.replace("NumberOfComponents=\"3\"", ""),
+        "1 components of type Float64",
+    );
+    refuse(
+        &square.replace(
+            "</Piece>",
+            "</Piece><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"/>",
+        ),
+        "2 pieces",
+    );
+    refuse(&square.replace("<Cells>", "<Cells"), "broken XML");
+    refuse(&square.replace("0 1 2 3", "0 1 &lt; 3"), "XML references");
+    refuse(
+        &square.replace("</UnstructuredGrid></VTKFile>", ""),
+        "still open",
+    );
+}
+
+/// The square with its points in base64; `attributes` go to the root.
+fn binary(attributes: &str, points: &[u8]) -> String {
+    ascii(&STANDARD.encode(points), "0 1 2 3", "4", "9")
+        .replacen("ascii", "binary", 1)
+        .replace("<VTKFile", &format!("<VTKFile {attributes}"))
+}
+
+fn header(numbers: &[u64]) -> Vec<u8> {
+    numbers
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect()
+}
+
+#[test]
+fn headers_that_promise_too_much() {
+    let wide = "header_type=\"UInt64\"";
+    for n_bytes in [1, 96, 1 << 40, u64::MAX] {
+        refuse(&binary(wide, &header(&[n_bytes])), "truncated");
+    }
+    refuse(&binary(wide, &[1, 2, 3]), "truncated");
+    refuse(&binary(wide, &[]), "truncated");
+
+    let zlib = "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
+    for n_blocks in [1, 1 << 20, 1 << 60, u64::MAX] {
+        refuse(&binary(zlib, &header(&[n_blocks, 32768, 0])), "truncated");
+    }
+    refuse(
+        &binary(zlib, &header(&[1, 32768, 96, u64::MAX])),
+        "truncated",
+    );
+    refuse(
+        &binary(zlib, &header(&[2, 32768, 96, u64::MAX, u64::MAX])),
+        "truncated",
+    );
+    refuse(&binary(zlib, &header(&[0, 0, 0])), "found 0 values");
+}
+
+/// As VTK encodes it: header and blocks each padded.
+fn zlib_points(numbers: &[u64], blocks: &[u8]) -> String {
+    let text = STANDARD.encode(header(numbers)) + &STANDARD.encode(blocks);
+    ascii(&text, "0 1 2 3", "4", "9")
+        .replacen("ascii", "binary", 1)
+        .replace(
+            "<VTKFile",
+            "<VTKFile header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"",
+        )
+}
+
+#[test]
+fn blocks_that_are_not_what_the_header_says() {
+    use std::io::Write;
+    let deflate = |bytes: &[u8]| {
+        let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+        encoder.write_all(bytes).unwrap();
+        encoder.finish().unwrap()
+    };
+    let sound: Vec<u8> = POINTS
+        .split(' ')
+        .flat_map(|word| word.parse::<f64>().unwrap().to_le_bytes())
+        .collect();
+    let block = deflate(&sound);
+    let size = block.len() as u64;
+    let file = VtuFile::from_bytes(
+        "sound.vtu",
+        zlib_points(&[1, 32768, 96, size], &block).into_bytes(),
+    )
+    .unwrap();
+    assert_eq!(file.quad_mesh().unwrap().points[2], [1.0, 1.0, 0.0]);
+
+    for (block_size, last_size) in [
+        (0, 0),
+        (32768, 0),
+        (32768, 95),
+        (32768, 97),
+        (64, 96),
+        (1 << 62, 1 << 61),
+    ] {
+        refuse(
+            &zlib_points(&[1, block_size, last_size, size], &block),
+            "damaged zlib",
+        );
+    }
+    refuse(
+        &zlib_points(&[1, 32768, 96, size], &vec![7; block.len()]),
+        "damaged zlib",
+    );
+    refuse(
+        &zlib_points(&[1, 32768, 96, size - 1], &block),
+        "damaged zlib",
+    );
+}
+
+#[test]
+fn broken_base64_and_offsets() {
+    let short = binary("header_type=\"UInt64\"", &[0; 7]);
+    assert!(
+        short.contains("AAAAAAAAAA=="),
+        "seven bytes fill the characters of a header"
+    );
+    refuse(&short, "truncated");
+    let base64 = binary("header_type=\"UInt64\"", &header(&[96]));
+    refuse(&base64.replacen("YAAA", "Y!AA", 1), "broken base64");
+    let appended =
+        ascii("", "0 1 2 3", "4", "9").replacen("\"ascii\"", "\"appended\" offset=\"9\"", 1);
+    let close = |data: &str| {
+        appended.replace(
+            "</VTKFile>",
+            &format!("<AppendedData encoding=\"raw\">{data}</AppendedData></VTKFile>"),
+        )
+    };
+    refuse(&close("_12345678"), "offset \"9\"; allowed: 0 to 8");
+    refuse(&close("_123456789"), "truncated");
+    refuse(&close("12345678"), "no _ before the data");
+    refuse(
+        &close("_12345678").replace("\"raw\"", "\"hex\""),
+        "encoding \"hex\"",
+    );
+    refuse(&close("_12345678").replace("</VTKFile>", ""), "truncated");
+    refuse(
+        &close("_12345678").replace("</AppendedData>", ""),
+        "truncated",
+    );
+}
