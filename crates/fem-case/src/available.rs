@@ -20,15 +20,7 @@ const EFFECTS: &[&str] = &[];
 
 /// The model that `[model]` chooses; absent, explicit finite elements.
 pub(crate) fn model(document: &Document, table: Option<&ModelTable>) -> Result<Model, CaseError> {
-    let Some(ModelTable {
-        fem,
-        condensed,
-        ting,
-        hertz,
-        law,
-        auto,
-    }) = table
-    else {
+    let Some(ModelTable { fem, condensed, ting, hertz, law, auto }) = table else {
         return Ok(Model::default());
     };
     let given = [
@@ -39,11 +31,7 @@ pub(crate) fn model(document: &Document, table: Option<&ModelTable>) -> Result<M
         ("law", law.is_some()),
         ("auto", auto.is_some()),
     ];
-    let given: Vec<_> = given
-        .iter()
-        .filter(|(_, is_given)| *is_given)
-        .map(|(n, _)| *n)
-        .collect();
+    let given: Vec<_> = given.iter().filter(|(_, is_given)| *is_given).map(|(n, _)| *n).collect();
     match given.as_slice() {
         ["fem"] => Ok(Model::Fem),
         [other] => Err(document
@@ -55,12 +43,15 @@ pub(crate) fn model(document: &Document, table: Option<&ModelTable>) -> Result<M
         [] => Err(document
             .error_at("model", "model names no model")
             .with_help("write fem = {}, or leave [model] out")),
-        [.., last] => Err(document
-            .error_at(
-                &join("model", last),
-                format!("model has the keys {}", listed(&given)),
-            )
-            .with_help("exactly one model computes the collision")),
+        [.., last] => {
+            let paths: Vec<_> = given.iter().map(|name| join("model", name)).collect();
+            let paths: Vec<_> = paths.iter().map(String::as_str).collect();
+            let culprit = join("model", last);
+            let message = format!("model has the keys {}", listed(&given));
+            Err(document
+                .error_at(document.blamed(&culprit, &paths), message)
+                .with_help("exactly one model computes the collision"))
+        }
     }
 }
 
@@ -70,11 +61,7 @@ pub(crate) fn effects(
     table: Option<&EffectsTable>,
 ) -> Result<EffectsTable, CaseError> {
     let effects = table.copied().unwrap_or_default();
-    let EffectsTable {
-        finite_strain,
-        mirror_symmetry,
-        bulk_viscosity,
-    } = effects;
+    let EffectsTable { finite_strain, mirror_symmetry, bulk_viscosity } = effects;
     let switches = [
         ("finite_strain", finite_strain),
         ("mirror_symmetry", mirror_symmetry),

@@ -37,9 +37,7 @@ impl Case {
         let name = path.display().to_string();
         let text = read(path, &name)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let stem = path
-            .file_stem()
-            .map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
+        let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
         Case::build(&name, &stem, &text, folder, overrides)
     }
 
@@ -73,19 +71,11 @@ impl Case {
             let error = document.error_at(path, format!("{path} is an array"));
             return Err(error.with_help("it wants a table, { … }"));
         }
-        let folder = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
         let scene = validate(&document, &file, stem, &folder)?;
         fill_in(&mut file, &scene);
-        Ok(Case {
-            file,
-            scene,
-            document,
-        })
+        Ok(Case { file, scene, document })
     }
 
     /// An error about the key at a dotted path (`mesh.contact_element_size`, `body.0.sphere`).
@@ -116,12 +106,8 @@ impl CaseFile {
 fn fill_in(file: &mut CaseFile, scene: &Scene) {
     file.title = Some(scene.title.clone());
     for (table, body) in file.body.iter_mut().zip(&scene.bodies) {
-        if let (
-            Some(sphere),
-            Shape::Sphere {
-                mesh: Some(mesh), ..
-            },
-        ) = (&mut table.sphere, &body.shape)
+        if let (Some(sphere), Shape::Sphere { mesh: Some(mesh), .. }) =
+            (&mut table.sphere, &body.shape)
         {
             sphere.mesh = Some(mesh.to_string_lossy().to_string());
         }
@@ -142,13 +128,9 @@ fn read(path: &Path, name: &str) -> Result<String, CaseError> {
     };
     let file = fs::File::open(path).map_err(failed)?;
     let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)
-        .map_err(failed)?;
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > LARGEST_FILE {
-        return Err(fail(
-            "this file is larger than 16 MiB, too large for a case",
-        ));
+        return Err(fail("this file is larger than 16 MiB, too large for a case"));
     }
     String::from_utf8(bytes).map_err(|error| {
         let start = error.utf8_error().valid_up_to();

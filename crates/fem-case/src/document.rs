@@ -45,16 +45,9 @@ impl Document {
         text: &'t str,
         overrides: &'t [String],
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
-        let file = Source {
-            name: name.to_string(),
-            text: text.to_string(),
-            start: 0,
-        };
-        let mut document = Document {
-            sources: vec![file],
-            positions: BTreeMap::new(),
-            arrays: Vec::new(),
-        };
+        let file = Source { name: name.to_string(), text: text.to_string(), start: 0 };
+        let mut document =
+            Document { sources: vec![file], positions: BTreeMap::new(), arrays: Vec::new() };
         let mut tree = DeTable::parse(text).map_err(|error| {
             document
                 .error_in(0, error.span().unwrap_or(0..0), first_line(error.message()))
@@ -72,9 +65,7 @@ impl Document {
             });
             let start = document.sources[index + 1].start;
             let fail = |fault: overrides::Fault| {
-                document
-                    .error_on(fault.span, fault.message)
-                    .with_help(fault.help)
+                document.error_on(fault.span, fault.message).with_help(fault.help)
             };
             let assignment = overrides::parse(text, start).map_err(fail)?;
             overrides::apply(tree.get_mut(), assignment).map_err(fail)?;
@@ -100,13 +91,7 @@ impl Document {
             }
             _ => {}
         }
-        self.positions.insert(
-            path,
-            Position {
-                key,
-                value: value.span(),
-            },
-        );
+        self.positions.insert(path, Position { key, value: value.span() });
     }
 
     /// Whether the case gives a value at this path.
@@ -119,21 +104,17 @@ impl Document {
         &self.arrays
     }
 
-    /// Which of several keys that contradict each other is to blame: the one that an override
-    /// gave last, or else `default`.
+    /// Which of several keys that contradict each other is to blame: the first of those that the
+    /// last override among them gave, or else `default`.
     pub(crate) fn blamed<'p>(&self, default: &'p str, others: &[&'p str]) -> &'p str {
-        let overridden = |path: &str| {
-            let start = self
-                .positions
-                .get(path)
-                .map_or(0, |position| position.value.start);
-            Some(start).filter(|start| self.source_at(*start) > 0)
+        let source_of = |path: &str| {
+            let position = self.positions.get(path);
+            position.map_or(0, |position| self.source_at(position.value.start))
         };
-        let paths = [default].into_iter().chain(others.iter().copied());
-        let candidates = paths.filter_map(|path| Some((overridden(path)?, path)));
-        candidates
-            .max_by_key(|(start, _)| *start)
-            .map_or(default, |(_, path)| path)
+        let later = |best: &'p str, other: &&'p str| {
+            if source_of(other) > source_of(best) { other } else { best }
+        };
+        others.iter().fold(default, later)
     }
 
     /// An error that points at the value of the key at `path`, or, if it is absent, at the
@@ -155,24 +136,17 @@ impl Document {
     pub(crate) fn error_on(&self, span: Range<usize>, message: impl Into<String>) -> CaseError {
         let index = self.source_at(span.start);
         let start = self.sources[index].start;
-        self.error_in(
-            index,
-            span.start - start..span.end.saturating_sub(start),
-            message,
-        )
+        self.error_in(index, span.start - start..span.end.saturating_sub(start), message)
     }
 
     /// The text at a span of the common line of offsets.
     pub(crate) fn text_on(&self, span: &Range<usize>) -> &str {
         let Source { text, start, .. } = &self.sources[self.source_at(span.start)];
-        text.get(span.start - start..span.end.saturating_sub(*start))
-            .unwrap_or("")
+        text.get(span.start - start..span.end.saturating_sub(*start)).unwrap_or("")
     }
 
     fn source_at(&self, offset: usize) -> usize {
-        self.sources
-            .partition_point(|source| source.start <= offset)
-            .saturating_sub(1)
+        self.sources.partition_point(|source| source.start <= offset).saturating_sub(1)
     }
 
     fn error_in(&self, source: usize, span: Range<usize>, message: impl Into<String>) -> CaseError {
@@ -183,13 +157,8 @@ impl Document {
     /// The path whose value or else key has this span; the deepest if several have.
     pub(crate) fn path_of(&self, span: &Range<usize>) -> Option<&str> {
         let deepest = |is_match: &dyn Fn(&Position) -> bool| {
-            let found = self
-                .positions
-                .iter()
-                .filter(|(_, position)| is_match(position));
-            found
-                .map(|(path, _)| path.as_str())
-                .max_by_key(|path| path.matches('.').count())
+            let found = self.positions.iter().filter(|(_, position)| is_match(position));
+            found.map(|(path, _)| path.as_str()).max_by_key(|path| path.matches('.').count())
         };
         deepest(&|position| position.value == *span)
             .or_else(|| deepest(&|position| position.key == *span))
@@ -198,11 +167,7 @@ impl Document {
 
 /// `path.key`; just the key at the root.
 pub(crate) fn join(path: &str, key: &str) -> String {
-    if path.is_empty() {
-        key.to_string()
-    } else {
-        format!("{path}.{key}")
-    }
+    if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
 }
 
 /// A key as one part of a dotted path: bare if TOML allows that, quoted if not.

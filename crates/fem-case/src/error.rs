@@ -52,11 +52,7 @@ impl CaseError {
         };
         let start = boundary(span.start);
         let span = start..boundary(span.end).max(start);
-        self.place = Some(Box::new(Place {
-            text: text.to_string(),
-            span,
-            label: String::new(),
-        }));
+        self.place = Some(Box::new(Place { text: text.to_string(), span, label: String::new() }));
         self
     }
 
@@ -128,16 +124,12 @@ impl CaseError {
 
 impl Place {
     fn line_start(&self) -> usize {
-        self.text[..self.span.start]
-            .rfind('\n')
-            .map_or(0, |newline| newline + 1)
+        self.text[..self.span.start].rfind('\n').map_or(0, |newline| newline + 1)
     }
 
     fn line_and_column(&self) -> (usize, usize) {
         let line = 1 + self.text[..self.span.start].matches('\n').count();
-        let column = 1 + self.text[self.line_start()..self.span.start]
-            .chars()
-            .count();
+        let column = 1 + self.text[self.line_start()..self.span.start].chars().count();
         (line, column)
     }
 }
@@ -155,23 +147,12 @@ impl fmt::Display for Place {
         if line.chars().count() > LONGEST_LINE {
             return write!(f, "(a line of {} characters)", line.chars().count());
         }
-        let end = self
-            .span
-            .end
-            .clamp(self.span.start, (start + line.len()).max(self.span.start));
+        let end = self.span.end.clamp(self.span.start, (start + line.len()).max(self.span.start));
         let width = self.text[self.span.start..end].chars().count().max(1);
         let indent = " ".repeat(column - 1);
-        let label = if self.label.is_empty() {
-            String::new()
-        } else {
-            format!(" {}", self.label)
-        };
+        let label = if self.label.is_empty() { String::new() } else { format!(" {}", self.label) };
         let shown = line.replace('\t', " ");
-        write!(
-            f,
-            "{shown}\n{gutter} | {indent}{}{label}",
-            "^".repeat(width)
-        )
+        write!(f, "{shown}\n{gutter} | {indent}{}{label}", "^".repeat(width))
     }
 }
 

@@ -11,10 +11,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("diameter", "diameter = \"22.2 mm\""),
     ("density", "density = \"2390 kg/m^3\""),
     ("weight", "weight = 1.0"),
-    (
-        "terms",
-        "terms = [{ weight = 1.0, decay_rate = \"2708 1/s\" }]",
-    ),
+    ("terms", "terms = [{ weight = 1.0, decay_rate = \"2708 1/s\" }]"),
     (
         "acts_on",
         "acts_on = \"all\" (constant Poisson's ratio) or acts_on = \"shear\" (the bulk modulus \
@@ -29,11 +26,7 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     let path = document.path_of(&span).unwrap_or("");
     let at = |message: String| document.error_on(span.clone(), message);
     let in_table = |path: &str| {
-        if path.is_empty() {
-            String::new()
-        } else {
-            format!(" in {path}")
-        }
+        if path.is_empty() { String::new() } else { format!(" in {path}") }
     };
 
     if let Some(rest) = message.strip_prefix("unknown field ") {
@@ -41,11 +34,7 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         let table = path.rfind('.').map_or("", |dot| &path[..dot]);
         let help = match allowed.is_empty() {
             true => "it has no keys: write {}".to_string(),
-            false => format!(
-                "{}the keys here are {}",
-                near(found, &allowed),
-                allowed.join(", ")
-            ),
+            false => format!("{}the keys here are {}", near(found, &allowed), allowed.join(", ")),
         };
         return at(format!("unknown key `{found}`{}", in_table(table)))
             .labelled("unknown key")
@@ -63,36 +52,22 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     if let Some(rest) = message.strip_prefix("unknown variant ") {
         let (found, allowed) = split_backticked(rest);
         let quoted: Vec<_> = allowed.iter().map(|word| format!("\"{word}\"")).collect();
-        return at(format!(
-            "{path} is \"{found}\", which is none of its values"
-        ))
-        .with_help(format!(
-            "{}it is one of {}",
-            near(found, &allowed),
-            quoted.join(", ")
-        ));
+        return at(format!("{path} is \"{found}\", which is none of its values"))
+            .with_help(format!("{}it is one of {}", near(found, &allowed), quoted.join(", ")));
     }
-    if let Some((found, wanted)) = message
-        .strip_prefix("invalid type: ")
-        .and_then(|rest| rest.rsplit_once(", expected "))
+    if let Some((found, wanted)) =
+        message.strip_prefix("invalid type: ").and_then(|rest| rest.rsplit_once(", expected "))
     {
         // serde sees a date as a table.
-        let is_date = found == "map"
-            && document
-                .text_on(&span)
-                .starts_with(|c: char| c.is_ascii_digit());
-        let found = if is_date {
-            "a date or time".to_string()
-        } else {
-            with_article(found)
-        };
+        let is_date =
+            found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
+        let found = if is_date { "a date or time".to_string() } else { with_article(found) };
         return at(format!("{} is {found}", name(path)))
             .with_help(format!("it wants {}", with_article(wanted)));
     }
     // serde reads an array as a struct's fields in order, and finds their number wrong.
-    if let Some((_, wanted)) = message
-        .strip_prefix("invalid length ")
-        .and_then(|rest| rest.split_once(", expected "))
+    if let Some((_, wanted)) =
+        message.strip_prefix("invalid length ").and_then(|rest| rest.split_once(", expected "))
     {
         return at(format!("{} is an array", name(path))).with_help(format!("it wants {wanted}"));
     }
@@ -102,9 +77,7 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
 /// `did you mean …? ` if one of the allowed words is near.
 pub(crate) fn near<S: AsRef<str>>(found: &str, allowed: &[S]) -> String {
     let similarity = |word: &S| strsim::jaro_winkler(&found.to_lowercase(), word.as_ref());
-    let nearest = allowed
-        .iter()
-        .max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
+    let nearest = allowed.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     // 0.8 lets `densty`, `diametre` and `youngs_modul` through and `radius` for `name` not.
     match nearest.filter(|word| similarity(word) > 0.8) {
         Some(word) => format!("did you mean `{}`? ", word.as_ref()),
@@ -123,17 +96,11 @@ fn with_article(what: &str) -> String {
         "sequence" | "a sequence" => return "an array".to_string(),
         _ => {}
     }
-    let has_article = ["a ", "an ", "one "]
-        .iter()
-        .any(|article| what.starts_with(article));
+    let has_article = ["a ", "an ", "one "].iter().any(|article| what.starts_with(article));
     if has_article {
         return what.to_string();
     }
-    let article = if what.starts_with(['a', 'e', 'i', 'o']) {
-        "an"
-    } else {
-        "a"
-    };
+    let article = if what.starts_with(['a', 'e', 'i', 'o']) { "an" } else { "a" };
     format!("{article} {what}")
 }
 
@@ -143,10 +110,7 @@ fn split_backticked(text: &str) -> (&str, Vec<&str>) {
         .rsplit_once("`, expected ")
         .or_else(|| text.rsplit_once("`, there are no "))
         .unwrap_or((text, ""));
-    (
-        found.strip_prefix('`').unwrap_or(found),
-        rest.split('`').skip(1).step_by(2).collect(),
-    )
+    (found.strip_prefix('`').unwrap_or(found), rest.split('`').skip(1).step_by(2).collect())
 }
 
 /// "a", "a and b", "a, b and c".

@@ -68,10 +68,7 @@ pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> 
         let message = format!("`{raw}` is no TOML value: {}", first_line(error.message()));
         value_fault(start..start + raw.len(), message)
     })?;
-    Ok(Assignment {
-        path,
-        value: shift(value, offset + start),
-    })
+    Ok(Assignment { path, value: shift(value, offset + start) })
 }
 
 /// The parts of the key and the position of the `=` after it.

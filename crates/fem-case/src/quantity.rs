@@ -76,15 +76,9 @@ fn name_dimension(dimension: Dimension) -> String {
         return name.to_string();
     }
     let symbols = ["m", "kg", "s", "B"].into_iter().zip(dimension.0);
-    let factors = symbols
-        .filter(|(_, exponent)| *exponent != 0)
-        .map(|(symbol, exponent)| {
-            if exponent == 1 {
-                symbol.to_string()
-            } else {
-                format!("{symbol}^{exponent}")
-            }
-        });
+    let factors = symbols.filter(|(_, exponent)| *exponent != 0).map(|(symbol, exponent)| {
+        if exponent == 1 { symbol.to_string() } else { format!("{symbol}^{exponent}") }
+    });
     format!("in {}", factors.collect::<Vec<_>>().join(" "))
 }
 
@@ -117,10 +111,7 @@ pub struct Quantity<K> {
 impl<K: QuantityKind> Quantity<K> {
     /// From a value in SI units.
     pub fn from_si(value: f64) -> Self {
-        Quantity {
-            written: Written::Si(value),
-            kind: PhantomData,
-        }
+        Quantity { written: Written::Si(value), kind: PhantomData }
     }
 
     /// The value in SI units, always finite.
@@ -149,25 +140,20 @@ impl<K: QuantityKind> Quantity<K> {
 
     /// Message and help for `error`, which [`Quantity::si`] gave, of the key `key`.
     pub(crate) fn explain(&self, error: &QuantityError, key: &str) -> (String, String) {
-        let Kind {
-            name, si, example, ..
-        } = K::KIND;
+        let Kind { name, si, example, .. } = K::KIND;
         let bare = match si {
             "" => format!("write a number, such as {example}"),
-            si => format!("write {name} such as {example}; a bare number is in {si}"),
+            si => format!("write {name} with its unit, {example}, or a bare number in {si}"),
         };
         match error {
             QuantityError::NotFinite(_) => (format!("{key} is {self}, which is not finite"), bare),
-            QuantityError::WrongDimension(found) if found.0 == [0; 4] => (
-                format!("{self} has no unit; {key} wants {name}, such as {example}"),
-                bare,
-            ),
             QuantityError::WrongDimension(found) => {
-                let found = name_dimension(*found);
-                (
-                    format!("{self} is {found}; {key} wants {name}, such as {example}"),
-                    bare,
-                )
+                let found = match found.0 {
+                    [0, 0, 0, 0] => "has no unit".to_string(),
+                    _ => format!("is {}", name_dimension(*found)),
+                };
+                let message = format!("{self} {found}; {key} wants {name}, such as {example}");
+                (message, bare)
             }
             QuantityError::Unit(UnitError::UnknownUnit { symbol, suggestion }) => {
                 let message = format!("unknown unit `{symbol}` in {self}; {key} wants {name}");
@@ -236,10 +222,7 @@ impl<'de, K: QuantityKind> Deserialize<'de> for Quantity<K> {
             }
         }
         let written = deserializer.deserialize_any(WrittenVisitor::<K>(PhantomData))?;
-        Ok(Quantity {
-            written,
-            kind: PhantomData,
-        })
+        Ok(Quantity { written, kind: PhantomData })
     }
 }
 
@@ -279,14 +262,8 @@ mod tests {
             explained::<Stress>("'3 kg^2 m'", "youngs_modulus"),
             "\"3 kg^2 m\" is in m kg^2; youngs_modulus wants a pressure, such as \"63 GPa\"",
         );
-        is(
-            explained::<Length>("nan", "diameter"),
-            "diameter is NaN m, which is not finite",
-        );
-        is(
-            explained::<Length>("-inf", "diameter"),
-            "diameter is -inf m, which is not finite",
-        );
+        is(explained::<Length>("nan", "diameter"), "diameter is NaN m, which is not finite");
+        is(explained::<Length>("-inf", "diameter"), "diameter is -inf m, which is not finite");
         is(
             explained::<Length>("'nan mm'", "diameter"),
             "\"nan mm\" is not a length for diameter: it does not begin with a number",

@@ -76,10 +76,7 @@ pub struct MaterialTable {
 
 /// `[material.NAME.relaxation]`: a Prony series.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "a table such as [material.glass.relaxation]"
-)]
+#[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
 pub struct RelaxationTable {
     /// Which moduli relax.
     pub acts_on: ActsOn,
@@ -136,10 +133,7 @@ pub struct BodyTable {
 
 /// `sphere = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "a table such as { diameter = \"22.2 mm\" }"
-)]
+#[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
 pub struct SphereTable {
     /// > 0.
     pub diameter: Quantity<Length>,
@@ -250,10 +244,7 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
 
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 let example = Time::KIND.example;
-                write!(
-                    f,
-                    "a list of labels or of times, [\"maximum\"] or [{example}], or a count"
-                )
+                write!(f, "a list of labels or of times, [\"maximum\"] or [{example}], or a count")
             }
 
             fn visit_i64<E>(self, count: i64) -> Result<SnapshotsValue, E> {
@@ -281,10 +272,7 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "a table such as [model] with fem = {}"
-)]
+#[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
 pub struct ModelTable {
     /// Explicit finite elements.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -13,12 +13,8 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    pub(crate) const ONE: Scale = Scale {
-        ten: 0,
-        numerator: 1.0,
-        denominator: 1.0,
-        dimension: [0; 4],
-    };
+    pub(crate) const ONE: Scale =
+        Scale { ten: 0, numerator: 1.0, denominator: 1.0, dimension: [0; 4] };
 
     pub(crate) fn times(self, other: Scale) -> Scale {
         let mut dimension = self.dimension;
@@ -44,9 +40,7 @@ impl Scale {
             ten: self.ten.saturating_mul(power),
             numerator: numerator.powi(size),
             denominator: denominator.powi(size),
-            dimension: self
-                .dimension
-                .map(|exponent| exponent.saturating_mul(power)),
+            dimension: self.dimension.map(|exponent| exponent.saturating_mul(power)),
         }
     }
 }
@@ -58,31 +52,13 @@ struct Unit {
 }
 
 const fn unit(symbol: &'static str, dimension: [i32; 4], ten: i32) -> Unit {
-    let scale = Scale {
-        ten,
-        numerator: 1.0,
-        denominator: 1.0,
-        dimension,
-    };
-    Unit {
-        symbol,
-        prefixable: true,
-        scale,
-    }
+    let scale = Scale { ten, numerator: 1.0, denominator: 1.0, dimension };
+    Unit { symbol, prefixable: true, scale }
 }
 
 const fn plain_unit(symbol: &'static str, dimension: [i32; 4], ten: i32, ratio: [f64; 2]) -> Unit {
-    let scale = Scale {
-        ten,
-        numerator: ratio[0],
-        denominator: ratio[1],
-        dimension,
-    };
-    Unit {
-        symbol,
-        prefixable: false,
-        scale,
-    }
+    let scale = Scale { ten, numerator: ratio[0], denominator: ratio[1], dimension };
+    Unit { symbol, prefixable: false, scale }
 }
 
 const NUMBER: [i32; 4] = [0; 4];
@@ -164,14 +140,9 @@ pub(crate) fn find_unit(symbol: &str) -> Option<Scale> {
         let Some(rest) = symbol.strip_prefix(prefix) else {
             continue;
         };
-        let unit = UNITS
-            .iter()
-            .find(|unit| unit.prefixable && unit.symbol == rest);
+        let unit = UNITS.iter().find(|unit| unit.prefixable && unit.symbol == rest);
         if let Some(unit) = unit {
-            return Some(Scale {
-                ten: unit.scale.ten + ten,
-                ..unit.scale
-            });
+            return Some(Scale { ten: unit.scale.ten + ten, ..unit.scale });
         }
     }
     None
@@ -214,9 +185,7 @@ pub(crate) fn suggest_unit(symbol: &str) -> Option<String> {
         .min_by_key(|known| strsim::levenshtein(known, symbol));
     other_case.or_else(|| {
         let singular = lower.strip_suffix('s').unwrap_or(&lower);
-        let named = NAMES
-            .iter()
-            .find(|(name, _)| *name == lower || *name == singular);
+        let named = NAMES.iter().find(|(name, _)| *name == lower || *name == singular);
         named.map(|(_, symbol)| symbol.to_string())
     })
 }

@@ -58,9 +58,7 @@ pub fn parse_quantity(text: &str) -> Result<(f64, Dimension), UnitError> {
     let mut parser = Parser { rest };
     let scale = parser.expression(0)?;
     if !parser.rest.is_empty() {
-        return Err(UnitError::Malformed(
-            "it has a `)` without a `(`".to_string(),
-        ));
+        return Err(UnitError::Malformed("it has a `)` without a `(`".to_string()));
     }
     let value = decimal.value(scale).ok_or(UnitError::OutOfRange)?;
     Ok((value, Dimension(scale.dimension)))
@@ -79,10 +77,7 @@ impl Decimal<'_> {
         let exponent = self.exponent.saturating_add(scale.ten);
         let size: f64 = format!("{}e{exponent}", self.significand).parse().ok()?;
         let size = size * scale.numerator / scale.denominator;
-        let is_zero = !self
-            .significand
-            .bytes()
-            .any(|byte| (b'1'..=b'9').contains(&byte));
+        let is_zero = !self.significand.bytes().any(|byte| (b'1'..=b'9').contains(&byte));
         if !size.is_finite() || (size == 0.0 && !is_zero) {
             return None;
         }
@@ -109,11 +104,7 @@ fn split_number(text: &str) -> Result<(Decimal<'_>, &str), UnitError> {
         let digits = digits_of(&after[sign..]);
         if digits > 0 {
             let (text, after) = after.split_at(sign + digits);
-            let limit = if text.starts_with('-') {
-                i32::MIN
-            } else {
-                i32::MAX
-            };
+            let limit = if text.starts_with('-') { i32::MIN } else { i32::MAX };
             exponent = text.parse().unwrap_or(limit);
             rest = after;
         }
@@ -121,14 +112,7 @@ fn split_number(text: &str) -> Result<(Decimal<'_>, &str), UnitError> {
     if rest.starts_with(',') {
         return Err(UnitError::DecimalComma);
     }
-    Ok((
-        Decimal {
-            negative,
-            significand,
-            exponent,
-        },
-        rest,
-    ))
+    Ok((Decimal { negative, significand, exponent }, rest))
 }
 
 const DEEPEST_PARENTHESIS: usize = 8;
@@ -167,14 +151,10 @@ impl Parser<'_> {
         self.rest = self.rest.trim_start();
         let scale = if self.take(&["("]).is_some() {
             if depth == DEEPEST_PARENTHESIS {
-                return Err(UnitError::Malformed(
-                    "its parentheses are too deep".to_string(),
-                ));
+                return Err(UnitError::Malformed("its parentheses are too deep".to_string()));
             }
             if self.rest.trim_start().starts_with(')') {
-                return Err(UnitError::Malformed(
-                    "its parentheses are empty".to_string(),
-                ));
+                return Err(UnitError::Malformed("its parentheses are empty".to_string()));
             }
             let inner = self.expression(depth + 1)?;
             if self.take(&[")"]).is_none() {
@@ -201,10 +181,7 @@ impl Parser<'_> {
                 suggestion: suggest_unit(symbol),
             });
         }
-        let digits = self
-            .rest
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(self.rest.len());
+        let digits = self.rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(self.rest.len());
         if &self.rest[..digits] == "1" {
             self.rest = &self.rest[digits..];
             return Ok(Scale::ONE);
@@ -272,9 +249,7 @@ mod tests {
     use super::*;
 
     fn value(text: &str) -> f64 {
-        parse_quantity(text)
-            .unwrap_or_else(|error| panic!("{text}: {error}"))
-            .0
+        parse_quantity(text).unwrap_or_else(|error| panic!("{text}: {error}")).0
     }
 
     #[test]
@@ -389,18 +364,11 @@ mod tests {
 
     #[test]
     fn malformed_text_is_refused() {
-        for text in [
-            "", " ", "mm", "nan", "inf", "nan m", "-inf m", ".", ".e3 m", "- 3 m", "+",
-        ] {
+        for text in ["", " ", "mm", "nan", "inf", "nan m", "-inf m", ".", ".e3 m", "- 3 m", "+"] {
             assert_eq!(parse_quantity(text), Err(UnitError::NoNumber), "{text:?}");
         }
         assert_eq!(parse_quantity("22,2 mm"), Err(UnitError::DecimalComma));
-        for text in [
-            "1e400 m",
-            "1e-400 m",
-            "1e99999999999 m",
-            "1 km^30 km^30 km^30 km^30",
-        ] {
+        for text in ["1e400 m", "1e-400 m", "1e99999999999 m", "1 km^30 km^30 km^30 km^30"] {
             assert_eq!(parse_quantity(text), Err(UnitError::OutOfRange), "{text:?}");
         }
         for text in [
@@ -426,10 +394,7 @@ mod tests {
             "1 (((((((((m)))))))))",
         ] {
             let found = parse_quantity(text);
-            assert!(
-                matches!(found, Err(UnitError::Malformed(_))),
-                "{text:?}: {found:?}"
-            );
+            assert!(matches!(found, Err(UnitError::Malformed(_))), "{text:?}: {found:?}");
         }
     }
 }

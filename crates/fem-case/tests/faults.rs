@@ -70,11 +70,7 @@ fn error_at_mark(marked: &str) -> CaseError {
     let error = parse(&text).expect_err("a fault");
     let line = before.matches('\n').count() + 1;
     let column = before.rsplit('\n').next().unwrap().chars().count() + 1;
-    assert_eq!(
-        (error.line(), error.column()),
-        (Some(line), Some(column)),
-        "{error}"
-    );
+    assert_eq!((error.line(), error.column()), (Some(line), Some(column)), "{error}");
     assert_eq!(&text[error.span().unwrap()], culprit, "{error}");
     assert_eq!(error.source_name(), "pair.toml");
     assert_eq!(error.source_text(), Some(text.as_str()));
@@ -106,12 +102,7 @@ fn not_toml() {
 
 #[test]
 fn duplicated_keys() {
-    fault(
-        "growth = 1.1",
-        "growth = 1.1\n«growth» = 1.1",
-        "duplicate key",
-        "",
-    );
+    fault("growth = 1.1", "growth = 1.1\n«growth» = 1.1", "duplicate key", "");
     fault("[contact]", "[«mesh»]", "duplicate key", "");
 }
 
@@ -124,48 +115,18 @@ fn unknown_keys() {
         "did you mean `density`?",
     );
     fault("density", "«densty»", "", "youngs_modulus, shear_modulus");
-    fault(
-        "title",
-        "«titel»",
-        "unknown key `titel`",
-        "did you mean `title`?",
-    );
-    fault(
-        "diameter",
-        "«radius»",
-        "unknown key `radius` in body.0.sphere",
-        "diameter, mesh",
-    );
-    fault(
-        "[start]",
-        "[«gravity»]",
-        "unknown key `gravity`",
-        "material, body",
-    );
-    fault(
-        "fem = {}",
-        "fem = { «fast» = 1 }",
-        "unknown key `fast` in model.fem",
-        "{}",
-    );
+    fault("title", "«titel»", "unknown key `titel`", "did you mean `title`?");
+    fault("diameter", "«radius»", "unknown key `radius` in body.0.sphere", "diameter, mesh");
+    fault("[start]", "[«gravity»]", "unknown key `gravity`", "material, body");
+    fault("fem = {}", "fem = { «fast» = 1 }", "unknown key `fast` in model.fem", "{}");
     fault(
         "fem = {}",
         "«\"fem`, expected `\"» = 1",
         "unknown key `fem`, expected `` in model",
         "fem",
     );
-    fault(
-        "weight = 0.5",
-        "«wait» = 0.5",
-        "in material.glass.relaxation.terms.0",
-        "weight",
-    );
-    fault(
-        "finite_strain",
-        "«friction»",
-        "unknown key `friction` in effects",
-        "mirror_symmetry",
-    );
+    fault("weight = 0.5", "«wait» = 0.5", "in material.glass.relaxation.terms.0", "weight");
+    fault("finite_strain", "«friction»", "unknown key `friction` in effects", "mirror_symmetry");
 }
 
 #[test]
@@ -210,71 +171,21 @@ fn wrong_types() {
         "body.0.sphere.diameter is a boolean `true`",
         "a length",
     );
-    fault(
-        "0.244",
-        "«[0.244]»",
-        "material.glass.poissons_ratio is an array",
-        "a plain number",
-    );
-    fault(
-        "\"striker\"",
-        "«3»",
-        "body.0.name is an integer `3`",
-        "a string",
-    );
-    fault(
-        "\"all\"",
-        "«{ all = {} }»",
-        "acts_on is a table",
-        "one of the words \"all\", \"shear\"",
-    );
-    fault(
-        "{ diameter = \"22.2 mm\" }",
-        "«\"22.2 mm\"»",
-        "body.0.sphere is a string",
-        "diameter =",
-    );
-    fault(
-        "{ diameter = \"22.2 mm\" }",
-        "«[\"22.2 mm\"]»",
-        "body.0.sphere is an array",
-        "a table",
-    );
+    fault("0.244", "«[0.244]»", "material.glass.poissons_ratio is an array", "a plain number");
+    fault("\"striker\"", "«3»", "body.0.name is an integer `3`", "a string");
+    fault("\"all\"", "«{ all = {} }»", "acts_on is a table", "one of the words \"all\", \"shear\"");
+    fault("{ diameter = \"22.2 mm\" }", "«\"22.2 mm\"»", "body.0.sphere is a string", "diameter =");
+    fault("{ diameter = \"22.2 mm\" }", "«[\"22.2 mm\"]»", "body.0.sphere is an array", "a table");
     fault("fem = {}", "fem = «[]»", "model.fem is an array", "a table");
-    fault(
-        "fem = {}",
-        "fem = «true»",
-        "model.fem is a boolean",
-        "an empty table",
-    );
-    fault(
-        "title = \"a pair\"",
-        "title = «2024-01-01»",
-        "title is a date or time",
-        "a string",
-    );
-    fault(
-        "[\"mid-compression\", \"maximum\"]",
-        "«\"maximum\"»",
-        "snapshots is a string",
-        "a list",
-    );
+    fault("fem = {}", "fem = «true»", "model.fem is a boolean", "an empty table");
+    fault("title = \"a pair\"", "title = «2024-01-01»", "title is a date or time", "a string");
+    fault("[\"mid-compression\", \"maximum\"]", "«\"maximum\"»", "snapshots is a string", "a list");
 }
 
 #[test]
 fn wrong_words() {
-    fault(
-        "\"all\"",
-        "«\"sheer\"»",
-        "acts_on is \"sheer\"",
-        "did you mean `shear`?",
-    );
-    fault(
-        "\"off\"",
-        "«\"no\"»",
-        "bulk_viscosity is \"no\"",
-        "\"auto\", \"on\", \"off\"",
-    );
+    fault("\"all\"", "«\"sheer\"»", "acts_on is \"sheer\"", "did you mean `shear`?");
+    fault("\"off\"", "«\"no\"»", "bulk_viscosity is \"no\"", "\"auto\", \"on\", \"off\"");
 }
 
 #[test]
@@ -283,57 +194,22 @@ fn wrong_units() {
         "\"22.2 mm\"",
         "«\"22.2 kg\"»",
         "\"22.2 kg\" is a mass; diameter wants a length, such as \"22.2 mm\"",
-        "a bare number is in m",
+        "or a bare number in m",
     );
-    fault(
-        "\"63 GPa\"",
-        "«\"63 Gpa\"»",
-        "unknown unit `Gpa`",
-        "did you mean `GPa`?",
-    );
-    fault(
-        "\"63 GPa\"",
-        "«\"63 GN\"»",
-        "is a force; youngs_modulus wants a pressure",
-        "",
-    );
-    fault(
-        "\"2708 1/s\"",
-        "«\"2708 s\"»",
-        "is a time; decay_rate wants a rate",
-        "\"2708 1/s\"",
-    );
-    fault(
-        "1e-3",
-        "«\"1e3 1/s\"»",
-        "is a rate; relaxation_time wants a time",
-        "",
-    );
+    fault("\"63 GPa\"", "«\"63 Gpa\"»", "unknown unit `Gpa`", "did you mean `GPa`?");
+    fault("\"63 GPa\"", "«\"63 GN\"»", "is a force; youngs_modulus wants a pressure", "");
+    fault("\"2708 1/s\"", "«\"2708 s\"»", "is a time; decay_rate wants a rate", "\"2708 1/s\"");
+    fault("1e-3", "«\"1e3 1/s\"»", "is a rate; relaxation_time wants a time", "");
     fault(
         "\"0.5 m/s\"",
         "«\"0.5\"»",
         "has no unit; approach_speed wants a speed",
-        "in m/s",
+        "a bare number in m/s",
     );
     fault("\"0.5 m/s\"", "«\"0,5 m/s\"»", "decimal comma", "");
-    fault(
-        "\"0.5 m/s\"",
-        "«\"fast\"»",
-        "does not begin with a number",
-        "\"0.5 m/s\"",
-    );
-    fault(
-        "0.244",
-        "«\"0.244 m\"»",
-        "is a length; poissons_ratio wants a plain number",
-        "",
-    );
-    fault(
-        "\"8 GB\"",
-        "«\"8 kg\"»",
-        "is a mass; memory wants an amount of memory",
-        "\"8 GB\"",
-    );
+    fault("\"0.5 m/s\"", "«\"fast\"»", "does not begin with a number", "\"0.5 m/s\"");
+    fault("0.244", "«\"0.244 m\"»", "is a length; poissons_ratio wants a plain number", "");
+    fault("\"8 GB\"", "«\"8 kg\"»", "is a mass; memory wants an amount of memory", "\"8 GB\"");
 }
 
 #[test]
@@ -356,18 +232,8 @@ fn not_finite() {
     ] {
         fault(part, replacement, "not finite", "");
     }
-    fault(
-        "\"22.2 mm\"",
-        "«\"nan mm\"»",
-        "does not begin with a number",
-        "",
-    );
-    fault(
-        "\"22.2 mm\"",
-        "«\"inf mm\"»",
-        "does not begin with a number",
-        "",
-    );
+    fault("\"22.2 mm\"", "«\"nan mm\"»", "does not begin with a number", "");
+    fault("\"22.2 mm\"", "«\"inf mm\"»", "does not begin with a number", "");
     fault("\"22.2 mm\"", "«\"1e400 mm\"»", "out of the range", "");
     fault("\"22.2 mm\"", "«1e400»", "overflow", "");
 }
@@ -380,11 +246,7 @@ fn out_of_range() {
         ("\"2390 kg/m^3\"", "«0»", "density must be positive"),
         ("\"2390 kg/m^3\"", "«-2390»", "density must be positive"),
         ("\"63 GPa\"", "«0»", "youngs_modulus must be positive"),
-        (
-            "\"63 GPa\"",
-            "«\"-63 GPa\"»",
-            "youngs_modulus must be positive",
-        ),
+        ("\"63 GPa\"", "«\"-63 GPa\"»", "youngs_modulus must be positive"),
         ("0.244", "«0.5»", "poissons_ratio must lie"),
         ("0.244", "«-1»", "poissons_ratio must lie"),
         ("0.244", "«24.4»", "poissons_ratio must lie"),
@@ -392,20 +254,12 @@ fn out_of_range() {
         ("\"2708 1/s\"", "«\"-1 1/s\"»", "decay_rate is \"-1 1/s\""),
         ("1e-3", "«0»", "relaxation_time is 0.0 s"),
         ("1e-3", "«\"-1 ms\"»", "relaxation_time is \"-1 ms\""),
-        (
-            "weight = 0.5",
-            "weight = «-0.5»",
-            "relaxation term 0: weight",
-        ),
+        ("weight = 0.5", "weight = «-0.5»", "relaxation term 0: weight"),
         ("\"1 um\"", "«-1e-6»", "gap is"),
         ("\"14 um\"", "«0»", "contact_element_size is 0.0 m"),
         ("\"0.3 mm\"", "«0»", "refined_radius is"),
         ("1.1", "«1»", "growth is 1.0"),
-        (
-            "penalty_factor = 1.0",
-            "penalty_factor = «0»",
-            "penalty_factor is 0.0",
-        ),
+        ("penalty_factor = 1.0", "penalty_factor = «0»", "penalty_factor is 0.0"),
         ("0.9", "«0»", "step_factor is"),
         ("0.9", "«1.01»", "step_factor is"),
         ("2e-4", "«-1e-9»", "mass_scaling is"),
@@ -434,28 +288,13 @@ fn moduli() {
         "exactly two",
         "",
     );
-    fault(
-        "poissons_ratio = 0.244",
-        "shear_modulus = «1e9»",
-        "implies poissons_ratio",
-        "",
-    );
-    fault(
-        "poissons_ratio = 0.244",
-        "bulk_modulus = «1e9»",
-        "implies poissons_ratio",
-        "",
-    );
+    fault("poissons_ratio = 0.244", "shear_modulus = «1e9»", "implies poissons_ratio", "");
+    fault("poissons_ratio = 0.244", "bulk_modulus = «1e9»", "implies poissons_ratio", "");
 }
 
 #[test]
 fn relaxation() {
-    fault(
-        "decay_rate",
-        "relaxation_time = «1», decay_rate",
-        "both decay_rate and",
-        "inverse",
-    );
+    fault("decay_rate", "relaxation_time = «1», decay_rate", "both decay_rate and", "keep one");
     fault(
         "{ weight = 0.5, decay_rate = \"2708 1/s\" }",
         "«{ weight = 0.5 }»",
@@ -474,12 +313,7 @@ fn relaxation() {
         "at most 1",
         "",
     );
-    fault(
-        "\"2708 1/s\"",
-        "«1e-320»",
-        "relaxation_time must be positive and finite",
-        "",
-    );
+    fault("\"2708 1/s\"", "«1e-320»", "relaxation_time must be positive and finite", "");
 }
 
 #[test]
@@ -504,18 +338,9 @@ fn bodies() {
         ),
         "only one [[body]]",
     );
-    is(
-        format!("{glass}{two}«[[body]]»\nname = \"c\"\nwall = {{}}\n"),
-        "the case has 3 [[body]]",
-    );
-    is(
-        format!("{glass}{}", two.replace("speed = 1", "speed = «0»")),
-        "receding or at rest",
-    );
-    is(
-        format!("{glass}{}", two.replace("speed = 1", "speed = «-1»")),
-        "receding or at rest",
-    );
+    is(format!("{glass}{two}«[[body]]»\nname = \"c\"\nwall = {{}}\n"), "the case has 3 [[body]]");
+    is(format!("{glass}{}", two.replace("speed = 1", "speed = «0»")), "receding or at rest");
+    is(format!("{glass}{}", two.replace("speed = 1", "speed = «-1»")), "receding or at rest");
     is(
         format!(
             "{glass}{}",
@@ -535,17 +360,11 @@ fn bodies() {
         "add up to 0.0",
     );
     is(
-        format!(
-            "{glass}{}",
-            two.replace("wall = {}", "wall = {}\napproach_speed = «-0.5»")
-        ),
+        format!("{glass}{}", two.replace("wall = {}", "wall = {}\napproach_speed = «-0.5»")),
         "approach_speed is",
     );
     is(
-        format!(
-            "{glass}{}",
-            two.replace("wall = {}", "wall = {}\nmaterial = «'glass'»")
-        ),
+        format!("{glass}{}", two.replace("wall = {}", "wall = {}\nmaterial = «'glass'»")),
         "no material",
     );
     is(
@@ -553,19 +372,13 @@ fn bodies() {
         "both bodies are walls",
     );
     is(
-        format!(
-            "{glass}{}",
-            two.replace("wall = {}", "wall = «{}»\nsphere.diameter = 1")
-        ),
+        format!("{glass}{}", two.replace("wall = {}", "wall = «{}»\nsphere.diameter = 1")),
         "both sphere and wall",
     );
     is(
         format!(
             "{glass}{}",
-            two.replace(
-                "[[body]]\nname = \"target\"\nwall = {}",
-                "«[[body]]»\nname = \"target\""
-            )
+            two.replace("[[body]]\nname = \"target\"\nwall = {}", "«[[body]]»\nname = \"target\"")
         ),
         "neither sphere nor wall",
     );
@@ -573,27 +386,12 @@ fn bodies() {
         format!("{glass}{}", two.replace("\"target\"", "«\"striker\"»")),
         "both bodies have the name",
     );
+    is(format!("{glass}{}", two.replace("\"target\"", "«\"the target\"»")), "not a body's name");
+    is(format!("{glass}{}", two.replace("\"target\"", "«\"\"»")), "not a body's name");
+    is(format!("{glass}{}", two.replace("\"target\"", "«'Kügel'»")), "not a body's name");
+    is(two.replace("\"glass\"", "«\"glass\"»"), "no material \"glass\"");
     is(
-        format!("{glass}{}", two.replace("\"target\"", "«\"the target\"»")),
-        "not a body's name",
-    );
-    is(
-        format!("{glass}{}", two.replace("\"target\"", "«\"\"»")),
-        "not a body's name",
-    );
-    is(
-        format!("{glass}{}", two.replace("\"target\"", "«'Kügel'»")),
-        "not a body's name",
-    );
-    is(
-        two.replace("\"glass\"", "«\"glass\"»"),
-        "no material \"glass\"",
-    );
-    is(
-        format!(
-            "{glass}{}",
-            two.replace("diameter = 1", "diameter = 1, mesh = «''»")
-        ),
+        format!("{glass}{}", two.replace("diameter = 1", "diameter = 1, mesh = «''»")),
         "mesh is an empty path",
     );
     // A moving wall, and a body that recedes more slowly than the other follows, are fine.
@@ -623,21 +421,11 @@ fn materials() {
 #[test]
 fn snapshots() {
     let list = "[\"mid-compression\", \"maximum\"]";
-    fault(
-        list,
-        "[\"maximum\", «\"maximun\"»]",
-        "no label",
-        "did you mean `maximum`?",
-    );
+    fault(list, "[\"maximum\", «\"maximun\"»]", "no label", "did you mean `maximum`?");
     fault(list, "[\"maximum\", «\"maximum\"»]", "twice", "");
     fault(list, "[\"maximum\", «1e-6»]", "mixes", "");
     fault(list, "[\"1 us\", «\"maximum\"»]", "mixes", "");
-    fault(
-        list,
-        "[«\"1 um\"»]",
-        "is a length; snapshots wants a time",
-        "",
-    );
+    fault(list, "[«\"1 um\"»]", "is a length; snapshots wants a time", "");
     fault(list, "[«-1e-6»]", "snapshots is -1e-6 s", "");
     fault(list, "[«[]»]", "snapshots.0 is an array", "");
     fault(list, "«0»", "snapshots is 0.0", "a whole number");
@@ -655,30 +443,10 @@ fn models_and_effects() {
         );
     }
     let law = "law = «{ kuwabara_kono = { a = \"1e-6 s\" } }»";
-    fault(
-        "fem = {}",
-        law,
-        "model `law` is not available in this version",
-        "",
-    );
-    fault(
-        "fem = {}",
-        "fem = {}\nting = «{}»",
-        "the keys fem and ting",
-        "exactly one",
-    );
-    fault(
-        "[model]\nfem = {}",
-        "«[model]»",
-        "names no model",
-        "fem = {}",
-    );
-    fault(
-        "\"off\"",
-        "«\"on\"»",
-        "effect `bulk_viscosity` is not available",
-        "\"off\"",
-    );
+    fault("fem = {}", law, "model `law` is not available in this version", "");
+    fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "exactly one");
+    fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
+    fault("\"off\"", "«\"on\"»", "effect `bulk_viscosity` is not available", "\"off\"");
 }
 
 #[test]
@@ -691,11 +459,7 @@ fn files() {
     assert_eq!((error.line(), error.span()), (None, None));
     let error = load("");
     assert!(error.message().contains("folder"), "{error}");
-    std::fs::write(
-        folder.path().join("latin.toml"),
-        b"# caf\xc3\xa9\n# caf\xe9\n",
-    )
-    .unwrap();
+    std::fs::write(folder.path().join("latin.toml"), b"# caf\xc3\xa9\n# caf\xe9\n").unwrap();
     let error = load("latin.toml");
     assert!(error.message().contains("UTF-8"), "{error}");
     assert_eq!((error.line(), error.column()), (Some(2), Some(6)));
@@ -707,9 +471,7 @@ fn files() {
 #[test]
 fn later_faults_point_at_their_key() {
     let case = parse(VALID).unwrap();
-    let error = case
-        .error_at("mesh.contact_element_size", "too coarse")
-        .with_help("14 um");
+    let error = case.error_at("mesh.contact_element_size", "too coarse").with_help("14 um");
     assert_eq!((error.line(), error.column()), (Some(27), Some(24)));
     assert!(case.gives("mesh.contact_element_size"));
     let without = VALID.replace("contact_element_size = \"14 um\"\n", "");

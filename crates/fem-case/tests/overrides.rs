@@ -79,13 +79,7 @@ fn a_table_that_is_absent_is_made() {
     ])
     .unwrap();
     assert_eq!(case.scene.bodies[1].shape, Shape::Wall);
-    assert!(
-        case.scene.bodies[0]
-            .material()
-            .unwrap()
-            .relaxation()
-            .is_some()
-    );
+    assert!(case.scene.bodies[0].material().unwrap().relaxation().is_some());
 }
 
 /// The fault of the override `marked`, in which «» enclose what must be underlined.
@@ -97,65 +91,27 @@ fn fault(key: &str, marked: &str, message: &str) {
     let error = with(&["title='ä'", &text, "time.step_factor=0.5"]).unwrap_err();
     assert_eq!(error.source_name(), format!("--set {key}=…"), "{error}");
     assert_eq!(error.source_text(), Some(text.as_str()));
-    assert_eq!(
-        error.span().unwrap(),
-        before.len()..before.len() + culprit.len(),
-        "{error}"
-    );
-    assert_eq!(
-        (error.line(), error.column()),
-        (Some(1), Some(before.chars().count() + 1))
-    );
+    assert_eq!(error.span().unwrap(), before.len()..before.len() + culprit.len(), "{error}");
+    assert_eq!((error.line(), error.column()), (Some(1), Some(before.chars().count() + 1)));
     assert!(error.message().contains(message), "{error}");
-    assert!(
-        error.to_string().contains(&format!("--set {key}=…:1:")),
-        "{error}"
-    );
+    assert!(error.to_string().contains(&format!("--set {key}=…:1:")), "{error}");
 }
 
 #[test]
 fn faults_in_the_value() {
-    fault(
-        "body.0.approach_speed",
-        "body.0.approach_speed=«1 m/s»",
-        "no TOML value",
-    );
+    fault("body.0.approach_speed", "body.0.approach_speed=«1 m/s»", "no TOML value");
     fault("title", "title=«glass»", "no TOML value");
     fault("title", "title=«\"glass»", "no TOML value");
     fault("title", "title=«'a' b»", "no TOML value");
     fault("start.gap", "start.gap=«1\ntitle = 2»", "no TOML value");
     fault("start.gap", "start.gap«=»", "no value after");
     fault("start.gap", "start.gap «=» ", "no value after");
-    fault(
-        "start.gap",
-        "start.gap=«\"1 kg\"»",
-        "is a mass; gap wants a length",
-    );
-    fault(
-        "body.0.sphere.diameter",
-        "body.0.sphere.diameter=«nan»",
-        "not finite",
-    );
-    fault(
-        "body.0.sphere",
-        "body.0.sphere={diameter=«true»}",
-        "diameter is a boolean",
-    );
-    fault(
-        "body.0.sphere",
-        "body.0.sphere=«{}»",
-        "`diameter` is missing",
-    );
-    fault(
-        "body.1.approach_speed",
-        "body.1.approach_speed=«-0.5»",
-        "receding or at rest",
-    );
-    fault(
-        "material.glass",
-        "material.glass={«densty»=1}",
-        "unknown key `densty`",
-    );
+    fault("start.gap", "start.gap=«\"1 kg\"»", "is a mass; gap wants a length");
+    fault("body.0.sphere.diameter", "body.0.sphere.diameter=«nan»", "not finite");
+    fault("body.0.sphere", "body.0.sphere={diameter=«true»}", "diameter is a boolean");
+    fault("body.0.sphere", "body.0.sphere=«{}»", "`diameter` is missing");
+    fault("body.1.approach_speed", "body.1.approach_speed=«-0.5»", "receding or at rest");
+    fault("material.glass", "material.glass={«densty»=1}", "unknown key `densty`");
     fault("body", "body=«[]»", "no [[body]]");
     fault("mesh", "mesh=«3»", "mesh is an integer");
     fault("model.ting", "model.ting=«{}»", "not available");
@@ -163,33 +119,17 @@ fn faults_in_the_value() {
 
 #[test]
 fn faults_in_the_key() {
-    fault(
-        "body.2.name",
-        "body.«2».name='x'",
-        "no index of this array of 2",
-    );
+    fault("body.2.name", "body.«2».name='x'", "no index of this array of 2");
     fault("body.2", "body.«2»={}", "no index of this array of 2");
     fault("body.first.name", "body.«first».name='x'", "no index");
     fault("body.-1.name", "body.«-1».name='x'", "no index");
     let long = "body.«99999999999999999999».name='x'";
     fault("body.99999999999999999999.name", long, "no index");
-    fault(
-        "output.snapshots.1",
-        "output.snapshots.«1»='maximum'",
-        "no index of this array of 1",
-    );
-    fault(
-        "material.glass.density.x",
-        "material.glass.«density».x=1",
-        "a single value",
-    );
+    fault("output.snapshots.1", "output.snapshots.«1»='maximum'", "no index of this array of 1");
+    fault("material.glass.density.x", "material.glass.«density».x=1", "a single value");
     fault("mesh.size", "mesh.«size»=1", "unknown key `size` in mesh");
     fault("gravity", "«gravity»=1", "unknown key `gravity`");
-    fault(
-        "material.ice.density",
-        "material.«ice».density=1",
-        "exactly two",
-    );
+    fault("material.ice.density", "material.«ice».density=1", "exactly two");
     fault("body..name", "body.«.»name='x'", "empty");
     fault(".body", "«.»body=1", "empty");
     fault("body.", "body.«=»1", "empty");
@@ -203,6 +143,39 @@ fn faults_in_the_key() {
     let deep = ["a"; 40].join(".");
     let marked = format!("«{}».{}=1", ["a"; 33].join("."), ["a"; 7].join("."));
     fault(&deep, &marked, "too many parts");
+}
+
+#[test]
+fn of_keys_that_contradict_each_other_the_override_is_to_blame() {
+    let glass = "[material.glass]\ndensity = 1\nyoungs_modulus = 2\nbulk_modulus = 2\n\
+                 [material.glass.relaxation]\nacts_on = 'all'\n\
+                 terms = [{ weight = 0.1, relaxation_time = 1 }, { weight = 0.2, decay_rate = 1 }]\n";
+    let bodies = "[[body]]\nname = 'a'\nwall = {}\n[[body]]\nname = 'b'\n\
+                  sphere = { diameter = 1 }\nmaterial = 'glass'\napproach_speed = 1\n";
+    let text = format!("{glass}{bodies}[model]\nfem = {{}}\n");
+    let parse = |overrides: &[String]| Case::parse("x", &text, Path::new("."), overrides);
+    parse(&[]).unwrap();
+    for (key, value) in [
+        ("material.glass.relaxation.terms.0.decay_rate", "1"),
+        ("material.glass.relaxation.terms.1.relaxation_time", "1"),
+        ("material.glass.relaxation.terms.0.weight", "0.9"),
+        ("material.glass.youngs_modulus", "20"),
+        ("material.glass.bulk_modulus", "0.2"),
+        ("material.glass.poissons_ratio", "0.2"),
+        ("material.glass.shear_modulus", "1"),
+        ("body.0.sphere.diameter", "1"),
+        ("body.1.wall", "{}"),
+        ("body.0.material", "'glass'"),
+        ("body.0.name", "'b'"),
+        ("body.1.name", "'a'"),
+        ("body.1.approach_speed", "-1"),
+        ("model.auto", "{}"),
+        ("model.ting", "{}"),
+    ] {
+        let error = parse(&[format!("{key}={value}"), "start.gap=0".to_string()]).unwrap_err();
+        assert_eq!(error.source_name(), format!("--set {key}=…"), "{error}");
+        assert_eq!(error.column(), Some(key.len() + 2), "{error}");
+    }
 }
 
 #[test]

@@ -62,12 +62,7 @@ fn exactly(case: &Case) -> String {
 
 #[test]
 fn toml_out_and_in_is_the_same_scene() {
-    for snapshots in [
-        "[\"3 us\", 1.7e-6, 1e-5]",
-        "7",
-        "[]",
-        "[\"maximum\", \"last-contact\"]",
-    ] {
+    for snapshots in ["[\"3 us\", 1.7e-6, 1e-5]", "7", "[]", "[\"maximum\", \"last-contact\"]"] {
         let text = FULL.replace("[\"3 us\", 1.7e-6, 1e-5]", snapshots);
         let case = parse("first.toml", &text).unwrap();
         let printed = case.file.to_toml().unwrap();
@@ -137,9 +132,7 @@ fn truncated_and_mutated_cases_never_panic() {
     // Knuth's MMIX generator: the same mutations on every machine.
     let mut state = 1u64;
     let mut random = |below: usize| {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 33) as usize % below
     };
     let pieces = [
@@ -190,11 +183,8 @@ fn truncated_and_mutated_cases_never_panic() {
         }
         read(&text.into_iter().collect::<String>(), &[]);
     }
-    let overrides = [
-        "body.0.sphere.diameter='1 mm'",
-        "material.\"my glass\".density=1",
-        "a.b=[{}]",
-    ];
+    let overrides =
+        ["body.0.sphere.diameter='1 mm'", "material.\"my glass\".density=1", "a.b=[{}]"];
     for _ in 0..20_000 {
         let mut text: Vec<char> = overrides[random(overrides.len())].chars().collect();
         for _ in 0..=random(3) {
@@ -211,35 +201,21 @@ fn truncated_and_mutated_cases_never_panic() {
     read(FULL, &[format!("{}a=1", "a.".repeat(100_000))]);
     read(FULL, &[format!("model.law={}", "[".repeat(100_000))]);
     read(&FULL.replace("1.2345 km/h", &"(".repeat(100_000)), &[]);
-    assert!(
-        n_valid > 100 && n_faults > 10_000,
-        "{n_valid} valid, {n_faults} faults"
-    );
+    assert!(n_valid > 100 && n_faults > 10_000, "{n_valid} valid, {n_faults} faults");
 }
 
 fn repository_case(name: &str) -> Case {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../cases")
-        .join(name);
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(name);
     Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
 fn the_glass_pair_is_the_contracts() {
     let scene = repository_case("glass_0.5ms.toml").scene;
-    assert_eq!(
-        scene.title,
-        "Glass on glass, 22.2 mm striking 15.9 mm at 0.5 m/s"
-    );
+    assert_eq!(scene.title, "Glass on glass, 22.2 mm striking 15.9 mm at 0.5 m/s");
     let [striker, target] = &scene.bodies;
-    assert_eq!(
-        (striker.name.as_str(), target.name.as_str()),
-        ("striker", "target")
-    );
-    assert_eq!(
-        (striker.diameter(), target.diameter()),
-        (Some(0.0222), Some(0.0159))
-    );
+    assert_eq!((striker.name.as_str(), target.name.as_str()), ("striker", "target"));
+    assert_eq!((striker.diameter(), target.diameter()), (Some(0.0222), Some(0.0159)));
     assert_eq!((striker.velocity, target.velocity), (0.5, 0.0));
     assert_eq!(striker.material(), target.material());
     let glass = striker.material().unwrap();
@@ -249,13 +225,7 @@ fn the_glass_pair_is_the_contracts() {
     assert!((glass.instantaneous().poissons_ratio() - 0.244).abs() < 1e-15);
     let relaxation = glass.relaxation().unwrap();
     assert_eq!(relaxation.acts_on(), ActsOn::All);
-    assert_eq!(
-        relaxation.terms(),
-        [PronyTerm {
-            weight: 1.0,
-            relaxation_time: 1.0 / 2708.0
-        }]
-    );
+    assert_eq!(relaxation.terms(), [PronyTerm { weight: 1.0, relaxation_time: 1.0 / 2708.0 }]);
     assert_eq!(scene.snapshots, None);
     assert_eq!(scene.mesh, Default::default());
 }
@@ -267,23 +237,13 @@ fn its_variants_differ_only_in_relaxation() {
     let elastic_bulk = repository_case("glass_0.5ms_elastic_bulk.toml").scene;
     for other in [&elastic, &elastic_bulk] {
         for (a, b) in pair.bodies.iter().zip(&other.bodies) {
-            assert_eq!(
-                (&a.name, a.diameter(), a.velocity),
-                (&b.name, b.diameter(), b.velocity)
-            );
+            assert_eq!((&a.name, a.diameter(), a.velocity), (&b.name, b.diameter(), b.velocity));
             let (a, b) = (a.material().unwrap(), b.material().unwrap());
-            assert_eq!(
-                (a.density(), a.instantaneous()),
-                (b.density(), b.instantaneous())
-            );
+            assert_eq!((a.density(), a.instantaneous()), (b.density(), b.instantaneous()));
         }
     }
     assert_eq!(elastic.bodies[0].material().unwrap().relaxation(), None);
-    let bulk = elastic_bulk.bodies[0]
-        .material()
-        .unwrap()
-        .relaxation()
-        .unwrap();
+    let bulk = elastic_bulk.bodies[0].material().unwrap().relaxation().unwrap();
     assert_eq!(bulk.acts_on(), ActsOn::Shear);
 }
 
@@ -303,13 +263,8 @@ fn snapshots_are_labels_times_or_a_count() {
     };
     assert_eq!(snapshots("7"), Snapshots::Count(7));
     assert_eq!(snapshots("[]"), Snapshots::Labels(vec![]));
-    assert_eq!(
-        snapshots("[\"3 us\", 1e-6, 0, 1e-6]"),
-        Snapshots::Times(vec![0.0, 1e-6, 3e-6])
-    );
+    assert_eq!(snapshots("[\"3 us\", 1e-6, 0, 1e-6]"), Snapshots::Times(vec![0.0, 1e-6, 3e-6]));
     let all = "[\"mid-compression\", \"maximum\", \"mid-separation\", \"last-contact\"]";
-    let labels = SnapshotLabel::WORDS
-        .iter()
-        .map(|word| SnapshotLabel::from_word(word).unwrap());
+    let labels = SnapshotLabel::WORDS.iter().map(|word| SnapshotLabel::from_word(word).unwrap());
     assert_eq!(snapshots(all), Snapshots::Labels(labels.collect()));
 }

@@ -45,7 +45,9 @@ impl ContactInterface {
                 }
             }
         }
-        (0..n).map(|k| (surface.radii[k], if area[k] > 0.0 { force[k] / area[k] } else { 0.0 })).collect()
+        (0..n)
+            .map(|k| (surface.radii[k], if area[k] > 0.0 { force[k] / area[k] } else { 0.0 }))
+            .collect()
     }
 
     /// Contact pressure on the axis, Pa; 0 without contact there.

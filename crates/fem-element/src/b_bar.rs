@@ -16,8 +16,7 @@ pub fn b_bar(corners: &[[f64; 2]; 4]) -> ElementStiffness {
                 let (e, f) = (unit_strain(&p, i), unit_strain(&p, j));
                 let trace = (e[0] + e[1] + e[2]) * (f[0] + f[1] + f[2]);
                 let product = e[0] * f[0] + e[1] * f[1] + e[2] * f[2];
-                deviatoric[(i, j)] +=
-                    p.weight * (2.0 * (product - trace / 3.0) + e[3] * f[3]);
+                deviatoric[(i, j)] += p.weight * (2.0 * (product - trace / 3.0) + e[3] * f[3]);
             }
         }
     }

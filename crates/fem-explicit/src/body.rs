@@ -3,7 +3,7 @@
 use fem_material::{ActsOn, Material, RelaxationStep};
 use fem_mesh::{SphereMesh, cap_volume};
 
-use crate::block::{Block, pack_blocks};
+use crate::block::Blocks;
 use crate::kernel::{Field, Moduli, strain_energy};
 
 /// What a body is made of and how it moves at first.
@@ -50,7 +50,7 @@ pub(crate) struct Relaxation {
 /// and with infinite mass.
 #[derive(Debug, Clone)]
 pub struct Body {
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) blocks: Blocks,
     pub(crate) moduli: Moduli,
     pub(crate) relaxation: Option<Relaxation>,
     /// Lumped masses, mass scaling included, kg.
@@ -67,7 +67,7 @@ impl Body {
     /// A wall.
     pub(crate) fn wall(velocity: f64) -> Self {
         Self {
-            blocks: Vec::new(),
+            blocks: Blocks::none(),
             moduli: Moduli { bulk: 0.0, shear: 0.0 },
             relaxation: None,
             nodal_mass: vec![0.0],
@@ -117,7 +117,7 @@ impl Body {
         });
         let mass = nodal_mass.iter().sum::<f64>() - added_mass;
         Self {
-            blocks: pack_blocks(&mesh),
+            blocks: Blocks::pack(&mesh),
             moduli,
             relaxation: relaxation.filter(|r| !r.branches.is_empty()),
             nodal_mass,
@@ -191,8 +191,7 @@ impl Body {
             ActsOn::All => (bulk, relaxation.equilibrium_weight * bulk),
             ActsOn::Shear => (0.0, bulk),
         };
-        let lasting =
-            Moduli { bulk: lasting_bulk, shear: relaxation.equilibrium_weight * shear };
+        let lasting = Moduli { bulk: lasting_bulk, shear: relaxation.equilibrium_weight * shear };
         let mut stored = 0.0;
         if lasting.bulk != 0.0 || lasting.shear != 0.0 {
             stored += strain_energy(&self.blocks, lasting, u);

@@ -1,12 +1,9 @@
-//! The loops over elements and nodes in which a run spends its time.
-//!
-//! Each is compiled for several instruction sets and chosen at run time. None
-//! uses fused multiply-add, so the bits of a result do not depend on the
-//! machine.
+//! The element loops, in which a run spends its time.
 
-use multiversion::multiversion;
-
-use crate::block::{Block, LANES, Lanes};
+use crate::block::{Block, Blocks};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::Avx2;
+use crate::lanes::{LANES, Lanes, Plain};
 
 /// A field of pairs (r, y), one a node.
 pub(crate) type Field = [[f64; 2]];
@@ -18,239 +15,232 @@ pub(crate) struct Moduli {
     pub shear: f64,
 }
 
-/// Strains of eight elements times the square root of their volume, and their
-/// hourglass amplitudes.
-struct Strain {
-    rr: Lanes,
-    yy: Lanes,
-    tt: Lanes,
-    ry: Lanes,
-    hourglass_r: Lanes,
-    hourglass_y: Lanes,
+/// Subtracts the internal forces (N) of one field from `f`.
+pub(crate) fn subtract_internal_forces(blocks: &Blocks, moduli: Moduli, w: &Field, f: &mut Field) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2")]
+        fn avx2(blocks: &Blocks, moduli: Moduli, w: &Field, f: &mut Field) {
+            subtract_forces::<Avx2, false>(blocks, moduli, w, w, f);
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has been asked.
+            return unsafe { avx2(blocks, moduli, w, f) };
+        }
+    }
+    subtract_forces::<Plain, false>(blocks, moduli, w, w, f);
+}
+
+/// Subtracts the internal forces (N) from `f`: bulk stress of `u`, deviatoric
+/// stress of `w`.
+pub(crate) fn subtract_split_internal_forces(
+    blocks: &Blocks,
+    moduli: Moduli,
+    u: &Field,
+    w: &Field,
+    f: &mut Field,
+) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2")]
+        fn avx2(blocks: &Blocks, moduli: Moduli, u: &Field, w: &Field, f: &mut Field) {
+            subtract_forces::<Avx2, true>(blocks, moduli, u, w, f);
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has been asked.
+            return unsafe { avx2(blocks, moduli, u, w, f) };
+        }
+    }
+    subtract_forces::<Plain, true>(blocks, moduli, u, w, f);
+}
+
+/// Strain energy (J) of a field.
+pub(crate) fn strain_energy(blocks: &Blocks, moduli: Moduli, field: &Field) -> f64 {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2")]
+        fn avx2(blocks: &Blocks, moduli: Moduli, field: &Field) -> f64 {
+            sum_energy::<Avx2>(blocks, moduli, field)
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has been asked.
+            return unsafe { avx2(blocks, moduli, field) };
+        }
+    }
+    sum_energy::<Plain>(blocks, moduli, field)
 }
 
 /// Displacements at the corners: radial at all four, and both relative to
 /// corner 3.
-struct Corners {
-    r: [Lanes; 4],
-    dr: [Lanes; 3],
-    dy: [Lanes; 3],
+struct Corners<L> {
+    r: [L; 4],
+    dr: [L; 3],
+    dy: [L; 3],
 }
 
-impl Corners {
-    #[inline(always)]
-    fn gather(block: &Block, field: &Field) -> Self {
-        let mut r = [[0.0; LANES]; 4];
-        let mut y = [[0.0; LANES]; 4];
-        for a in 0..4 {
-            for lane in 0..LANES {
-                let [value_r, value_y] = field[block.corners[a][lane] as usize];
-                r[a][lane] = value_r;
-                y[a][lane] = value_y;
-            }
-        }
-        let mut dr = [[0.0; LANES]; 3];
-        let mut dy = [[0.0; LANES]; 3];
-        for a in 0..3 {
-            for lane in 0..LANES {
-                dr[a][lane] = r[a][lane] - r[3][lane];
-                dy[a][lane] = y[a][lane] - y[3][lane];
-            }
-        }
-        Self { r, dr, dy }
-    }
+/// Strains of the elements times the square root of their volume, and their
+/// hourglass amplitudes.
+struct Strain<L> {
+    rr: L,
+    yy: L,
+    tt: L,
+    ry: L,
+    hourglass_r: L,
+    hourglass_y: L,
+}
 
+// Closures and `map` would be compiled without the instruction set of the kernel
+// that they stand in, so numbers are loaded one by one.
+#[inline(always)]
+fn load_three<L: Lanes>(values: &[[f64; LANES]; 3]) -> [L; 3] {
+    [L::load(&values[0]), L::load(&values[1]), L::load(&values[2])]
+}
+
+impl<L: Lanes> Corners<L> {
+    /// # Safety
+    /// Every corner of the block is an index of `field`.
     #[inline(always)]
-    fn strain(&self, block: &Block) -> Strain {
-        let mut e = Strain {
-            rr: [0.0; LANES],
-            yy: [0.0; LANES],
-            tt: [0.0; LANES],
-            ry: [0.0; LANES],
-            hourglass_r: [0.0; LANES],
-            hourglass_y: [0.0; LANES],
+    unsafe fn gather(block: &Block, field: &Field) -> Self {
+        // SAFETY: the caller's promise.
+        let ((r0, y0), (r1, y1), (r2, y2), (r3, y3)) = unsafe {
+            (
+                L::gather(field, &block.corners[0]),
+                L::gather(field, &block.corners[1]),
+                L::gather(field, &block.corners[2]),
+                L::gather(field, &block.corners[3]),
+            )
         };
-        for a in 0..3 {
-            for lane in 0..LANES {
-                let (dr, dy) = (self.dr[a][lane], self.dy[a][lane]);
-                e.rr[lane] += block.gradient_r[a][lane] * dr;
-                e.yy[lane] += block.gradient_y[a][lane] * dy;
-                e.ry[lane] += block.gradient_y[a][lane] * dr + block.gradient_r[a][lane] * dy;
-                e.hourglass_r[lane] += block.hourglass[a][lane] * dr;
-                e.hourglass_y[lane] += block.hourglass[a][lane] * dy;
-            }
+        Self {
+            r: [r0, r1, r2, r3],
+            dr: [r0 - r3, r1 - r3, r2 - r3],
+            dy: [y0 - y3, y1 - y3, y2 - y3],
         }
-        for a in 0..4 {
-            for lane in 0..LANES {
-                e.tt[lane] += block.hoop[a][lane] * self.r[a][lane];
-            }
-        }
-        e
     }
 
     #[inline(always)]
-    fn dilatation(&self, block: &Block) -> Lanes {
-        let mut dilatation = [0.0; LANES];
-        for a in 0..3 {
-            for lane in 0..LANES {
-                dilatation[lane] += block.gradient_r[a][lane] * self.dr[a][lane]
-                    + block.gradient_y[a][lane] * self.dy[a][lane];
-            }
+    fn strain(&self, block: &Block) -> Strain<L> {
+        let [r0, r1, r2] = load_three::<L>(&block.gradient_r);
+        let [y0, y1, y2] = load_three::<L>(&block.gradient_y);
+        let [h0, h1, h2] = load_three::<L>(&block.hourglass);
+        let ([dr0, dr1, dr2], [dy0, dy1, dy2]) = (self.dr, self.dy);
+        Strain {
+            rr: r0 * dr0 + r1 * dr1 + r2 * dr2,
+            yy: y0 * dy0 + y1 * dy1 + y2 * dy2,
+            tt: self.hoop(block),
+            ry: (y0 * dr0 + y1 * dr1 + y2 * dr2) + (r0 * dy0 + r1 * dy1 + r2 * dy2),
+            hourglass_r: h0 * dr0 + h1 * dr1 + h2 * dr2,
+            hourglass_y: h0 * dy0 + h1 * dy1 + h2 * dy2,
         }
-        for a in 0..4 {
-            for lane in 0..LANES {
-                dilatation[lane] += block.hoop[a][lane] * self.r[a][lane];
-            }
-        }
-        dilatation
+    }
+
+    #[inline(always)]
+    fn dilatation(&self, block: &Block) -> L {
+        let [r0, r1, r2] = load_three::<L>(&block.gradient_r);
+        let [y0, y1, y2] = load_three::<L>(&block.gradient_y);
+        let ([dr0, dr1, dr2], [dy0, dy1, dy2]) = (self.dr, self.dy);
+        (r0 * dr0 + r1 * dr1 + r2 * dr2) + (y0 * dy0 + y1 * dy1 + y2 * dy2) + self.hoop(block)
+    }
+
+    #[inline(always)]
+    fn hoop(&self, block: &Block) -> L {
+        let [t0, t1, t2] =
+            [L::load(&block.hoop[0]), L::load(&block.hoop[1]), L::load(&block.hoop[2])];
+        let t3 = L::load(&block.hoop[3]);
+        (t0 * self.r[0] + t1 * self.r[1]) + (t2 * self.r[2] + t3 * self.r[3])
     }
 }
 
 /// Subtracts the internal forces of the shear field `w`, and of the bulk field
 /// where it is another, from `f`.
 #[inline(always)]
-fn subtract_forces<const SPLIT: bool>(
-    blocks: &[Block],
+fn subtract_forces<L: Lanes, const SPLIT: bool>(
+    blocks: &Blocks,
     moduli: Moduli,
     bulk_field: &Field,
     w: &Field,
     f: &mut Field,
 ) {
-    let Moduli { bulk, shear } = moduli;
-    for block in blocks {
-        let corners = Corners::gather(block, w);
-        let e = corners.strain(block);
+    let bulk = L::splat(moduli.bulk);
+    let shear = L::splat(moduli.shear);
+    let twice_shear = L::splat(2.0 * moduli.shear);
+    let trace_shear = L::splat(2.0 / 3.0 * moduli.shear);
+    for block in blocks.checked(&[bulk_field.len(), w.len(), f.len()]) {
+        // SAFETY: the fields have been checked against the corner numbers.
+        let e = unsafe { Corners::<L>::gather(block, w) }.strain(block);
+        let trace = e.rr + e.yy + e.tt;
         let dilatation = if SPLIT {
-            Corners::gather(block, bulk_field).dilatation(block)
+            // SAFETY: as above.
+            unsafe { Corners::<L>::gather(block, bulk_field) }.dilatation(block)
         } else {
-            std::array::from_fn(|lane| e.rr[lane] + e.yy[lane] + e.tt[lane])
+            trace
         };
-        let mut force_r = [[0.0; LANES]; 4];
-        let mut force_y = [[0.0; LANES]; 4];
-        let mut hoop_stress = [0.0; LANES];
-        for lane in 0..LANES {
-            let trace = e.rr[lane] + e.yy[lane] + e.tt[lane];
-            let mean = bulk * dilatation[lane] - (2.0 / 3.0) * shear * trace;
-            let s_rr = mean + 2.0 * shear * e.rr[lane];
-            let s_yy = mean + 2.0 * shear * e.yy[lane];
-            let s_ry = shear * e.ry[lane];
-            hoop_stress[lane] = mean + 2.0 * shear * e.tt[lane];
-            let [k_rr, k_yy, k_ry] = [0, 1, 2].map(|k: usize| block.hourglass_stiffness[k][lane]);
-            let (q_r, q_y) = (e.hourglass_r[lane], e.hourglass_y[lane]);
-            let hourglass_r = shear * (k_rr * q_r + k_ry * q_y);
-            let hourglass_y = shear * (k_ry * q_r + k_yy * q_y);
-            for a in 0..3 {
-                let (g_r, g_y) = (block.gradient_r[a][lane], block.gradient_y[a][lane]);
-                let gamma = block.hourglass[a][lane];
-                force_r[a][lane] = g_r * s_rr + g_y * s_ry + gamma * hourglass_r;
-                force_y[a][lane] = g_y * s_yy + g_r * s_ry + gamma * hourglass_y;
-            }
-        }
-        for lane in 0..LANES {
-            force_r[3][lane] = -(force_r[0][lane] + force_r[1][lane] + force_r[2][lane]);
-            force_y[3][lane] = -(force_y[0][lane] + force_y[1][lane] + force_y[2][lane]);
-        }
-        for a in 0..4 {
-            for lane in 0..LANES {
-                force_r[a][lane] += block.hoop[a][lane] * hoop_stress[lane];
-            }
-        }
-        for lane in 0..LANES {
-            for a in 0..4 {
-                let node = &mut f[block.corners[a][lane] as usize];
-                node[0] -= force_r[a][lane];
-                node[1] -= force_y[a][lane];
-            }
+        let mean = bulk * dilatation - trace_shear * trace;
+        let s_rr = mean + twice_shear * e.rr;
+        let s_yy = mean + twice_shear * e.yy;
+        let s_tt = mean + twice_shear * e.tt;
+        let s_ry = shear * e.ry;
+        let [k_rr, k_yy, k_ry] = load_three::<L>(&block.hourglass_stiffness);
+        let h_r = shear * (k_rr * e.hourglass_r + k_ry * e.hourglass_y);
+        let h_y = shear * (k_ry * e.hourglass_r + k_yy * e.hourglass_y);
+
+        let stress = Stress { s_rr, s_yy, s_ry, h_r, h_y };
+        let (r0, y0) = stress.force(block, 0);
+        let (r1, y1) = stress.force(block, 1);
+        let (r2, y2) = stress.force(block, 2);
+        let zero = L::splat(0.0);
+        let (r3, y3) = (zero - (r0 + r1 + r2), zero - (y0 + y1 + y2));
+        // SAFETY: as above.
+        unsafe {
+            (r0 + L::load(&block.hoop[0]) * s_tt).scatter_subtract(y0, f, &block.corners[0]);
+            (r1 + L::load(&block.hoop[1]) * s_tt).scatter_subtract(y1, f, &block.corners[1]);
+            (r2 + L::load(&block.hoop[2]) * s_tt).scatter_subtract(y2, f, &block.corners[2]);
+            (r3 + L::load(&block.hoop[3]) * s_tt).scatter_subtract(y3, f, &block.corners[3]);
         }
     }
 }
 
-/// Subtracts the internal forces (N) of one field from `f`.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
-pub(crate) fn subtract_internal_forces(
-    blocks: &[Block],
-    moduli: Moduli,
-    w: &Field,
-    f: &mut Field,
-) {
-    subtract_forces::<false>(blocks, moduli, w, w, f);
+/// What the gradients turn into forces.
+#[derive(Clone, Copy)]
+struct Stress<L> {
+    s_rr: L,
+    s_yy: L,
+    s_ry: L,
+    h_r: L,
+    h_y: L,
 }
 
-/// Subtracts the internal forces (N) from `f`: bulk stress of `u`, deviatoric
-/// stress of `w`.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
-pub(crate) fn subtract_split_internal_forces(
-    blocks: &[Block],
-    moduli: Moduli,
-    u: &Field,
-    w: &Field,
-    f: &mut Field,
-) {
-    subtract_forces::<true>(blocks, moduli, u, w, f);
-}
-
-/// Strain energy (J) of a field.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
-pub(crate) fn strain_energy(blocks: &[Block], moduli: Moduli, field: &Field) -> f64 {
-    let mut twice = [0.0; LANES];
-    for block in blocks {
-        let e = Corners::gather(block, field).strain(block);
-        for lane in 0..LANES {
-            let trace = e.rr[lane] + e.yy[lane] + e.tt[lane];
-            let square = e.rr[lane] * e.rr[lane]
-                + e.yy[lane] * e.yy[lane]
-                + e.tt[lane] * e.tt[lane]
-                + 0.5 * e.ry[lane] * e.ry[lane];
-            let [k_rr, k_yy, k_ry] = [0, 1, 2].map(|k: usize| block.hourglass_stiffness[k][lane]);
-            let (q_r, q_y) = (e.hourglass_r[lane], e.hourglass_y[lane]);
-            let hourglass = k_rr * q_r * q_r + 2.0 * k_ry * q_r * q_y + k_yy * q_y * q_y;
-            twice[lane] += moduli.bulk * trace * trace
-                + moduli.shear * (2.0 * (square - trace * trace / 3.0) + hourglass);
-        }
+impl<L: Lanes> Stress<L> {
+    /// Force at a corner but for the hoop stress.
+    #[inline(always)]
+    fn force(&self, block: &Block, a: usize) -> (L, L) {
+        let (g_r, g_y) = (L::load(&block.gradient_r[a]), L::load(&block.gradient_y[a]));
+        let gamma = L::load(&block.hourglass[a]);
+        (
+            g_r * self.s_rr + g_y * self.s_ry + gamma * self.h_r,
+            g_y * self.s_yy + g_r * self.s_ry + gamma * self.h_y,
+        )
     }
+}
+
+#[inline(always)]
+fn sum_energy<L: Lanes>(blocks: &Blocks, moduli: Moduli, field: &Field) -> f64 {
+    let bulk = L::splat(moduli.bulk - 2.0 / 3.0 * moduli.shear);
+    let shear = L::splat(moduli.shear);
+    let twice_shear = L::splat(2.0 * moduli.shear);
+    let mut twice = L::splat(0.0);
+    for block in blocks.checked(&[field.len()]) {
+        // SAFETY: the field has been checked against the corner numbers.
+        let e = unsafe { Corners::<L>::gather(block, field) }.strain(block);
+        let trace = e.rr + e.yy + e.tt;
+        let [k_rr, k_yy, k_ry] = load_three::<L>(&block.hourglass_stiffness);
+        let (q_r, q_y) = (e.hourglass_r, e.hourglass_y);
+        let cross = k_ry * q_r * q_y;
+        let hourglass = k_rr * q_r * q_r + (cross + cross) + k_yy * q_y * q_y;
+        twice = twice
+            + bulk * trace * trace
+            + twice_shear * (e.rr * e.rr + e.yy * e.yy + e.tt * e.tt)
+            + shear * (e.ry * e.ry + hourglass);
+    }
+    let twice: [f64; LANES] = twice.to_array();
     0.5 * twice.iter().sum::<f64>()
-}
-
-/// Central differences: v ← v + Δt f/m, u ← u + Δt v.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
-pub(crate) fn advance_motion(
-    time_step: f64,
-    inverse_mass: &Field,
-    f: &Field,
-    v: &mut Field,
-    u: &mut Field,
-) {
-    let (f, v, u) = (f.as_flattened(), v.as_flattened_mut(), u.as_flattened_mut());
-    for (((v, u), f), inverse_mass) in
-        v.iter_mut().zip(u).zip(f).zip(inverse_mass.as_flattened())
-    {
-        *v += time_step * (inverse_mass * f);
-        *u += time_step * *v;
-    }
-}
-
-/// Starts the effective displacement: w ← g∞ u.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
-pub(crate) fn start_effective(equilibrium_weight: f64, u: &Field, w: &mut Field) {
-    for (w, u) in w.as_flattened_mut().iter_mut().zip(u.as_flattened()) {
-        *w = equilibrium_weight * u;
-    }
-}
-
-/// Advances one Prony branch by a step of constant rate and adds its share:
-/// q ← decay q + gain Δu, w ← w + weight q.
-#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
-pub(crate) fn advance_branch(
-    decay: f64,
-    gain_times_step: f64,
-    weight: f64,
-    v: &Field,
-    q: &mut Field,
-    w: &mut Field,
-) {
-    let (q, w) = (q.as_flattened_mut(), w.as_flattened_mut());
-    for ((q, w), v) in q.iter_mut().zip(w).zip(v.as_flattened()) {
-        *q = decay * *q + gain_times_step * v;
-        *w += weight * *q;
-    }
 }

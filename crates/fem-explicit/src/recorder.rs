@@ -91,10 +91,12 @@ impl Recorder {
                     self.maximum = Some(copy(None, Some(Label::Maximum)));
                 }
                 None => {
-                    let rung = self.kept.last().map_or(
-                        LADDER_START * self.expected_approach,
-                        |snapshot| RUNG_RATIO * snapshot.approach,
-                    );
+                    let rung = self
+                        .kept
+                        .last()
+                        .map_or(LADDER_START * self.expected_approach, |snapshot| {
+                            RUNG_RATIO * snapshot.approach
+                        });
                     if now.approach >= rung {
                         let half = 0.5 * now.approach / RUNG_RATIO;
                         let first = self.kept.iter().position(|rung| rung.approach >= half);
@@ -162,8 +164,7 @@ impl Recorder {
                         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
                 });
                 let mut found = Vec::new();
-                let all =
-                    [mid_compression, self.maximum, self.mid_separation, self.last_contact];
+                let all = [mid_compression, self.maximum, self.mid_separation, self.last_contact];
                 for (label, snapshot) in Label::ALL.into_iter().zip(all) {
                     if !labels.contains(&label) {
                         continue;
@@ -181,9 +182,8 @@ impl Recorder {
             SnapshotRequest::Count(n) => evenly(self.kept, self.last_contact, n),
             SnapshotRequest::Times(times) => {
                 for time in &times[self.next_time..] {
-                    missing.push(format!(
-                        "the run ended before {time:e} s; its snapshot is left out"
-                    ));
+                    missing
+                        .push(format!("the run ended before {time:e} s; its snapshot is left out"));
                 }
                 self.kept
             }

@@ -1,7 +1,7 @@
 //! Fields of both bodies at an instant.
 
-use crate::kernel::advance_motion;
 use crate::model::Model;
+use crate::nodes::advance_motion;
 use crate::state::{Scratch, State};
 
 /// The named instants of a collision.

@@ -55,8 +55,6 @@ impl State {
 
 impl Scratch {
     pub fn new(model: &Model) -> Self {
-        Self {
-            forces: model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]),
-        }
+        Self { forces: model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]) }
     }
 }

@@ -4,11 +4,9 @@ use fem_contact::ContactForces;
 use fem_material::ActsOn;
 
 use crate::body::Body;
-use crate::kernel::{
-    advance_branch, advance_motion, start_effective, subtract_internal_forces,
-    subtract_split_internal_forces,
-};
+use crate::kernel::{subtract_internal_forces, subtract_split_internal_forces};
 use crate::model::Model;
+use crate::nodes::{advance_branch, advance_motion, start_effective};
 use crate::state::{BodyState, Scratch, State};
 
 /// Forces of the present configuration: internal, then contact.

@@ -39,8 +39,8 @@ impl NodalBound {
         for (element, quad) in mesh.quads().iter().enumerate() {
             let corners = mesh.corners(element);
             let geometry = QuadGeometry::new(&corners);
-            let matrix = mean_gradient(&geometry)
-                .combine(moduli.bulk_modulus(), moduli.shear_modulus());
+            let matrix =
+                mean_gradient(&geometry).combine(moduli.bulk_modulus(), moduli.shear_modulus());
             let masses = geometry.nodal_volumes.map(|volume| material.density() * volume);
             let eigenvalue =
                 largest_eigenvalue(&matrix, &masses, corners.map(|corner| corner[0] == 0.0));

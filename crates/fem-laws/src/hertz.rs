@@ -44,12 +44,7 @@ impl HertzImpact {
         let stiffness = 4.0 / 3.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
         // The powers are taken apart so that v² cannot leave the range of f64.
         let max_approach = (1.25 * (pair.effective_mass() / stiffness)).powf(0.4) * speed.powf(0.8);
-        let impact = Self {
-            pair: *pair,
-            approach_speed,
-            stiffness,
-            max_approach,
-        };
+        let impact = Self { pair: *pair, approach_speed, stiffness, max_approach };
         positive("hertz contact_time", impact.contact_time())?;
         positive("hertz peak_force", impact.peak_force())?;
         positive("hertz peak_pressure", impact.peak_pressure())?;

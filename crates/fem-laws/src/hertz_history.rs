@@ -34,11 +34,7 @@ impl HertzImpact {
     /// State at `time`, s, after first touch; the bodies fly freely before it and after T.
     pub fn at(&self, time: f64) -> HertzInstant {
         let (speed, contact_time) = (self.approach_speed(), self.contact_time());
-        let flying = |approach, approach_rate| HertzInstant {
-            approach,
-            approach_rate,
-            force: 0.0,
-        };
+        let flying = |approach, approach_rate| HertzInstant { approach, approach_rate, force: 0.0 };
         if time < 0.0 {
             flying(speed * time, speed)
         } else if time < contact_time {
@@ -78,9 +74,5 @@ fn half_time_fraction_at(phase: f64) -> f64 {
 /// 1 − sin^(5/2) ψ, the kinetic share of the energy, accurate at both ends.
 fn kinetic_fraction(phase: f64) -> f64 {
     let (sin, cos) = phase.sin_cos();
-    if sin < FRAC_1_SQRT_2 {
-        1.0 - sin.powf(2.5)
-    } else {
-        -(1.25 * (-cos * cos).ln_1p()).exp_m1()
-    }
+    if sin < FRAC_1_SQRT_2 { 1.0 - sin.powf(2.5) } else { -(1.25 * (-cos * cos).ln_1p()).exp_m1() }
 }

@@ -59,10 +59,7 @@ impl HertzPressure {
     /// Stress on the axis at a depth ≥ 0, m, accurate to rounding of p₀.
     pub fn axis_stress(&self, depth: f64, poissons_ratio: f64) -> AxisStress {
         if self.contact_radius == 0.0 {
-            return AxisStress {
-                axial: 0.0,
-                radial: 0.0,
-            };
+            return AxisStress { axial: 0.0, radial: 0.0 };
         }
         let zeta = depth / self.contact_radius;
         let axial = 1.0 / (1.0 + zeta * zeta);

@@ -43,11 +43,7 @@ impl Partner {
     /// Radius, mass and modulus; infinite for the wall.
     fn checked(&self) -> Result<[f64; 3], LawError> {
         match *self {
-            Self::Sphere {
-                radius,
-                mass,
-                plane_strain_modulus,
-            } => Ok([
+            Self::Sphere { radius, mass, plane_strain_modulus } => Ok([
                 positive("radius", radius)?,
                 positive("mass", mass)?,
                 positive("plane_strain_modulus", plane_strain_modulus)?,

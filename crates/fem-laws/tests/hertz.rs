@@ -10,11 +10,8 @@ fn glass() -> Material {
 
 fn glass_pair() -> Pair {
     let glass = glass();
-    Pair::new(
-        Partner::solid_sphere(22.2e-3, &glass),
-        Partner::solid_sphere(15.9e-3, &glass),
-    )
-    .unwrap()
+    Pair::new(Partner::solid_sphere(22.2e-3, &glass), Partner::solid_sphere(15.9e-3, &glass))
+        .unwrap()
 }
 
 fn assert_close(found: f64, expected: f64, relative: f64) {
@@ -50,10 +47,7 @@ fn reference_table() {
             let n_decimals = printed.len() - printed.find('.').unwrap() - 1;
             let unit = 10f64.powi(-(n_decimals as i32));
             let expected: f64 = printed.parse().unwrap();
-            assert!(
-                (found - expected).abs() <= unit,
-                "{speed} m/s: {found}, not {printed}"
-            );
+            assert!((found - expected).abs() <= unit, "{speed} m/s: {found}, not {printed}");
         }
         assert_eq!(impact.restitution(), 1.0);
     }
@@ -102,21 +96,13 @@ fn identities_hold_over_all_sizes() {
         for radius in [1e-6, 1e-2, 10.0] {
             for plane_strain_modulus in [1e3, 7e10, 1e12] {
                 for speed in [1e-9, 1e-3, 1e3] {
-                    let sphere = Partner::Sphere {
-                        radius,
-                        mass,
-                        plane_strain_modulus,
-                    };
+                    let sphere = Partner::Sphere { radius, mass, plane_strain_modulus };
                     let pair = Pair::new(sphere, Partner::Wall).unwrap();
                     let impact = HertzImpact::new(&pair, speed).unwrap();
                     let (approach, force) = (impact.max_approach(), impact.peak_force());
                     // powf and about ten products.
                     assert_close(0.4 * force * approach, 0.5 * mass * speed * speed, 1e-13);
-                    assert_close(
-                        impact.max_contact_radius().powi(2),
-                        radius * approach,
-                        1e-14,
-                    );
+                    assert_close(impact.max_contact_radius().powi(2), radius * approach, 1e-14);
                     assert_close(impact.pressure(approach).force(), force, 1e-14);
                     let middle = impact.at(0.5 * impact.contact_time());
                     assert_close(middle.force, force, 1e-13);
@@ -134,11 +120,7 @@ fn work_of_the_force_is_the_energy_of_the_impact() {
     let root = impact.max_approach().sqrt();
     let work: f64 = (0..=n)
         .map(|i| {
-            let weight = if i == 0 || i == n {
-                1.0
-            } else {
-                2.0 + 2.0 * f64::from(i % 2)
-            };
+            let weight = if i == 0 || i == n { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
             let s = root * f64::from(i) / f64::from(n);
             weight * impact.force(s * s) * 2.0 * s
         })
@@ -167,9 +149,7 @@ fn wall_is_the_limit_of_a_huge_stiff_sphere() {
             impact.peak_force() / onto_wall.peak_force(),
             impact.max_contact_radius() / onto_wall.max_contact_radius(),
         ];
-        ratios
-            .iter()
-            .fold(0.0f64, |max, ratio| max.max((ratio - 1.0).abs()))
+        ratios.iter().fold(0.0f64, |max, ratio| max.max((ratio - 1.0).abs()))
     };
     // First order in 1/factor, with a coefficient of order 1.
     assert!(error(1e6) < 2e-6);
@@ -251,20 +231,11 @@ fn open_contact_carries_nothing() {
 fn bodies_fly_freely_before_and_after() {
     let impact = HertzImpact::new(&glass_pair(), 0.5).unwrap();
     let before = impact.at(-2.0);
-    assert_eq!(
-        (before.approach, before.approach_rate, before.force),
-        (-1.0, 0.5, 0.0)
-    );
+    assert_eq!((before.approach, before.approach_rate, before.force), (-1.0, 0.5, 0.0));
     let start = impact.at(0.0);
-    assert_eq!(
-        (start.approach, start.approach_rate, start.force),
-        (0.0, 0.5, 0.0)
-    );
+    assert_eq!((start.approach, start.approach_rate, start.force), (0.0, 0.5, 0.0));
     let end = impact.at(impact.contact_time());
-    assert_eq!(
-        (end.approach, end.approach_rate, end.force),
-        (0.0, -0.5, 0.0)
-    );
+    assert_eq!((end.approach, end.approach_rate, end.force), (0.0, -0.5, 0.0));
     let after = impact.at(impact.contact_time() + 2.0);
     assert!((after.approach + 1.0).abs() < 1e-15);
     assert_eq!((after.approach_rate, after.force), (-0.5, 0.0));
@@ -276,26 +247,16 @@ fn impossible_speeds_are_refused() {
     for value in [0.0, -0.5, f64::INFINITY] {
         assert_eq!(
             HertzImpact::new(&pair, value),
-            Err(LawError::NotPositive {
-                quantity: "approach_speed",
-                value
-            })
+            Err(LawError::NotPositive { quantity: "approach_speed", value })
         );
     }
     assert!(HertzImpact::new(&pair, f64::NAN).is_err());
     // Results beyond the range of f64.
     assert!(HertzImpact::new(&pair, 1e300).is_err());
     assert!(HertzImpact::new(&pair, 1e-300).is_err());
-    let needle = Partner::Sphere {
-        radius: 1e-300,
-        mass: 1.0,
-        plane_strain_modulus: 1e200,
-    };
+    let needle = Partner::Sphere { radius: 1e-300, mass: 1.0, plane_strain_modulus: 1e200 };
     assert_eq!(
         HertzImpact::new(&Pair::new(needle, Partner::Wall).unwrap(), 1.0),
-        Err(LawError::NotPositive {
-            quantity: "hertz peak_pressure",
-            value: f64::INFINITY
-        })
+        Err(LawError::NotPositive { quantity: "hertz peak_pressure", value: f64::INFINITY })
     );
 }

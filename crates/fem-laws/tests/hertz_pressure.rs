@@ -4,10 +4,7 @@ use std::f64::consts::PI;
 
 use fem_laws::HertzPressure;
 
-const CONTACT: HertzPressure = HertzPressure {
-    contact_radius: 2.0,
-    peak_pressure: 3.0,
-};
+const CONTACT: HertzPressure = HertzPressure { contact_radius: 2.0, peak_pressure: 3.0 };
 
 /// ∫ f(r) p 2πr dr over the contact, by the midpoint rule in φ with r = a sin φ, which removes
 /// the square root: p 2πr dr = p₀ 2πa² cos²φ sin φ dφ.
@@ -50,14 +47,8 @@ fn axis_stress_is_the_sum_of_boussinesqs_point_loads() {
             let stress = CONTACT.axis_stress(depth, nu);
             // The midpoint rule over loads that vary on the scale 0.1 a.
             let tolerance = 1e-5 * CONTACT.peak_pressure;
-            assert!(
-                (stress.axial - axial).abs() < tolerance,
-                "{stress:?} {axial}"
-            );
-            assert!(
-                (stress.radial - radial).abs() < tolerance,
-                "{stress:?} {radial}"
-            );
+            assert!((stress.axial - axial).abs() < tolerance, "{stress:?} {axial}");
+            assert!((stress.radial - radial).abs() < tolerance, "{stress:?} {radial}");
         }
     }
 }
@@ -71,10 +62,7 @@ fn stress_at_the_surface_and_far_below() {
     let far = CONTACT.axis_stress(2e4, 0.3);
     // The point load −3F/2πz², up to (a/z)² = 1e-8.
     assert!((far.axial / (-1.5 * CONTACT.force() / (PI * 4e8)) - 1.0).abs() < 2e-8);
-    let open = HertzPressure {
-        contact_radius: 0.0,
-        peak_pressure: 0.0,
-    };
+    let open = HertzPressure { contact_radius: 0.0, peak_pressure: 0.0 };
     assert_eq!(open.axis_stress(0.0, 0.3).max_shear(), 0.0);
     assert_eq!(open.pressure(0.0), 0.0);
 }
@@ -83,14 +71,10 @@ fn stress_at_the_surface_and_far_below() {
 #[test]
 fn largest_shear_lies_below_the_surface() {
     let shear = |zeta: f64| {
-        CONTACT
-            .axis_stress(zeta * CONTACT.contact_radius, 0.3)
-            .max_shear()
-            / CONTACT.peak_pressure
+        CONTACT.axis_stress(zeta * CONTACT.contact_radius, 0.3).max_shear() / CONTACT.peak_pressure
     };
-    let deepest = (0..=1000)
-        .map(|i| f64::from(i) * 1e-3)
-        .max_by(|a, b| shear(*a).total_cmp(&shear(*b)));
+    let deepest =
+        (0..=1000).map(|i| f64::from(i) * 1e-3).max_by(|a, b| shear(*a).total_cmp(&shear(*b)));
     let zeta = deepest.unwrap();
     assert!((zeta - 0.48).abs() <= 0.005, "{zeta}");
     assert!((shear(zeta) - 0.31).abs() <= 0.005);

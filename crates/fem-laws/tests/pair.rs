@@ -4,11 +4,7 @@ use fem_laws::{LawError, Pair, Partner, sphere_mass};
 use fem_material::{ElasticModuli, Material};
 
 fn sphere(radius: f64, mass: f64, plane_strain_modulus: f64) -> Partner {
-    Partner::Sphere {
-        radius,
-        mass,
-        plane_strain_modulus,
-    }
+    Partner::Sphere { radius, mass, plane_strain_modulus }
 }
 
 /// Reference numbers of the glass pair, to their printed digits.
@@ -51,20 +47,14 @@ fn mass_of_a_sphere() {
 
 #[test]
 fn impossible_partners_are_refused_by_name() {
-    assert_eq!(
-        Pair::new(Partner::Wall, Partner::Wall),
-        Err(LawError::TwoWalls)
-    );
+    assert_eq!(Pair::new(Partner::Wall, Partner::Wall), Err(LawError::TwoWalls));
     for bad in [0.0, -1.0, f64::INFINITY] {
         for (partner, quantity) in [
             (sphere(bad, 1.0, 1.0), "radius"),
             (sphere(1.0, bad, 1.0), "mass"),
             (sphere(1.0, 1.0, bad), "plane_strain_modulus"),
         ] {
-            let expected = LawError::NotPositive {
-                quantity,
-                value: bad,
-            };
+            let expected = LawError::NotPositive { quantity, value: bad };
             assert_eq!(Pair::new(partner, Partner::Wall), Err(expected.clone()));
             assert_eq!(Pair::new(sphere(1.0, 1.0, 1.0), partner), Err(expected));
         }

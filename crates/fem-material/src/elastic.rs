@@ -54,12 +54,7 @@ impl ElasticModuli {
     /// Fewer or more than two, a modulus that is not positive and finite, ν outside (−1, 1/2)
     /// or moduli that imply such a ν.
     pub fn from_two(input: ModuliInput) -> Result<Self, MaterialError> {
-        let ModuliInput {
-            youngs_modulus,
-            shear_modulus,
-            bulk_modulus,
-            poissons_ratio,
-        } = input;
+        let ModuliInput { youngs_modulus, shear_modulus, bulk_modulus, poissons_ratio } = input;
         match (youngs_modulus, shear_modulus, bulk_modulus, poissons_ratio) {
             (Some(e), None, None, Some(nu)) => Self::from_youngs_modulus_poissons_ratio(e, nu),
             (None, Some(g), None, Some(nu)) => Self::from_shear_modulus_poissons_ratio(g, nu),
@@ -67,9 +62,7 @@ impl ElasticModuli {
             (Some(e), Some(g), None, None) => Self::from_youngs_shear(e, g),
             (Some(e), None, Some(k), None) => Self::from_youngs_bulk(e, k),
             (None, Some(g), Some(k), None) => Self::from_bulk_shear(k, g),
-            _ => Err(MaterialError::ModuliCount {
-                given: input.given(),
-            }),
+            _ => Err(MaterialError::ModuliCount { given: input.given() }),
         }
     }
 

@@ -101,9 +101,5 @@ pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, Materi
 }
 
 fn listed(names: &[&str]) -> String {
-    if names.is_empty() {
-        "none".to_owned()
-    } else {
-        names.join(", ")
-    }
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }

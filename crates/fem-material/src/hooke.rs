@@ -19,12 +19,7 @@ impl ElasticModuli {
         let mean = self.bulk_modulus() * volumetric;
         let two_g = 2.0 * self.shear_modulus();
         let shear = self.shear_modulus() * strain[3];
-        [
-            mean + two_g * rr,
-            mean + two_g * yy,
-            mean + two_g * tt,
-            shear,
-        ]
+        [mean + two_g * rr, mean + two_g * yy, mean + two_g * tt, shear]
     }
 
     /// Energy per volume, J/m³, of the strain `[e_rr, e_yy, e_tt, γ_ry]`.

@@ -31,11 +31,7 @@ impl Material {
         instantaneous: ElasticModuli,
         relaxation: Option<PronySeries>,
     ) -> Result<Self, MaterialError> {
-        Ok(Self {
-            density: positive("density", density)?,
-            instantaneous,
-            relaxation,
-        })
+        Ok(Self { density: positive("density", density)?, instantaneous, relaxation })
     }
 
     /// ρ, kg/m³.
@@ -87,10 +83,7 @@ impl Material {
 
     /// G∞: what is left of the shear modulus after all relaxation.
     pub fn equilibrium_shear_modulus(&self) -> f64 {
-        let weight = self
-            .relaxation
-            .as_ref()
-            .map_or(1.0, PronySeries::equilibrium_weight);
+        let weight = self.relaxation.as_ref().map_or(1.0, PronySeries::equilibrium_weight);
         self.instantaneous.shear_modulus() * weight
     }
 
@@ -105,14 +98,10 @@ impl Material {
     }
 
     fn shear_fraction(&self, time: f64) -> f64 {
-        self.relaxation
-            .as_ref()
-            .map_or(1.0, |series| series.relaxation(time))
+        self.relaxation.as_ref().map_or(1.0, |series| series.relaxation(time))
     }
 
     fn bulk_relaxes(&self) -> bool {
-        self.relaxation
-            .as_ref()
-            .is_some_and(|series| series.acts_on() == ActsOn::All)
+        self.relaxation.as_ref().is_some_and(|series| series.acts_on() == ActsOn::All)
     }
 }

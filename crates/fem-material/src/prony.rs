@@ -50,32 +50,19 @@ impl PronySeries {
             return Err(MaterialError::NoRelaxationTerms);
         }
         for (index, term) in terms.iter().enumerate() {
-            let PronyTerm {
-                weight,
-                relaxation_time,
-            } = *term;
+            let PronyTerm { weight, relaxation_time } = *term;
             if !(weight >= 0.0 && weight.is_finite()) {
-                return Err(MaterialError::RelaxationWeight {
-                    index,
-                    value: weight,
-                });
+                return Err(MaterialError::RelaxationWeight { index, value: weight });
             }
             if !(relaxation_time > 0.0 && relaxation_time.is_finite()) {
-                return Err(MaterialError::RelaxationTime {
-                    index,
-                    value: relaxation_time,
-                });
+                return Err(MaterialError::RelaxationTime { index, value: relaxation_time });
             }
         }
         let sum: f64 = terms.iter().map(|term| term.weight).sum();
         if sum > 1.0 + WEIGHT_SUM_ROUNDING {
             return Err(MaterialError::RelaxationWeightSum { sum });
         }
-        Ok(Self {
-            terms,
-            acts_on,
-            equilibrium_weight: (1.0 - sum).max(0.0),
-        })
+        Ok(Self { terms, acts_on, equilibrium_weight: (1.0 - sum).max(0.0) })
     }
 
     /// The three-parameter solid: a spring k₁ in series with a Kelvin element (spring k₂ beside

@@ -24,15 +24,8 @@ impl RelaxationStep {
     pub fn new(relaxation_time: f64, time_step: f64) -> Self {
         let ratio = time_step / relaxation_time;
         // The limit Δt/τ → 0, also reached when the ratio underflows.
-        let gain = if ratio == 0.0 {
-            1.0
-        } else {
-            -(-ratio).exp_m1() / ratio
-        };
-        Self {
-            decay: (-ratio).exp(),
-            gain,
-        }
+        let gain = if ratio == 0.0 { 1.0 } else { -(-ratio).exp_m1() / ratio };
+        Self { decay: (-ratio).exp(), gain }
     }
 
     /// q at the end of a step in which u grew by `increment`.

@@ -13,12 +13,7 @@ fn assert_close(found: f64, expected: f64, tolerance: f64) {
 }
 
 fn input(e: Option<f64>, g: Option<f64>, k: Option<f64>, nu: Option<f64>) -> ModuliInput {
-    ModuliInput {
-        youngs_modulus: e,
-        shear_modulus: g,
-        bulk_modulus: k,
-        poissons_ratio: nu,
-    }
+    ModuliInput { youngs_modulus: e, shear_modulus: g, bulk_modulus: k, poissons_ratio: nu }
 }
 
 /// Textbook identities in E and ν, whereas the code stores K and G.
@@ -32,21 +27,13 @@ fn identities_hold_for_any_poissons_ratio() {
         assert_close(moduli.youngs_modulus(), e, tolerance);
         assert!((moduli.poissons_ratio() - nu).abs() < 1e-15);
         assert_close(moduli.shear_modulus(), e / (2.0 * (1.0 + nu)), tolerance);
-        assert_close(
-            moduli.bulk_modulus(),
-            e / (3.0 * (1.0 - 2.0 * nu)),
-            tolerance,
-        );
+        assert_close(moduli.bulk_modulus(), e / (3.0 * (1.0 - 2.0 * nu)), tolerance);
         let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
         // λ is a difference of moduli of the size of M.
         let p_wave = e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
         assert!((moduli.lame_lambda() - lambda).abs() < tolerance * p_wave);
         assert_close(moduli.p_wave_modulus(), p_wave, tolerance);
-        assert_close(
-            moduli.plane_strain_modulus(),
-            e / (1.0 - nu * nu),
-            tolerance,
-        );
+        assert_close(moduli.plane_strain_modulus(), e / (1.0 - nu * nu), tolerance);
     }
 }
 
@@ -54,11 +41,7 @@ fn identities_hold_for_any_poissons_ratio() {
 fn any_two_constants_give_the_same_solid() {
     for nu in [-0.9, -0.3, 0.0, 0.244, 0.45] {
         let expected = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, nu).unwrap();
-        let (e, g, k) = (
-            Some(63e9),
-            Some(expected.shear_modulus()),
-            Some(expected.bulk_modulus()),
-        );
+        let (e, g, k) = (Some(63e9), Some(expected.shear_modulus()), Some(expected.bulk_modulus()));
         let nu = Some(nu);
         for two in [
             input(e, g, None, None),
@@ -84,29 +67,13 @@ fn accurate_up_to_the_limits_of_poissons_ratio() {
 
     // ν = 1/2 − ε: K = 2G(3/2 − ε)/6ε, E = 2G(3/2 − ε).
     let soft = ElasticModuli::from_two(input(None, Some(g), None, Some(0.5 - epsilon))).unwrap();
-    assert_close(
-        soft.bulk_modulus(),
-        g * (1.5 - epsilon) / (3.0 * epsilon),
-        ROUNDING,
-    );
+    assert_close(soft.bulk_modulus(), g * (1.5 - epsilon) / (3.0 * epsilon), ROUNDING);
     assert_close(soft.youngs_modulus(), 2.0 * g * (1.5 - epsilon), ROUNDING);
-    assert_close(
-        soft.plane_strain_modulus(),
-        2.0 * g / (0.5 + epsilon),
-        ROUNDING,
-    );
+    assert_close(soft.plane_strain_modulus(), 2.0 * g / (0.5 + epsilon), ROUNDING);
     let from_e = ElasticModuli::from_two(input(Some(3e9), None, None, Some(0.5 - epsilon)));
-    assert_close(
-        from_e.unwrap().bulk_modulus(),
-        3e9 / (6.0 * epsilon),
-        ROUNDING,
-    );
+    assert_close(from_e.unwrap().bulk_modulus(), 3e9 / (6.0 * epsilon), ROUNDING);
     let from_k = ElasticModuli::from_two(input(None, None, Some(1e9), Some(0.5 - epsilon)));
-    assert_close(
-        from_k.unwrap().shear_modulus(),
-        3e9 * epsilon / (1.5 - epsilon),
-        ROUNDING,
-    );
+    assert_close(from_k.unwrap().shear_modulus(), 3e9 * epsilon / (1.5 - epsilon), ROUNDING);
 
     // ν = −1 + ε: E = 2Gε, K = 2Gε/3(3 − 2ε), E/(1−ν²) = 2G/(2 − ε).
     let auxetic =
@@ -117,32 +84,19 @@ fn accurate_up_to_the_limits_of_poissons_ratio() {
         2.0 * g * epsilon / (3.0 * (3.0 - 2.0 * epsilon)),
         ROUNDING,
     );
-    assert_close(
-        auxetic.plane_strain_modulus(),
-        2.0 * g / (2.0 - epsilon),
-        ROUNDING,
-    );
+    assert_close(auxetic.plane_strain_modulus(), 2.0 * g / (2.0 - epsilon), ROUNDING);
     let from_e_and_g = ElasticModuli::from_two(input(Some(2.0 * g * epsilon), Some(g), None, None));
-    assert_close(
-        from_e_and_g.unwrap().bulk_modulus(),
-        auxetic.bulk_modulus(),
-        ROUNDING,
-    );
+    assert_close(from_e_and_g.unwrap().bulk_modulus(), auxetic.bulk_modulus(), ROUNDING);
 }
 
 #[test]
 fn impossible_moduli_are_refused_by_name() {
     let bad_positive = |quantity, value| MaterialError::NotPositive { quantity, value };
     let cases = [
-        (
-            input(None, None, None, None),
-            MaterialError::ModuliCount { given: vec![] },
-        ),
+        (input(None, None, None, None), MaterialError::ModuliCount { given: vec![] }),
         (
             input(Some(1.0), None, None, None),
-            MaterialError::ModuliCount {
-                given: vec!["youngs_modulus"],
-            },
+            MaterialError::ModuliCount { given: vec!["youngs_modulus"] },
         ),
         (
             input(Some(1.0), Some(1.0), None, Some(0.3)),
@@ -150,26 +104,14 @@ fn impossible_moduli_are_refused_by_name() {
                 given: vec!["youngs_modulus", "shear_modulus", "poissons_ratio"],
             },
         ),
-        (
-            input(Some(0.0), None, None, Some(0.3)),
-            bad_positive("youngs_modulus", 0.0),
-        ),
-        (
-            input(None, Some(-1.0), None, Some(0.3)),
-            bad_positive("shear_modulus", -1.0),
-        ),
+        (input(Some(0.0), None, None, Some(0.3)), bad_positive("youngs_modulus", 0.0)),
+        (input(None, Some(-1.0), None, Some(0.3)), bad_positive("shear_modulus", -1.0)),
         (
             input(None, Some(1.0), Some(f64::INFINITY), None),
             bad_positive("bulk_modulus", f64::INFINITY),
         ),
-        (
-            input(Some(1.0), None, None, Some(0.5)),
-            MaterialError::PoissonsRatio { value: 0.5 },
-        ),
-        (
-            input(None, Some(1.0), None, Some(-1.0)),
-            MaterialError::PoissonsRatio { value: -1.0 },
-        ),
+        (input(Some(1.0), None, None, Some(0.5)), MaterialError::PoissonsRatio { value: 0.5 }),
+        (input(None, Some(1.0), None, Some(-1.0)), MaterialError::PoissonsRatio { value: -1.0 }),
         (
             input(Some(4.0), Some(1.0), None, None),
             MaterialError::ImpliedPoissonsRatio {
@@ -199,10 +141,7 @@ fn impossible_moduli_are_refused_by_name() {
         values[position] = Some(f64::NAN);
         values[(position + 1) % 4] = Some(0.3);
         let [e, g, k, nu] = values;
-        assert!(
-            ElasticModuli::from_two(input(e, g, k, nu)).is_err(),
-            "NaN at {position}"
-        );
+        assert!(ElasticModuli::from_two(input(e, g, k, nu)).is_err(), "NaN at {position}");
     }
     // A bulk modulus beyond the range of f64.
     assert!(ElasticModuli::from_youngs_modulus_poissons_ratio(1e308, 0.499).is_err());
@@ -238,10 +177,7 @@ fn stress_is_the_derivative_of_the_energy() {
             };
             // The energy is quadratic: a central difference of any width is exact.
             let slope = (energy(0.5) - energy(-0.5)) / 1.0;
-            assert!(
-                (stress[i] - slope).abs() < 1e-14 * (1.0 + largest),
-                "component {i}"
-            );
+            assert!((stress[i] - slope).abs() < 1e-14 * (1.0 + largest), "component {i}");
         }
     }
 }
@@ -254,18 +190,12 @@ fn stress_of_the_defining_strains() {
     let assert_stress = |strain: [f64; 4], expected: [f64; 4]| {
         let stress = moduli.stress(strain);
         for i in 0..4 {
-            assert!(
-                (stress[i] - expected[i]).abs() < tolerance,
-                "{stress:?} {expected:?}"
-            );
+            assert!((stress[i] - expected[i]).abs() < tolerance, "{stress:?} {expected:?}");
         }
     };
     let pressure = 3.0 * moduli.bulk_modulus();
     assert_stress([1.0, 1.0, 1.0, 0.0], [pressure, pressure, pressure, 0.0]);
-    assert_stress(
-        [0.0, 0.0, 0.0, 1.0],
-        [0.0, 0.0, 0.0, moduli.shear_modulus()],
-    );
+    assert_stress([0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, moduli.shear_modulus()]);
     assert_stress([-0.244, 1.0, -0.244, 0.0], [0.0, 63e9, 0.0, 0.0]);
     let (lambda, p_wave) = (moduli.lame_lambda(), moduli.p_wave_modulus());
     assert_stress([1.0, 0.0, 0.0, 0.0], [p_wave, lambda, lambda, 0.0]);

@@ -7,10 +7,7 @@ use fem_material::{
 fn series(terms: &[(f64, f64)], acts_on: ActsOn) -> Result<PronySeries, MaterialError> {
     let terms = terms
         .iter()
-        .map(|&(weight, relaxation_time)| PronyTerm {
-            weight,
-            relaxation_time,
-        })
+        .map(|&(weight, relaxation_time)| PronyTerm { weight, relaxation_time })
         .collect();
     PronySeries::new(terms, acts_on)
 }
@@ -30,18 +27,12 @@ fn march(prony: &PronySeries, times: &[f64], strain: impl Fn(f64) -> f64) -> f64
             *q = step.advance(*q, increment);
         }
     }
-    let viscous: f64 = branches
-        .iter()
-        .zip(prony.terms())
-        .map(|(q, term)| term.weight * q)
-        .sum();
+    let viscous: f64 = branches.iter().zip(prony.terms()).map(|(q, term)| term.weight * q).sum();
     prony.equilibrium_weight() * strain(times[times.len() - 1]) + viscous
 }
 
 fn evenly(end: f64, n_steps: usize) -> Vec<f64> {
-    (0..=n_steps)
-        .map(|i| end * i as f64 / n_steps as f64)
-        .collect()
+    (0..=n_steps).map(|i| end * i as f64 / n_steps as f64).collect()
 }
 
 #[test]
@@ -56,10 +47,7 @@ fn limits_of_the_relaxation_function() {
         (prony.relaxation(0.3) - (0.2 + 0.4 * (-0.3f64).exp() + 0.1 * (-0.01f64).exp())).abs()
             < 1e-13
     );
-    let values: Vec<f64> = evenly(100.0, 1000)
-        .iter()
-        .map(|&t| prony.relaxation(t))
-        .collect();
+    let values: Vec<f64> = evenly(100.0, 1000).iter().map(|&t| prony.relaxation(t)).collect();
     assert!(values.windows(2).all(|pair| pair[1] < pair[0]));
 }
 
@@ -75,12 +63,8 @@ fn ramp_equals_the_convolution_integral_for_any_steps() {
         .map(|term| -term.weight * term.relaxation_time * (-end / term.relaxation_time).exp_m1())
         .sum();
     let expected = prony.equilibrium_weight() * end + viscous;
-    for times in [
-        evenly(end, 1),
-        evenly(end, 7),
-        evenly(end, 1000),
-        vec![0.0, 1e-9, 0.2, 4.9, end],
-    ] {
+    for times in [evenly(end, 1), evenly(end, 7), evenly(end, 1000), vec![0.0, 1e-9, 0.2, 4.9, end]]
+    {
         // A thousand roundings of 1e-16.
         assert!((march(&prony, &times, |t| t) - expected).abs() < 1e-13);
     }
@@ -95,16 +79,11 @@ fn harmonic_converges_to_the_convolution_integral_at_second_order() {
     let viscous: f64 = prony
         .terms()
         .iter()
-        .map(
-            |&PronyTerm {
-                 weight,
-                 relaxation_time: tau,
-             }| {
-                let x = omega * tau;
-                let (sin, cos) = (omega * end).sin_cos();
-                weight * x / (1.0 + x * x) * (cos + x * sin - (-end / tau).exp())
-            },
-        )
+        .map(|&PronyTerm { weight, relaxation_time: tau }| {
+            let x = omega * tau;
+            let (sin, cos) = (omega * end).sin_cos();
+            weight * x / (1.0 + x * x) * (cos + x * sin - (-end / tau).exp())
+        })
         .sum();
     let expected = prony.equilibrium_weight() * (omega * end).sin() + viscous;
     let error = |n| (march(&prony, &evenly(end, n), |t| (omega * t).sin()) - expected).abs();
@@ -120,9 +99,7 @@ fn harmonic_converges_to_the_convolution_integral_at_second_order() {
 fn step_of_strain_relaxes_as_the_relaxation_function() {
     let prony = three_terms();
     for end in [1e-3, 0.1, 1.0, 50.0] {
-        let stress = march(&prony, &[0.0, 1e-13, 0.4 * end, end], |t| {
-            f64::from(t > 0.0)
-        });
+        let stress = march(&prony, &[0.0, 1e-13, 0.4 * end, end], |t| f64::from(t > 0.0));
         // The loading takes 1e-13 of the shortest relaxation time 1e-2.
         assert!((stress - prony.relaxation(end)).abs() < 1e-11);
     }
@@ -144,26 +121,13 @@ fn step_is_accurate_over_24_decades() {
         } else {
             (1.0 - (-ratio).exp()) / ratio
         };
-        assert!(
-            (step.gain / gain - 1.0).abs() < 1e-13,
-            "Δt/τ = {ratio}: {}",
-            step.gain
-        );
+        assert!((step.gain / gain - 1.0).abs() < 1e-13, "Δt/τ = {ratio}: {}", step.gain);
         assert!((step.decay - (1.0 - ratio * gain)).abs() < 1e-15);
     }
-    assert_eq!(
-        RelaxationStep::new(f64::MAX, 1e-300),
-        RelaxationStep {
-            decay: 1.0,
-            gain: 1.0
-        }
-    );
+    assert_eq!(RelaxationStep::new(f64::MAX, 1e-300), RelaxationStep { decay: 1.0, gain: 1.0 });
     assert_eq!(
         RelaxationStep::new(f64::MIN_POSITIVE, 1e300),
-        RelaxationStep {
-            decay: 0.0,
-            gain: 0.0
-        }
+        RelaxationStep { decay: 0.0, gain: 0.0 }
     );
 }
 
@@ -182,10 +146,7 @@ fn three_parameter_solid_relaxes_as_its_ode() {
         let stress = k1 * (1.0 - kelvin_strain);
         let time = f64::from(i) * dt;
         // Runge–Kutta's error (Δt/τ)⁴/120 is 1e-11 here.
-        assert!(
-            (stress / k1 - prony.relaxation(time)).abs() < 1e-10,
-            "t = {time}"
-        );
+        assert!((stress / k1 - prony.relaxation(time)).abs() < 1e-10, "t = {time}");
         let a = rate(kelvin_strain);
         let b = rate(kelvin_strain + 0.5 * dt * a);
         let c = rate(kelvin_strain + 0.5 * dt * b);
@@ -214,18 +175,9 @@ fn impossible_series_are_refused() {
     assert_eq!(refused(&[]), MaterialError::NoRelaxationTerms);
     assert_eq!(
         refused(&[(0.1, 1.0), (-0.1, 1.0)]),
-        MaterialError::RelaxationWeight {
-            index: 1,
-            value: -0.1
-        }
+        MaterialError::RelaxationWeight { index: 1, value: -0.1 }
     );
-    assert_eq!(
-        refused(&[(0.1, 0.0)]),
-        MaterialError::RelaxationTime {
-            index: 0,
-            value: 0.0
-        }
-    );
+    assert_eq!(refused(&[(0.1, 0.0)]), MaterialError::RelaxationTime { index: 0, value: 0.0 });
     assert_eq!(
         refused(&[(0.75, 1.0), (0.5, 2.0)]),
         MaterialError::RelaxationWeightSum { sum: 1.25 }
@@ -282,10 +234,7 @@ fn poissons_ratio_rises_to_one_half_when_shear_alone_relaxes() {
     assert_eq!(material.youngs_modulus_at(f64::INFINITY), 0.0);
     for time in [0.0, 3e-5, 1e-3] {
         assert_eq!(material.bulk_modulus_at(time), bulk_modulus);
-        let (e, nu) = (
-            material.youngs_modulus_at(time),
-            material.poissons_ratio_at(time),
-        );
+        let (e, nu) = (material.youngs_modulus_at(time), material.poissons_ratio_at(time));
         // The elastic identities, up to rounding.
         assert!((e / (3.0 * bulk_modulus * (1.0 - 2.0 * nu)) - 1.0).abs() < 1e-13);
         assert!((e / (2.0 * material.shear_modulus_at(time) * (1.0 + nu)) - 1.0).abs() < 1e-13);
@@ -306,10 +255,7 @@ fn impossible_density_is_refused() {
     for density in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(
             Material::new(density, moduli, None),
-            Err(MaterialError::NotPositive {
-                quantity: "density",
-                ..
-            })
+            Err(MaterialError::NotPositive { quantity: "density", .. })
         ));
     }
 }

@@ -148,11 +148,9 @@ impl HalfDisc {
 
     fn layout(&self) -> Result<Layout, MeshError> {
         let &HalfDisc { radius, contact_element_size: size, refined_radius, growth } = self;
-        for (name, value) in [
-            ("radius", radius),
-            ("contact element size", size),
-            ("refined radius", refined_radius),
-        ] {
+        for (name, value) in
+            [("radius", radius), ("contact element size", size), ("refined radius", refined_radius)]
+        {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(MeshError::Length { name, value });
             }

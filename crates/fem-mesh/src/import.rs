@@ -166,7 +166,9 @@ fn split_boundary(
             let p = nodes[node as usize];
             on_axis(p) && p[1].abs() <= tolerance
         })
-        .ok_or_else(|| MeshError::Import("no boundary node lies at the contact pole (0, 0)".into()))?;
+        .ok_or_else(|| {
+            MeshError::Import("no boundary node lies at the contact pole (0, 0)".into())
+        })?;
     boundary.rotate_left(contact_pole);
     // Counter-clockwise from the contact pole: a body above runs along the
     // surface first, one below along the axis first.
@@ -180,7 +182,10 @@ fn split_boundary(
             on_axis(p) && (p[1] - 2.0 * centre).abs() <= tolerance
         })
         .ok_or_else(|| {
-            MeshError::Import(format!("no boundary node lies at the far pole (0, {})", 2.0 * centre))
+            MeshError::Import(format!(
+                "no boundary node lies at the far pole (0, {})",
+                2.0 * centre
+            ))
         })?;
     let surface = boundary[..=far_pole].to_vec();
     let mut axis = vec![boundary[0]];
@@ -210,7 +215,10 @@ fn split_boundary(
         p[0] = 0.0;
     }
     if let Some(node) = nodes.iter().position(|p| p[0] < 0.0) {
-        return Err(MeshError::Import(format!("node {node} has a negative r, {} m", nodes[node][0])));
+        return Err(MeshError::Import(format!(
+            "node {node} has a negative r, {} m",
+            nodes[node][0]
+        )));
     }
     let n_axis = nodes.iter().filter(|p| p[0] == 0.0).count();
     if n_axis != axis.len() {

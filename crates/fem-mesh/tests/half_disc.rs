@@ -1,6 +1,8 @@
 //! The graded half disc: geometry, grading, volume, extremes of size.
 
-use fem_mesh::{HalfDisc, MeshError, Quality, Side, SphereMesh, cap_volume, segment_measures, sphere_volume};
+use fem_mesh::{
+    HalfDisc, MeshError, Quality, Side, SphereMesh, cap_volume, segment_measures, sphere_volume,
+};
 
 fn glass(size: f64) -> HalfDisc {
     HalfDisc { radius: 11.1e-3, contact_element_size: size, refined_radius: 0.3e-3, growth: None }
@@ -96,7 +98,8 @@ fn spheres_of_all_sizes_mesh() {
         for fraction in [0.25, 0.05, 1e-3, 1e-7] {
             let size = radius * fraction;
             let refined_radius = (12.0 * size).min(radius / 2.0);
-            let mesh = HalfDisc { radius, contact_element_size: size, refined_radius, growth: None };
+            let mesh =
+                HalfDisc { radius, contact_element_size: size, refined_radius, growth: None };
             let mesh = mesh.build().unwrap();
             let quality = Quality::of(&mesh);
             assert!(quality.min_scaled_jacobian > 0.5, "{radius} {fraction} {quality:?}");
@@ -135,7 +138,8 @@ fn an_exported_mesh_comes_back_the_same() {
     for side in [Side::Above, Side::Below] {
         let mesh = glass(60e-6).build().unwrap().on_side(side);
         let imported =
-            SphereMesh::import(mesh.radius(), mesh.nodes().to_vec(), mesh.quads().to_vec()).unwrap();
+            SphereMesh::import(mesh.radius(), mesh.nodes().to_vec(), mesh.quads().to_vec())
+                .unwrap();
         assert_eq!(imported, mesh);
     }
 }
@@ -157,7 +161,8 @@ fn foreign_meshes_are_repaired_or_refused() {
         assert!((r.hypot(y - mesh.radius()) / mesh.radius() - 1.0).abs() < 1e-14);
     }
 
-    let message = |nodes: &[[f64; 2]], quads: &[[u32; 4]]| import(nodes, quads).unwrap_err().to_string();
+    let message =
+        |nodes: &[[f64; 2]], quads: &[[u32; 4]]| import(nodes, quads).unwrap_err().to_string();
     assert!(message(&nodes, &[]).contains("no quadrilaterals"));
     assert!(message(&nodes, &quads[..10]).contains("belongs to no element"));
     assert!(message(&nodes[..10], &quads).contains("the mesh has 10 nodes"));

@@ -64,9 +64,7 @@ fn write(vtu: &str, json_path: &str, encoding: Encoding) -> Result<(), Box<dyn s
     let displacement = floats(3 * n_points, 1);
     let temperature = floats(n_points, 2);
     let tensor = floats(9 * n_points, 3);
-    let number: Vec<i64> = (0..n_points as i64)
-        .map(|k| (k - 7) * 1_000_000_007_000)
-        .collect();
+    let number: Vec<i64> = (0..n_points as i64).map(|k| (k - 7) * 1_000_000_007_000).collect();
     let one_block = floats(n_cells, 4);
     let three_blocks = floats(3 * n_cells, 5);
     let body: Vec<i32> = (0..n_cells as i32).map(|k| k % 2 - 1).collect();

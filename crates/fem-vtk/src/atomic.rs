@@ -7,13 +7,9 @@ use crate::Error;
 
 /// Writes a hidden temporary file beside `path`, then renames it over `path`.
 pub(crate) fn write_atomically(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
-    let io_error = |source| Error::Io {
-        path: path.to_path_buf(),
-        source,
-    };
-    let name = path
-        .file_name()
-        .ok_or_else(|| io_error(std::io::ErrorKind::InvalidFilename.into()))?;
+    let io_error = |source| Error::Io { path: path.to_path_buf(), source };
+    let name =
+        path.file_name().ok_or_else(|| io_error(std::io::ErrorKind::InvalidFilename.into()))?;
     let folder = match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

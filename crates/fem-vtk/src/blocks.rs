@@ -55,17 +55,9 @@ pub(crate) struct Layout {
 impl Layout {
     /// `None` if the sizes contradict each other or overflow.
     pub(crate) fn new(n_blocks: usize, block_size: usize, last_size: usize) -> Option<Self> {
-        let last_size = if last_size == 0 {
-            block_size
-        } else {
-            last_size
-        };
+        let last_size = if last_size == 0 { block_size } else { last_size };
         let sound = n_blocks == 0 || (block_size > 0 && last_size <= block_size);
-        let layout = Self {
-            n_blocks,
-            block_size,
-            last_size,
-        };
+        let layout = Self { n_blocks, block_size, last_size };
         (sound && n_blocks.checked_mul(block_size).is_some()).then_some(layout)
     }
 
@@ -86,19 +78,12 @@ impl Layout {
         let mut bytes = Vec::new();
         for (index, &size) in sizes.iter().enumerate() {
             let last = index + 1 == self.n_blocks;
-            let expected = if last {
-                self.last_size
-            } else {
-                self.block_size
-            };
+            let expected = if last { self.last_size } else { self.block_size };
             let (block, rest) = blocks.split_at_checked(size)?;
             blocks = rest;
             let before = bytes.len();
             let limit = u64::try_from(expected).ok()?.checked_add(1)?;
-            ZlibDecoder::new(block)
-                .take(limit)
-                .read_to_end(&mut bytes)
-                .ok()?;
+            ZlibDecoder::new(block).take(limit).read_to_end(&mut bytes).ok()?;
             if bytes.len() - before != expected {
                 return None;
             }
@@ -113,10 +98,7 @@ mod tests {
 
     fn header_numbers(header: &[u8]) -> Vec<usize> {
         let (numbers, _) = header.as_chunks::<8>();
-        numbers
-            .iter()
-            .map(|&bytes| u64::from_le_bytes(bytes) as usize)
-            .collect()
+        numbers.iter().map(|&bytes| u64::from_le_bytes(bytes) as usize).collect()
     }
 
     #[test]
@@ -136,10 +118,7 @@ mod tests {
             assert_eq!(header[3..].iter().sum::<usize>(), compressed.blocks.len());
             let layout = Layout::new(header[0], header[1], header[2]).unwrap();
             assert_eq!(layout.n_bytes(), length);
-            assert_eq!(
-                layout.decompress(&compressed.blocks, &header[3..]).unwrap(),
-                bytes
-            );
+            assert_eq!(layout.decompress(&compressed.blocks, &header[3..]).unwrap(), bytes);
         }
     }
 

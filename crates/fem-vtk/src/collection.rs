@@ -25,35 +25,24 @@ pub fn write_collection<S: AsRef<str>>(
 ) -> Result<(), Error> {
     let path = path.as_ref();
     if snapshots.is_empty() {
-        return Err(Error::Empty {
-            what: format!("collection {}", path.display()),
-        });
+        return Err(Error::Empty { what: format!("collection {}", path.display()) });
     }
     let mut previous = None;
     for (time, file) in snapshots {
         check_snapshot(*time, previous, file.as_ref())?;
         previous = Some(*time);
     }
-    write_atomically(
-        &path.with_extension("vtu.series"),
-        &[series(snapshots).as_bytes()],
-    )?;
+    write_atomically(&path.with_extension("vtu.series"), &[series(snapshots).as_bytes()])?;
     write_atomically(path, &[collection(snapshots).as_bytes()])
 }
 
 fn check_snapshot(time: f64, previous: Option<f64>, file: &str) -> Result<(), Error> {
     if !time.is_finite() || previous.is_some_and(|previous| time <= previous) {
-        return Err(Error::Time {
-            file: file.to_owned(),
-            time,
-            previous,
-        });
+        return Err(Error::Time { file: file.to_owned(), time, previous });
     }
     let absolute = file.starts_with('/') || file.contains(':');
     if file.is_empty() || absolute || file.contains('\\') || file.contains(char::is_control) {
-        return Err(Error::FileName {
-            file: file.to_owned(),
-        });
+        return Err(Error::FileName { file: file.to_owned() });
     }
     Ok(())
 }
@@ -75,10 +64,8 @@ fn collection<S: AsRef<str>>(snapshots: &[(f64, S)]) -> String {
 }
 
 fn series<S: AsRef<str>>(snapshots: &[(f64, S)]) -> String {
-    let files: Vec<_> = snapshots
-        .iter()
-        .map(|(time, file)| json!({"name": file.as_ref(), "time": time}))
-        .collect();
+    let files: Vec<_> =
+        snapshots.iter().map(|(time, file)| json!({"name": file.as_ref(), "time": time})).collect();
     let series = json!({"file-series-version": "1.0", "files": files});
     format!("{series:#}\n")
 }

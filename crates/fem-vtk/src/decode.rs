@@ -25,52 +25,32 @@ pub(crate) fn decode(
         let allowed = ScalarType::ALL.map(ScalarType::name).join(", ");
         Fault::new(&place, format!("type {:?}", entry.scalar_type), allowed)
     })?;
-    let components = entry
-        .components
-        .trim()
-        .parse()
-        .ok()
-        .filter(|&components| components > 0)
-        .ok_or_else(|| {
-            Fault::new(
-                &place,
-                format!("NumberOfComponents {:?}", entry.components),
-                "a whole number, 1 or greater",
-            )
-        })?;
-    let text = bytes
-        .get(entry.text.clone())
-        .unwrap_or_default()
-        .trim_ascii();
+    let components =
+        entry.components.trim().parse().ok().filter(|&components| components > 0).ok_or_else(
+            || {
+                Fault::new(
+                    &place,
+                    format!("NumberOfComponents {:?}", entry.components),
+                    "a whole number, 1 or greater",
+                )
+            },
+        )?;
+    let text = bytes.get(entry.text.clone()).unwrap_or_default().trim_ascii();
     let numbers = match entry.format.as_str() {
         "ascii" => parse_ascii(text, scalar_type).map_err(fault)?,
         "binary" => {
-            let stream = Stream {
-                data: text,
-                base64: true,
-                wide: document.wide_headers,
-            };
-            to_numbers(
-                &read_bytes(stream, document.compressed).map_err(fault)?,
-                scalar_type,
-            )
-            .map_err(fault)?
+            let stream = Stream { data: text, base64: true, wide: document.wide_headers };
+            to_numbers(&read_bytes(stream, document.compressed).map_err(fault)?, scalar_type)
+                .map_err(fault)?
         }
         "appended" => {
             let stream = appended_stream(bytes, document, entry).map_err(fault)?;
-            to_numbers(
-                &read_bytes(stream, document.compressed).map_err(fault)?,
-                scalar_type,
-            )
-            .map_err(fault)?
+            to_numbers(&read_bytes(stream, document.compressed).map_err(fault)?, scalar_type)
+                .map_err(fault)?
         }
         other => {
             let found = format!("format {other:?}");
-            return Err(Fault::new(
-                place,
-                found,
-                "\"ascii\", \"binary\", \"appended\"",
-            ));
+            return Err(Fault::new(place, found, "\"ascii\", \"binary\", \"appended\""));
         }
     };
     Ok((components, numbers))
@@ -85,30 +65,21 @@ pub(crate) fn place(entry: &ArrayEntry) -> String {
 type Claim = (String, String);
 
 fn truncated() -> Claim {
-    (
-        "truncated or damaged data".to_owned(),
-        "as many bytes as its header states".to_owned(),
-    )
+    ("truncated or damaged data".to_owned(), "as many bytes as its header states".to_owned())
 }
 
 fn parse_ascii(text: &[u8], scalar_type: ScalarType) -> Result<Numbers, Claim> {
     let text = String::from_utf8_lossy(text);
     let words = text.split_ascii_whitespace();
-    let wrong = |word: &str| {
-        (
-            format!("{word:?}"),
-            format!("numbers of type {}", scalar_type.name()),
-        )
-    };
+    let wrong =
+        |word: &str| (format!("{word:?}"), format!("numbers of type {}", scalar_type.name()));
     if scalar_type.is_float() {
-        let values: Result<_, _> = words
-            .map(|word| word.parse().map_err(|_| wrong(word)))
-            .collect();
+        let values: Result<_, _> =
+            words.map(|word| word.parse().map_err(|_| wrong(word))).collect();
         Ok(Numbers::Float(values?))
     } else {
-        let values: Result<_, _> = words
-            .map(|word| word.parse().map_err(|_| wrong(word)))
-            .collect();
+        let values: Result<_, _> =
+            words.map(|word| word.parse().map_err(|_| wrong(word))).collect();
         Ok(Numbers::Integer(values?))
     }
 }
@@ -120,27 +91,15 @@ fn appended_stream<'a>(
 ) -> Result<Stream<'a>, Claim> {
     let offset = entry.offset.as_deref().unwrap_or_default();
     let appended = document.appended.as_ref().ok_or_else(|| {
-        (
-            "format \"appended\"".to_owned(),
-            "an AppendedData element in the file".to_owned(),
-        )
+        ("format \"appended\"".to_owned(), "an AppendedData element in the file".to_owned())
     })?;
     let data = bytes.get(appended.data.clone()).unwrap_or_default();
-    let from_offset = offset
-        .trim()
-        .parse()
-        .ok()
-        .and_then(|offset: usize| data.get(offset..));
+    let from_offset = offset.trim().parse().ok().and_then(|offset: usize| data.get(offset..));
     match from_offset {
-        Some(data) => Ok(Stream {
-            data,
-            base64: !appended.raw,
-            wide: document.wide_headers,
-        }),
-        None => Err((
-            format!("offset {offset:?}"),
-            format!("0 to {} (the appended data)", data.len()),
-        )),
+        Some(data) => Ok(Stream { data, base64: !appended.raw, wide: document.wide_headers }),
+        None => {
+            Err((format!("offset {offset:?}"), format!("0 to {} (the appended data)", data.len())))
+        }
     }
 }
 
@@ -165,10 +124,7 @@ impl<'a> Stream<'a> {
         let n_characters = n_bytes.div_ceil(3).checked_mul(4).ok_or_else(truncated)?;
         let text = self.data.get(..n_characters).ok_or_else(truncated)?;
         let mut bytes = STANDARD.decode(text).map_err(|error| {
-            (
-                format!("broken base64 ({error})"),
-                "base64 characters without breaks".to_owned(),
-            )
+            (format!("broken base64 ({error})"), "base64 characters without breaks".to_owned())
         })?;
         if bytes.len() < n_bytes {
             return Err(truncated());
@@ -205,39 +161,28 @@ impl<'a> Stream<'a> {
 }
 
 fn read_bytes(stream: Stream, compressed: bool) -> Result<Vec<u8>, Claim> {
-    if compressed {
-        read_compressed(stream)
-    } else {
-        read_uncompressed(stream)
-    }
+    if compressed { read_compressed(stream) } else { read_uncompressed(stream) }
 }
 
 fn read_compressed(mut stream: Stream) -> Result<Vec<u8>, Claim> {
     let size = stream.header_size();
     let (first, _) = stream.peek(size)?;
     let n_blocks = stream.integers(&first)?[0];
-    let n_header = n_blocks
-        .checked_add(3)
-        .and_then(|count| count.checked_mul(size))
-        .ok_or_else(truncated)?;
+    let n_header =
+        n_blocks.checked_add(3).and_then(|count| count.checked_mul(size)).ok_or_else(truncated)?;
     let header = stream.take(if n_blocks == 0 { size } else { n_header })?;
     let header = stream.integers(&header)?;
     if n_blocks == 0 {
         return Ok(Vec::new());
     }
     let sizes = &header[3..];
-    let n_bytes = sizes
-        .iter()
-        .try_fold(0_usize, |sum, &size| sum.checked_add(size))
-        .ok_or_else(truncated)?;
+    let n_bytes =
+        sizes.iter().try_fold(0_usize, |sum, &size| sum.checked_add(size)).ok_or_else(truncated)?;
     let blocks = stream.take(n_bytes)?;
     Layout::new(n_blocks, header[1], header[2])
         .and_then(|layout| layout.decompress(&blocks, sizes))
         .ok_or_else(|| {
-            (
-                "damaged zlib blocks".to_owned(),
-                "blocks of the sizes in their header".to_owned(),
-            )
+            ("damaged zlib blocks".to_owned(), "blocks of the sizes in their header".to_owned())
         })
 }
 
@@ -259,11 +204,8 @@ fn read_uncompressed(mut stream: Stream) -> Result<Vec<u8>, Claim> {
 
 fn to_numbers(bytes: &[u8], scalar_type: ScalarType) -> Result<Numbers, Claim> {
     if !bytes.len().is_multiple_of(scalar_type.size()) {
-        let allowed = format!(
-            "whole numbers of {} bytes ({})",
-            scalar_type.size(),
-            scalar_type.name()
-        );
+        let allowed =
+            format!("whole numbers of {} bytes ({})", scalar_type.size(), scalar_type.name());
         return Err((format!("{} bytes", bytes.len()), allowed));
     }
     macro_rules! widen {
@@ -295,12 +237,8 @@ fn to_numbers(bytes: &[u8], scalar_type: ScalarType) -> Result<Numbers, Claim> {
                 .iter()
                 .map(|&chunk| i64::try_from(u64::from_le_bytes(chunk)))
                 .collect();
-            let too_large = |_| {
-                (
-                    "an integer above 2^63 - 1".to_owned(),
-                    format!("at most {}", i64::MAX),
-                )
-            };
+            let too_large =
+                |_| ("an integer above 2^63 - 1".to_owned(), format!("at most {}", i64::MAX));
             Numbers::Integer(values.map_err(too_large)?)
         }
     })

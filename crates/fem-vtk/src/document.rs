@@ -25,11 +25,7 @@ impl Fault {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Self {
-        Self {
-            place: place.into(),
-            found: found.into(),
-            allowed: allowed.into(),
-        }
+        Self { place: place.into(), found: found.into(), allowed: allowed.into() }
     }
 }
 
@@ -74,11 +70,7 @@ impl Document {
     pub(crate) fn parse(bytes: &[u8]) -> Result<Self, Fault> {
         let (xml_end, data) = find_appended(bytes)?;
         let xml = std::str::from_utf8(&bytes[..xml_end]).map_err(|error| {
-            Fault::new(
-                format!("byte {}", error.valid_up_to()),
-                "no UTF-8 text",
-                WHOLE_FILE,
-            )
+            Fault::new(format!("byte {}", error.valid_up_to()), "no UTF-8 text", WHOLE_FILE)
         })?;
         let mut document = Self::default();
         let open = document.read_events(xml)?;
@@ -99,11 +91,9 @@ impl Document {
         }
         match document.n_pieces {
             1 => Ok(document),
-            n_pieces => Err(Fault::new(
-                "UnstructuredGrid",
-                format!("{n_pieces} pieces"),
-                "one Piece",
-            )),
+            n_pieces => {
+                Err(Fault::new("UnstructuredGrid", format!("{n_pieces} pieces"), "one Piece"))
+            }
         }
     }
 
@@ -133,22 +123,14 @@ impl Document {
                     self.take_text(start..position(&reader))?;
                 }
                 Event::CData(_) | Event::GeneralRef(_) if is_array(&open) => {
-                    return Err(Fault::new(
-                        "DataArray",
-                        "XML references or CDATA",
-                        "plain text",
-                    ));
+                    return Err(Fault::new("DataArray", "XML references or CDATA", "plain text"));
                 }
                 Event::Eof => break,
                 _ => {}
             }
         }
         if self.n_pieces == 0 && open.is_empty() {
-            return Err(Fault::new(
-                "file",
-                "no VTKFile element with a Piece",
-                WHOLE_FILE,
-            ));
+            return Err(Fault::new("file", "no VTKFile element with a Piece", WHOLE_FILE));
         }
         Ok(open)
     }
@@ -157,26 +139,15 @@ impl Document {
         if open.len() > DEEPEST {
             return Ok(());
         }
-        let path: Vec<&str> = open
-            .iter()
-            .map(String::as_str)
-            .chain([element.name().0])
-            .collect();
+        let path: Vec<&str> = open.iter().map(String::as_str).chain([element.name().0]).collect();
         match path.as_slice() {
             ["VTKFile"] => self.read_root(element),
-            [_] => Err(Fault::new(
-                "file",
-                format!("root element {}", path[0]),
-                "VTKFile",
-            )),
+            [_] => Err(Fault::new("file", format!("root element {}", path[0]), "VTKFile")),
             ["VTKFile", "UnstructuredGrid", "Piece"] => self.read_piece(element),
             ["VTKFile", "AppendedData"] => self.read_appended(element),
             ["VTKFile", "UnstructuredGrid", section, "DataArray"]
             | ["VTKFile", "UnstructuredGrid", "Piece", section, "DataArray"] => {
-                match Section::ALL
-                    .into_iter()
-                    .find(|known| known.name() == *section)
-                {
+                match Section::ALL.into_iter().find(|known| known.name() == *section) {
                     Some(section) => self.read_array(section, element),
                     None => Ok(()),
                 }
@@ -197,11 +168,7 @@ impl Document {
         }
         let order = attribute(element, "byte_order")?.unwrap_or("LittleEndian".into());
         if order != "LittleEndian" {
-            return Err(Fault::new(
-                place,
-                format!("byte_order {order:?}"),
-                "\"LittleEndian\"",
-            ));
+            return Err(Fault::new(place, format!("byte_order {order:?}"), "\"LittleEndian\""));
         }
         self.wide_headers = match attribute(element, "header_type")?.as_deref() {
             None | Some("UInt32") => false,
@@ -264,11 +231,9 @@ impl Document {
                 array.text = text;
                 Ok(())
             }
-            Some(array) => Err(Fault::new(
-                &array.name,
-                "data in several pieces",
-                "one piece of text",
-            )),
+            Some(array) => {
+                Err(Fault::new(&array.name, "data in several pieces", "one piece of text"))
+            }
             None => Ok(()),
         }
     }
@@ -278,9 +243,7 @@ impl Document {
 fn is_array(open: &[String]) -> bool {
     let section = open.len().checked_sub(2).map(|index| open[index].as_str());
     open.last().is_some_and(|name| name == "DataArray")
-        && Section::ALL
-            .into_iter()
-            .any(|known| Some(known.name()) == section)
+        && Section::ALL.into_iter().any(|known| Some(known.name()) == section)
 }
 
 fn position(reader: &Reader<&[u8]>) -> usize {
@@ -305,11 +268,7 @@ fn attribute(element: &BytesStart, name: &str) -> Result<Option<String>, Fault> 
 fn count(element: &BytesStart, name: &str) -> Result<usize, Fault> {
     let text = attribute(element, name)?.unwrap_or_default();
     text.trim().parse().map_err(|_| {
-        Fault::new(
-            "Piece",
-            format!("{name} {text:?}"),
-            "a whole number, 0 or greater",
-        )
+        Fault::new("Piece", format!("{name} {text:?}"), "a whole number, 0 or greater")
     })
 }
 
@@ -321,21 +280,14 @@ fn find_appended(bytes: &[u8]) -> Result<(usize, Option<Range<usize>>), Fault> {
         return Ok((bytes.len(), None));
     };
     let cut = |found| {
-        Fault::new(
-            "AppendedData",
-            found,
-            "<AppendedData ...>_data</AppendedData></VTKFile>",
-        )
+        Fault::new("AppendedData", found, "<AppendedData ...>_data</AppendedData></VTKFile>")
     };
     let tag = bytes[open..]
         .iter()
         .position(|&byte| byte == b'>')
         .ok_or_else(|| cut("no end of the tag"))?;
     let xml_end = open + tag + 1;
-    let blank = bytes[xml_end..]
-        .iter()
-        .take_while(|byte| byte.is_ascii_whitespace())
-        .count();
+    let blank = bytes[xml_end..].iter().take_while(|byte| byte.is_ascii_whitespace()).count();
     let start = xml_end + blank + 1;
     if bytes.get(start - 1) != Some(&b'_') {
         return Err(cut("no _ before the data"));

@@ -73,10 +73,8 @@ impl VtuFile {
     /// or compressor; not exactly one piece.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|source| Error::Io {
-            path: path.to_path_buf(),
-            source,
-        })?;
+        let bytes =
+            std::fs::read(path).map_err(|source| Error::Io { path: path.to_path_buf(), source })?;
         Self::from_bytes(path, bytes)
     }
 
@@ -88,11 +86,7 @@ impl VtuFile {
     pub fn from_bytes(path: impl AsRef<Path>, bytes: Vec<u8>) -> Result<Self, Error> {
         let path = path.as_ref().to_path_buf();
         match Document::parse(&bytes) {
-            Ok(document) => Ok(Self {
-                path,
-                bytes,
-                document,
-            }),
+            Ok(document) => Ok(Self { path, bytes, document }),
             Err(fault) => Err(malformed(&path, fault)),
         }
     }
@@ -104,9 +98,7 @@ impl VtuFile {
     /// No points or cells; points that are not three finite coordinates; a cell that is not a
     /// `VTK_QUAD` (its number and type are named); a point number out of range; damaged data.
     pub fn quad_mesh(&self) -> Result<QuadMesh, Error> {
-        let Document {
-            n_points, n_cells, ..
-        } = self.document;
+        let Document { n_points, n_cells, .. } = self.document;
         if n_points == 0 || n_cells == 0 {
             return Err(self.fault(
                 "Piece",
@@ -118,29 +110,21 @@ impl VtuFile {
         self.check_types()?;
         self.check_offsets()?;
         let connectivity = self.read_integers("connectivity")?;
-        self.check_length(
-            "Cells array \"connectivity\"",
-            connectivity.len(),
-            n_cells,
-            4,
-        )?;
+        self.check_length("Cells array \"connectivity\"", connectivity.len(), n_cells, 4)?;
         let (cells, _) = connectivity.as_chunks::<4>();
         let mut quads = Vec::with_capacity(cells.len());
         for (cell, corners) in cells.iter().enumerate() {
             let mut quad = [0; 4];
             for (corner, &point) in corners.iter().enumerate() {
                 let in_range = usize::try_from(point).is_ok_and(|point| point < n_points);
-                quad[corner] = u32::try_from(point)
-                    .ok()
-                    .filter(|_| in_range)
-                    .ok_or_else(|| {
-                        let found = format!("point {point} at corner {corner} of cell {cell}");
-                        self.fault(
-                            "Cells array \"connectivity\"",
-                            found,
-                            format!("0 to {}", n_points - 1),
-                        )
-                    })?;
+                quad[corner] = u32::try_from(point).ok().filter(|_| in_range).ok_or_else(|| {
+                    let found = format!("point {point} at corner {corner} of cell {cell}");
+                    self.fault(
+                        "Cells array \"connectivity\"",
+                        found,
+                        format!("0 to {}", n_points - 1),
+                    )
+                })?;
             }
             quads.push(quad);
         }
@@ -196,17 +180,12 @@ impl VtuFile {
 
     fn names(&self, section: Section) -> impl Iterator<Item = &str> {
         let arrays = self.document.arrays.iter();
-        arrays
-            .filter(move |entry| entry.section == section)
-            .map(|entry| entry.name.as_str())
+        arrays.filter(move |entry| entry.section == section).map(|entry| entry.name.as_str())
     }
 
     fn read_points(&self) -> Result<Vec<[f64; 3]>, Error> {
-        let mut arrays = self
-            .document
-            .arrays
-            .iter()
-            .filter(|entry| entry.section == Section::Points);
+        let mut arrays =
+            self.document.arrays.iter().filter(|entry| entry.section == Section::Points);
         let (Some(entry), None) = (arrays.next(), arrays.next()) else {
             return Err(self.fault("Points", "none or several arrays", "one DataArray"));
         };
@@ -218,10 +197,8 @@ impl VtuFile {
                 Ok(values.as_chunks().0.to_vec())
             }
             _ => {
-                let found = format!(
-                    "{} components of type {}",
-                    array.components, entry.scalar_type
-                );
+                let found =
+                    format!("{} components of type {}", array.components, entry.scalar_type);
                 Err(self.fault(place, found, "3 components of type Float32 or Float64"))
             }
         }
@@ -229,12 +206,7 @@ impl VtuFile {
 
     fn check_types(&self) -> Result<(), Error> {
         let types = self.read_integers("types")?;
-        self.check_length(
-            "Cells array \"types\"",
-            types.len(),
-            self.document.n_cells,
-            1,
-        )?;
+        self.check_length("Cells array \"types\"", types.len(), self.document.n_cells, 1)?;
         match types.iter().position(|&kind| kind != i64::from(VTK_QUAD)) {
             None => Ok(()),
             Some(cell) => {
@@ -250,17 +222,8 @@ impl VtuFile {
 
     fn check_offsets(&self) -> Result<(), Error> {
         let offsets = self.read_integers("offsets")?;
-        self.check_length(
-            "Cells array \"offsets\"",
-            offsets.len(),
-            self.document.n_cells,
-            1,
-        )?;
-        match (4..)
-            .step_by(4)
-            .zip(&offsets)
-            .position(|(expected, &offset)| offset != expected)
-        {
+        self.check_length("Cells array \"offsets\"", offsets.len(), self.document.n_cells, 1)?;
+        match (4..).step_by(4).zip(&offsets).position(|(expected, &offset)| offset != expected) {
             None => Ok(()),
             Some(cell) => {
                 let found = format!("{} at cell {cell}", offsets[cell]);
@@ -277,11 +240,9 @@ impl VtuFile {
         let entry = self.find(Section::Cells, name)?;
         match self.read_entry(entry)?.values {
             Numbers::Integer(values) => Ok(values),
-            Numbers::Float(_) => Err(self.fault(
-                place(entry),
-                format!("type {}", entry.scalar_type),
-                "integers",
-            )),
+            Numbers::Float(_) => {
+                Err(self.fault(place(entry), format!("type {}", entry.scalar_type), "integers"))
+            }
         }
     }
 
@@ -293,34 +254,25 @@ impl VtuFile {
     ) -> Result<ReadArray, Error> {
         let entry = self.find(section, name)?;
         let array = self.read_entry(entry)?;
-        self.check_length(
-            &place(entry),
-            array.values.len(),
-            n_tuples,
-            array.components,
-        )?;
+        self.check_length(&place(entry), array.values.len(), n_tuples, array.components)?;
         Ok(array)
     }
 
     fn find(&self, section: Section, name: &str) -> Result<&ArrayEntry, Error> {
         let arrays = &self.document.arrays;
-        arrays
-            .iter()
-            .find(|entry| entry.section == section && entry.name == name)
-            .ok_or_else(|| {
+        arrays.iter().find(|entry| entry.section == section && entry.name == name).ok_or_else(
+            || {
                 let available: Vec<&str> = self.names(section).collect();
-                let available = if available.is_empty() {
-                    "none".to_owned()
-                } else {
-                    available.join(", ")
-                };
+                let available =
+                    if available.is_empty() { "none".to_owned() } else { available.join(", ") };
                 Error::MissingArray {
                     path: self.path.clone(),
                     section: section.name(),
                     name: name.to_owned(),
                     available,
                 }
-            })
+            },
+        )
     }
 
     fn read_entry(&self, entry: &ArrayEntry) -> Result<ReadArray, Error> {
@@ -367,17 +319,8 @@ impl VtuFile {
 }
 
 fn malformed(path: &Path, fault: Fault) -> Error {
-    let Fault {
-        place,
-        found,
-        allowed,
-    } = fault;
-    Error::Malformed {
-        path: path.to_path_buf(),
-        place,
-        found,
-        allowed,
-    }
+    let Fault { place, found, allowed } = fault;
+    Error::Malformed { path: path.to_path_buf(), place, found, allowed }
 }
 
 /// The types a mesh of faces, edges and corners usually has.

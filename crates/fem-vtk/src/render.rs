@@ -21,12 +21,7 @@ pub(crate) struct RenderedFile {
 impl RenderedFile {
     pub(crate) fn new(writer: &VtuWriter) -> std::io::Result<Self> {
         let encoding = writer.encoding;
-        let mut file = Self {
-            encoding,
-            xml: String::new(),
-            appended: Vec::new(),
-            end: "",
-        };
+        let mut file = Self { encoding, xml: String::new(), appended: Vec::new(), end: "" };
         file.push_line(0, "<?xml version=\"1.0\"?>");
         file.push_line(
             0,
@@ -37,10 +32,7 @@ impl RenderedFile {
         file.push_grid(writer)?;
         file.push_line(1, "</UnstructuredGrid>");
         if encoding.is_appended() {
-            file.push_line(
-                1,
-                &format!("<AppendedData encoding=\"{}\">", encoding.appended_name()),
-            );
+            file.push_line(1, &format!("<AppendedData encoding=\"{}\">", encoding.appended_name()));
             file.xml.push('_');
             // meshio cuts raw data at the last line break before the closing tag.
             file.end = "\n  </AppendedData>\n</VTKFile>\n";
@@ -69,10 +61,8 @@ impl RenderedFile {
             components: 1,
             values: time.into(),
         });
-        let field: Vec<&NamedArray> = time
-            .iter()
-            .chain(of_section(writer, Section::FieldData))
-            .collect();
+        let field: Vec<&NamedArray> =
+            time.iter().chain(of_section(writer, Section::FieldData)).collect();
         if !field.is_empty() {
             self.push_line(2, "<FieldData>");
             for array in field {
@@ -110,12 +100,8 @@ impl RenderedFile {
 
     fn push_mesh(&mut self, writer: &VtuWriter) -> std::io::Result<()> {
         let n_cells = writer.quads.len() as i64;
-        let connectivity: Vec<i64> = writer
-            .quads
-            .as_flattened()
-            .iter()
-            .map(|&point| point.into())
-            .collect();
+        let connectivity: Vec<i64> =
+            writer.quads.as_flattened().iter().map(|&point| point.into()).collect();
         let offsets: Vec<i64> = (1..=n_cells).map(|cell| 4 * cell).collect();
         let types = vec![VTK_QUAD; writer.quads.len()];
         self.push_line(3, "<Points>");
@@ -127,12 +113,7 @@ impl RenderedFile {
         )?;
         self.push_line(3, "</Points>");
         self.push_line(3, "<Cells>");
-        self.push_values(
-            Section::Cells,
-            "connectivity",
-            1,
-            Values::Int64(&connectivity),
-        )?;
+        self.push_values(Section::Cells, "connectivity", 1, Values::Int64(&connectivity))?;
         self.push_values(Section::Cells, "offsets", 1, Values::Int64(&offsets))?;
         self.push_values(Section::Cells, "types", 1, Values::UInt8(&types))?;
         self.push_line(3, "</Cells>");
@@ -146,21 +127,11 @@ impl RenderedFile {
         components: usize,
         values: Values,
     ) -> std::io::Result<()> {
-        self.push_array(&NamedArray {
-            section,
-            name,
-            components,
-            values,
-        })
+        self.push_array(&NamedArray { section, name, components, values })
     }
 
     fn push_array(&mut self, array: &NamedArray) -> std::io::Result<()> {
-        let &NamedArray {
-            section,
-            name,
-            components,
-            values,
-        } = array;
+        let &NamedArray { section, name, components, values } = array;
         let data = self.encoding.encode(&compress(&values.to_le_bytes())?);
         let _ = write!(
             self.xml,
@@ -172,18 +143,10 @@ impl RenderedFile {
             let _ = write!(self.xml, " NumberOfComponents=\"{components}\"");
         }
         if section == Section::FieldData {
-            let _ = write!(
-                self.xml,
-                " NumberOfTuples=\"{}\"",
-                values.len() / components
-            );
+            let _ = write!(self.xml, " NumberOfTuples=\"{}\"", values.len() / components);
         }
         if self.encoding.is_appended() {
-            let _ = writeln!(
-                self.xml,
-                " format=\"appended\" offset=\"{}\"/>",
-                self.appended.len()
-            );
+            let _ = writeln!(self.xml, " format=\"appended\" offset=\"{}\"/>", self.appended.len());
             self.appended.extend(data);
         } else {
             let text = String::from_utf8_lossy(&data);
@@ -197,8 +160,5 @@ fn of_section<'w, 'a>(
     writer: &'w VtuWriter<'a>,
     section: Section,
 ) -> impl Iterator<Item = &'w NamedArray<'a>> {
-    writer
-        .arrays
-        .iter()
-        .filter(move |array| array.section == section)
+    writer.arrays.iter().filter(move |array| array.section == section)
 }

@@ -11,13 +11,8 @@ pub(crate) enum Section {
 }
 
 impl Section {
-    pub(crate) const ALL: [Self; 5] = [
-        Self::FieldData,
-        Self::PointData,
-        Self::CellData,
-        Self::Points,
-        Self::Cells,
-    ];
+    pub(crate) const ALL: [Self; 5] =
+        [Self::FieldData, Self::PointData, Self::CellData, Self::Points, Self::Cells];
 
     /// The name of its XML element.
     pub(crate) fn name(self) -> &'static str {

@@ -71,23 +71,11 @@ impl Values<'_> {
 
     pub(crate) fn to_le_bytes(self) -> Vec<u8> {
         match self {
-            Self::Float64(values) => values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect(),
+            Self::Float64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
             Self::UInt8(values) => values.to_vec(),
-            Self::Int32(values) => values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect(),
-            Self::UInt32(values) => values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect(),
-            Self::Int64(values) => values
-                .iter()
-                .flat_map(|value| value.to_le_bytes())
-                .collect(),
+            Self::Int32(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::UInt32(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::Int64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
         }
     }
 }
@@ -118,11 +106,7 @@ impl Numbers {
 
 /// Index and value of the first infinity or NaN.
 pub(crate) fn first_not_finite(values: &[f64]) -> Option<(usize, f64)> {
-    values
-        .iter()
-        .copied()
-        .enumerate()
-        .find(|(_, value)| !value.is_finite())
+    values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
 }
 
 /// `(r, y)` pairs as the `(r, y, 0)` triples that readers need; a last odd value is left out.

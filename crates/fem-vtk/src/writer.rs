@@ -34,13 +34,7 @@ pub struct VtuWriter<'a> {
 impl<'a> VtuWriter<'a> {
     /// Points in metres and the four corners of each cell, point numbers from 0.
     pub fn new(points: &'a [[f64; 3]], quads: &'a [[u32; 4]]) -> Self {
-        Self {
-            points,
-            quads,
-            time: None,
-            encoding: Encoding::default(),
-            arrays: Vec::new(),
-        }
+        Self { points, quads, time: None, encoding: Encoding::default(), arrays: Vec::new() }
     }
 
     /// The snapshot's time in seconds: field data `TimeValue`.
@@ -92,12 +86,7 @@ impl<'a> VtuWriter<'a> {
         components: usize,
         values: Values<'a>,
     ) -> Self {
-        self.arrays.push(NamedArray {
-            section,
-            name,
-            components,
-            values,
-        });
+        self.arrays.push(NamedArray { section, name, components, values });
         self
     }
 
@@ -113,35 +102,20 @@ impl<'a> VtuWriter<'a> {
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
         let path = path.as_ref();
         self.check()?;
-        let io_error = |source| Error::Io {
-            path: path.to_path_buf(),
-            source,
-        };
+        let io_error = |source| Error::Io { path: path.to_path_buf(), source };
         let file = RenderedFile::new(self).map_err(io_error)?;
         write_atomically(path, &file.parts())
     }
 
     fn check(&self) -> Result<(), Error> {
         if self.points.is_empty() || self.quads.is_empty() {
-            return Err(Error::Empty {
-                what: "mesh".to_owned(),
-            });
+            return Err(Error::Empty { what: "mesh".to_owned() });
         }
-        check_finite(
-            Section::Points,
-            "Points",
-            3,
-            &Values::Float64(self.points.as_flattened()),
-        )?;
+        check_finite(Section::Points, "Points", 3, &Values::Float64(self.points.as_flattened()))?;
         self.check_connectivity()?;
         let mut names = BTreeSet::new();
         if let Some(time) = self.time {
-            check_finite(
-                Section::FieldData,
-                "TimeValue",
-                1,
-                &Values::Float64(&[time]),
-            )?;
+            check_finite(Section::FieldData, "TimeValue", 1, &Values::Float64(&[time]))?;
             names.insert((Section::FieldData, "TimeValue"));
         }
         for array in &self.arrays {
@@ -160,29 +134,16 @@ impl<'a> VtuWriter<'a> {
         let n_points = self.points.len();
         for (cell, corners) in self.quads.iter().enumerate() {
             if let Some(corner) = corners.iter().position(|&point| point as usize >= n_points) {
-                return Err(Error::Connectivity {
-                    cell,
-                    corner,
-                    point: corners[corner],
-                    n_points,
-                });
+                return Err(Error::Connectivity { cell, corner, point: corners[corner], n_points });
             }
         }
         Ok(())
     }
 
     fn check_array(&self, array: &NamedArray) -> Result<(), Error> {
-        let &NamedArray {
-            section,
-            name,
-            components,
-            ref values,
-        } = array;
+        let &NamedArray { section, name, components, ref values } = array;
         if name.is_empty() || name.contains(char::is_control) {
-            return Err(Error::Name {
-                section: section.name(),
-                name: name.to_owned(),
-            });
+            return Err(Error::Name { section: section.name(), name: name.to_owned() });
         }
         if components == 0 || (components == 2 && section != Section::FieldData) {
             return Err(Error::Components {
@@ -192,15 +153,12 @@ impl<'a> VtuWriter<'a> {
             });
         }
         if values.len() == 0 {
-            return Err(Error::Empty {
-                what: format!("{} array {name:?}", section.name()),
-            });
+            return Err(Error::Empty { what: format!("{} array {name:?}", section.name()) });
         }
         let (sound, expected) = match section {
-            Section::FieldData => (
-                values.len().is_multiple_of(components),
-                format!("a multiple of {components}"),
-            ),
+            Section::FieldData => {
+                (values.len().is_multiple_of(components), format!("a multiple of {components}"))
+            }
             _ => self.expected_length(section, components, values.len()),
         };
         if !sound {

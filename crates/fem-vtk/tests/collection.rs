@@ -5,11 +5,8 @@ use fem_vtk::write_collection;
 #[test]
 fn times_and_names_are_in_both_files() {
     let folder = tempfile::tempdir().unwrap();
-    let snapshots = [
-        (-1e-7, "run_0_start.vtu"),
-        (1.0 / 3e5, "run_1_a&b.vtu"),
-        (0.5, "run_2_end.vtu"),
-    ];
+    let snapshots =
+        [(-1e-7, "run_0_start.vtu"), (1.0 / 3e5, "run_1_a&b.vtu"), (0.5, "run_2_end.vtu")];
     write_collection(folder.path().join("run.pvd"), &snapshots).unwrap();
 
     let pvd = std::fs::read_to_string(folder.path().join("run.pvd")).unwrap();

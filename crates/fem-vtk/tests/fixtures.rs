@@ -21,21 +21,16 @@ const WHOLE: [&str; 12] = [
 ];
 
 fn fixture(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("tests/fixtures")
-        .join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name)
 }
 
 #[test]
 fn every_encoding_gives_the_same_mesh_and_data() {
-    let points: Vec<[f64; 3]> = (0..12)
-        .map(|k| [0.5 * f64::from(k % 4), 0.25 * f64::from(k / 4) - 1.0, 0.0])
-        .collect();
+    let points: Vec<[f64; 3]> =
+        (0..12).map(|k| [0.5 * f64::from(k % 4), 0.25 * f64::from(k / 4) - 1.0, 0.0]).collect();
     let quads = [0, 1, 2, 4, 5, 6].map(|k| [k, k + 1, k + 5, k + 4]);
     let temperature: Vec<f64> = (0..12).map(|k| 0.5 * f64::from(k) - 1.0).collect();
-    let vector: Vec<f64> = (0..12)
-        .flat_map(|k| [f64::from(k), -f64::from(k), 0.25])
-        .collect();
+    let vector: Vec<f64> = (0..12).flat_map(|k| [f64::from(k), -f64::from(k), 0.25]).collect();
     for name in WHOLE {
         let file = VtuFile::open(fixture(name)).unwrap();
         let mesh = file.quad_mesh().unwrap();
@@ -52,11 +47,7 @@ fn every_encoding_gives_the_same_mesh_and_data() {
             "{name}"
         );
         let read = file.point_data("vector").unwrap();
-        assert_eq!(
-            (read.components, read.as_float()),
-            (3, Some(&vector[..])),
-            "{name}"
-        );
+        assert_eq!((read.components, read.as_float()), (3, Some(&vector[..])), "{name}");
         assert_eq!(
             file.cell_data("body").unwrap().as_integer(),
             Some(&[0, 1, 0, 1, 0, 1][..]),
@@ -80,22 +71,15 @@ fn one_quadrilateral_has_one_byte_of_types() {
 
 #[test]
 fn triangles_are_refused_by_number_and_name() {
-    let message = read_quad_mesh(fixture("vtk_triangle.vtu"))
-        .unwrap_err()
-        .to_string();
+    let message = read_quad_mesh(fixture("vtk_triangle.vtu")).unwrap_err().to_string();
     assert!(message.contains("vtk_triangle.vtu"), "{message}");
-    assert!(
-        message.contains("cell 1 of type 5 (VTK_TRIANGLE)"),
-        "{message}"
-    );
+    assert!(message.contains("cell 1 of type 5 (VTK_TRIANGLE)"), "{message}");
     assert!(message.contains("VTK_QUAD"), "{message}");
 }
 
 #[test]
 fn another_compressor_is_refused_with_the_remedy() {
-    let message = read_quad_mesh(fixture("vtk_appended_lz4.vtu"))
-        .unwrap_err()
-        .to_string();
+    let message = read_quad_mesh(fixture("vtk_appended_lz4.vtu")).unwrap_err().to_string();
     assert!(
         message.contains("vtkLZ4DataCompressor") && message.contains("vtkZLibDataCompressor"),
         "{message}"
@@ -108,10 +92,7 @@ fn a_missing_array_is_named_with_those_that_are_there() {
     let error = file.point_data("pressure").unwrap_err();
     assert!(matches!(error, Error::MissingArray { .. }));
     let message = error.to_string();
-    assert!(
-        message.contains("pressure") && message.contains("temperature, vector"),
-        "{message}"
-    );
+    assert!(message.contains("pressure") && message.contains("temperature, vector"), "{message}");
 }
 
 #[test]

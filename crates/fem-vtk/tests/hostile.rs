@@ -19,24 +19,13 @@ fn square(piece: &str, points: &str, connectivity: &str, offsets: &str, types: &
 }
 
 fn ascii(points: &str, connectivity: &str, offsets: &str, types: &str) -> String {
-    square(
-        "NumberOfPoints=\"4\" NumberOfCells=\"1\"",
-        points,
-        connectivity,
-        offsets,
-        types,
-    )
+    square("NumberOfPoints=\"4\" NumberOfCells=\"1\"", points, connectivity, offsets, types)
 }
 
 fn message(text: &str) -> String {
     let file = VtuFile::from_bytes("lie.vtu", text.as_bytes().to_vec());
-    let error = file
-        .and_then(|file| file.quad_mesh())
-        .expect_err("a refusal");
-    assert!(
-        matches!(error, Error::Malformed { .. } | Error::MissingArray { .. }),
-        "{error:?}"
-    );
+    let error = file.and_then(|file| file.quad_mesh()).expect_err("a refusal");
+    assert!(matches!(error, Error::Malformed { .. } | Error::MissingArray { .. }), "{error:?}");
     let message = error.to_string();
     assert!(message.starts_with("lie.vtu: "), "{message}");
     message
@@ -52,11 +41,7 @@ fn refuse(text: &str, words: &str) {
 fn the_square_itself_is_read() {
     let bytes = ascii(POINTS, "0 1 2 3", "4", "9").into_bytes();
     assert_eq!(
-        VtuFile::from_bytes("square.vtu", bytes)
-            .unwrap()
-            .quad_mesh()
-            .unwrap()
-            .quads,
+        VtuFile::from_bytes("square.vtu", bytes).unwrap().quad_mesh().unwrap().quads,
         [[0, 1, 2, 3]]
     );
 }
@@ -75,27 +60,12 @@ fn wrong_numbers_in_the_mesh() {
         &ascii("0 0 0 1 0 0 1 1 0 0 x 0", "0 1 2 3", "4", "9"),
         "found \"x\"; allowed: numbers of type Float64",
     );
-    refuse(
-        &ascii(POINTS, "0 1 2 4", "4", "9"),
-        "point 4 at corner 3 of cell 0; allowed: 0 to 3",
-    );
+    refuse(&ascii(POINTS, "0 1 2 4", "4", "9"), "point 4 at corner 3 of cell 0; allowed: 0 to 3");
     refuse(&ascii(POINTS, "0 1 -2 3", "4", "9"), "point -2 at corner 2");
-    refuse(
-        &ascii(POINTS, "0 1 2", "4", "9"),
-        "found 3 values; allowed: 1 tuples x 4",
-    );
-    refuse(
-        &ascii(POINTS, "0 1 2 3", "3", "9"),
-        "found 3 at cell 0; allowed: 4, 8, 12",
-    );
-    refuse(
-        &ascii(POINTS, "0 1 2 3", "4 8", "9"),
-        "found 2 values; allowed: 1 tuples",
-    );
-    refuse(
-        &ascii(POINTS, "0 1 2 3", "4", "23"),
-        "type 23 (VTK_QUADRATIC_QUAD)",
-    );
+    refuse(&ascii(POINTS, "0 1 2", "4", "9"), "found 3 values; allowed: 1 tuples x 4");
+    refuse(&ascii(POINTS, "0 1 2 3", "3", "9"), "found 3 at cell 0; allowed: 4, 8, 12");
+    refuse(&ascii(POINTS, "0 1 2 3", "4 8", "9"), "found 2 values; allowed: 1 tuples");
+    refuse(&ascii(POINTS, "0 1 2 3", "4", "23"), "type 23 (VTK_QUADRATIC_QUAD)");
     refuse(&ascii(POINTS, "0 1 2 3", "4", ""), "found 0 values");
 }
 
@@ -103,33 +73,18 @@ fn wrong_numbers_in_the_mesh() {
 fn offsets_that_leave_gaps_and_data_in_pieces() {
     refuse(&ascii(POINTS, "0 1 2 3", "5", "9"), "found 5 at cell 0");
     let pieces = POINTS.replacen(' ', " <!-- first point --> ", 1);
-    refuse(
-        &ascii(&pieces, "0 1 2 3", "4", "9"),
-        "data in several pieces",
-    );
+    refuse(&ascii(&pieces, "0 1 2 3", "4", "9"), "data in several pieces");
 }
 
 #[test]
 fn wrong_counts() {
     let count = |piece: &str| square(piece, POINTS, "0 1 2 3", "4", "9");
-    refuse(
-        &count("NumberOfPoints=\"0\" NumberOfCells=\"0\""),
-        "found 0 points, 0 cells",
-    );
-    refuse(
-        &count("NumberOfPoints=\"-4\" NumberOfCells=\"1\""),
-        "NumberOfPoints \"-4\"",
-    );
+    refuse(&count("NumberOfPoints=\"0\" NumberOfCells=\"0\""), "found 0 points, 0 cells");
+    refuse(&count("NumberOfPoints=\"-4\" NumberOfCells=\"1\""), "NumberOfPoints \"-4\"");
     refuse(&count("NumberOfPoints=\"4\""), "NumberOfCells \"\"");
     let largest = usize::MAX;
-    refuse(
-        &count(&format!("NumberOfPoints=\"{largest}\" NumberOfCells=\"1\"")),
-        "found 12 values",
-    );
-    refuse(
-        &count(&format!("NumberOfPoints=\"4\" NumberOfCells=\"{largest}\"")),
-        "found 1 values",
-    );
+    refuse(&count(&format!("NumberOfPoints=\"{largest}\" NumberOfCells=\"1\"")), "found 12 values");
+    refuse(&count(&format!("NumberOfPoints=\"4\" NumberOfCells=\"{largest}\"")), "found 1 values");
 }
 
 #[test]
@@ -139,14 +94,8 @@ fn other_files() {
     refuse("# vtk DataFile Version 5.1\nASCII\n", "no VTKFile element");
     refuse("<html></html>", "root element html");
     refuse("<VTKFile type=\"PolyData\"/>", "type \"PolyData\"");
-    refuse(
-        "<VTKFile type=\"UnstructuredGrid\"/>",
-        "no VTKFile element with a Piece",
-    );
-    refuse(
-        &square.replace("LittleEndian", "BigEndian"),
-        "byte_order \"BigEndian\"",
-    );
+    refuse("<VTKFile type=\"UnstructuredGrid\"/>", "no VTKFile element with a Piece");
+    refuse(&square.replace("LittleEndian", "BigEndian"), "byte_order \"BigEndian\"");
     refuse(
         &square.replace("<VTKFile", "<VTKFile header_type=\"UInt16\""),
         "header_type \"UInt16\"",
@@ -162,23 +111,14 @@ fn other_files() {
         &square.replace("NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""),
         "NumberOfComponents \"0\"",
     );
+    refuse(&square.replace("NumberOfComponents=\"3\"", ""), "1 components of type Float64");
     refuse(
-        &square.replace("NumberOfComponents=\"3\"", ""),
-        "1 components of type Float64",
-    );
-    refuse(
-        &square.replace(
-            "</Piece>",
-            "</Piece><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"/>",
-        ),
+        &square.replace("</Piece>", "</Piece><Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"/>"),
         "2 pieces",
     );
     refuse(&square.replace("<Cells>", "<Cells"), "broken XML");
     refuse(&square.replace("0 1 2 3", "0 1 &lt; 3"), "XML references");
-    refuse(
-        &square.replace("</UnstructuredGrid></VTKFile>", ""),
-        "still open",
-    );
+    refuse(&square.replace("</UnstructuredGrid></VTKFile>", ""), "still open");
 }
 
 /// The square with its points in base64; `attributes` go to the root.
@@ -189,10 +129,7 @@ fn binary(attributes: &str, points: &[u8]) -> String {
 }
 
 fn header(numbers: &[u64]) -> Vec<u8> {
-    numbers
-        .iter()
-        .flat_map(|number| number.to_le_bytes())
-        .collect()
+    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
 }
 
 #[test]
@@ -208,14 +145,8 @@ fn headers_that_promise_too_much() {
     for n_blocks in [1, 1 << 20, 1 << 60, u64::MAX] {
         refuse(&binary(zlib, &header(&[n_blocks, 32768, 0])), "truncated");
     }
-    refuse(
-        &binary(zlib, &header(&[1, 32768, 96, u64::MAX])),
-        "truncated",
-    );
-    refuse(
-        &binary(zlib, &header(&[2, 32768, 96, u64::MAX, u64::MAX])),
-        "truncated",
-    );
+    refuse(&binary(zlib, &header(&[1, 32768, 96, u64::MAX])), "truncated");
+    refuse(&binary(zlib, &header(&[2, 32768, 96, u64::MAX, u64::MAX])), "truncated");
     refuse(&binary(zlib, &header(&[0, 0, 0])), "found 0 values");
 }
 
@@ -224,10 +155,7 @@ fn zlib_points(numbers: &[u64], blocks: &[u8]) -> String {
     let text = STANDARD.encode(header(numbers)) + &STANDARD.encode(blocks);
     ascii(&text, "0 1 2 3", "4", "9")
         .replacen("ascii", "binary", 1)
-        .replace(
-            "<VTKFile",
-            "<VTKFile header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"",
-        )
+        .replace("<VTKFile", "<VTKFile header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"")
 }
 
 #[test]
@@ -238,49 +166,28 @@ fn blocks_that_are_not_what_the_header_says() {
         encoder.write_all(bytes).unwrap();
         encoder.finish().unwrap()
     };
-    let sound: Vec<u8> = POINTS
-        .split(' ')
-        .flat_map(|word| word.parse::<f64>().unwrap().to_le_bytes())
-        .collect();
+    let sound: Vec<u8> =
+        POINTS.split(' ').flat_map(|word| word.parse::<f64>().unwrap().to_le_bytes()).collect();
     let block = deflate(&sound);
     let size = block.len() as u64;
-    let file = VtuFile::from_bytes(
-        "sound.vtu",
-        zlib_points(&[1, 32768, 96, size], &block).into_bytes(),
-    )
-    .unwrap();
+    let file =
+        VtuFile::from_bytes("sound.vtu", zlib_points(&[1, 32768, 96, size], &block).into_bytes())
+            .unwrap();
     assert_eq!(file.quad_mesh().unwrap().points[2], [1.0, 1.0, 0.0]);
 
-    for (block_size, last_size) in [
-        (0, 0),
-        (32768, 0),
-        (32768, 95),
-        (32768, 97),
-        (64, 96),
-        (1 << 62, 1 << 61),
-    ] {
-        refuse(
-            &zlib_points(&[1, block_size, last_size, size], &block),
-            "damaged zlib",
-        );
+    for (block_size, last_size) in
+        [(0, 0), (32768, 0), (32768, 95), (32768, 97), (64, 96), (1 << 62, 1 << 61)]
+    {
+        refuse(&zlib_points(&[1, block_size, last_size, size], &block), "damaged zlib");
     }
-    refuse(
-        &zlib_points(&[1, 32768, 96, size], &vec![7; block.len()]),
-        "damaged zlib",
-    );
-    refuse(
-        &zlib_points(&[1, 32768, 96, size - 1], &block),
-        "damaged zlib",
-    );
+    refuse(&zlib_points(&[1, 32768, 96, size], &vec![7; block.len()]), "damaged zlib");
+    refuse(&zlib_points(&[1, 32768, 96, size - 1], &block), "damaged zlib");
 }
 
 #[test]
 fn broken_base64_and_offsets() {
     let short = binary("header_type=\"UInt64\"", &[0; 7]);
-    assert!(
-        short.contains("AAAAAAAAAA=="),
-        "seven bytes fill the characters of a header"
-    );
+    assert!(short.contains("AAAAAAAAAA=="), "seven bytes fill the characters of a header");
     refuse(&short, "truncated");
     let base64 = binary("header_type=\"UInt64\"", &header(&[96]));
     refuse(&base64.replacen("YAAA", "Y!AA", 1), "broken base64");
@@ -295,13 +202,7 @@ fn broken_base64_and_offsets() {
     refuse(&close("_12345678"), "offset \"9\"; allowed: 0 to 8");
     refuse(&close("_123456789"), "truncated");
     refuse(&close("12345678"), "no _ before the data");
-    refuse(
-        &close("_12345678").replace("\"raw\"", "\"hex\""),
-        "encoding \"hex\"",
-    );
+    refuse(&close("_12345678").replace("\"raw\"", "\"hex\""), "encoding \"hex\"");
     refuse(&close("_12345678").replace("</VTKFile>", ""), "truncated");
-    refuse(
-        &close("_12345678").replace("</AppendedData>", ""),
-        "truncated",
-    );
+    refuse(&close("_12345678").replace("</AppendedData>", ""), "truncated");
 }

@@ -16,10 +16,7 @@ struct Counting;
 // SAFETY: passes every call on to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        PEAK.fetch_max(
-            NOW.fetch_add(layout.size(), Relaxed) + layout.size(),
-            Relaxed,
-        );
+        PEAK.fetch_max(NOW.fetch_add(layout.size(), Relaxed) + layout.size(), Relaxed);
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
@@ -33,10 +30,7 @@ static ALLOCATOR: Counting = Counting;
 
 /// Peak bytes while the mesh of a file with these points is refused.
 fn peak_of_refusal(n_points: usize, header: &[u64], blocks: &[u8]) -> usize {
-    let header: Vec<u8> = header
-        .iter()
-        .flat_map(|number| number.to_le_bytes())
-        .collect();
+    let header: Vec<u8> = header.iter().flat_map(|number| number.to_le_bytes()).collect();
     let points = STANDARD.encode(header) + &STANDARD.encode(blocks);
     let text = format!(
         r#"<VTKFile type="UnstructuredGrid" header_type="UInt64" compressor="vtkZLibDataCompressor"><UnstructuredGrid>

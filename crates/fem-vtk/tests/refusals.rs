@@ -2,12 +2,7 @@
 
 use fem_vtk::{Error, VtuWriter, write_collection};
 
-const POINTS: [[f64; 3]; 4] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [0.0, 1.0, 0.0],
-];
+const POINTS: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 const QUADS: [[u32; 4]; 1] = [[0, 1, 2, 3]];
 
 /// Writes over an old file; returns the error after checking that nothing changed.
@@ -17,11 +12,7 @@ fn refusal(writer: VtuWriter) -> Error {
     std::fs::write(&path, "old").unwrap();
     let error = writer.write(&path).unwrap_err();
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "old");
-    assert_eq!(
-        std::fs::read_dir(folder.path()).unwrap().count(),
-        1,
-        "a temporary file is left"
-    );
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "a temporary file is left");
     error
 }
 
@@ -31,22 +22,10 @@ fn square() -> VtuWriter<'static> {
 
 #[test]
 fn empty_meshes_and_arrays() {
-    assert!(matches!(
-        refusal(VtuWriter::new(&[], &QUADS)),
-        Error::Empty { .. }
-    ));
-    assert!(matches!(
-        refusal(VtuWriter::new(&POINTS, &[])),
-        Error::Empty { .. }
-    ));
-    assert!(matches!(
-        refusal(square().field_data("none", 1, &[0.0; 0])),
-        Error::Empty { .. }
-    ));
-    assert!(matches!(
-        refusal(square().point_data("none", 1, &[0.0; 0])),
-        Error::Empty { .. }
-    ));
+    assert!(matches!(refusal(VtuWriter::new(&[], &QUADS)), Error::Empty { .. }));
+    assert!(matches!(refusal(VtuWriter::new(&POINTS, &[])), Error::Empty { .. }));
+    assert!(matches!(refusal(square().field_data("none", 1, &[0.0; 0])), Error::Empty { .. }));
+    assert!(matches!(refusal(square().point_data("none", 1, &[0.0; 0])), Error::Empty { .. }));
 }
 
 #[test]
@@ -61,10 +40,7 @@ fn wrong_lengths() {
         message,
         "CellData array \"body\": found 2 values; 1 cells x 1 components are needed"
     );
-    assert!(matches!(
-        refusal(square().field_data("f", 3, &[0.0; 4])),
-        Error::Length { .. }
-    ));
+    assert!(matches!(refusal(square().field_data("f", 3, &[0.0; 4])), Error::Length { .. }));
     assert!(matches!(
         refusal(square().cell_data("f", usize::MAX, &[0.0; 4])),
         Error::Length { .. }
@@ -92,10 +68,7 @@ fn values_that_are_not_finite() {
     let mut values = [0.0; 12];
     values[7] = f64::NAN;
     let message = refusal(square().point_data("velocity", 3, &values)).to_string();
-    assert_eq!(
-        message,
-        "PointData array \"velocity\": value NaN at index 2 (component 1)"
-    );
+    assert_eq!(message, "PointData array \"velocity\": value NaN at index 2 (component 1)");
     assert!(matches!(
         refusal(square().cell_data("p", 1, &[f64::INFINITY])),
         Error::NotFinite { index: 0, .. }
@@ -104,74 +77,40 @@ fn values_that_are_not_finite() {
         refusal(square().field_data("p", 1, &[f64::NEG_INFINITY])),
         Error::NotFinite { .. }
     ));
-    assert!(matches!(
-        refusal(square().time(f64::NAN)),
-        Error::NotFinite { .. }
-    ));
+    assert!(matches!(refusal(square().time(f64::NAN)), Error::NotFinite { .. }));
     let mut points = POINTS;
     points[3][1] = f64::NAN;
     let error = refusal(VtuWriter::new(&points, &QUADS));
-    assert!(matches!(
-        error,
-        Error::NotFinite {
-            section: "Points",
-            index: 3,
-            component: 1,
-            ..
-        }
-    ));
+    assert!(matches!(error, Error::NotFinite { section: "Points", index: 3, component: 1, .. }));
 }
 
 #[test]
 fn names() {
     for name in ["", "a\nb", "a\u{1}"] {
-        assert!(matches!(
-            refusal(square().cell_data(name, 1, &[0.0])),
-            Error::Name { .. }
-        ));
+        assert!(matches!(refusal(square().cell_data(name, 1, &[0.0])), Error::Name { .. }));
     }
     let twice = square().cell_data("p", 1, &[0.0]).cell_data("p", 1, &[0.0]);
-    assert!(matches!(
-        refusal(twice),
-        Error::DuplicateName {
-            section: "CellData",
-            ..
-        }
-    ));
+    assert!(matches!(refusal(twice), Error::DuplicateName { section: "CellData", .. }));
     let time = square().time(0.0).field_data("TimeValue", 1, &[0.0]);
-    assert!(matches!(
-        refusal(time),
-        Error::DuplicateName {
-            section: "FieldData",
-            ..
-        }
-    ));
+    assert!(matches!(refusal(time), Error::DuplicateName { section: "FieldData", .. }));
 }
 
 #[test]
 fn one_name_may_stand_at_points_and_at_cells() {
     let folder = tempfile::tempdir().unwrap();
-    let writer = square()
-        .cell_data("pressure", 1, &[0.0])
-        .point_data("pressure", 1, &[0.0; 4]);
+    let writer = square().cell_data("pressure", 1, &[0.0]).point_data("pressure", 1, &[0.0; 4]);
     writer.write(folder.path().join("both.vtu")).unwrap();
 }
 
 #[test]
 fn corners_without_a_point() {
     let message = refusal(VtuWriter::new(&POINTS, &[[0, 1, 4, 3]])).to_string();
-    assert_eq!(
-        message,
-        "cell 0, corner 2: point 4; the mesh has 4 points, numbered from 0"
-    );
+    assert_eq!(message, "cell 0, corner 2: point 4; the mesh has 4 points, numbered from 0");
 }
 
 #[test]
 fn a_missing_folder_is_named() {
-    let message = square()
-        .write("/nonexistent/folder/a.vtu")
-        .unwrap_err()
-        .to_string();
+    let message = square().write("/nonexistent/folder/a.vtu").unwrap_err().to_string();
     assert!(message.contains("/nonexistent/folder/a.vtu"), "{message}");
 }
 
@@ -197,20 +136,11 @@ fn collections() {
     assert!(matches!(refuse(&[(f64::NAN, "a.vtu")]), Error::Time { .. }));
     assert!(matches!(
         refuse(&[(1.0, "a.vtu"), (1.0, "b.vtu")]),
-        Error::Time {
-            previous: Some(1.0),
-            ..
-        }
+        Error::Time { previous: Some(1.0), .. }
     ));
-    assert!(matches!(
-        refuse(&[(1.0, "a.vtu"), (0.5, "b.vtu")]),
-        Error::Time { .. }
-    ));
+    assert!(matches!(refuse(&[(1.0, "a.vtu"), (0.5, "b.vtu")]), Error::Time { .. }));
     for name in ["", "/tmp/a.vtu", "C:\\a.vtu", "a\\b.vtu", "a\n.vtu"] {
-        assert!(
-            matches!(refuse(&[(1.0, name)]), Error::FileName { .. }),
-            "{name:?}"
-        );
+        assert!(matches!(refuse(&[(1.0, name)]), Error::FileName { .. }), "{name:?}");
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

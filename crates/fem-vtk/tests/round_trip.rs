@@ -2,20 +2,14 @@
 
 use fem_vtk::{Encoding, QuadMesh, VtuFile, VtuWriter, pad_vectors};
 
-const ENCODINGS: [Encoding; 3] = [
-    Encoding::InlineBase64,
-    Encoding::AppendedBase64,
-    Encoding::AppendedRaw,
-];
+const ENCODINGS: [Encoding; 3] =
+    [Encoding::InlineBase64, Encoding::AppendedBase64, Encoding::AppendedRaw];
 
 /// A strip of `n_cells` squares.
 fn strip(n_cells: u32) -> QuadMesh {
-    let points = (0..2 * (n_cells + 1))
-        .map(|k| [f64::from(k / 2), f64::from(k % 2), -0.0])
-        .collect();
-    let quads = (0..n_cells)
-        .map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1])
-        .collect();
+    let points =
+        (0..2 * (n_cells + 1)).map(|k| [f64::from(k / 2), f64::from(k % 2), -0.0]).collect();
+    let quads = (0..n_cells).map(|k| [2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1]).collect();
     QuadMesh { points, quads }
 }
 
@@ -26,12 +20,9 @@ fn all_number_types_and_sizes_come_back() {
     for n_cells in [1, 2, 3, 4095, 4096, 4097, 12288] {
         let mesh = strip(n_cells);
         let n_points = mesh.points.len();
-        let float: Vec<f64> = (0..n_cells)
-            .map(|k| 10_f64.powi(k as i32 % 600 - 300) * f64::from(k))
-            .collect();
-        let vector: Vec<f64> = (0..3 * n_points)
-            .map(|k| -1e-300 / (k as f64 + 1.0))
-            .collect();
+        let float: Vec<f64> =
+            (0..n_cells).map(|k| 10_f64.powi(k as i32 % 600 - 300) * f64::from(k)).collect();
+        let vector: Vec<f64> = (0..3 * n_points).map(|k| -1e-300 / (k as f64 + 1.0)).collect();
         let byte: Vec<u8> = (0..n_cells).map(|k| (k % 256) as u8).collect();
         let signed: Vec<i32> = (0..n_cells as i32).map(|k| i32::MIN + k).collect();
         let unsigned: Vec<u32> = (0..n_cells).map(|k| u32::MAX - k).collect();
@@ -54,10 +45,7 @@ fn all_number_types_and_sizes_come_back() {
             assert_eq!(file.quad_mesh().unwrap(), mesh);
             let read = file.point_data("v <&\"'> \u{3c3}").unwrap();
             assert_eq!((read.components, read.as_float()), (3, Some(&vector[..])));
-            assert_eq!(
-                file.cell_data("float").unwrap().as_float(),
-                Some(&float[..])
-            );
+            assert_eq!(file.cell_data("float").unwrap().as_float(), Some(&float[..]));
             let integers =
                 |name: &str| file.cell_data(name).unwrap().as_integer().unwrap().to_vec();
             assert_eq!(
@@ -66,23 +54,14 @@ fn all_number_types_and_sizes_come_back() {
             );
             assert_eq!(
                 integers("signed"),
-                signed
-                    .iter()
-                    .map(|&value| value.into())
-                    .collect::<Vec<i64>>()
+                signed.iter().map(|&value| value.into()).collect::<Vec<i64>>()
             );
             assert_eq!(
                 integers("unsigned"),
-                unsigned
-                    .iter()
-                    .map(|&value| value.into())
-                    .collect::<Vec<i64>>()
+                unsigned.iter().map(|&value| value.into()).collect::<Vec<i64>>()
             );
             assert_eq!(integers("long"), long);
-            assert_eq!(
-                file.field_data("TimeValue").unwrap().as_float(),
-                Some(&[-1e-9][..])
-            );
+            assert_eq!(file.field_data("TimeValue").unwrap().as_float(), Some(&[-1e-9][..]));
             assert_eq!(file.field_data("pair").unwrap().components, 2);
             assert_eq!(
                 file.cell_data_names().collect::<Vec<_>>(),
@@ -98,17 +77,10 @@ fn signs_of_zero_and_subnormal_numbers_keep_their_bits() {
     let path = folder.path().join("bits.vtu");
     let mesh = strip(1);
     let values = [-0.0, 5e-324, f64::MIN, f64::MAX];
-    VtuWriter::new(&mesh.points, &mesh.quads)
-        .point_data("bits", 1, &values)
-        .write(&path)
-        .unwrap();
+    VtuWriter::new(&mesh.points, &mesh.quads).point_data("bits", 1, &values).write(&path).unwrap();
     let read = VtuFile::open(&path).unwrap().point_data("bits").unwrap();
     assert_eq!(
-        read.as_float()
-            .unwrap()
-            .iter()
-            .map(|value| value.to_bits())
-            .collect::<Vec<_>>(),
+        read.as_float().unwrap().iter().map(|value| value.to_bits()).collect::<Vec<_>>(),
         values.map(f64::to_bits)
     );
 }
@@ -119,10 +91,7 @@ fn the_same_input_gives_the_same_bytes() {
     let mesh = strip(100);
     let write = |name: &str| {
         let path = folder.path().join(name);
-        VtuWriter::new(&mesh.points, &mesh.quads)
-            .time(1.0)
-            .write(&path)
-            .unwrap();
+        VtuWriter::new(&mesh.points, &mesh.quads).time(1.0).write(&path).unwrap();
         std::fs::read(path).unwrap()
     };
     assert_eq!(write("a.vtu"), write("b.vtu"));
@@ -140,16 +109,10 @@ fn the_first_scalar_and_vector_are_active() {
         .write(&path)
         .unwrap();
     let text = std::fs::read_to_string(path).unwrap();
-    assert!(
-        text.contains("<PointData Scalars=\"p&lt;q\" Vectors=\"displacement\">"),
-        "{text}"
-    );
+    assert!(text.contains("<PointData Scalars=\"p&lt;q\" Vectors=\"displacement\">"), "{text}");
 }
 
 #[test]
 fn planar_vectors_get_a_zero() {
-    assert_eq!(
-        pad_vectors(&[1.0, 2.0, 3.0, 4.0]),
-        [1.0, 2.0, 0.0, 3.0, 4.0, 0.0]
-    );
+    assert_eq!(pad_vectors(&[1.0, 2.0, 3.0, 4.0]), [1.0, 2.0, 0.0, 3.0, 4.0, 0.0]);
 }

@@ -37,46 +37,32 @@ impl Check<'_> {
         if lower.name == upper.name {
             let message = format!("both bodies have the name \"{}\"", upper.name);
             return Err(self
-                .error("body.1.name", message)
+                .conflict("body.1.name", &["body.0.name"], message)
                 .with_help("give each its own name"));
         }
         if lower_shape == Shape::Wall && upper_shape == Shape::Wall {
             return Err(self
-                .error("body.1.wall", "both bodies are walls")
+                .conflict("body.1.wall", &["body.0.wall"], "both bodies are walls")
                 .with_help("at most one is; write sphere = { diameter = \"22.2 mm\" } here"));
         }
         if lower_speed + upper_speed <= 0.0 {
-            let is_second_at_fault =
-                upper_speed < lower_speed || !self.document.has("body.0.approach_speed");
-            let culprit = if is_second_at_fault {
-                "body.1"
-            } else {
-                "body.0"
-            };
+            let keys = ["body.0.approach_speed", "body.1.approach_speed"];
+            let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
+            let culprit = keys[usize::from(!is_first_at_fault)];
             let message = format!(
                 "both bodies receding or at rest: the approach speeds {lower_speed:?} and \
                  {upper_speed:?} m/s add up to {:?}",
                 lower_speed + upper_speed
             );
-            return Err(self
-                .error(&join(culprit, "approach_speed"), message)
-                .with_help(
-                    "approach_speed is toward the other body; the sum must be greater than 0",
-                ));
+            return Err(self.conflict(culprit, &keys, message).with_help(
+                "approach_speed is toward the other body; the sum must be greater than 0",
+            ));
         }
         // Sums with 0, so that a body at rest has the velocity 0, never -0.
         let (lower_velocity, upper_velocity) = (0.0 + lower_speed, 0.0 - upper_speed);
         Ok([
-            Body {
-                name: lower.name.clone(),
-                shape: lower_shape,
-                velocity: lower_velocity,
-            },
-            Body {
-                name: upper.name.clone(),
-                shape: upper_shape,
-                velocity: upper_velocity,
-            },
+            Body { name: lower.name.clone(), shape: lower_shape, velocity: lower_velocity },
+            Body { name: upper.name.clone(), shape: upper_shape, velocity: upper_velocity },
         ])
     }
 
@@ -90,10 +76,7 @@ impl Check<'_> {
         let at = |key: &str| join(path, key);
         if table.name.is_empty() || !table.name.chars().all(is_bare) {
             return Err(self
-                .error(
-                    &at("name"),
-                    format!("\"{}\" is not a body's name", table.name),
-                )
+                .error(&at("name"), format!("\"{}\" is not a body's name", table.name))
                 .with_help("a name is made of letters A-Z a-z, digits, _ and -"));
         }
         let shape = match (&table.sphere, &table.wall) {
@@ -107,46 +90,33 @@ impl Check<'_> {
                 }
                 let mesh = sphere.mesh.as_ref().map(|mesh| self.folder.join(mesh));
                 let material = self.material_of(path, table, materials)?;
-                Shape::Sphere {
-                    diameter,
-                    mesh,
-                    material,
-                }
+                Shape::Sphere { diameter, mesh, material }
             }
             (None, Some(_)) => {
                 if table.material.is_some() {
-                    let error = self.error(&at("material"), "a wall has no material");
+                    let error =
+                        self.conflict(&at("material"), &[&at("wall")], "a wall has no material");
                     return Err(error.with_help("it is rigid; leave the key out"));
                 }
                 Shape::Wall
             }
             (Some(_), Some(_)) => {
                 return Err(self
-                    .error(
+                    .conflict(
                         &at("wall"),
+                        &[&at("sphere.diameter"), &at("sphere")],
                         format!("\"{}\" is both sphere and wall", table.name),
                     )
                     .with_help("keep one of the two"));
             }
             (None, None) => {
                 return Err(self
-                    .error(
-                        path,
-                        format!("\"{}\" is neither sphere nor wall", table.name),
-                    )
+                    .error(path, format!("\"{}\" is neither sphere nor wall", table.name))
                     .with_help("write sphere = { diameter = \"22.2 mm\" } or wall = {}"));
             }
         };
-        let allowed = if shape == Shape::Wall {
-            NOT_NEGATIVE
-        } else {
-            ANY
-        };
-        let speed = self.optional(
-            &at("approach_speed"),
-            table.approach_speed.as_ref(),
-            allowed,
-        )?;
+        let allowed = if shape == Shape::Wall { NOT_NEGATIVE } else { ANY };
+        let speed = self.optional(&at("approach_speed"), table.approach_speed.as_ref(), allowed)?;
         Ok((shape, speed.unwrap_or(0.0)))
     }
 

@@ -24,17 +24,28 @@ impl Check<'_> {
             bulk_modulus: self.optional(&at("bulk_modulus"), bulk_modulus.as_ref(), ANY)?,
             poissons_ratio: self.optional(&at("poissons_ratio"), poissons_ratio.as_ref(), ANY)?,
         };
-        let elastic =
-            ElasticModuli::from_two(input).map_err(|error| self.material_error(path, &error))?;
+        let n_terms = table.relaxation.as_ref().map_or(0, |relaxation| relaxation.terms.len());
+        let place = |error| self.material_error(path, &error, n_terms);
+        let elastic = ElasticModuli::from_two(input).map_err(place)?;
         let relaxation = match &table.relaxation {
-            Some(relaxation) => Some(self.relaxation(path, relaxation)?),
+            Some(relaxation) => {
+                let terms = self.relaxation_terms(path, relaxation)?;
+                let acts_on = match relaxation.acts_on {
+                    ActsOn::All => fem_material::ActsOn::All,
+                    ActsOn::Shear => fem_material::ActsOn::Shear,
+                };
+                Some(PronySeries::new(terms, acts_on).map_err(place)?)
+            }
             None => None,
         };
-        Material::new(density, elastic, relaxation)
-            .map_err(|error| self.material_error(path, &error))
+        Material::new(density, elastic, relaxation).map_err(place)
     }
 
-    fn relaxation(&self, path: &str, table: &RelaxationTable) -> Result<PronySeries, CaseError> {
+    fn relaxation_terms(
+        &self,
+        path: &str,
+        table: &RelaxationTable,
+    ) -> Result<Vec<PronyTerm>, CaseError> {
         let mut terms = Vec::new();
         for (index, term) in table.terms.iter().enumerate() {
             let at_term = format!("{path}.relaxation.terms.{index}");
@@ -43,73 +54,63 @@ impl Check<'_> {
             let relaxation_time = match (&term.decay_rate, &term.relaxation_time) {
                 (Some(rate), None) => 1.0 / self.number(&at("decay_rate"), rate, POSITIVE)?,
                 (None, Some(time)) => self.number(&at("relaxation_time"), time, POSITIVE)?,
-                (given, _) => {
-                    let (path, message) = match given {
-                        Some(_) => (
-                            at("relaxation_time"),
-                            "both decay_rate and relaxation_time are given",
-                        ),
-                        None => (at_term, "neither decay_rate nor relaxation_time is given"),
-                    };
-                    return Err(self.error(&path, message).with_help(
-                        "write one of decay_rate = \"2708 1/s\" and relaxation_time = \"369.3 us\"; \
-                         each is the other's inverse",
-                    ));
+                (Some(_), Some(_)) => {
+                    let message = "both decay_rate and relaxation_time are given";
+                    let (rate, time) = (at("decay_rate"), at("relaxation_time"));
+                    let error = self.conflict(&time, &[&rate], message);
+                    return Err(error.with_help("keep one of the two; each is the other's inverse"));
+                }
+                (None, None) => {
+                    let message = "neither decay_rate nor relaxation_time is given";
+                    let example = "decay_rate = \"2708 1/s\" or relaxation_time = \"369.3 us\"";
+                    let error = self.error(&at_term, message);
+                    return Err(error.with_help(format!("write {example}")));
                 }
             };
-            terms.push(PronyTerm {
-                weight,
-                relaxation_time,
-            });
+            terms.push(PronyTerm { weight, relaxation_time });
         }
-        let acts_on = match table.acts_on {
-            ActsOn::All => fem_material::ActsOn::All,
-            ActsOn::Shear => fem_material::ActsOn::Shear,
-        };
-        PronySeries::new(terms, acts_on).map_err(|error| self.material_error(path, &error))
+        Ok(terms)
     }
 
-    /// Points at the key that a material error is about.
-    fn material_error(&self, path: &str, error: &MaterialError) -> CaseError {
-        let term = |index: usize| format!("relaxation.terms.{index}");
-        let terms = "relaxation.terms".to_string();
-        let (key, help) = match error {
-            MaterialError::NotPositive { quantity, .. } => (quantity.to_string(), None),
-            MaterialError::Negative { quantity, .. } => (quantity.to_string(), None),
+    /// Points at the key that a material error is about. Where it is about several together, the
+    /// first one listed here is the one to blame unless an override gave another.
+    fn material_error(&self, path: &str, error: &MaterialError, n_terms: usize) -> CaseError {
+        let at = |key: &str| join(path, key);
+        let at_term = |index: usize, key: &str| at(&format!("relaxation.terms.{index}.{key}"));
+        let (keys, help) = match error {
+            MaterialError::NotPositive { quantity, .. }
+            | MaterialError::Negative { quantity, .. } => (vec![at(quantity)], None),
             MaterialError::PoissonsRatio { .. } => (
-                "poissons_ratio".to_string(),
+                vec![at("poissons_ratio")],
                 Some("every stable isotropic solid has -1 < poissons_ratio < 0.5"),
             ),
-            MaterialError::ImpliedPoissonsRatio { other, .. } => (other.to_string(), None),
-            MaterialError::ModuliCount { given } => (
-                // The third, if there is one.
-                given.get(2).map_or(String::new(), |key| key.to_string()),
-                Some("any two fix an isotropic solid; the others follow from them"),
-            ),
-            MaterialError::NoRelaxationTerms => (terms, None),
-            MaterialError::RelaxationWeight { index, .. } => (
-                join(&term(*index), "weight"),
-                Some("a weight is G_k/G_0, from 0 to 1"),
-            ),
-            MaterialError::RelaxationWeightSum { .. } => (
-                terms,
-                Some("a weight is G_k/G_0; what they leave of 1 never relaxes"),
-            ),
+            MaterialError::ImpliedPoissonsRatio { other, .. } => {
+                (vec![at(other), at("youngs_modulus")], None)
+            }
+            MaterialError::ModuliCount { given } => {
+                let third = given.get(2).map_or(path.to_string(), |key| at(key));
+                let given = given.iter().map(|key| at(key));
+                let help = "any two fix an isotropic solid; the others follow from them";
+                ([third].into_iter().chain(given).collect(), Some(help))
+            }
+            MaterialError::NoRelaxationTerms => (vec![at("relaxation.terms")], None),
+            MaterialError::RelaxationWeight { index, .. } => {
+                (vec![at_term(*index, "weight")], Some("a weight is G_k/G_0, from 0 to 1"))
+            }
+            MaterialError::RelaxationWeightSum { .. } => {
+                let weights = (0..n_terms).map(|index| at_term(index, "weight"));
+                let help = "a weight is G_k/G_0; what they leave of 1 never relaxes";
+                ([at("relaxation.terms")].into_iter().chain(weights).collect(), Some(help))
+            }
             MaterialError::RelaxationTime { index, .. } => {
-                let is_time =
-                    |key: &&str| self.document.has(&join(path, &join(&term(*index), key)));
-                let key = Some("relaxation_time")
-                    .filter(is_time)
-                    .unwrap_or("decay_rate");
-                (join(&term(*index), key), None)
+                let is_given = |key: &String| self.document.has(key);
+                let keys = ["relaxation_time", "decay_rate"].map(|key| at_term(*index, key));
+                (keys.into_iter().filter(is_given).collect(), None)
             }
         };
-        let path = if key.is_empty() {
-            path.to_string()
-        } else {
-            join(path, &key)
-        };
-        let error = self.error(&path, error.to_string());
+        let keys: Vec<_> = keys.iter().map(String::as_str).collect();
+        let default = keys.first().copied().unwrap_or(path);
+        let error = self.conflict(default, &keys, error.to_string());
         match help {
             Some(help) => error.with_help(help),
             None => error,

@@ -31,9 +31,8 @@ const ABOVE_ONE: Allowed = allowed("greater than 1", |x| x > 1.0);
 const STEP_FACTOR: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const MASS_SCALING: Allowed = allowed("from 0 (none) to 0.1", |x| (0.0..=0.1).contains(&x));
 /// Whole numbers up to where doubles still count without gaps.
-const COUNT: Allowed = allowed("a whole number from 1 to 9e15", |x| {
-    (1.0..=9e15).contains(&x) && x.fract() == 0.0
-});
+const COUNT: Allowed =
+    allowed("a whole number from 1 to 9e15", |x| (1.0..=9e15).contains(&x) && x.fract() == 0.0);
 
 /// The scene of a case, or its first fault.
 ///
@@ -51,10 +50,7 @@ pub(crate) fn validate(
     let contact = file.contact.clone().unwrap_or_default();
     let time = file.time.clone().unwrap_or_default();
     let limits = file.limits.clone().unwrap_or_default();
-    let snapshots = file
-        .output
-        .as_ref()
-        .and_then(|output| output.snapshots.as_ref());
+    let snapshots = file.output.as_ref().and_then(|output| output.snapshots.as_ref());
     let count = |key: &str, value| -> Result<Option<u64>, CaseError> {
         Ok(check.optional(key, value, COUNT)?.map(|count| count as u64))
     };
@@ -109,16 +105,18 @@ impl Check<'_> {
         self.document.error_at(path, message)
     }
 
+    /// An error at one of several keys that contradict each other; see [`Document::blamed`].
+    fn conflict(&self, default: &str, others: &[&str], message: impl Into<String>) -> CaseError {
+        self.error(self.document.blamed(default, others), message)
+    }
+
     fn number<K: QuantityKind>(
         &self,
         path: &str,
         quantity: &Quantity<K>,
         allowed: Allowed,
     ) -> Result<f64, CaseError> {
-        let key = path
-            .rsplit('.')
-            .find(|part| part.parse::<usize>().is_err())
-            .unwrap_or(path);
+        let key = path.rsplit('.').find(|part| part.parse::<usize>().is_err()).unwrap_or(path);
         let value = quantity.si().map_err(|error| {
             let (message, help) = quantity.explain(&error, key);
             self.error(path, message).with_help(help)
@@ -138,8 +136,6 @@ impl Check<'_> {
         quantity: Option<&Quantity<K>>,
         allowed: Allowed,
     ) -> Result<Option<f64>, CaseError> {
-        quantity
-            .map(|quantity| self.number(path, quantity, allowed))
-            .transpose()
+        quantity.map(|quantity| self.number(path, quantity, allowed)).transpose()
     }
 }

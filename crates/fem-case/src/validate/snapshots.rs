@@ -8,9 +8,8 @@ use crate::quantity::{Number, Quantity};
 use crate::scene::Snapshots;
 use crate::schema::{SnapshotLabel, SnapshotsValue};
 
-const SNAPSHOT_COUNT: Allowed = allowed("a whole number from 1 to 100000", |x| {
-    (1.0..=1e5).contains(&x) && x.fract() == 0.0
-});
+const SNAPSHOT_COUNT: Allowed =
+    allowed("a whole number from 1 to 100000", |x| (1.0..=1e5).contains(&x) && x.fract() == 0.0);
 
 impl Check<'_> {
     pub(super) fn snapshots(&self, value: &SnapshotsValue) -> Result<Snapshots, CaseError> {
@@ -43,10 +42,7 @@ impl Check<'_> {
                 let error = self.error(&path, "snapshots mixes labels and times");
                 return Err(error.with_help(help()));
             }
-            if labels
-                .split_last()
-                .is_some_and(|(last, before)| before.contains(last))
-            {
+            if labels.split_last().is_some_and(|(last, before)| before.contains(last)) {
                 let error = self.error(&path, format!("snapshot {item} is listed twice"));
                 return Err(error.with_help("leave one out"));
             }
