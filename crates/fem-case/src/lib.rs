@@ -1,4 +1,4 @@
-//! Case files: TOML with units to a validated, resolved case.
+//! Case files: TOML with units to a validated, resolved case, a plan, and a problem ready to run.
 //!
 //! ```text
 //! text, overrides ─ document ─ schema ─ validate ─ Scene
@@ -6,6 +6,9 @@
 //!                   tree with  as        names
 //!                   positions  written
 //! ```
+//!
+//! [`Plan::of`] fills in what the case leaves open from closed forms and says which effects are
+//! on; [`Problem::new`] makes meshes and model, and [`Problem::run`] computes the collision.
 //!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
 //! is allowed. [`Case::load`] does all of it:
@@ -45,10 +48,14 @@
 mod available;
 mod case;
 mod document;
+mod effects;
 mod error;
+mod estimate;
 mod explain;
 mod keyword;
 mod overrides;
+mod plan;
+mod problem;
 mod quantity;
 mod scene;
 pub mod schema;
@@ -58,7 +65,11 @@ mod validate;
 
 pub use available::Model;
 pub use case::Case;
+pub use effects::Effect;
 pub use error::CaseError;
+pub use estimate::Estimate;
+pub use plan::Plan;
+pub use problem::{Cost, Problem, build_meshes};
 pub use quantity::{
     Bytes, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate, Speed,
     Stress, Time,

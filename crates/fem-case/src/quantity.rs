@@ -114,6 +114,11 @@ impl<K: QuantityKind> Quantity<K> {
         Quantity { written: Written::Si(value), kind: PhantomData }
     }
 
+    /// From a text, as a case file may hold it.
+    pub(crate) fn from_text(text: &str) -> Self {
+        Quantity { written: Written::Text(text.to_string()), kind: PhantomData }
+    }
+
     /// The value in SI units, always finite.
     ///
     /// # Errors

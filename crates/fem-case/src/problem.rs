@@ -1,0 +1,262 @@
+//! A case that is ready to run.
+
+use std::path::Path;
+
+use fem_explicit::{
+    BodyInput, Collision, Model, ModelError, Monitor, RunSettings, Settings, Stop, collide,
+};
+use fem_mesh::{HalfDisc, MeshError, Quality, Side, SphereMesh};
+use fem_vtk::read_quad_mesh;
+
+use crate::case::Case;
+use crate::effects::{Effect, model_effects};
+use crate::error::CaseError;
+use crate::plan::Plan;
+use crate::scene::{Body, Shape};
+
+/// Bytes an element of the built-in mesh takes: element blocks, some one node's
+/// worth of vectors, and the ladder of states kept for snapshots.
+const BYTES_PER_ELEMENT: u64 = 1_600;
+/// Bytes a Prony term takes an element.
+const BYTES_PER_BRANCH: u64 = 40;
+/// Growth of the searched region when the contact leaves it.
+const CANDIDATE_GROWTH: f64 = 1.5;
+
+/// What a run will cost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// Elements of both bodies.
+    pub elements: u64,
+    /// Nodes of both bodies.
+    pub nodes: u64,
+    /// Steps until separation.
+    pub steps: u64,
+    /// Elements times steps.
+    pub element_updates: u64,
+    /// Bytes.
+    pub memory: u64,
+}
+
+/// A case with its meshes and its model, ready to run.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// The case.
+    pub case: Case,
+    /// What was decided.
+    pub plan: Plan,
+    /// All effects, the plan's and the model's.
+    pub effects: Vec<Effect>,
+    /// Quality of each sphere's mesh.
+    pub quality: [Option<Quality>; 2],
+    /// The model.
+    pub model: Model,
+    /// What the run will cost.
+    pub cost: Cost,
+    /// Kept for a model with a larger searched region.
+    inputs: [BodyInput; 2],
+}
+
+impl Problem {
+    /// Decides, meshes, and builds the model.
+    ///
+    /// # Errors
+    /// What the plan refuses; meshes that cannot be made or read; more elements,
+    /// steps or memory than the limits allow.
+    pub fn new(case: Case) -> Result<Self, CaseError> {
+        let plan = Plan::of(&case)?;
+        let meshes = build_meshes(&case, &plan)?;
+        let quality = meshes.each_ref().map(|mesh| mesh.as_ref().map(Quality::of));
+        let mut bodies = case.scene.bodies.iter().zip(meshes);
+        let mut input = || match bodies.next() {
+            Some((Body { shape: Shape::Sphere { material, .. }, velocity, .. }, Some(mesh))) => {
+                BodyInput::Deformable { mesh, material: material.clone(), velocity: *velocity }
+            }
+            Some((body, _)) => BodyInput::Wall { velocity: body.velocity },
+            None => BodyInput::Wall { velocity: 0.0 },
+        };
+        let inputs = [input(), input()];
+        let model =
+            Model::new(inputs.clone(), &settings(&plan)).map_err(|e| model_error(&case, &e))?;
+        let cost = cost(&model, &plan);
+        if cost.element_updates > plan.max_element_updates {
+            return Err(case
+                .error_at(
+                    "mesh.contact_element_size",
+                    format!(
+                        "the run would take {} steps of {} elements, {:.1e} element updates",
+                        cost.steps, cost.elements, cost.element_updates as f64
+                    ),
+                )
+                .with_help(format!(
+                    "at most {:.1e} are allowed; use a larger contact_element_size or more \
+                     time.mass_scaling, or raise limits.element_updates",
+                    plan.max_element_updates as f64
+                )));
+        }
+        let mut effects = plan.effects.clone();
+        effects.extend(model_effects(&model, &case.scene.bodies));
+        Ok(Self { case, plan, effects, quality, model, cost, inputs })
+    }
+
+    /// Runs until the bodies have separated. Should the contact outgrow the
+    /// searched region, the run starts again with a larger one.
+    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Collision {
+        loop {
+            let collision = collide(&self.model, &self.run_settings(), monitor);
+            match collision.stopped {
+                Some(Stop::ContactBeyondCandidates { .. }) if self.enlarge_candidates() => {}
+                _ => return collision,
+            }
+        }
+    }
+
+    fn run_settings(&self) -> RunSettings {
+        RunSettings {
+            expected_contact_time: self.plan.estimate.contact_time,
+            expected_approach: self.plan.estimate.approach,
+            history_rows: self.plan.history_rows,
+            snapshots: self.plan.snapshots.clone(),
+            max_time: self.plan.max_time,
+        }
+    }
+
+    /// Whether the searched region could be made larger.
+    fn enlarge_candidates(&mut self) -> bool {
+        let before = self.model.interface().candidate_radius();
+        self.plan.candidate_radius = CANDIDATE_GROWTH * before;
+        match Model::new(self.inputs.clone(), &settings(&self.plan)) {
+            Ok(model) if model.interface().candidate_radius() > before => {
+                self.model = model;
+                true
+            }
+            _ => false,
+        }
+    }
+}
+
+fn settings(plan: &Plan) -> Settings {
+    Settings {
+        contact_stiffness: plan.contact_stiffness,
+        candidate_radius: plan.candidate_radius,
+        step_factor: plan.step_factor,
+        mass_scaling: plan.mass_scaling,
+        gap: plan.gap,
+    }
+}
+
+/// The meshes of both bodies in their places; a wall has none.
+///
+/// # Errors
+/// As [`Problem::new`].
+pub fn build_meshes(case: &Case, plan: &Plan) -> Result<[Option<SphereMesh>; 2], CaseError> {
+    check_size(case, plan)?;
+    let mut meshes = [None, None];
+    for (k, body) in case.scene.bodies.iter().enumerate() {
+        let side = if k == 0 { Side::Below } else { Side::Above };
+        if let Shape::Sphere { diameter, mesh, .. } = &body.shape {
+            let mesh = match mesh {
+                Some(path) => import(case, k, *diameter, path)?,
+                None => half_disc(plan, *diameter).build().map_err(|e| mesh_error(case, &e))?,
+            };
+            meshes[k] = Some(mesh.on_side(side));
+        }
+    }
+    Ok(meshes)
+}
+
+fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
+    HalfDisc {
+        radius: 0.5 * diameter,
+        contact_element_size: plan.contact_element_size,
+        refined_radius: plan.refined_radius,
+        growth: plan.growth,
+    }
+}
+
+/// Refuses meshes that are too large before they are made.
+fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
+    let mut elements = 0;
+    let mut memory = 0;
+    for body in &case.scene.bodies {
+        if let Shape::Sphere { diameter, mesh: None, material } = &body.shape {
+            let n = half_disc(plan, *diameter)
+                .n_elements()
+                .map_err(|error| mesh_error(case, &error))? as u64;
+            let branches = material.relaxation().map_or(0, |series| series.terms().len()) as u64;
+            elements += n;
+            memory += n * (BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH);
+        }
+    }
+    let refuse = |found: String, limit: String| {
+        Err(case.error_at("mesh.contact_element_size", found).with_help(limit))
+    };
+    if elements > plan.max_elements {
+        return refuse(
+            format!(
+                "elements of {:.3e} m at the contact make a mesh of {elements} elements",
+                plan.contact_element_size
+            ),
+            format!(
+                "at most {} are allowed; use a larger contact_element_size or raise \
+                 limits.elements",
+                plan.max_elements
+            ),
+        );
+    }
+    if memory > plan.max_memory {
+        return refuse(
+            format!("the run would take about {:.2} GB of memory", memory as f64 / 1e9),
+            format!(
+                "at most {:.2} GB are allowed; use a larger contact_element_size or raise \
+                 limits.memory",
+                plan.max_memory as f64 / 1e9
+            ),
+        );
+    }
+    Ok(())
+}
+
+fn import(case: &Case, k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, CaseError> {
+    let fault = |found: String| {
+        case.error_at(&format!("body.{k}.sphere.mesh"), format!("mesh {}: {found}", path.display()))
+            .with_help(
+                "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
+                 r >= 0 of the sphere with its contact pole at the origin; \
+                 `fem-run mesh CASE` writes such files",
+            )
+    };
+    let mesh = read_quad_mesh(path).map_err(|error| fault(error.to_string()))?;
+    if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
+        return Err(fault(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
+    }
+    let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
+    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| fault(error.to_string()))
+}
+
+fn mesh_error(case: &Case, error: &MeshError) -> CaseError {
+    let key = match error {
+        MeshError::RefinedRadius { .. } => "mesh.refined_radius",
+        MeshError::Growth(_) => "mesh.growth",
+        _ => "mesh.contact_element_size",
+    };
+    case.error_at(key, error.to_string())
+}
+
+fn model_error(case: &Case, error: &ModelError) -> CaseError {
+    case.error_at("body", error.to_string())
+}
+
+fn cost(model: &Model, plan: &Plan) -> Cost {
+    let elements = model.n_elements() as u64;
+    let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
+    let branches: u64 =
+        model.bodies().iter().map(|body| body.n_elements() as u64 * body.n_branches() as u64).sum();
+    let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
+    Cost {
+        elements,
+        nodes,
+        steps: steps as u64,
+        element_updates: (steps * elements as f64) as u64,
+        memory: elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH,
+    }
+}
