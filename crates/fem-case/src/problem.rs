@@ -44,8 +44,6 @@ pub struct Problem {
     pub case: Case,
     /// What was decided.
     pub plan: Plan,
-    /// All effects, the plan's and the model's.
-    pub effects: Vec<Effect>,
     /// Quality of each sphere's mesh.
     pub quality: [Option<Quality>; 2],
     /// The model.
@@ -64,6 +62,14 @@ impl Problem {
     /// steps or memory than the limits allow.
     pub fn new(case: Case) -> Result<Self, CaseError> {
         let plan = Plan::of(&case)?;
+        Self::with_plan(case, plan)
+    }
+
+    /// Meshes and builds the model of a plan that may have been changed.
+    ///
+    /// # Errors
+    /// As [`Problem::new`].
+    pub fn with_plan(case: Case, plan: Plan) -> Result<Self, CaseError> {
         let meshes = build_meshes(&case, &plan)?;
         let quality = meshes.each_ref().map(|mesh| mesh.as_ref().map(Quality::of));
         let mut bodies = case.scene.bodies.iter().zip(meshes);
@@ -93,9 +99,14 @@ impl Problem {
                     plan.max_element_updates as f64
                 )));
         }
-        let mut effects = plan.effects.clone();
-        effects.extend(model_effects(&model, &case.scene.bodies));
-        Ok(Self { case, plan, effects, quality, model, cost, inputs })
+        Ok(Self { case, plan, quality, model, cost, inputs })
+    }
+
+    /// All effects, the plan's and the model's.
+    pub fn effects(&self) -> Vec<Effect> {
+        let mut effects = self.plan.effects.clone();
+        effects.extend(model_effects(&self.model, &self.case.scene.bodies));
+        effects
     }
 
     /// Runs until the bodies have separated. Should the contact outgrow the
@@ -239,7 +250,11 @@ fn mesh_error(case: &Case, error: &MeshError) -> CaseError {
         MeshError::Growth(_) => "mesh.growth",
         _ => "mesh.contact_element_size",
     };
-    case.error_at(key, error.to_string())
+    let fault = case.error_at(key, error.to_string());
+    match error {
+        MeshError::TooLarge(_) => fault.with_help("use a larger contact_element_size"),
+        _ => fault,
+    }
 }
 
 fn model_error(case: &Case, error: &ModelError) -> CaseError {
