@@ -5,6 +5,10 @@ use fem_material::ElasticModuli;
 
 use crate::scene::{Body, Scene, Shape};
 
+/// Least share of a modulus that the estimate counts with: a body that relaxes
+/// within the contact is stopped by its first, stiff response.
+const LEAST_MODULUS: f64 = 0.05;
+
 /// Closed-form estimates of a collision, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -72,7 +76,9 @@ fn pair(scene: &Scene, time: f64) -> Result<Pair, LawError> {
     let [first, second] = scene.bodies.each_ref().map(|body| match &body.shape {
         Shape::Sphere { diameter, material, .. } => {
             let mass = fem_laws::sphere_mass(*diameter, material.density());
-            let (bulk, shear) = (material.bulk_modulus_at(time), material.shear_modulus_at(time));
+            let now = material.instantaneous();
+            let bulk = material.bulk_modulus_at(time).max(LEAST_MODULUS * now.bulk_modulus());
+            let shear = material.shear_modulus_at(time).max(LEAST_MODULUS * now.shear_modulus());
             let modulus = ElasticModuli::from_bulk_shear(bulk, shear)
                 .map_or(0.0, |moduli| moduli.plane_strain_modulus());
             Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus: modulus }

@@ -1,2 +1,44 @@
-//! The fem-run command: how do two viscoelastic spheres collide?.
-fn main() {}
+//! The `fem-run` command: how do two viscoelastic spheres collide?
+//!
+//! ```text
+//! arguments ─ commands/run ─ fem-case ─ result folder ─ fem-case ─ history, snapshots, ─ report
+//!             one file a     Problem    claimed         run        summary                stdout
+//!             subcommand     (exit 2)   (exit 2)        (1, 130)   files, renamed
+//!                                                                  into place
+//! ```
+//!
+//! stdout carries the result, stderr everything else. The exit status is 0 (done), 1 (the run
+//! failed), 2 (bad input, nothing written) or 130 (interrupted).
+
+mod arguments;
+mod assess;
+mod commands;
+mod engineering;
+mod failure;
+mod history_file;
+mod interrupt;
+mod occupant;
+mod peak_memory;
+mod progress;
+mod remedy;
+mod report;
+mod result_folder;
+mod snapshot_files;
+mod standard_output;
+mod summarise;
+mod summary;
+mod tables;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+fn main() -> ExitCode {
+    let started = Instant::now();
+    match commands::execute(arguments::parse(), started) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.print();
+            failure.status().into()
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! `fem-run mesh CASE`: the mesh of each sphere as a VTK file.
+
+use std::path::{Path, PathBuf};
+
+use fem_case::{Case, Plan, build_meshes};
+use fem_mesh::SphereMesh;
+use fem_vtk::{VtuFile, VtuWriter};
+
+use crate::arguments::CaseArguments;
+use crate::failure::Failure;
+use crate::standard_output;
+use crate::tables::mesh_table;
+
+/// Field data by which a file that this command wrote is known.
+const MARK: &str = "fem-run mesh";
+
+/// Write the mesh of each sphere as BODY.vtu
+///
+/// The coordinates are (r, y, 0) in metres with the contact pole at the origin. Such a file, from
+/// here or elsewhere, replaces the built-in mesh: sphere = { diameter = …, mesh = "BODY.vtu" }.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: CaseArguments,
+    /// Folder for the files [default: meshes/<the case file's stem>]
+    ///
+    /// Existing files are replaced only if this command wrote them.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Writes meshes and prints their quality.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let meshes = build_meshes(&case, &Plan::of(&case)?)?;
+    let default = || Path::new("meshes").join(arguments.input.stem());
+    let out = arguments.out.clone().unwrap_or_else(default);
+    let bodies = case.scene.bodies.iter().zip(&meshes);
+    let files: Vec<(PathBuf, &SphereMesh)> = bodies
+        .filter_map(|(body, mesh)| Some((out.join(format!("{}.vtu", body.name)), mesh.as_ref()?)))
+        .collect();
+    for (path, _) in &files {
+        check_place(path)?;
+    }
+    std::fs::create_dir_all(&out).map_err(|error| {
+        Failure::bad_input(format!("--out {}: {error}", out.display()))
+            .with_help("name a folder in a place that you may write to")
+    })?;
+    for (path, mesh) in &files {
+        write_mesh(path, mesh)?;
+    }
+    if arguments.quiet {
+        return Ok(());
+    }
+    let written = files.iter().map(|(path, _)| format!("written: {}\n", path.display()));
+    let table = mesh_table(&case.scene, meshes.each_ref().map(Option::as_ref));
+    standard_output::print(&(table + "\n" + &written.collect::<String>()))
+}
+
+/// Refuses to write over a file that is not this command's.
+fn check_place(path: &Path) -> Result<(), Failure> {
+    let is_free = path.symlink_metadata().is_err();
+    if is_free || VtuFile::open(path).is_ok_and(|file| file.field_data(MARK).is_ok()) {
+        return Ok(());
+    }
+    let message = format!("{}: this file is in the way, and not from fem-run mesh", path.display());
+    Err(Failure::bad_input(message).with_help("move it away, or name another folder with --out"))
+}
+
+fn write_mesh(path: &Path, mesh: &SphereMesh) -> Result<(), Failure> {
+    let points: Vec<[f64; 3]> = mesh.nodes().iter().map(|&[r, y]| [r, y, 0.0]).collect();
+    VtuWriter::new(&points, mesh.quads())
+        .field_data(MARK, 1, &[1_i32])
+        .write(path)
+        .map_err(|error| Failure::bad_input(error.to_string()))
+}

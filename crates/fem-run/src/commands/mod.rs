@@ -1,0 +1,23 @@
+//! One file a job of the command line.
+
+pub mod check;
+pub mod completions;
+pub mod mesh;
+pub mod run;
+
+use std::time::Instant;
+
+use crate::arguments::{Arguments, Command};
+use crate::failure::Failure;
+
+/// Does what the command line asks for; `started` is when the process began.
+pub fn execute(arguments: Arguments, started: Instant) -> Result<(), Failure> {
+    match (arguments.command, arguments.input) {
+        (Some(Command::Check(arguments)), _) => check::execute(&arguments),
+        (Some(Command::Mesh(arguments)), _) => mesh::execute(&arguments),
+        (Some(Command::Completions(arguments)), _) => completions::execute(&arguments),
+        (None, Some(input)) => run::execute(&input, &arguments.options, started),
+        // clap prints its help when there are no arguments at all.
+        (None, None) => Ok(()),
+    }
+}

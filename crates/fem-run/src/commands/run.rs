@@ -1,0 +1,132 @@
+//! `fem-run CASE.toml`: computes a collision and writes its result folder.
+
+use std::io::{Write, stderr};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use fem_case::{Case, Problem};
+use fem_explicit::{Collision, Stop};
+use indicatif::{DecimalBytes, HumanCount};
+
+use crate::arguments::CaseArguments;
+use crate::assess::assess;
+use crate::failure::Failure;
+use crate::history_file::{HISTORY_FILE, write_history};
+use crate::interrupt::Interrupt;
+use crate::progress::Watch;
+use crate::remedy::remedy_of;
+use crate::report::report;
+use crate::result_folder::ResultFolder;
+use crate::snapshot_files::write_snapshots;
+use crate::standard_output;
+use crate::summarise::{Clock, summarise};
+use crate::summary::{SUMMARY_FILE, Summary};
+
+/// How to run a case.
+#[derive(clap::Args, Debug)]
+pub struct Options {
+    /// Folder for the result [default: runs/<the case file's stem>]
+    ///
+    /// An existing folder is replaced only if it is empty or a result of fem-run. Files of your
+    /// own in it are kept. An incomplete result does not replace a complete one: it goes into
+    /// DIR.incomplete.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Most threads to use; a single run uses one, which is the fastest
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    threads: Option<NonZeroUsize>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Runs a case.
+pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
+    let interrupt = Interrupt::listen();
+    let mut problem = Problem::new(Case::load(&input.case, &input.set)?)?;
+    let stem = input.stem();
+    let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&stem));
+    let folder = ResultFolder::claim(&out, &longest_name(&stem))?;
+    if !options.quiet {
+        announce(&problem, &input.case, &out);
+    }
+
+    let mut watch = Watch::new(interrupt, options.quiet);
+    let solving = Instant::now();
+    let collision = problem.run(&mut watch);
+    let clock = Clock { started, solve: solving.elapsed() };
+    watch.finish();
+
+    let summary = write_result(folder.path(), &stem, &problem, &collision, clock)?;
+    let place = folder.publish(summary.complete)?;
+    if !options.quiet {
+        standard_output::print(&report(&summary, &place))?;
+    }
+    match &collision.stopped {
+        None => Ok(()),
+        Some(stop) => Err(stopped(stop, &summary, &place)),
+    }
+}
+
+/// The longest name of a file to come, the writer's temporary ending included.
+fn longest_name(stem: &str) -> String {
+    format!(".{stem}_99999_mid-compression.vtu.XXXXXX.tmp")
+}
+
+/// One line on stderr about what begins.
+fn announce(problem: &Problem, case: &Path, out: &Path) {
+    let cost = &problem.cost;
+    let line = format!(
+        "{}: {} elements, about {} steps, about {}; result: {}",
+        case.display(),
+        HumanCount(cost.elements),
+        HumanCount(cost.steps),
+        DecimalBytes(cost.memory),
+        out.display()
+    );
+    let _ = writeln!(stderr(), "{}", standard_output::one_line(&line));
+}
+
+/// Writes all files of a result, the summary last.
+fn write_result(
+    folder: &Path,
+    stem: &str,
+    problem: &Problem,
+    collision: &Collision,
+    clock: Clock,
+) -> Result<Summary, Failure> {
+    let fault = |error: &dyn std::error::Error| {
+        Failure::failed(format!("the result cannot be written: {error}")).with_help(
+            "nothing was kept of this run; is the disk full? An older result is where it was",
+        )
+    };
+    write_history(folder, problem, &collision.history).map_err(|error| fault(&error))?;
+    let (vtk_files, left_out) =
+        write_snapshots(folder, stem, problem, collision).map_err(|error| fault(&error))?;
+
+    let own = [SUMMARY_FILE.to_string(), HISTORY_FILE.to_string()];
+    let files = own.into_iter().chain(vtk_files).collect();
+    let mut warnings = problem.plan.warnings.clone();
+    warnings.extend(assess(problem, collision));
+    warnings.extend(collision.warnings.iter().cloned());
+    warnings.extend(left_out);
+    let summary = summarise(problem, collision, clock, warnings, files);
+    let mut text = serde_json::to_string_pretty(&summary).map_err(|error| fault(&error))?;
+    text.push('\n');
+    std::fs::write(folder.join(SUMMARY_FILE), text).map_err(|error| fault(&error))?;
+    Ok(summary)
+}
+
+fn stopped(stop: &Stop, summary: &Summary, place: &Path) -> Failure {
+    let kept = format!(
+        "what was computed so far is in {}, marked incomplete",
+        standard_output::one_line(&place.display().to_string())
+    );
+    let Some(remedy) = remedy_of(stop) else {
+        return Failure::interrupted(stop.to_string()).with_help(kept);
+    };
+    let between: Vec<&str> = summary.bodies.iter().map(|body| body.name.as_str()).collect();
+    Failure::failed(format!("the run of {} failed: {stop}", between.join(" and ")))
+        .with_help(format!("likely cause: {}\nremedy: {}\n{kept}", remedy.cause, remedy.remedy))
+}

@@ -1,0 +1,62 @@
+//! SI numbers as people read them: `65.12 µs`, `2.31 GPa`.
+
+/// Prefixes of powers of 1000, and the power of the first.
+const PREFIXES: [&str; 11] = ["a", "f", "p", "n", "µ", "m", "", "k", "M", "G", "T"];
+const FIRST_POWER: i32 = -6;
+/// Digits that are shown of a number.
+const DIGITS: i32 = 4;
+
+/// A unit with a prefix, and how many of it make one SI unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    symbol: String,
+    scale: f64,
+    decimals: usize,
+}
+
+impl Unit {
+    /// The unit in which `value` has one to three digits before the point.
+    pub fn fitting(value: f64, symbol: &str) -> Self {
+        let size = value.abs();
+        let exponent = if size > 0.0 && size.is_finite() { size.log10().floor() as i32 } else { 0 };
+        let last_power = FIRST_POWER + PREFIXES.len() as i32 - 1;
+        let power = exponent.div_euclid(3).clamp(FIRST_POWER, last_power);
+        let before_point = (exponent - 3 * power + 1).clamp(1, DIGITS);
+        Self {
+            symbol: format!("{}{symbol}", PREFIXES[(power - FIRST_POWER) as usize]),
+            scale: 10f64.powi(-3 * power),
+            decimals: (DIGITS - before_point) as usize,
+        }
+    }
+
+    /// `value`, which is in SI, in this unit.
+    pub fn show(&self, value: f64) -> String {
+        format!("{:.*} {}", self.decimals, value * self.scale, self.symbol)
+    }
+}
+
+/// `value` in its own fitting unit.
+pub fn show(value: f64, symbol: &str) -> String {
+    Unit::fitting(value, symbol).show(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits_and_a_prefix() {
+        for (value, symbol, expected) in [
+            (65.123e-6, "s", "65.12 µs"),
+            (1.0e-3, "m", "1.000 mm"),
+            (999.4, "N", "999.4 N"),
+            (2.3119e9, "Pa", "2.312 GPa"),
+            (0.0, "N", "0.000 N"),
+            (-0.5, "m/s", "-500.0 mm/s"),
+            (3e17, "Pa", "300000 TPa"),
+            (f64::NAN, "N", "NaN N"),
+        ] {
+            assert_eq!(show(value, symbol), expected);
+        }
+    }
+}

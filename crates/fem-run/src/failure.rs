@@ -1,0 +1,183 @@
+//! What ends the program with another status than 0, and how it is shown.
+//!
+//! On a terminal the source line is underlined in colour; elsewhere the same is plain text that
+//! begins with `error: FILE:LINE:COLUMN: `.
+
+use std::fmt;
+use std::io::{IsTerminal, Write, stderr};
+use std::ops::Range;
+use std::process::ExitCode;
+
+use fem_case::CaseError;
+use miette::{Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, ReportHandler, SourceCode};
+use textwrap::{WordSeparator, WordSplitter};
+
+/// Exit statuses other than 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The run failed.
+    Failed = 1,
+    /// Bad input; nothing was written.
+    BadInput = 2,
+    /// Interrupted by a signal.
+    Interrupted = 130,
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        ExitCode::from(status as u8)
+    }
+}
+
+/// Why the program ends without success.
+#[derive(Debug)]
+pub struct Failure {
+    status: Status,
+    message: String,
+    help: Option<String>,
+    /// The whole as plain text.
+    plain: String,
+    place: Option<Box<Place>>,
+}
+
+/// A stretch of a case file or of an override.
+#[derive(Debug)]
+struct Place {
+    source: NamedSource<String>,
+    span: Range<usize>,
+    label: Option<String>,
+}
+
+impl Failure {
+    /// Bad input that no line of a case is to blame for.
+    pub fn bad_input(message: impl Into<String>) -> Self {
+        Self::new(Status::BadInput, message.into())
+    }
+
+    /// A failure after the input was found to be sound.
+    pub fn failed(message: impl Into<String>) -> Self {
+        Self::new(Status::Failed, message.into())
+    }
+
+    /// A run that was stopped from outside.
+    pub fn interrupted(message: impl Into<String>) -> Self {
+        Self::new(Status::Interrupted, message.into())
+    }
+
+    fn new(status: Status, message: String) -> Self {
+        Self { status, plain: message.clone(), message, help: None, place: None }
+    }
+
+    /// Adds what to do.
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        let help = help.into();
+        self.plain += &format!("\n  help: {}", help.replace('\n', "\n        "));
+        self.help = Some(help);
+        self
+    }
+
+    /// The exit status.
+    pub fn status(&self) -> Status {
+        self.status
+    }
+
+    /// Shows it on stderr.
+    pub fn print(&self) {
+        let mut stderr = stderr();
+        // Nobody is left to tell if stderr is closed.
+        let _ = if stderr.is_terminal() {
+            writeln!(stderr, "{}", OnTerminal(self))
+        } else {
+            writeln!(stderr, "error: {}", self.plain)
+        };
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        let place = Place::of(&error).map(Box::new);
+        let (message, plain) = (error.message(), error.to_string());
+        let message = if place.is_some() {
+            message.to_string()
+        } else {
+            let position = plain.find(&format!(": {message}")).unwrap_or(plain.len());
+            format!("{}: {message}", &plain[..position])
+        };
+        Self {
+            status: Status::BadInput,
+            message: tame(&message),
+            help: error.help().map(tame),
+            plain,
+            place,
+        }
+    }
+}
+
+impl Place {
+    /// The place of an error, unless its line is too long to show.
+    fn of(error: &CaseError) -> Option<Self> {
+        const LONGEST_LINE: usize = 200;
+        let (text, span) = (error.source_text()?, error.span()?);
+        let text = tame(text);
+        if text.lines().any(|line| line.len() > LONGEST_LINE) {
+            return None;
+        }
+        let label = error.label().filter(|label| !label.is_empty()).unwrap_or("here");
+        let source = NamedSource::new(tame(error.source_name()), text);
+        Some(Self { source, span, label: Some(label.to_string()) })
+    }
+}
+
+/// The same text, as many bytes, without control characters: a terminal must not obey a file.
+fn tame(text: &str) -> String {
+    let mut tame = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\r' => tame.push(' '),
+            '\n' | '\t' => tame.push(c),
+            _ if c.is_control() => tame.extend(std::iter::repeat_n('?', c.len_utf8())),
+            _ => tame.push(c),
+        }
+    }
+    tame
+}
+
+/// As a terminal shows it.
+struct OnTerminal<'a>(&'a Failure);
+
+impl fmt::Display for OnTerminal<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Units hold slashes and hyphens; lines break at spaces only.
+        let options = MietteHandlerOpts::new()
+            .word_separator(WordSeparator::AsciiSpace)
+            .word_splitter(WordSplitter::NoHyphenation)
+            .break_words(false);
+        options.build().debug(self.0, f)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl Diagnostic for Failure {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.place.as_ref().map(|place| &place.source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.place.as_ref().map(|place| {
+            let Range { start, end } = place.span.clone();
+            let label = LabeledSpan::new(place.label.clone(), start, end - start);
+            Box::new(std::iter::once(label)) as Box<dyn Iterator<Item = LabeledSpan>>
+        })
+    }
+}

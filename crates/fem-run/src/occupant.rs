@@ -1,0 +1,112 @@
+//! What stands in the place where a result shall go.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::summary::{PROGRAM, SUMMARY_FILE};
+
+/// What is at a path.
+#[derive(Debug)]
+pub enum Occupant {
+    /// Nothing.
+    Absent,
+    /// A folder without entries.
+    Empty,
+    /// A result folder of this program.
+    Result(OldResult),
+    /// A folder of someone else's.
+    Foreign,
+    /// No folder.
+    File,
+}
+
+/// A result folder of this program, known by its summary.
+#[derive(Debug)]
+pub struct OldResult {
+    /// Whether its run ended by itself.
+    pub is_complete: bool,
+    /// Names of the files that the program wrote; all others are the user's.
+    files: BTreeSet<String>,
+}
+
+/// The keys of a summary that tell whose it is.
+#[derive(Deserialize)]
+struct Marks {
+    program: String,
+    complete: bool,
+    files: Vec<String>,
+}
+
+impl Occupant {
+    /// Looks at a path, symbolic links followed.
+    ///
+    /// # Errors
+    /// A folder that may not be read.
+    pub fn of(path: &Path) -> io::Result<Self> {
+        let metadata = match fs::metadata(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Self::Absent),
+            metadata => metadata?,
+        };
+        if !metadata.is_dir() {
+            return Ok(Self::File);
+        }
+        if fs::read_dir(path)?.next().is_none() {
+            return Ok(Self::Empty);
+        }
+        let summary = fs::read(path.join(SUMMARY_FILE)).unwrap_or_default();
+        Ok(match serde_json::from_slice::<Marks>(&summary) {
+            Ok(marks) if marks.program == PROGRAM => Self::Result(OldResult {
+                is_complete: marks.complete,
+                files: marks.files.into_iter().collect(),
+            }),
+            _ => Self::Foreign,
+        })
+    }
+}
+
+impl OldResult {
+    /// Moves everything that the program did not write from `old` to `new`. A name that is taken
+    /// there gets `.kept` appended.
+    ///
+    /// # Errors
+    /// The file system.
+    pub fn move_foreign_files(&self, old: &Path, new: &Path) -> io::Result<()> {
+        for entry in fs::read_dir(old)? {
+            let name = entry?.file_name();
+            if name.to_str().is_some_and(|name| self.files.contains(name)) {
+                continue;
+            }
+            let mut kept = name.clone();
+            while new.join(&kept).symlink_metadata().is_ok() {
+                kept.push(".kept");
+            }
+            fs::rename(old.join(&name), new.join(&kept))?;
+        }
+        Ok(())
+    }
+
+    /// Deletes the program's own files in `old`, and the folder if nothing else is in it.
+    ///
+    /// # Errors
+    /// The file system; the folder if something else is in it.
+    pub fn remove_own_files(&self, old: &Path) -> io::Result<()> {
+        for name in &self.files {
+            let path = old.join(name);
+            // A name with a folder in it was not written by the program.
+            if path.parent() == Some(old) && path.symlink_metadata().is_ok() {
+                fs::remove_file(path)?;
+            }
+        }
+        fs::remove_dir(old)
+    }
+}
+
+/// The folders above `path` that do not exist yet, the outermost last.
+pub fn missing_parents(path: &Path) -> Vec<PathBuf> {
+    let is_missing = |folder: &&Path| folder.symlink_metadata().is_err();
+    path.ancestors().skip(1).take_while(is_missing).map(Path::to_path_buf).collect()
+}

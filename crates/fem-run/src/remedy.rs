@@ -1,0 +1,36 @@
+//! Why a run stops early, and what helps.
+
+use fem_explicit::Stop;
+
+/// Likely cause and remedy of a stop.
+pub struct Remedy {
+    /// What most often lies behind it.
+    pub cause: &'static str,
+    /// What to change.
+    pub remedy: &'static str,
+}
+
+/// Likely cause and remedy; none for a run that the user stopped.
+pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
+    let (cause, remedy) = match stop {
+        Stop::Interrupted { .. } => return None,
+        Stop::EnergyGrowth { .. } => (
+            "the contact opens and closes faster than the time step resolves, or an imported \
+             mesh has elements that are far too distorted",
+            "set time.step_factor = 0.5 and time.mass_scaling = 0; if it stays, lower \
+             contact.penalty_factor, and send us the case: the step is meant to be stable",
+        ),
+        Stop::ContactBeyondCandidates { .. } => (
+            "the contact is as wide as the smaller sphere, where small strain says nothing: the \
+             impact is too fast or the material too soft",
+            "lower body.N.approach_speed, or check the moduli and their units",
+        ),
+        Stop::NoSeparation { .. } => (
+            "the material has relaxed so far that nothing is left to push the bodies apart, or a \
+             moving wall keeps pushing",
+            "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
+             their units: the weights' sum below 1 leaves a lasting stiffness",
+        ),
+    };
+    Some(Remedy { cause, remedy })
+}

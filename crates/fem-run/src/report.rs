@@ -1,0 +1,143 @@
+//! The result on stdout: for people. Numbers for programs are in the summary.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem_case::Effect;
+use indicatif::{DecimalBytes, HumanCount};
+
+use crate::engineering::{Unit, show};
+use crate::standard_output::one_line;
+use crate::summary::{BodySummary, Quantities, Summary};
+use crate::tables::table;
+
+/// Shown for a number that there is not.
+const NONE: &str = "-";
+/// A restitution this near to 1 is told by what is missing.
+const NEARLY_ELASTIC: f64 = 1e-3;
+
+/// The report of a run whose files are in `place`.
+pub fn report(summary: &Summary, place: &Path) -> String {
+    let mut text = String::new();
+    let title = summary.case.title.as_deref().unwrap_or_default();
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{}\n", one_line(title));
+    if let Some(reason) = &summary.stopped_because {
+        let _ = writeln!(text, "INCOMPLETE: {reason}\n");
+    }
+    text += &quantities(&summary.collision, &summary.hertz);
+    if let Some(deficit) = elastic_deficit(summary.collision.restitution) {
+        let _ = writeln!(text, "\n1 - restitution  {deficit}");
+    }
+    if summary.contact_episodes > 1 {
+        let _ =
+            writeln!(text, "\nThe contact opened and closed {} times.", summary.contact_episodes);
+    }
+    let _ = writeln!(text, "\n{}", bodies(&summary.bodies));
+    text += &balances(summary);
+    let _ = writeln!(text, "\nEffects\n{}", effects(&summary.effects));
+    text += &warnings(&summary.warnings);
+    let _ = writeln!(text, "\nResult: {}", one_line(&place.display().to_string()));
+    text
+}
+
+fn quantities(ours: &Quantities, hertz: &Quantities) -> String {
+    let mut rows = vec![["", "this run", "Hertz", "ratio"].map(String::from)];
+    let mut row = |name: &str, unit: &str, ours: Option<f64>, hertz: Option<f64>| {
+        let shown = Unit::fitting(hertz.or(ours).unwrap_or_default(), unit);
+        let number = |value: Option<f64>| value.map_or(NONE.into(), |value| shown.show(value));
+        let ratio = ours.zip(hertz).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
+        rows.push([name.into(), number(ours), number(hertz), ratio]);
+    };
+    row("contact time", "s", ours.contact_time_s, hertz.contact_time_s);
+    row("peak force", "N", ours.peak_force_n, hertz.peak_force_n);
+    row("largest approach", "m", ours.max_approach_m, hertz.max_approach_m);
+    row("largest contact radius", "m", ours.max_contact_radius_m, hertz.max_contact_radius_m);
+    row("peak pressure", "Pa", ours.peak_pressure_pa, hertz.peak_pressure_pa);
+    let restitution = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.4}"));
+    let first = [
+        "restitution".to_string(),
+        restitution(ours.restitution),
+        restitution(hertz.restitution),
+        restitution(ours.restitution),
+    ];
+    rows.insert(1, first);
+    table(&[Left, Right, Right, Right], rows)
+}
+
+fn elastic_deficit(restitution: Option<f64>) -> Option<String> {
+    let deficit = 1.0 - restitution?;
+    (deficit.abs() < NEARLY_ELASTIC).then(|| format!("{deficit:.2e}"))
+}
+
+fn bodies(bodies: &[BodySummary]) -> String {
+    let header = ["body", "elements", "mass", "before", "after", "vibration"].map(String::from);
+    let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
+    let speeds = bodies.iter().flat_map(|body| [body.velocity_before_m_s, body.velocity_after_m_s]);
+    let fastest = speeds.flatten().fold(0.0, |fastest: f64, speed| fastest.max(speed.abs()));
+    let speed_unit = Unit::fitting(fastest, "m/s");
+    let speed = |value: Option<f64>| value.map_or(NONE.into(), |speed| speed_unit.show(speed));
+    let row = |body: &BodySummary| {
+        [
+            body.name.clone(),
+            HumanCount(body.elements as u64).to_string(),
+            quantity(body.mass_kg.map(|mass| 1e3 * mass), "g"),
+            speed(body.velocity_before_m_s),
+            speed(body.velocity_after_m_s),
+            quantity(body.vibration_energy_j, "J"),
+        ]
+    };
+    let rows = std::iter::once(header).chain(bodies.iter().map(row));
+    table(&[Left, Right, Right, Right, Right, Right], rows)
+}
+
+fn balances(summary: &Summary) -> String {
+    let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.1e}"));
+    let dissipated = summary.energy.viscous_dissipation_j;
+    let cost = &summary.cost;
+    let memory = cost.peak_memory_bytes.map(|bytes| format!(", {}", DecimalBytes(bytes)));
+    let rows = [
+        [
+            "energy".to_string(),
+            format!(
+                "residual {} of the initial; dissipated {}",
+                residual(summary.energy.residual_relative),
+                dissipated.map_or(NONE.into(), |energy| show(energy, "J")),
+            ),
+        ],
+        ["momentum".into(), format!("residual {}", residual(summary.momentum_residual_relative))],
+        [
+            "cost".into(),
+            format!(
+                "{:.2} s for {} steps of {} ({} an element update, {} thread{}{})",
+                cost.solve_s,
+                HumanCount(summary.steps),
+                summary.time_step_s.map_or(NONE.into(), |step| show(step, "s")),
+                cost.ns_per_element_update.map_or(NONE.into(), |ns| format!("{ns:.1} ns")),
+                cost.threads,
+                if cost.threads == 1 { "" } else { "s" },
+                memory.unwrap_or_default(),
+            ),
+        ],
+    ];
+    table(&[Left, Left], rows)
+}
+
+/// On or off, and why.
+pub fn effects(effects: &[Effect]) -> String {
+    let row = |effect: &Effect| {
+        let switch = if effect.active { "on" } else { "off" };
+        [switch.to_string(), effect.name.to_string(), effect.reason.clone()]
+    };
+    table(&[Left, Left, Left], effects.iter().map(row))
+}
+
+/// A line a warning.
+pub fn warnings(warnings: &[String]) -> String {
+    if warnings.is_empty() {
+        return "No warnings.\n".to_string();
+    }
+    let rows = warnings.iter().map(|warning| ["warning:".to_string(), one_line(warning)]);
+    table(&[Left, Left], rows)
+}

@@ -1,0 +1,139 @@
+//! The snapshots as VTK files: one grid with both bodies an instant, and a collection of them.
+
+use std::path::Path;
+
+use fem_case::Problem;
+use fem_explicit::{
+    Body, Collision, Label, Model, Snapshot, SnapshotRequest, StressField, invariants,
+};
+use fem_vtk::{VtuWriter, pad_vectors, write_collection};
+
+/// Names of the stress arrays, in the order of [`GridStress`].
+const STRESSES: [&str; 6] =
+    ["sigma_rr", "sigma_yy", "sigma_tt", "sigma_ry", "pressure", "von_mises"];
+
+/// A grid of both bodies, the second body's points after the first's.
+struct Grid {
+    points: Vec<[f64; 3]>,
+    quads: Vec<[u32; 4]>,
+    /// 0 or 1 for each cell.
+    body: Vec<i32>,
+}
+
+/// Six arrays of one value a cell or point.
+type GridStress = [Vec<f64>; 6];
+
+/// Writes all snapshots and their collection into `folder`.
+///
+/// Returns the names of the files, and warnings about snapshots that are left out.
+///
+/// # Errors
+/// The file system.
+pub fn write_snapshots(
+    folder: &Path,
+    stem: &str,
+    problem: &Problem,
+    collision: &Collision,
+) -> Result<(Vec<String>, Vec<String>), fem_vtk::Error> {
+    let model = &problem.model;
+    let grid = Grid::of(model);
+    let (mut series, mut warnings): (Vec<(f64, String)>, _) = (Vec::new(), Vec::new());
+    for snapshot in &collision.snapshots {
+        let label = label(snapshot, &problem.plan.snapshots);
+        if snapshot.label == Some(Label::LastContact) && collision.stopped.is_some() {
+            warnings.push(format!("the run ended before the instant \"{label}\"; it is left out"));
+            continue;
+        }
+        // Viewers draw two files of one time on top of each other.
+        if let Some((time, earlier)) = series.last()
+            && snapshot.time <= *time
+        {
+            warnings.push(format!(
+                "the snapshot \"{label}\" is of the same instant as {earlier}; it is left out"
+            ));
+            continue;
+        }
+        let name = format!("{stem}_{}_{label}.vtu", series.len());
+        match write_snapshot(&folder.join(&name), &grid, model, snapshot) {
+            Err(error @ fem_vtk::Error::NotFinite { .. }) => {
+                warnings.push(format!("the snapshot \"{label}\" is left out: {error}"));
+            }
+            result => {
+                result?;
+                series.push((snapshot.time, name));
+            }
+        }
+    }
+    let mut files: Vec<String> = series.iter().map(|(_, name)| name.clone()).collect();
+    if !series.is_empty() {
+        let collection = format!("{stem}.pvd");
+        write_collection(folder.join(&collection), &series)?;
+        files.extend([collection, format!("{stem}.vtu.series")]);
+    }
+    Ok((files, warnings))
+}
+
+fn label(snapshot: &Snapshot, request: &SnapshotRequest) -> &'static str {
+    match (snapshot.label, request) {
+        (Some(label), _) => label.name(),
+        (None, SnapshotRequest::Times(_)) => "time",
+        (None, _) => "even",
+    }
+}
+
+fn write_snapshot(
+    path: &Path,
+    grid: &Grid,
+    model: &Model,
+    snapshot: &Snapshot,
+) -> Result<(), fem_vtk::Error> {
+    let (mut displacement, mut velocity) = (Vec::new(), Vec::new());
+    let (mut cells, mut points) = (GridStress::default(), GridStress::default());
+    for (body, fields) in meshed(model).map(|(side, body)| (body, &snapshot.bodies[side])) {
+        displacement.extend(pad_vectors(fields.displacement.as_flattened()));
+        velocity.extend(pad_vectors(fields.velocity.as_flattened()));
+        let stress = StressField::of(body, fields);
+        append_stress(&mut cells, &stress.cells);
+        append_stress(&mut points, &stress.points);
+    }
+    let mut writer = VtuWriter::new(&grid.points, &grid.quads)
+        .time(snapshot.time)
+        .point_data("displacement", 3, &displacement)
+        .point_data("velocity", 3, &velocity)
+        .cell_data("body", 1, &grid.body);
+    for (k, name) in STRESSES.into_iter().enumerate() {
+        writer = writer.point_data(name, 1, &points[k]).cell_data(name, 1, &cells[k]);
+    }
+    writer.write(path)
+}
+
+/// Bodies with a mesh, and which side they are on.
+fn meshed(model: &Model) -> impl Iterator<Item = (usize, &Body)> {
+    model.bodies().iter().enumerate().filter(|(_, body)| body.mesh().is_some())
+}
+
+fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
+    for stress in stresses {
+        let (pressure, von_mises) = invariants(*stress);
+        let [rr, yy, tt, ry] = *stress;
+        for (array, value) in arrays.iter_mut().zip([rr, yy, tt, ry, pressure, von_mises]) {
+            array.push(value);
+        }
+    }
+}
+
+impl Grid {
+    /// Reference positions (r, y, 0), half of the start gap between each body and y = 0.
+    fn of(model: &Model) -> Self {
+        let mut grid = Self { points: Vec::new(), quads: Vec::new(), body: Vec::new() };
+        for (side, body) in meshed(model) {
+            let Some(mesh) = body.mesh() else { continue };
+            let shift = if side == 0 { -0.5 * model.gap() } else { 0.5 * model.gap() };
+            let first = grid.points.len() as u32;
+            grid.points.extend(mesh.nodes().iter().map(|[r, y]| [*r, y + shift, 0.0]));
+            grid.quads.extend(mesh.quads().iter().map(|quad| quad.map(|node| first + node)));
+            grid.body.extend(mesh.quads().iter().map(|_| side as i32));
+        }
+        grid
+    }
+}

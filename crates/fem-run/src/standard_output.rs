@@ -1,0 +1,24 @@
+//! Printing of results.
+
+use std::io::{ErrorKind, Write, stdout};
+
+use crate::failure::Failure;
+
+/// Prints to stdout. A reader that has gone away (`fem-run check CASE | head`) is no fault.
+///
+/// # Errors
+/// A stdout that takes no more, such as a full disk.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::failed(format!("the standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Text of a case that is safe to show on a terminal and in one line.
+pub fn one_line(text: &str) -> String {
+    text.replace(char::is_control, "\u{fffd}")
+}

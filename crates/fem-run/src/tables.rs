@@ -1,0 +1,54 @@
+//! Tables on stdout: columns of aligned text, wrapped to the width of a terminal.
+
+use comfy_table::CellAlignment::{self, Left, Right};
+use comfy_table::{ContentArrangement, Row, Table};
+use fem_case::Scene;
+use fem_mesh::{Quality, SphereMesh};
+use indicatif::HumanCount;
+
+use crate::engineering::show;
+
+/// A table without lines, and the alignment of its columns; the last one wraps.
+pub fn table<R: Into<Row>>(
+    alignment: &[CellAlignment],
+    rows: impl IntoIterator<Item = R>,
+) -> String {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::NOTHING);
+    table.set_content_arrangement(ContentArrangement::Dynamic);
+    table.add_rows(rows);
+    for (column, alignment) in table.column_iter_mut().zip(alignment) {
+        column.set_cell_alignment(*alignment);
+        column.set_padding((0, 2));
+    }
+    table.trim_fmt() + "\n"
+}
+
+/// Two columns: what it is, and its value.
+pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
+    table(&[Left, Left], rows.map(|(name, value)| [name.to_string(), value]))
+}
+
+/// Size and quality of each mesh; a wall has none.
+pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
+    let header =
+        ["body", "elements", "nodes", "smallest scaled Jacobian", "largest aspect", "edges"];
+    let row = |name: &str, mesh: Option<&SphereMesh>| {
+        let Some(mesh) = mesh else {
+            return [name, "-", "-", "-", "-", "rigid wall"].map(String::from);
+        };
+        let quality = Quality::of(mesh);
+        [
+            name.to_string(),
+            HumanCount(mesh.quads().len() as u64).to_string(),
+            HumanCount(mesh.nodes().len() as u64).to_string(),
+            format!("{:.3}", quality.min_scaled_jacobian),
+            format!("{:.2}", quality.max_aspect_ratio),
+            format!("{} to {}", show(quality.min_edge, "m"), show(quality.max_edge, "m")),
+        ]
+    };
+    let bodies = scene.bodies.iter().zip(meshes);
+    let rows = bodies.map(|(body, mesh)| row(&body.name, mesh));
+    let rows = std::iter::once(header.map(String::from)).chain(rows);
+    table(&[Left, Right, Right, Right, Right, Left], rows)
+}

@@ -1,0 +1,102 @@
+//! Runs that do not end by themselves.
+
+mod common;
+
+use common::{FAILS, Place};
+
+#[test]
+fn a_run_that_fails_says_why_and_keeps_what_it_has() {
+    let place = Place::new();
+    let ran = place.run(&[&["case.toml"][..], &FAILS].concat());
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    for expected in ["error: ", "step", "likely cause: ", "remedy: ", "runs/case"] {
+        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    }
+    assert!(ran.stdout.contains("INCOMPLETE"), "{}", ran.stdout);
+    let summary = place.json("runs/case/summary.json");
+    assert_eq!(summary["complete"], false);
+    assert!(summary["stopped_because"].as_str().unwrap().contains("radius"));
+    for key in ["restitution", "contact_time_s"] {
+        assert!(summary[key].is_null(), "{key}");
+    }
+    assert!(summary["bodies"][0]["velocity_after_m_s"].is_null());
+    assert!(summary["peak_force_n"].as_f64().unwrap() > 0.0);
+    let warnings = summary["warnings"].to_string();
+    assert!(warnings.contains("not complete"), "{warnings}");
+    let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+    assert!(history.lines().count() > 3);
+}
+
+#[cfg(unix)]
+mod signals {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Child, Stdio};
+
+    use nix::sys::signal::{Signal, kill};
+    use nix::unistd::Pid;
+
+    use super::*;
+
+    /// So fine that nobody waits for its end: hours.
+    const ENDLESS: [&str; 4] =
+        ["--set", "mesh.contact_element_size=6e-6", "--set", "time.step_factor=1e-2"];
+
+    /// Starts an endless run and waits for its first line.
+    fn start(place: &Place, more: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
+        let arguments = [&["case.toml"][..], &ENDLESS, more].concat();
+        let mut command = place.command(&arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut stderr = BufReader::new(child.stderr.take().unwrap());
+        let mut line = String::new();
+        stderr.read_line(&mut line).unwrap();
+        assert!(line.contains("elements"), "{line}");
+        (child, stderr)
+    }
+
+    fn send(child: &Child, signal: Signal) {
+        kill(Pid::from_raw(child.id() as i32), signal).unwrap();
+    }
+
+    #[test]
+    fn an_interrupted_run_keeps_what_it_has() {
+        for signal in [Signal::SIGINT, Signal::SIGTERM] {
+            let place = Place::new();
+            let (mut child, mut stderr) = start(&place, &[]);
+            send(&child, signal);
+            let mut message = String::new();
+            stderr.read_to_string(&mut message).unwrap();
+            assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
+            assert!(message.contains("interrupted at"), "{message}");
+            let summary = place.json("runs/case/summary.json");
+            assert_eq!(summary["complete"], false);
+            assert!(summary["stopped_because"].as_str().unwrap().contains("interrupted"));
+            let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+            assert!(history.lines().count() >= 2, "{history}");
+            assert_eq!(place.list("runs"), ["case"]);
+        }
+    }
+
+    #[test]
+    fn an_interrupted_run_does_not_replace_a_complete_result() {
+        let place = Place::new();
+        place.succeed(&["case.toml"]);
+        let before = place.read("runs/case/summary.json");
+        let (mut child, _stderr) = start(&place, &[]);
+        send(&child, Signal::SIGINT);
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        assert_eq!(place.read("runs/case/summary.json"), before);
+        assert_eq!(place.json("runs/case.incomplete/summary.json")["complete"], false);
+    }
+
+    #[test]
+    fn a_killed_run_leaves_an_older_result_alone() {
+        let place = Place::new();
+        place.succeed(&["case.toml"]);
+        let before = place.read("runs/case/summary.json");
+        let (mut child, _stderr) = start(&place, &[]);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(place.read("runs/case/summary.json"), before);
+        place.succeed(&["case.toml"]);
+    }
+}
