@@ -167,3 +167,54 @@ fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
         [None, None] => f64::INFINITY,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fem_mesh::{HalfDisc, Side, SphereMesh};
+
+    use super::*;
+
+    fn sphere(radius: f64, size: f64, side: Side) -> SphereMesh {
+        HalfDisc { radius, contact_element_size: size, refined_radius: 0.4, growth: None }
+            .build()
+            .unwrap()
+            .on_side(side)
+    }
+
+    #[test]
+    fn points_see_the_true_arcs_and_cover_the_plane() {
+        let (lower, upper) = (sphere(2.0, 0.1, Side::Below), sphere(1.0, 0.07, Side::Above));
+        let surfaces = [Surface::of_sphere(&lower), Surface::of_sphere(&upper)];
+        let [lower, upper] = surfaces.clone();
+        let interface = ContactInterface::new(lower, upper, 1.0, 0.3, 0.5).unwrap();
+        for point in &interface.points {
+            let r = point.radius;
+            let arcs = 2.0 - (4.0 - r * r).sqrt() + 1.0 - (1.0 - r * r).sqrt();
+            // Rounding of numbers of size 2.
+            assert!((point.initial_gap - (0.3 + arcs)).abs() < 2e-15);
+            for side in 0..2 {
+                // Both feet stand at the point.
+                let Foot { nodes, shape } = point.feet[side];
+                let surface = &surfaces[side];
+                let at = |node: u32| {
+                    surface.radii[surface.nodes.iter().position(|&n| n == node).unwrap()]
+                };
+                assert!((shape[0] * at(nodes[0]) + shape[1] * at(nodes[1]) - r).abs() < 1e-15);
+                assert!((shape[0] + shape[1] - 1.0).abs() < 1e-15 && shape[0] > 0.0);
+            }
+        }
+        let area: f64 = interface.points.iter().map(|point| point.area).sum();
+        let exact = PI * interface.candidate_radius().powi(2);
+        assert!((area / exact - 1.0).abs() < 1e-14);
+    }
+
+    /// Equal meshes share their nodes but for rounding: no slivers.
+    #[test]
+    fn equal_meshes_make_one_piece_an_element() {
+        let [lower, upper] =
+            [Side::Below, Side::Above].map(|side| Surface::of_sphere(&sphere(1.0, 0.1, side)));
+        let n_nodes = lower.radii.iter().take_while(|r| **r < 0.39).count();
+        let interface = ContactInterface::new(lower, upper, 1.0, 0.0, 0.39).unwrap();
+        assert_eq!(interface.n_points(), 2 * n_nodes);
+    }
+}

@@ -30,24 +30,30 @@ impl ContactInterface {
 
     /// Contact pressure at the nodes of a deformable side, from the axis
     /// outward: (r in m, p in Pa), the nodal contact force over the nodal area.
-    pub fn nodal_pressure(&self, u: [&[[f64; 2]]; 2]) -> Vec<(f64, f64)> {
+    pub fn nodal_pressure<'a>(
+        &'a self,
+        u: [&'a [[f64; 2]]; 2],
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
         let side = usize::from(self.surfaces[0].is_wall());
         let surface = &self.surfaces[side];
-        let n = self.candidate_nodes(side).count();
-        let (mut force, mut area) = (vec![0.0; n], vec![0.0; n]);
-        for (point, (radius, pressure)) in self.points.iter().zip(self.signed_pressure(u)) {
-            let (segment, _) = surface.locate(radius);
-            for end in 0..2 {
-                if let Some(node_area) = area.get_mut(segment + end) {
-                    let share = point.area * point.feet[side].shape[end];
-                    *node_area += share;
-                    force[segment + end] += share * pressure.max(0.0);
-                }
+        let mut points = self.points.iter().zip(self.signed_pressure(u)).peekable();
+        // Force and area that the segment inside of a node has given to it.
+        let mut from_inside = [0.0; 2];
+        self.candidate_nodes(side).zip(&surface.radii).map(move |(node, &radius)| {
+            let [mut force, mut area] = from_inside;
+            from_inside = [0.0; 2];
+            while let Some((point, (_, pressure))) =
+                points.next_if(|(point, _)| point.feet[side].nodes[0] == node)
+            {
+                let [inner, outer] = point.feet[side].shape.map(|shape| point.area * shape);
+                let pressure = pressure.max(0.0);
+                force += inner * pressure;
+                area += inner;
+                from_inside[0] += outer * pressure;
+                from_inside[1] += outer;
             }
-        }
-        (0..n)
-            .map(|k| (surface.radii[k], if area[k] > 0.0 { force[k] / area[k] } else { 0.0 }))
-            .collect()
+            (radius, if area > 0.0 { force / area } else { 0.0 })
+        })
     }
 
     /// Contact pressure on the axis, Pa; 0 without contact there.
@@ -58,21 +64,27 @@ impl ContactInterface {
     /// their areas are, and √α returned; with fewer than four nodes there, or
     /// a fit that rises outward from nothing, the axis node's own value.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let pressure = self.nodal_pressure(u);
         let limit = FIT_RADIUS * self.contact_radius(u);
-        let own = pressure.first().map_or(0.0, |&(_, p)| p);
-        let spacing = pressure.get(1).map_or(0.0, |&(r, _)| r);
-        let inside = pressure.iter().take_while(|&&(r, _)| r < limit);
-        if inside.clone().count() < FIT_NODES {
-            return own;
-        }
+        let side = usize::from(self.surfaces[0].is_wall());
+        let spacing = self.surfaces[side].segment_length(0);
+        let (mut own, mut n_inside) = (0.0, 0);
         let mut sums = [0.0; 5];
-        for &(r, p) in inside {
+        for (node, (r, p)) in self.nodal_pressure(u).enumerate() {
+            if node == 0 {
+                own = p;
+            }
+            if r >= limit {
+                break;
+            }
+            n_inside += 1;
             let (weight, x, y) = (r.max(0.25 * spacing), (r / limit).powi(2), p * p);
             let terms = [1.0, x, x * x, y, x * y];
             for (sum, term) in sums.iter_mut().zip(terms) {
                 *sum += weight * term;
             }
+        }
+        if n_inside < FIT_NODES {
+            return own;
         }
         let [s0, s1, s2, y0, y1] = sums;
         let squared = (y0 * s2 - y1 * s1) / (s0 * s2 - s1 * s1);

@@ -26,7 +26,7 @@ pub fn b_bar(corners: &[[f64; 2]; 4]) -> ElementStiffness {
 /// Strain at a point due to a unit displacement of degree of freedom i.
 fn unit_strain(p: &crate::geometry::QuadraturePoint, i: usize) -> [f64; 4] {
     let a = i / 2;
-    if i % 2 == 0 {
+    if i.is_multiple_of(2) {
         [p.gradient_r[a], 0.0, p.shape[a] / p.radius, p.gradient_y[a]]
     } else {
         [0.0, p.gradient_y[a], 0.0, p.gradient_r[a]]

@@ -196,6 +196,9 @@ impl<'a> Run<'a> {
                 return Ok(());
             }
             if contact.at_limit {
+                // A run that blows up throws its nodes about: that is not a large contact.
+                let row = self.ledger.balance(self.model, &self.state, &self.scratch, &contact);
+                self.check_energy(&row)?;
                 let radius = self.model.interface().candidate_radius();
                 return Err(Stop::ContactBeyondCandidates { time, step, radius });
             }
@@ -252,7 +255,8 @@ impl<'a> Run<'a> {
     }
 
     fn finish(mut self, stopped: Option<Stop>) -> Collision {
-        if stopped.is_some() {
+        let is_recorded = self.history.rows().last().is_some_and(|row| row.time == self.state.time);
+        if stopped.is_some() && !is_recorded {
             // The state where the run stopped ends the history, if it is sound.
             let contact = update_forces(self.model, &self.state, &mut self.scratch);
             let row = self.ledger.balance(self.model, &self.state, &self.scratch, &contact);
@@ -300,3 +304,6 @@ impl<'a> Run<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

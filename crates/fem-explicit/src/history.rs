@@ -85,3 +85,67 @@ impl History {
         self.rows
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(step: u64) -> HistoryRow {
+        HistoryRow {
+            time: step as f64,
+            contact_force: 0.0,
+            contact_radius: 0.0,
+            approach: 0.0,
+            centre_pressure: 0.0,
+            velocity: [0.0; 2],
+            kinetic: 0.0,
+            strain: 0.0,
+            contact: 0.0,
+            viscous_dissipation: 0.0,
+            residual: 0.0,
+            vibration: [0.0; 2],
+        }
+    }
+
+    /// Runs so many steps with first and last contact at these; the steps of the rows.
+    fn run(history: &mut History, n_steps: u64, essential: [u64; 2]) -> Vec<u64> {
+        for step in 0..=n_steps {
+            let is_essential = essential.contains(&step);
+            if is_essential || history.is_due(step) {
+                history.push(row(step), is_essential);
+            }
+        }
+        history.rows().iter().map(|row| row.time as u64).collect()
+    }
+
+    #[test]
+    fn rows_come_at_the_stride_of_the_estimate() {
+        let mut history = History::new(100, 1000.0);
+        let steps = run(&mut history, 1000, [3, 907]);
+        let expected: Vec<u64> =
+            (0..=1000).filter(|s| s % 10 == 0 || *s == 3 || *s == 907).collect();
+        assert_eq!(steps, expected);
+        // Fewer steps than rows: every step.
+        assert_eq!(run(&mut History::new(1000, 50.0), 50, [0, 50]).len(), 51);
+        assert_eq!(run(&mut History::new(0, 0.0), 5, [0, 5]).len(), 6);
+    }
+
+    #[test]
+    fn a_long_run_is_thinned_and_keeps_what_is_essential() {
+        for n_rows in [16, 100] {
+            for n_steps in [1_000, 100_000, 345_678] {
+                let mut history = History::new(n_rows, n_rows as f64);
+                let capacity = history.rows.capacity();
+                let essential = [37, n_steps - 5];
+                let steps = run(&mut history, n_steps, essential);
+                assert!(steps.len() <= 4 * n_rows && steps.len() > n_rows, "{}", steps.len());
+                assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
+                assert!(essential.iter().all(|step| steps.contains(step)));
+                // Even to a factor of 2, away from the essential rows.
+                let stride = history.stride;
+                assert!(steps.windows(2).all(|pair| pair[1] - pair[0] <= 2 * stride), "{steps:?}");
+                assert_eq!(history.rows.capacity(), capacity, "a row was allocated");
+            }
+        }
+    }
+}

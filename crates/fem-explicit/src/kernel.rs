@@ -244,3 +244,6 @@ fn sum_energy<L: Lanes>(blocks: &Blocks, moduli: Moduli, field: &Field) -> f64 {
     let twice: [f64; LANES] = twice.to_array();
     0.5 * twice.iter().sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests;

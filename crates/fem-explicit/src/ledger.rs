@@ -28,7 +28,8 @@ pub(crate) struct Ledger {
     pub initial_relative: f64,
     /// Worst imbalance of energy over `initial_relative`.
     pub worst_residual: f64,
-    /// Worst drift of momentum over Σ m|v| at the start.
+    /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
+    /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
     initial_momentum: f64,
     momentum_scale: f64,
@@ -51,13 +52,16 @@ impl Ledger {
         let moving = || model.bodies().iter().filter(|body| body.mesh().is_some());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
         let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
+        let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
+        // A wall can bring all of the motion to a body at rest.
+        let momentum_of_approach = sum(&Body::total_mass) * model.approach_speed();
         Self {
             initial: sum(&|body| 0.5 * body.total_mass() * body.velocity.powi(2)),
             initial_relative: 0.5 * model.approach_speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
             worst_momentum: 0.0,
             initial_momentum: sum(&|body| body.total_mass() * body.velocity),
-            momentum_scale: sum(&|body| body.total_mass() * body.velocity.abs()),
+            momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
             impulse: 0.0,
             dissipated: 0.0,
             last_power: None,
@@ -147,7 +151,7 @@ impl Ledger {
 
 /// The larger magnitude; NaN wins, so that it cannot pass unseen.
 fn worst(so_far: f64, value: f64) -> f64 {
-    if value.abs() <= so_far { so_far } else { value.abs() }
+    if so_far.is_nan() || value.abs() <= so_far { so_far } else { value.abs() }
 }
 
 fn balance_body(
@@ -174,5 +178,18 @@ fn balance_body(
         vibration: 0.5 * (twice_kinetic - mass * before * after),
         velocity: 0.5 * (before + after),
         displacement,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::worst;
+
+    #[test]
+    fn the_worst_is_the_largest_magnitude_and_nan_stays() {
+        let of = |values: &[f64]| values.iter().fold(0.0, |so_far, &value| worst(so_far, value));
+        assert_eq!(of(&[0.1, -0.3, 0.2]), 0.3);
+        assert_eq!(of(&[0.1, f64::NEG_INFINITY, 0.2]), f64::INFINITY);
+        assert!(of(&[0.1, f64::NAN, 0.2]).is_nan());
     }
 }

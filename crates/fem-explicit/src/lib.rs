@@ -31,6 +31,10 @@ mod snapshot;
 mod state;
 mod step;
 mod stress;
+#[cfg(test)]
+mod test_support;
+#[cfg(test)]
+mod tests;
 mod time_step;
 
 pub use body::{Body, BodyInput};

@@ -222,3 +222,6 @@ fn evenly(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) -> Vec<Snap
     });
     kept
 }
+
+#[cfg(test)]
+mod tests;

@@ -128,3 +128,44 @@ fn fit(
         None => right.map(|right| right[0] / patch.len() as f64),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fem_mesh::{HalfDisc, Side};
+
+    use super::*;
+
+    /// Any linear field that is smooth on the axis: σ_rr = σ_θθ and σ_ry = 0 there.
+    #[test]
+    fn linear_stress_is_recovered_exactly() {
+        for side in [Side::Above, Side::Below] {
+            let disc = HalfDisc {
+                radius: 1.0,
+                contact_element_size: 0.05,
+                refined_radius: 0.2,
+                growth: None,
+            };
+            let mesh = disc.build().unwrap().on_side(side);
+            let stress = |[r, y]: [f64; 2]| {
+                [1.0 + 2.0 * y - 3.0 * r, 0.5 - y + 4.0 * r, 1.0 + 2.0 * y - 3.0 * r, 0.7 * r]
+            };
+            let mean = |corners: [[f64; 2]; 4], axis: usize| {
+                corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0
+            };
+            let cells: Vec<_> = (0..mesh.quads().len())
+                .map(|element| mesh.corners(element))
+                .map(|corners| stress([mean(corners, 0), mean(corners, 1)]))
+                .collect();
+            for (node, point) in recover(&mesh, &cells).into_iter().enumerate() {
+                let mut exact = stress(mesh.nodes()[node]);
+                if mesh.nodes()[node][0] == 0.0 {
+                    exact[3] = 0.0;
+                }
+                for (value, exact) in point.into_iter().zip(exact) {
+                    // Rounding of a fit over up to a dozen elements.
+                    assert!((value - exact).abs() < 1e-13, "node {node}: {point:?}");
+                }
+            }
+        }
+    }
+}

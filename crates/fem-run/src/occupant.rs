@@ -27,8 +27,6 @@ pub enum Occupant {
 /// A result folder of this program, known by its summary.
 #[derive(Debug)]
 pub struct OldResult {
-    /// Whether its run ended by itself.
-    pub is_complete: bool,
     /// Names of the files that the program wrote; all others are the user's.
     files: BTreeSet<String>,
 }
@@ -37,7 +35,6 @@ pub struct OldResult {
 #[derive(Deserialize)]
 struct Marks {
     program: String,
-    complete: bool,
     files: Vec<String>,
 }
 
@@ -59,10 +56,9 @@ impl Occupant {
         }
         let summary = fs::read(path.join(SUMMARY_FILE)).unwrap_or_default();
         Ok(match serde_json::from_slice::<Marks>(&summary) {
-            Ok(marks) if marks.program == PROGRAM => Self::Result(OldResult {
-                is_complete: marks.complete,
-                files: marks.files.into_iter().collect(),
-            }),
+            Ok(marks) if marks.program == PROGRAM => {
+                Self::Result(OldResult { files: marks.files.into_iter().collect() })
+            }
             _ => Self::Foreign,
         })
     }

@@ -1,9 +1,9 @@
 //! The folder of a result: claimed before the run, filled in a hidden folder beside it, and put in
 //! its place at the end in one go.
 //!
-//! An older result is in place until then, and survives a run that fails or is killed. It is
-//! replaced by a complete one; one that is incomplete goes beside it, into `<folder>.incomplete`.
-//! What users put into a result folder moves on into the new one.
+//! An older result is in place until then, and survives a run that is refused or killed. Whatever
+//! a run has computed, complete or not, then takes its place. What users put into a result folder
+//! moves on into the new one.
 
 use std::env;
 use std::fs;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 use crate::failure::Failure;
-use crate::occupant::{Occupant, OldResult, missing_parents};
+use crate::occupant::{Occupant, missing_parents};
 
 /// Beginning of the names of hidden folders that a run works in.
 const HIDDEN_PREFIX: &str = ".fem-run-";
@@ -68,11 +68,11 @@ impl ResultFolder {
     ///
     /// # Errors
     /// The place cannot be taken any more; the message says where the files are.
-    pub fn publish(mut self, is_complete: bool) -> Result<PathBuf, Failure> {
+    pub fn publish(mut self) -> Result<PathBuf, Failure> {
         let Some(staging) = self.staging.take() else { return Ok(self.shown.clone()) };
         self.made.clear();
         let staging = staging.keep();
-        put_in_place(&staging, &self.target, &self.shown, is_complete).map_err(|error| {
+        put_in_place(&staging, &self.target, &self.shown).map_err(|error| {
             let message = format!(
                 "--out {}: the result cannot be put in its place: {error}",
                 show(&self.shown)
@@ -142,12 +142,7 @@ fn check_occupant(out: &Path, target: &Path) -> Result<(), Failure> {
 }
 
 /// Moves `staging` to `target`, or beside it, and returns where it is as the user would say it.
-fn put_in_place(
-    staging: &Path,
-    target: &Path,
-    shown: &Path,
-    is_complete: bool,
-) -> io::Result<PathBuf> {
+fn put_in_place(staging: &Path, target: &Path, shown: &Path) -> io::Result<PathBuf> {
     let (mut target, mut shown) = (target.to_path_buf(), shown.to_path_buf());
     for _ in 0..TRIES {
         match Occupant::of(&target)? {
@@ -158,14 +153,10 @@ fn put_in_place(
                     result => return result.map(|()| shown),
                 }
             }
-            Occupant::Result(old) if may_replace(is_complete, &old) => {
-                if replace(staging, &target, is_complete)? {
+            Occupant::Result(_) => {
+                if replace(staging, &target)? {
                     return Ok(shown);
                 }
-            }
-            Occupant::Result(_) => {
-                target = append(&target, ".incomplete");
-                shown = append(&shown, ".incomplete");
             }
             // Someone put it there during the run.
             Occupant::Foreign | Occupant::File => {
@@ -177,13 +168,8 @@ fn put_in_place(
     Err(io::Error::other("other runs keep writing to it"))
 }
 
-/// Whether a result that is complete or not may replace an older one.
-fn may_replace(is_complete: bool, old: &OldResult) -> bool {
-    is_complete || !old.is_complete
-}
-
 /// Replaces an older result; false if another run was faster.
-fn replace(staging: &Path, target: &Path, is_complete: bool) -> io::Result<bool> {
+fn replace(staging: &Path, target: &Path) -> io::Result<bool> {
     let parent = target.parent().unwrap_or(Path::new("/"));
     let aside = hidden_folder(parent)?.keep();
     let old_folder = aside.join("old");
@@ -197,7 +183,7 @@ fn replace(staging: &Path, target: &Path, is_complete: bool) -> io::Result<bool>
     }
     // Out of reach of other runs, it is what it is: one may have replaced what was seen before.
     let old = match Occupant::of(&old_folder)? {
-        Occupant::Result(old) if may_replace(is_complete, &old) => old,
+        Occupant::Result(old) => old,
         _ => return put_back().map(|()| false),
     };
     let moved = old.move_foreign_files(&old_folder, staging);

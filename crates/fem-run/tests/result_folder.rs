@@ -257,21 +257,31 @@ fn a_symbolic_link_stays_and_what_it_points_at_is_replaced() {
 }
 
 #[test]
-fn an_older_result_survives_a_run_that_fails() {
+fn a_failed_run_keeps_what_it_has_marked_incomplete() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    for out in ["out", "out/", "fresh"] {
+        let ran = place.run(&[&["case.toml", "--out", out][..], &FAILS].concat());
+        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+        assert!(ran.stderr.contains("marked incomplete"), "{}", ran.stderr);
+        let summary = place.json(&format!("{}/summary.json", out.trim_end_matches('/')));
+        assert_eq!(summary["complete"], false);
+        assert!(summary["stopped_because"].is_string());
+    }
+    assert_eq!(place.list("."), ["case.toml", "fresh", "out"]);
+    place.succeed(&["case.toml", "--out", "out"]);
+    assert_eq!(place.json("out/summary.json")["complete"], true);
+}
+
+#[test]
+fn a_refused_run_leaves_an_older_result_alone() {
     let place = Place::new();
     place.succeed(&["case.toml", "--out", "out"]);
     let before = place.read("out/summary.json");
-    for out in ["out", "out/"] {
-        let ran = place.run(&[&["case.toml", "--out", out][..], &FAILS].concat());
-        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
-        assert!(ran.stderr.contains("out.incomplete"), "{}", ran.stderr);
-        assert_eq!(place.read("out/summary.json"), before);
-        assert_eq!(place.json("out.incomplete/summary.json")["complete"], false);
-        assert_eq!(place.list("."), ["case.toml", "out", "out.incomplete"]);
-    }
-    // An incomplete one is replaced by anything.
-    place.succeed(&["case.toml", "--out", "out.incomplete"]);
-    assert_eq!(place.json("out.incomplete/summary.json")["complete"], true);
+    let ran = place.run(&["case.toml", "--out", "out", "--set", "body.0.approach_speed=-1"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    assert_eq!(place.read("out/summary.json"), before);
+    assert_eq!(place.list("."), ["case.toml", "out"]);
 }
 
 #[test]

@@ -29,8 +29,7 @@ pub struct Options {
     /// Folder for the result [default: runs/<the case file's stem>]
     ///
     /// An existing folder is replaced only if it is empty or a result of fem-run. Files of your
-    /// own in it are kept. An incomplete result does not replace a complete one: it goes into
-    /// DIR.incomplete.
+    /// own in it are kept.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Most threads to use; a single run uses one, which is the fastest
@@ -59,7 +58,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     watch.finish();
 
     let summary = write_result(folder.path(), &stem, &problem, &collision, clock)?;
-    let place = folder.publish(summary.complete)?;
+    let place = folder.publish()?;
     if !options.quiet {
         standard_output::print(&report(&summary, &place))?;
     }

@@ -1,0 +1,63 @@
+//! Surfaces and displacements for the tests.
+
+#![allow(dead_code, reason = "each test file uses its share")]
+
+use fem_contact::{ContactForces, ContactInterface, Surface};
+use fem_mesh::{HalfDisc, Side, SphereMesh};
+
+/// Displacements or forces, one pair (r, y) a node.
+pub type Field = Vec<[f64; 2]>;
+
+/// Penalty factor times contact modulus of the tests, Pa.
+pub const STIFFNESS: f64 = 3e11;
+
+/// Numbers in −1/2 .. 1/2 without pattern: the golden ratio's multiples.
+pub fn noise(k: usize) -> f64 {
+    (k as f64 * 0.618_033_988_749_895 + 0.29).fract() - 0.5
+}
+
+pub fn sphere(radius: f64, size: f64, refined_radius: f64, side: Side) -> SphereMesh {
+    HalfDisc { radius, contact_element_size: size, refined_radius, growth: None }
+        .build()
+        .unwrap()
+        .on_side(side)
+}
+
+/// A sphere so large (1 km) that its surface is flat: over 0.1 m, elements differ in length by
+/// 2.5e-9, and the surface rises 5e-6 m.
+pub fn flat(size: f64, side: Side) -> SphereMesh {
+    sphere(1e3, size, (10.0 * size).max(0.1), side)
+}
+
+/// The glass pair of the paper with the given element sizes.
+pub fn glass_pair(sizes: [f64; 2]) -> [SphereMesh; 2] {
+    [sphere(11.1e-3, sizes[0], 0.5e-3, Side::Below), sphere(7.95e-3, sizes[1], 0.5e-3, Side::Above)]
+}
+
+pub fn interface(meshes: &[SphereMesh; 2], candidate_radius: f64) -> ContactInterface {
+    let [lower, upper] = meshes.each_ref().map(Surface::of_sphere);
+    ContactInterface::new(lower, upper, STIFFNESS, 0.0, candidate_radius).unwrap()
+}
+
+/// The same displacement along y for every node.
+pub fn rigid(mesh: &SphereMesh, displacement: f64) -> Field {
+    vec![[0.0, displacement]; mesh.nodes().len()]
+}
+
+/// Forces of a configuration on both bodies.
+pub fn forces(interface: &ContactInterface, u: &[Field; 2]) -> (ContactForces, [Field; 2]) {
+    let mut f = u.each_ref().map(|u| vec![[0.0; 2]; u.len()]);
+    let [lower, upper] = &mut f;
+    let total = interface.add_forces([&u[0], &u[1]], [lower, upper]);
+    (total, f)
+}
+
+/// Displacements without pattern that close the contact of the glass pair in places.
+pub fn ragged(meshes: &[SphereMesh; 2], depth: f64) -> [Field; 2] {
+    [0, 1].map(|side: usize| {
+        let sign = if side == 0 { 1.0 } else { -1.0 };
+        let n = meshes[side].nodes().len();
+        let value = |k: usize| sign * depth * (0.2 + 2.0 * noise(2 * k + side));
+        (0..n).map(|k| [depth * noise(k), value(k)]).collect()
+    })
+}

@@ -1,0 +1,121 @@
+//! What the unit tests share.
+
+use fem_element::{QuadGeometry, mean_gradient};
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_mesh::{HalfDisc, Side, SphereMesh};
+use nalgebra::{DMatrix, DVector};
+
+use crate::kernel::{Field, Moduli};
+use crate::model::{Model, Settings};
+use crate::state::State;
+use crate::{Body, BodyInput};
+
+/// ν = 0.244 in units of density, shear modulus and so of the shear wave's speed.
+pub(crate) fn unit_glass() -> Material {
+    material(None)
+}
+
+/// The same with the given Prony terms (weight, relaxation time).
+pub(crate) fn relaxing_glass(terms: &[(f64, f64)], acts_on: ActsOn) -> Material {
+    let terms =
+        terms.iter().map(|&(weight, relaxation_time)| PronyTerm { weight, relaxation_time });
+    material(Some(PronySeries::new(terms.collect(), acts_on).unwrap()))
+}
+
+fn material(relaxation: Option<PronySeries>) -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.0 * 1.244, 0.244).unwrap();
+    Material::new(1.0, moduli, relaxation).unwrap()
+}
+
+pub(crate) fn moduli(material: &Material) -> Moduli {
+    let instantaneous = material.instantaneous();
+    Moduli { bulk: instantaneous.bulk_modulus(), shear: instantaneous.shear_modulus() }
+}
+
+/// Unit sphere with `n` elements over the radius, nearly uniform.
+pub(crate) fn unit_sphere(n: f64, side: Side) -> SphereMesh {
+    sphere(1.0 / n, 0.5, side)
+}
+
+pub(crate) fn sphere(size: f64, refined_radius: f64, side: Side) -> SphereMesh {
+    HalfDisc { radius: 1.0, contact_element_size: size, refined_radius, growth: None }
+        .build()
+        .unwrap()
+        .on_side(side)
+}
+
+/// Settings with a far-away contact and no mass scaling.
+pub(crate) fn settings(gap: f64) -> Settings {
+    Settings {
+        contact_stiffness: 1.0,
+        candidate_radius: 0.3,
+        step_factor: 0.9,
+        mass_scaling: 0.0,
+        gap,
+    }
+}
+
+/// A sphere alone and at rest: a wall far below never meets it.
+pub(crate) fn free_sphere(
+    mesh: SphereMesh,
+    material: Material,
+    step_factor: f64,
+) -> (Model, State) {
+    let sphere = BodyInput::Deformable { mesh, material, velocity: 0.0 };
+    let settings = Settings { step_factor, ..settings(1e3) };
+    let model = Model::new([BodyInput::Wall { velocity: 1.0 }, sphere], &settings).unwrap();
+    let mut state = State::at_first_touch(&model);
+    state.bodies[0].u.fill([0.0; 2]);
+    state.bodies[0].v.fill([0.0; 2]);
+    (model, state)
+}
+
+/// Numbers in −1/2 .. 1/2 without pattern: the golden ratio's multiples.
+pub(crate) fn noise(k: usize) -> f64 {
+    (k as f64 * 0.618_033_988_749_895 + 0.29).fract() - 0.5
+}
+
+/// A field without pattern that leaves the axis on the axis.
+pub(crate) fn ragged(mesh: &SphereMesh, seed: usize) -> Vec<[f64; 2]> {
+    let mut field: Vec<_> = (0..mesh.nodes().len())
+        .map(|k| [noise(2 * k + seed), noise(2 * k + 1 + 7 * seed)])
+        .collect();
+    for &node in mesh.axis() {
+        field[node as usize][0] = 0.0;
+    }
+    field
+}
+
+/// The assembled stiffness matrix, from the element matrices.
+pub(crate) fn assembled(mesh: &SphereMesh, moduli: Moduli) -> DMatrix<f64> {
+    let n = 2 * mesh.nodes().len();
+    let mut matrix = DMatrix::zeros(n, n);
+    for (element, quad) in mesh.quads().iter().enumerate() {
+        let part = mean_gradient(&QuadGeometry::new(&mesh.corners(element)))
+            .combine(moduli.bulk, moduli.shear);
+        let place = |i: usize| 2 * quad[i / 2] as usize + i % 2;
+        for i in 0..8 {
+            for j in 0..8 {
+                matrix[(place(i), place(j))] += part[(i, j)];
+            }
+        }
+    }
+    matrix
+}
+
+pub(crate) fn vector(field: &Field) -> DVector<f64> {
+    DVector::from_row_slice(field.as_flattened())
+}
+
+/// Largest ω² of a stiffness matrix against the masses of the bodies, by a dense eigenvalue
+/// solver.
+pub(crate) fn largest_eigenvalue(matrix: &DMatrix<f64>, bodies: &[&Body]) -> f64 {
+    let root: Vec<f64> = bodies
+        .iter()
+        .flat_map(|body| body.inverse_mass.as_flattened())
+        .map(|inverse| inverse.sqrt())
+        .collect();
+    let scaled =
+        DMatrix::from_fn(root.len(), root.len(), |i, j| matrix[(i, j)] * root[i] * root[j]);
+    scaled.symmetric_eigenvalues().max()
+}

@@ -1,0 +1,94 @@
+//! Motion without contact: rigid flight, and what leapfrog conserves.
+
+use fem_mesh::Side;
+
+use crate::BodyInput;
+use crate::kernel::{strain_energy, subtract_internal_forces};
+use crate::model::Model;
+use crate::nodes::advance_motion;
+use crate::state::{Scratch, State};
+use crate::step::{advance, update_forces};
+use crate::test_support::{free_sphere, ragged, settings, unit_glass, unit_sphere};
+
+#[test]
+fn rigid_flight_strains_nothing() {
+    let sphere = |side, velocity| BodyInput::Deformable {
+        mesh: unit_sphere(8.0, side),
+        material: unit_glass(),
+        velocity,
+    };
+    let inputs = [sphere(Side::Below, 0.3), sphere(Side::Above, -0.7)];
+    let model = Model::new(inputs, &settings(1e3)).unwrap();
+    let mut state = State::at_first_touch(&model);
+    // Back from first touch to the start.
+    for body in &mut state.bodies {
+        body.u.fill([0.0; 2]);
+    }
+    let mut scratch = Scratch::new(&model);
+    for _ in 0..200 {
+        let contact = update_forces(&model, &state, &mut scratch);
+        assert_eq!(contact.n_closed, 0);
+        advance(&model, &mut state, &scratch);
+    }
+    for (side, velocity) in [0.3, -0.7].into_iter().enumerate() {
+        let (body, state) = (&model.bodies()[side], &state.bodies[side]);
+        assert!(scratch.forces[side].iter().flatten().all(|f| *f == 0.0));
+        assert!(state.v.iter().all(|v| *v == [0.0, velocity]));
+        assert!(state.u.iter().all(|u| *u == state.u[0]));
+        assert_eq!(strain_energy(&body.blocks, body.moduli, &state.u), 0.0);
+        // Two hundred roundings.
+        let distance = 200.0 * model.time_step() * velocity;
+        assert!((state.u[0][1] / distance - 1.0).abs() < 1e-13);
+    }
+}
+
+/// ½ v_{n−½}·M v_{n+½} + ½ u_n·K u_n stays the same to rounding, and so does momentum, at any
+/// step that is stable.
+#[test]
+fn leapfrog_conserves_energy_and_momentum() {
+    for step_factor in [0.3, 1.0] {
+        let mesh = unit_sphere(8.0, Side::Above);
+        let velocity = ragged(&mesh, 2);
+        let (model, mut state) = free_sphere(mesh, unit_glass(), step_factor);
+        let body = &model.bodies()[1];
+        state.bodies[1].v.copy_from_slice(&velocity);
+        let mut scratch = Scratch::new(&model);
+        let momentum = |state: &State| body.sum_mass(&state.bodies[1].v);
+        let (mut first, start) = (None, momentum(&state));
+        for _ in 0..1000 {
+            update_forces(&model, &state, &mut scratch);
+            let before = state.clone();
+            advance(&model, &mut state, &scratch);
+            let kinetic: f64 = body
+                .nodal_mass
+                .iter()
+                .zip(before.bodies[1].v.iter().zip(&state.bodies[1].v))
+                .map(|(m, (v, w))| 0.5 * m * (v[0] * w[0] + v[1] * w[1]))
+                .sum();
+            let energy = kinetic + strain_energy(&body.blocks, body.moduli, &before.bodies[1].u);
+            let first = *first.get_or_insert(energy);
+            // A thousand steps' roundings of a few 1e-16, at random.
+            assert!((energy / first - 1.0).abs() < 1e-13, "{energy} {first}");
+        }
+        let scale: f64 = body.nodal_mass.iter().zip(&velocity).map(|(m, v)| m * v[1].abs()).sum();
+        assert!((momentum(&state) - start).abs() < 1e-13 * scale);
+    }
+}
+
+/// The bound is 20 % below the critical step of the assembled body; beyond that the same motion
+/// grows without limit.
+#[test]
+fn leapfrog_blows_up_beyond_the_critical_step() {
+    let mesh = unit_sphere(8.0, Side::Above);
+    let mut v = ragged(&mesh, 2);
+    let (model, _) = free_sphere(mesh, unit_glass(), 1.0);
+    let body = &model.bodies()[1];
+    let mut u = vec![[0.0; 2]; v.len()];
+    let time_step = 1.4 * model.time_step();
+    for _ in 0..1000 {
+        let mut f = vec![[0.0; 2]; v.len()];
+        subtract_internal_forces(&body.blocks, body.moduli, &u, &mut f);
+        advance_motion(time_step, &body.inverse_mass, &f, &mut v, &mut u);
+    }
+    assert!(u.iter().flatten().any(|u| u.is_nan() || u.abs() > 1e20));
+}

@@ -1,0 +1,6 @@
+//! Tests of the parts together that need their insides.
+
+mod free_motion;
+mod relaxation;
+mod stability;
+mod vibration;

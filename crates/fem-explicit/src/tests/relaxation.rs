@@ -1,0 +1,175 @@
+//! Prony branches through the whole step.
+
+use fem_material::{ActsOn, ElasticModuli, Material};
+use fem_mesh::Side;
+
+use crate::body::Body;
+use crate::kernel::Moduli;
+use crate::state::{BodyState, Scratch, State};
+use crate::step::{advance, update_forces};
+use crate::test_support::{assembled, free_sphere, moduli, relaxing_glass, unit_sphere, vector};
+use crate::{BodyFields, StressField};
+
+const TERMS: [(f64, f64); 3] = [(0.3, 0.02), (0.4, 0.3), (0.1, 5.0)];
+
+/// A uniform strain, put on in no time: every branch takes all of it.
+fn strained(material: Material) -> (crate::Model, State) {
+    let mesh = unit_sphere(8.0, Side::Above);
+    let u: Vec<_> = mesh.nodes().iter().map(|&[r, y]| [0.02 * r, -0.01 * y]).collect();
+    let (model, mut state) = free_sphere(mesh, material, 0.9);
+    let body = &mut state.bodies[1];
+    body.u.copy_from_slice(&u);
+    for q in &mut body.q {
+        q.copy_from_slice(&u);
+    }
+    body.update_effective(&model.bodies()[1]);
+    (model, state)
+}
+
+fn relaxation(time: f64) -> f64 {
+    0.2 + TERMS.iter().map(|(weight, tau)| weight * (-time / tau).exp()).sum::<f64>()
+}
+
+fn n_steps(model: &crate::Model) -> usize {
+    (0.5 / model.time_step()) as usize
+}
+
+/// Steps in which nothing moves; the forces of the last state.
+fn hold(model: &crate::Model, state: &mut State, n: usize) -> Vec<[f64; 2]> {
+    let mut scratch = Scratch::new(model);
+    let start = state.time;
+    for _ in 0..n {
+        advance(model, state, &scratch);
+    }
+    state.time -= start;
+    update_forces(model, state, &mut scratch);
+    scratch.forces[1].clone()
+}
+
+#[test]
+fn a_held_strain_relaxes_as_the_prony_series() {
+    for acts_on in [ActsOn::All, ActsOn::Shear] {
+        let material = relaxing_glass(&TERMS, acts_on);
+        let moduli = moduli(&material);
+        let (model, mut state) = strained(material);
+        let n = n_steps(&model);
+        let f = hold(&model, &mut state, n);
+        let mesh = model.bodies()[1].mesh().unwrap();
+        let u = vector(&state.bodies[1].u);
+        let bulk = assembled(mesh, Moduli { shear: 0.0, ..moduli }) * &u;
+        let shear = assembled(mesh, Moduli { bulk: 0.0, ..moduli }) * &u;
+        let g = relaxation(n as f64 * model.time_step());
+        assert!(g < 0.6, "{g} is not relaxed");
+        let exact = match acts_on {
+            ActsOn::All => (bulk + shear) * g,
+            ActsOn::Shear => bulk + shear * g,
+        };
+        // Rounding of some dozen steps.
+        let error = (vector(&f) + &exact).amax() / exact.amax();
+        assert!(error < 1e-13, "{acts_on:?}: {error:e}");
+    }
+}
+
+/// The recovered stress is that of the relaxed moduli: K or g K, and g G.
+#[test]
+fn recovered_stress_relaxes_alike() {
+    for acts_on in [ActsOn::All, ActsOn::Shear] {
+        let (model, mut state) = strained(relaxing_glass(&TERMS, acts_on));
+        let n = n_steps(&model);
+        hold(&model, &mut state, n);
+        let g = relaxation(n as f64 * model.time_step());
+        let body = &model.bodies()[1];
+        let Moduli { bulk, shear } = body.moduli;
+        let bulk = if acts_on == ActsOn::All { g * bulk } else { bulk };
+        let relaxed = ElasticModuli::from_bulk_shear(bulk, g * shear).unwrap();
+        let exact = relaxed.stress([0.02, -0.01, 0.02, 0.0]);
+        let mut fields = BodyFields::default();
+        fields.displacement.clone_from(&state.bodies[1].u);
+        fields.effective.clone_from(&state.bodies[1].w);
+        let stress = StressField::of(body, &fields);
+        for found in stress.cells.iter().chain(&stress.points) {
+            for (found, exact) in found.iter().zip(exact) {
+                // Rounding of strains of 0.02 by unit moduli.
+                assert!((found - exact).abs() < 1e-14, "{acts_on:?}: {found} {exact}");
+            }
+        }
+    }
+}
+
+/// Branch k stores ½ q·g_k K q, which falls as e^{−2t/τ}; the bulk stores on if it is elastic.
+/// What it loses is the dissipated power.
+#[test]
+fn stored_energy_falls_by_what_is_dissipated() {
+    for acts_on in [ActsOn::All, ActsOn::Shear] {
+        let material = relaxing_glass(&TERMS, acts_on);
+        let all = moduli(&material);
+        let (model, mut state) = strained(material);
+        let body = &model.bodies()[1];
+        let mesh = body.mesh().unwrap();
+        let energy = |moduli: Moduli| {
+            let u = vector(&state.bodies[1].u);
+            0.5 * u.dot(&(assembled(mesh, moduli) * &u))
+        };
+        let (bulk, shear) =
+            (energy(Moduli { shear: 0.0, ..all }), energy(Moduli { bulk: 0.0, ..all }));
+        let (lasting, relaxing) = match acts_on {
+            ActsOn::All => (0.0, bulk + shear),
+            ActsOn::Shear => (bulk, shear),
+        };
+        let n = n_steps(&model);
+        hold(&model, &mut state, n);
+        let time = n as f64 * model.time_step();
+        let (mut stored, mut power) = (lasting + 0.2 * relaxing, 0.0);
+        for (weight, tau) in TERMS {
+            let part = weight * relaxing * (-2.0 * time / tau).exp();
+            stored += part;
+            power += 2.0 / tau * part;
+        }
+        let BodyState { u, q, .. } = &state.bodies[1];
+        let (found, found_power) = body.stored_and_dissipated(u, q);
+        // Rounding of some dozen steps.
+        assert!((found / stored - 1.0).abs() < 1e-13, "{acts_on:?}: {found} {stored}");
+        assert!((found_power / power - 1.0).abs() < 1e-12, "{acts_on:?}: {found_power} {power}");
+    }
+}
+
+/// Ramp: q = τ(1 − e^{−t/τ}) u̇ exactly, whatever the ratio of step to relaxation time.
+#[test]
+fn branches_follow_a_ramp_exactly() {
+    let mesh = unit_sphere(4.0, Side::Above);
+    let rate: Vec<_> = mesh.nodes().iter().map(|&[r, y]| [0.02 * r, -0.01 * y]).collect();
+    let material = relaxing_glass(&[(0.5, 1e-4), (0.3, 0.3)], ActsOn::All);
+    let (model, mut state) = free_sphere(mesh, material, 0.9);
+    state.bodies[1].v.copy_from_slice(&rate);
+    hold(&model, &mut state, 40);
+    let time = 40.0 * model.time_step();
+    for (tau, q) in [1e-4, 0.3].into_iter().zip(&state.bodies[1].q) {
+        let gain = -tau * f64::exp_m1(-time / tau);
+        for (q, rate) in q.iter().zip(&rate) {
+            for axis in 0..2 {
+                // Forty roundings.
+                assert!((q[axis] - gain * rate[axis]).abs() < 1e-15, "{tau}");
+            }
+        }
+    }
+}
+
+#[test]
+fn effective_displacement_of_a_state_is_what_the_step_leaves() {
+    let (model, mut state) = strained(relaxing_glass(&TERMS, ActsOn::Shear));
+    hold(&model, &mut state, 7);
+    let after_step = state.bodies[1].w.clone();
+    state.bodies[1].update_effective(&model.bodies()[1]);
+    assert_eq!(state.bodies[1].w, after_step);
+}
+
+/// Terms of no weight keep no history; an elastic body has no branch at all.
+#[test]
+fn branches_without_weight_are_absent() {
+    let n_branches = |model: &crate::Model| model.bodies().each_ref().map(Body::n_branches);
+    let (model, _) = strained(relaxing_glass(&[(0.0, 1.0), (0.5, 1.0)], ActsOn::All));
+    assert_eq!(n_branches(&model), [0, 1]);
+    let (model, state) = strained(relaxing_glass(&[(0.0, 1.0)], ActsOn::All));
+    assert_eq!(n_branches(&model), [0, 0]);
+    assert!(state.bodies[1].w.is_empty());
+}

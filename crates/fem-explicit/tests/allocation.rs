@@ -1,0 +1,66 @@
+//! Nothing is allocated inside a step: the allocator itself counts, for each thread.
+
+mod common;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+use common::Pair;
+use fem_explicit::{Label, SnapshotRequest, collide};
+use fem_material::ActsOn;
+
+thread_local! {
+    static COUNT: Cell<usize> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+// SAFETY: passes every call on to the system's allocator.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.set(COUNT.get() + 1);
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Allocations and steps of a run.
+fn count(pair: &Pair) -> (usize, u64) {
+    let (model, settings) = (pair.model(), pair.run_settings());
+    let before = COUNT.get();
+    let run = collide(&model, &settings, &mut ());
+    (COUNT.get() - before, run.steps)
+}
+
+#[test]
+fn the_number_of_allocations_does_not_depend_on_the_number_of_steps() {
+    for relaxation in [None, Some(ActsOn::Shear)] {
+        let pair =
+            Pair { element_size: 100e-6, candidate_radius: 0.45e-3, relaxation, ..Pair::default() };
+        for (snapshots, n_kept) in [
+            (SnapshotRequest::Times(Vec::new()), 0),
+            (SnapshotRequest::Count(4), 8 * 4 + 2),
+            // The ladder's rungs, and the three states after them.
+            (SnapshotRequest::Labels(Label::ALL.to_vec()), 26 + 3),
+        ] {
+            let pair = Pair { snapshots, ..pair.clone() };
+            let (n, steps) = count(&pair);
+            let (n_twice, steps_twice) = count(&Pair { step_factor: 0.45, ..pair });
+            assert!(steps_twice as f64 > 1.9 * steps as f64);
+            // State, forces, history, and up to six fields a snapshot kept, twice over for lists
+            // that grow.
+            assert!(n < 40 + 12 * n_kept, "{n}");
+            if n_kept == 0 {
+                assert_eq!(n, n_twice);
+            } else {
+                // A rung more or less.
+                assert!(n.abs_diff(n_twice) <= 12, "{n} {n_twice}");
+            }
+        }
+    }
+}
