@@ -1,7 +1,7 @@
 //! A run from first touch to separation.
 
 use crate::error::Stop;
-use crate::history::{History, HistoryRow};
+use crate::history::{History, HistoryRow, RowKind};
 use crate::ledger::Ledger;
 use crate::model::Model;
 use crate::recorder::{Instant, Recorder};
@@ -182,7 +182,12 @@ impl<'a> Run<'a> {
             if is_first_contact || is_last_contact || ended || self.history.is_due(step) {
                 let row = self.ledger.balance(self.model, &self.state, &self.scratch, &contact);
                 self.check_energy(&row)?;
-                self.history.push(row, is_first_contact || is_last_contact || ended);
+                let kind = match (is_last_contact, is_first_contact || ended) {
+                    (_, true) => RowKind::Landmark,
+                    (true, _) => RowKind::LastContact,
+                    _ => RowKind::Regular,
+                };
+                self.history.push(row, kind);
             }
             let now = Instant {
                 approach: self.approach,
@@ -261,7 +266,7 @@ impl<'a> Run<'a> {
             let contact = update_forces(self.model, &self.state, &mut self.scratch);
             let row = self.ledger.balance(self.model, &self.state, &self.scratch, &contact);
             if self.check_energy(&row).is_ok() {
-                self.history.push(row, true);
+                self.history.push(row, RowKind::Landmark);
             }
         }
         let rows = self.history.rows();

@@ -28,7 +28,7 @@ pub enum ModelError {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Stop {
     /// The caller asked for it.
-    #[error("interrupted at {time:e} s (step {step})")]
+    #[error("interrupted at {time:.4e} s (step {step})")]
     Interrupted {
         /// Time, s.
         time: f64,
@@ -37,7 +37,7 @@ pub enum Stop {
     },
     /// The contact grew out of the part of the boundary that is searched.
     #[error(
-        "at {time:e} s (step {step}) the contact reached the radius {radius:e} m, \
+        "at {time:.4e} s (step {step}) the contact reached the radius {radius:.4e} m, \
          the end of the region in which it is looked for"
     )]
     ContactBeyondCandidates {
@@ -50,7 +50,7 @@ pub enum Stop {
     },
     /// The energy is not finite or has grown.
     #[error(
-        "at {time:e} s (step {step}) the energy is {ratio:.4} times the initial: \
+        "at {time:.4e} s (step {step}) the energy is {ratio:.4} times the initial: \
          the time integration is unstable"
     )]
     EnergyGrowth {
@@ -62,7 +62,7 @@ pub enum Stop {
         ratio: f64,
     },
     /// The bodies stayed together too long.
-    #[error("at {time:e} s (step {step}) the bodies have not separated")]
+    #[error("at {time:.4e} s (step {step}) the bodies have not separated")]
     NoSeparation {
         /// Time, s.
         time: f64,

@@ -29,12 +29,25 @@ pub struct HistoryRow {
     pub vibration: [f64; 2],
 }
 
+/// Why a row is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum RowKind {
+    /// It was due.
+    Regular,
+    /// The first contact, or the end of the run.
+    Landmark,
+    /// The last contact so far.
+    LastContact,
+}
+
 /// Rows at an even stride that adapts to the length of the contact.
 #[derive(Debug, Clone)]
 pub(crate) struct History {
     rows: Vec<HistoryRow>,
-    /// Rows that thinning leaves: first and last contact.
+    /// Rows of the first contact and of the last so far, which thinning leaves.
     essential: Vec<bool>,
+    /// Where the row of the last contact so far is.
+    last_contact: Option<usize>,
     stride: u64,
     max_rows: usize,
 }
@@ -47,6 +60,7 @@ impl History {
         Self {
             rows: Vec::with_capacity(max_rows + 1),
             essential: Vec::with_capacity(max_rows + 1),
+            last_contact: None,
             stride,
             max_rows,
         }
@@ -59,15 +73,24 @@ impl History {
 
     /// Adds a row; beyond the capacity every second one is dropped and the
     /// stride doubled.
-    pub fn push(&mut self, row: HistoryRow, essential: bool) {
+    pub fn push(&mut self, row: HistoryRow, kind: RowKind) {
+        if kind == RowKind::LastContact {
+            // Another contact has come since: the earlier row is one like others.
+            if let Some(earlier) = self.last_contact.replace(self.rows.len()) {
+                self.essential[earlier] = false;
+            }
+        }
         self.rows.push(row);
-        self.essential.push(essential);
+        self.essential.push(kind != RowKind::Regular);
         if self.rows.len() > self.max_rows {
             let mut kept = 0;
             for k in 0..self.rows.len() {
                 if self.essential[k] || k % 2 == 0 {
                     self.rows[kept] = self.rows[k];
                     self.essential[kept] = self.essential[k];
+                    if self.last_contact == Some(k) {
+                        self.last_contact = Some(kept);
+                    }
                     kept += 1;
                 }
             }
@@ -108,11 +131,16 @@ mod tests {
     }
 
     /// Runs so many steps with first and last contact at these; the steps of the rows.
-    fn run(history: &mut History, n_steps: u64, essential: [u64; 2]) -> Vec<u64> {
+    fn run(history: &mut History, n_steps: u64, landmarks: [u64; 2]) -> Vec<u64> {
         for step in 0..=n_steps {
-            let is_essential = essential.contains(&step);
-            if is_essential || history.is_due(step) {
-                history.push(row(step), is_essential);
+            let kind = match step {
+                _ if step == landmarks[0] => RowKind::Landmark,
+                // A contact that ends now and then before it ends for good.
+                _ if step == landmarks[1] || step % 1000 == 999 => RowKind::LastContact,
+                _ => RowKind::Regular,
+            };
+            if kind != RowKind::Regular || history.is_due(step) {
+                history.push(row(step), kind);
             }
         }
         history.rows().iter().map(|row| row.time as u64).collect()
@@ -123,7 +151,7 @@ mod tests {
         let mut history = History::new(100, 1000.0);
         let steps = run(&mut history, 1000, [3, 907]);
         let expected: Vec<u64> =
-            (0..=1000).filter(|s| s % 10 == 0 || *s == 3 || *s == 907).collect();
+            (0..=1000).filter(|s| s % 10 == 0 || [3, 907, 999].contains(s)).collect();
         assert_eq!(steps, expected);
         // Fewer steps than rows: every step.
         assert_eq!(run(&mut History::new(1000, 50.0), 50, [0, 50]).len(), 51);

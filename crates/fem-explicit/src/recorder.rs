@@ -37,6 +37,8 @@ pub(crate) struct Recorder {
     /// Rungs of the ladder, or evenly spaced states.
     kept: Vec<Snapshot>,
     pool: Vec<Snapshot>,
+    /// Largest approach, once it is past.
+    max_approach: Option<f64>,
     maximum: Option<Snapshot>,
     mid_separation: Option<Snapshot>,
     last_contact: Option<Snapshot>,
@@ -68,6 +70,7 @@ impl Recorder {
             next_time: kept.len(),
             kept,
             pool: Vec::new(),
+            max_approach: None,
             maximum: None,
             mid_separation: None,
             last_contact: None,
@@ -82,15 +85,23 @@ impl Recorder {
             snapshot.take(model, state, scratch, now.approach, label);
             snapshot
         };
-        if now.is_last_contact {
+        let wants_last = match &self.request {
+            SnapshotRequest::Labels(labels) => labels.contains(&Label::LastContact),
+            SnapshotRequest::Count(_) => true,
+            SnapshotRequest::Times(_) => false,
+        };
+        if now.is_last_contact && wants_last {
             self.last_contact = Some(copy(self.last_contact.take(), Some(Label::LastContact)));
         }
         match &self.request {
-            SnapshotRequest::Labels(_) => match &self.maximum {
+            SnapshotRequest::Labels(labels) => match self.max_approach {
                 None if now.is_closed && now.approach_rate <= 0.0 => {
-                    self.maximum = Some(copy(None, Some(Label::Maximum)));
+                    self.max_approach = Some(now.approach);
+                    if labels.contains(&Label::Maximum) {
+                        self.maximum = Some(copy(None, Some(Label::Maximum)));
+                    }
                 }
-                None => {
+                None if labels.contains(&Label::MidCompression) => {
                     let rung = self
                         .kept
                         .last()
@@ -106,11 +117,14 @@ impl Recorder {
                         self.kept.push(snapshot);
                     }
                 }
-                Some(maximum) => {
-                    if self.mid_separation.is_none() && now.approach <= 0.5 * maximum.approach {
-                        self.mid_separation = Some(copy(None, Some(Label::MidSeparation)));
-                    }
+                Some(max_approach)
+                    if self.mid_separation.is_none()
+                        && now.approach <= 0.5 * max_approach
+                        && labels.contains(&Label::MidSeparation) =>
+                {
+                    self.mid_separation = Some(copy(None, Some(Label::MidSeparation)));
                 }
+                _ => {}
             },
             SnapshotRequest::Count(n) => {
                 let due = self.kept.last().is_some_and(|last| {
@@ -155,8 +169,8 @@ impl Recorder {
         let mut missing = Vec::new();
         let snapshots = match self.request {
             SnapshotRequest::Labels(labels) => {
-                let half = self.maximum.as_ref().map(|maximum| 0.5 * maximum.approach);
-                let mid_compression = half.and_then(|half| {
+                let mid_compression = self.max_approach.and_then(|max_approach| {
+                    let half = 0.5 * max_approach;
                     let distance = |s: &Snapshot| (s.approach - half).abs();
                     self.kept
                         .into_iter()
@@ -179,11 +193,21 @@ impl Recorder {
                 }
                 found
             }
-            SnapshotRequest::Count(n) => evenly(self.kept, self.last_contact, n),
+            SnapshotRequest::Count(n) => {
+                let found = evenly(self.kept, self.last_contact, n);
+                if found.len() < n {
+                    missing.push(format!(
+                        "{n} snapshots were asked for; the contact has states for {}",
+                        found.len()
+                    ));
+                }
+                found
+            }
             SnapshotRequest::Times(times) => {
                 for time in &times[self.next_time..] {
-                    missing
-                        .push(format!("the run ended before {time:e} s; its snapshot is left out"));
+                    missing.push(format!(
+                        "the run ended before {time:.4e} s; its snapshot is left out"
+                    ));
                 }
                 self.kept
             }
