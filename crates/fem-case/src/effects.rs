@@ -52,7 +52,14 @@ pub(crate) fn scene_effects(scene: &Scene, estimate: &Estimate) -> (Vec<Effect>,
     effect(
         "finite strain",
         false,
-        format!("contact radius / effective radius = {strain:.3}; small strain is computed"),
+        format!(
+            "contact radius / effective radius = {strain:.3}; {}",
+            if strain > SMALL_STRAIN_LIMIT {
+                "called for, but not available in this version"
+            } else {
+                "small strain is enough"
+            }
+        ),
     );
     if strain > SMALL_STRAIN_LIMIT {
         warnings.push(format!(
@@ -87,7 +94,14 @@ pub(crate) fn scene_effects(scene: &Scene, estimate: &Estimate) -> (Vec<Effect>,
     effect(
         "bulk viscosity",
         false,
-        format!("approach speed / shear wave speed = {mach:.1e}; no shocks to spread"),
+        format!(
+            "approach speed / shear wave speed = {mach:.1e}; {}",
+            if mach > MACH_LIMIT {
+                "called for, but not available in this version"
+            } else {
+                "no shocks to spread"
+            }
+        ),
     );
     if mach > MACH_LIMIT {
         warnings.push(format!(

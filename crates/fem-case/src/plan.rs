@@ -6,10 +6,10 @@ use crate::case::Case;
 use crate::effects::{Effect, scene_effects};
 use crate::error::CaseError;
 use crate::estimate::Estimate;
-use crate::scene::Snapshots;
+use crate::scene::{Body, Shape, Snapshots};
 use crate::schema::{
-    ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
-    StartTable, TimeTable,
+    ContactTable, EffectsTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable,
+    SnapshotsValue, StartTable, Switch, TimeTable,
 };
 use crate::{CaseFile, Quantity};
 
@@ -47,6 +47,8 @@ pub struct Plan {
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
     pub growth: Option<f64>,
+    /// Whether any mesh is made here, and not read from a file.
+    pub makes_meshes: bool,
     /// Radius out to which contact is looked for, m.
     pub candidate_radius: f64,
     /// Times the default penalty stiffness.
@@ -99,13 +101,22 @@ impl Plan {
         let candidate_radius =
             (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size);
         let penalty_factor = scene.penalty_factor.unwrap_or(1.0);
-        let (effects, warnings) = scene_effects(scene, &estimate);
+        let (effects, mut warnings) = scene_effects(scene, &estimate);
+        let made_here = |body: &Body| matches!(body.shape, Shape::Sphere { mesh: None, .. });
+        let makes_meshes = scene.bodies.iter().any(made_here);
+        let given = ["contact_element_size", "refined_radius", "growth"]
+            .into_iter()
+            .find(|key| !makes_meshes && case.gives(&format!("mesh.{key}")));
+        if let Some(key) = given {
+            warnings.push(format!("mesh.{key} has no effect: the meshes are read from files"));
+        }
         let limits = scene.limits;
         Ok(Self {
             gap: scene.gap.unwrap_or(0.0),
             contact_element_size,
             refined_radius,
             growth: scene.mesh.growth,
+            makes_meshes,
             candidate_radius,
             penalty_factor,
             contact_stiffness: penalty_factor
@@ -129,7 +140,7 @@ impl Plan {
     pub fn resolve(&self, case: &Case) -> CaseFile {
         let mut file = case.file.clone();
         file.start = Some(StartTable { gap: Some(Quantity::from_si(self.gap)) });
-        file.mesh = Some(MeshTable {
+        file.mesh = self.makes_meshes.then(|| MeshTable {
             contact_element_size: Some(Quantity::from_si(self.contact_element_size)),
             refined_radius: Some(Quantity::from_si(self.refined_radius)),
             growth: self.growth.map(Quantity::from_si),
@@ -146,6 +157,12 @@ impl Plan {
             SnapshotsValue::List(Label::ALL.into_iter().map(text).collect())
         };
         file.output = Some(OutputTable { snapshots: Some(given.unwrap_or_else(labels)) });
+        let given = file.effects.unwrap_or_default();
+        file.effects = Some(EffectsTable {
+            finite_strain: Some(given.finite_strain.unwrap_or(Switch::Auto)),
+            mirror_symmetry: Some(given.mirror_symmetry.unwrap_or(Switch::Auto)),
+            bulk_viscosity: Some(given.bulk_viscosity.unwrap_or(Switch::Auto)),
+        });
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {
             elements: Some(Quantity::from_si(self.max_elements as f64)),

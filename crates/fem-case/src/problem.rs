@@ -19,6 +19,9 @@ use crate::scene::{Body, Shape};
 const BYTES_PER_ELEMENT: u64 = 1_600;
 /// Bytes a Prony term takes an element.
 const BYTES_PER_BRANCH: u64 = 40;
+/// Bytes a state kept for a snapshot takes an element: displacement, velocity,
+/// effective displacement.
+const BYTES_PER_STATE: u64 = 48;
 /// Growth of the searched region when the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 1.5;
 
@@ -84,10 +87,12 @@ impl Problem {
         let model =
             Model::new(inputs.clone(), &settings(&plan)).map_err(|e| model_error(&case, &e))?;
         let cost = cost(&model, &plan);
+        check_elements(&case, &plan, cost.elements)?;
+        check_memory(&case, &plan, cost.elements, cost.memory)?;
         if cost.element_updates > plan.max_element_updates {
             return Err(case
                 .error_at(
-                    "mesh.contact_element_size",
+                    blamed(&case, "limits.element_updates"),
                     format!(
                         "the run would take {} steps of {} elements, {:.1e} element updates",
                         cost.steps, cost.elements, cost.element_updates as f64
@@ -198,33 +203,55 @@ fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
             memory += n * (BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH);
         }
     }
-    let refuse = |found: String, limit: String| {
-        Err(case.error_at("mesh.contact_element_size", found).with_help(limit))
+    check_elements(case, plan, elements)?;
+    check_memory(case, plan, elements, memory + state_memory(plan, elements))
+}
+
+fn state_memory(plan: &Plan, elements: u64) -> u64 {
+    elements * BYTES_PER_STATE * plan.snapshots.n_states() as u64
+}
+
+fn check_elements(case: &Case, plan: &Plan, elements: u64) -> Result<(), CaseError> {
+    if elements <= plan.max_elements {
+        return Ok(());
+    }
+    let key = blamed(case, "limits.elements");
+    let found = format!(
+        "the meshes would have {elements} elements, {:.3e} m long at the contact",
+        plan.contact_element_size
+    );
+    Err(case.error_at(key, found).with_help(format!(
+        "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
+        plan.max_elements
+    )))
+}
+
+fn check_memory(case: &Case, plan: &Plan, elements: u64, memory: u64) -> Result<(), CaseError> {
+    if memory <= plan.max_memory {
+        return Ok(());
+    }
+    let states = state_memory(plan, elements);
+    let (key, remedy) = if states > memory / 2 {
+        ("output.snapshots", "ask for fewer output.snapshots")
+    } else {
+        (blamed(case, "limits.memory"), "use a larger mesh.contact_element_size")
     };
-    if elements > plan.max_elements {
-        return refuse(
-            format!(
-                "elements of {:.3e} m at the contact make a mesh of {elements} elements",
-                plan.contact_element_size
-            ),
-            format!(
-                "at most {} are allowed; use a larger contact_element_size or raise \
-                 limits.elements",
-                plan.max_elements
-            ),
-        );
-    }
-    if memory > plan.max_memory {
-        return refuse(
-            format!("the run would take about {:.2} GB of memory", memory as f64 / 1e9),
-            format!(
-                "at most {:.2} GB are allowed; use a larger contact_element_size or raise \
-                 limits.memory",
-                plan.max_memory as f64 / 1e9
-            ),
-        );
-    }
-    Ok(())
+    let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
+    let found = format!(
+        "the run would take about {} of memory, {} of it for snapshots",
+        megabytes(memory),
+        megabytes(states)
+    );
+    Err(case.error_at(key, found).with_help(format!(
+        "at most {} are allowed; {remedy} or raise limits.memory",
+        megabytes(plan.max_memory)
+    )))
+}
+
+/// The element size if the case gives it, else the limit if that is given.
+fn blamed<'a>(case: &Case, limit: &'a str) -> &'a str {
+    let size = "mesh.contact_element_size";
+    if !case.gives(size) && case.gives(limit) { limit } else { size }
 }
 
 fn import(case: &Case, k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, CaseError> {
@@ -272,6 +299,8 @@ fn cost(model: &Model, plan: &Plan) -> Cost {
         nodes,
         steps: steps as u64,
         element_updates: (steps * elements as f64) as u64,
-        memory: elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH,
+        memory: elements * BYTES_PER_ELEMENT
+            + branches * BYTES_PER_BRANCH
+            + state_memory(plan, elements),
     }
 }

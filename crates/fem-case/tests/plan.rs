@@ -57,13 +57,18 @@ fn what_is_too_dear_is_refused_with_the_estimate() {
         let error = refusal(&[&format!("mesh.contact_element_size='{size}'")]);
         assert_eq!(error.source_name(), "--set mesh.contact_element_size=…");
         assert!(error.message().contains("elements"), "{error}");
-        assert!(error.help().unwrap().contains("larger contact_element_size"), "{error}");
+        assert!(error.help().unwrap().contains("contact_element_size"), "{error}");
     }
     let error = refusal(&["limits.elements=1000"]);
+    assert_eq!(error.source_name(), "--set limits.elements=…");
     assert!(error.message().contains("2620 elements"), "{error}");
     assert!(error.help().unwrap().contains("limits.elements"), "{error}");
     let error = refusal(&["limits.memory='1 MB'"]);
-    assert!(error.message().contains("GB of memory"), "{error}");
+    assert_eq!(error.source_name(), "--set limits.memory=…");
+    assert!(error.message().contains("4.2 MB of memory"), "{error}");
+    let error = refusal(&["output.snapshots=100000"]);
+    assert_eq!(error.source_name(), "--set output.snapshots=…");
+    assert!(error.help().unwrap().contains("fewer output.snapshots"), "{error}");
     let error = refusal(&["limits.element_updates=1e6"]);
     assert!(error.message().contains("steps"), "{error}");
     assert!(error.help().unwrap().contains("mass_scaling"), "{error}");

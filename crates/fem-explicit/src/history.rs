@@ -23,6 +23,8 @@ pub struct HistoryRow {
     pub contact: f64,
     /// Energy dissipated by relaxation since the start, J.
     pub viscous_dissipation: f64,
+    /// Work that a moving wall has done, J.
+    pub wall_work: f64,
     /// What the ledger does not account for, J.
     pub residual: f64,
     /// Kinetic energy of each body relative to its mass centre, J.
@@ -125,6 +127,7 @@ mod tests {
             strain: 0.0,
             contact: 0.0,
             viscous_dissipation: 0.0,
+            wall_work: 0.0,
             residual: 0.0,
             vibration: [0.0; 2],
         }

@@ -103,7 +103,8 @@ impl Ledger {
 
         let kinetic = lower.kinetic + upper.kinetic;
         let total = kinetic + strain + contact.energy + self.dissipated;
-        let residual = total - self.initial - self.wall_work(model, contact.force);
+        let wall_work = self.wall_work(model, contact.force);
+        let residual = total - self.initial - wall_work;
         self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
         self.balance_momentum(model, state);
 
@@ -119,6 +120,7 @@ impl Ledger {
             strain,
             contact: contact.energy,
             viscous_dissipation: self.dissipated,
+            wall_work,
             residual,
             vibration: [lower.vibration, upper.vibration],
         }

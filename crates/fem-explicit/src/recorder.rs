@@ -16,6 +16,12 @@ const RUNG_RATIO: f64 = 1.03;
 /// Share of the expected approach at which the ladder begins.
 const LADDER_START: f64 = 0.02;
 
+/// States kept at most for so many snapshots evenly over the contact: two to
+/// four for each, and enough to find the middle of a few.
+pub(crate) fn n_kept(n_snapshots: usize) -> usize {
+    4 * n_snapshots.max(16)
+}
+
 /// What the recorder is told of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Instant {
@@ -61,7 +67,7 @@ impl Recorder {
             kept.extend(in_flight.map(|&time| Snapshot::in_free_flight(model, time)));
         }
         let spacing = match request {
-            SnapshotRequest::Count(n) => expected_contact_time / (4 * n.max(1)) as f64,
+            SnapshotRequest::Count(n) => 2.0 * expected_contact_time / n_kept(n) as f64,
             _ => 0.0,
         };
         Self {
@@ -133,7 +139,7 @@ impl Recorder {
                 if now.is_first_contact || due {
                     let snapshot = copy(self.pool.pop(), None);
                     self.kept.push(snapshot);
-                    if self.kept.len() > 8 * (*n).max(1) {
+                    if self.kept.len() > n_kept(*n) {
                         self.thin();
                     }
                 }

@@ -2,6 +2,7 @@
 
 use crate::model::Model;
 use crate::nodes::advance_motion;
+use crate::recorder::n_kept;
 use crate::state::{Scratch, State};
 
 /// The named instants of a collision.
@@ -42,6 +43,17 @@ pub enum SnapshotRequest {
     Count(usize),
     /// At these times since the start of the case, s.
     Times(Vec<f64>),
+}
+
+impl SnapshotRequest {
+    /// States that a run keeps in memory beyond the ladder for the labels.
+    pub fn n_states(&self) -> usize {
+        match self {
+            Self::Labels(_) => 0,
+            Self::Count(n) => n_kept(*n),
+            Self::Times(times) => times.len(),
+        }
+    }
 }
 
 /// Nodal fields of one body; empty for a wall.

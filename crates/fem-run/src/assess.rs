@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use fem_case::Problem;
-use fem_explicit::Collision;
+use fem_explicit::{Collision, HistoryRow};
 
 /// Fewer elements across the contact radius cost more than about 1 % of the force.
 const FEWEST_ELEMENTS: f64 = 4.0;
@@ -15,6 +15,10 @@ const LARGEST_ADDED_MASS: f64 = 1e-3;
 const LARGEST_RESIDUAL: f64 = 1e-3;
 /// Vibration energy over the initial relative kinetic energy.
 const LARGEST_VIBRATION: f64 = 0.01;
+/// Scatter of the force over its peak.
+const LARGEST_NOISE: f64 = 0.005;
+/// Contact radius over effective radius.
+const LARGEST_STRAIN: f64 = 0.1;
 /// Restitution above 1 that is no rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
 
@@ -27,6 +31,8 @@ pub fn assess(problem: &Problem, collision: &Collision) -> Vec<String> {
         resolution(problem, collision),
         penetration(problem, collision),
         vibration(problem, collision),
+        noise(collision),
+        strain(problem, collision),
     ];
     warnings.into_iter().flatten().chain(added_mass(problem)).collect()
 }
@@ -103,6 +109,40 @@ fn vibration(problem: &Problem, collision: &Collision) -> Option<String> {
             "{:.1} % of the initial kinetic energy stays in vibrations of the bodies; closed \
              forms know nothing of them",
             100.0 * share
+        )
+    })
+}
+
+/// Scatter of the contact force from row to row, over its peak.
+fn noise(collision: &Collision) -> Option<String> {
+    let force = |row: &HistoryRow| row.contact_force;
+    let rows: Vec<f64> = collision.history.iter().map(force).filter(|f| *f > 0.0).collect();
+    // A smooth pulse bends by some 1e-5 over three of a thousand rows; the middle of three numbers
+    // with independent scatter s is off the mean of the others by s √(3/2).
+    let bends = rows.windows(3).map(|f| (f[1] - 0.5 * (f[0] + f[2])).powi(2));
+    let mean = bends.sum::<f64>() / rows.len().max(1) as f64;
+    let scatter = (mean / 1.5).sqrt() / collision.peak_force;
+    (rows.len() > 100 && scatter > LARGEST_NOISE).then(|| {
+        format!(
+            "the contact force scatters by {:.1} % of its peak; above {} %, peaks are too high: \
+             lower contact.penalty_factor or time.step_factor",
+            100.0 * scatter,
+            100.0 * LARGEST_NOISE
+        )
+    })
+}
+
+/// The plan warns of what it expects; this is what came.
+fn strain(problem: &Problem, collision: &Collision) -> Option<String> {
+    let radius = problem.plan.estimate.hertz.pair().effective_radius();
+    let strain = collision.max_contact_radius / radius;
+    let is_news = problem.plan.estimate.strain <= LARGEST_STRAIN;
+    (is_news && strain > LARGEST_STRAIN).then(|| {
+        format!(
+            "the contact radius grew to {:.0} % of the effective radius; above {:.0} % the \
+             small-strain model is in doubt",
+            100.0 * strain,
+            100.0 * LARGEST_STRAIN
         )
     })
 }

@@ -1,24 +1,33 @@
 //! Ctrl-C and the signals that end a process.
 
 use std::process::exit;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
 
 use crate::failure::Status;
+
+/// A second signal within this time belongs to the first: `timeout` and some shells send one to
+/// the process and one to its group.
+const ONE_GESTURE: Duration = Duration::from_secs(1);
 
 /// Whether the user wants the run to end.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Listens to SIGINT, SIGTERM and SIGHUP. The first asks for an orderly end, the second ends
-    /// the process at once.
+    /// Listens to SIGINT, SIGTERM and SIGHUP. The first asks for an orderly end, a later one ends the
+    /// process at once.
     pub fn listen() -> Self {
         let interrupt = Self::default();
         let flag = interrupt.clone();
         // Without a handler a signal ends the process: then there is nothing to keep.
+        let first = Mutex::new(None);
         let _ = ctrlc::set_handler(move || {
-            if flag.0.swap(true, Ordering::Relaxed) {
+            flag.0.store(true, Ordering::Relaxed);
+            let Ok(mut first) = first.lock() else { return };
+            let first = *first.get_or_insert_with(Instant::now);
+            if first.elapsed() > ONE_GESTURE {
                 exit(Status::Interrupted as i32);
             }
         });

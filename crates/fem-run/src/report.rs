@@ -31,8 +31,11 @@ pub fn report(summary: &Summary, place: &Path) -> String {
         let _ = writeln!(text, "\n1 - restitution  {deficit}");
     }
     if summary.contact_episodes > 1 {
-        let _ =
-            writeln!(text, "\nThe contact opened and closed {} times.", summary.contact_episodes);
+        let _ = writeln!(
+            text,
+            "\ncontact episodes  {} (the surfaces may part for a few steps at first and last touch)",
+            summary.contact_episodes
+        );
     }
     let _ = writeln!(text, "\n{}", bodies(&summary.bodies));
     text += &balances(summary);

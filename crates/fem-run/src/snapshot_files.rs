@@ -8,9 +8,9 @@ use fem_explicit::{
 };
 use fem_vtk::{VtuWriter, pad_vectors, write_collection};
 
-/// Names of the stress arrays, in the order of [`GridStress`].
+/// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
 const STRESSES: [&str; 6] =
-    ["sigma_rr", "sigma_yy", "sigma_tt", "sigma_ry", "pressure", "von_mises"];
+    ["sigma_yy", "sigma_rr", "sigma_tt", "sigma_ry", "pressure", "von_mises"];
 
 /// A grid of both bodies, the second body's points after the first's.
 struct Grid {
@@ -99,12 +99,11 @@ fn write_snapshot(
     let mut writer = VtuWriter::new(&grid.points, &grid.quads)
         .time(snapshot.time)
         .point_data("displacement", 3, &displacement)
-        .point_data("velocity", 3, &velocity)
-        .cell_data("body", 1, &grid.body);
+        .point_data("velocity", 3, &velocity);
     for (k, name) in STRESSES.into_iter().enumerate() {
         writer = writer.point_data(name, 1, &points[k]).cell_data(name, 1, &cells[k]);
     }
-    writer.write(path)
+    writer.cell_data("body", 1, &grid.body).write(path)
 }
 
 /// Bodies with a mesh, and which side they are on.
@@ -116,7 +115,7 @@ fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
     for stress in stresses {
         let (pressure, von_mises) = invariants(*stress);
         let [rr, yy, tt, ry] = *stress;
-        for (array, value) in arrays.iter_mut().zip([rr, yy, tt, ry, pressure, von_mises]) {
+        for (array, value) in arrays.iter_mut().zip([yy, rr, tt, ry, pressure, von_mises]) {
             array.push(value);
         }
     }

@@ -120,6 +120,7 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
             "energy.viscous_dissipation_j",
             last.map(|row| row.viscous_dissipation),
         ),
+        wall_work_j: at_end("energy.wall_work_j", last.map(|row| row.wall_work)),
         residual_j: at_end("energy.residual_j", last.map(|row| row.residual)),
         residual_relative: at_end("energy.residual_relative", Some(collision.residual_relative)),
     }

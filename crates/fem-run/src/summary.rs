@@ -58,6 +58,8 @@ pub struct Energy {
     pub strain_j: Option<f64>,
     pub contact_j: Option<f64>,
     pub viscous_dissipation_j: Option<f64>,
+    /// Work that a moving wall has done.
+    pub wall_work_j: Option<f64>,
     pub residual_j: Option<f64>,
     /// Worst imbalance over the run / initial kinetic energy in the centre-of-mass frame.
     pub residual_relative: Option<f64>,

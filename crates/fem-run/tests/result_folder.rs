@@ -48,6 +48,7 @@ fn the_summary_has_the_keys_of_the_contract() {
         "strain_j",
         "contact_j",
         "viscous_dissipation_j",
+        "wall_work_j",
         "residual_j",
         "residual_relative",
     ];

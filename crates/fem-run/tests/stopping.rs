@@ -76,6 +76,20 @@ mod signals {
         }
     }
 
+    /// `timeout` and some shells send one signal to the process and one to its group.
+    #[test]
+    fn two_signals_at_once_are_one() {
+        for _ in 0..3 {
+            let place = Place::new();
+            let (mut child, _stderr) = start(&place, &[]);
+            send(&child, Signal::SIGINT);
+            send(&child, Signal::SIGINT);
+            assert_eq!(child.wait().unwrap().code(), Some(130));
+            assert_eq!(place.json("runs/case/summary.json")["complete"], false);
+            assert_eq!(place.list("runs"), ["case"]);
+        }
+    }
+
     #[test]
     fn what_an_interrupted_run_has_takes_the_place_of_an_older_result() {
         let place = Place::new();

@@ -104,7 +104,7 @@ fn count_spreads_states_evenly_over_the_contact() {
         for n_steps in [200, 4000] {
             let request = SnapshotRequest::Count(n);
             let (recorder, most) = record(&request, &model, 1.0, 1.0, n_steps);
-            assert!(most <= 8 * n + 1, "{most} states for {n}");
+            assert!(most <= n_kept(n) + 1, "{most} states for {n}");
             let (snapshots, missing) = recorder.finish();
             assert!(missing.is_empty());
             assert_eq!(snapshots.len(), n, "of {n_steps} steps");
@@ -137,8 +137,8 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
             is_last_contact: step == 5000,
         };
         recorder.observe(&model, &state, &scratch, now);
-        assert!(recorder.kept.len() <= 40);
-        assert!(recorder.kept.len() + recorder.pool.len() <= 41);
+        assert!(recorder.kept.len() <= n_kept(5));
+        assert!(recorder.kept.len() + recorder.pool.len() <= n_kept(5) + 1);
     }
     let (snapshots, _) = recorder.finish();
     let times: Vec<_> = snapshots.iter().map(|s| s.time - model.first_touch()).collect();
