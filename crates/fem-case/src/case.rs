@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::document::Document;
+use crate::document::{Document, Insertions};
 use crate::error::CaseError;
 use crate::explain::explain;
 use crate::quantity::Quantity;
@@ -38,7 +38,7 @@ impl Case {
         let text = read(path, &name)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
-        Case::build(&name, &stem, &text, folder, overrides)
+        Case::build(&name, &stem, &text, folder, overrides, None)
     }
 
     /// As [`Case::load`], from a text; `name` stands for the file in messages and as the title,
@@ -54,17 +54,18 @@ impl Case {
     ) -> Result<Case, CaseError> {
         let stem = Path::new(name).file_stem();
         let stem = stem.map_or(name.to_string(), |stem| stem.to_string_lossy().to_string());
-        Case::build(name, &stem, text, folder, overrides)
+        Case::build(name, &stem, text, folder, overrides, None)
     }
 
-    fn build(
+    pub(crate) fn build(
         name: &str,
         stem: &str,
         text: &str,
         folder: &Path,
         overrides: &[String],
+        insertions: Option<Insertions<'_, '_>>,
     ) -> Result<Case, CaseError> {
-        let (document, tree) = Document::parse(name, text, overrides)?;
+        let (document, tree) = Document::parse(name, text, overrides, insertions)?;
         let mut file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {
@@ -115,7 +116,7 @@ fn fill_in(file: &mut CaseFile, scene: &Scene) {
     }
 }
 
-fn read(path: &Path, name: &str) -> Result<String, CaseError> {
+pub(crate) fn read(path: &Path, name: &str) -> Result<String, CaseError> {
     let fail = |message: &str| CaseError::new(name, message);
     let failed = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => fail("there is no such file")

@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::error::CaseError;
-use crate::overrides;
+use crate::overrides::{self, Assignment};
 
 /// One text, and where it begins on the common line of offsets.
 #[derive(Clone, Debug)]
@@ -28,6 +28,13 @@ struct Position {
     value: Range<usize>,
 }
 
+/// Values of another file that go into the tree; their spans count from its beginning.
+pub(crate) struct Insertions<'s, 't> {
+    pub(crate) name: &'s str,
+    pub(crate) text: &'s str,
+    pub(crate) assignments: Vec<Assignment<'t>>,
+}
+
 /// The texts of a case and the positions of its keys, by dotted path (`body.0.sphere.diameter`).
 #[derive(Clone, Debug)]
 pub(crate) struct Document {
@@ -37,13 +44,14 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// Parses `text` and applies the overrides, left to right.
+    /// Parses `text`, applies the overrides, left to right, and then the insertions.
     ///
     /// Returns the document and the merged tree as a deserializer.
     pub(crate) fn parse<'t>(
         name: &str,
         text: &'t str,
         overrides: &'t [String],
+        insertions: Option<Insertions<'_, 't>>,
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
         let file = Source { name: name.to_string(), text: text.to_string(), start: 0 };
         let mut document =
@@ -69,6 +77,17 @@ impl Document {
             };
             let assignment = overrides::parse(text, start).map_err(fail)?;
             overrides::apply(tree.get_mut(), assignment).map_err(fail)?;
+        }
+        if let Some(Insertions { name, text, assignments }) = insertions {
+            let previous = &document.sources[overrides.len()];
+            let start = previous.start + previous.text.len() + 1;
+            let source = Source { name: name.to_string(), text: text.to_string(), start };
+            document.sources.push(source);
+            for assignment in assignments {
+                overrides::apply(tree.get_mut(), assignment.shifted(start)).map_err(|fault| {
+                    document.error_on(fault.span, fault.message).with_help(fault.help)
+                })?;
+            }
         }
         for (key, value) in tree.get_ref() {
             document.record(quote_key(key.get_ref()), key.span(), value);

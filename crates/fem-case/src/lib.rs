@@ -59,6 +59,9 @@ mod problem;
 mod quantity;
 mod scene;
 pub mod schema;
+mod sweep;
+mod sweep_axes;
+mod sweep_file;
 mod unit_table;
 mod units;
 mod validate;
@@ -76,4 +79,7 @@ pub use quantity::{
 };
 pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
+pub use sweep::Sweep;
+pub use sweep_axes::{Axis, Element};
+pub use sweep_file::{Combine, Keep, PlotTable};
 pub use units::{Dimension, UnitError, parse_quantity};

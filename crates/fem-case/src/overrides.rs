@@ -25,8 +25,22 @@ pub(crate) struct Fault {
 
 /// A parsed override.
 pub(crate) struct Assignment<'t> {
-    path: Vec<Spanned<String>>,
-    value: Spanned<DeValue<'t>>,
+    pub(crate) path: Vec<Spanned<String>>,
+    pub(crate) value: Spanned<DeValue<'t>>,
+}
+
+impl Assignment<'_> {
+    /// The same with all of its spans moved by `start`.
+    pub(crate) fn shifted(self, start: usize) -> Self {
+        let move_part = |part: Spanned<String>| {
+            let span = part.span();
+            Spanned::new(span.start + start..span.end + start, part.into_inner())
+        };
+        Self {
+            path: self.path.into_iter().map(move_part).collect(),
+            value: shift(self.value, start),
+        }
+    }
 }
 
 pub(crate) fn is_bare(c: char) -> bool {
@@ -72,7 +86,10 @@ pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> 
 }
 
 /// The parts of the key and the position of the `=` after it.
-fn parse_path(text: &str, offset: usize) -> Result<(Vec<Spanned<String>>, usize), Fault> {
+pub(crate) fn parse_path(
+    text: &str,
+    offset: usize,
+) -> Result<(Vec<Spanned<String>>, usize), Fault> {
     let fault = |span: Range<usize>, message: &str| Fault {
         span: offset + span.start..offset + span.end,
         message: message.to_string(),

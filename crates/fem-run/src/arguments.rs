@@ -1,11 +1,11 @@
 //! The command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{check, completions, mesh, run};
+use crate::commands::{check, completions, mesh, run, sweep};
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
 ///
@@ -71,6 +71,7 @@ pub fn parse() -> Arguments {
 pub enum Command {
     Check(check::Arguments),
     Mesh(mesh::Arguments),
+    Sweep(sweep::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -95,7 +96,12 @@ impl CaseArguments {
     /// ParaView's collections list relative file names with `/` between folders, so characters
     /// that mean something in one are replaced.
     pub fn stem(&self) -> String {
-        let stem = self.case.file_stem().unwrap_or(self.case.as_os_str()).to_string_lossy();
-        stem.replace(|c: char| c.is_control() || c == ':' || c == '\\', "_")
+        stem_of(&self.case)
     }
+}
+
+/// A file's name without its ending, fit to name results.
+pub fn stem_of(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    stem.replace(|c: char| c.is_control() || c == ':' || c == '\\', "_")
 }

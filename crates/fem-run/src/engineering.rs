@@ -29,6 +29,16 @@ impl Unit {
         }
     }
 
+    /// The prefix with the unit: `µs`.
+    pub fn symbol(&self) -> &str {
+        &self.symbol
+    }
+
+    /// The number that `value`, which is in SI, has in this unit.
+    pub fn scaled(&self, value: f64) -> f64 {
+        value * self.scale
+    }
+
     /// `value`, which is in SI, in this unit.
     pub fn show(&self, value: f64) -> String {
         format!("{:.*} {}", self.decimals, value * self.scale, self.symbol)

@@ -27,6 +27,7 @@ mod snapshot_files;
 mod standard_output;
 mod summarise;
 mod summary;
+mod sweep;
 mod tables;
 
 use std::process::ExitCode;

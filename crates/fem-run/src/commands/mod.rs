@@ -4,6 +4,7 @@ pub mod check;
 pub mod completions;
 pub mod mesh;
 pub mod run;
+pub mod sweep;
 
 use std::time::Instant;
 
@@ -15,6 +16,7 @@ pub fn execute(arguments: Arguments, started: Instant) -> Result<(), Failure> {
     match (arguments.command, arguments.input) {
         (Some(Command::Check(arguments)), _) => check::execute(&arguments),
         (Some(Command::Mesh(arguments)), _) => mesh::execute(&arguments),
+        (Some(Command::Sweep(arguments)), _) => sweep::execute(&arguments),
         (Some(Command::Completions(arguments)), _) => completions::execute(&arguments),
         (None, Some(input)) => run::execute(&input, &arguments.options, started),
         // clap prints its help when there are no arguments at all.

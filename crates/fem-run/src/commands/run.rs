@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fem_case::{Case, Problem};
+use fem_case::{Case, Keep, Problem};
 use fem_explicit::{Collision, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -57,7 +57,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let clock = Clock { started, solve: solving.elapsed() };
     watch.finish();
 
-    let summary = write_result(folder.path(), &stem, &problem, &collision, clock)?;
+    let summary = write_result(folder.path(), &stem, &problem, &collision, clock, Keep::All)?;
     let place = folder.publish()?;
     if !options.quiet {
         standard_output::print(&report(&summary, &place))?;
@@ -69,7 +69,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
 }
 
 /// The longest name of a file to come, the writer's temporary ending included.
-fn longest_name(stem: &str) -> String {
+pub fn longest_name(stem: &str) -> String {
     format!(".{stem}_99999_mid-compression.vtu.XXXXXX.tmp")
 }
 
@@ -87,25 +87,31 @@ fn announce(problem: &Problem, case: &Path, out: &Path) {
     let _ = writeln!(stderr(), "{}", standard_output::one_line(&line));
 }
 
-/// Writes all files of a result, the summary last.
-fn write_result(
+/// Writes the files of a result that are to be kept, the summary last.
+pub fn write_result(
     folder: &Path,
     stem: &str,
     problem: &Problem,
     collision: &Collision,
     clock: Clock,
+    keep: Keep,
 ) -> Result<Summary, Failure> {
     let fault = |error: &dyn std::error::Error| {
         Failure::failed(format!("the result cannot be written: {error}")).with_help(
             "nothing was kept of this run; is the disk full? An older result is where it was",
         )
     };
-    write_history(folder, problem, &collision.history).map_err(|error| fault(&error))?;
-    let (vtk_files, left_out) =
-        write_snapshots(folder, stem, problem, collision).map_err(|error| fault(&error))?;
+    let mut files = vec![SUMMARY_FILE.to_string()];
+    let mut left_out = Vec::new();
+    if keep == Keep::All {
+        write_history(folder, problem, &collision.history).map_err(|error| fault(&error))?;
+        let (vtk_files, missing) =
+            write_snapshots(folder, stem, problem, collision).map_err(|error| fault(&error))?;
+        files.push(HISTORY_FILE.to_string());
+        files.extend(vtk_files);
+        left_out = missing;
+    }
 
-    let own = [SUMMARY_FILE.to_string(), HISTORY_FILE.to_string()];
-    let files = own.into_iter().chain(vtk_files).collect();
     let mut warnings = problem.plan.warnings.clone();
     warnings.extend(assess(problem, collision));
     warnings.extend(collision.warnings.iter().cloned());

@@ -1,0 +1,51 @@
+//! The columns of `sweep.csv` that come from a member's summary, and what is in them.
+
+use serde_json::Value;
+
+/// Names and order of the columns; `hertz_` and `energy_` are the summary's objects of that name.
+/// What the run took (`cost`) differs from run to run and stays in the member's summary.
+pub const COLUMNS: &[&str] = &[
+    "restitution",
+    "contact_time_s",
+    "peak_force_n",
+    "max_approach_m",
+    "max_contact_radius_m",
+    "peak_pressure_pa",
+    "contact_episodes",
+    "hertz_restitution",
+    "hertz_contact_time_s",
+    "hertz_peak_force_n",
+    "hertz_max_approach_m",
+    "hertz_max_contact_radius_m",
+    "hertz_peak_pressure_pa",
+    "energy_initial_j",
+    "energy_kinetic_j",
+    "energy_strain_j",
+    "energy_contact_j",
+    "energy_viscous_dissipation_j",
+    "energy_wall_work_j",
+    "energy_residual_j",
+    "energy_residual_relative",
+    "momentum_residual_relative",
+    "elements",
+    "time_step_s",
+    "steps",
+    "element_updates",
+    "complete",
+    "stopped_because",
+    "warnings",
+];
+
+/// The value of a column in a summary; `null` if it has none.
+pub fn value_of(summary: &Value, column: &str) -> Value {
+    let table =
+        |name: &str| column.strip_prefix(name).map(|key| &summary[name.trim_end_matches('_')][key]);
+    match column {
+        "elements" => {
+            let bodies = summary["bodies"].as_array().into_iter().flatten();
+            bodies.filter_map(|body| body["elements"].as_u64()).sum::<u64>().into()
+        }
+        "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
+        _ => table("hertz_").or(table("energy_")).unwrap_or(&summary[column]).clone(),
+    }
+}

@@ -1,0 +1,148 @@
+//! The folder of a sweep: `sweep.json` by which it is known, one folder a member in `members/`,
+//! table and picture. Several processes may write into it at the same time.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use fem_case::Keep;
+use serde_json::Value;
+
+use crate::failure::Failure;
+use crate::history_file::HISTORY_FILE;
+use crate::occupant::missing_parents;
+use crate::standard_output::one_line;
+use crate::summary::{PROGRAM, SUMMARY_FILE};
+
+/// What the sweep is: its keys and the members' values and folders.
+pub const MARK_FILE: &str = "sweep.json";
+/// One row a member.
+pub const TABLE_FILE: &str = "sweep.csv";
+/// The plot.
+pub const PICTURE_FILE: &str = "sweep.svg";
+const MEMBERS: &str = "members";
+
+/// A folder that holds this sweep and no other result.
+#[derive(Clone, Debug)]
+pub struct SweepFolder {
+    path: PathBuf,
+}
+
+impl SweepFolder {
+    /// Takes a new or empty folder or that of an earlier sweep, and writes `mark` into it.
+    ///
+    /// # Errors
+    /// A place that cannot be written, or that holds something else.
+    pub fn claim(out: &Path, mark: &str) -> Result<Self, Failure> {
+        let named = one_line(&out.display().to_string());
+        let refuse = |found: &str| {
+            Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
+                "name another folder with --out, or move this one away; a sweep goes on only in \
+                 a folder of fem-run sweep",
+            ))
+        };
+        if out.file_name().is_none() {
+            return refuse("this is no name of a folder");
+        }
+        match fs::metadata(out) {
+            Ok(metadata) if !metadata.is_dir() => return refuse("a file is in the way"),
+            Ok(_) => match is_ours(out) {
+                Ok(true) => {}
+                Ok(false) => return refuse("this folder holds something else than a sweep"),
+                Err(error) => return refuse(&format!("this folder cannot be read: {error}")),
+            },
+            Err(_) => {}
+        }
+        let made: Vec<_> = missing_parents(&out.join(MEMBERS));
+        let folder = Self { path: out.to_path_buf() };
+        folder.prepare(mark).map_err(|error| {
+            for folder in &made {
+                // Only removes what is empty.
+                let _ = fs::remove_dir(folder);
+            }
+            let message = format!("--out {named}: a sweep cannot be written here: {error}");
+            Failure::bad_input(message).with_help("name a folder in a place that you may write to")
+        })?;
+        Ok(folder)
+    }
+
+    /// The folder as it is, to look into; it may not be there.
+    pub fn at(out: &Path) -> Self {
+        Self { path: out.to_path_buf() }
+    }
+
+    /// The mark comes first: a folder without it is not taken for a sweep's.
+    fn prepare(&self, mark: &str) -> io::Result<()> {
+        fs::create_dir_all(&self.path)?;
+        self.write(MARK_FILE, mark.as_bytes())?;
+        fs::create_dir_all(self.path.join(MEMBERS))
+    }
+
+    /// The folder, as the user named it.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where the result of a member goes.
+    pub fn member(&self, identity: &str) -> PathBuf {
+        self.path.join(MEMBERS).join(identity)
+    }
+
+    /// Whether all that is to be kept of a member is there.
+    pub fn has(&self, identity: &str, keep: Keep) -> bool {
+        let folder = self.member(identity);
+        let has_history = keep == Keep::Summary || folder.join(HISTORY_FILE).is_file();
+        has_history && self.summary(identity).is_some()
+    }
+
+    /// The summary of a member that has been computed.
+    pub fn summary(&self, identity: &str) -> Option<Value> {
+        let bytes = fs::read(self.member(identity).join(SUMMARY_FILE)).ok()?;
+        let summary: Value = serde_json::from_slice(&bytes).ok()?;
+        (summary["program"] == PROGRAM && summary["complete"].is_boolean()).then_some(summary)
+    }
+
+    /// Writes a file in one go: readers see the old one or the new one.
+    ///
+    /// # Errors
+    /// The file system.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(HIDDEN_PREFIX).suffix(".tmp");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // As any new file: the umask applies.
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let mut file = builder.tempfile_in(&self.path)?;
+        file.write_all(bytes)?;
+        file.persist(self.path.join(name))?;
+        Ok(())
+    }
+
+    /// Removes a file that is out of date, if it is there.
+    pub fn remove(&self, name: &str) {
+        let _ = fs::remove_file(self.path.join(name));
+    }
+}
+
+/// Beginning of the names of files that are being written.
+const HIDDEN_PREFIX: &str = ".sweep-";
+
+/// Whether the folder is empty or a sweep's, perhaps one that another process is just making.
+fn is_ours(path: &Path) -> io::Result<bool> {
+    let mark = fs::read(path.join(MARK_FILE)).unwrap_or_default();
+    if serde_json::from_slice::<Value>(&mark).is_ok_and(|mark| mark["program"] == PROGRAM) {
+        return Ok(true);
+    }
+    for entry in fs::read_dir(path)? {
+        if !entry?.file_name().to_string_lossy().starts_with(HIDDEN_PREFIX) {
+            // The mark may have come in between.
+            let mark = fs::read(path.join(MARK_FILE)).unwrap_or_default();
+            let mark = serde_json::from_slice::<Value>(&mark);
+            return Ok(mark.is_ok_and(|mark| mark["program"] == PROGRAM));
+        }
+    }
+    Ok(true)
+}

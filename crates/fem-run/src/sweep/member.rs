@@ -1,0 +1,60 @@
+//! A member of a sweep and what it is known by.
+
+use fem_case::{Case, CaseError, CaseFile, Plan, Shape, Sweep};
+use sha2::{Digest, Sha256};
+
+/// Bytes of the digest that go into a name: two of a million members share one by a chance of
+/// 1e-7.
+const IDENTITY_BYTES: usize = 8;
+
+/// A member of a sweep.
+#[derive(Clone, Debug)]
+pub struct Member {
+    /// Its place in the sweep.
+    pub index: usize,
+    /// Digest of program version, resolved case and mesh files: equal for equal results.
+    pub identity: String,
+    /// The resolved case.
+    pub case: CaseFile,
+}
+
+/// All members of a sweep, in order.
+///
+/// # Errors
+/// The first member that is no valid case.
+pub fn members(sweep: &Sweep) -> Result<Vec<Member>, CaseError> {
+    let member = |index| {
+        let resolve = |case: Case| Ok((Plan::of(&case)?.resolve(&case), mesh_files(&case)?));
+        let (case, meshes) = sweep.build(index, resolve)?;
+        let identity = identity(&case, &meshes);
+        Ok(Member { index, identity, case })
+    };
+    (0..sweep.n_members()).map(member).collect()
+}
+
+/// The bytes of the mesh files of a case.
+fn mesh_files(case: &Case) -> Result<Vec<Vec<u8>>, CaseError> {
+    let mut files = Vec::new();
+    for (k, body) in case.scene.bodies.iter().enumerate() {
+        if let Shape::Sphere { mesh: Some(path), .. } = &body.shape {
+            files.push(std::fs::read(path).map_err(|error| {
+                let key = format!("body.{k}.sphere.mesh");
+                case.error_at(&key, format!("mesh {}: {error}", path.display()))
+            })?);
+        }
+    }
+    Ok(files)
+}
+
+fn identity(case: &CaseFile, meshes: &[Vec<u8>]) -> String {
+    let mut digest = Sha256::new();
+    let mut add = |bytes: &[u8]| {
+        digest.update((bytes.len() as u64).to_le_bytes());
+        digest.update(bytes);
+    };
+    add(env!("CARGO_PKG_VERSION").as_bytes());
+    // A case that was read has only finite numbers and text: it always serializes.
+    add(&serde_json::to_vec(case).unwrap_or_default());
+    meshes.iter().for_each(|mesh| add(mesh));
+    digest.finalize().iter().take(IDENTITY_BYTES).map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,202 @@
+//! What the picture of a sweep shows: which columns against which key, and the curves.
+
+use fem_case::{CaseError, CaseFile, Combine, Sweep, parse_quantity};
+use serde_json::Value;
+
+use super::collect::Row;
+use super::columns::{COLUMNS, value_of};
+use super::member::Member;
+
+/// Panels unless the sweep file names others.
+const DEFAULT_COLUMNS: [&str; 4] =
+    ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
+/// Columns of text or of yes and no.
+const NOT_NUMBERS: [&str; 2] = ["complete", "stopped_because"];
+/// Endings of column names and their units.
+const ENDINGS: [(&str, &str); 6] =
+    [("_m_s", "m/s"), ("_pa", "Pa"), ("_n", "N"), ("_s", "s"), ("_m", "m"), ("_j", "J")];
+/// Exponents of metre, kilogram, second and byte, and their units.
+const DIMENSIONS: [([i32; 4], &str); 6] = [
+    ([1, 0, 0, 0], "m"),
+    ([1, 0, -1, 0], "m/s"),
+    ([-3, 1, 0, 0], "kg/m³"),
+    ([-1, 1, -2, 0], "Pa"),
+    ([0, 0, 1, 0], "s"),
+    ([0, 0, -1, 0], "1/s"),
+];
+
+/// Dimensions of keys that often hold bare numbers.
+const KEYS: [(&str, [i32; 4]); 11] = [
+    ("diameter", [1, 0, 0, 0]),
+    ("gap", [1, 0, 0, 0]),
+    ("contact_element_size", [1, 0, 0, 0]),
+    ("refined_radius", [1, 0, 0, 0]),
+    ("approach_speed", [1, 0, -1, 0]),
+    ("density", [-3, 1, 0, 0]),
+    ("youngs_modulus", [-1, 1, -2, 0]),
+    ("shear_modulus", [-1, 1, -2, 0]),
+    ("bulk_modulus", [-1, 1, -2, 0]),
+    ("relaxation_time", [0, 0, 1, 0]),
+    ("decay_rate", [0, 0, -1, 0]),
+];
+
+/// Which columns are drawn against which key.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The axis of the sweep along the horizontal; none if no key has numbers.
+    pub x: Option<usize>,
+    /// Columns of the table, one panel each.
+    pub y: Vec<&'static str>,
+    /// The axis whose values tell curves apart; all others together if none.
+    pub series: Option<usize>,
+}
+
+impl Choice {
+    /// The choice of a sweep file, or its default.
+    ///
+    /// # Errors
+    /// Keys that are not varied, a horizontal key whose values are not numbers, unknown columns.
+    pub fn of(sweep: &Sweep, members: &[Member]) -> Result<Self, CaseError> {
+        let keys: Vec<&str> = sweep.axes.iter().map(|axis| axis.key.as_str()).collect();
+        let find = |place: &str, key: &str| {
+            keys.iter().position(|known| *known == key).ok_or_else(|| {
+                let error = sweep.error_at(place, format!("{key} is not varied"));
+                error.with_help(format!("the varied keys are {}", keys.join(", ")))
+            })
+        };
+        let has_numbers =
+            |axis: usize| members.iter().all(|member| number(sweep, axis, &member.case).is_some());
+        let x = match &sweep.plot.x {
+            Some(key) => Some(find("plot.x", key)?),
+            None => (0..keys.len()).find(|axis| has_numbers(*axis)),
+        };
+        if let Some(axis) = x.filter(|axis| !has_numbers(*axis)) {
+            let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[axis]));
+            return Err(error.with_help("name a varied key whose values are numbers"));
+        }
+        let series = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
+        if series.is_some() && series == x {
+            let error = sweep.error_at("plot.series", "x and series are the same key");
+            return Err(error.with_help("series tells curves apart; leave it out"));
+        }
+        let y = match &sweep.plot.y {
+            None => DEFAULT_COLUMNS.to_vec(),
+            Some(names) if names.is_empty() => {
+                let error = sweep.error_at("plot.y", "y names no column");
+                return Err(error.with_help("name columns of sweep.csv, such as [\"restitution\"]"));
+            }
+            Some(names) => {
+                let column = |(k, name): (usize, &String)| column(sweep, k, name);
+                names.iter().enumerate().map(column).collect::<Result<_, _>>()?
+            }
+        };
+        Ok(Self { x, y, series })
+    }
+}
+
+fn column(sweep: &Sweep, k: usize, name: &str) -> Result<&'static str, CaseError> {
+    let numbers = || COLUMNS.iter().copied().filter(|column| !NOT_NUMBERS.contains(column));
+    numbers().find(|column| *column == name).ok_or_else(|| {
+        let list: Vec<_> = numbers().collect();
+        sweep
+            .error_at(&format!("plot.y.{k}"), format!("{name} is no column with numbers"))
+            .with_help(format!("the columns with numbers are {}", list.join(", ")))
+    })
+}
+
+/// Points that belong together.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// What tells it apart; empty if it is the only one.
+    pub label: String,
+    /// SI, by increasing x.
+    pub points: Vec<(f64, f64)>,
+    /// The same members by Hertz; empty if Hertz has no such column.
+    pub hertz: Vec<(f64, f64)>,
+}
+
+/// One curve of `column` a series, complete members only. Curves come in the order of the sweep.
+pub fn curves(
+    sweep: &Sweep,
+    members: &[Member],
+    rows: &[Row],
+    choice: &Choice,
+    x: usize,
+    column: &str,
+) -> Vec<Curve> {
+    let hertz_column = format!("hertz_{column}");
+    let has_hertz = COLUMNS.contains(&hertz_column.as_str());
+    let mut curves: Vec<Curve> = Vec::new();
+    for row in rows.iter().filter(|row| row.summary["complete"] == true) {
+        let label = label(sweep, row.index, choice, x);
+        let known = curves.iter().position(|curve| curve.label == label);
+        let place = known.unwrap_or_else(|| {
+            curves.push(Curve { label, points: Vec::new(), hertz: Vec::new() });
+            curves.len() - 1
+        });
+        let Some(x) = number(sweep, x, &members[row.index].case) else { continue };
+        let y = |column: &str| value_of(&row.summary, column).as_f64();
+        curves[place].points.extend(y(column).map(|y| (x, y)));
+        if has_hertz {
+            curves[place].hertz.extend(y(&hertz_column).map(|y| (x, y)));
+        }
+    }
+    for curve in &mut curves {
+        curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curve.hertz.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    curves
+}
+
+fn label(sweep: &Sweep, member: usize, choice: &Choice, x: usize) -> String {
+    let is_part = |axis: &usize| match (choice.series, sweep.combine) {
+        (Some(series), _) => *axis == series,
+        // Paired keys run along with x.
+        (None, Combine::Paired) => false,
+        (None, Combine::All) => *axis != x,
+    };
+    let values = sweep.values(member);
+    let parts = (0..sweep.axes.len()).filter(is_part).map(|axis| {
+        let name = sweep.axes[axis].parts().last().unwrap_or_default();
+        format!("{} {}", name.replace('_', " "), values[axis])
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// The value of a varied key in a resolved case, SI.
+fn number(sweep: &Sweep, axis: usize, case: &CaseFile) -> Option<f64> {
+    let mut value = &serde_json::to_value(case).ok()?;
+    for part in sweep.axes[axis].parts() {
+        value = match value {
+            Value::Array(array) => array.get(part.parse::<usize>().ok()?)?,
+            table => table.get(part)?,
+        };
+    }
+    value.as_f64()
+}
+
+/// The SI unit of a column; empty if it has none.
+pub fn column_unit(column: &str) -> &'static str {
+    ending(column).map_or("", |(_, unit)| unit)
+}
+
+/// A column's name in words, without its unit.
+pub fn column_words(column: &str) -> String {
+    let bare = ending(column).map_or(column, |(ending, _)| &column[..column.len() - ending.len()]);
+    bare.replace('_', " ")
+}
+
+fn ending(column: &str) -> Option<(&'static str, &'static str)> {
+    ENDINGS.into_iter().find(|(ending, _)| column.ends_with(ending))
+}
+
+/// The SI unit of a varied key: that of its values, or that of the key if all are bare numbers.
+pub fn axis_unit(sweep: &Sweep, axis: usize) -> Option<&'static str> {
+    let axis = &sweep.axes[axis];
+    let dimension = |text: &str| parse_quantity(text).ok().map(|(_, dimension)| dimension.0);
+    let mut written = axis.elements.iter().filter_map(|element| dimension(&element.text));
+    let name = axis.parts().last().unwrap_or_default();
+    let of_key = KEYS.into_iter().find(|(known, _)| *known == name).map(|(_, dimension)| dimension);
+    let found = written.find(|dimension| *dimension != [0; 4]).or(of_key)?;
+    DIMENSIONS.into_iter().find(|(known, _)| *known == found).map(|(_, unit)| unit)
+}
