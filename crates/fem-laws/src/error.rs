@@ -17,6 +17,50 @@ pub enum LawError {
     /// Two rigid walls.
     #[error("a collision needs at least one sphere, found two walls")]
     TwoWalls,
+
+    /// A negative, infinite or NaN value where 0 or a positive number has a meaning.
+    #[error("{quantity} must be at least 0 and finite, found {value:?}")]
+    Negative {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Value found.
+        value: f64,
+    },
+
+    /// A value outside the range of its meaning.
+    #[error("{quantity} must be in {range}, found {value:?}")]
+    OutOfRange {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Value found.
+        value: f64,
+        /// Values allowed.
+        range: &'static str,
+    },
+
+    /// A model asked for what it does not describe.
+    #[error(
+        "{quantity} must be at most {limit}, found {value:?}: outside the validity of the model"
+    )]
+    OutsideValidity {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Value found.
+        value: f64,
+        /// Largest valid value.
+        limit: f64,
+    },
+
+    /// An integration in time that did not reach the end of contact.
+    #[error("{model}: no end of contact within {n_steps} steps; reached {time:?} s")]
+    NotFinished {
+        /// Name of the model.
+        model: &'static str,
+        /// Steps taken.
+        n_steps: usize,
+        /// Time reached, s.
+        time: f64,
+    },
 }
 
 /// `value` if it is positive and finite.
@@ -25,5 +69,24 @@ pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, LawErr
         Ok(value)
     } else {
         Err(LawError::NotPositive { quantity, value })
+    }
+}
+
+/// `value` if it is at least 0 and finite.
+pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64, LawError> {
+    if value >= 0.0 && value.is_finite() {
+        // Makes −0 a 0.
+        Ok(value + 0.0)
+    } else {
+        Err(LawError::Negative { quantity, value })
+    }
+}
+
+/// `value` if it is a restitution that leaves something and gains nothing.
+pub(crate) fn restitution(value: f64) -> Result<f64, LawError> {
+    if value > 0.0 && value <= 1.0 {
+        Ok(value)
+    } else {
+        Err(LawError::OutOfRange { quantity: "restitution", value, range: "(0, 1]" })
     }
 }

@@ -1,11 +1,18 @@
 //! Closed forms and reduced laws for the collision of two spheres.
 //!
 //! A [`Pair`] reduces two [`Partner`]s to the radius, mass and modulus of their relative motion;
-//! each law takes a pair and an approach speed. One law a file. Everything is SI; forces and
-//! pressures of a closed contact are positive, stresses are positive in tension.
+//! each model takes a pair and an approach speed:
+//!
+//! - [`HertzImpact`]: elastic, closed forms;
+//! - [`Ting`]: viscoelastic, with the [`PairRelaxation`] of the two materials and, if wanted, the
+//!   [`FiniteSize`] of the spheres;
+//! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
+//!
+//! The last two return an [`Impact`]: summary and history. One law a file. Everything is SI; forces
+//! and pressures of a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
-//! use fem_laws::{HertzImpact, Pair, Partner};
+//! use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};
 //! use fem_material::{ElasticModuli, Material};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -15,18 +22,42 @@
 //!     Pair::new(Partner::solid_sphere(22.2e-3, &glass), Partner::solid_sphere(15.9e-3, &glass))?;
 //! let impact = HertzImpact::new(&pair, 0.5)?;
 //! assert_eq!((impact.contact_time() * 1e9).round(), 63_235.0);
+//!
+//! let law = fem_laws::laws::kuwabara_kono(&pair, 1e-6)?;
+//! let restitution = LawImpact::new(&pair, law).impact(0.5)?.restitution;
+//! assert!(0.8 < restitution && restitution < 0.95);
+//!
+//! let relaxation = PairRelaxation::new(Some(&glass), Some(&glass))?;
+//! let elastic = Ting::new(&pair, relaxation).impact(0.5)?;
+//! assert!((elastic.restitution - 1.0).abs() < 1e-8);
 //! # Ok(())
 //! # }
 //! ```
 
+mod bisection;
+mod collocation;
 mod error;
+mod finite_size;
 mod hertz;
 mod hertz_history;
 mod hertz_pressure;
+mod impact;
+mod interlacing;
+mod law_impact;
+pub mod laws;
 mod pair;
+mod pair_relaxation;
+mod ting;
+mod ting_record;
+mod ting_step;
 
 pub use error::LawError;
+pub use finite_size::FiniteSize;
 pub use hertz::{HertzImpact, contact_time_coefficient};
 pub use hertz_history::HertzInstant;
 pub use hertz_pressure::{AxisStress, HertzPressure};
+pub use impact::{Impact, ImpactInstant};
+pub use law_impact::{EndRule, LawImpact};
 pub use pair::{Pair, Partner, sphere_mass};
+pub use pair_relaxation::PairRelaxation;
+pub use ting::Ting;

@@ -1,0 +1,71 @@
+//! The linear spring beside a linear dashpot.
+//!
+//! ```math
+//! F = K\xi + C\dot\xi, \qquad \omega_0^2 = \frac K{m^*}, \quad \zeta = \frac C{2\sqrt{m^*K}}
+//! ```
+//!
+//! Bordbar & Hyppänen (2007), eq. 9. With cos φ = ζ and ω = ω₀√(1−ζ²) the contact ends
+//!
+//! ```math
+//! \text{at zero overlap:}\quad T = \frac\pi\omega,\ e = \exp\frac{-\pi\zeta}{\sqrt{1-\zeta^2}};
+//! \qquad \text{at zero force:}\quad
+//! T = \frac{2\varphi}\omega,\ e = \exp\frac{-2\zeta\varphi}{\sqrt{1-\zeta^2}}
+//! ```
+//!
+//! (for ζ > 1 the second continues with φ/√(1−ζ²) → arcosh ζ/√(ζ²−1), the first has no end). Limits:
+//! both T and e are independent of speed, which no pair of spheres shows; a force jumps to C v at
+//! first touch.
+
+use std::f64::consts::PI;
+
+use super::{ContactLaw, power};
+use crate::bisection::last_where;
+use crate::error::{LawError, positive, restitution as checked};
+use crate::{EndRule, Pair};
+
+/// From K, N/m, and C, N s/m.
+///
+/// # Errors
+/// K not positive and finite, C negative or not finite.
+pub fn linear(stiffness: f64, damping: f64) -> Result<ContactLaw, LawError> {
+    power(stiffness, 1.0, damping, 0.0)
+}
+
+/// With a restitution in (0, 1] and a contact time, s, for the end rule under which it is to run.
+///
+/// # Errors
+/// A restitution outside (0, 1], a time that is not positive and finite.
+pub fn linear_from_restitution(
+    pair: &Pair,
+    restitution: f64,
+    contact_time: f64,
+    end_rule: EndRule,
+) -> Result<ContactLaw, LawError> {
+    let loss = checked(restitution)?.recip().ln();
+    let time = positive("contact_time", contact_time)?;
+    // ζ, and ω₀ T.
+    let (ratio, phase) = match end_rule {
+        EndRule::ZeroOverlap => (loss / PI.hypot(loss), PI.hypot(loss)),
+        EndRule::ZeroForce => {
+            // e = exp(−2ζψ) rises by 1 a ζ at first, then as ln ζ.
+            let ratio =
+                last_where(0.0, loss + loss.exp(), |ratio| ratio * zero_force_phase(ratio) < loss);
+            (ratio, zero_force_phase(ratio))
+        }
+    };
+    let frequency = phase / time;
+    let mass = pair.effective_mass();
+    linear(mass * frequency * frequency, 2.0 * ratio * mass * frequency)
+}
+
+/// ω₀ T = 2φ/√(1−ζ²) of the end at zero force.
+fn zero_force_phase(ratio: f64) -> f64 {
+    let complement = (1.0 - ratio) * (1.0 + ratio);
+    if complement > 1e-12 {
+        2.0 * ratio.acos() / complement.sqrt()
+    } else if complement < -1e-12 {
+        2.0 * ratio.acosh() / (-complement).sqrt()
+    } else {
+        2.0
+    }
+}

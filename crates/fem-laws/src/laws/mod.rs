@@ -1,0 +1,30 @@
+//! Contact laws F(ξ, ξ̇) by name: each a function that returns its [`ContactLaw`].
+
+mod bordbar_hyppanen;
+mod falcon;
+mod hertz;
+mod hunt_crossley;
+mod kuwabara_kono;
+mod linear;
+mod mishra_murty;
+mod morgado_oppenheim;
+mod power;
+mod schwager_poeschel;
+mod tsuji;
+
+pub use bordbar_hyppanen::bordbar_hyppanen;
+pub use falcon::falcon;
+pub use hertz::hertz;
+pub use hunt_crossley::hunt_crossley;
+pub use kuwabara_kono::kuwabara_kono;
+pub use linear::{linear, linear_from_restitution};
+pub use mishra_murty::mishra_murty;
+pub use morgado_oppenheim::morgado_oppenheim;
+pub use power::{ContactLaw, power};
+pub use schwager_poeschel::{dissipation_time, schwager_poeschel};
+pub use tsuji::{tsuji, tsuji_from_restitution};
+
+/// K = (4/3) E* √R*, N/m^(3/2), of Hertz' force.
+fn hertz_stiffness(pair: &crate::Pair) -> f64 {
+    4.0 / 3.0 * pair.contact_modulus() * pair.effective_radius().sqrt()
+}

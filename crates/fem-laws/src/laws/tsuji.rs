@@ -1,0 +1,41 @@
+//! Hertz' spring with the damping that makes the restitution independent of speed.
+//!
+//! ```math
+//! F = K\xi^{3/2} + \alpha\sqrt{m^*K}\,\xi^{1/4}\dot\xi
+//! ```
+//!
+//! Tsuji, Tanaka & Ishida (1992); Zhang & Whiten (1996) end the contact at zero force instead of
+//! zero overlap. With y = ξ^(5/4) and ds = ξ^(1/4) dt the motion is y″ + α y′ + (5/4) y = 0 in
+//! suitable units, a linear oscillator of the damping ratio ζ = α/√5, so that at zero overlap
+//!
+//! ```math
+//! e = \exp\frac{-\pi\zeta}{\sqrt{1-\zeta^2}}, \qquad
+//! \alpha = \frac{-\sqrt5\,\ln e}{\sqrt{\pi^2+\ln^2 e}}
+//! ```
+//!
+//! (Antypov & Elliott 2011). Limits: a restitution that is to be the same at every speed.
+
+use std::f64::consts::PI;
+
+use super::{ContactLaw, hertz_stiffness, power};
+use crate::Pair;
+use crate::error::{LawError, not_negative, restitution as checked};
+
+/// Of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
+///
+/// # Errors
+/// α negative or not finite.
+pub fn tsuji(pair: &Pair, damping_coefficient: f64) -> Result<ContactLaw, LawError> {
+    let alpha = not_negative("damping_coefficient", damping_coefficient)?;
+    let stiffness = hertz_stiffness(pair);
+    power(stiffness, 1.5, alpha * pair.effective_mass().sqrt() * stiffness.sqrt(), 0.25)
+}
+
+/// Of a pair and the restitution, in (0, 1], at the end of overlap.
+///
+/// # Errors
+/// A restitution outside (0, 1].
+pub fn tsuji_from_restitution(pair: &Pair, restitution: f64) -> Result<ContactLaw, LawError> {
+    let loss = checked(restitution)?.recip().ln();
+    tsuji(pair, 5f64.sqrt() * loss / PI.hypot(loss))
+}

@@ -1,0 +1,145 @@
+//! The relaxation function E*(t) of the contact of two viscoelastic bodies, exactly.
+//!
+//! With the Carson transforms G(s) and K(s) of a body's moduli (s times Laplace's), its contact
+//! modulus is E/(1−ν²) of the elastic solution with G, K replaced (correspondence principle; Lee
+//! 1955), and the compliances of the two bodies add:
+//!
+//! ```math
+//! \frac1{E^*(s)} = \sum_{i=1,2} \frac{3K_i+4G_i}{4G_i(3K_i+G_i)}
+//! = \sum_{i=1,2}\left[\frac1{4G_i(s)} + \frac1{\tfrac43\,(3K_i(s)+G_i(s))}\right].
+//! ```
+//!
+//! So the contact is a chain of generalised Maxwell elements in series. Each element,
+//! M(s) = M∞ + Σ M_k s/(s+b_k), has its zeros −λ between its poles; they are the poles of the
+//! compliance 1/E*, whose zeros −p lie between them in turn (all real and not positive), and
+//!
+//! ```math
+//! E^*(t) = E^*_0\Bigl(g_\infty + \sum_k g_k e^{-p_k t}\Bigr), \qquad g_k > 0.
+//! ```
+//!
+//! A body whose bulk modulus relaxes with its shear modulus (`ActsOn::All`) is one element, an
+//! elastic body a constant, a rigid wall nothing. Limits: linear viscoelasticity.
+
+use fem_material::{ActsOn, Material, PronyTerm};
+
+use crate::error::{LawError, positive};
+use crate::interlacing::{Pole, merged, zeros};
+
+/// E*(t)/E*(0) of a pair as a Prony series of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairRelaxation {
+    equilibrium_weight: f64,
+    terms: Vec<PronyTerm>,
+}
+
+impl PairRelaxation {
+    /// Of the materials of two bodies in either order; `None` is the rigid wall.
+    ///
+    /// # Errors
+    /// Two walls; relaxation times so short or long that a rate leaves the range of f64.
+    pub fn new(first: Option<&Material>, second: Option<&Material>) -> Result<Self, LawError> {
+        let mut chain = Vec::new();
+        for material in [first, second].into_iter().flatten() {
+            add_elements(&mut chain, material)?;
+        }
+        if chain.is_empty() {
+            return Err(LawError::TwoWalls);
+        }
+        Self::of_chain(&chain)
+    }
+
+    fn of_chain(chain: &[Element]) -> Result<Self, LawError> {
+        let compliance: f64 = chain.iter().map(|element| element.instantaneous().recip()).sum();
+        let creep = chain.iter().flat_map(|element| element.creep_poles(compliance.recip()));
+        let terms = zeros(-1.0, &merged(creep.collect()))
+            .into_iter()
+            .map(|zero| {
+                let weight = positive("pair relaxation weight", 1.0 / (zero.at * zero.slope))?;
+                Ok(PronyTerm { weight, relaxation_time: zero.at.recip() })
+            })
+            .collect::<Result<_, LawError>>()?;
+        let equilibrium: f64 = chain.iter().map(|element| element.equilibrium.recip()).sum();
+        Ok(Self { equilibrium_weight: compliance / equilibrium, terms })
+    }
+
+    /// E*(t)/E*(0) at `time` (s) after a step; 1 at and before 0, up to rounding.
+    pub fn relaxation(&self, time: f64) -> f64 {
+        let elapsed = if time < 0.0 { 0.0 } else { time };
+        let decaying: f64 = self
+            .terms
+            .iter()
+            .map(|term| term.weight * (-elapsed / term.relaxation_time).exp())
+            .sum();
+        self.equilibrium_weight + decaying
+    }
+
+    /// g∞ = E*(∞)/E*(0), in 0 ..= 1; exactly 0 if either body flows, 1 if both are elastic.
+    pub fn equilibrium_weight(&self) -> f64 {
+        self.equilibrium_weight
+    }
+
+    /// The Maxwell elements, slowest first; none for two elastic bodies.
+    pub fn terms(&self) -> &[PronyTerm] {
+        &self.terms
+    }
+}
+
+/// M(s) = M∞ + Σ M_k s/(s+b_k).
+struct Element {
+    /// M∞, Pa.
+    equilibrium: f64,
+    /// The decaying part: at b_k, 1/s, the weight M_k, Pa.
+    terms: Vec<Pole>,
+}
+
+impl Element {
+    fn instantaneous(&self) -> f64 {
+        self.equilibrium + self.terms.iter().map(|term| term.weight).sum::<f64>()
+    }
+
+    /// Poles at λ of `unit`/M(−x) = `unit`/M₀ − Σ r/(x−λ).
+    ///
+    /// M(−x)/x = M∞/x + Σ M_k/(x−b_k) has the wanted zeros, and r = 1/(λ·slope). If M∞ = 0 the
+    /// zero at 0 is M's own; there M(s) = s Σ M_k/b_k.
+    fn creep_poles(&self, unit: f64) -> Vec<Pole> {
+        let mut poles = self.terms.clone();
+        poles.push(Pole { at: 0.0, weight: self.equilibrium });
+        let mut creep: Vec<Pole> = zeros(0.0, &merged(poles))
+            .into_iter()
+            .map(|zero| Pole { at: zero.at, weight: unit / (zero.at * zero.slope) })
+            .collect();
+        if self.equilibrium == 0.0 {
+            let viscosity: f64 = self.terms.iter().map(|term| term.weight / term.at).sum();
+            creep.push(Pole { at: 0.0, weight: unit / viscosity });
+        }
+        creep
+    }
+}
+
+fn add_elements(chain: &mut Vec<Element>, material: &Material) -> Result<(), LawError> {
+    let moduli = material.instantaneous();
+    let plane_strain = moduli.plane_strain_modulus();
+    let Some(series) = material.relaxation() else {
+        chain.push(Element { equilibrium: plane_strain, terms: Vec::new() });
+        return Ok(());
+    };
+    let element = |relaxing: f64, constant: f64| -> Result<Element, LawError> {
+        let terms = series.terms().iter().filter(|term| term.weight > 0.0).map(|term| {
+            let rate = positive("relaxation rate", term.relaxation_time.recip())?;
+            Ok(Pole { at: rate, weight: relaxing * term.weight })
+        });
+        Ok(Element {
+            equilibrium: constant + relaxing * series.equilibrium_weight(),
+            terms: terms.collect::<Result<_, LawError>>()?,
+        })
+    };
+    match series.acts_on() {
+        ActsOn::All => chain.push(element(plane_strain, 0.0)?),
+        ActsOn::Shear => {
+            let (bulk, shear) = (moduli.bulk_modulus(), moduli.shear_modulus());
+            chain.push(element(4.0 * shear, 0.0)?);
+            chain.push(element(4.0 / 3.0 * shear, 4.0 * bulk)?);
+        }
+    }
+    Ok(())
+}

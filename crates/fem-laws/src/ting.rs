@@ -1,0 +1,289 @@
+//! Quasi-static impact of viscoelastic bodies with Hertz' contact.
+//!
+//! While the contact grows (Lee & Radok 1960) and after it has begun to shrink (Ting 1966),
+//!
+//! ```math
+//! F(t) = \tfrac43\sqrt{R^*}\int_0^{t_1}\!\!E^*(t-s)\,\mathrm d\bigl[\delta(s)^{3/2}\bigr], \qquad
+//! p(0,t) = \frac{2}{\pi\sqrt{R^*}}\int_0^{t_1}\!\!E^*(t-s)\,\mathrm d\sqrt{\delta(s)}, \qquad
+//! a = \sqrt{R^*\delta(t_1)},
+//! ```
+//!
+//! with t₁ = t in loading; in unloading t₁ is the earlier time at which the contact was as large:
+//!
+//! ```math
+//! \int_{t_1}^{t}E^*(t-s)\,\dot\delta(s)\,\mathrm ds = 0, \qquad m^*\ddot\delta = -F.
+//! ```
+//!
+//! Contact ends when t₁ = 0, and so F = 0, while δ > 0: the surfaces recover later. With the
+//! Prony series of [`PairRelaxation`] every integral is a sum of elements' fading memories. In
+//! units of the length ℓ = (m*/K)^(2/5) v^(4/5) and the time ℓ/v nothing is left but g∞, g_k and
+//! b_k = ℓ/(v τ_k).
+//!
+//! With a [`FiniteSize`], Hertz' approach u(t) takes the place of δ(t) in the integrals, and
+//! δ = u + Σ c_i K u^(3/2)/(E_i R_i) with instantaneous K, E, ν. That is exact for elastic bodies,
+//! and in loading for equal materials of constant Poisson's ratio (there F relaxes as E does);
+//! otherwise an approximation in a correction of some per cent of δ.
+//!
+//! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8 is returned as
+//! bodies that stay together.
+
+use std::f64::consts::PI;
+
+use crate::bisection::last_where;
+use crate::collocation::{Interpolation, N, POINTS, evaluate};
+use crate::error::LawError;
+use crate::finite_size::Correction;
+use crate::ting_record::{Contact, Record, peak};
+use crate::ting_step::{Solved, State, Stepper};
+use crate::{FiniteSize, HertzImpact, Impact, ImpactInstant, Pair, PairRelaxation};
+
+/// Local error of the rate, of the approach speed. A collision takes some tens of steps.
+const TOLERANCE: f64 = 1e-9;
+
+/// Restitution that is none; also of the energy that could still come back, its root.
+const STUCK: f64 = 1e-8;
+
+/// Far above the some hundreds that the most viscous contacts take.
+const MAX_STEPS: usize = 20_000;
+
+/// Index of the Gauss point at θ = 1/2.
+const MIDDLE: usize = N / 2;
+
+/// Faster relaxation leaves a force of 1e-15.
+const MAX_RATE: f64 = 1e15;
+
+/// A viscoelastic pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ting {
+    pair: Pair,
+    relaxation: PairRelaxation,
+    finite_size: Option<FiniteSize>,
+}
+
+impl Ting {
+    /// Of a pair, whose modulus is the instantaneous one, and its relaxation.
+    pub fn new(pair: &Pair, relaxation: PairRelaxation) -> Self {
+        Self { pair: *pair, relaxation, finite_size: None }
+    }
+
+    /// With the finite size of the spheres in series.
+    pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
+        Self { finite_size: Some(finite_size), ..self }
+    }
+
+    /// The collision at an approach speed, m/s.
+    ///
+    /// # Errors
+    /// Those of [`HertzImpact::new`]; a contact too large for the finite-size correction; a
+    /// motion that does not end.
+    pub fn impact(&self, approach_speed: f64) -> Result<Impact, LawError> {
+        let hertz = HertzImpact::new(&self.pair, approach_speed)?;
+        let units = Units::of(&hertz);
+        let correction = match &self.finite_size {
+            Some(size) => {
+                size.check(hertz.max_contact_radius())?;
+                size.correction(units.length, units.force, units.radius)
+            }
+            None => Correction::NONE,
+        };
+        let elements = self
+            .relaxation
+            .terms()
+            .iter()
+            .map(|term| (term.weight, (units.time / term.relaxation_time).min(MAX_RATE)));
+        let contact = Contact {
+            equilibrium: self.relaxation.equilibrium_weight(),
+            elements: elements.collect(),
+            correction,
+        };
+        let impact = Collision::new(&contact).run(&units)?;
+        if let Some(size) = &self.finite_size {
+            size.check(impact.max_contact_radius)?;
+        }
+        Ok(impact)
+    }
+}
+
+/// What a dimensionless 1 stands for.
+struct Units {
+    time: f64,
+    length: f64,
+    speed: f64,
+    force: f64,
+    radius: f64,
+    pressure: f64,
+}
+
+impl Units {
+    fn of(hertz: &HertzImpact) -> Self {
+        let (pair, speed) = (hertz.pair(), hertz.approach_speed());
+        // Hertz' energy balance is u^(5/2) = 5/4 at the largest approach.
+        let length = hertz.max_approach() / 1.25f64.powf(0.4);
+        Self {
+            time: length / speed,
+            length,
+            speed,
+            force: hertz.force(length),
+            radius: pair.effective_radius().sqrt() * length.sqrt(),
+            pressure: 2.0 / PI * pair.contact_modulus() * (length / pair.effective_radius()).sqrt(),
+        }
+    }
+}
+
+/// The dimensionless motion and what is gathered along it.
+struct Collision<'a> {
+    contact: &'a Contact,
+    interpolation: Interpolation,
+    state: State,
+    length: f64,
+    n_steps: usize,
+    peak_force: f64,
+    peak_pressure: f64,
+    history: Vec<ImpactInstant>,
+}
+
+impl<'a> Collision<'a> {
+    fn new(contact: &'a Contact) -> Self {
+        let fastest = contact.elements.iter().map(|(_, rate)| *rate).fold(1.0, f64::max);
+        let memory = vec![[0.0; 3]; contact.elements.len()];
+        Self {
+            contact,
+            interpolation: Interpolation::new(),
+            state: State { time: 0.0, approach: 0.0, rate: 1.0, force: 0.0, memory },
+            // δ^(3/2) is not smooth at first touch: begin far below all time scales.
+            length: 1e-5 / fastest,
+            n_steps: 0,
+            peak_force: 0.0,
+            peak_pressure: 0.0,
+            history: vec![ImpactInstant {
+                time: 0.0,
+                approach: 0.0,
+                approach_rate: 1.0,
+                force: 0.0,
+                contact_radius: 0.0,
+            }],
+        }
+    }
+
+    fn run(mut self, units: &Units) -> Result<Impact, LawError> {
+        let record = self.load(units)?;
+        let turned = self.state.clone();
+        if let Some(record) = &record {
+            self.unload(record, units)?;
+        }
+        let parted = -self.state.rate > STUCK;
+        let (hertz, _) = self.contact.correction.hertz_approach(turned.approach);
+        Ok(Impact {
+            restitution: if parted { -self.state.rate } else { 0.0 },
+            contact_time: parted.then_some(self.state.time * units.time),
+            peak_force: self.peak_force * units.force,
+            max_approach: turned.approach * units.length,
+            max_contact_radius: hertz.sqrt() * units.radius,
+            peak_pressure: Some(self.peak_pressure * units.pressure),
+            history: self.history.iter().map(|instant| units.dimensional(instant)).collect(),
+        })
+    }
+
+    /// Up to the largest approach; `None` if the bodies stay there.
+    fn load(&mut self, units: &Units) -> Result<Option<Record>, LawError> {
+        let mut steps = Vec::new();
+        loop {
+            let solved = self.step(None, units)?;
+            let turn = if solved.step.rate_at(1.0) > 0.0 {
+                1.0
+            } else {
+                last_where(0.0, 1.0, |theta| solved.step.rate_at(theta) > 0.0)
+            };
+            let pressure = self.interpolation.coefficients(&solved.pressure);
+            self.peak_force = self.peak_force.max(peak(&solved.step.force, turn));
+            self.peak_pressure = self.peak_pressure.max(peak(&pressure, turn));
+            self.advance(&solved, turn);
+            steps.push(solved.step);
+            if turn < 1.0 {
+                return Ok(Some(Record { steps, end: self.state.time }));
+            }
+            if self.state.rate < STUCK && self.state.force * self.state.approach < STUCK * STUCK {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// Down to the end of contact.
+    fn unload(&mut self, record: &Record, units: &Units) -> Result<(), LawError> {
+        loop {
+            let solved = self.step(Some(record), units)?;
+            let touches = |theta: f64| solved.step.surface_at(self.contact, theta) > 0.0;
+            let end = if touches(1.0) { 1.0 } else { last_where(0.0, 1.0, touches) };
+            self.advance(&solved, end);
+            if end < 1.0 {
+                self.state.force = 0.0;
+                if let Some(last) = self.history.last_mut() {
+                    (last.force, last.contact_radius) = (0.0, 0.0);
+                }
+                return Ok(());
+            }
+        }
+    }
+
+    /// One step within the tolerance; the size of the next is chosen.
+    fn step(&mut self, record: Option<&Record>, units: &Units) -> Result<Solved, LawError> {
+        let (contact, interpolation) = (self.contact, &self.interpolation);
+        let stepper = Stepper { contact, interpolation, record };
+        while self.n_steps < MAX_STEPS {
+            self.n_steps += 1;
+            let Some(solved) = stepper.solve(&self.state, self.length) else {
+                self.length *= 0.4;
+                continue;
+            };
+            // The finest detail falls with the fifth power of the step.
+            let factor = (0.9 * (TOLERANCE / solved.error).powf(0.2)).clamp(0.2, 2.0);
+            // Many iterations say that the step nears the limit of contraction.
+            self.length *= if solved.n_iterations > 14 { factor.min(0.8) } else { factor };
+            if solved.error <= TOLERANCE {
+                return Ok(solved);
+            }
+        }
+        let time = self.state.time * units.time;
+        Err(LawError::NotFinished { model: "ting", n_steps: self.n_steps, time })
+    }
+
+    /// The state at θ of a step becomes the present one.
+    fn advance(&mut self, solved: &Solved, theta: f64) {
+        let step = &solved.step;
+        let radii = self.interpolation.coefficients(&solved.contact_approach);
+        let instant = |theta: f64, force: f64, hertz: f64| ImpactInstant {
+            time: step.start + theta * step.length,
+            approach: step.approach_at(theta),
+            approach_rate: step.rate_at(theta),
+            force,
+            contact_radius: hertz.max(0.0).sqrt(),
+        };
+        if POINTS[MIDDLE] < theta {
+            let force = evaluate(&step.force, POINTS[MIDDLE]);
+            self.history.push(instant(POINTS[MIDDLE], force, solved.contact_approach[MIDDLE]));
+        }
+        let force = evaluate(&step.force, theta);
+        let last = instant(theta, force, evaluate(&radii, theta));
+        self.history.push(last);
+        let elements = self.contact.elements.iter().enumerate();
+        self.state = State {
+            time: last.time,
+            approach: last.approach,
+            rate: last.approach_rate,
+            force,
+            memory: elements.map(|(k, (_, rate))| step.memory_at(k, *rate, theta)).collect(),
+        };
+    }
+}
+
+impl Units {
+    fn dimensional(&self, instant: &ImpactInstant) -> ImpactInstant {
+        ImpactInstant {
+            time: instant.time * self.time,
+            approach: instant.approach * self.length,
+            approach_rate: instant.approach_rate * self.speed,
+            force: instant.force * self.force,
+            contact_radius: instant.contact_radius * self.radius,
+        }
+    }
+}

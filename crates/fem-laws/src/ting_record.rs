@@ -1,0 +1,149 @@
+//! The loading half of a viscoelastic contact, kept so that unloading can look back into it.
+//!
+//! All quantities are dimensionless (see [`crate::ting`]). A Maxwell element k remembers three
+//! drives, each M_k(t) = ∫₀ᵗ e^(−b_k(t−s)) f(s) ds: of u^(3/2) the force, of u the condition on
+//! t₁, of √u the pressure on the axis.
+
+use crate::collocation::dot;
+use crate::collocation::{Vector, double_integral, evaluate, fading_moments, integral};
+use crate::finite_size::Correction;
+
+/// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
+pub(crate) type Memory = [f64; 3];
+
+/// Indices into [`Memory`].
+pub(crate) const FORCE: usize = 0;
+pub(crate) const SURFACE: usize = 1;
+pub(crate) const PRESSURE: usize = 2;
+
+/// The constants of one collision.
+#[derive(Debug, Clone)]
+pub(crate) struct Contact {
+    /// g∞.
+    pub equilibrium: f64,
+    /// g_k and b_k.
+    pub elements: Vec<(f64, f64)>,
+    /// Finite size.
+    pub correction: Correction,
+}
+
+/// One step of the motion as polynomials of θ = (t − start)/length.
+#[derive(Debug, Clone)]
+pub(crate) struct Step {
+    pub start: f64,
+    pub length: f64,
+    /// δ and δ̇ at the start.
+    pub approach: f64,
+    pub rate: f64,
+    /// At the start, of each element.
+    pub memory: Vec<Memory>,
+    pub force: Vector,
+    /// Time derivatives of u^(3/2), u and √u.
+    pub drives: [Vector; 3],
+}
+
+impl Step {
+    pub fn approach_at(&self, theta: f64) -> f64 {
+        let lost = self.length * double_integral(&self.force, theta);
+        self.approach + self.length * (self.rate * theta - lost)
+    }
+
+    pub fn rate_at(&self, theta: f64) -> f64 {
+        self.rate - self.length * integral(&self.force, theta)
+    }
+
+    pub fn memory_at(&self, element: usize, rate: f64, theta: f64) -> Memory {
+        let z = rate * self.length;
+        let decay = (-z * theta).exp();
+        let moments = fading_moments(theta, z);
+        std::array::from_fn(|i| {
+            decay * self.memory[element][i] + self.length * dot(&moments, &self.drives[i])
+        })
+    }
+
+    /// g∞ u + Σ g_k ∫ e^(−b_k(t−s)) du: the force on a punch that has kept its first contact.
+    pub fn surface_at(&self, contact: &Contact, theta: f64) -> f64 {
+        let (hertz, _) = contact.correction.hertz_approach(self.approach_at(theta).max(0.0));
+        let remembered = contact.elements.iter().enumerate();
+        contact.equilibrium * hertz
+            + remembered
+                .map(|(k, (weight, rate))| weight * self.memory_at(k, *rate, theta)[SURFACE])
+                .sum::<f64>()
+    }
+}
+
+/// The steps of loading, up to the largest approach.
+#[derive(Debug, Clone)]
+pub(crate) struct Record {
+    pub steps: Vec<Step>,
+    /// Time of the largest approach.
+    pub end: f64,
+}
+
+/// The shrinking contact at one instant of unloading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Shrunk {
+    /// t₁, when the growing contact was as large.
+    pub equivalent_time: f64,
+    pub force: f64,
+    /// u(t₁).
+    pub hertz_approach: f64,
+}
+
+impl Record {
+    /// The contact at `time` in unloading: the t₁ at which what loading had put in until then,
+    /// faded since, equals the `surface` condition's part of now.
+    pub fn shrunk(&self, contact: &Contact, time: f64, surface: f64, guess: f64) -> Shrunk {
+        let (mut low, mut high) = (0.0, self.end);
+        if surface <= 0.0 {
+            return Shrunk { equivalent_time: 0.0, force: 0.0, hertz_approach: 0.0 };
+        }
+        let mut t1 = guess.clamp(0.0, self.end);
+        // Newton's method inside a bracket that bisection shrinks where it fails.
+        for _ in 0..100 {
+            let (value, slope, shrunk) = self.look_back(contact, time, t1);
+            let excess = value - surface;
+            if excess > 0.0 {
+                high = t1;
+            } else {
+                low = t1;
+            }
+            let newton = t1 - excess / slope;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            // The force has an error of its slope 1.5 √u u̇ ≤ 2 times this.
+            if (next - t1).abs() <= 1e-13 * self.end || high - low <= 1e-13 * self.end {
+                return shrunk;
+            }
+            t1 = next;
+        }
+        self.look_back(contact, time, t1).2
+    }
+
+    /// Condition, its slope in t₁, and the contact.
+    fn look_back(&self, contact: &Contact, time: f64, t1: f64) -> (f64, f64, Shrunk) {
+        let index = self.steps.partition_point(|step| step.start <= t1).max(1) - 1;
+        let step = &self.steps[index];
+        let theta = (t1 - step.start) / step.length;
+        let approach = step.approach_at(theta).max(0.0);
+        let (hertz, compression) = contact.correction.hertz_approach(approach);
+        let mut surface = contact.equilibrium * hertz;
+        let mut force = contact.equilibrium * hertz * hertz.sqrt();
+        let mut relaxation = contact.equilibrium;
+        for (k, (weight, rate)) in contact.elements.iter().enumerate() {
+            let faded = weight * (-rate * (time - t1)).exp();
+            let memory = step.memory_at(k, *rate, theta);
+            surface += faded * memory[SURFACE];
+            force += faded * memory[FORCE];
+            relaxation += faded;
+        }
+        let slope = relaxation * compression * step.rate_at(theta);
+        (surface, slope, Shrunk { equivalent_time: t1, force, hertz_approach: hertz })
+    }
+}
+
+/// The largest value on 0 ..= `end` of a polynomial that rises, then perhaps falls.
+pub(crate) fn peak(coefficients: &Vector, end: f64) -> f64 {
+    let rising = |theta: f64| crate::collocation::derivative(coefficients, theta) > 0.0;
+    let top = crate::bisection::last_where(0.0, end, rising);
+    evaluate(coefficients, top).max(evaluate(coefficients, end))
+}

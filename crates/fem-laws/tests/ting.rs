@@ -1,0 +1,304 @@
+//! Viscoelastic impact: published references, an independent integration, limits, robustness.
+
+use fem_laws::{FiniteSize, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, Ting};
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+
+fn glass(acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
+    let series = PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap();
+    Material::new(2390.0, moduli, Some(series)).unwrap()
+}
+
+fn pair_of(material: &Material) -> Pair {
+    let sphere = |diameter| Partner::solid_sphere(diameter, material);
+    Pair::new(sphere(22.2e-3), sphere(15.9e-3)).unwrap()
+}
+
+fn ting(material: &Material) -> Ting {
+    Ting::new(&pair_of(material), PairRelaxation::new(Some(material), Some(material)).unwrap())
+}
+
+fn finite_size(material: &Material) -> FiniteSize {
+    FiniteSize::new(Some((11.1e-3, material)), Some((7.95e-3, material))).unwrap()
+}
+
+fn impact(acts_on: ActsOn, rate: f64) -> Impact {
+    ting(&glass(acts_on, &[(1.0, rate)])).impact(0.5).unwrap()
+}
+
+fn assert_close(found: f64, expected: f64, relative: f64) {
+    assert!(
+        (found - expected).abs() <= relative * expected.abs(),
+        "found {found:e}, expected {expected:e}"
+    );
+}
+
+/// Restitutions computed independently for the project, to their printed digits.
+#[test]
+fn reference_restitutions() {
+    use ActsOn::{All, Shear};
+    for (acts_on, rate, restitution, half_digit) in [
+        (All, 2708.0, 0.92705, 0.5e-5),
+        (Shear, 2708.0, 0.94713, 0.5e-5),
+        (All, 5966.6, 0.8470, 0.5e-4),
+        (Shear, 5966.6, 0.8881, 0.5e-4),
+        // The rates are printed to 1 of 2982, which is 2e-5 of e.
+        (All, 2982.0, 0.92, 2e-5),
+        (Shear, 4173.0, 0.92, 2e-5),
+    ] {
+        let found = impact(acts_on, rate).restitution;
+        assert!((found - restitution).abs() <= half_digit, "{acts_on:?} {rate}: {found}");
+    }
+    let found = impact(All, 2708.0);
+    assert!((found.contact_time.unwrap() * 1e6 - 62.86).abs() <= 0.005);
+    assert!((found.peak_force - 103.5).abs() <= 0.05);
+}
+
+/// For the elastic bulk modulus the references print 62.98 µs and 104.4 N. The present numbers,
+/// 62.968 µs and 104.476 N, are confirmed by `independent_integration` to 1e-5; the printed ones
+/// are one unit of the last digit off.
+#[test]
+fn reference_with_elastic_bulk_modulus() {
+    let found = impact(ActsOn::Shear, 2708.0);
+    assert!((found.contact_time.unwrap() * 1e6 - 62.98).abs() < 0.015);
+    assert!((found.peak_force - 104.4).abs() < 0.1);
+}
+
+/// What the direct method gives: restitution, contact time, peak force, pressure, approach.
+struct Direct([f64; 5]);
+
+/// Ting's integrals as sums over equal steps with the kernel at midpoints, no series, no
+/// recursion, t₁ by adding up increments from now backwards; velocity Verlet for the motion.
+fn direct(pair: &Pair, relaxation: &PairRelaxation, speed: f64, n_steps: usize) -> Direct {
+    let hertz = HertzImpact::new(pair, speed).unwrap();
+    let dt = hertz.contact_time() / n_steps as f64;
+    let kernel: Vec<f64> =
+        (0..4 * n_steps).map(|i| relaxation.relaxation((i as f64 + 0.5) * dt)).collect();
+    let mut approach = vec![0.0f64];
+    let (mut rate, mut acceleration, mut turn) = (speed, 0.0, None);
+    let [mut peak_force, mut peak_pressure] = [0.0f64; 2];
+    loop {
+        let n = approach.len();
+        rate += 0.5 * dt * acceleration;
+        approach.push(approach[n - 1] + dt * rate);
+        if turn.is_none() && rate < 0.0 {
+            turn = Some(n - 1);
+        }
+        // Index and part of the step of t₁.
+        let (mut last, mut part) = (n, 0.0);
+        if turn.is_some() {
+            let mut sum = 0.0;
+            loop {
+                if last == 0 {
+                    // Contact ended within the step; the force there is nearly 0.
+                    let maximum = approach.iter().copied().fold(0.0, f64::max);
+                    let time = n as f64 * dt;
+                    return Direct([-rate / speed, time, peak_force, peak_pressure, maximum]);
+                }
+                let added = kernel[n - last] * (approach[last] - approach[last - 1]);
+                last -= 1;
+                if sum + added >= 0.0 {
+                    part = 1.0 + sum / added;
+                    break;
+                }
+                sum += added;
+            }
+            part = 1.0 - part;
+        }
+        let sum = |power: fn(f64) -> f64| -> f64 {
+            let increment = |j: usize| power(approach[j + 1]) - power(approach[j]);
+            let whole: f64 = (0..last).map(|j| kernel[n - 1 - j] * increment(j)).sum();
+            // Of the step with t₁ the part before it.
+            whole
+                + if part > 0.0 {
+                    (1.0 - part) * kernel[n - 1 - last] * increment(last)
+                } else {
+                    0.0
+                }
+        };
+        let force = hertz.stiffness() * sum(|x| x * x.sqrt());
+        peak_force = peak_force.max(force);
+        let scale = 2.0 / std::f64::consts::PI * pair.contact_modulus();
+        peak_pressure = peak_pressure.max(scale / pair.effective_radius().sqrt() * sum(f64::sqrt));
+        acceleration = -force / pair.effective_mass();
+        rate += 0.5 * dt * acceleration;
+    }
+}
+
+/// The direct sums converge to the collocation solution.
+#[test]
+fn independent_integration() {
+    let materials = [
+        glass(ActsOn::All, &[(1.0, 2708.0)]),
+        glass(ActsOn::Shear, &[(1.0, 2708.0)]),
+        glass(ActsOn::Shear, &[(0.3, 1e3), (0.2, 2e4), (0.3, 1e5)]),
+        glass(ActsOn::All, &[(0.5, 3e4), (0.5, 1e5)]),
+    ];
+    for material in &materials {
+        let pair = pair_of(material);
+        let relaxation = PairRelaxation::new(Some(material), Some(material)).unwrap();
+        let found = Ting::new(&pair, relaxation.clone()).impact(0.5).unwrap();
+        let values = [
+            found.restitution,
+            found.contact_time.unwrap(),
+            found.peak_force,
+            found.peak_pressure.unwrap(),
+            found.max_approach,
+        ];
+        let Direct(fine) = direct(&pair, &relaxation, 0.5, 4000);
+        // Second order, but √ at first touch: (1/4000)^1.5 = 4e-6. The time ends on a step.
+        let tolerances = [1e-5, 3e-4, 1e-5, 1e-4, 1e-5];
+        for i in 0..5 {
+            assert_close(values[i], fine[i], tolerances[i]);
+        }
+    }
+}
+
+#[test]
+fn elastic_limits_are_hertz() {
+    let instant = glass(ActsOn::Shear, &[(0.6, 1e-6)]);
+    let relaxed = glass(ActsOn::All, &[(0.6, 1e13)]);
+    // K∞ = 0.4 K₀ in Hertz' powers.
+    for (material, factor) in [(&instant, 1.0f64), (&relaxed, 0.4)] {
+        let found = ting(material).impact(0.5).unwrap();
+        let hertz = HertzImpact::new(&pair_of(material), 0.5).unwrap();
+        // βT is 6e-11, or its inverse 1e-9: what is left is the integration.
+        assert_close(found.restitution, 1.0, 1e-8);
+        assert_close(found.contact_time.unwrap(), hertz.contact_time() * factor.powf(-0.4), 1e-8);
+        assert_close(found.max_approach, hertz.max_approach() * factor.powf(-0.4), 1e-8);
+        assert_close(found.peak_force, hertz.peak_force() * factor.powf(0.4), 1e-8);
+        assert_close(found.peak_pressure.unwrap(), hertz.peak_pressure() * factor.powf(0.8), 1e-6);
+    }
+}
+
+/// A fast Maxwell fluid only brakes: m* v = K δ^(3/2)/β, for ever.
+#[test]
+fn viscous_limit() {
+    let material = glass(ActsOn::All, &[(1.0, 1e10)]);
+    let found = ting(&material).impact(0.5).unwrap();
+    let pair = pair_of(&material);
+    let stiffness = HertzImpact::new(&pair, 0.5).unwrap().stiffness();
+    let stop = (pair.effective_mass() * 0.5 * 1e10 / stiffness).powf(2.0 / 3.0);
+    // Elasticity is worth 1/(βt)^…, here 1e-8; the rate at the end 1e-8.
+    assert_close(found.max_approach, stop, 1e-6);
+    assert_eq!((found.restitution, found.contact_time), (0.0, None));
+}
+
+/// From elastic to viscous over 18 decades of the rate: always an answer, always possible.
+#[test]
+fn all_rates_are_survived() {
+    for acts_on in [ActsOn::All, ActsOn::Shear] {
+        for weight in [1e-9, 0.1, 0.9, 1.0 - 1e-6, 1.0] {
+            for exponent in -2..=10 {
+                let rate = 1.6 * 10f64.powi(exponent);
+                let found = ting(&glass(acts_on, &[(weight, rate)])).impact(0.5);
+                let found = found.unwrap_or_else(|error| panic!("{weight} {rate:e} {error}"));
+                assert!((0.0..=1.0 + 1e-9).contains(&found.restitution), "{weight} {rate:e}");
+                assert_eq!(found.contact_time.is_none(), found.restitution == 0.0);
+                assert!(found.history.is_sorted_by(|a, b| a.time < b.time));
+            }
+        }
+    }
+}
+
+/// Many terms over twelve decades, against speed and mass in other units: similarity in βT.
+#[test]
+fn units_do_not_matter() {
+    let terms: Vec<(f64, f64)> =
+        (0..25).map(|k| (0.036, 10f64.powf(-2.0 + 0.5 * f64::from(k)))).collect();
+    let reference = ting(&glass(ActsOn::All, &terms)).impact(0.5).unwrap();
+    let time = reference.contact_time.unwrap();
+    for (mass, speed) in [(1e-12, 1e-9), (1e6, 1e3), (1.0, 1e-3)] {
+        let plane_strain_modulus = 67e9;
+        let sphere = Partner::Sphere { radius: 0.1, mass, plane_strain_modulus };
+        let pair = Pair::new(sphere, Partner::Wall).unwrap();
+        let glass_time = HertzImpact::new(&pair_of(&glass(ActsOn::All, &terms)), 0.5).unwrap();
+        let scale =
+            HertzImpact::new(&pair, speed).unwrap().contact_time() / glass_time.contact_time();
+        let scaled: Vec<(f64, f64)> = terms.iter().map(|(w, rate)| (*w, rate / scale)).collect();
+        let relaxation = PairRelaxation::new(Some(&glass(ActsOn::All, &scaled)), None).unwrap();
+        let found = Ting::new(&pair, relaxation).impact(speed).unwrap();
+        // Rounding of powers makes steps differ: the error of the integration shows.
+        assert_close(found.restitution, reference.restitution, 1e-8);
+        assert_close(found.contact_time.unwrap(), time * scale, 1e-8);
+    }
+}
+
+#[test]
+fn history_is_the_motion() {
+    let material = glass(ActsOn::Shear, &[(1.0, 1e4)]);
+    let (found, pair) = (ting(&material).impact(0.5).unwrap(), pair_of(&material));
+    let (first, last) = (found.history[0], *found.history.last().unwrap());
+    assert_eq!((first.time, first.approach, first.approach_rate), (0.0, 0.0, 0.5));
+    assert_eq!(last.time, found.contact_time.unwrap());
+    assert_eq!(last.approach_rate, -0.5 * found.restitution);
+    assert_eq!((last.force, last.contact_radius), (0.0, 0.0));
+    assert!(last.approach > 0.0);
+    let (mut impulse, mut work) = (0.0, 0.0);
+    for two in found.history.windows(2) {
+        let force = 0.5 * (two[0].force + two[1].force);
+        impulse += force * (two[1].time - two[0].time);
+        work += force * (two[1].approach - two[0].approach);
+    }
+    let (mass, e) = (pair.effective_mass(), found.restitution);
+    // The trapezoidal rule with some hundred steps.
+    assert_close(impulse, mass * 0.5 * (1.0 + e), 1e-3);
+    assert_close(work, 0.5 * mass * 0.25 * (1.0 - e * e), 1e-2);
+    for instant in &found.history {
+        assert!(instant.force <= found.peak_force * (1.0 + 1e-9));
+        assert!(instant.approach <= found.max_approach * (1.0 + 1e-12));
+        let grown = (pair.effective_radius() * instant.approach).sqrt();
+        // Geometry in loading; a smaller contact than the geometric one in unloading.
+        assert!(instant.contact_radius <= grown * (1.0 + 1e-5));
+        if instant.approach_rate > 0.0 {
+            assert_close(instant.contact_radius, grown, 1e-4);
+        }
+    }
+}
+
+/// Quasi-static finite elements converged to h = 3.75 µm.
+#[test]
+fn finite_size_meets_finite_elements() {
+    let elastic = glass(ActsOn::All, &[(0.0, 1.0)]);
+    let with_size = |material: &Material, speed| {
+        ting(material).with_finite_size(finite_size(material)).impact(speed).unwrap()
+    };
+    let found = with_size(&elastic, 0.5);
+    // First order in a/R: the next is (a/R)² = 8e-4 of the correction's own size, 7e-3.
+    assert_close(found.contact_time.unwrap(), 62.818e-6, 2e-4);
+    assert_close(found.peak_force, 107.99, 2e-4);
+    assert_close(found.max_approach, 10.681e-6, 2e-4);
+    assert_close(found.restitution, 1.0, 1e-9);
+    // The project's older fit, c = −0.511 + …: it is 6 % weaker, 0.06 % of T.
+    for (speed, change) in [(0.1, -0.0029), (0.25, -0.0044), (0.5, -0.0061), (1.0, -0.0085)] {
+        let hertz = HertzImpact::new(&pair_of(&elastic), speed).unwrap().contact_time();
+        let found = with_size(&elastic, speed).contact_time.unwrap() / hertz - 1.0;
+        assert!((found - change).abs() < 1e-3, "{speed}: {found}");
+    }
+    // The relaxation of the correction is approximated where the bulk modulus stays elastic.
+    let relaxing = |acts_on| with_size(&glass(acts_on, &[(1.0, 2708.0)]), 0.5).restitution;
+    assert!((relaxing(ActsOn::All) - 0.92763).abs() < 2e-4);
+    assert!((relaxing(ActsOn::Shear) - 0.94811).abs() < 1e-3);
+}
+
+#[test]
+fn finite_size_fades_with_the_contact() {
+    let material = glass(ActsOn::All, &[(1.0, 1e-3)]);
+    let hertz = HertzImpact::new(&pair_of(&material), 1e-9).unwrap();
+    let found = ting(&material).with_finite_size(finite_size(&material)).impact(1e-9).unwrap();
+    // a/R falls as v^(2/5): from 3e-2 at 0.5 m/s by 3e-4.
+    assert_close(found.contact_time.unwrap(), hertz.contact_time(), 1e-4);
+}
+
+#[test]
+fn impossible_data_are_refused() {
+    let material = glass(ActsOn::All, &[(1.0, 2708.0)]);
+    for value in [0.0, -1.0, f64::INFINITY] {
+        let refused = LawError::NotPositive { quantity: "approach_speed", value };
+        assert_eq!(ting(&material).impact(value), Err(refused));
+    }
+    let sized = ting(&material).with_finite_size(finite_size(&material));
+    assert!(matches!(sized.impact(100.0), Err(LawError::OutsideValidity { .. })));
+    assert!(FiniteSize::new(Some((0.0, &material)), None).is_err());
+}
