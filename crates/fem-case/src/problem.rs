@@ -204,11 +204,11 @@ fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
         }
     }
     check_elements(case, plan, elements)?;
-    check_memory(case, plan, elements, memory + state_memory(plan, elements))
+    check_memory(case, plan, elements, state_memory(plan, elements).saturating_add(memory))
 }
 
 fn state_memory(plan: &Plan, elements: u64) -> u64 {
-    elements * BYTES_PER_STATE * plan.snapshots.n_states() as u64
+    (elements * BYTES_PER_STATE).saturating_mul(plan.snapshots.n_states() as u64)
 }
 
 fn check_elements(case: &Case, plan: &Plan, elements: u64) -> Result<(), CaseError> {
@@ -299,8 +299,7 @@ fn cost(model: &Model, plan: &Plan) -> Cost {
         nodes,
         steps: steps as u64,
         element_updates: (steps * elements as f64) as u64,
-        memory: elements * BYTES_PER_ELEMENT
-            + branches * BYTES_PER_BRANCH
-            + state_memory(plan, elements),
+        memory: state_memory(plan, elements)
+            .saturating_add(elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH),
     }
 }

@@ -19,7 +19,7 @@ const LADDER_START: f64 = 0.02;
 /// States kept at most for so many snapshots evenly over the contact: two to
 /// four for each, and enough to find the middle of a few.
 pub(crate) fn n_kept(n_snapshots: usize) -> usize {
-    4 * n_snapshots.max(16)
+    n_snapshots.max(16).saturating_mul(4)
 }
 
 /// What the recorder is told of a step.
