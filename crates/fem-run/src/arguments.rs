@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{check, completions, mesh, run, sweep};
+use crate::commands::{check, completions, mesh, run, sweep, validate};
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
 ///
@@ -72,6 +72,7 @@ pub enum Command {
     Check(check::Arguments),
     Mesh(mesh::Arguments),
     Sweep(sweep::Arguments),
+    Validate(validate::Arguments),
     Completions(completions::Arguments),
 }
 

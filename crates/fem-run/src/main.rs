@@ -13,7 +13,6 @@
 mod arguments;
 mod assess;
 mod commands;
-mod engineering;
 mod failure;
 mod history_file;
 mod interrupt;
@@ -29,9 +28,12 @@ mod summarise;
 mod summary;
 mod sweep;
 mod tables;
+mod validation;
 
 use std::process::ExitCode;
 use std::time::Instant;
+
+use fem_figure::engineering;
 
 fn main() -> ExitCode {
     let started = Instant::now();

@@ -5,6 +5,7 @@ pub mod completions;
 pub mod mesh;
 pub mod run;
 pub mod sweep;
+pub mod validate;
 
 use std::time::Instant;
 
@@ -17,6 +18,7 @@ pub fn execute(arguments: Arguments, started: Instant) -> Result<(), Failure> {
         (Some(Command::Check(arguments)), _) => check::execute(&arguments),
         (Some(Command::Mesh(arguments)), _) => mesh::execute(&arguments),
         (Some(Command::Sweep(arguments)), _) => sweep::execute(&arguments),
+        (Some(Command::Validate(arguments)), _) => validate::execute(&arguments),
         (Some(Command::Completions(arguments)), _) => completions::execute(&arguments),
         (None, Some(input)) => run::execute(&input, &arguments.options, started),
         // clap prints its help when there are no arguments at all.

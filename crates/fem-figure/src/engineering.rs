@@ -29,6 +29,12 @@ impl Unit {
         }
     }
 
+    /// Shows so many digits instead of four.
+    pub fn with_digits(mut self, digits: usize) -> Self {
+        self.decimals = (self.decimals + digits).saturating_sub(DIGITS as usize);
+        self
+    }
+
     /// The prefix with the unit: `µs`.
     pub fn symbol(&self) -> &str {
         &self.symbol
@@ -68,5 +74,6 @@ mod tests {
         ] {
             assert_eq!(show(value, symbol), expected);
         }
+        assert_eq!(Unit::fitting(62.8212e-6, "s").with_digits(5).show(62.8212e-6), "62.821 µs");
     }
 }

@@ -1,0 +1,216 @@
+//! One panel: curves over an axis.
+
+use std::sync::Arc;
+
+use kuva::plot::legend::{LegendEntry, LegendShape};
+use kuva::prelude::{Layout, LinePlot, Plot, ScatterPlot, TickFormat};
+
+use crate::style::{COLOURS, tick};
+
+/// Free space beside the data on a logarithmic axis, as a factor.
+const MARGIN: f64 = 1.2;
+const LINE_WIDTH: f64 = 1.5;
+const POINT_SIZE: f64 = 3.5;
+const DASHES: &str = "8 4";
+
+/// An axis: what it shows, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    label: String,
+    is_logarithmic: bool,
+    range: Option<(f64, f64)>,
+}
+
+impl Axis {
+    /// A linear axis; the label names quantity and unit.
+    pub fn new(label: impl Into<String>) -> Self {
+        Self { label: label.into(), is_logarithmic: false, range: None }
+    }
+
+    /// A logarithmic one; points that are not positive are left out.
+    pub fn logarithmic(mut self) -> Self {
+        self.is_logarithmic = true;
+        self
+    }
+
+    /// From one value to another, whatever the data.
+    pub fn from_to(mut self, from: f64, to: f64) -> Self {
+        self.range = Some((from, to));
+        self
+    }
+
+    fn shows(&self, value: f64) -> bool {
+        let inside = self.range.is_none_or(|(from, to)| (from..=to).contains(&value));
+        value.is_finite() && inside && (!self.is_logarithmic || value > 0.0)
+    }
+
+    /// Given, or of logarithmic data with free space beside it.
+    fn limits(&self, values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+        if self.range.is_some() || !self.is_logarithmic {
+            return self.range;
+        }
+        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in values {
+            (from, to) = (from.min(value), to.max(value));
+        }
+        (from <= to).then_some((from / MARGIN, to * MARGIN))
+    }
+}
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// A line.
+    Line,
+    /// A dashed line: what the data is compared with.
+    Dashed,
+    /// Points alone.
+    Points,
+    /// Points on a line.
+    PointsOnLine,
+}
+
+/// Points (x, y) with a name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    label: String,
+    points: Vec<(f64, f64)>,
+    mark: Mark,
+    colour: Option<&'static str>,
+}
+
+impl Curve {
+    /// A curve; an empty label keeps it out of the legend.
+    pub fn new(label: impl Into<String>, mark: Mark, points: Vec<(f64, f64)>) -> Self {
+        Self { label: label.into(), points, mark, colour: None }
+    }
+
+    /// A line.
+    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, Mark::Line, points)
+    }
+
+    /// A dashed line.
+    pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, Mark::Dashed, points)
+    }
+
+    /// Points.
+    pub fn points(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, Mark::Points, points)
+    }
+
+    /// Points on a line.
+    pub fn points_on_line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Self::new(label, Mark::PointsOnLine, points)
+    }
+
+    /// In a colour of its own; else the chart gives one.
+    pub fn coloured(mut self, colour: &'static str) -> Self {
+        self.colour = Some(colour);
+        self
+    }
+
+    /// In the colour that the chart gives its k-th curve, from 0.
+    pub fn like_curve(self, k: usize) -> Self {
+        self.coloured(COLOURS[k % COLOURS.len()])
+    }
+}
+
+/// A panel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
+    x: Axis,
+    y: Axis,
+    title: Option<String>,
+    curves: Vec<Curve>,
+}
+
+impl Chart {
+    /// A panel without curves.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self { x, y, title: None, curves: Vec::new() }
+    }
+
+    /// A title above the panel.
+    pub fn titled(mut self, title: impl Into<String>) -> Self {
+        self.title = Some(title.into());
+        self
+    }
+
+    /// With one more curve.
+    pub fn with(mut self, curve: Curve) -> Self {
+        self.curves.push(curve);
+        self
+    }
+
+    /// Whether no point can be drawn.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.drawn().all(|(_, points, _)| points.is_empty())
+    }
+
+    /// Curves with their visible points and colours.
+    fn drawn(&self) -> impl Iterator<Item = (&Curve, Vec<(f64, f64)>, &'static str)> {
+        self.curves.iter().enumerate().map(|(k, curve)| {
+            let visible = |(x, y): &&(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
+            let points = curve.points.iter().filter(visible).copied().collect();
+            (curve, points, curve.colour.unwrap_or(COLOURS[k % COLOURS.len()]))
+        })
+    }
+
+    pub(crate) fn draw(&self) -> (Vec<Plot>, Layout) {
+        let mut plots: Vec<Plot> = Vec::new();
+        let mut all = Vec::new();
+        for (curve, points, colour) in self.drawn() {
+            all.extend_from_slice(&points);
+            if curve.mark != Mark::Points && !points.is_empty() {
+                let line = LinePlot::new().with_data(points.clone()).with_color(colour);
+                let line = line.with_stroke_width(LINE_WIDTH);
+                plots.push(match curve.mark {
+                    Mark::Dashed => line.with_dashed().into(),
+                    _ => line.into(),
+                });
+            }
+            if matches!(curve.mark, Mark::Points | Mark::PointsOnLine) && !points.is_empty() {
+                let points = ScatterPlot::new().with_data(points).with_color(colour);
+                plots.push(points.with_size(POINT_SIZE).into());
+            }
+        }
+        let mut layout = Layout::auto_from_plots(&plots)
+            .with_x_label(self.x.label.clone())
+            .with_y_label(self.y.label.clone())
+            .with_tick_format(TickFormat::Custom(Arc::new(tick)));
+        if let Some(title) = &self.title {
+            layout = layout.with_title(title.clone());
+        }
+        if self.x.is_logarithmic {
+            layout = layout.with_log_x();
+        }
+        if self.y.is_logarithmic {
+            layout = layout.with_log_y();
+        }
+        if let Some((from, to)) = self.x.limits(all.iter().map(|point| point.0)) {
+            layout = layout.with_x_axis_min(from).with_x_axis_max(to);
+        }
+        if let Some((from, to)) = self.y.limits(all.iter().map(|point| point.1)) {
+            layout = layout.with_y_axis_min(from).with_y_axis_max(to);
+        }
+        (plots, layout)
+    }
+
+    pub(crate) fn legend(&self) -> Vec<LegendEntry> {
+        let named = self.drawn().filter(|(curve, ..)| !curve.label.is_empty());
+        named
+            .map(|(curve, _, colour)| LegendEntry {
+                label: curve.label.clone(),
+                color: colour.to_string(),
+                shape: if curve.mark == Mark::Points {
+                    LegendShape::Circle
+                } else {
+                    LegendShape::Line
+                },
+                dasharray: (curve.mark == Mark::Dashed).then(|| DASHES.to_string()),
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,39 @@
+//! Panels side by side with one legend.
+
+use kuva::backend::svg::SvgBackend;
+use kuva::plot::legend::LegendEntry;
+use kuva::prelude::Figure;
+
+use crate::chart::Chart;
+
+const PANEL_WIDTH: f64 = 480.0;
+const PANEL_HEIGHT: f64 = 340.0;
+/// Entries that a legend can tell apart.
+const LONGEST_LEGEND: usize = 15;
+
+/// The charts, two in a row, as one SVG document; `None` if there is no point to draw.
+///
+/// Curves of the same name share an entry of the legend.
+pub fn svg(charts: &[Chart]) -> Option<String> {
+    let charts: Vec<&Chart> = charts.iter().filter(|chart| !chart.is_empty()).collect();
+    if charts.is_empty() {
+        return None;
+    }
+    let mut legend: Vec<LegendEntry> = Vec::new();
+    for entry in charts.iter().flat_map(|chart| chart.legend()) {
+        let is_known = legend.iter().any(|known| known.label == entry.label);
+        if !is_known && legend.len() < LONGEST_LEGEND {
+            legend.push(entry);
+        }
+    }
+    let columns = if charts.len() == 1 { 1 } else { 2 };
+    let (plots, layouts): (Vec<_>, Vec<_>) = charts.iter().map(|chart| chart.draw()).unzip();
+    let mut figure = Figure::new(charts.len().div_ceil(columns), columns)
+        .with_plots(plots)
+        .with_layouts(layouts)
+        .with_cell_size(PANEL_WIDTH, PANEL_HEIGHT);
+    if !legend.is_empty() {
+        figure = figure.with_shared_legend().with_shared_legend_entries(legend);
+    }
+    Some(SvgBackend::new().render_scene(&figure.render()) + "\n")
+}

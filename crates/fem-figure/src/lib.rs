@@ -1,0 +1,22 @@
+//! Results as people read them: pictures as self-contained SVG, numbers with fitting units.
+//!
+//! A [`Chart`] is drawn by [`kuva`]; what is said here is the house style: colours that
+//! colour-blind eyes tell apart, short tick labels, room around the data of logarithmic axes.
+//!
+//! ```
+//! use fem_figure::{Axis, Chart, Curve};
+//!
+//! let chart = Chart::new(Axis::new("speed [m/s]").logarithmic(), Axis::new("restitution"))
+//!     .with(Curve::line("computed", vec![(0.1, 0.95), (1.0, 0.93)]))
+//!     .with(Curve::points("measured", vec![(0.5, 0.925)]));
+//! assert!(fem_figure::svg(&[chart]).is_some_and(|svg| svg.starts_with("<svg")));
+//! ```
+
+mod chart;
+pub mod engineering;
+mod grid;
+mod style;
+
+pub use chart::{Axis, Chart, Curve, Mark};
+pub use grid::svg;
+pub use style::{COLOURS, GREY, tick};

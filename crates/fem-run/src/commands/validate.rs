@@ -1,0 +1,178 @@
+//! `fem-run validate [NAME…]`: runs the claims of a folder and says which hold.
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem_validate::{Claim, ClaimResult, Section, Shelf, evaluate, load_claims, markdown};
+use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
+
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::result_folder::ResultFolder;
+use crate::standard_output::{self, one_line};
+use crate::tables::table;
+use crate::validation::{Board, PAGE_FILE, write_files};
+
+/// Hold the program against theory, other programs and the paper
+///
+/// Runs the claims of a folder, all or those that are named, prints a table and writes a page with
+/// pictures that needs nothing else. Exit status 1 if a claim fails.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// Claims to run, by the names of their folders [default: all]
+    #[arg(value_name = "NAME")]
+    names: Vec<String>,
+    /// Folder of the claims
+    #[arg(long, value_name = "DIR", default_value = "validation")]
+    claims: PathBuf,
+    /// Folder for the page, the table and the pictures
+    #[arg(long, value_name = "DIR", default_value = "runs/validation")]
+    out: PathBuf,
+    /// Also write the table as Markdown; for all claims only
+    #[arg(long, value_name = "FILE")]
+    table: Option<PathBuf>,
+    /// Threads to use [default: one a processor]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    threads: Option<NonZeroUsize>,
+    /// List the claims and run none
+    #[arg(long)]
+    list: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Runs claims.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let claims = load_claims(&arguments.claims, &arguments.names).map_err(|error| {
+        Failure::bad_input(one_line(&error.to_string())).with_help(
+            "the claims are the folders of `validation` in the source of fem-run; run it there, or \
+             name another folder with --claims",
+        )
+    })?;
+    if claims.is_empty() {
+        let place = one_line(&arguments.claims.display().to_string());
+        return Err(Failure::bad_input(format!("{place}: no folder in it has a claim.toml")));
+    }
+    if arguments.list {
+        return standard_output::print(&listing(&claims));
+    }
+    if arguments.table.is_some() && !arguments.names.is_empty() {
+        return Err(Failure::bad_input("--table is for all claims: leave the names out"));
+    }
+    let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp")?;
+    let interrupt = Interrupt::listen();
+    let results = run(&claims, arguments, &interrupt)?;
+    let is_complete = results.len() == claims.len();
+    write_files(folder.path(), &results, is_complete)?;
+    let place = folder.publish()?;
+    if let Some(path) = arguments.table.as_ref().filter(|_| is_complete) {
+        fs::write(path, markdown(&results))
+            .map_err(|error| Failure::failed(format!("{}: {error}", path.display())))?;
+    }
+    if !arguments.quiet {
+        standard_output::print(&report(&results, &place))?;
+    }
+    conclude(&results, claims.len())
+}
+
+/// The results of the claims that were not interrupted.
+fn run(
+    claims: &[Claim],
+    arguments: &Arguments,
+    interrupt: &Interrupt,
+) -> Result<Vec<ClaimResult>, Failure> {
+    let threads = arguments.threads.map_or(0, NonZeroUsize::get);
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
+    let board = Board::new(interrupt.clone(), claims.len(), arguments.quiet);
+    let shelf = Shelf::default();
+    let results = pool.install(|| {
+        let evaluated = claims.par_iter().map(|claim| {
+            let result = evaluate(claim, &shelf, &board);
+            if !board.was_interrupted() {
+                board.finish_claim(&result);
+            }
+            result
+        });
+        evaluated.collect::<Vec<_>>()
+    });
+    board.finish();
+    let is_whole =
+        |result: &ClaimResult| !matches!(result.error, Some(fem_validate::StudyError::Interrupted));
+    Ok(results.into_iter().filter(is_whole).collect())
+}
+
+fn listing(claims: &[Claim]) -> String {
+    let rows = claims.iter().map(|claim| {
+        [claim.name.clone(), claim.section.heading().to_string(), claim.title.clone()]
+    });
+    table(&[Left, Left, Left], rows)
+}
+
+/// All checks by section, and where the page is.
+fn report(results: &[ClaimResult], place: &Path) -> String {
+    let mut text = String::new();
+    for section in Section::ALL {
+        let claims: Vec<_> =
+            results.iter().filter(|result| result.claim.section == section).collect();
+        if claims.is_empty() {
+            continue;
+        }
+        let header =
+            ["claim", "quantity", "reference", "ours", "difference", "tolerance", "verdict"];
+        let rows = claims.into_iter().flat_map(rows);
+        let rows = std::iter::once(header.map(String::from)).chain(rows);
+        text += &format!("{}\n\n", section.heading());
+        text += &table(&[Left, Left, Right, Right, Right, Right, Left], rows);
+        text += "\n";
+    }
+    let n_checks: usize = results.iter().map(|result| result.checks.len()).sum();
+    text += &format!("{} claims, {n_checks} checks\n", results.len());
+    text + &format!("Page: {}\n", one_line(&place.join(PAGE_FILE).display().to_string()))
+}
+
+fn rows(result: &ClaimResult) -> Vec<[String; 7]> {
+    let name = result.claim.name.clone();
+    if let Some(error) = &result.error {
+        let mut row = [const { String::new() }; 7];
+        (row[0], row[1], row[6]) = (name, one_line(&error.to_string()), "FAIL".into());
+        return vec![row];
+    }
+    let row = |(k, check): (usize, &fem_validate::CheckResult)| {
+        [
+            if k == 0 { name.clone() } else { String::new() },
+            check.check.label.clone(),
+            check.check.reference_text(),
+            check.measured_text(),
+            check.difference_text(),
+            check.check.tolerance_text(),
+            check.verdict().to_string(),
+        ]
+    };
+    result.checks.iter().enumerate().map(row).collect()
+}
+
+/// Success, or which claims failed, or that not all were tried.
+fn conclude(results: &[ClaimResult], n_claims: usize) -> Result<(), Failure> {
+    let failed: Vec<&str> = results
+        .iter()
+        .filter(|result| !result.passed())
+        .map(|result| result.claim.name.as_str())
+        .collect();
+    if results.len() < n_claims {
+        let message = format!("interrupted: {} of {n_claims} claims are done", results.len());
+        return Err(Failure::interrupted(message).with_help("the page shows those"));
+    }
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let message = format!("{} of {n_claims} claims fail: {}", failed.len(), failed.join(", "));
+    Err(Failure::failed(message).with_help(
+        "likely cause: a change of a formula or of a default; the page shows by how much. Run one \
+         alone with `fem-run validate NAME`",
+    ))
+}

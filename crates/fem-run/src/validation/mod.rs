@@ -1,0 +1,7 @@
+//! Progress and files of `fem-run validate`.
+
+mod board;
+mod files;
+
+pub use board::Board;
+pub use files::{PAGE_FILE, write_files};

@@ -1,0 +1,79 @@
+//! What can go wrong with claims.
+
+use std::path::PathBuf;
+
+use fem_case::CaseError;
+use fem_explicit::{ModelError, Stop};
+use fem_laws::LawError;
+use fem_mesh::MeshError;
+
+/// A folder of claims that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ClaimError {
+    /// A file or folder cannot be read.
+    #[error("{}: {error}", path.display())]
+    Unreadable {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: std::io::Error,
+    },
+    /// A claim file says something that it cannot.
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    Invalid {
+        /// Which file.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// From 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// No such claim.
+    #[error("there is no claim `{name}`; the claims are {known}")]
+    Unknown {
+        /// As asked.
+        name: String,
+        /// All, with commas.
+        known: String,
+    },
+}
+
+/// A study that could not measure what it is for.
+#[derive(Debug, Clone, thiserror::Error)]
+pub enum StudyError {
+    /// A case that cannot be read or prepared.
+    #[error("{0}")]
+    Case(#[from] CaseError),
+    /// A run that did not end by itself.
+    #[error("{title}: {stop}")]
+    Stopped {
+        /// Of the case.
+        title: String,
+        /// Why.
+        stop: Stop,
+    },
+    /// The user wants to stop.
+    #[error("interrupted")]
+    Interrupted,
+    /// A closed form or law that refuses the numbers.
+    #[error("{0}")]
+    Law(#[from] LawError),
+    /// A mesh that cannot be made.
+    #[error("{0}")]
+    Mesh(#[from] MeshError),
+    /// A model that cannot be made.
+    #[error("{0}")]
+    Model(#[from] ModelError),
+    /// Parameters of the study that do not fit it.
+    #[error("{0}")]
+    Parameters(String),
+}
+
+impl StudyError {
+    /// Something about the parameters.
+    pub fn parameters(message: impl Into<String>) -> Self {
+        Self::Parameters(message.into())
+    }
+}

@@ -1,0 +1,50 @@
+//! A claim and its verdict.
+
+use crate::check::CheckResult;
+use crate::claim::Claim;
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::{Laboratory, Observer, Shelf};
+use crate::price::Price;
+
+/// A claim that was tried.
+#[derive(Debug, Clone)]
+pub struct ClaimResult {
+    /// The claim.
+    pub claim: Claim,
+    /// Its checks, in the order of the claim; none were made if the study failed.
+    pub checks: Vec<CheckResult>,
+    /// What else the study found.
+    pub findings: Findings,
+    /// Why the study failed.
+    pub error: Option<StudyError>,
+    /// What it cost.
+    pub price: Price,
+}
+
+impl ClaimResult {
+    /// Whether all checks were made and passed.
+    pub fn passed(&self) -> bool {
+        self.error.is_none() && self.checks.iter().all(|check| check.passed)
+    }
+}
+
+/// Runs a claim's study and makes its checks.
+pub fn evaluate(claim: &Claim, shelf: &Shelf, observer: &dyn Observer) -> ClaimResult {
+    let laboratory = Laboratory::new(claim, shelf, observer);
+    let outcome = (claim.study)(&laboratory);
+    let price = laboratory.price();
+    let claim = claim.clone();
+    match outcome {
+        Ok(findings) => {
+            let measured = |quantity: &str| findings.quantities.get(quantity).copied();
+            let judge = |check: &crate::Check| check.judge(measured(&check.quantity));
+            let checks = claim.checks.iter().map(judge).collect();
+            ClaimResult { checks, claim, findings, error: None, price }
+        }
+        Err(error) => {
+            let findings = Findings::default();
+            ClaimResult { claim, checks: Vec::new(), findings, error: Some(error), price }
+        }
+    }
+}

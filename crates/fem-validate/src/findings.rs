@@ -1,0 +1,79 @@
+//! What a study found.
+
+use std::collections::BTreeMap;
+
+use fem_figure::Chart;
+
+/// A picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// A name for a file, unique in a claim: letters, digits, `_`.
+    pub name: String,
+    /// One or two sentences: what is seen, and what it says.
+    pub caption: String,
+    /// A self-contained SVG document.
+    pub svg: String,
+}
+
+/// Numbers in rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// What the table shows.
+    pub caption: String,
+    /// Of the columns.
+    pub header: Vec<String>,
+    /// Each as long as the header.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// What a study found.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Findings {
+    /// By name, SI.
+    pub quantities: BTreeMap<String, f64>,
+    /// In the order in which they are shown.
+    pub figures: Vec<Figure>,
+    /// In the order in which they are shown.
+    pub tables: Vec<Table>,
+}
+
+impl Findings {
+    /// Nothing yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A measured quantity, SI.
+    pub fn measure(&mut self, quantity: impl Into<String>, value: f64) {
+        self.quantities.insert(quantity.into(), value);
+    }
+
+    /// The larger of a quantity so far and a value; NaN stays.
+    pub fn measure_worst(&mut self, quantity: &str, value: f64) {
+        let worst = self.quantities.entry(quantity.to_string()).or_insert(value);
+        if value.is_nan() || value > *worst {
+            *worst = value;
+        }
+    }
+
+    /// Charts side by side; nothing if they have no points.
+    pub fn draw(&mut self, name: &str, caption: impl Into<String>, charts: &[Chart]) {
+        if let Some(svg) = fem_figure::svg(charts) {
+            self.figures.push(Figure { name: name.into(), caption: caption.into(), svg });
+        }
+    }
+
+    /// A table.
+    pub fn tabulate<const N: usize>(
+        &mut self,
+        caption: impl Into<String>,
+        header: [&str; N],
+        rows: impl IntoIterator<Item = [String; N]>,
+    ) {
+        self.tables.push(Table {
+            caption: caption.into(),
+            header: header.map(String::from).to_vec(),
+            rows: rows.into_iter().map(|row| row.to_vec()).collect(),
+        });
+    }
+}

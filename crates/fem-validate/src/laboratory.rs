@@ -1,0 +1,196 @@
+//! Runs the cases of a claim.
+
+use std::collections::HashMap;
+use std::path::Component::{Normal, ParentDir};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use fem_case::{Case, Problem};
+use fem_explicit::{Collision, Monitor, Progress, Stop};
+use rayon::prelude::*;
+use serde::de::DeserializeOwned;
+
+use crate::claim::{Claim, RunFile};
+use crate::error::StudyError;
+use crate::price::Price;
+
+/// Looks on while claims are evaluated, from several threads.
+pub trait Observer: Sync {
+    /// Seconds since whenever; the only clock of the studies.
+    fn clock(&self) -> f64;
+    /// Whether the user wants to stop.
+    fn is_interrupted(&self) -> bool;
+}
+
+/// A case and what came out of it; the run ended by itself.
+#[derive(Debug)]
+pub struct Run {
+    /// Case, plan, meshes and model.
+    pub problem: Problem,
+    /// The result.
+    pub collision: Collision,
+    /// The restitution.
+    pub restitution: f64,
+    /// First to last contact, s.
+    pub contact_time: f64,
+    /// What the run took, s.
+    pub seconds: f64,
+}
+
+impl Run {
+    /// Centre pressure over Hertz' at this run's own peak force: free of the error in force.
+    pub fn pressure_over_hertz_at_force(&self) -> f64 {
+        let hertz = self.problem.plan.estimate.hertz;
+        let at_force =
+            hertz.peak_pressure() * (self.collision.peak_force / hertz.peak_force()).cbrt();
+        self.collision.peak_pressure / at_force
+    }
+}
+
+type Slot = Arc<OnceLock<Result<Arc<Run>, StudyError>>>;
+
+/// The runs that claims share: a case is run once.
+#[derive(Debug, Default)]
+pub struct Shelf(Mutex<HashMap<String, Slot>>);
+
+/// Where a study runs the cases of its claim.
+pub struct Laboratory<'a> {
+    claim: &'a Claim,
+    shelf: &'a Shelf,
+    observer: &'a dyn Observer,
+    price: Mutex<Price>,
+}
+
+impl<'a> Laboratory<'a> {
+    /// For a claim.
+    pub fn new(claim: &'a Claim, shelf: &'a Shelf, observer: &'a dyn Observer) -> Self {
+        Self { claim, shelf, observer, price: Mutex::default() }
+    }
+
+    /// The claim.
+    pub fn claim(&self) -> &Claim {
+        self.claim
+    }
+
+    /// The study's parameters.
+    ///
+    /// # Errors
+    /// Parameters that are missing, unknown or of the wrong type.
+    pub fn parameters<T: DeserializeOwned>(&self) -> Result<T, StudyError> {
+        let table = self.claim.parameters.clone();
+        table.try_into().map_err(|error| StudyError::parameters(format!("[parameters]: {error}")))
+    }
+
+    /// A case of the claim by the name of its `[run.NAME]`, with overrides after its own.
+    ///
+    /// # Errors
+    /// No such run; what is wrong with the case.
+    pub fn case(&self, run: &str, overrides: &[String]) -> Result<Case, StudyError> {
+        let RunFile { case, set } = self.claim.runs.get(run).ok_or_else(|| {
+            StudyError::parameters(format!("the claim has no [run.{run}], which the study needs"))
+        })?;
+        let overrides: Vec<String> = set.iter().chain(overrides).cloned().collect();
+        Ok(Case::load(&tidy(&self.claim.folder.join(case)), &overrides)?)
+    }
+
+    /// Runs a case, or takes the result of an earlier run of it.
+    ///
+    /// # Errors
+    /// A case that cannot be prepared, a run that does not end by itself, an interrupt.
+    pub fn run(&self, case: Case) -> Result<Arc<Run>, StudyError> {
+        if self.observer.is_interrupted() {
+            return Err(StudyError::Interrupted);
+        }
+        let problem = Problem::new(case)?;
+        let mut file = problem.plan.resolve(&problem.case);
+        file.title = None;
+        let key = file.to_toml().map_err(|error| StudyError::parameters(error.to_string()))?;
+        let slot = {
+            let mut shelf = self.shelf.0.lock().unwrap_or_else(PoisonError::into_inner);
+            shelf.entry(key).or_default().clone()
+        };
+        let result = slot.get_or_init(|| self.collide(problem)).clone();
+        if let Ok(run) = &result {
+            self.pay(run.collision.element_updates, run.seconds);
+        }
+        result
+    }
+
+    /// Runs cases on all cores; results in the order of the cases.
+    ///
+    /// # Errors
+    /// As [`Laboratory::run`], of the first case that has one.
+    pub fn run_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Run>>, StudyError> {
+        cases.into_par_iter().map(|case| self.run(case)).collect()
+    }
+
+    /// Does some other work than [`Laboratory::run`], which says how many element updates it took.
+    ///
+    /// # Errors
+    /// Those of the work.
+    pub fn work<T>(
+        &self,
+        work: impl FnOnce() -> Result<(T, u64), StudyError>,
+    ) -> Result<T, StudyError> {
+        if self.observer.is_interrupted() {
+            return Err(StudyError::Interrupted);
+        }
+        let started = self.observer.clock();
+        let (result, element_updates) = work()?;
+        self.pay(element_updates, self.observer.clock() - started);
+        Ok(result)
+    }
+
+    /// What the claim has cost so far.
+    pub(crate) fn price(&self) -> Price {
+        *self.price.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn pay(&self, element_updates: u64, seconds: f64) {
+        let mut price = self.price.lock().unwrap_or_else(PoisonError::into_inner);
+        price.runs += 1;
+        price.element_updates += element_updates;
+        price.seconds += seconds;
+    }
+
+    fn collide(&self, mut problem: Problem) -> Result<Arc<Run>, StudyError> {
+        let started = self.observer.clock();
+        let collision = problem.run(&mut Listener(self.observer));
+        let seconds = self.observer.clock() - started;
+        let title = problem.case.scene.title.clone();
+        match (&collision.stopped, collision.restitution) {
+            (Some(Stop::Interrupted { .. }), _) => Err(StudyError::Interrupted),
+            (Some(stop), _) => Err(StudyError::Stopped { title, stop: stop.clone() }),
+            (None, None) => Err(StudyError::parameters(format!("{title}: no restitution"))),
+            (None, Some(restitution)) => {
+                let contact_time =
+                    collision.last_contact.zip(collision.first_contact).map_or(0.0, |(b, a)| b - a);
+                let run = Run { problem, collision, restitution, contact_time, seconds };
+                Ok(Arc::new(run))
+            }
+        }
+    }
+}
+
+/// A path without `..` where that needs no look at the disk.
+fn tidy(path: &Path) -> PathBuf {
+    let mut tidy = PathBuf::new();
+    for part in path.components() {
+        match (part, tidy.components().next_back()) {
+            (ParentDir, Some(Normal(_))) => {
+                tidy.pop();
+            }
+            _ => tidy.push(part),
+        }
+    }
+    tidy
+}
+
+/// Passes an interrupt on to a run.
+struct Listener<'a>(&'a dyn Observer);
+
+impl Monitor for Listener<'_> {
+    fn report(&mut self, _: Progress) -> bool {
+        !self.0.is_interrupted()
+    }
+}

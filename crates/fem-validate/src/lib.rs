@@ -1,0 +1,36 @@
+//! Claims about this program's results, each held against a reference that it did not compute.
+//!
+//! ```text
+//! validation/NAME/claim.toml ─ Claim ─ study ─────────────── Findings ─ checks ─ ClaimResult
+//!   what is claimed, cases,            one file in studies/   measured            page, table
+//!   references, tolerances             runs the cases         quantities
+//! ```
+//!
+//! A [`Claim`] is data: the cases, and for each quantity a reference with its source and a
+//! tolerance with its reason. How quantities are measured is code: the claim names one of the
+//! [`studies`](study_names). A [`Laboratory`] runs cases on all cores, each once.
+//! [`evaluate`] makes a [`ClaimResult`] of a claim; [`page`] and [`markdown`] show many.
+
+mod check;
+mod claim;
+mod error;
+mod evaluate;
+mod findings;
+mod laboratory;
+mod markdown;
+
+mod page;
+mod position;
+mod price;
+mod studies;
+
+pub use check::{Check, CheckResult, Kind, Tolerance};
+pub use claim::{Claim, RunFile, Section, load_claims};
+pub use error::{ClaimError, StudyError};
+pub use evaluate::{ClaimResult, evaluate};
+pub use findings::{Figure, Findings, Table};
+pub use laboratory::{Laboratory, Observer, Run, Shelf};
+pub use markdown::markdown;
+pub use page::page;
+pub use price::Price;
+pub use studies::study_names;

@@ -1,0 +1,63 @@
+//! The table of results for the documentation.
+
+use std::fmt::Write;
+
+use crate::claim::Section;
+use crate::evaluate::ClaimResult;
+
+/// A Markdown page: a table a section, a row a check. It says nothing that changes from run to
+/// run on the same program: no times, no machine.
+pub fn markdown(results: &[ClaimResult]) -> String {
+    let mut text = String::from(
+        "<!-- Written by `fem-run validate --table docs/validation.md`; not by hand. -->\n\
+         # What is claimed, and how far it holds\n\n\
+         Each claim is a folder in [validation](../validation): cases, references with their \
+         sources, tolerances with their reasons. `fem-run validate` runs them all and writes a \
+         page with the pictures; this table is made by the same command.\n\n\
+         The *kind* of a reference says what it is worth: **analytic**, a closed form or a \
+         limit; **published**, a number of others; **cross-code**, measured on another program; \
+         **regression**, an earlier number of this program.\n",
+    );
+    for section in Section::ALL {
+        let mut claims = results.iter().filter(|result| result.claim.section == section).peekable();
+        if claims.peek().is_none() {
+            continue;
+        }
+        let _ = write!(
+            text,
+            "\n## {}\n\n| claim | quantity | kind | reference | ours | difference | tolerance \
+             | verdict |\n|---|---|---|---|---|---|---|---|\n",
+            section.heading()
+        );
+        for result in claims {
+            rows(&mut text, result);
+        }
+    }
+    text
+}
+
+fn rows(text: &mut String, result: &ClaimResult) {
+    let name = &result.claim.name;
+    let link = format!("[{name}](../validation/{name}/claim.toml)");
+    if let Some(error) = &result.error {
+        let error = error.to_string().replace('\n', " ");
+        let _ = writeln!(text, "| {link} | {} | | | | | | FAIL |", cell(&error));
+    }
+    for (k, check) in result.checks.iter().enumerate() {
+        let cells = [
+            if k == 0 { link.clone() } else { String::new() },
+            cell(&check.check.label),
+            check.check.kind.to_string(),
+            check.check.reference_text(),
+            check.measured_text(),
+            check.difference_text(),
+            check.check.tolerance_text(),
+            check.verdict().to_string(),
+        ];
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+}
+
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
