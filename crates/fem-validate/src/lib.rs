@@ -21,7 +21,9 @@ mod markdown;
 
 mod page;
 mod position;
+mod power_law;
 mod price;
+mod reduced;
 mod studies;
 
 pub use check::{Check, CheckResult, Kind, Tolerance};

@@ -1,6 +1,8 @@
 //! How quantities are measured: one study a file.
 
+mod convergence;
 mod summary;
+mod viscoelastic;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
@@ -10,7 +12,11 @@ use crate::laboratory::Laboratory;
 pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 
 /// All studies by the names that claims call them.
-const STUDIES: &[(&str, Study)] = &[("summary", summary::study)];
+const STUDIES: &[(&str, Study)] = &[
+    ("convergence", convergence::study),
+    ("summary", summary::study),
+    ("viscoelastic", viscoelastic::study),
+];
 
 /// The names that claims can call.
 pub fn study_names() -> impl Iterator<Item = &'static str> {

@@ -1,0 +1,109 @@
+//! What a case converges to as the elements get smaller, and how fast.
+//!
+//! For each quantity q of the collision q(h) = q₀ + C hᵖ is fitted to the levels:
+//! `NAME.limit`, `NAME.order`, and `NAME.uncertainty`, the largest move of the limit when a level
+//! is left out, relative to it.
+
+use std::sync::Arc;
+
+use fem_explicit::Label;
+use fem_figure::{Axis, Chart, Curve, engineering::show};
+use serde::Deserialize;
+
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::{Laboratory, Run};
+use crate::power_law::PowerLaw;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Element sizes at the contact, m, the largest first.
+    contact_element_sizes: Vec<f64>,
+}
+
+/// Name, symbol, unit and value of a quantity.
+type Quantity = (&'static str, &'static str, &'static str, fn(&Run) -> f64);
+
+const QUANTITIES: [Quantity; 5] = [
+    ("restitution", "e", "", |run| run.restitution),
+    ("contact_time", "T", "s", |run| run.contact_time),
+    ("peak_force", "F", "N", |run| run.collision.peak_force),
+    ("contact_radius", "a", "m", profile_radius),
+    ("peak_pressure", "p0", "Pa", |run| run.collision.peak_pressure),
+];
+
+/// Runs the case `base` at each element size.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let Parameters { contact_element_sizes: sizes } = laboratory.parameters()?;
+    let case =
+        |size: &f64| laboratory.case("base", &[format!("mesh.contact_element_size={size:?}")]);
+    let runs = laboratory.run_all(sizes.iter().map(case).collect::<Result<_, _>>()?)?;
+    let mut findings = Findings::new();
+    let mut chart = Chart::new(
+        Axis::new("element size [µm]").logarithmic(),
+        Axis::new("|q − limit| / limit").logarithmic(),
+    );
+    for (name, symbol, _, value) in QUANTITIES {
+        let levels: Vec<_> =
+            sizes.iter().zip(&runs).map(|(size, run)| (*size, value(run))).collect();
+        let Some(fit) = PowerLaw::fit(&levels) else {
+            return Err(StudyError::parameters("a fit needs four element sizes or more"));
+        };
+        findings.measure(format!("{name}.limit"), fit.limit);
+        findings.measure(format!("{name}.order"), fit.order);
+        findings.measure(format!("{name}.uncertainty"), fit.uncertainty / fit.limit.abs());
+        // The restitution of elastic bodies has nothing to converge from.
+        let points = levels.iter().map(|(h, q)| (1e6 * h, (q / fit.limit - 1.0).abs()));
+        chart = chart.with(Curve::points_on_line(symbol, points.collect()));
+    }
+    let worst = |run: &Run| run.collision.residual_relative;
+    findings.measure("energy_residual", runs.iter().map(|run| worst(run)).fold(0.0, f64::max));
+    let slope = sizes.iter().map(|h| (1e6 * h, 1e-3 * h / sizes[0])).collect();
+    chart = chart.with(Curve::dashed("first order", slope).coloured(fem_figure::GREY));
+    findings.draw(
+        "levels",
+        "Distance of each quantity from its own extrapolated limit over the element size, and the \
+         slope of first order.",
+        &[chart],
+    );
+    tabulate(&mut findings, &sizes, &runs);
+    Ok(findings)
+}
+
+fn tabulate(findings: &mut Findings, sizes: &[f64], runs: &[Arc<Run>]) {
+    let rows = sizes.iter().zip(runs).map(|(size, run)| {
+        let [e, t, f, a, p] = QUANTITIES.map(|(.., unit, value)| {
+            let value = value(run);
+            if unit.is_empty() { format!("{value:.6}") } else { show(value, unit) }
+        });
+        [show(*size, "m"), e, t, f, a, p, format!("{:.1e}", run.collision.element_updates as f64)]
+    });
+    let header = ["element size", "e", "T", "F", "a", "p0", "element updates"];
+    findings.tabulate("The levels.", header, rows);
+}
+
+/// Contact radius at maximum compression, m, as the root of p² = α − β r² fitted to the nodal
+/// pressures, whose area an r weighs: free of where a node happens to lie at the edge. NaN without
+/// a snapshot of the maximum.
+fn profile_radius(run: &Run) -> f64 {
+    let snapshots = &run.collision.snapshots;
+    let Some(snapshot) = snapshots.iter().find(|s| s.label == Some(Label::Maximum)) else {
+        return f64::NAN;
+    };
+    let interface = run.problem.model.interface();
+    let u = snapshot.bodies.each_ref().map(|body| body.displacement.as_slice());
+    let edge = interface.contact_radius(u);
+    let mut sums = [0.0; 5];
+    for (r, p) in interface.nodal_pressure(u).filter(|(r, _)| (0.1..0.8).contains(&(r / edge))) {
+        let (x, y) = ((r / edge).powi(2), p * p);
+        let terms = [1.0, x, x * x, y, x * y];
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            *sum += r * term;
+        }
+    }
+    let [s0, s1, s2, y0, y1] = sums;
+    // α and −β up to the same factor.
+    let (alpha, slope) = (y0 * s2 - y1 * s1, s0 * y1 - s1 * y0);
+    edge * (-alpha / slope).sqrt()
+}
