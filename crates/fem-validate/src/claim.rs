@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::Component::{Normal, ParentDir};
 use std::path::{Path, PathBuf};
 
+use fem_case::{Case, CaseError};
 use serde::Deserialize;
 use serde::de::Error as _;
 
@@ -77,6 +79,31 @@ pub struct Claim {
     pub checks: Vec<Check>,
     /// Measures the quantities.
     pub(crate) study: Study,
+}
+
+impl Claim {
+    /// A case of the claim, with overrides after its own.
+    ///
+    /// # Errors
+    /// What is wrong with the case.
+    pub(crate) fn load_case(&self, run: &RunFile, overrides: &[String]) -> Result<Case, CaseError> {
+        let overrides: Vec<String> = run.set.iter().chain(overrides).cloned().collect();
+        Case::load(&tidy(&self.folder.join(&run.case)), &overrides)
+    }
+}
+
+/// A path without `..` where that needs no look at the disk.
+fn tidy(path: &Path) -> PathBuf {
+    let mut tidy = PathBuf::new();
+    for part in path.components() {
+        match (part, tidy.components().next_back()) {
+            (ParentDir, Some(Normal(_))) => {
+                tidy.pop();
+            }
+            _ => tidy.push(part),
+        }
+    }
+    tidy
 }
 
 #[derive(Deserialize)]
@@ -200,7 +227,7 @@ fn read(name: String, folder: PathBuf) -> Result<Claim, ClaimError> {
         invalid(toml::de::Error::custom(message))
     })?;
     let paragraphs = file.discussion.split("\n\n").map(str::trim);
-    Ok(Claim {
+    let claim = Claim {
         name,
         folder,
         title: file.title,
@@ -211,5 +238,9 @@ fn read(name: String, folder: PathBuf) -> Result<Claim, ClaimError> {
         parameters: file.parameters,
         checks: file.check.into_iter().map(|check| check.0).collect(),
         study,
-    })
+    };
+    for run in claim.runs.values() {
+        claim.load_case(run, &[])?;
+    }
+    Ok(claim)
 }

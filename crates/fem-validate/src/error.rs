@@ -30,6 +30,9 @@ pub enum ClaimError {
         /// What is wrong.
         message: String,
     },
+    /// A case of a claim that cannot be read.
+    #[error("{0}")]
+    Case(#[from] CaseError),
     /// No such claim.
     #[error("there is no claim `{name}`; the claims are {known}")]
     Unknown {

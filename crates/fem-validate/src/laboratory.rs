@@ -1,8 +1,6 @@
 //! Runs the cases of a claim.
 
 use std::collections::HashMap;
-use std::path::Component::{Normal, ParentDir};
-use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fem_case::{Case, Problem};
@@ -10,7 +8,7 @@ use fem_explicit::{Collision, Monitor, Progress, Stop};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 
-use crate::claim::{Claim, RunFile};
+use crate::claim::Claim;
 use crate::error::StudyError;
 use crate::price::Price;
 
@@ -86,11 +84,10 @@ impl<'a> Laboratory<'a> {
     /// # Errors
     /// No such run; what is wrong with the case.
     pub fn case(&self, run: &str, overrides: &[String]) -> Result<Case, StudyError> {
-        let RunFile { case, set } = self.claim.runs.get(run).ok_or_else(|| {
+        let file = self.claim.runs.get(run).ok_or_else(|| {
             StudyError::parameters(format!("the claim has no [run.{run}], which the study needs"))
         })?;
-        let overrides: Vec<String> = set.iter().chain(overrides).cloned().collect();
-        Ok(Case::load(&tidy(&self.claim.folder.join(case)), &overrides)?)
+        Ok(self.claim.load_case(file, overrides)?)
     }
 
     /// Runs a case, or takes the result of an earlier run of it.
@@ -170,20 +167,6 @@ impl<'a> Laboratory<'a> {
             }
         }
     }
-}
-
-/// A path without `..` where that needs no look at the disk.
-fn tidy(path: &Path) -> PathBuf {
-    let mut tidy = PathBuf::new();
-    for part in path.components() {
-        match (part, tidy.components().next_back()) {
-            (ParentDir, Some(Normal(_))) => {
-                tidy.pop();
-            }
-            _ => tidy.push(part),
-        }
-    }
-    tidy
 }
 
 /// Passes an interrupt on to a run.

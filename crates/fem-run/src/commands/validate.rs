@@ -5,7 +5,9 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_validate::{Claim, ClaimResult, Section, Shelf, evaluate, load_claims, markdown};
+use fem_validate::{
+    Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, load_claims, markdown,
+};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
@@ -47,12 +49,7 @@ pub struct Arguments {
 
 /// Runs claims.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let claims = load_claims(&arguments.claims, &arguments.names).map_err(|error| {
-        Failure::bad_input(one_line(&error.to_string())).with_help(
-            "the claims are the folders of `validation` in the source of fem-run; run it there, or \
-             name another folder with --claims",
-        )
-    })?;
+    let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {
         let place = one_line(&arguments.claims.display().to_string());
         return Err(Failure::bad_input(format!("{place}: no folder in it has a claim.toml")));
@@ -77,6 +74,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         standard_output::print(&report(&results, &place))?;
     }
     conclude(&results, claims.len())
+}
+
+fn refused(error: ClaimError) -> Failure {
+    match error {
+        ClaimError::Case(error) => error.into(),
+        ClaimError::Unreadable { .. } => Failure::bad_input(error.to_string()).with_help(
+            "the claims are the folders of `validation` in the source of fem-run; run it there, or \
+             name another folder with --claims",
+        ),
+        error => Failure::bad_input(one_line(&error.to_string())),
+    }
 }
 
 /// The results of the claims that were not interrupted.

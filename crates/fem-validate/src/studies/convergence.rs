@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use fem_explicit::Label;
+use fem_explicit::{Collision, Label};
 use fem_figure::{Axis, Chart, Curve, engineering::show};
 use serde::Deserialize;
 
@@ -29,7 +29,7 @@ const QUANTITIES: [Quantity; 5] = [
     ("restitution", "e", "", |run| run.restitution),
     ("contact_time", "T", "s", |run| run.contact_time),
     ("peak_force", "F", "N", |run| run.collision.peak_force),
-    ("contact_radius", "a", "m", profile_radius),
+    ("contact_radius", "a", "m", equivalent_radius),
     ("peak_pressure", "p0", "Pa", |run| run.collision.peak_pressure),
 ];
 
@@ -59,6 +59,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     }
     let worst = |run: &Run| run.collision.residual_relative;
     findings.measure("energy_residual", runs.iter().map(|run| worst(run)).fold(0.0, f64::max));
+    if let Some(finest) = runs.last() {
+        findings.measure("profile_radius", profile_radius(finest));
+    }
     let slope = sizes.iter().map(|h| (1e6 * h, 1e-3 * h / sizes[0])).collect();
     chart = chart.with(Curve::dashed("first order", slope).coloured(fem_figure::GREY));
     findings.draw(
@@ -81,6 +84,13 @@ fn tabulate(findings: &mut Findings, sizes: &[f64], runs: &[Arc<Run>]) {
     });
     let header = ["element size", "e", "T", "F", "a", "p0", "element updates"];
     findings.tabulate("The levels.", header, rows);
+}
+
+/// Radius of Hertz' pressure with the run's peak force and centre pressure, p0 = 3F/(2πa²), m. It
+/// does not depend on where points happen to lie at the edge of the contact.
+fn equivalent_radius(run: &Run) -> f64 {
+    let Collision { peak_force, peak_pressure, .. } = &run.collision;
+    (1.5 * peak_force / (std::f64::consts::PI * peak_pressure)).sqrt()
 }
 
 /// Contact radius at maximum compression, m, as the root of p² = α − β r² fitted to the nodal

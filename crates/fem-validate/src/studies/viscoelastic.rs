@@ -31,6 +31,8 @@ struct Parameters {
     relaxation: String,
     /// Decay rate times contact time of the single term where it is not varied.
     rate: f64,
+    /// Default element size over element size.
+    refinement: f64,
 }
 
 /// A member of the study.
@@ -64,7 +66,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let members = members(&parameters, time);
     let outcomes: Vec<Outcome> = members
         .into_par_iter()
-        .map(|member| measure(laboratory, member))
+        .map(|member| measure(laboratory, member, parameters.refinement))
         .collect::<Result<_, _>>()?;
     let mut findings = Findings::new();
     for outcome in &outcomes {
@@ -81,7 +83,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 }
 
 fn members(parameters: &Parameters, time: f64) -> Vec<Member> {
-    let Parameters { rates, equilibrium, speeds, series, relaxation, rate } = parameters;
+    let Parameters { rates, equilibrium, speeds, series, relaxation, rate, .. } = parameters;
     let term = |(weight, rate): &(f64, f64)| {
         format!("{{ weight = {weight:?}, decay_rate = {:?} }}", rate / time)
     };
@@ -111,8 +113,16 @@ fn members(parameters: &Parameters, time: f64) -> Vec<Member> {
     members
 }
 
-fn measure(laboratory: &Laboratory, member: Member) -> Result<Outcome, StudyError> {
-    let run = laboratory.run(laboratory.case("base", &member.overrides)?)?;
+fn measure(
+    laboratory: &Laboratory,
+    member: Member,
+    refinement: f64,
+) -> Result<Outcome, StudyError> {
+    let mut overrides = member.overrides.clone();
+    let plan = fem_case::Plan::of(&laboratory.case("base", &overrides)?)?;
+    let size = plan.contact_element_size / refinement;
+    overrides.push(format!("mesh.contact_element_size={size:?}"));
+    let run = laboratory.run(laboratory.case("base", &overrides)?)?;
     let (scene, pair) = (&run.problem.case.scene, run.problem.plan.estimate.hertz.pair());
     let half_space = ting(scene, pair, false)?.restitution;
     let finite = ting(scene, pair, true)?.restitution;
