@@ -92,9 +92,11 @@ impl FiniteSize {
         }
     }
 
+    /// Whether the first order holds for a contact radius, m.
+    ///
     /// # Errors
-    /// A contact too large for the first order.
-    pub(crate) fn check(&self, contact_radius: f64) -> Result<(), LawError> {
+    /// A contact too large.
+    pub fn check(&self, contact_radius: f64) -> Result<(), LawError> {
         let smallest =
             self.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
         let value = contact_radius / smallest;

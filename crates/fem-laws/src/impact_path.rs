@@ -36,11 +36,15 @@ impl<'a> ImpactPath<'a> {
         let last = self.history.last()?;
         match (after, self.history.get(after)) {
             (0, _) => self.history.first().copied(),
-            (_, None) => Some(ImpactInstant {
+            (_, None) if time > last.time => Some(ImpactInstant {
                 time,
                 approach: last.approach + last.approach_rate * (time - last.time),
+                force: 0.0,
+                contact_radius: 0.0,
+                centre_pressure: last.centre_pressure.map(|_| 0.0),
                 ..*last
             }),
+            (_, None) => Some(*last),
             (_, Some(_)) => Some(self.between(after - 1, time)),
         }
     }
