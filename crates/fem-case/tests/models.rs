@@ -277,6 +277,19 @@ fn what_the_model_leaves_out_is_said() {
 }
 
 #[test]
+fn a_creep_without_end_is_a_reason() {
+    // Twice: 100 000 steps take their time.
+    for model in [
+        "model.law.tsuji={alpha=1e4, end='zero_overlap'}",
+        "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}",
+    ] {
+        let outcome = run(&[model]);
+        assert_eq!((outcome.restitution, outcome.history.len()), (None, 0));
+        assert!(outcome.halt.unwrap().to_string().contains("no end of contact"));
+    }
+}
+
+#[test]
 fn extremes_give_numbers_or_a_reason() {
     let models = [
         "model.ting={}",
@@ -285,7 +298,6 @@ fn extremes_give_numbers_or_a_reason() {
         "model.law.kuwabara_kono.a=1e3",
         "model.law.bordbar_hyppanen={a=1e-6, n=1e-12}",
         "model.law.linear={k=1e7, c=1e12}",
-        "model.law.tsuji={alpha=1e4, end='zero_overlap'}",
         "model.law.power={k=1e-300, gamma=1e3, c=1e300, n=1e3}",
     ];
     for model in models {

@@ -1,5 +1,7 @@
 //! Which effects a reduced model computes, and what it leaves out of a case that has it.
 
+use fem_laws::laws::ContactLaw;
+
 use crate::case::Case;
 use crate::effects::{Effect, MACH_LIMIT, finite_strain, percent, relaxation};
 use crate::estimate::Estimate;
@@ -8,7 +10,12 @@ use crate::model::{Dissipation, Law, Model};
 /// Longest relaxation time over the contact time up to which the contact is slow.
 const SLOW_LIMIT: f64 = 0.1;
 
-pub(super) fn decide(case: &Case, estimate: &Estimate) -> (Vec<Effect>, Vec<String>) {
+/// Effects and warnings; `law` is what a contact law has become.
+pub(super) fn decide(
+    case: &Case,
+    estimate: &Estimate,
+    law: Option<&ContactLaw>,
+) -> (Vec<Effect>, Vec<String>) {
     let scene = &case.scene;
     let model = &scene.model;
     let mut warnings = Vec::new();
@@ -52,7 +59,7 @@ pub(super) fn decide(case: &Case, estimate: &Estimate) -> (Vec<Effect>, Vec<Stri
     let effect = |name, active, reason| Effect { name, active, reason };
     let effects = vec![
         effect("viscoelasticity", viscoelasticity, reason),
-        effect("dashpot", matches!(model, Model::Law { .. }), dashpot(model)),
+        dashpot(model, law),
         effect("finite size", is_finite, finite_size(model)),
         effect("finite strain", false, strain),
         effect("vibration", false, "the bodies move as a whole: quasi-static contact".to_string()),
@@ -68,11 +75,18 @@ fn describe(model: &Model) -> String {
     }
 }
 
-fn dashpot(model: &Model) -> String {
-    match model {
-        Model::Law { law, .. } => format!("the law {}", law.name()),
-        _ => format!("model {} has none", model.name()),
-    }
+fn dashpot(model: &Model, law: Option<&ContactLaw>) -> Effect {
+    let damping = law.map_or(0.0, ContactLaw::damping);
+    let name = describe(model);
+    let reason = match law {
+        Some(law) if damping > 0.0 => format!(
+            "{name}: C = {damping:.4e} N s/m^{:.4} at the exponent n = {:.4}",
+            law.damping_exponent() + 1.0,
+            law.damping_exponent()
+        ),
+        _ => format!("{name} has none here"),
+    };
+    Effect { name: "dashpot", active: damping > 0.0, reason }
 }
 
 fn finite_size(model: &Model) -> String {

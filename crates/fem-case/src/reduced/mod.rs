@@ -77,7 +77,11 @@ impl Reduced {
                 (Motion::Law(impact.with_tolerance(*tolerance).map_err(refuse)?, law), pair)
             }
         };
-        let (effects, warnings) = effects::decide(&case, &estimate);
+        let law = match &motion {
+            Motion::Law(_, law) => Some(law),
+            _ => None,
+        };
+        let (effects, warnings) = effects::decide(&case, &estimate, law);
         Ok(Self { effects, warnings, estimate, motion, pair, case })
     }
 

@@ -38,10 +38,8 @@ impl Reduced {
             max_contact_radius: has_radius.then_some(impact.max_contact_radius),
             peak_pressure: impact.peak_pressure,
             initial_energy: Some(relative.kinetic(relative.speed())),
-            residual_relative: Some(
-                instants().map(residual).fold(0.0, f64::max) / relative.initial(),
-            ),
-            momentum_residual_relative: Some(instants().map(drift).fold(0.0, f64::max)),
+            residual_relative: Some(instants().map(residual).fold(0.0, worse) / relative.initial()),
+            momentum_residual_relative: Some(instants().map(drift).fold(0.0, worse)),
             bodies: [0, 1].map(|side| BodyOutcome {
                 mass: masses[side],
                 velocity_after: Some(after[side]),
@@ -96,4 +94,9 @@ impl Reduced {
             residual: Some(relative.gained(rate) + accounted),
         }
     }
+}
+
+/// The larger of two; NaN wins, so that it cannot pass unseen.
+fn worse(so_far: f64, value: f64) -> f64 {
+    if so_far.is_nan() || value <= so_far { so_far } else { value }
 }
