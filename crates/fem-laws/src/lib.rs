@@ -34,7 +34,7 @@
 //! # }
 //! ```
 
-mod bisection;
+pub mod bisection;
 mod collocation;
 mod error;
 mod finite_size;
