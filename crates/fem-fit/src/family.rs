@@ -53,7 +53,7 @@ impl Parameter {
     pub(crate) fn guess(&self, speed: f64) -> f64 {
         self.default.unwrap_or(match (self.role, self.key) {
             (Role::Speed, _) => speed,
-            (Role::Number, "restitution") => 0.8,
+            (Role::Number, "e") => 0.8,
             (Role::Number, _) => 0.5 * (self.limits.0 + self.limits.1),
             _ => 1.0,
         })
@@ -146,17 +146,15 @@ impl Family {
             N,
         ];
         const KUWABARA_KONO: &[Parameter] = &[A];
-        const HUNT_CROSSLEY: &[Parameter] = &[
-            number("restitution", None, (1e-6, 1.0)),
-            parameter("approach_speed", "m/s", [1, 0, -1], Role::Speed),
-        ];
+        const HUNT_CROSSLEY: &[Parameter] =
+            &[number("e", None, (1e-6, 1.0)), parameter("v", "m/s", [1, 0, -1], Role::Speed)];
         const TSUJI: &[Parameter] = &[parameter("alpha", "", [0; 3], Role::Damping)];
         const FALCON: &[Parameter] = &[parameter("c", "N s/m^(5/4)", [0; 3], Role::Damping)];
         const MISHRA_MURTY: &[Parameter] = &[
             parameter("k", "N/m^(8/5)", [0; 3], Role::Stiffness),
             parameter("c", "N s/m^(9/5)", [0; 3], Role::Damping),
         ];
-        const SCHWAGER_POESCHEL: &[Parameter] = &[parameter("c_n", "s", [0, 0, 1], Role::Damping)];
+        const SCHWAGER_POESCHEL: &[Parameter] = &[A];
         const MORGADO_OPPENHEIM: &[Parameter] = &[
             parameter("eta_1", "Pa s", [-1, 1, -1], Role::Damping),
             number("eta_2", None, (-0.99, 0.99)),
@@ -197,7 +195,7 @@ impl Family {
             (Self::Tsuji, &[alpha]) => laws::tsuji(pair, alpha),
             (Self::Falcon, &[c]) => laws::falcon(pair, c),
             (Self::MishraMurty, &[k, c]) => laws::mishra_murty(k, c),
-            (Self::SchwagerPoeschel, &[c_n]) => laws::schwager_poeschel(pair, c_n),
+            (Self::SchwagerPoeschel, &[a]) => laws::schwager_poeschel(pair, a),
             (Self::MorgadoOppenheim, &[eta_1, eta_2]) => {
                 laws::morgado_oppenheim(pair, eta_1, eta_2)
             }

@@ -212,7 +212,7 @@ impl<'a> Problem<'a> {
         let size = self.model.natural_size(parameter, &values, speed);
         let size = size.unwrap_or(values[free.index]);
         let mut best = (f64::INFINITY, values[free.index]);
-        for half_decades in -10..=4 {
+        for half_decades in -10..=2 {
             let value = size * 10f64.powf(0.5 * f64::from(half_decades));
             values[free.index] = value.clamp(free.bounds.0, free.bounds.1);
             let sum = self.sum_of_squares(&values).unwrap_or(f64::INFINITY);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{check, completions, mesh, run, sweep};
+use crate::commands::{check, completions, cradle, export, fit, invert, mesh, run, sweep};
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
 ///
@@ -72,6 +72,10 @@ pub enum Command {
     Check(check::Arguments),
     Mesh(mesh::Arguments),
     Sweep(sweep::Arguments),
+    Fit(fit::Arguments),
+    Invert(invert::Arguments),
+    Export(export::Arguments),
+    Cradle(cradle::Arguments),
     Completions(completions::Arguments),
 }
 
