@@ -151,7 +151,7 @@ impl Model {
             *value = 1.0;
         }
         let law = || self.family.law(&self.pair, &unit);
-        Ok(match parameter.role {
+        let size = match parameter.role {
             Role::Rate => hertz.contact_time().recip(),
             Role::Damping => match law() {
                 Some(law) => {
@@ -169,7 +169,12 @@ impl Model {
                 None => 1.0,
             },
             Role::Speed | Role::Number => parameter.guess(speed),
-        })
+        };
+        if size.is_finite() && (size > 0.0 || parameter.role == Role::Number) {
+            Ok(size)
+        } else {
+            Err(LawError::NotPositive { quantity: parameter.key, value: size })
+        }
     }
 
     fn materials_at_rate(&self, rate: f64) -> Result<[Option<Material>; 2], LawError> {

@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 use common::{glass, glass_model};
 use fem_fit::Family;
 use fem_fit::dem::{
-    Dashpot, Elastic, Export, Sphere, TsujiVersion, characteristic_velocity, hooke_stiffness,
-    lammps_snippets, liggghts_snippets, tsuji_entry, tsuji_outcome, viscel_entry,
+    Dashpot, Elastic, Export, Sphere, TsujiVersion, characteristic_velocity, hertz_mindlin_entry,
+    hooke_stiffness, lammps_snippets, liggghts_snippets, tsuji_entry, tsuji_outcome, viscel_entry,
     viscoelastic_damping, yade_betan, yade_snippets,
 };
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
@@ -129,6 +129,14 @@ fn yade_makes_what_was_seen() {
         let made = LawImpact::new(&pair, law).impact(0.5).unwrap().restitution;
         // YADE's time step.
         assert!((made - seen).abs() < 3e-5, "{en}: {made}");
+    }
+    for wanted in [0.3, 0.7, 0.92, 0.97] {
+        let damping = 2.0
+            * yade_betan(hertz_mindlin_entry(&pair, wanted).unwrap())
+            * (pair.effective_mass() * stiffness).sqrt();
+        let law = power(stiffness * 2.0 / 3.0, 1.5, damping, 0.25).unwrap();
+        let made = LawImpact::new(&pair, law).impact(0.5).unwrap().restitution;
+        assert!((made - wanted).abs() < 1e-7, "{wanted}: {made}");
     }
     let made = |tc: f64, en: f64| {
         let mass = pair.effective_mass();

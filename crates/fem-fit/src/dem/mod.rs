@@ -17,4 +17,4 @@ mod yade;
 pub use lammps::{TsujiVersion, lammps_snippets, tsuji_entry, tsuji_outcome, viscoelastic_damping};
 pub use liggghts::{characteristic_velocity, hooke_stiffness, liggghts_snippets};
 pub use snippet::{Dashpot, Elastic, Export, Snippet, Sphere};
-pub use yade::{viscel_entry, yade_betan, yade_snippets};
+pub use yade::{hertz_mindlin_entry, viscel_entry, yade_betan, yade_snippets};

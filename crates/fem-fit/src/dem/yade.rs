@@ -1,20 +1,21 @@
 //! YADE: Hertz–Mindlin with `en`, and the linear ViscEl with `tc` and `en`.
 //!
 //! Hertz–Mindlin turns en into β_n by the fit of Thornton, Cummins & Cleary (2013), eq. 20, for a
-//! contact that ends at zero force, and damps with C = 2β_n √(m* S) ξ^(1/4), S = 2E*√R*: what is
-//! entered is what comes out, to 3e-4. ViscEl takes
+//! contact that ends at zero force, and damps with C = 2β_n √(m* S) ξ^(1/4), S = 2E*√R*: what comes
+//! out misses what is entered by 8e-4 at 0.936, so the entry is corrected. ViscEl takes
 //!
 //! ```math
 //! k_n = \frac{m^*(\pi^2+\ln^2e_n)}{t_c^2}, \qquad c_n = -\frac{2m^*\ln e_n}{t_c}
 //! ```
 //!
 //! (Pournin et al. 2001), right for a contact that ends at zero overlap, but cuts the force off at
-//! zero: 0.92 entered makes 0.9213. The entries here are corrected for that. Seen in YADE
-//! 2023.02a.
+//! zero: 0.92 entered makes 0.9213, and is corrected too. Seen in YADE 2023.02a.
 
 use std::f64::consts::PI;
 
-use fem_laws::{EndRule, LawError};
+use fem_laws::bisection::falling_zero;
+use fem_laws::laws::power;
+use fem_laws::{EndRule, LawError, LawImpact, Pair};
 
 use super::snippet::{Export, Snippet};
 
@@ -27,6 +28,27 @@ pub fn yade_betan(en: f64) -> f64 {
     let exponent = en * H.iter().rev().fold(0.0, |sum, h| sum * en + h);
     let share = 1.0 - (1.0 + en).powi(2) * exponent.exp();
     (share.recip() - 1.0).max(0.0).sqrt()
+}
+
+/// en to enter, so that Hertz–Mindlin makes this restitution.
+///
+/// # Errors
+/// A pair without a collision.
+pub fn hertz_mindlin_entry(pair: &Pair, restitution: f64) -> Result<f64, LawError> {
+    let stiffness = 2.0 * pair.contact_modulus() * pair.effective_radius().sqrt();
+    let unit = 2.0 * (pair.effective_mass() * stiffness).sqrt();
+    // The same at every speed.
+    let made = |en: f64| {
+        let law = power(2.0 / 3.0 * stiffness, 1.5, unit * yade_betan(en), 0.25)?;
+        Ok::<f64, LawError>(LawImpact::new(pair, law).impact(1.0)?.restitution)
+    };
+    made(restitution)?;
+    // The fit's own error; beyond en = 0.999 it is one of 1e-3 and turns.
+    let (low, high) = ((restitution - 0.02).max(1e-3), (restitution + 0.02).min(0.999));
+    if low >= high || made(low)? >= restitution || made(high)? <= restitution {
+        return Ok(restitution);
+    }
+    Ok(falling_zero(low, high, |en| made(en).map_or(0.0, |made| restitution - made)))
 }
 
 /// tc, s, and en to enter, so that ViscEl's cut-off contact has the wanted e and T.
@@ -53,6 +75,7 @@ pub fn viscel_entry(export: &Export) -> Result<(f64, f64), LawError> {
 pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let code = "YADE";
     let e = export.hertz.restitution;
+    let en = hertz_mindlin_entry(&export.pair, e)?;
     let material = |kind: &str, more: &str, index: usize| {
         let sphere = &export.spheres[index];
         format!(
@@ -68,20 +91,20 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let mut hertz = export.heading(
         "YADE, Hertz-Mindlin",
         export.hertz.validity,
-        &["One restitution for all speeds; the contact ends at zero force.".to_string()],
+        &[format!("Makes e = {e:.4} at all speeds; the contact ends at zero force.")],
     );
     for index in 0..2 {
         hertz += &material("FrictMat", &elastic(index), index);
     }
     hertz += &format!(
-        "ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={e}, es={e})\n\
+        "ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={en}, es={en})\n\
          law2 = Law2_ScGeom_MindlinPhys_Mindlin()\n"
     );
     let mut snippets = vec![Snippet {
         name: "yade_hertz_mindlin.py",
         code,
         model: "Hertz-Mindlin",
-        entries: vec![("en", e)],
+        entries: vec![("en", en)],
         restitution: Some(e),
         validity: export.hertz.validity,
         text: hertz,

@@ -87,10 +87,10 @@ pub fn fit_text(fitted: &Fitted<'_>) -> String {
     let (model, points) = (problem.model, problem.points);
     let speeds = || points.iter().map(|point| point.speed);
     let mut text = format!(
-        "{}, contact ends at {}; {} points of {}, {} to {}\n\n",
+        "{}, contact ends at {}; {} of {}, {} to {}\n\n",
         model.family().name(),
-        end_words(model.end_rule()),
-        points.len(),
+        end_words(model.end_rule()).replace('_', " "),
+        if points.len() == 1 { "1 point".to_string() } else { format!("{} points", points.len()) },
         fitted.data.name,
         show(speeds().fold(f64::INFINITY, f64::min), "m/s"),
         show(speeds().fold(0.0, f64::max), "m/s"),
@@ -123,9 +123,9 @@ pub fn fit_text(fitted: &Fitted<'_>) -> String {
     let freedom = fit.degrees_of_freedom;
     let plural = if freedom == 1 { "degree" } else { "degrees" };
     text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
-    if model.family() == Family::Ting
-        && model.decay_rates(fit.values[0]).iter().flatten().count() > 1
-    {
+    let rates = model.decay_rates(fit.values[0]);
+    let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
+    if model.family() == Family::Ting && others.count() > 0 {
         text += "decay_rate is the largest; all others keep their ratio to it\n";
     }
     for (model, fit) in fitted.compared {
