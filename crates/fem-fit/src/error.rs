@@ -56,8 +56,8 @@ pub enum FitError {
 
     /// No value of the parameter gives the restitution.
     #[error(
-        "no {key} gives a restitution of {wanted} at {speed} m/s: from {} to {} it runs from \
-         {least:.6} to {most:.6}", range.0, range.1
+        "no {key} gives a restitution of {wanted} at {speed} m/s: from {:.3e} to {:.3e} it runs from \
+         {} to {}", range.0, range.1, near_one(*least), near_one(*most)
     )]
     NoSolution {
         /// The parameter.
@@ -88,4 +88,13 @@ pub enum FitError {
     /// Ting's model of bodies that do not relax.
     #[error("no body relaxes, so there is no decay rate to find")]
     NoRelaxation,
+}
+
+/// A restitution in words that tell it from 0 and 1.
+fn near_one(restitution: f64) -> String {
+    match restitution {
+        e if e > 0.9999 => format!("1 - {:.1e}", 1.0 - e),
+        e if e < 1e-3 => format!("{e:.1e}"),
+        e => format!("{e:.4}"),
+    }
 }

@@ -24,7 +24,7 @@ use fem_laws::bisection::last_where;
 use fem_laws::laws::kuwabara_kono;
 use fem_laws::{LawError, Pair};
 
-use super::snippet::{Export, Snippet};
+use super::snippet::{Export, Snippet, short};
 
 /// Which LAMMPS: the factor of its `tsuji`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,12 +89,12 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
         text += "pair_style granular\n";
         for (index, sphere) in export.spheres.iter().enumerate() {
             text += &format!(
-                "pair_coeff {0} {0} hertz/material {1:e} {2:e} {3} tangential linear_nohistory 0.0 \
+                "pair_coeff {0} {0} hertz/material {1} {2} {3} tangential linear_nohistory 0.0 \
                  0.0 damping {damping}{extra}\n",
                 index + 1,
-                sphere.youngs_modulus,
-                entry,
-                sphere.poissons_ratio
+                short(sphere.youngs_modulus),
+                short(entry),
+                short(sphere.poissons_ratio)
             );
         }
         text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
@@ -130,7 +130,7 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
             " limit_damping",
             &[
                 format!(
-                    "A = {time:e} s: restitution falls with speed; the contact ends at zero force."
+                    "A = {time:.4e} s: restitution falls with speed; the contact ends at zero force."
                 ),
                 format!("eta = 2 E* A/m_eff holds for these two sizes only (1/(m s)): {eta:.6e}."),
                 frictionless.clone(),

@@ -13,7 +13,7 @@
 
 use fem_laws::{EndRule, LawError, Pair};
 
-use super::snippet::{Export, Snippet};
+use super::snippet::{Export, Snippet, short};
 
 /// k_n, N/m, of `hooke` for a characteristic velocity, m/s.
 pub fn hooke_stiffness(pair: &Pair, velocity: f64) -> f64 {
@@ -38,14 +38,15 @@ pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     let [first, second] = &export.spheres;
     let globals = |e: f64| {
         format!(
-            "fix m1 all property/global youngsModulus peratomtype {:e} {:e}\n\
-             fix m2 all property/global poissonsRatio peratomtype {} {}\n\
-             fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}\n\
+            "fix m1 all property/global youngsModulus peratomtype {1} {2}\n\
+             fix m2 all property/global poissonsRatio peratomtype {3} {4}\n\
+             fix m3 all property/global coefficientRestitution peratomtypepair 2 {0} {0} {0} {0}\n\
              fix m4 all property/global coefficientFriction peratomtypepair 2 0 0 0 0\n",
-            first.youngs_modulus,
-            second.youngs_modulus,
-            first.poissons_ratio,
-            second.poissons_ratio
+            short(e),
+            short(first.youngs_modulus),
+            short(second.youngs_modulus),
+            short(first.poissons_ratio),
+            short(second.poissons_ratio)
         )
     };
     let style =
@@ -88,7 +89,8 @@ pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
             text: hooke_text
                 + &globals(linear.restitution)
                 + &format!(
-                    "fix m5 all property/global characteristicVelocity scalar {velocity:e}\n"
+                    "fix m5 all property/global characteristicVelocity scalar {}\n",
+                    short(velocity)
                 )
                 + &style("hooke"),
         },

@@ -21,7 +21,7 @@ pub struct Sphere {
 pub struct Elastic {
     /// e.
     pub restitution: f64,
-    /// Where it is good; see [`Export::validity`].
+    /// Where e is good: from, to, m/s, and its largest error over all data.
     pub validity: [f64; 3],
 }
 
@@ -32,7 +32,7 @@ pub struct Dashpot {
     pub restitution: f64,
     /// T, s.
     pub contact_time: f64,
-    /// Where e is good.
+    /// As of [`Elastic`].
     pub validity: [f64; 3],
 }
 
@@ -89,7 +89,11 @@ impl Export {
         let mut text = format!(
             "# {}\n# {model}; spheres of {} and {} m, SI units.\n# Fitted from {:.4} to {:.4} m/s; \
              {range}\n# (largest error {worst:.4}).\n",
-            self.title, first.diameter, second.diameter, self.speeds.0, self.speeds.1
+            self.title,
+            short(first.diameter),
+            short(second.diameter),
+            self.speeds.0,
+            self.speeds.1
         );
         for note in notes {
             text += &format!("# {note}\n");
@@ -101,5 +105,15 @@ impl Export {
     pub(crate) fn linear_law(&self, end_rule: EndRule) -> Result<ContactLaw, LawError> {
         let Dashpot { restitution, contact_time, .. } = self.linear;
         linear_from_restitution(&self.pair, restitution, contact_time, end_rule)
+    }
+}
+
+/// A number in ten digits, as short as it can be said.
+pub(crate) fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
     }
 }

@@ -17,7 +17,7 @@ use fem_laws::bisection::falling_zero;
 use fem_laws::laws::power;
 use fem_laws::{EndRule, LawError, LawImpact, Pair};
 
-use super::snippet::{Export, Snippet};
+use super::snippet::{Export, Snippet, short};
 
 /// β_n of an en from 0 to 1 (not included).
 pub fn yade_betan(en: f64) -> f64 {
@@ -81,12 +81,12 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
         format!(
             "material{} = {kind}(density={}, frictionAngle=0, {more})\n",
             index + 1,
-            sphere.density
+            short(sphere.density)
         )
     };
     let elastic = |index: usize| {
         let sphere = &export.spheres[index];
-        format!("young={:e}, poisson={}", sphere.youngs_modulus, sphere.poissons_ratio)
+        format!("young={}, poisson={}", short(sphere.youngs_modulus), short(sphere.poissons_ratio))
     };
     let mut hertz = export.heading(
         "YADE, Hertz-Mindlin",
@@ -97,8 +97,9 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
         hertz += &material("FrictMat", &elastic(index), index);
     }
     hertz += &format!(
-        "ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={en}, es={en})\n\
-         law2 = Law2_ScGeom_MindlinPhys_Mindlin()\n"
+        "ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={0}, es={0})\n\
+         law2 = Law2_ScGeom_MindlinPhys_Mindlin()\n",
+        short(en)
     );
     let mut snippets = vec![Snippet {
         name: "yade_hertz_mindlin.py",
@@ -119,7 +120,11 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
             "differ from both.".to_string(),
         ]);
         for index in 0..2 {
-            text += &material("ViscElMat", &format!("tc={tc:e}, en={en}, et={en}"), index);
+            text += &material(
+                "ViscElMat",
+                &format!("tc={}, en={1}, et={1}", short(tc), short(en)),
+                index,
+            );
         }
         text +=
             "ip2 = Ip2_ViscElMat_ViscElMat_ViscElPhys()\nlaw2 = Law2_ScGeom_ViscElPhys_Basic()\n";

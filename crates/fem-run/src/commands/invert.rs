@@ -118,8 +118,10 @@ fn solve(
     }
     let inversion = invert(&model, index, &values, speed, arguments.restitution);
     let inversion = inversion.map_err(|error| match error {
-        FitError::NoSolution { .. } if family == Family::HuntCrossley => from_fit_error(error)
-            .with_help("its coefficient holds for mild losses only; take another law"),
+        FitError::NoSolution { .. } if family == Family::HuntCrossley => {
+            Failure::bad_input(error.to_string())
+                .with_help("its coefficient holds for mild losses only; take another law")
+        }
         error => from_fit_error(error),
     })?;
     Ok(Solved { model, index, values, inversion })

@@ -12,7 +12,7 @@ use crate::summary::PROGRAM;
 /// Where results go.
 #[derive(clap::Args, Clone, Debug)]
 pub struct OutputArguments {
-    /// Folder for the result [default: runs/<the input's stem>_<command>]
+    /// Folder for the result [default: in runs/, named after the input and the command]
     ///
     /// An existing folder is replaced only if it is empty or a result of fem-run. Files of your
     /// own in it are kept.
