@@ -7,7 +7,7 @@
 
 /// The largest float in `low ..= high` at which `is_below` holds, if it holds up to a point and
 /// not beyond; `low` if it never does. Both ends are at least 0.
-pub(crate) fn last_where(low: f64, high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
+pub fn last_where(low: f64, high: f64, is_below: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (low.to_bits(), high.to_bits());
     while low + 1 < high {
         let middle = low + (high - low) / 2;
@@ -22,7 +22,7 @@ pub(crate) fn last_where(low: f64, high: f64, is_below: impl Fn(f64) -> bool) ->
 
 /// Where a function falls through 0 between `low`, where it is positive, and `high`, where it is
 /// not, to some 1e-14 of the interval if it is smooth.
-pub(crate) fn falling_zero(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
+pub fn falling_zero(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (mut a, mut b) = ((low, value(low)), (high, value(high)));
     let mut kept_low = None;
     for _ in 0..60 {

@@ -35,7 +35,7 @@
 //! # }
 //! ```
 
-mod bisection;
+pub mod bisection;
 mod collocation;
 mod error;
 mod finite_size;

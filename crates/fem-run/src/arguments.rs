@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::commands::{check, completions, mesh, run, sweep, validate};
+use crate::commands::{
+    check, completions, cradle, export, fit, invert, mesh, run, sweep, validate,
+};
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
 ///
@@ -73,6 +75,10 @@ pub enum Command {
     Mesh(mesh::Arguments),
     Sweep(sweep::Arguments),
     Validate(validate::Arguments),
+    Fit(fit::Arguments),
+    Invert(invert::Arguments),
+    Export(export::Arguments),
+    Cradle(cradle::Arguments),
     Completions(completions::Arguments),
 }
 

@@ -9,6 +9,9 @@ use serde::Deserialize;
 
 use crate::summary::{PROGRAM, SUMMARY_FILE};
 
+/// Files by which a result folder is known: of a run, and of the commands with one of their own.
+const MARK_FILES: [&str; 4] = [SUMMARY_FILE, "fit.json", "export.json", "cradle.json"];
+
 /// What is at a path.
 #[derive(Debug)]
 pub enum Occupant {
@@ -24,14 +27,14 @@ pub enum Occupant {
     File,
 }
 
-/// A result folder of this program, known by its summary.
+/// A result folder of this program, known by one of [`MARK_FILES`].
 #[derive(Debug)]
 pub struct OldResult {
     /// Names of the files that the program wrote; all others are the user's.
     files: BTreeSet<String>,
 }
 
-/// The keys of a summary that tell whose it is.
+/// The keys of such a file that tell whose it is.
 #[derive(Deserialize)]
 struct Marks {
     program: String,
@@ -54,13 +57,14 @@ impl Occupant {
         if fs::read_dir(path)?.next().is_none() {
             return Ok(Self::Empty);
         }
-        let summary = fs::read(path.join(SUMMARY_FILE)).unwrap_or_default();
-        Ok(match serde_json::from_slice::<Marks>(&summary) {
-            Ok(marks) if marks.program == PROGRAM => {
-                Self::Result(OldResult { files: marks.files.into_iter().collect() })
-            }
-            _ => Self::Foreign,
-        })
+        let marks = MARK_FILES.iter().filter_map(|name| {
+            let text = fs::read(path.join(name)).unwrap_or_default();
+            serde_json::from_slice::<Marks>(&text).ok()
+        });
+        let mut ours = marks.filter(|marks| marks.program == PROGRAM);
+        Ok(ours.next().map_or(Self::Foreign, |marks| {
+            Self::Result(OldResult { files: marks.files.into_iter().collect() })
+        }))
     }
 }
 

@@ -11,10 +11,8 @@ use super::collect::Row;
 use super::member::Member;
 use super::picture_data::{Choice, Curve, axis_unit, column_unit, column_words, curves};
 use crate::engineering::Unit;
+use crate::plot::{COLOURS, PANEL_HEIGHT, PANEL_WIDTH, tick};
 
-/// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), used in turn.
-const COLOURS: [&str; 7] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
 const HERTZ_COLOUR: &str = "#333333";
 /// Hertz in the legend, and its dashes.
 const HERTZ: &str = "Hertz";
@@ -25,8 +23,6 @@ const LONGEST_LEGEND: usize = 14;
 const LOGARITHMIC_FROM: f64 = 10.0;
 /// Free space beside the data on a logarithmic axis, as a factor.
 const MARGIN: f64 = 1.2;
-const PANEL_WIDTH: f64 = 480.0;
-const PANEL_HEIGHT: f64 = 340.0;
 
 /// The picture, or none if there is nothing to draw.
 pub fn picture(sweep: &Sweep, members: &[Member], rows: &[Row], choice: &Choice) -> Option<String> {
@@ -106,17 +102,6 @@ fn draw(sweep: &Sweep, x: usize, column: &str, curves: &[Curve]) -> (Vec<Plot>, 
         layout = layout.with_log_y();
     }
     (plots, layout)
-}
-
-/// A tick's number: as short as it can be said, rounding errors left out.
-fn tick(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    let size = rounded.abs();
-    if size == 0.0 || (1e-4..1e6).contains(&size) {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
 }
 
 fn colour(curve: usize) -> &'static str {

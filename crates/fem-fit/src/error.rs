@@ -1,0 +1,100 @@
+//! What can be wrong with a fit, an inverse problem or a cradle.
+
+use fem_laws::LawError;
+use thiserror::Error;
+
+/// Data that do not determine what is asked for, or a collision that cannot be computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FitError {
+    /// A collision that cannot happen.
+    #[error(transparent)]
+    Law(#[from] LawError),
+
+    /// Fewer data than parameters.
+    #[error(
+        "{n_values} measured {} cannot determine {n_free} parameters ({free})",
+        if *n_values == 1 { "value" } else { "values" }
+    )]
+    TooFewData {
+        /// Measured numbers.
+        n_values: usize,
+        /// Free parameters.
+        n_free: usize,
+        /// Their keys.
+        free: String,
+    },
+
+    /// A parameter that changes nothing in the data.
+    #[error("the data do not depend on {key}: there every value of it fits as well")]
+    Insensitive {
+        /// The parameter.
+        key: &'static str,
+    },
+
+    /// Parameters that the data determine only together.
+    #[error(
+        "the data do not tell {keys} apart: a change of one is made up for by the others \
+         (condition number {condition:.1e})"
+    )]
+    Degenerate {
+        /// The parameters that take part.
+        keys: String,
+        /// Of the Jacobian with its columns scaled to length 1.
+        condition: f64,
+    },
+
+    /// Nothing to fit.
+    #[error("no parameter is free")]
+    NothingFree,
+
+    /// The minimum was not reached.
+    #[error("the fit did not converge: {reason}")]
+    NotConverged {
+        /// What the least-squares library says.
+        reason: String,
+    },
+
+    /// No value of the parameter gives the restitution.
+    #[error(
+        "no {key} gives a restitution of {wanted} at {speed} m/s: from {:.3e} to {:.3e} it runs from \
+         {} to {}", range.0, range.1, near_one(*least), near_one(*most)
+    )]
+    NoSolution {
+        /// The parameter.
+        key: &'static str,
+        /// Restitution wanted.
+        wanted: f64,
+        /// Approach speed, m/s.
+        speed: f64,
+        /// Values of the parameter that were tried, SI.
+        range: (f64, f64),
+        /// Smallest restitution within.
+        least: f64,
+        /// Largest.
+        most: f64,
+    },
+
+    /// A number outside the range of its meaning.
+    #[error("{quantity} must be {allowed}, found {value:?}")]
+    OutOfRange {
+        /// Name of the quantity.
+        quantity: &'static str,
+        /// Value found.
+        value: f64,
+        /// Values allowed.
+        allowed: &'static str,
+    },
+
+    /// Ting's model of bodies that do not relax.
+    #[error("no body relaxes, so there is no decay rate to find")]
+    NoRelaxation,
+}
+
+/// A restitution in words that tell it from 0 and 1.
+fn near_one(restitution: f64) -> String {
+    match restitution {
+        e if e > 0.9999 => format!("1 - {:.1e}", 1.0 - e),
+        e if e < 1e-3 => format!("{e:.1e}"),
+        e => format!("{e:.4}"),
+    }
+}

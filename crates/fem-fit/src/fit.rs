@@ -1,0 +1,192 @@
+//! The best parameters, and how well the data determine them.
+//!
+//! With J the Jacobian of the residuals in the parameters θ (logarithms of scale factors, plain
+//! numbers as they are), N data and p free parameters,
+//!
+//! ```math
+//! \mathrm{cov}(\theta) = s^2 (J^TJ)^{-1}, \qquad s^2 = \frac{\sum r_i^2}{N-p},
+//! \qquad \theta_j \pm t_{N-p}\,\sigma_j,
+//! ```
+//!
+//! t the quantile of Student's distribution (Seber & Wild, *Nonlinear Regression*, ch. 5). Data with
+//! uncertainties have s = 1 and the normal quantile: their residuals are known to be of order 1. An
+//! interval of a scale factor is symmetric in its logarithm. Limits: first order in the residuals'
+//! curvature ([`crate::Profile`] is not); residuals independent of each other, which the misfit of
+//! a wrong law is not.
+
+use nalgebra::DMatrix;
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use crate::error::FitError;
+use crate::least_squares::jacobian;
+use crate::problem::Problem;
+
+/// A fitted law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Of all parameters, free or not, in the order of the law.
+    pub values: Vec<f64>,
+    /// Of the free ones.
+    pub estimates: Vec<Estimate>,
+    /// Correlation matrix of the free parameters' θ.
+    pub correlation: Vec<Vec<f64>>,
+    /// Weighted residuals in the order of the data.
+    pub residuals: Vec<f64>,
+    /// Σ r².
+    pub sum_of_squares: f64,
+    /// √(Σ r²/N): of residuals without uncertainties, in units of e.
+    pub rms: f64,
+    /// N − p.
+    pub degrees_of_freedom: usize,
+    /// How many standard errors the interval reaches; `None` without degrees of freedom.
+    pub quantile: Option<f64>,
+    /// Σ r² by which a profile may rise inside its interval; `None` likewise.
+    pub allowed_rise: Option<f64>,
+    /// Of the Jacobian with columns scaled to 1.
+    pub condition: f64,
+}
+
+/// A free parameter as the data determine it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Its place among the law's parameters.
+    pub index: usize,
+    /// Its key.
+    pub key: &'static str,
+    /// Best value, SI.
+    pub value: f64,
+    /// First order, SI; `None` without degrees of freedom.
+    pub standard_error: Option<f64>,
+    /// Confidence interval, first order, SI.
+    pub interval: Option<(f64, f64)>,
+    /// Whether the best value is a bound of the search: then it is no minimum.
+    pub is_at_bound: bool,
+}
+
+/// Above this the differences' own error, 1e-5 of a column, decides.
+const WORST_CONDITION: f64 = 1e4;
+
+/// A column of the Jacobian below this is rounding.
+const INSENSITIVE: f64 = 1e-7;
+
+impl Problem<'_> {
+    /// The best fit, with confidence intervals of this level (such as 0.95).
+    ///
+    /// # Errors
+    /// Data that do not determine the free parameters; a level outside (0, 1).
+    pub fn fit(&self, confidence: f64) -> Result<Fit, FitError> {
+        if !(confidence > 0.0 && confidence < 1.0) {
+            let (quantity, allowed) = ("confidence", "between 0 and 1");
+            return Err(FitError::OutOfRange { quantity, value: confidence, allowed });
+        }
+        self.check_count()?;
+        let (values, sum_of_squares) = self.solve()?;
+        let theta = self.theta_of(&values);
+        let bounds = self.bounds();
+        let residuals_at = |theta: &[f64]| self.residuals(&self.values_at(theta));
+        let failed = || FitError::NotConverged { reason: "no derivatives at the minimum".into() };
+        let residuals = residuals_at(&theta).ok_or_else(failed)?;
+        let jacobian = jacobian(&residuals_at, &theta, &bounds).ok_or_else(failed)?;
+        let (inverse, condition) = self.inverse_of_normal(&jacobian)?;
+        let n_values = residuals.len();
+        let degrees_of_freedom = n_values - self.free.len();
+        let (variance, quantile) = self.spread(sum_of_squares, degrees_of_freedom, confidence);
+        let error = |j: usize| variance.map(|variance| (variance * inverse[(j, j)]).sqrt());
+        let estimates = self.free.iter().enumerate().map(|(j, free)| {
+            let value = values[free.index];
+            let reach = error(j).zip(quantile).map(|(error, quantile)| error * quantile);
+            let (low, high) = bounds[j];
+            let is_logarithmic = self.is_logarithmic(free);
+            Estimate {
+                index: free.index,
+                key: self.parameter(free.index).key,
+                value,
+                standard_error: error(j).map(|e| if is_logarithmic { e * value } else { e }),
+                interval: reach.map(|reach| match is_logarithmic {
+                    true => (value * (-reach).exp(), value * reach.exp()),
+                    false => (value - reach, value + reach),
+                }),
+                is_at_bound: (theta[j] - low).min(high - theta[j]) < 1e-6,
+            }
+        });
+        let correlation = |i: usize, j: usize| {
+            if i == j { 1.0 } else { inverse[(i, j)] / (inverse[(i, i)] * inverse[(j, j)]).sqrt() }
+        };
+        let n_free = self.free.len();
+        Ok(Fit {
+            estimates: estimates.collect(),
+            correlation: (0..n_free)
+                .map(|i| (0..n_free).map(|j| correlation(i, j)).collect())
+                .collect(),
+            rms: (sum_of_squares / n_values as f64).sqrt(),
+            allowed_rise: variance.zip(quantile).map(|(variance, q)| variance * q * q),
+            values,
+            residuals,
+            sum_of_squares,
+            degrees_of_freedom,
+            quantile,
+            condition,
+        })
+    }
+
+    fn check_count(&self) -> Result<(), FitError> {
+        let times = self.points.iter().filter(|point| point.contact_time.is_some()).count();
+        let (n_values, n_free) = (self.points.len() + times, self.free.len());
+        if n_free == 0 {
+            return Err(FitError::NothingFree);
+        }
+        if n_values < n_free {
+            let keys: Vec<_> =
+                self.free.iter().map(|free| self.parameter(free.index).key).collect();
+            return Err(FitError::TooFewData { n_values, n_free, free: keys.join(", ") });
+        }
+        Ok(())
+    }
+
+    /// (JᵀJ)⁻¹ and the condition number of J with columns of length 1.
+    fn inverse_of_normal(&self, jacobian: &DMatrix<f64>) -> Result<(DMatrix<f64>, f64), FitError> {
+        let key = |j: usize| self.parameter(self.free[j].index).key;
+        let lengths: Vec<f64> = jacobian.column_iter().map(|column| column.norm()).collect();
+        if let Some(j) = lengths.iter().position(|length| *length <= INSENSITIVE) {
+            return Err(FitError::Insensitive { key: key(j) });
+        }
+        let mut scaled = jacobian.clone();
+        for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
+            column /= *length;
+        }
+        let normal = (scaled.transpose() * &scaled).symmetric_eigen();
+        let largest = normal.eigenvalues.max();
+        let (weakest, least) = normal.eigenvalues.argmin();
+        // Squares of the singular values; rounding may make the least a little negative.
+        let condition = (largest / least.max(f64::EPSILON * f64::EPSILON)).sqrt();
+        if condition > WORST_CONDITION {
+            let direction = normal.eigenvectors.column(weakest);
+            let takes_part = |j: &usize| direction[*j].abs() > 0.1;
+            let keys: Vec<_> = (0..lengths.len()).filter(takes_part).map(key).collect();
+            return Err(FitError::Degenerate { keys: keys.join(" and "), condition });
+        }
+        let vectors = &normal.eigenvectors;
+        let inverse_values = normal.eigenvalues.map(f64::recip);
+        let mut inverse = vectors * DMatrix::from_diagonal(&inverse_values) * vectors.transpose();
+        for i in 0..lengths.len() {
+            for j in 0..lengths.len() {
+                inverse[(i, j)] /= lengths[i] * lengths[j];
+            }
+        }
+        Ok((inverse, condition))
+    }
+
+    /// s² and the quantile of the interval.
+    fn spread(&self, sum: f64, freedom: usize, confidence: f64) -> (Option<f64>, Option<f64>) {
+        let upper = 0.5 * (1.0 + confidence);
+        if self.has_uncertainties() {
+            let normal = Normal::standard();
+            return (Some(1.0), Some(normal.inverse_cdf(upper)));
+        }
+        if freedom == 0 {
+            return (None, None);
+        }
+        let student = StudentsT::new(0.0, 1.0, freedom as f64).ok();
+        (Some(sum / freedom as f64), student.map(|student| student.inverse_cdf(upper)))
+    }
+}

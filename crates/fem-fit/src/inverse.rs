@@ -1,0 +1,98 @@
+//! The value of one parameter at which a collision has a wanted restitution.
+//!
+//! The parameter is scanned over all decades (a plain number over its limits) around its natural
+//! size and each crossing refined. There may be several: a solid that does not flow loses most at
+//! the rate that fits the contact time, and less beyond it on both sides.
+
+use fem_laws::bisection::falling_zero;
+
+use crate::error::FitError;
+use crate::family::Role;
+use crate::model::Model;
+
+/// What gives a wanted restitution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inversion {
+    /// Values of the parameter, SI, ascending; at least one.
+    pub solutions: Vec<f64>,
+    /// Smallest and largest restitution within the scan.
+    pub reach: (f64, f64),
+}
+
+/// Decades around the natural size that are scanned: from next to no loss to next to nothing left.
+const DECADES: f64 = 8.0;
+/// Of a rate, where a loss of Ting's falls on both sides.
+const DECADES_OF_A_RATE: f64 = 5.0;
+const STEPS_PER_DECADE: f64 = 4.0;
+/// Restitution that is none.
+const NOTHING: f64 = 1e-7;
+/// Steps over the limits of a plain number.
+const STEPS: f64 = 60.0;
+
+/// All values of the parameter at a place that give `restitution` at `speed`, m/s. The other
+/// parameters are `values`.
+///
+/// # Errors
+/// A restitution outside (0, 1); none that gives it; a speed that is not positive and finite.
+pub fn invert(
+    model: &Model,
+    index: usize,
+    values: &[f64],
+    speed: f64,
+    restitution: f64,
+) -> Result<Inversion, FitError> {
+    if !(restitution > 0.0 && restitution < 1.0) {
+        let (quantity, allowed) = ("restitution", "greater than 0 and less than 1");
+        return Err(FitError::OutOfRange { quantity, value: restitution, allowed });
+    }
+    let parameter = &model.family().parameters()[index];
+    let size = model.natural_size(parameter, values, speed)?;
+    let is_number = parameter.role == Role::Number;
+    let value_at = |theta: f64| if is_number { theta } else { size * 10f64.powf(theta) };
+    let (low, high) = match parameter.role {
+        Role::Number => parameter.limits,
+        Role::Rate => (-DECADES_OF_A_RATE, DECADES_OF_A_RATE),
+        _ => (-DECADES, DECADES),
+    };
+    let excess = |theta: f64| {
+        let mut all = values.to_vec();
+        all[index] = value_at(theta);
+        model.outcome(&all, speed).map(|outcome| outcome.restitution - restitution)
+    };
+    let n_steps = if is_number { STEPS } else { ((high - low) * STEPS_PER_DECADE).round() };
+    let mut solutions = Vec::new();
+    let mut reach = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut previous: Option<(f64, f64)> = None;
+    for step in 0..=n_steps as usize {
+        let theta = low + (high - low) * step as f64 / n_steps;
+        // Some values may be so extreme that there is no collision; the others count.
+        let Ok(here) = excess(theta) else {
+            previous = None;
+            continue;
+        };
+        reach = (reach.0.min(here + restitution), reach.1.max(here + restitution));
+        if let Some((before, value)) = previous
+            && (value > 0.0) != (here > 0.0)
+        {
+            let sign = if value > 0.0 { 1.0 } else { -1.0 };
+            let signed = |theta: f64| excess(theta).map_or(-1.0, |excess| sign * excess);
+            solutions.push(value_at(falling_zero(before, theta, signed)));
+        }
+        previous = Some((theta, here));
+        // More damping leaves less, and its creep takes long to follow.
+        if parameter.role == Role::Damping && here + restitution < NOTHING {
+            break;
+        }
+    }
+    if solutions.is_empty() {
+        return Err(FitError::NoSolution {
+            key: parameter.key,
+            wanted: restitution,
+            speed,
+            range: (value_at(low), value_at(high)),
+            least: reach.0,
+            most: reach.1,
+        });
+    }
+    Ok(Inversion { solutions, reach })
+}

@@ -1,0 +1,88 @@
+//! The minimum of a sum of squares inside bounds.
+//!
+//! By the Levenberg–Marquardt method of MINPACK with bounds (Moré 1978; Markwardt 2009, crate
+//! `rmpfit`, a port of CMPFIT), its derivatives central differences. The crate
+//! `levenberg-marquardt` would bring an older nalgebra beside the workspace's, and has no bounds.
+
+use nalgebra::DMatrix;
+use rmpfit::{MPError, MPFitter, MPPar, MPResult, MPSide};
+
+use crate::FitError;
+
+/// Step of the differences: parameters are logarithms or numbers of order 1.
+const STEP: f64 = 1e-4;
+
+/// Residuals as a function of the parameters; `None` where there are none.
+pub(crate) type Residuals<'a> = dyn Fn(&[f64]) -> Option<Vec<f64>> + 'a;
+
+struct Fitter<'a> {
+    residuals: &'a Residuals<'a>,
+    n_residuals: usize,
+    parameters: Vec<MPPar>,
+}
+
+impl MPFitter for Fitter<'_> {
+    fn eval(&mut self, parameters: &[f64], deviates: &mut [f64]) -> MPResult<()> {
+        let residuals = (self.residuals)(parameters).ok_or(MPError::Eval)?;
+        deviates.copy_from_slice(&residuals);
+        Ok(())
+    }
+
+    fn number_of_points(&self) -> usize {
+        self.n_residuals
+    }
+
+    fn parameters(&self) -> &[MPPar] {
+        &self.parameters
+    }
+}
+
+/// The parameters of the minimum next to `start`, and the sum of squares there. `bounds` are those
+/// of each parameter; more residuals than parameters are not needed.
+pub(crate) fn minimise(
+    residuals: &Residuals<'_>,
+    start: &[f64],
+    bounds: &[(f64, f64)],
+) -> Result<(Vec<f64>, f64), FitError> {
+    let failed = |reason: String| FitError::NotConverged { reason };
+    let n_residuals = residuals(start)
+        .ok_or_else(|| failed("the law cannot be computed at the start".into()))?
+        .len();
+    let parameter = |bounds: &(f64, f64)| MPPar {
+        limited_low: bounds.0.is_finite(),
+        limited_up: bounds.1.is_finite(),
+        limit_low: bounds.0,
+        limit_up: bounds.1,
+        step: STEP,
+        side: MPSide::Both,
+        ..MPPar::new()
+    };
+    let parameters = bounds.iter().map(parameter).collect();
+    let mut fitter = Fitter { residuals, n_residuals, parameters };
+    let mut found = start.to_vec();
+    for ((value, bounds), start) in found.iter_mut().zip(bounds).zip(start) {
+        *value = start.clamp(bounds.0, bounds.1);
+    }
+    let status = fitter.mpfit(&mut found).map_err(|error| failed(error.to_string()))?;
+    Ok((found, status.best_norm))
+}
+
+/// ∂r_i/∂θ_j at `at` by differences, one-sided next to a bound.
+pub(crate) fn jacobian(
+    residuals: &Residuals<'_>,
+    at: &[f64],
+    bounds: &[(f64, f64)],
+) -> Option<DMatrix<f64>> {
+    let mut columns = Vec::new();
+    for (j, (low, high)) in bounds.iter().enumerate() {
+        let side = |step: f64| {
+            let mut parameters = at.to_vec();
+            parameters[j] = (at[j] + step).clamp(*low, *high);
+            Some((parameters[j], residuals(&parameters)?))
+        };
+        let ((below, first), (above, second)) = (side(-STEP)?, side(STEP)?);
+        let difference = first.iter().zip(&second).map(|(a, b)| (b - a) / (above - below));
+        columns.push(nalgebra::DVector::from_iterator(first.len(), difference));
+    }
+    Some(DMatrix::from_columns(&columns))
+}

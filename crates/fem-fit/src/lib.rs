@@ -1,0 +1,54 @@
+//! Parameters of contact laws from restitutions that were measured or computed, and back.
+//!
+//! ```text
+//! Family ─ Model ─┬─ Problem ─ Fit, Profile     parameters to e(v) and T(v), by least squares
+//! names,   pair,  ├─ invert                     the parameter that gives one e at one speed
+//! keys     law    └─ dem                        the numbers that LAMMPS, LIGGGHTS, YADE ask for
+//!
+//! cradle                                        angles of a Newton's cradle to e
+//! ```
+//!
+//! Everything is SI.
+//!
+//! ```
+//! use fem_fit::{Family, Model, Point, Problem};
+//! use fem_laws::{EndRule, Pair, Partner};
+//! use fem_material::{ElasticModuli, Material};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244)?;
+//! let glass = Material::new(2390.0, moduli, None)?;
+//! let sphere = Partner::solid_sphere(15.9e-3, &glass);
+//! let pair = Pair::new(sphere, sphere)?;
+//!
+//! // One measured restitution determines A, and leaves nothing to judge the law by.
+//! let model = Model::new(&pair, [None, None], Family::KuwabaraKono, EndRule::ZeroForce)?;
+//! let points = [Point::new(0.5, 0.925)];
+//! let fit = Problem::new(&model, &points, &["a"])?.fit(0.95)?;
+//! assert!(fit.rms < 1e-8 && fit.estimates[0].interval.is_none());
+//!
+//! // The same number as an inverse problem.
+//! let found = fem_fit::invert(&model, 0, &fit.values, 0.5, 0.925)?;
+//! assert!((found.solutions[0] / fit.values[0] - 1.0).abs() < 1e-6);
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod cradle;
+pub mod dem;
+mod error;
+mod family;
+mod fit;
+mod inverse;
+mod least_squares;
+mod model;
+mod problem;
+mod profile;
+
+pub use error::FitError;
+pub use family::{Family, Parameter, Role};
+pub use fit::{Estimate, Fit};
+pub use inverse::{Inversion, invert};
+pub use model::{Model, Outcome};
+pub use problem::{Free, Point, Problem};
+pub use profile::{Profile, ProfilePoint};

@@ -1,0 +1,196 @@
+//! A pair of bodies under a law of a [`Family`]: parameters to restitution and contact time.
+
+use fem_laws::laws::ContactLaw;
+use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting};
+use fem_material::{Material, PronySeries, PronyTerm};
+
+use crate::FitError;
+use crate::family::{Family, Parameter, Role};
+
+/// Accuracy of a collision: differences over steps of 1e-4 in a parameter are good to 1e-5.
+const TOLERANCE: f64 = 1e-10;
+
+/// Two bodies, a law, and how a contact ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model {
+    pair: Pair,
+    materials: [Option<Material>; 2],
+    family: Family,
+    end_rule: EndRule,
+}
+
+/// What a collision is compared by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outcome {
+    /// e.
+    pub restitution: f64,
+    /// T, s; `None` if the bodies stay together.
+    pub contact_time: Option<f64>,
+}
+
+impl Model {
+    /// Of a pair and the materials of its bodies (`None` is a rigid wall), which only
+    /// [`Family::Ting`] looks at.
+    ///
+    /// # Errors
+    /// [`Family::Ting`] without a body that relaxes.
+    pub fn new(
+        pair: &Pair,
+        materials: [Option<Material>; 2],
+        family: Family,
+        end_rule: EndRule,
+    ) -> Result<Self, FitError> {
+        let model = Self { pair: *pair, materials, family, end_rule };
+        if family == Family::Ting && model.fastest_rate().is_none() {
+            return Err(FitError::NoRelaxation);
+        }
+        Ok(model)
+    }
+
+    /// The same bodies under another law.
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn with_family(&self, family: Family) -> Result<Self, FitError> {
+        Self::new(&self.pair, self.materials.clone(), family, self.end_rule)
+    }
+
+    /// The bodies.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// The law.
+    pub fn family(&self) -> Family {
+        self.family
+    }
+
+    /// How a contact ends.
+    pub fn end_rule(&self) -> EndRule {
+        self.end_rule
+    }
+
+    /// The law with values for all parameters; `None` for [`Family::Ting`].
+    ///
+    /// # Errors
+    /// Values without a meaning.
+    pub fn law(&self, values: &[f64]) -> Option<Result<ContactLaw, LawError>> {
+        self.family.law(&self.pair, values)
+    }
+
+    /// The whole collision at an approach speed, m/s.
+    ///
+    /// # Errors
+    /// Those of the law.
+    pub fn impact(&self, values: &[f64], speed: f64) -> Result<Impact, LawError> {
+        match (self.family.law(&self.pair, values), values) {
+            (Some(law), _) => {
+                let model = LawImpact::new(&self.pair, law?).with_end_rule(self.end_rule);
+                model.with_tolerance(TOLERANCE)?.impact(speed)
+            }
+            (None, &[rate, ..]) => {
+                let [first, second] = self.materials_at_rate(rate)?;
+                let relaxation = PairRelaxation::new(first.as_ref(), second.as_ref())?;
+                Ting::new(&self.pair, relaxation).impact(speed)
+            }
+            (None, []) => Err(LawError::NotPositive { quantity: "decay_rate", value: 0.0 }),
+        }
+    }
+
+    /// Restitution and contact time at an approach speed, m/s. A creep too long to follow, which
+    /// leaves a restitution below 1e-8, is one that never ends.
+    ///
+    /// # Errors
+    /// Those of the law.
+    pub fn outcome(&self, values: &[f64], speed: f64) -> Result<Outcome, LawError> {
+        match self.impact(values, speed) {
+            Ok(impact) => {
+                Ok(Outcome { restitution: impact.restitution, contact_time: impact.contact_time })
+            }
+            Err(LawError::NotFinished { .. }) => {
+                Ok(Outcome { restitution: 0.0, contact_time: None })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Decay rates of the bodies' terms, 1/s, when `decay_rate` is the largest of them.
+    pub fn decay_rates(&self, decay_rate: f64) -> [Vec<f64>; 2] {
+        let factor = self.fastest_rate().map_or(1.0, |fastest| decay_rate / fastest);
+        self.materials.each_ref().map(|material| {
+            let series = material.as_ref().and_then(Material::relaxation);
+            let terms = series.map_or(&[][..], PronySeries::terms);
+            terms.iter().map(|term| factor / term.relaxation_time).collect()
+        })
+    }
+
+    /// β of the case: the largest decay rate of both bodies, 1/s.
+    pub fn fastest_rate(&self) -> Option<f64> {
+        let series = self.materials.iter().flatten().filter_map(Material::relaxation);
+        let terms = series.flat_map(|series| series.terms().iter());
+        let relaxing = terms.filter(|term| term.weight > 0.0);
+        relaxing.map(|term| term.relaxation_time.recip()).reduce(f64::max)
+    }
+
+    /// The size that a parameter has when it changes a collision at `speed` by the order of 1;
+    /// a plain number's default or, for want of one, the middle of its limits.
+    ///
+    /// # Errors
+    /// Those of Hertz' impact.
+    pub fn natural_size(
+        &self,
+        parameter: &Parameter,
+        values: &[f64],
+        speed: f64,
+    ) -> Result<f64, LawError> {
+        let hertz = HertzImpact::new(&self.pair, speed)?;
+        let index = self.family.parameters().iter().position(|other| other == parameter);
+        let index = index.unwrap_or(0);
+        let mut unit = values.to_vec();
+        if let Some(value) = unit.get_mut(index) {
+            *value = 1.0;
+        }
+        let law = || self.family.law(&self.pair, &unit);
+        let size = match parameter.role {
+            Role::Rate => hertz.contact_time().recip(),
+            Role::Damping => match law() {
+                Some(law) => {
+                    let law = law?;
+                    let braking = law.damping() * hertz.max_approach().powf(law.damping_exponent());
+                    self.pair.effective_mass() / (braking * hertz.contact_time())
+                }
+                None => 1.0,
+            },
+            Role::Stiffness => match law() {
+                Some(law) => {
+                    let exponent = law?.elastic_exponent();
+                    hertz.peak_force() / hertz.max_approach().powf(exponent)
+                }
+                None => 1.0,
+            },
+            Role::Speed | Role::Number => parameter.guess(speed),
+        };
+        if size.is_finite() && (size > 0.0 || parameter.role == Role::Number) {
+            Ok(size)
+        } else {
+            Err(LawError::NotPositive { quantity: parameter.key, value: size })
+        }
+    }
+
+    fn materials_at_rate(&self, rate: f64) -> Result<[Option<Material>; 2], LawError> {
+        let factor = rate / self.fastest_rate().unwrap_or(rate);
+        let wrong = |_| LawError::NotPositive { quantity: "decay_rate", value: rate };
+        let mut scaled = self.materials.clone();
+        for material in scaled.iter_mut().flatten() {
+            let Some(series) = material.relaxation() else { continue };
+            let terms = series.terms().iter().map(|term| PronyTerm {
+                weight: term.weight,
+                relaxation_time: term.relaxation_time / factor,
+            });
+            let series = PronySeries::new(terms.collect(), series.acts_on()).map_err(wrong)?;
+            *material = Material::new(material.density(), *material.instantaneous(), Some(series))
+                .map_err(wrong)?;
+        }
+        Ok(scaled)
+    }
+}

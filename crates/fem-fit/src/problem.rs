@@ -1,0 +1,239 @@
+//! What is fitted: data, the free parameters of a law, and the residuals between them.
+
+use crate::error::FitError;
+use crate::family::{Parameter, Role};
+use crate::least_squares::minimise;
+use crate::model::Model;
+
+/// A measured or computed collision.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Approach speed, m/s.
+    pub speed: f64,
+    /// e.
+    pub restitution: f64,
+    /// Its standard uncertainty.
+    pub restitution_uncertainty: Option<f64>,
+    /// T, s, if it is to be fitted too.
+    pub contact_time: Option<f64>,
+}
+
+impl Point {
+    /// A restitution at a speed, m/s.
+    pub fn new(speed: f64, restitution: f64) -> Self {
+        Self { speed, restitution, restitution_uncertainty: None, contact_time: None }
+    }
+}
+
+/// A free parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Free {
+    /// Its place among the law's parameters.
+    pub index: usize,
+    /// Where to begin; found if absent.
+    pub start: Option<f64>,
+    /// Smallest and largest value allowed.
+    pub bounds: (f64, f64),
+}
+
+/// Data, a law, and what of it is free.
+///
+/// A residual is e(v) − e_i, over its uncertainty if the data have any; a contact time's is
+/// T(v)/T_i − 1, which weighs as much as an equal difference of e.
+#[derive(Debug, Clone)]
+pub struct Problem<'a> {
+    /// The bodies and the law.
+    pub model: &'a Model,
+    /// The data.
+    pub points: &'a [Point],
+    /// Values of all parameters; of the free ones only a guess.
+    pub values: Vec<f64>,
+    /// Which of them are free.
+    pub free: Vec<Free>,
+}
+
+/// How far around its natural size a logarithmic parameter may go.
+const WIDEST: f64 = 1e8;
+
+impl<'a> Problem<'a> {
+    /// With these parameters free and all others at their defaults.
+    ///
+    /// # Errors
+    /// A key that the law does not have; a speed without a Hertz impact.
+    pub fn new(model: &'a Model, points: &'a [Point], free: &[&str]) -> Result<Self, FitError> {
+        let parameters = model.family().parameters();
+        let mut problem = Self { model, points, values: Vec::new(), free: Vec::new() };
+        let speed = problem.middle_speed();
+        problem.values = parameters.iter().map(|parameter| parameter.guess(speed)).collect();
+        for (index, parameter) in parameters.iter().enumerate() {
+            let size = model.natural_size(parameter, &problem.values, speed)?;
+            problem.values[index] = size;
+            if free.contains(&parameter.key) {
+                let bounds = problem.default_bounds(parameter, size);
+                problem.free.push(Free { index, start: None, bounds });
+            }
+        }
+        Ok(problem)
+    }
+
+    /// The geometric mean of the speeds, m/s.
+    pub fn middle_speed(&self) -> f64 {
+        let sum: f64 = self.points.iter().map(|point| point.speed.ln()).sum();
+        (sum / self.points.len().max(1) as f64).exp()
+    }
+
+    /// The parameter at a place.
+    pub fn parameter(&self, index: usize) -> &'static Parameter {
+        &self.model.family().parameters()[index]
+    }
+
+    /// Whether each restitution has an uncertainty, so that residuals have one of 1.
+    pub fn has_uncertainties(&self) -> bool {
+        self.points.iter().all(|point| point.restitution_uncertainty.is_some())
+    }
+
+    /// Differences of the data from the law; `None` where it cannot be computed.
+    pub fn residuals(&self, values: &[f64]) -> Option<Vec<f64>> {
+        let weighted = self.has_uncertainties();
+        let mut residuals = Vec::with_capacity(self.points.len());
+        for point in self.points {
+            let outcome = self.model.outcome(values, point.speed).ok()?;
+            let scale = point.restitution_uncertainty.filter(|_| weighted).unwrap_or(1.0);
+            residuals.push((outcome.restitution - point.restitution) / scale);
+            if let Some(measured) = point.contact_time {
+                // A contact that never ends is as far off as can be told.
+                let time = outcome.contact_time.map_or(1.0, |time| time / measured - 1.0);
+                residuals.push(time / scale);
+            }
+        }
+        residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)
+    }
+
+    /// The same with one parameter less free, held at a value; the others begin at `start`.
+    pub(crate) fn holding(&self, index: usize, value: f64, start: &[f64]) -> Self {
+        let mut held = self.clone();
+        held.values[index] = value;
+        held.free.retain(|free| free.index != index);
+        for free in &mut held.free {
+            free.start = Some(start[free.index]);
+        }
+        held
+    }
+
+    /// Values of all parameters at a point θ of the free ones.
+    pub(crate) fn values_at(&self, theta: &[f64]) -> Vec<f64> {
+        let mut values = self.values.clone();
+        for (free, theta) in self.free.iter().zip(theta) {
+            values[free.index] = if self.is_logarithmic(free) { theta.exp() } else { *theta };
+        }
+        values
+    }
+
+    /// θ of the free parameters at values of all.
+    pub(crate) fn theta_of(&self, values: &[f64]) -> Vec<f64> {
+        let theta = |free: &Free| self.theta(free, values[free.index]);
+        self.free.iter().map(theta).collect()
+    }
+
+    pub(crate) fn bounds(&self) -> Vec<(f64, f64)> {
+        let both = |free: &Free| (self.theta(free, free.bounds.0), self.theta(free, free.bounds.1));
+        self.free.iter().map(both).collect()
+    }
+
+    pub(crate) fn is_logarithmic(&self, free: &Free) -> bool {
+        self.parameter(free.index).role != Role::Number
+    }
+
+    /// Values of all parameters at the least sum of squares, and that sum.
+    pub(crate) fn solve(&self) -> Result<(Vec<f64>, f64), FitError> {
+        let residuals = |theta: &[f64]| self.residuals(&self.values_at(theta));
+        if self.free.is_empty() {
+            let sum = self.sum_of_squares(&self.values).ok_or_else(|| FitError::NotConverged {
+                reason: "the law cannot be computed".into(),
+            })?;
+            return Ok((self.values.clone(), sum));
+        }
+        let mut best: Option<(Vec<f64>, f64)> = None;
+        let mut last = Ok(());
+        for start in self.starts() {
+            match minimise(&residuals, &self.theta_of(&start), &self.bounds()) {
+                Ok((theta, sum)) if best.as_ref().is_none_or(|best| sum < best.1) => {
+                    best = Some((self.values_at(&theta), sum));
+                }
+                Ok(_) => {}
+                Err(error) => last = Err(error),
+            }
+        }
+        match (best, last) {
+            (Some(best), _) => Ok(best),
+            (None, Err(error)) => Err(error),
+            (None, Ok(())) => Err(FitError::NothingFree),
+        }
+    }
+
+    /// Σ r²; `None` where the law cannot be computed.
+    pub(crate) fn sum_of_squares(&self, values: &[f64]) -> Option<f64> {
+        Some(self.residuals(values)?.iter().map(|residual| residual * residual).sum())
+    }
+
+    /// Where to begin: the given starts, or one for each of some values of the first free plain
+    /// number, with the first logarithmic parameter where it fits best.
+    fn starts(&self) -> Vec<Vec<f64>> {
+        let mut values = self.values.clone();
+        for free in &self.free {
+            let value = free.start.unwrap_or(values[free.index]);
+            values[free.index] = value.clamp(free.bounds.0, free.bounds.1);
+        }
+        let open = |free: &&Free| free.start.is_none();
+        let number = self.free.iter().filter(open).find(|free| !self.is_logarithmic(free));
+        let numbers = match number {
+            Some(Free { index, bounds: (low, high), .. }) => {
+                let spread = [0.2, 0.5].map(|part| low + part * (high - low));
+                vec![(*index, values[*index]), (*index, spread[0]), (*index, spread[1])]
+            }
+            None => vec![(0, values[0])],
+        };
+        let scanned = self.free.iter().filter(open).find(|free| self.is_logarithmic(free));
+        let mut starts = Vec::new();
+        for (index, value) in numbers {
+            let mut start = values.clone();
+            start[index] = value;
+            starts.push(match scanned {
+                Some(free) => self.scan(free, start),
+                None => start,
+            });
+        }
+        starts
+    }
+
+    /// The best of some decades of one parameter around its natural size.
+    fn scan(&self, free: &Free, mut values: Vec<f64>) -> Vec<f64> {
+        let (parameter, speed) = (self.parameter(free.index), self.middle_speed());
+        let size = self.model.natural_size(parameter, &values, speed);
+        let size = size.unwrap_or(values[free.index]);
+        let mut best = (f64::INFINITY, values[free.index]);
+        for half_decades in -10..=2 {
+            let value = size * 10f64.powf(0.5 * f64::from(half_decades));
+            values[free.index] = value.clamp(free.bounds.0, free.bounds.1);
+            let sum = self.sum_of_squares(&values).unwrap_or(f64::INFINITY);
+            if sum < best.0 {
+                best = (sum, values[free.index]);
+            }
+        }
+        values[free.index] = best.1;
+        values
+    }
+
+    fn theta(&self, free: &Free, value: f64) -> f64 {
+        if self.is_logarithmic(free) { value.ln() } else { value }
+    }
+
+    fn default_bounds(&self, parameter: &Parameter, size: f64) -> (f64, f64) {
+        match parameter.role {
+            Role::Number => parameter.limits,
+            // C of ξⁿ spans many decades with n: what is natural at n = 0.5 is not at n = 3.
+            Role::Damping => (size / WIDEST.powi(2), size * WIDEST.powi(2)),
+            _ => (size / WIDEST, size * WIDEST),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The least error at each value of one parameter, the others fitted anew: how flat an optimum is.
+//!
+//! Its interval is where Σ r² stays below Σ r²_min + s² t², the level at which the first-order
+//! interval of a linear model ends (Bates & Watts, *Nonlinear Regression Analysis*, ch. 6). It needs
+//! no linearity; the residuals are independent here as well.
+
+use fem_laws::bisection::falling_zero;
+
+use crate::error::FitError;
+use crate::fit::Fit;
+use crate::problem::{Free, Problem};
+
+/// A profile over one parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    /// The parameter's place among the law's.
+    pub index: usize,
+    /// In the order of the grid.
+    pub points: Vec<ProfilePoint>,
+    /// Where the error stays below the level of the fit's confidence; an end is `None` where it
+    /// does so up to the bound. `None` as a whole without degrees of freedom.
+    pub interval: Option<(Option<f64>, Option<f64>)>,
+}
+
+/// The best fit with one parameter held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProfilePoint {
+    /// Of the parameter that is held, SI.
+    pub value: f64,
+    /// √(Σ r²/N).
+    pub rms: f64,
+    /// Of all parameters.
+    pub values: Vec<f64>,
+}
+
+impl Problem<'_> {
+    /// The profile of a free parameter over a grid, and its interval at the level of `fit`.
+    ///
+    /// # Errors
+    /// A value at which the others cannot be fitted.
+    pub fn profile(&self, fit: &Fit, free: &Free, grid: &[f64]) -> Result<Profile, FitError> {
+        let n_values = fit.residuals.len() as f64;
+        let mut points = Vec::with_capacity(grid.len());
+        let mut start = fit.values.clone();
+        for &value in grid {
+            let (values, sum) = self.holding(free.index, value, &start).solve()?;
+            start.clone_from(&values);
+            points.push(ProfilePoint { value, rms: (sum / n_values).sqrt(), values });
+        }
+        let interval = fit.allowed_rise.map(|rise| {
+            let level = fit.sum_of_squares + rise;
+            let below = |value: f64| {
+                let solved = self.holding(free.index, value, &fit.values).solve();
+                level - solved.map_or(f64::INFINITY, |(_, sum)| sum)
+            };
+            let error = fit.estimates.iter().find(|estimate| estimate.index == free.index);
+            let error = error.and_then(|estimate| estimate.standard_error).unwrap_or(0.0);
+            let best = fit.values[free.index];
+            let end = |bound: f64| find_end(best, bound, error, below);
+            (end(free.bounds.0), end(free.bounds.1))
+        });
+        Ok(Profile { index: free.index, points, interval })
+    }
+}
+
+/// Where `below` becomes negative on the way from `best` to `bound`, if it does.
+fn find_end(best: f64, bound: f64, error: f64, below: impl Fn(f64) -> f64) -> Option<f64> {
+    let whole = bound - best;
+    if whole == 0.0 || !whole.is_finite() {
+        return None;
+    }
+    let mut inside = 0.0;
+    let mut share = (error / whole.abs()).clamp(1e-6, 1.0);
+    loop {
+        if below(best + share * whole) <= 0.0 {
+            let value = |share: f64| below(best + share * whole).max(-1e30);
+            // A tenth of a per cent of the way is more than an interval is worth.
+            return Some(best + whole * coarse_zero(inside, share, value));
+        }
+        if share >= 1.0 {
+            return None;
+        }
+        inside = share;
+        share = (1.6 * share).min(1.0);
+    }
+}
+
+fn coarse_zero(low: f64, high: f64, value: impl Fn(f64) -> f64) -> f64 {
+    // The noise of the refits ends the search long before rounding would.
+    let steps = std::cell::Cell::new(0);
+    falling_zero(low, high, |share| {
+        steps.set(steps.get() + 1);
+        if steps.get() > 14 { 0.0 } else { value(share) }
+    })
+}

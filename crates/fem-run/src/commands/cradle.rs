@@ -1,0 +1,277 @@
+//! `fem-run cradle`: angles of a Newton's cradle to velocities and restitution.
+
+use std::path::PathBuf;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial};
+use serde_json::json;
+
+use crate::arguments::stem_of;
+use crate::failure::Failure;
+use crate::plot::{COLOURS, Mark, Panel, Series, svg};
+use crate::reduced::{CsvTable, Kind, OutputArguments, from_fit_error, parse_measured};
+use crate::standard_output;
+use crate::tables::table;
+
+/// Restitution from the angles of a Newton's cradle
+///
+/// The first ball is let go at the angle alpha and strikes the second, at rest, which rises to
+/// beta. One trial is printed; a CSV file of trials also makes a table, cradle.csv (fit takes it),
+/// and a plot. Uncertainties (`30 deg ± 0.5 deg`) are standard ones, independent, and propagate in
+/// first order.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// Pivot to a ball's centre, such as '20 cm ± 1 mm'
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    length: Measured,
+    /// Diameters of the first ball and the second, of one material: '22.2 mm,15.9 mm'
+    #[arg(long, value_name = "D1,D2", value_delimiter = ',', num_args = 1..=2,
+        value_parser = length, conflicts_with = "masses")]
+    diameters: Vec<Measured>,
+    /// Masses of the first ball and the second: '13.7 g ± 0.1 g,5.03 g'
+    #[arg(long, value_name = "M1,M2", value_delimiter = ',', num_args = 1..=2,
+        value_parser = mass, required_unless_present = "diameters")]
+    masses: Vec<Measured>,
+    /// Angle from which the first ball falls: '20 deg ± 0.2 deg'
+    #[arg(long, value_name = "ANGLE", value_parser = angle, required_unless_present = "data",
+        conflicts_with = "data")]
+    alpha: Option<Measured>,
+    /// Angle to which the second ball rises
+    #[arg(long, value_name = "ANGLE", value_parser = angle, required_unless_present = "data",
+        conflicts_with = "data")]
+    beta: Option<Measured>,
+    /// Trials: a CSV file with the columns alpha_deg and beta_deg (or _rad), and perhaps
+    /// alpha_uncertainty_deg and beta_uncertainty_deg
+    #[arg(long, value_name = "FILE")]
+    data: Option<PathBuf>,
+    /// Uncertainty of angles that have none of their own
+    #[arg(long, value_name = "ANGLE", value_parser = angle)]
+    angle_uncertainty: Option<Measured>,
+    /// Acceleration of free fall [default: 9.80665 m/s^2]
+    #[arg(long, value_name = "G", value_parser = acceleration)]
+    gravity: Option<Measured>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn length(text: &str) -> Result<Measured, String> {
+    parse_measured(Kind::Length, text)
+}
+
+fn mass(text: &str) -> Result<Measured, String> {
+    parse_measured(Kind::Mass, text)
+}
+
+fn angle(text: &str) -> Result<Measured, String> {
+    parse_measured(Kind::Angle, text)
+}
+
+fn acceleration(text: &str) -> Result<Measured, String> {
+    parse_measured(Kind::Acceleration, text)
+}
+
+/// Computes and prints, and writes a file's trials.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let cradle = cradle(arguments)?;
+    let Some(path) = &arguments.data else {
+        // clap asks for both where there is no file.
+        let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) else {
+            return Err(Failure::bad_input("--alpha and --beta are missing"));
+        };
+        let uncertain = |angle| with_default(angle, arguments);
+        let trial = Trial { release: uncertain(alpha), rise: uncertain(beta) };
+        let swing = cradle.swing(&trial).map_err(from_fit_error)?;
+        if arguments.output.quiet {
+            return Ok(());
+        }
+        return standard_output::print(&one(&cradle, &trial, &swing));
+    };
+    let trials = read(path, arguments)?;
+    let swings: Vec<(Trial, Swing)> = trials
+        .into_iter()
+        .map(|(trial, place)| {
+            let swing = cradle.swing(&trial);
+            let swing = swing.map_err(|error| Failure::bad_input(format!("{place}: {error}")))?;
+            Ok((trial, swing))
+        })
+        .collect::<Result<_, Failure>>()?;
+    let mut output = arguments.output.claim(&stem_of(path), "cradle")?;
+    let header = [
+        "speed_m_s",
+        "restitution",
+        "restitution_uncertainty",
+        "speed_uncertainty_m_s",
+        "first_after_m_s",
+        "second_after_m_s",
+        "alpha_rad",
+        "beta_rad",
+    ];
+    let has_uncertainty = swings.iter().all(|(_, swing)| swing.restitution.uncertainty > 0.0);
+    let rows = swings.iter().map(|(trial, swing)| {
+        vec![
+            Some(swing.before.value),
+            Some(swing.restitution.value),
+            has_uncertainty.then_some(swing.restitution.uncertainty),
+            has_uncertainty.then_some(swing.before.uncertainty),
+            Some(swing.first_after.value),
+            Some(swing.second_after.value),
+            Some(trial.release.value),
+            Some(trial.rise.value),
+        ]
+    });
+    output.write_table("cradle.csv", &header, rows)?;
+    output.write("cradle.svg", picture(&swings))?;
+    let [first, second] = cradle.masses;
+    let place = output.publish(json!({
+        "data": path.display().to_string(),
+        "trials": swings.len(),
+        "length_m": cradle.length.value,
+        "mass_ratio": second.value / first.value,
+        "gravity_m_s2": cradle.gravity.value,
+    }))?;
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    standard_output::print(&format!("{}\nResult: {place}\n", many(&cradle, &swings)))
+}
+
+fn cradle(arguments: &Arguments) -> Result<Cradle, Failure> {
+    let pair = |values: &[Measured], option: &str| match values {
+        [first, second] => Ok([*first, *second]),
+        _ => Err(Failure::bad_input(format!("{option} gives one ball"))
+            .with_help(format!("give both, the first and the second: {option} A,B"))),
+    };
+    let masses = if arguments.diameters.is_empty() {
+        pair(&arguments.masses, "--masses")?
+    } else {
+        // Of one density, which cancels.
+        pair(&arguments.diameters, "--diameters")?.map(|Measured { value, uncertainty }| Measured {
+            value: value.powi(3),
+            uncertainty: 3.0 * value * value * uncertainty,
+        })
+    };
+    let gravity = arguments.gravity.unwrap_or(Measured::exact(STANDARD_GRAVITY));
+    Ok(Cradle { gravity, length: arguments.length, masses })
+}
+
+fn with_default(angle: Measured, arguments: &Arguments) -> Measured {
+    match arguments.angle_uncertainty {
+        Some(Measured { value, .. }) if angle.uncertainty == 0.0 => {
+            Measured { uncertainty: value, ..angle }
+        }
+        _ => angle,
+    }
+}
+
+/// The trials of a file, each with its place.
+fn read(path: &std::path::Path, arguments: &Arguments) -> Result<Vec<(Trial, String)>, Failure> {
+    let table = CsvTable::read(path)?;
+    let alpha = table.require(&["alpha"], "alpha_deg")?;
+    let beta = table.require(&["beta"], "beta_deg")?;
+    let of_alpha = table.find(&["alpha_uncertainty"])?;
+    let of_beta = table.find(&["beta_uncertainty"])?;
+    let trial = |row: usize| {
+        let angle = |column: usize, uncertainty: Option<usize>| {
+            let name = &table.header()[column];
+            if !name.ends_with("_deg") && !name.ends_with("rad") {
+                return Err(table
+                    .fault(1, format!("the column {name} does not name its unit"))
+                    .with_help(format!("call it {name}_deg or {name}_rad")));
+            }
+            let uncertainty = uncertainty.map(|column| table.number(row, column, [0; 3]));
+            let uncertainty = uncertainty.transpose()?.map_or(0.0, |cell| cell.value);
+            let value = table.number(row, column, [0; 3])?.value;
+            Ok(with_default(Measured { value, uncertainty }, arguments))
+        };
+        let trial = Trial { release: angle(alpha, of_alpha)?, rise: angle(beta, of_beta)? };
+        Ok((trial, format!("{}:{}", table.name(), table.line(row))))
+    };
+    (0..table.n_rows()).map(trial).collect()
+}
+
+/// `0.9250 ± 0.0031`: two digits of the uncertainty.
+fn show_measured(Measured { value, uncertainty }: Measured, unit: &str) -> String {
+    if uncertainty <= 0.0 {
+        return format!("{value:.4} {unit}").trim_end().to_string();
+    }
+    let digits = (1 - uncertainty.log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{value:.digits$} ± {uncertainty:.digits$} {unit}").trim_end().to_string()
+}
+
+/// Beyond what energy and momentum allow, in words.
+fn doubt(cradle: &Cradle, trial: &Trial, swing: &Swing) -> Option<String> {
+    let e = swing.restitution;
+    let by = |excess: f64| match e.uncertainty > 0.0 {
+        true => format!(" by {:.1} of its uncertainty", excess / e.uncertainty),
+        false => String::new(),
+    };
+    if e.value > 1.0 {
+        let highest = cradle.highest_rise(trial.release.value);
+        let highest = highest.map_or(String::new(), |highest| {
+            format!(": without loss the second ball rises to {:.2} deg", highest.to_degrees())
+        });
+        return Some(format!("restitution above 1{}{highest}", by(e.value - 1.0)));
+    }
+    let falls_short = || format!("restitution below 0{}: v2 is less than v1", by(-e.value));
+    (e.value < 0.0).then(falls_short)
+}
+
+fn one(cradle: &Cradle, trial: &Trial, swing: &Swing) -> String {
+    let rows = [
+        ["u", "first ball before", &show_measured(swing.before, "m/s")].map(String::from),
+        ["v1", "first ball after", &show_measured(swing.first_after, "m/s")].map(String::from),
+        ["v2", "second ball after", &show_measured(swing.second_after, "m/s")].map(String::from),
+        ["e", "restitution", &show_measured(swing.restitution, "")].map(String::from),
+    ];
+    let mut text = table(&[Left, Left, Left], rows);
+    if swing.restitution.uncertainty > 0.0 {
+        let names = ["alpha", "beta", "the first mass", "the second mass"];
+        let shares = names.iter().zip(swing.shares).filter(|(_, share)| *share >= 0.005);
+        let shares: Vec<_> =
+            shares.map(|(name, share)| format!("{:.0} % {name}", 100.0 * share)).collect();
+        text += &format!("\nUncertainty, first order; variance of e from {}.\n", shares.join(", "));
+    }
+    if let Some(doubt) = doubt(cradle, trial, swing) {
+        text += &format!("warning: {doubt}\n");
+    }
+    text
+}
+
+fn many(cradle: &Cradle, swings: &[(Trial, Swing)]) -> String {
+    let header = ["alpha", "beta", "u", "v1", "v2", "restitution"].map(String::from);
+    let rows = swings.iter().map(|(trial, swing)| {
+        [
+            format!("{:.2} deg", trial.release.value.to_degrees()),
+            format!("{:.2} deg", trial.rise.value.to_degrees()),
+            show_measured(swing.before, "m/s"),
+            show_measured(swing.first_after, "m/s"),
+            show_measured(swing.second_after, "m/s"),
+            show_measured(swing.restitution, ""),
+        ]
+    });
+    let mut text = table(&[Right; 6], std::iter::once(header).chain(rows));
+    for (trial, swing) in swings {
+        if let Some(doubt) = doubt(cradle, trial, swing) {
+            let alpha = trial.release.value.to_degrees();
+            text += &format!("warning: alpha = {alpha:.2} deg: {doubt}\n");
+        }
+    }
+    text
+}
+
+fn picture(swings: &[(Trial, Swing)]) -> String {
+    let points = swings.iter().map(|(_, swing)| (swing.before.value, swing.restitution.value));
+    let errors = swings.iter().map(|(_, swing)| swing.restitution.uncertainty);
+    let errors: Vec<f64> = if swings.iter().all(|(_, swing)| swing.restitution.uncertainty > 0.0) {
+        errors.collect()
+    } else {
+        Vec::new()
+    };
+    let trials = Series::new("trials", COLOURS[0], Mark::Points, points.collect());
+    svg(&[Panel {
+        x_label: "approach speed [m/s]".to_string(),
+        y_label: "restitution".to_string(),
+        is_x_logarithmic: false,
+        series: vec![Series { errors, ..trials }],
+    }])
+}

@@ -1,0 +1,240 @@
+//! `fem-run export CASE`: snippets for DEM codes from a sweep's restitutions, or Ting's.
+
+use std::path::PathBuf;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem_case::Case;
+use fem_fit::dem::{Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets};
+use fem_fit::{Family, Point};
+use fem_laws::EndRule;
+use serde_json::{Value, json};
+
+use crate::arguments::CaseArguments;
+use crate::engineering::{Unit, show};
+use crate::failure::Failure;
+use crate::plot::{COLOURS, Mark, Panel, Series, svg};
+use crate::reduced::{
+    Curve, Drawn, OutputArguments, approach_speed, fit_export, from_fit_error, model_of,
+    parse_speed, read_data, spheres_of,
+};
+use crate::standard_output;
+use crate::tables::table;
+
+/// Write input for LAMMPS, LIGGGHTS and YADE that makes the same restitutions
+///
+/// They come from the sweep.csv of a sweep over speeds, from a measurement, or, without --data,
+/// from Ting's model of the case. Each snippet says at which speeds it is good.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: CaseArguments,
+    /// Restitutions, and contact times if it has them: a CSV file, such as a sweep's sweep.csv
+    #[arg(long, value_name = "FILE", conflicts_with = "speeds")]
+    data: Option<PathBuf>,
+    /// Speeds of Ting's model, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
+    #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
+    speeds: Option<(f64, f64)>,
+    /// Error of the restitution up to which a snippet is called good
+    #[arg(long, value_name = "E", default_value_t = 0.01)]
+    tolerance: f64,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Speeds at which Ting's model is computed.
+const N_SPEEDS: usize = 13;
+
+/// Fits and writes.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    if !(arguments.tolerance > 0.0 && arguments.tolerance < 1.0) {
+        let message = format!("--tolerance is {:?}", arguments.tolerance);
+        return Err(Failure::bad_input(message).with_help("it must be between 0 and 1"));
+    }
+    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let Some(spheres) = spheres_of(&case) else {
+        return Err(Failure::bad_input("the case has a wall; a snippet is for two spheres")
+            .with_help(
+                "walls have commands of their own in DEM codes; replace the wall by a sphere",
+            ));
+    };
+    let curve = curve(arguments, &case)?;
+    let fitted = fit_export(&case, spheres, &curve, arguments.tolerance);
+    let (export, drawn) = fitted.map_err(from_fit_error)?;
+    let failed = |error: fem_laws::LawError| from_fit_error(error.into());
+    let mut snippets = lammps_snippets(&export).map_err(failed)?;
+    snippets.extend(liggghts_snippets(&export).map_err(failed)?);
+    snippets.extend(yade_snippets(&export).map_err(failed)?);
+    let mut output = arguments.output.claim(&arguments.input.stem(), "export")?;
+    for snippet in &snippets {
+        output.write(snippet.name, &snippet.text)?;
+    }
+    output.write("export.svg", picture(&curve, &drawn))?;
+    let place = output.publish(numbers(&arguments.input, &export, &curve, &drawn, &snippets))?;
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    let note = if curve.has_hertz_times {
+        "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n"
+    } else {
+        ""
+    };
+    standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&export, &snippets)))
+}
+
+fn curve(arguments: &Arguments, case: &Case) -> Result<Curve, Failure> {
+    if let Some(path) = &arguments.data {
+        let data = read_data(path, &case.scene, true)?;
+        if data.points.len() < 2 {
+            return Err(Failure::bad_input(format!("{}: one speed only", data.name))
+                .with_help("a range of validity needs two speeds or more"));
+        }
+        let model = model_of(case, Family::Tsuji, EndRule::ZeroOverlap).map_err(from_fit_error)?;
+        return Curve::of(&model, data.points).map_err(from_fit_error);
+    }
+    let middle = approach_speed(&case.scene);
+    let decade = 10f64.sqrt();
+    let (low, high) = arguments.speeds.unwrap_or((middle / decade, middle * decade));
+    let speed = |k: usize| low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64);
+    let speeds: Vec<f64> = (0..N_SPEEDS).map(speed).collect();
+    Curve::of_ting(case, &speeds).map_err(|error| {
+        from_fit_error(error).with_help(
+            "give a material a [material.NAME.relaxation] table, or restitutions with --data",
+        )
+    })
+}
+
+fn parse_speeds(text: &str) -> Result<(f64, f64), String> {
+    let (low, high) = text.split_once("..").ok_or("write LOW..HIGH, such as '5 cm/s..2 m/s'")?;
+    let (low, high) = (parse_speed(low)?, parse_speed(high)?);
+    if low < high { Ok((low, high)) } else { Err("the range is empty".to_string()) }
+}
+
+fn text(export: &Export, snippets: &[Snippet]) -> String {
+    let header = ["code", "model", "enter", "makes e", "good to tolerance", "worst error", "file"];
+    let row = |snippet: &Snippet| {
+        let [from, to, worst] = snippet.validity;
+        let entries = snippet.entries.iter().map(|(key, value)| format!("{key} {}", entry(*value)));
+        [
+            snippet.code.to_string(),
+            snippet.model.to_string(),
+            entries.collect::<Vec<_>>().join(", "),
+            snippet.restitution.map_or("falls with v".to_string(), |e| format!("{e:.4}")),
+            if from <= to {
+                format!("{} to {}", show(from, "m/s"), show(to, "m/s"))
+            } else {
+                "nowhere".to_string()
+            },
+            format!("{worst:.4}"),
+            snippet.name.to_string(),
+        ]
+    };
+    let rows = std::iter::once(header.map(String::from)).chain(snippets.iter().map(row));
+    format!(
+        "{}, {} to {}; a snippet is good where its restitution is right to {}\n\n{}",
+        standard_output::one_line(&export.title),
+        show(export.speeds.0, "m/s"),
+        show(export.speeds.1, "m/s"),
+        export.tolerance,
+        table(&[Left, Left, Left, Right, Left, Right, Left], rows)
+    )
+}
+
+fn entry(value: f64) -> String {
+    if (0.001..1e4).contains(&value) { format!("{value:.4}") } else { format!("{value:.4e}") }
+}
+
+fn numbers(
+    input: &CaseArguments,
+    export: &Export,
+    curve: &Curve,
+    drawn: &[Drawn],
+    snippets: &[Snippet],
+) -> Value {
+    let snippet = |snippet: &Snippet| {
+        let [from, to, worst] = snippet.validity;
+        let entries = snippet.entries.iter().map(|(key, value)| (key.to_string(), json!(value)));
+        // What depends on speed is the viscoelastic damping.
+        let viscoelastic = drawn.iter().find(|law| law.model.family() == Family::KuwabaraKono);
+        let at_speed = |point: &Point| match (snippet.restitution, viscoelastic) {
+            (Some(restitution), _) => Some(restitution),
+            (None, Some(law)) => law.outcome(point.speed).map(|outcome| outcome.restitution),
+            (None, None) => None,
+        };
+        json!({
+            "file": snippet.name,
+            "code": snippet.code,
+            "model": snippet.model,
+            "entries": Value::Object(entries.collect()),
+            "restitution": snippet.restitution,
+            "valid_from_m_s": (from <= to).then_some(from),
+            "valid_to_m_s": (from <= to).then_some(to),
+            "worst_error": worst,
+            "restitutions_at_data": curve.points.iter().map(at_speed).collect::<Vec<_>>(),
+        })
+    };
+    let sphere = |sphere: &Sphere| {
+        json!({ "diameter_m": sphere.diameter, "density_kg_m3": sphere.density,
+            "youngs_modulus_pa": sphere.youngs_modulus, "poissons_ratio": sphere.poissons_ratio })
+    };
+    let point = |point: &Point| {
+        json!({ "speed_m_s": point.speed, "restitution": point.restitution,
+            "contact_time_s": point.contact_time })
+    };
+    json!({
+        "case": input.case.display().to_string(),
+        "spheres": export.spheres.iter().map(sphere).collect::<Vec<_>>(),
+        "tolerance": export.tolerance,
+        "speeds_m_s": export.speeds,
+        "effective_mass_kg": export.pair.effective_mass(),
+        "effective_radius_m": export.pair.effective_radius(),
+        "contact_modulus_pa": export.pair.contact_modulus(),
+        "dissipation_time_s": export.dissipation_time.0,
+        "linear_contact_time_s": export.linear.contact_time,
+        "has_hertz_times": curve.has_hertz_times,
+        "data": curve.points.iter().map(point).collect::<Vec<_>>(),
+        "snippets": snippets.iter().map(snippet).collect::<Vec<_>>(),
+    })
+}
+
+/// e(v) and T(v): data and the three kinds of law.
+fn picture(curve: &Curve, drawn: &[Drawn]) -> String {
+    let fastest = curve.points[curve.points.len() - 1].speed;
+    let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
+    let (speed, time) = (Unit::fitting(fastest, "m/s"), Unit::fitting(longest, "s"));
+    let panel = |y_label: String, data: Vec<(f64, f64)>, y: &dyn Fn(&Drawn, f64) -> Option<f64>| {
+        // The linear law hides the other constant one.
+        let mark = |law: &Drawn| match law.model.family() {
+            Family::Linear => Mark::Dashed,
+            _ => Mark::Line,
+        };
+        let law = |(law, colour): (&Drawn, &'static str)| {
+            let points = curve
+                .points
+                .iter()
+                .filter_map(|point| Some((speed.scaled(point.speed), y(law, point.speed)?)));
+            Series::new(law.name, colour, mark(law), points.collect())
+        };
+        let colours = [COLOURS[0], COLOURS[2], COLOURS[3]];
+        let mut series: Vec<Series> = drawn.iter().zip(colours).map(law).collect();
+        series.push(Series::new("data", COLOURS[1], Mark::Points, data));
+        Panel {
+            x_label: format!("approach speed [{}]", speed.symbol()),
+            y_label,
+            is_x_logarithmic: true,
+            series,
+        }
+    };
+    let points = || curve.points.iter();
+    let e_data = points().map(|point| (speed.scaled(point.speed), point.restitution)).collect();
+    let t_data = points()
+        .filter_map(|point| Some((speed.scaled(point.speed), time.scaled(point.contact_time?))))
+        .collect();
+    svg(&[
+        panel("restitution".to_string(), e_data, &|law, speed| {
+            law.outcome(speed).map(|outcome| outcome.restitution)
+        }),
+        panel(format!("contact time [{}]", time.symbol()), t_data, &|law, speed| {
+            law.outcome(speed)?.contact_time.map(|contact| time.scaled(contact))
+        }),
+    ])
+}

@@ -1,0 +1,147 @@
+//! Restitutions over speeds from a CSV file, measured or that of a sweep.
+
+use std::path::Path;
+
+use fem_case::Scene;
+use fem_fit::Point;
+
+use super::table::CsvTable;
+use crate::failure::Failure;
+
+/// The data of a file.
+#[derive(Debug)]
+pub struct Data {
+    /// The file's name.
+    pub name: String,
+    /// In the order of the file.
+    pub points: Vec<Point>,
+    /// Rows of members that failed.
+    pub n_left_out: usize,
+}
+
+const SPEEDS: [&str; 6] =
+    ["speed", "approach_speed", "impact_speed", "relative_speed", "velocity", "v"];
+const RESTITUTIONS: [&str; 3] = ["restitution", "coefficient_of_restitution", "e"];
+const UNCERTAINTIES: [&str; 5] =
+    ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
+const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
+const SPEED: [i32; 3] = [1, 0, -1];
+const TIME: [i32; 3] = [0, 0, 1];
+/// Restitutions above it are no scatter of a measurement.
+const LARGEST: f64 = 1.2;
+
+/// Columns of a file.
+struct Columns {
+    /// Speeds that add up.
+    speeds: Vec<usize>,
+    /// Of bodies that have no column, m/s.
+    other_speed: f64,
+    restitution: usize,
+    uncertainty: Option<usize>,
+    contact_time: Option<usize>,
+    complete: Option<usize>,
+}
+
+/// Reads a file; contact times only if they are wanted. The scene has the speed of a body that a
+/// sweep does not vary.
+///
+/// # Errors
+/// What is wrong, with file and line.
+pub fn read_data(path: &Path, scene: &Scene, with_contact_time: bool) -> Result<Data, Failure> {
+    let table = CsvTable::read(path)?;
+    let columns = columns(&table, scene, with_contact_time)?;
+    let mut points = Vec::new();
+    let mut n_left_out = 0;
+    for row in 0..table.n_rows() {
+        let is_failed = columns.complete.is_some_and(|column| table.text(row, column) == "false");
+        if is_failed
+            || (columns.complete.is_some() && table.text(row, columns.restitution).is_empty())
+        {
+            n_left_out += 1;
+            continue;
+        }
+        points.push(point(&table, &columns, row)?);
+    }
+    if points.is_empty() {
+        return Err(Failure::bad_input(format!("{}: no row has a restitution", table.name())));
+    }
+    let with = points.iter().filter(|point| point.restitution_uncertainty.is_some()).count();
+    if with != 0 && with != points.len() {
+        let message =
+            format!("{}: {with} of {} rows have an uncertainty", table.name(), points.len());
+        return Err(Failure::bad_input(message).with_help("give one in every row, or in none"));
+    }
+    Ok(Data { name: table.name().to_string(), points, n_left_out })
+}
+
+fn columns(table: &CsvTable, scene: &Scene, with_time: bool) -> Result<Columns, Failure> {
+    let swept = |index: usize| {
+        let name = format!("body.{index}.approach_speed");
+        table.header().iter().position(|header| *header == name)
+    };
+    let swept = [swept(0), swept(1)];
+    let own = [scene.bodies[0].velocity, -scene.bodies[1].velocity];
+    let (speeds, other_speed) = if swept == [None, None] {
+        (vec![table.require(&SPEEDS, "speed_m_s, or speed_cm_s")?], 0.0)
+    } else {
+        let fixed = swept.iter().zip(own).filter(|(column, _)| column.is_none());
+        (swept.into_iter().flatten().collect(), fixed.map(|(_, speed)| speed).sum())
+    };
+    for (column, header) in table.header().iter().enumerate() {
+        let varies =
+            || (1..table.n_rows()).find(|row| table.text(*row, column) != table.text(0, column));
+        if header.contains('.')
+            && !speeds.contains(&column)
+            && let Some(row) = varies()
+        {
+            let line = table.line(row);
+            return Err(table.fault(line, format!("the sweep varies {header}, too")).with_help(
+                "a law is fitted to one pair of bodies: keep the rows of one, with their values in \
+                 the case or in --set",
+            ));
+        }
+    }
+    Ok(Columns {
+        speeds,
+        other_speed,
+        restitution: table.require(&RESTITUTIONS, "restitution")?,
+        uncertainty: table.find(&UNCERTAINTIES)?,
+        contact_time: if with_time { table.find(&CONTACT_TIMES)? } else { None },
+        complete: table.find(&["complete"])?,
+    })
+}
+
+fn point(table: &CsvTable, columns: &Columns, row: usize) -> Result<Point, Failure> {
+    let line = table.line(row);
+    let mut speed = columns.other_speed;
+    for column in &columns.speeds {
+        speed += table.number(row, *column, SPEED)?.value;
+    }
+    if speed <= 0.0 {
+        return Err(table
+            .fault(line, format!("the approach speed is {speed:?} m/s"))
+            .with_help("it must be greater than 0"));
+    }
+    let restitution = table.number(row, columns.restitution, [0; 3])?.value;
+    if !(0.0..=LARGEST).contains(&restitution) {
+        return Err(table.fault(line, format!("the restitution is {restitution:?}")).with_help(
+            "it must be from 0 to 1; name the column restitution_percent for per cents",
+        ));
+    }
+    let optional = |column: Option<usize>, dimension| {
+        let column = column.filter(|column| !table.text(row, *column).is_empty());
+        let value = column.map(|column| table.number(row, column, dimension)).transpose()?;
+        match value {
+            Some(cell) if cell.value <= 0.0 => Err(table
+                .fault(line, format!("{} is {:?}", table.header()[column.unwrap_or(0)], cell.value))
+                .with_help("it must be greater than 0; leave the cell empty if there is none")),
+            value => Ok(value.map(|cell| cell.value)),
+        }
+    };
+    Ok(Point {
+        speed,
+        restitution,
+        restitution_uncertainty: optional(columns.uncertainty, [0; 3])?,
+        contact_time: optional(columns.contact_time, TIME)?,
+    })
+}

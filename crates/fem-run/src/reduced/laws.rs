@@ -1,0 +1,162 @@
+//! A law on the command line: `--law bordbar_hyppanen --param n=0.65 --end zero_overlap`.
+
+use fem_case::parse_quantity;
+use fem_fit::{Family, FitError, Parameter, Role};
+use fem_laws::EndRule;
+
+use crate::failure::Failure;
+
+/// Which law, with which values.
+#[derive(clap::Args, Clone, Debug)]
+pub struct LawArguments {
+    /// A parameter's value, such as a=2e-4 or a='0.2 ms'; may be repeated
+    ///
+    /// Bare numbers are SI. The value of a parameter that is searched for is where to begin.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub param: Vec<String>,
+    /// When a contact is over
+    #[arg(long, value_name = "RULE", default_value = "zero_force")]
+    pub end: End,
+}
+
+/// As the case file says it.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+#[value(rename_all = "snake_case")]
+pub enum End {
+    /// At zero force: the surfaces cannot pull
+    ZeroForce,
+    /// At zero overlap: the dashpot may pull until then
+    ZeroOverlap,
+}
+
+impl End {
+    /// For the law.
+    pub fn rule(self) -> EndRule {
+        match self {
+            Self::ZeroForce => EndRule::ZeroForce,
+            Self::ZeroOverlap => EndRule::ZeroOverlap,
+        }
+    }
+}
+
+/// A parameter's value from the command line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// Its place among the law's parameters.
+    pub index: usize,
+    /// SI.
+    pub value: f64,
+}
+
+impl LawArguments {
+    /// The values that are given.
+    ///
+    /// # Errors
+    /// Keys that the law does not have, values without a meaning.
+    pub fn settings(&self, family: Family) -> Result<Vec<Setting>, Failure> {
+        let setting = |text: &String| {
+            let (key, value) = split(text, "--param")?;
+            let index = find_key(family, key, "--param")?;
+            let parameter = &family.parameters()[index];
+            Ok(Setting { index, value: parse_value(parameter, value, "--param")? })
+        };
+        self.param.iter().map(setting).collect()
+    }
+}
+
+/// `family` of a name.
+///
+/// # Errors
+/// No such law.
+pub fn parse_family(name: &str) -> Result<Family, String> {
+    Family::from_name(name).ok_or_else(|| {
+        let names: Vec<_> = Family::ALL.iter().map(|family| family.name()).collect();
+        format!("the laws are {}", names.join(", "))
+    })
+}
+
+/// The place of a law's parameter.
+///
+/// # Errors
+/// No such key.
+pub fn find_key(family: Family, key: &str, option: &str) -> Result<usize, Failure> {
+    let keys: Vec<_> = family.parameters().iter().map(|parameter| parameter.key).collect();
+    keys.iter().position(|found| *found == key.trim()).ok_or_else(|| {
+        let message = format!("{option}: {} has no parameter {:?}", family.name(), key.trim());
+        Failure::bad_input(message).with_help(format!("its parameters are {}", keys.join(", ")))
+    })
+}
+
+/// `KEY` and `VALUE`.
+///
+/// # Errors
+/// No `=`.
+pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Failure> {
+    text.split_once('=').ok_or_else(|| {
+        Failure::bad_input(format!("{option} {text:?}: there is no `=`"))
+            .with_help(format!("write {option} KEY=VALUE, such as {option} n=0.65"))
+    })
+}
+
+/// A value with or without its unit.
+///
+/// # Errors
+/// No number, another dimension, a value without a meaning.
+pub fn parse_value(parameter: &Parameter, text: &str, option: &str) -> Result<f64, Failure> {
+    let Parameter { key, unit, dimension: [m, kg, s], limits, .. } = *parameter;
+    let text = text.trim().trim_matches(['"', '\'']);
+    let fault = |message: String| Failure::bad_input(format!("{option} {key}: {message}"));
+    let (value, dimension) =
+        parse_quantity(text).map_err(|error| fault(format!("{text:?}: {error}")))?;
+    if dimension.0 != [0; 4] && dimension.0 != [m, kg, s, 0] {
+        let unit = if unit.is_empty() { "a plain number".into() } else { format!("in {unit}") };
+        return Err(fault(format!("{text:?} is of another dimension"))
+            .with_help(format!("{key} is {unit}; bare numbers are SI")));
+    }
+    let is_allowed = value >= limits.0 && value <= limits.1 && value.is_finite();
+    if !is_allowed || (parameter.role != Role::Number && value <= 0.0) {
+        let allowed = match (parameter.role, limits) {
+            (Role::Number, (low, high)) => format!("it must be from {low} to {high}"),
+            _ => "it must be greater than 0".to_string(),
+        };
+        return Err(fault(format!("the value is {value:?}")).with_help(allowed));
+    }
+    Ok(value)
+}
+
+/// A speed, m/s.
+///
+/// # Errors
+/// What is no positive speed.
+pub fn parse_speed(text: &str) -> Result<f64, String> {
+    match parse_quantity(text) {
+        Ok((value, dimension)) if [[0; 4], [1, 0, -1, 0]].contains(&dimension.0) => {
+            if value > 0.0 {
+                Ok(value)
+            } else {
+                Err("a speed is greater than 0".to_string())
+            }
+        }
+        Ok(_) => Err("this is not a speed, such as '1 cm/s'".to_string()),
+        Err(error) => Err(format!("this is not a speed: {error}")),
+    }
+}
+
+/// An error of fem-fit: bad input all of them, since data and options are the user's.
+pub fn from_fit_error(error: FitError) -> Failure {
+    let help = match &error {
+        FitError::TooFewData { .. } => "free fewer parameters, or measure at more speeds",
+        FitError::Degenerate { .. } => {
+            "hold one of them with --param KEY=VALUE and leave it out of --free, or measure over a \
+             wider range of speeds"
+        }
+        FitError::Insensitive { .. } => "the data show no loss, or nothing but loss",
+        FitError::NotConverged { .. } => {
+            "give a start with --param KEY=VALUE, or a range with --bounds KEY=LOW..HIGH"
+        }
+        FitError::NoSolution { .. } => "no value of this parameter makes it: take another law",
+        FitError::NoRelaxation => "give a material a [material.NAME.relaxation] table",
+        _ => return Failure::bad_input(error.to_string()),
+    };
+    Failure::bad_input(error.to_string()).with_help(help)
+}
