@@ -22,6 +22,7 @@ mod markdown;
 mod page;
 mod position;
 mod price;
+mod reduced;
 mod studies;
 
 pub use check::{Check, CheckResult, Kind, Tolerance};

@@ -17,7 +17,7 @@ const GAP: f64 = 18.0;
 const LEGEND_WIDTH: f64 = 112.0;
 const SWATCH_WIDTH: f64 = 22.0;
 /// Intervals between ticks, about.
-const N_TICKS: usize = 4;
+const N_TICKS: usize = 7;
 const INK: &str = "#1c2126";
 
 /// What of the plane is seen: horizontal and vertical range, in the units of the points.
@@ -111,7 +111,7 @@ impl Contour {
         let _ = writeln!(
             svg,
             "<text x=\"0\" y=\"-10\" font-size=\"14\">{}</text>\n<g clip-path=\"url(#panel)\">",
-            escaped(&panel.title)
+            words(&panel.title)
         );
         let Window { x, y } = self.window;
         for section in &panel.sections {
@@ -172,7 +172,7 @@ impl Contour {
                 "<path d=\"M{x:.1} {height:.1}v5\" stroke=\"{INK}\"/><text x=\"{x:.1}\" \
                  y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
                 height + 19.0,
-                tick(value)
+                number(value)
             );
         }
         for value in ticks(self.window.y) {
@@ -182,7 +182,7 @@ impl Contour {
                 "<path d=\"M0 {y:.1}h-5\" stroke=\"{INK}\"/><text x=\"-9\" y=\"{:.1}\" \
                  text-anchor=\"end\">{}</text>",
                 y + 4.5,
-                tick(value)
+                number(value)
             );
         }
         let _ = writeln!(
@@ -191,9 +191,9 @@ impl Contour {
              <text transform=\"translate(-44 {:.1}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
             0.5 * PANEL_WIDTH,
             height + 38.0,
-            escaped(&self.x_label),
+            words(&self.x_label),
             0.5 * height,
-            escaped(&self.y_label)
+            words(&self.y_label)
         );
     }
 
@@ -205,7 +205,7 @@ impl Contour {
         let _ = writeln!(
             svg,
             "<text x=\"0\" y=\"-10\" font-size=\"14\">{}</text>",
-            escaped(&self.quantity)
+            words(&self.quantity)
         );
         for band in 0..n_bands {
             let y = (n_bands - 1 - band) as f64 * size;
@@ -223,8 +223,31 @@ impl Contour {
                 "<text x=\"{:.1}\" y=\"{:.1}\">{}</text>",
                 SWATCH_WIDTH + 8.0,
                 y + 4.5,
-                tick(*edge).replace('-', "\u{2212}")
+                number(*edge)
             );
         }
     }
+}
+
+/// With a true minus sign.
+fn number(value: f64) -> String {
+    tick(value).replace('-', "\u{2212}")
+}
+
+/// Text for SVG; letters after `_` are set below the line.
+fn words(text: &str) -> String {
+    let mut parts = text.split('_');
+    let mut words = escaped(parts.next().unwrap_or_default());
+    for part in parts {
+        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
+        let (below, rest) = part.split_at(end);
+        let _ = write!(
+            words,
+            "<tspan dy=\"3.5\" font-size=\"75%\">{}</tspan><tspan dy=\"-3.5\">{}</tspan>",
+            escaped(below),
+            // An empty span would not bring the line back up.
+            if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) }
+        );
+    }
+    words
 }

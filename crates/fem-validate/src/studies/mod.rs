@@ -1,5 +1,6 @@
 //! How quantities are measured: one study a file.
 
+mod paper;
 mod summary;
 
 use crate::error::StudyError;
@@ -10,7 +11,16 @@ use crate::laboratory::Laboratory;
 pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 
 /// All studies by the names that claims call them.
-const STUDIES: &[(&str, Study)] = &[("summary", summary::study)];
+const STUDIES: &[(&str, Study)] = &[
+    ("paper_contact_stress", paper::contact_stress::study),
+    ("paper_contact_time", paper::contact_time::study),
+    ("paper_contours", paper::contours::study),
+    ("paper_pairings", paper::pairings::study),
+    ("paper_restitution", paper::restitution::study),
+    ("paper_solid", paper::solid::study),
+    ("paper_velocities", paper::velocities::study),
+    ("summary", summary::study),
+];
 
 /// The names that claims can call.
 pub fn study_names() -> impl Iterator<Item = &'static str> {
