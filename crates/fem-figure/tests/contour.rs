@@ -10,7 +10,7 @@ fn square(n: usize, field: impl Fn([f64; 2]) -> f64) -> Section {
             let [x, y] = [i, j].map(|k| k as f64 / n as f64);
             // Points inside are moved about; those of the outline stay on it.
             let shift = 0.1 * (3.1 * (i * 7 + j * 5) as f64).sin() / n as f64;
-            let inside = |k: usize| if k % n == 0 { 0.0 } else { shift };
+            let inside = |k: usize| if k.is_multiple_of(n) { 0.0 } else { shift };
             points.push([x + inside(i), y + inside(j)]);
         }
     }

@@ -246,8 +246,16 @@ fn words(text: &str) -> String {
             "<tspan dy=\"3.5\" font-size=\"75%\">{}</tspan><tspan dy=\"-3.5\">{}</tspan>",
             escaped(below),
             // An empty span would not bring the line back up.
-            if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) }
+            if rest.is_empty() { "\u{200b}".to_string() } else { kept_apart(rest) }
         );
     }
     words
+}
+
+/// Escaped, with a first space that SVG does not drop.
+fn kept_apart(text: &str) -> String {
+    match text.strip_prefix(' ') {
+        Some(rest) => format!("\u{a0}{}", escaped(rest)),
+        None => escaped(text),
+    }
 }
