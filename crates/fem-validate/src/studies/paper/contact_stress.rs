@@ -1,29 +1,16 @@
 //! Fig. 13: σ_yy in the middle of the contact against time, for several speeds.
 
 use fem_figure::{Axis, Chart, Curve, GREY};
-use serde::Deserialize;
 
-use super::{case_at, exponent};
+use super::{Speeds, exponent};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::{Laboratory, Run};
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Parameters {
-    /// m/s.
-    speeds: Vec<f64>,
-    elements_per_contact_radius: f64,
-}
-
 /// Runs `[run.elastic]` at all speeds.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let parameters: Parameters = laboratory.parameters()?;
-    let case = |speed: &f64| {
-        case_at(laboratory, "elastic", *speed, parameters.elements_per_contact_radius, &[])
-    };
-    let cases = parameters.speeds.iter().map(case).collect::<Result<_, _>>()?;
-    let runs = laboratory.run_all(cases)?;
+    let speeds: Speeds = laboratory.parameters()?;
+    let runs = speeds.run_elastic(laboratory)?;
     let mut findings = Findings::new();
     let mut peaks = Vec::new();
     let mut chart = Chart::new(Axis::new("time [µs]"), Axis::new("σ_yy [GPa]"));

@@ -1,21 +1,12 @@
 //! Fig. 12: contact time against speed, beside Hertz and Hertz with finite spheres.
 
 use fem_figure::{Axis, Chart, Curve};
-use serde::Deserialize;
 
-use super::{case_at, exponent};
+use super::{Speeds, exponent};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::reduced::ting;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Parameters {
-    /// m/s.
-    speeds: Vec<f64>,
-    elements_per_contact_radius: f64,
-}
 
 /// Contact times at one speed, s.
 struct Point {
@@ -27,13 +18,9 @@ struct Point {
 
 /// Runs `[run.elastic]` at all speeds.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let parameters: Parameters = laboratory.parameters()?;
-    let case = |speed: &f64| {
-        case_at(laboratory, "elastic", *speed, parameters.elements_per_contact_radius, &[])
-    };
-    let cases = parameters.speeds.iter().map(case).collect::<Result<_, _>>()?;
+    let speeds: Speeds = laboratory.parameters()?;
     let mut points = Vec::new();
-    for run in laboratory.run_all(cases)? {
+    for run in speeds.run_elastic(laboratory)? {
         let hertz = run.problem.plan.estimate.hertz;
         let finite = ting(&run.problem.case.scene, hertz.pair(), true)?;
         points.push(Point {

@@ -8,10 +8,31 @@ pub(super) mod restitution;
 pub(super) mod solid;
 pub(super) mod velocities;
 
+use std::sync::Arc;
+
 use fem_case::{Case, Plan};
+use serde::Deserialize;
 
 use crate::error::StudyError;
-use crate::laboratory::Laboratory;
+use crate::laboratory::{Laboratory, Run};
+
+/// Parameters of a study over speeds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Speeds {
+    /// m/s.
+    speeds: Vec<f64>,
+    elements_per_contact_radius: f64,
+}
+
+impl Speeds {
+    /// Runs `[run.elastic]` at each.
+    fn run_elastic(&self, laboratory: &Laboratory) -> Result<Vec<Arc<Run>>, StudyError> {
+        let elements = self.elements_per_contact_radius;
+        let case = |speed: &f64| case_at(laboratory, "elastic", *speed, elements, &[]);
+        laboratory.run_all(self.speeds.iter().map(case).collect::<Result<_, _>>()?)
+    }
+}
 
 /// The case of `[run.NAME]` at an approach speed (m/s), with further overrides, and so many
 /// elements across its largest contact radius.
