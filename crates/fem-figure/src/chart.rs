@@ -11,6 +11,7 @@ use crate::style::{COLOURS, tick};
 const MARGIN: f64 = 1.2;
 const LINE_WIDTH: f64 = 1.5;
 const POINT_SIZE: f64 = 3.5;
+const ERROR_BAR_WIDTH: f64 = 1.0;
 const DASHES: &str = "8 4";
 
 /// An axis: what it shows, and how.
@@ -77,12 +78,13 @@ pub struct Curve {
     points: Vec<(f64, f64)>,
     mark: Mark,
     colour: Option<&'static str>,
+    errors: Vec<f64>,
 }
 
 impl Curve {
     /// A curve; an empty label keeps it out of the legend.
     pub fn new(label: impl Into<String>, mark: Mark, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark, colour: None }
+        Self { label: label.into(), points, mark, colour: None, errors: Vec::new() }
     }
 
     /// A line.
@@ -103,6 +105,12 @@ impl Curve {
     /// Points on a line.
     pub fn points_on_line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self::new(label, Mark::PointsOnLine, points)
+    }
+
+    /// With half the height of an error bar at each point, in the order of the points.
+    pub fn with_errors(mut self, errors: Vec<f64>) -> Self {
+        self.errors = errors;
+        self
     }
 
     /// In a colour of its own; else the chart gives one.
@@ -163,6 +171,10 @@ impl Chart {
         let mut all = Vec::new();
         for (curve, points, colour) in self.drawn() {
             all.extend_from_slice(&points);
+            for ((x, y), error) in curve.points.iter().zip(&curve.errors) {
+                let bar = LinePlot::new().with_data(vec![(*x, y - error), (*x, y + error)]);
+                plots.push(bar.with_color(colour).with_stroke_width(ERROR_BAR_WIDTH).into());
+            }
             if curve.mark != Mark::Points && !points.is_empty() {
                 let line = LinePlot::new().with_data(points.clone()).with_color(colour);
                 let line = line.with_stroke_width(LINE_WIDTH);

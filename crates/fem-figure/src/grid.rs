@@ -35,5 +35,24 @@ pub fn svg(charts: &[Chart]) -> Option<String> {
     if !legend.is_empty() {
         figure = figure.with_shared_legend().with_shared_legend_entries(legend);
     }
-    Some(SvgBackend::new().render_scene(&figure.render()) + "\n")
+    Some(renumber(&SvgBackend::new().render_scene(&figure.render())) + "\n")
+}
+
+/// The same with its clip paths counted from 0: kuva counts on from one picture of a process to the
+/// next, and whoever draws the same writes the same bytes.
+fn renumber(svg: &str) -> String {
+    const CLIP: &str = "kuva-clip-";
+    let mut parts = svg.split(CLIP);
+    let mut text = parts.next().unwrap_or_default().to_string();
+    let mut known: Vec<&str> = Vec::new();
+    for part in parts {
+        let end = part.find(|c: char| !c.is_ascii_digit()).unwrap_or(part.len());
+        let (number, rest) = part.split_at(end);
+        let index = known.iter().position(|other| *other == number).unwrap_or_else(|| {
+            known.push(number);
+            known.len() - 1
+        });
+        text += &format!("{CLIP}{index}{rest}");
+    }
+    text
 }

@@ -13,6 +13,7 @@
 //! ```
 
 mod chart;
+pub mod contour;
 pub mod engineering;
 mod grid;
 mod style;

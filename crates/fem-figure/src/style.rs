@@ -17,6 +17,14 @@ pub fn tick(value: f64) -> String {
     }
 }
 
+/// Fonts of what is drawn here.
+pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
+
+/// Text that is safe in SVG.
+pub(crate) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

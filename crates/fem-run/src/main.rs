@@ -18,7 +18,6 @@ mod history_file;
 mod interrupt;
 mod occupant;
 mod peak_memory;
-mod plot;
 mod progress;
 mod reduced;
 mod remedy;

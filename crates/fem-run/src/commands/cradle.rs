@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem_figure::{Axis, Chart, Curve};
 use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial};
 use serde_json::json;
 
 use crate::arguments::stem_of;
 use crate::failure::Failure;
-use crate::plot::{COLOURS, Mark, Panel, Series, svg};
 use crate::reduced::{CsvTable, Kind, OutputArguments, from_fit_error, parse_measured};
 use crate::standard_output;
 use crate::tables::table;
@@ -267,11 +267,7 @@ fn picture(swings: &[(Trial, Swing)]) -> String {
     } else {
         Vec::new()
     };
-    let trials = Series::new("trials", COLOURS[0], Mark::Points, points.collect());
-    svg(&[Panel {
-        x_label: "approach speed [m/s]".to_string(),
-        y_label: "restitution".to_string(),
-        is_x_logarithmic: false,
-        series: vec![Series { errors, ..trials }],
-    }])
+    let trials = Curve::points("trials", points.collect()).with_errors(errors);
+    let chart = Chart::new(Axis::new("approach speed [m/s]"), Axis::new("restitution"));
+    fem_figure::svg(&[chart.with(trials)]).unwrap_or_default()
 }

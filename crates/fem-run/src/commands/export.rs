@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem_case::Case;
+use fem_figure::{Axis, COLOURS, Chart, Curve as Line, Mark};
 use fem_fit::dem::{Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets};
 use fem_fit::{Family, Point};
 use fem_laws::EndRule;
@@ -12,7 +13,6 @@ use serde_json::{Value, json};
 use crate::arguments::CaseArguments;
 use crate::engineering::{Unit, show};
 use crate::failure::Failure;
-use crate::plot::{COLOURS, Mark, Panel, Series, svg};
 use crate::reduced::{
     Curve, Drawn, OutputArguments, approach_speed, fit_export, from_fit_error, model_of,
     parse_speed, read_data, spheres_of,
@@ -212,29 +212,26 @@ fn picture(curve: &Curve, drawn: &[Drawn]) -> String {
                 .points
                 .iter()
                 .filter_map(|point| Some((speed.scaled(point.speed), y(law, point.speed)?)));
-            Series::new(law.name, colour, mark(law), points.collect())
+            Line::new(law.name, mark(law), points.collect()).coloured(colour)
         };
+        let axis = Axis::new(format!("approach speed [{}]", speed.symbol())).logarithmic();
         let colours = [COLOURS[0], COLOURS[2], COLOURS[3]];
-        let mut series: Vec<Series> = drawn.iter().zip(colours).map(law).collect();
-        series.push(Series::new("data", COLOURS[1], Mark::Points, data));
-        Panel {
-            x_label: format!("approach speed [{}]", speed.symbol()),
-            y_label,
-            is_x_logarithmic: true,
-            series,
-        }
+        let laws = drawn.iter().zip(colours).map(law);
+        laws.fold(Chart::new(axis, Axis::new(y_label)), Chart::with)
+            .with(Line::points("data", data).like_curve(1))
     };
     let points = || curve.points.iter();
     let e_data = points().map(|point| (speed.scaled(point.speed), point.restitution)).collect();
     let t_data = points()
         .filter_map(|point| Some((speed.scaled(point.speed), time.scaled(point.contact_time?))))
         .collect();
-    svg(&[
+    let charts = [
         panel("restitution".to_string(), e_data, &|law, speed| {
             law.outcome(speed).map(|outcome| outcome.restitution)
         }),
         panel(format!("contact time [{}]", time.symbol()), t_data, &|law, speed| {
             law.outcome(speed)?.contact_time.map(|contact| time.scaled(contact))
         }),
-    ])
+    ];
+    fem_figure::svg(&charts).unwrap_or_default()
 }

@@ -1,19 +1,18 @@
 //! `fit.svg`: data, curves and profile; `histories.svg`: what the fitted law does in time.
 
 use fem_case::Scene;
+use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_fit::{Fit, Model, Role};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawImpact};
 
 use super::fit_report::Fitted;
 use crate::engineering::Unit;
-use crate::plot::{COLOURS, Mark, Panel, Series, svg};
 
 /// Points of a curve.
 const N: usize = 80;
 /// Speeds of the overlaps that are drawn, in the speed that is asked for.
 const RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
-const ELASTIC_COLOUR: &str = "#333333";
 
 /// e(v), and the rms error over the profiled parameter.
 pub fn fit_picture(fitted: &Fitted<'_>) -> String {
@@ -37,37 +36,30 @@ pub fn fit_picture(fitted: &Fitted<'_>) -> String {
         let exponent = exponent.map(|(_, n)| format!(", n = {n:.3}")).next();
         format!("{}{}", model.family().name(), exponent.unwrap_or_default())
     };
-    let best =
-        Series::new(label(model, fitted.fit), COLOURS[0], Mark::Line, curve(model, fitted.fit));
-    let mut series = vec![best];
+    let speed_axis = Axis::new(format!("approach speed [{}]", unit.symbol())).logarithmic();
+    let mut chart = Chart::new(speed_axis, Axis::new("restitution"))
+        .with(Curve::line(label(model, fitted.fit), curve(model, fitted.fit)).like_curve(0));
     for ((model, fit), colour) in fitted.compared.iter().zip(&COLOURS[2..]) {
-        series.push(Series::new(label(model, fit), colour, Mark::Dashed, curve(model, fit)));
+        chart = chart.with(Curve::dashed(label(model, fit), curve(model, fit)).coloured(colour));
     }
     let data = points.iter().map(|point| (unit.scaled(point.speed), point.restitution)).collect();
     let errors = points.iter().filter_map(|point| point.restitution_uncertainty).collect();
-    series.push(Series { errors, ..Series::new("data", COLOURS[1], Mark::Points, data) });
-    let mut panels = vec![Panel {
-        x_label: format!("approach speed [{}]", unit.symbol()),
-        y_label: "restitution".to_string(),
-        is_x_logarithmic: true,
-        series,
-    }];
+    let mut charts =
+        vec![chart.with(Curve::points("data", data).with_errors(errors).like_curve(1))];
     if let Some(profile) = fitted.profile {
         let parameter = fitted.problem.parameter(profile.index);
         let points = profile.points.iter().map(|point| (point.value, point.rms)).collect();
         let best = vec![(fitted.fit.values[profile.index], fitted.fit.rms)];
         let unit = if parameter.unit.is_empty() { "" } else { &format!(" [{}]", parameter.unit) };
-        panels.push(Panel {
-            x_label: format!("{}{unit}", parameter.key),
-            y_label: "rms error, the others fitted".to_string(),
-            is_x_logarithmic: parameter.role != Role::Number,
-            series: vec![
-                Series::new("", COLOURS[0], Mark::Line, points),
-                Series::new("best fit", COLOURS[3], Mark::Points, best),
-            ],
-        });
+        let axis = Axis::new(format!("{}{unit}", parameter.key));
+        let axis = if parameter.role == Role::Number { axis } else { axis.logarithmic() };
+        charts.push(
+            Chart::new(axis, Axis::new("rms error, the others fitted"))
+                .with(Curve::line("", points).like_curve(0))
+                .with(Curve::points("best fit", best).like_curve(3)),
+        );
     }
-    svg(&panels)
+    fem_figure::svg(&charts).unwrap_or_default()
 }
 
 /// Relative velocity and the first body's at one speed, elastic and with the law, and the overlap at
@@ -89,30 +81,29 @@ pub fn histories_picture(
     let series = |impact: &Impact, label: &str, colour, mark, y: &dyn Fn(f64) -> f64| {
         let instants = impact.history.iter();
         let points = instants.map(|now| (time.scaled(now.time), rate.scaled(y(now.approach_rate))));
-        Series::new(label, colour, mark, points.collect())
+        Curve::new(label, mark, points.collect()).coloured(colour)
     };
     // The first body moves with v at first and the second rests, as in the paper's figure.
     let share = scene.bodies[0].material().map_or(0.0, |_| mass_share(scene));
     let first = |rate: f64| speed - share * (speed - rate);
     let both = |y: &dyn Fn(f64) -> f64| {
-        vec![
-            series(&elastic, "elastic", ELASTIC_COLOUR, Mark::Dashed, y),
+        [
+            series(&elastic, "elastic", GREY, Mark::Dashed, y),
             series(&damped, name, COLOURS[0], Mark::Line, y),
         ]
     };
-    let panel = |y_label: String, series| Panel {
-        x_label: format!("time [{}]", time.symbol()),
-        y_label,
-        is_x_logarithmic: false,
-        series,
+    let panel = |label: String, curves: [Curve; 2]| {
+        let chart = Chart::new(time_axis(&time), Axis::new(label));
+        curves.into_iter().fold(chart, Chart::with)
     };
     let first_name = &scene.bodies[0].name;
     let overlaps = overlaps(model, values, speed, &time)?;
-    Ok(svg(&[
+    let charts = [
         panel(format!("approach rate [{}]", rate.symbol()), both(&|rate| rate)),
         panel(format!("velocity of {first_name} [{}]", rate.symbol()), both(&first)),
         overlaps,
-    ]))
+    ];
+    Ok(fem_figure::svg(&charts).unwrap_or_default())
 }
 
 /// m*/m₁: the share of a change of the relative velocity that the first body takes.
@@ -126,23 +117,23 @@ fn mass_share(scene: &Scene) -> f64 {
     1.0 / (1.0 + mass(0) / mass(1))
 }
 
-fn overlaps(model: &Model, values: &[f64], speed: f64, time: &Unit) -> Result<Panel, LawError> {
+fn overlaps(model: &Model, values: &[f64], speed: f64, time: &Unit) -> Result<Chart, LawError> {
     let impacts: Vec<(f64, Impact)> = RATIOS
         .iter()
         .map(|ratio| Ok((ratio * speed, model.impact(values, ratio * speed)?)))
         .collect::<Result<_, LawError>>()?;
     let deepest = impacts.iter().map(|(_, impact)| impact.max_approach).fold(0.0, f64::max);
     let length = Unit::fitting(deepest, "m");
-    let series = impacts.iter().zip(&COLOURS[2..]).map(|((speed, impact), colour)| {
+    let curves = impacts.iter().zip(&COLOURS[2..]).map(|((speed, impact), colour)| {
         let instants = impact.history.iter();
         let points = instants.map(|now| (time.scaled(now.time), length.scaled(now.approach)));
         let label = format!("overlap at {}", crate::engineering::show(*speed, "m/s"));
-        Series::new(label, colour, Mark::Line, points.collect())
+        Curve::line(label, points.collect()).coloured(colour)
     });
-    Ok(Panel {
-        x_label: format!("time [{}]", time.symbol()),
-        y_label: format!("overlap [{}]", length.symbol()),
-        is_x_logarithmic: false,
-        series: series.collect(),
-    })
+    let label = format!("overlap [{}]", length.symbol());
+    Ok(curves.fold(Chart::new(time_axis(time), Axis::new(label)), Chart::with))
+}
+
+fn time_axis(time: &Unit) -> Axis {
+    Axis::new(format!("time [{}]", time.symbol()))
 }

@@ -1,6 +1,7 @@
 //! How quantities are measured: one study a file.
 
 mod convergence;
+mod paper;
 mod summary;
 mod viscoelastic;
 
@@ -14,6 +15,13 @@ pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 /// All studies by the names that claims call them.
 const STUDIES: &[(&str, Study)] = &[
     ("convergence", convergence::study),
+    ("paper_contact_stress", paper::contact_stress::study),
+    ("paper_contact_time", paper::contact_time::study),
+    ("paper_contours", paper::contours::study),
+    ("paper_pairings", paper::pairings::study),
+    ("paper_restitution", paper::restitution::study),
+    ("paper_solid", paper::solid::study),
+    ("paper_velocities", paper::velocities::study),
     ("summary", summary::study),
     ("viscoelastic", viscoelastic::study),
 ];

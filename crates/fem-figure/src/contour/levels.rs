@@ -1,0 +1,78 @@
+//! Rounded levels on both sides of zero.
+
+/// Values at which one band ends and the next begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Levels {
+    step: f64,
+    edges: Vec<f64>,
+}
+
+impl Levels {
+    /// About `n` bands over the larger side of zero of a range: multiples of 1, 2 or 5 times a
+    /// power of ten that cover it. Zero is no level: the band from minus to plus one step is
+    /// neutral.
+    pub fn about_zero(smallest: f64, largest: f64, n: usize) -> Self {
+        let side = |value: f64| if value.is_finite() { value.max(0.0) } else { 0.0 };
+        let (below, above) = (side(-smallest), side(largest));
+        let span = below.max(above);
+        let step = if span > 0.0 { rounded(span / n.max(1) as f64) } else { 1.0 };
+        // Within rounding of a multiple of the step no band is added.
+        let count = |value: f64| ((value / step - 1e-9).ceil() as i64).max(1);
+        let (below, above) = (count(below), count(above));
+        let multiples = (-below..=above).filter(|k| *k != 0);
+        let edges = multiples.map(|k| k as f64 * step).collect();
+        Self { step, edges }
+    }
+
+    /// Ascending, one more than there are bands; the outer two bound the range.
+    pub fn edges(&self) -> &[f64] {
+        &self.edges
+    }
+
+    /// From one level to the next.
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Index of the band around zero.
+    pub(crate) fn neutral(&self) -> usize {
+        self.edges.partition_point(|edge| *edge < 0.0) - 1
+    }
+}
+
+/// The least 1, 2 or 5 times a power of ten that is not below a positive value.
+fn rounded(value: f64) -> f64 {
+    let power = value.log10().floor() as i32;
+    let candidates = [(1, power), (2, power), (5, power), (1, power + 1)];
+    let number = |(digit, power): (u32, i32)| {
+        // Parsed, a decimal number is the nearest there is.
+        format!("{digit}e{power}").parse::<f64>().unwrap_or(value)
+    };
+    let sizes = candidates.map(number);
+    sizes.into_iter().find(|size| *size >= value * (1.0 - 1e-9)).unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_round_and_leave_zero_out() {
+        let levels = Levels::about_zero(-1.03, 0.02, 10);
+        assert_eq!(levels.step(), 0.2);
+        assert_eq!(levels.edges().len(), 7);
+        let levels = Levels::about_zero(-1.03, 0.12, 11);
+        assert_eq!((levels.step(), levels.edges().len()), (0.1, 13));
+        assert_eq!((levels.edges()[0], levels.edges()[12]), (-11.0 * 0.1, 0.2));
+        assert_eq!(levels.neutral(), 10);
+        assert_eq!(Levels::about_zero(-3e9, 3e9, 3).edges(), [-3e9, -2e9, -1e9, 1e9, 2e9, 3e9]);
+    }
+
+    #[test]
+    fn fields_without_a_range_have_one_band() {
+        for (smallest, largest) in [(0.0, 0.0), (f64::NAN, f64::NAN), (f64::INFINITY, -1.0)] {
+            let levels = Levels::about_zero(smallest, largest, 10);
+            assert_eq!((levels.edges(), levels.neutral()), (&[-1.0, 1.0][..], 0));
+        }
+    }
+}

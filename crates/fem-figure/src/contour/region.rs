@@ -1,0 +1,149 @@
+//! The part of a section where the field lies on one side of a level.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::section::Section;
+
+/// A place as bits, which edges that two triangles share have in common.
+type Place = [u64; 2];
+/// A place and the value there.
+type Corner = ([f64; 2], f64);
+
+/// A region by its outline.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Region {
+    /// Closed polygons, in the sense of rotation of the section's quads; holes run against it.
+    pub loops: Vec<Vec<[f64; 2]>>,
+}
+
+impl Region {
+    /// Where there is any field.
+    pub fn whole(section: &Section) -> Self {
+        Self::at_most(section, f64::INFINITY)
+    }
+
+    /// Where the field is at most `level`.
+    pub fn at_most(section: &Section, level: f64) -> Self {
+        Self::clipped(section, level, 1.0)
+    }
+
+    /// Where the field is at least `level`.
+    pub fn at_least(section: &Section, level: f64) -> Self {
+        Self::clipped(section, -level, -1.0)
+    }
+
+    /// Signed area: positive if the section's quads run counter-clockwise.
+    pub fn area(&self) -> f64 {
+        let cross = |[x1, y1]: [f64; 2], [x2, y2]: [f64; 2]| x1 * y2 - x2 * y1;
+        let sides = self.loops.iter().flat_map(|polygon| {
+            let next = polygon.iter().cycle().skip(1);
+            polygon.iter().zip(next).map(|(a, b)| cross(*a, *b))
+        });
+        0.5 * sides.sum::<f64>()
+    }
+
+    /// Where `sign` times the field is at most `level`.
+    fn clipped(section: &Section, level: f64, sign: f64) -> Self {
+        let mut edges = Edges::default();
+        for cell in section.cells() {
+            let cell = cell.map(|(place, value)| (place, sign * value));
+            let n_inside = cell.iter().filter(|(_, value)| *value <= level).count();
+            if n_inside == 4 {
+                edges.add_polygon(&cell.map(|(place, _)| place));
+                continue;
+            }
+            let centre = centre(&cell);
+            if n_inside == 0 && centre.1 > level {
+                continue;
+            }
+            for k in 0..4 {
+                edges.add_polygon(&clip([cell[k], cell[(k + 1) % 4], centre], level));
+            }
+        }
+        Self { loops: edges.into_loops() }
+    }
+}
+
+/// The mean of the corners.
+fn centre(cell: &[Corner; 4]) -> Corner {
+    let mean = |of: &dyn Fn(&Corner) -> f64| cell.iter().map(of).sum::<f64>() / 4.0;
+    ([mean(&|c| c.0[0]), mean(&|c| c.0[1])], mean(&|c| c.1))
+}
+
+/// The part of a triangle with a linear field where that is at most `level`.
+fn clip(triangle: [Corner; 3], level: f64) -> Vec<[f64; 2]> {
+    let mut polygon = Vec::with_capacity(4);
+    for k in 0..3 {
+        let (from, to) = (triangle[k], triangle[(k + 1) % 3]);
+        if from.1 <= level {
+            polygon.push(from.0);
+        }
+        if (from.1 <= level) != (to.1 <= level) {
+            polygon.push(crossing(from, to, level));
+        }
+    }
+    polygon
+}
+
+/// Where the field passes the level; the same bits from both ends.
+fn crossing(a: Corner, b: Corner, level: f64) -> [f64; 2] {
+    let (low, high) = if a.1 < b.1 { (a, b) } else { (b, a) };
+    let t = (level - low.1) / (high.1 - low.1);
+    [0, 1].map(|axis: usize| low.0[axis] + t * (high.0[axis] - low.0[axis]))
+}
+
+/// Directed edges without those that run both ways.
+#[derive(Default)]
+struct Edges(HashMap<(Place, Place), u32>);
+
+impl Edges {
+    fn add_polygon(&mut self, polygon: &[[f64; 2]]) {
+        // Adding 0 makes one of the two zeros.
+        let place = |point: &[f64; 2]| point.map(|x| (x + 0.0).to_bits());
+        let next = polygon.iter().cycle().skip(1);
+        for (from, to) in polygon.iter().zip(next) {
+            let (from, to) = (place(from), place(to));
+            if from != to {
+                self.add(from, to);
+            }
+        }
+    }
+
+    fn add(&mut self, from: Place, to: Place) {
+        match self.0.get_mut(&(to, from)) {
+            Some(1) => {
+                self.0.remove(&(to, from));
+            }
+            Some(count) => *count -= 1,
+            None => *self.0.entry((from, to)).or_default() += 1,
+        }
+    }
+
+    fn into_loops(self) -> Vec<Vec<[f64; 2]>> {
+        let mut onward: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+        for ((from, to), count) in self.0 {
+            onward.entry(from).or_default().extend(std::iter::repeat_n(to, count as usize));
+        }
+        for ends in onward.values_mut() {
+            ends.sort_unstable();
+        }
+        let mut loops = Vec::new();
+        while let Some((&start, _)) = onward.first_key_value() {
+            let mut polygon = Vec::new();
+            let mut place = start;
+            while let Some(ends) = onward.get_mut(&place) {
+                polygon.push(place.map(f64::from_bits));
+                let next = ends.pop();
+                if ends.is_empty() {
+                    onward.remove(&place);
+                }
+                match next {
+                    Some(next) if next != start => place = next,
+                    _ => break,
+                }
+            }
+            loops.push(polygon);
+        }
+        loops
+    }
+}

@@ -1,0 +1,75 @@
+//! One body in section.
+
+/// Quads in the plane with a value at each of their points.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Section {
+    /// Horizontal and vertical place of each point.
+    pub points: Vec<[f64; 2]>,
+    /// Of each point; a quad with a value that is not finite is left out.
+    pub values: Vec<f64>,
+    /// Point numbers of each quad, all in the same sense of rotation.
+    pub quads: Vec<[u32; 4]>,
+    /// Point numbers along the outline.
+    pub outline: Vec<u32>,
+}
+
+impl Section {
+    /// With its mirror image in the vertical axis; points on the axis belong to both halves. The
+    /// outline starts at or ends on the axis, and goes on in the mirror image.
+    pub fn mirrored(&self) -> Self {
+        let n = self.points.len() as u32;
+        let mut both = self.clone();
+        let mut image: Vec<u32> = Vec::with_capacity(self.points.len());
+        for ([x, y], value) in self.points.iter().zip(&self.values) {
+            let is_on_axis = *x == 0.0;
+            image.push(if is_on_axis { image.len() as u32 } else { both.points.len() as u32 });
+            if !is_on_axis {
+                both.points.push([-x, *y]);
+                both.values.push(*value);
+            }
+        }
+        debug_assert!(both.points.len() as u32 >= n);
+        let mirrored = |quad: &[u32; 4]| {
+            let [a, b, c, d] = quad.map(|point| image[point as usize]);
+            [d, c, b, a]
+        };
+        both.quads.extend(self.quads.iter().map(mirrored));
+        let mut outline: Vec<u32> =
+            self.outline.iter().rev().map(|point| image[*point as usize]).collect();
+        let goes_on = outline.last().is_some_and(|last| Some(last) == self.outline.first());
+        outline.extend(self.outline.iter().skip(usize::from(goes_on)));
+        both.outline = outline;
+        both
+    }
+
+    /// Without the quads that lie outside of a rectangle (horizontal range, vertical range).
+    pub(crate) fn within(&self, x: (f64, f64), y: (f64, f64)) -> Self {
+        let is_near = |quad: &&[u32; 4]| {
+            let corners = quad.map(|point| self.points[point as usize]);
+            let overlaps = |axis: usize, (from, to): (f64, f64)| {
+                corners.iter().any(|corner| corner[axis] >= from)
+                    && corners.iter().any(|corner| corner[axis] <= to)
+            };
+            overlaps(0, x) && overlaps(1, y)
+        };
+        let quads = self.quads.iter().filter(is_near).copied().collect();
+        Self { quads, ..self.clone() }
+    }
+
+    /// The quads whose values are all finite, with their corners' places and values.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [([f64; 2], f64); 4]> {
+        let corners = |quad: &[u32; 4]| {
+            quad.map(|point| (self.points[point as usize], self.values[point as usize]))
+        };
+        self.quads.iter().map(corners).filter(|cell| cell.iter().all(|(_, v)| v.is_finite()))
+    }
+
+    /// Smallest and largest value of the quads; `None` without quads.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        let values = self.cells().flatten().map(|(_, value)| value);
+        values.fold(None, |range, value| {
+            let (from, to) = range.unwrap_or((value, value));
+            Some((value.min(from), value.max(to)))
+        })
+    }
+}

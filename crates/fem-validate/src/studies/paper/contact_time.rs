@@ -1,0 +1,86 @@
+//! Fig. 12: contact time against speed, beside Hertz and Hertz with finite spheres.
+
+use fem_figure::{Axis, Chart, Curve};
+
+use super::{Speeds, exponent};
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::Laboratory;
+use crate::reduced::ting;
+
+/// Contact times at one speed, s.
+struct Point {
+    speed: f64,
+    ours: f64,
+    hertz: f64,
+    finite: f64,
+}
+
+/// Runs `[run.elastic]` at all speeds.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let speeds: Speeds = laboratory.parameters()?;
+    let mut points = Vec::new();
+    for run in speeds.run_elastic(laboratory)? {
+        let hertz = run.problem.plan.estimate.hertz;
+        let finite = ting(&run.problem.case.scene, hertz.pair(), true)?;
+        points.push(Point {
+            speed: hertz.approach_speed(),
+            ours: run.contact_time,
+            hertz: hertz.contact_time(),
+            finite: finite.contact_time.unwrap_or(f64::NAN),
+        });
+    }
+    let mut findings = Findings::new();
+    let mut logarithms = 0.0;
+    for point in &points {
+        let Point { speed, ours, hertz, finite } = point;
+        findings.measure(format!("over_hertz.{speed}"), ours / hertz - 1.0);
+        findings.measure(format!("finite_over_hertz.{speed}"), finite / hertz - 1.0);
+        findings.measure_worst("worst_over_finite", (ours / finite - 1.0).abs());
+        logarithms += ours.ln() / points.len() as f64;
+    }
+    let times: Vec<_> = points.iter().map(|point| (point.speed, point.ours)).collect();
+    findings.measure("exponent", exponent(&times));
+    findings.measure("mean", logarithms.exp());
+    draw(&points, &mut findings);
+    Ok(findings)
+}
+
+fn draw(points: &[Point], findings: &mut Findings) {
+    let curve = |of: &dyn Fn(&Point) -> f64| points.iter().map(|p| (p.speed, of(p))).collect();
+    let per_cent = |ratio: f64| 100.0 * (ratio - 1.0);
+    let speed = || Axis::new("approach speed [m/s]").logarithmic();
+    let times = Chart::new(speed(), Axis::new("contact time [µs]"))
+        .with(Curve::points("finite elements", curve(&|p| 1e6 * p.ours)))
+        .with(Curve::dashed("Hertz", curve(&|p| 1e6 * p.hertz)))
+        .with(Curve::line("Hertz, spheres of finite size", curve(&|p| 1e6 * p.finite)));
+    let ratios = Chart::new(speed(), Axis::new("contact time over Hertz' − 1 [%]"))
+        .with(Curve::points("finite elements", curve(&|p| per_cent(p.ours / p.hertz))))
+        .with(Curve::dashed("Hertz", curve(&|_| 0.0)))
+        .with(Curve::line(
+            "Hertz, spheres of finite size",
+            curve(&|p| per_cent(p.finite / p.hertz)),
+        ));
+    findings.draw(
+        "contact_time",
+        "Fig. 12 of the paper, computed here: contact time against speed. On the left the curves \
+         cannot be told apart; on the right they are divided by Hertz': the finite elements follow \
+         the finite spheres, whose contact is the shorter the larger it grows.",
+        &[times, ratios],
+    );
+    let rows = points.iter().map(|p| {
+        [
+            format!("{}", p.speed),
+            format!("{:.3}", 1e6 * p.ours),
+            format!("{:.3}", 1e6 * p.hertz),
+            format!("{:.3}", 1e6 * p.finite),
+            format!("{:+.3} %", per_cent(p.ours / p.hertz)),
+            format!("{:+.3} %", per_cent(p.finite / p.hertz)),
+        ]
+    });
+    findings.tabulate(
+        "Contact times, µs",
+        ["speed [m/s]", "here", "Hertz", "finite spheres", "here − Hertz", "finite − Hertz"],
+        rows.collect::<Vec<_>>(),
+    );
+}

@@ -1,0 +1,160 @@
+//! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
+
+use fem_explicit::{Label, Snapshot, StressField};
+use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
+use fem_figure::engineering::Unit;
+use serde::Deserialize;
+
+use crate::error::StudyError;
+use crate::findings::{Figure, Findings};
+use crate::laboratory::{Laboratory, Run};
+
+/// σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
+const AXIAL: usize = 1;
+const MILLI: f64 = 1e3;
+const GIGA: f64 = 1e-9;
+/// Bands over the largest stress, about.
+const N_BANDS: usize = 11;
+/// The stressed region ends where the compression falls to this share of Hertz' p₀.
+const STRESSED: f64 = 0.1;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Half of the picture's width and height, m.
+    half_width: f64,
+    half_height: f64,
+}
+
+/// Runs `[run.elastic]`, whose snapshots are the four named instants.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let run = laboratory.run_all(vec![laboratory.case("elastic", &[])?])?.remove(0);
+    let instants = Label::ALL.map(|label| {
+        let found = run.collision.snapshots.iter().find(|snapshot| snapshot.label == Some(label));
+        found.map(|snapshot| Instant::of(&run, label, snapshot))
+    });
+    let missing = || StudyError::parameters("the case does not keep the four named snapshots");
+    let instants = instants.into_iter().collect::<Option<Vec<_>>>().ok_or_else(missing)?;
+    let mut findings = Findings::new();
+    measure(&run, &instants, &mut findings);
+    let half = [parameters.half_width, parameters.half_height].map(|length| MILLI * length);
+    findings.figures.push(draw(&instants, half));
+    Ok(findings)
+}
+
+/// The bodies at one instant: half sections in mm, with σ_yy in GPa.
+struct Instant {
+    label: Label,
+    time: f64,
+    halves: [Section; 2],
+    /// On the contact's pole of each body, GPa.
+    poles: [f64; 2],
+}
+
+impl Instant {
+    fn of(run: &Run, label: Label, snapshot: &Snapshot) -> Self {
+        let bodies = run.problem.model.bodies();
+        let mut halves: [Section; 2] = Default::default();
+        let mut poles = [f64::NAN; 2];
+        for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {
+            let Some(mesh) = body.mesh() else { continue };
+            let stress = StressField::of(body, fields).points;
+            let nodes = mesh.nodes().iter().zip(&fields.displacement);
+            halves[k] = Section {
+                points: nodes.map(|(x, u)| [0, 1].map(|axis: usize| x[axis] + u[axis])).collect(),
+                values: stress.iter().map(|stress| GIGA * stress[AXIAL]).collect(),
+                quads: mesh.quads().to_vec(),
+                outline: mesh.surface().to_vec(),
+            };
+            poles[k] = halves[k].values[mesh.surface()[0] as usize];
+        }
+        // Height is measured from the middle between the poles.
+        let pole = |k: usize| {
+            let section: &Section = &halves[k];
+            section.outline.first().map_or(0.0, |point| section.points[*point as usize][1])
+        };
+        let middle = 0.5 * (pole(0) + pole(1));
+        for point in halves.iter_mut().flat_map(|half| &mut half.points) {
+            *point = [MILLI * point[0], MILLI * (point[1] - middle)];
+        }
+        Self { label, time: snapshot.time, halves, poles }
+    }
+
+    /// Smallest and largest σ_yy, GPa.
+    fn range(&self) -> (f64, f64) {
+        let ranges = self.halves.iter().filter_map(Section::range);
+        ranges
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), (a, b)| (from.min(a), to.max(b)))
+    }
+
+    /// Of the half section, mm², where σ_yy is at most `level`.
+    fn area_at_most(&self, level: f64) -> f64 {
+        self.halves.iter().map(|half| Region::at_most(half, level).area()).sum()
+    }
+}
+
+fn measure(run: &Run, instants: &[Instant], findings: &mut Findings) {
+    let hertz = run.problem.plan.estimate.hertz;
+    let peak = GIGA * hertz.peak_pressure();
+    let at_force = peak * (run.collision.peak_force / hertz.peak_force()).cbrt();
+    for instant in instants {
+        let name = instant.label.name().replace('-', "_");
+        let (smallest, largest) = instant.range();
+        findings.measure(format!("{name}.time_share"), instant.time / hertz.contact_time());
+        findings.measure(format!("{name}.smallest"), smallest / GIGA);
+        findings.measure(format!("{name}.smallest_over_hertz"), -smallest / at_force);
+        findings.measure(format!("{name}.tension_over_hertz"), largest / at_force);
+        let [lower, upper] = instant.poles;
+        findings.measure(format!("{name}.pole_mismatch"), (lower - upper).abs() / peak);
+    }
+    let [compression, maximum, separation, last] = instants else { return };
+    let stressed = |instant: &Instant| instant.area_at_most(-STRESSED * peak);
+    findings.measure("stressed_over_mid_compression", stressed(maximum) / stressed(compression));
+    findings.measure("last_over_maximum", {
+        let (smallest, largest) = last.range();
+        largest.max(-smallest) / -maximum.range().0
+    });
+    findings.measure("mirror_difference", difference(compression, separation));
+}
+
+/// Root mean square of the difference of two fields over that of the first.
+fn difference(first: &Instant, second: &Instant) -> f64 {
+    let values = |instant: &Instant| instant.halves.clone().map(|half| half.values).concat();
+    let (first, second) = (values(first), values(second));
+    let square: f64 = first.iter().zip(&second).map(|(a, b)| (a - b).powi(2)).sum();
+    (square / first.iter().map(|a| a * a).sum::<f64>()).sqrt()
+}
+
+fn draw(instants: &[Instant], [half_width, half_height]: [f64; 2]) -> Figure {
+    let (smallest, largest) = instants
+        .iter()
+        .map(Instant::range)
+        .fold((0.0f64, 0.0f64), |(from, to), (a, b)| (from.min(a), to.max(b)));
+    let panel = |(instant, letter): (&Instant, char)| {
+        let name = instant.label.name().replace('-', " ");
+        let least = Unit::fitting(instant.range().0 / GIGA, "Pa").with_digits(3);
+        let least = least.show(instant.range().0 / GIGA).replace('-', "\u{2212}");
+        Panel {
+            title: format!("({letter}) {name}, {:.1} µs, σ_yy ≥ {least}", 1e6 * instant.time),
+            sections: instant.halves.iter().map(Section::mirrored).collect(),
+        }
+    };
+    let contour = Contour {
+        quantity: "σ_yy [GPa]".into(),
+        x_label: "r [mm]".into(),
+        y_label: "y [mm]".into(),
+        window: Window { x: (-half_width, half_width), y: (-half_height, half_height) },
+        levels: Levels::about_zero(smallest, largest, N_BANDS),
+        panels: instants.iter().zip('a'..).map(panel).collect(),
+    };
+    Figure {
+        name: "contours".into(),
+        caption: "Fig. 14 of the paper, computed and drawn here: stress in the direction of the \
+                  contact, σ_yy, in section around the contact; tension positive. The lines are \
+                  the outlines of the deformed bodies, true to scale (not magnified); y is \
+                  measured from the middle of the contact."
+            .into(),
+        svg: contour.svg(),
+    }
+}

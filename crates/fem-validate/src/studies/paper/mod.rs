@@ -1,0 +1,104 @@
+//! The figures and numbers of Bordbar & Hyppänen (2007), and what they have in common.
+
+pub(super) mod contact_stress;
+pub(super) mod contact_time;
+pub(super) mod contours;
+pub(super) mod pairings;
+pub(super) mod restitution;
+pub(super) mod solid;
+pub(super) mod velocities;
+
+use std::sync::Arc;
+
+use fem_case::{Case, Plan};
+use serde::Deserialize;
+
+use crate::error::StudyError;
+use crate::laboratory::{Laboratory, Run};
+
+/// Parameters of a study over speeds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Speeds {
+    /// m/s.
+    speeds: Vec<f64>,
+    elements_per_contact_radius: f64,
+}
+
+impl Speeds {
+    /// Runs `[run.elastic]` at each.
+    fn run_elastic(&self, laboratory: &Laboratory) -> Result<Vec<Arc<Run>>, StudyError> {
+        let elements = self.elements_per_contact_radius;
+        let case = |speed: &f64| case_at(laboratory, "elastic", *speed, elements, &[]);
+        laboratory.run_all(self.speeds.iter().map(case).collect::<Result<_, _>>()?)
+    }
+}
+
+/// The case of `[run.NAME]` at an approach speed (m/s), with further overrides, and so many
+/// elements across its largest contact radius.
+fn case_at(
+    laboratory: &Laboratory,
+    run: &str,
+    speed: f64,
+    elements: f64,
+    more: &[String],
+) -> Result<Case, StudyError> {
+    let mut overrides = more.to_vec();
+    overrides.push(format!("body.0.approach_speed={speed:?}"));
+    let radius = Plan::of(&laboratory.case(run, &overrides)?)?.estimate.contact_radius;
+    overrides.push(format!("mesh.contact_element_size={:?}", radius / elements));
+    laboratory.case(run, &overrides)
+}
+
+/// The exponent p of the least-squares fit y ∝ xᵖ; NaN if a number is not positive.
+fn exponent(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logarithms = || points.iter().map(|(x, y)| (x.ln(), y.ln()));
+    let (x, y) = logarithms().fold((0.0, 0.0), |(x, y), (u, v)| (x + u / n, y + v / n));
+    let (mut xx, mut xy) = (0.0, 0.0);
+    for (u, v) in logarithms() {
+        xx += (u - x) * (u - x);
+        xy += (u - x) * (v - y);
+    }
+    xy / xx
+}
+
+/// Where a function falls through a value between two positive numbers, to rounding; NaN if it
+/// does not.
+fn falls_through(
+    target: f64,
+    (mut low, mut high): (f64, f64),
+    value: impl Fn(f64) -> Result<f64, StudyError>,
+) -> Result<f64, StudyError> {
+    let brackets = value(low)? > target && value(high)? < target;
+    if !brackets {
+        return Ok(f64::NAN);
+    }
+    while high > low * (1.0 + 1e-12) {
+        let middle = (low * high).sqrt();
+        if value(middle)? > target { low = middle } else { high = middle }
+    }
+    Ok(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_of_powers_are_exact() {
+        let points: Vec<_> = [0.1f64, 0.5, 1.3, 2.0].map(|x| (x, 3.0 * x.powf(-0.2))).into();
+        assert!((exponent(&points) + 0.2).abs() < 1e-14);
+        assert!(exponent(&[(1.0, 1.0), (2.0, -1.0)]).is_nan());
+    }
+
+    #[test]
+    fn crossings_are_found_or_are_not_numbers() {
+        let root = falls_through(0.5, (1e-6, 1e6), |x| Ok(1.0 / (1.0 + x))).unwrap();
+        assert!((root - 1.0).abs() < 1e-11);
+        for bounds in [(2.0, 3.0), (0.1, 0.5)] {
+            assert!(falls_through(0.5, bounds, |x| Ok(1.0 / (1.0 + x))).unwrap().is_nan());
+        }
+        assert!(falls_through(0.5, (0.1, 9.0), |_| Ok(f64::NAN)).unwrap().is_nan());
+    }
+}

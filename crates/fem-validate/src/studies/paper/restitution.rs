@@ -1,0 +1,148 @@
+//! The restitution at 0.5 m/s: both readings of the bulk modulus, both decay rates of the paper.
+
+use std::sync::Arc;
+
+use fem_case::{Case, Plan};
+use fem_figure::{Axis, Chart, Curve, GREY};
+use serde::Deserialize;
+
+use super::falls_through;
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::{Laboratory, Run};
+use crate::reduced::ting;
+
+/// The two readings: run, label.
+const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic bulk")];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Of the paper's elastic collision: its program's own loss.
+    published_elastic: f64,
+    /// Of the paper's viscoelastic collision.
+    published: f64,
+    /// Of the paper's experiment.
+    measured: f64,
+    /// Decay rates over which the readings are drawn, 1/s.
+    rates: [f64; 2],
+}
+
+/// Runs all cases; those named `all` and `shear` are varied by their decay rate.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let mut findings = Findings::new();
+    let mut rows = Vec::new();
+    for (name, run) in names.iter().zip(&runs) {
+        let scene = &run.problem.case.scene;
+        let pair = run.problem.plan.estimate.hertz.pair();
+        let half_space = ting(scene, pair, false)?.restitution;
+        let finite = ting(scene, pair, true)?.restitution;
+        let with_loss = run.restitution * parameters.published_elastic;
+        for (quantity, value) in [
+            ("restitution", run.restitution),
+            ("ting", half_space),
+            ("ting_finite", finite),
+            ("difference", (run.restitution - finite).abs()),
+            ("with_published_loss", with_loss),
+            ("ting_with_published_loss", half_space * parameters.published_elastic),
+        ] {
+            findings.measure(format!("{name}.{quantity}"), value);
+        }
+        let numbers = [run.restitution, finite, half_space, with_loss].map(|e| format!("{e:.4}"));
+        let [ours, finite, half_space, with_loss] = numbers;
+        rows.push([reading(run), rate(run), ours, finite, half_space, with_loss]);
+    }
+    let header = [
+        "relaxes",
+        "decay rate [1/s]",
+        "here",
+        "Ting, finite spheres",
+        "Ting",
+        "here × the paper's elastic 0.994",
+    ];
+    findings.tabulate("Restitution at 0.5 m/s; the paper prints 0.92", header, rows);
+    for (name, _) in READINGS {
+        let rate = falls_through(parameters.published, (100.0, 1e5), |rate| {
+            restitution_by_ting(laboratory, name, rate, false)
+        })?;
+        findings.measure(format!("{name}.rate_of_published"), rate);
+    }
+    draw(laboratory, &parameters, &runs, &mut findings)?;
+    Ok(findings)
+}
+
+/// What relaxes, in words.
+fn reading(run: &Run) -> String {
+    use fem_case::schema::ActsOn;
+    let relaxation = run.problem.case.file.material.values().find_map(|m| m.relaxation.as_ref());
+    match relaxation.map(|relaxation| relaxation.acts_on) {
+        None => "nothing",
+        Some(ActsOn::All) => "shear and bulk (constant ν)",
+        Some(ActsOn::Shear) => "shear (elastic bulk)",
+    }
+    .into()
+}
+
+/// 1/τ of the first term, in words.
+fn rate(run: &Run) -> String {
+    decay_rate(run).map_or(String::new(), |rate| format!("{rate:.1}"))
+}
+
+fn decay_rate(run: &Run) -> Option<f64> {
+    let material = run.problem.case.scene.bodies[0].material()?;
+    Some(material.relaxation()?.terms().first()?.relaxation_time.recip())
+}
+
+fn with_rate(laboratory: &Laboratory, run: &str, rate: f64) -> Result<Case, StudyError> {
+    let terms = format!("[{{weight=1.0, decay_rate={rate:?}}}]");
+    laboratory.case(run, &[format!("material.glass.relaxation.terms={terms}")])
+}
+
+fn restitution_by_ting(
+    laboratory: &Laboratory,
+    run: &str,
+    rate: f64,
+    finite_size: bool,
+) -> Result<f64, StudyError> {
+    let case = with_rate(laboratory, run, rate)?;
+    let hertz = Plan::of(&case)?.estimate.hertz;
+    Ok(ting(&case.scene, hertz.pair(), finite_size)?.restitution)
+}
+
+fn draw(
+    laboratory: &Laboratory,
+    parameters: &Parameters,
+    runs: &[Arc<Run>],
+    findings: &mut Findings,
+) -> Result<(), StudyError> {
+    let [from, to] = parameters.rates;
+    let rates = || (0..=24).map(move |k| from * (to / from).powf(f64::from(k) / 24.0));
+    let mut chart =
+        Chart::new(Axis::new("decay rate β [1/s]").logarithmic(), Axis::new("restitution"));
+    for (k, (name, label)) in READINGS.into_iter().enumerate() {
+        let point = |rate: f64| {
+            restitution_by_ting(laboratory, name, rate, true).map(|value| (rate, value))
+        };
+        let curve = rates().map(point).collect::<Result<_, _>>()?;
+        chart = chart.with(Curve::line(format!("Ting, {label}"), curve).like_curve(k));
+        let same = runs.iter().filter(|run| reading(run).contains(label));
+        let points = same.filter_map(|run| decay_rate(run).map(|rate| (rate, run.restitution)));
+        let points = Curve::points(format!("finite elements, {label}"), points.collect());
+        chart = chart.with(points.like_curve(k));
+    }
+    let level = |value: f64| vec![(from, value), (to, value)];
+    chart = chart
+        .with(Curve::dashed("the paper's 0.92", level(parameters.published)).coloured(GREY))
+        .with(Curve::dashed("its experiment", level(parameters.measured)).coloured("#E69F00"));
+    findings.draw(
+        "restitution",
+        "Restitution at 0.5 m/s against the decay rate of one Maxwell branch, for both readings of \
+         the bulk modulus. The text's rate is 2708 1/s, that of Table 1 is 5967 1/s.",
+        &[chart],
+    );
+    Ok(())
+}

@@ -1,0 +1,152 @@
+//! Fig. 11: velocities of both spheres over an elastic collision, beside Hertz.
+//!
+//! Hertz gives the approach rate; with the velocity of the centre of mass it gives both bodies':
+//!
+//! ```math
+//! v_1 = V + \frac{m_2}{m_1+m_2}\,\dot\delta, \qquad v_2 = V - \frac{m_1}{m_1+m_2}\,\dot\delta
+//! ```
+
+use std::sync::Arc;
+
+use fem_case::Scene;
+use fem_figure::engineering::show;
+use fem_figure::{Axis, Chart, Curve, GREY};
+
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::{Laboratory, Run};
+use crate::studies::summary::quantities;
+
+/// The run that is drawn.
+const MAIN: &str = "elastic";
+
+/// Runs all cases of the claim; the one named `elastic` is drawn.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let mut findings = Findings::new();
+    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    for (name, run) in names.iter().zip(&runs) {
+        for (quantity, value) in quantities(run) {
+            findings.measure(format!("{name}.{quantity}"), value);
+        }
+    }
+    let main = names.iter().position(|name| *name == MAIN).map(|k| &runs[k]);
+    let run = main.ok_or_else(|| StudyError::parameters(format!("no [run.{MAIN}]")))?;
+    let rigid = RigidPair::of(&run.problem.case.scene);
+    measure(run, &rigid, &mut findings);
+    draw(run, &rigid, &mut findings);
+    compare(run, &rigid, &mut findings);
+    Ok(findings)
+}
+
+/// Two points of mass: what does not depend on their contact.
+struct RigidPair {
+    masses: [f64; 2],
+    before: [f64; 2],
+}
+
+impl RigidPair {
+    fn of(scene: &Scene) -> Self {
+        let masses = scene.bodies.each_ref().map(|body| {
+            let material = body.material().zip(body.diameter());
+            material.map_or(f64::NAN, |(m, d)| fem_laws::sphere_mass(d, m.density()))
+        });
+        Self { masses, before: scene.bodies.each_ref().map(|body| body.velocity) }
+    }
+
+    /// Velocities, m/s, at an approach rate.
+    fn velocities(&self, approach_rate: f64) -> [f64; 2] {
+        let [m1, m2] = self.masses;
+        let [v1, v2] = self.before;
+        let centre = (m1 * v1 + m2 * v2) / (m1 + m2);
+        [centre + m2 / (m1 + m2) * approach_rate, centre - m1 / (m1 + m2) * approach_rate]
+    }
+
+    /// Velocities after a collision that loses nothing.
+    fn after(&self) -> [f64; 2] {
+        self.velocities(self.before[1] - self.before[0])
+    }
+}
+
+fn measure(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
+    let collision = &run.collision;
+    let hertz = run.problem.plan.estimate.hertz;
+    let after = rigid.after();
+    for (k, name) in ["striker", "target"].into_iter().enumerate() {
+        let velocity = collision.velocity_after[k];
+        findings.measure(format!("{name}_after"), velocity);
+        findings.measure(format!("{name}_after_over_rigid"), velocity / after[k]);
+    }
+    for row in &collision.history {
+        let expected = rigid.velocities(hertz.at(row.time).approach_rate);
+        let worst = [0, 1].map(|k: usize| (row.velocity[k] - expected[k]).abs());
+        let worst = worst[0].max(worst[1]) / hertz.approach_speed();
+        findings.measure_worst("worst_velocity_difference", worst);
+    }
+    // The circle in which the undeformed spheres would cut each other.
+    let overlap = (2.0 * collision.max_approach * hertz.pair().effective_radius()).sqrt();
+    findings.measure("overlap_radius", overlap);
+}
+
+fn draw(run: &Arc<Run>, rigid: &RigidPair, findings: &mut Findings) {
+    let history = &run.collision.history;
+    let hertz = run.problem.plan.estimate.hertz;
+    let end = history.last().map_or(0.0, |row| row.time);
+    let times = || (0..=160).map(move |k| end * f64::from(k) / 160.0);
+    let micro = |time: f64| 1e6 * time;
+    let velocity =
+        |k: usize| history.iter().map(|row| (micro(row.time), row.velocity[k])).collect();
+    let by_hertz = |k: usize| {
+        let velocity = |t: f64| rigid.velocities(hertz.at(t).approach_rate)[k];
+        times().map(|t| (micro(t), velocity(t))).collect()
+    };
+    let velocities = Chart::new(Axis::new("time [µs]"), Axis::new("velocity [m/s]"))
+        .with(Curve::line("22.2 mm, striking", velocity(0)))
+        .with(Curve::line("15.9 mm, at rest before", velocity(1)))
+        .with(Curve::dashed("Hertz", by_hertz(0)).coloured(GREY))
+        .with(Curve::dashed("", by_hertz(1)).coloured(GREY));
+    let force = history.iter().map(|row| (micro(row.time), row.contact_force)).collect();
+    let by_hertz = times().map(|t| (micro(t), hertz.at(t).force)).collect();
+    let force = Chart::new(Axis::new("time [µs]"), Axis::new("contact force [N]"))
+        .with(Curve::line("contact force", force).coloured("#009E73"))
+        .with(Curve::dashed("Hertz", by_hertz).coloured(GREY));
+    findings.draw(
+        "velocities",
+        "Fig. 11 of the paper, computed here on meshes like its own: velocities of the mass \
+         centres and the contact force over an elastic collision at 0.5 m/s, Hertz dashed. The \
+         curves end earlier than Hertz' because a sphere is stiffer than a half-space.",
+        &[velocities, force],
+    );
+}
+
+fn compare(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
+    let collision = &run.collision;
+    let hertz = run.problem.plan.estimate.hertz;
+    let [striker, target] = rigid.after();
+    let after = collision.velocity_after;
+    let row = |name: &str, paper: &str, ours: String, theory: String| {
+        [name.to_string(), paper.to_string(), ours, theory]
+    };
+    findings.tabulate(
+        "Numbers of fig. 11",
+        ["", "paper", "here", "Hertz, rigid bodies"],
+        [
+            row("restitution", "0.994", format!("{:.6}", run.restitution), "1".into()),
+            row(
+                "contact time",
+                "64.23 µs",
+                show(run.contact_time, "s"),
+                show(hertz.contact_time(), "s"),
+            ),
+            row("striker after", "", show(after[0], "m/s"), show(striker, "m/s")),
+            row("target after", "", show(after[1], "m/s"), show(target, "m/s")),
+            row(
+                "contact radius",
+                "0.31 mm",
+                show(collision.max_contact_radius, "m"),
+                show(hertz.max_contact_radius(), "m"),
+            ),
+        ],
+    );
+}
