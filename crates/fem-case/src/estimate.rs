@@ -47,7 +47,7 @@ impl Estimate {
     /// # Errors
     /// Numbers so extreme that Hertz' values leave the range of f64.
     pub fn of(scene: &Scene) -> Result<Self, LawError> {
-        let speed = scene.bodies[0].velocity - scene.bodies[1].velocity;
+        let speed = scene.approach_speed();
         let hertz = HertzImpact::new(&pair(scene, 0.0)?, speed)?;
         let mut relaxed_impact = hertz;
         // The contact time hardly depends on the moduli; a few passes settle it.

@@ -1,6 +1,6 @@
 //! The model that a case chooses, its numbers checked. One variant a model.
 
-use fem_laws::EndRule;
+use fem_laws::{EndRule, Family};
 
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -151,21 +151,26 @@ pub enum Dashpot {
 }
 
 impl Law {
+    /// Which law it is.
+    pub fn family(&self) -> Family {
+        match self {
+            Law::Linear { .. } | Law::LinearFromRestitution { .. } => Family::Linear,
+            Law::Power { .. } => Family::Power,
+            Law::Hertz => Family::Hertz,
+            Law::KuwabaraKono(_) => Family::KuwabaraKono,
+            Law::HuntCrossley { .. } => Family::HuntCrossley,
+            Law::Tsuji(_) => Family::Tsuji,
+            Law::ZhangWhiten(_) => Family::ZhangWhiten,
+            Law::Falcon { .. } => Family::Falcon,
+            Law::MishraMurty { .. } => Family::MishraMurty,
+            Law::SchwagerPoeschel(_) => Family::SchwagerPoeschel,
+            Law::MorgadoOppenheim { .. } => Family::MorgadoOppenheim,
+            Law::BordbarHyppanen { .. } => Family::BordbarHyppanen,
+        }
+    }
+
     /// Its key under `law`.
     pub fn name(&self) -> &'static str {
-        match self {
-            Law::Linear { .. } | Law::LinearFromRestitution { .. } => "linear",
-            Law::Power { .. } => "power",
-            Law::Hertz => "hertz",
-            Law::KuwabaraKono(_) => "kuwabara_kono",
-            Law::HuntCrossley { .. } => "hunt_crossley",
-            Law::Tsuji(_) => "tsuji",
-            Law::ZhangWhiten(_) => "zhang_whiten",
-            Law::Falcon { .. } => "falcon",
-            Law::MishraMurty { .. } => "mishra_murty",
-            Law::SchwagerPoeschel(_) => "schwager_poeschel",
-            Law::MorgadoOppenheim { .. } => "morgado_oppenheim",
-            Law::BordbarHyppanen { .. } => "bordbar_hyppanen",
-        }
+        self.family().name()
     }
 }

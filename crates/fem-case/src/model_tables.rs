@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
 use crate::quantity::{Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
+#[cfg(test)]
+use crate::quantity::{Kind, QuantityKind};
 use crate::schema::EmptyTable;
 
 /// `[model]`: exactly one key.
@@ -111,6 +113,11 @@ macro_rules! law_tables {
         impl LawTable {
             /// The names of all laws.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($law),)+];
+
+            /// Law, key and kind of every number.
+            #[cfg(test)]
+            const KEYS: &'static [(&'static str, &'static str, Kind)] =
+                &[$($((stringify!($law), stringify!($key), <$kind>::KIND),)*)+];
 
             /// The names of the laws that are given.
             pub fn given(&self) -> Vec<&'static str> {
@@ -239,5 +246,30 @@ pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool
         ["model"] => key != other,
         ["model", "law"] => key != other && is_law(key) && is_law(other),
         _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_laws::Family;
+
+    use super::*;
+
+    /// What a fit prints can be written into a case: every law, every key, in the same unit.
+    #[test]
+    fn tables_are_those_of_the_families() {
+        let families = || Family::ALL.into_iter().filter(|family| *family != Family::Ting);
+        assert_eq!(families().map(Family::name).collect::<Vec<_>>(), LawTable::NAMES);
+        for family in families() {
+            for parameter in family.parameters() {
+                let is_it =
+                    |key: &&(&str, &str, Kind)| (key.0, key.1) == (family.name(), parameter.key);
+                let found = LawTable::KEYS.iter().find(is_it);
+                let (_, _, kind) = found.unwrap_or_else(|| panic!("{family:?} {parameter:?}"));
+                let [m, kg, s] = parameter.dimension;
+                assert_eq!(kind.dimension.0, [m, kg, s, 0], "{family:?} {parameter:?}");
+                assert!(kind.si == parameter.unit || kind.si.is_empty(), "{parameter:?}");
+            }
+        }
     }
 }

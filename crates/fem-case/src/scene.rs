@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 
+use fem_laws::{FiniteSize, LawError, Pair, Partner};
 use fem_material::Material;
 
 use crate::model::Model;
@@ -34,6 +35,37 @@ pub struct Scene {
     pub effects: EffectsTable,
     /// What is too dear to start.
     pub limits: Limits,
+}
+
+impl Scene {
+    /// Relative to each other, m/s, > 0.
+    pub fn approach_speed(&self) -> f64 {
+        self.bodies[0].velocity - self.bodies[1].velocity
+    }
+
+    /// The bodies as a pair, moduli instantaneous.
+    ///
+    /// # Errors
+    /// Numbers so extreme that they leave the range of f64.
+    pub fn pair(&self) -> Result<Pair, LawError> {
+        let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
+            Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
+            Shape::Wall => Partner::Wall,
+        });
+        Pair::new(first, second)
+    }
+
+    /// The spheres' own compliance.
+    ///
+    /// # Errors
+    /// Two walls; moduli without one.
+    pub fn finite_size(&self) -> Result<FiniteSize, LawError> {
+        let [first, second] = self.bodies.each_ref().map(|body| {
+            let radius = body.diameter().map(|diameter| 0.5 * diameter);
+            radius.zip(body.material())
+        });
+        FiniteSize::new(first, second)
+    }
 }
 
 /// One of the two bodies.

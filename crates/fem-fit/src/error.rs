@@ -85,6 +85,13 @@ pub enum FitError {
         allowed: &'static str,
     },
 
+    /// Another end than the law's own.
+    #[error("{law} ends at zero force by its definition")]
+    OwnEnd {
+        /// Its name.
+        law: &'static str,
+    },
+
     /// Ting's model of bodies that do not relax.
     #[error("no body relaxes, so there is no decay rate to find")]
     NoRelaxation,

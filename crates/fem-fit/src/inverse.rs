@@ -4,10 +4,10 @@
 //! size and each crossing refined. There may be several: a solid that does not flow loses most at
 //! the rate that fits the contact time, and less beyond it on both sides.
 
+use fem_laws::Role;
 use fem_laws::bisection::falling_zero;
 
 use crate::error::FitError;
-use crate::family::Role;
 use crate::model::Model;
 
 /// What gives a wanted restitution.

@@ -1,18 +1,18 @@
 //! Parameters of contact laws from restitutions that were measured or computed, and back.
 //!
 //! ```text
-//! Family ─ Model ─┬─ Problem ─ Fit, Profile     parameters to e(v) and T(v), by least squares
-//! names,   pair,  ├─ invert                     the parameter that gives one e at one speed
-//! keys     law    └─ dem                        the numbers that LAMMPS, LIGGGHTS, YADE ask for
+//! Model ─┬─ Problem ─ Fit, Profile     parameters to e(v) and T(v), by least squares
+//! pair,  ├─ invert                     the parameter that gives one e at one speed
+//! law    └─ dem                        the numbers that LAMMPS, LIGGGHTS, YADE ask for
 //!
-//! cradle                                        angles of a Newton's cradle to e
+//! cradle                               angles of a Newton's cradle to e
 //! ```
 //!
 //! Everything is SI.
 //!
 //! ```
-//! use fem_fit::{Family, Model, Point, Problem};
-//! use fem_laws::{EndRule, Pair, Partner};
+//! use fem_fit::{Model, Point, Problem};
+//! use fem_laws::{EndRule, Family, Pair, Partner};
 //! use fem_material::{ElasticModuli, Material};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -37,7 +37,6 @@
 pub mod cradle;
 pub mod dem;
 mod error;
-mod family;
 mod fit;
 mod inverse;
 mod least_squares;
@@ -46,7 +45,6 @@ mod problem;
 mod profile;
 
 pub use error::FitError;
-pub use family::{Family, Parameter, Role};
 pub use fit::{Estimate, Fit};
 pub use inverse::{Inversion, invert};
 pub use model::{Model, Outcome};

@@ -1,11 +1,13 @@
 //! A pair of bodies under a law of a [`Family`]: parameters to restitution and contact time.
 
 use fem_laws::laws::ContactLaw;
-use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting};
+use fem_laws::{
+    EndRule, Family, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation,
+    Parameter, Role, Ting,
+};
 use fem_material::{Material, PronySeries, PronyTerm};
 
 use crate::FitError;
-use crate::family::{Family, Parameter, Role};
 
 /// Accuracy of a collision: differences over steps of 1e-4 in a parameter are good to 1e-5.
 const TOLERANCE: f64 = 1e-10;
@@ -17,6 +19,7 @@ pub struct Model {
     materials: [Option<Material>; 2],
     family: Family,
     end_rule: EndRule,
+    finite_size: Option<FiniteSize>,
 }
 
 /// What a collision is compared by.
@@ -33,26 +36,36 @@ impl Model {
     /// [`Family::Ting`] looks at.
     ///
     /// # Errors
-    /// [`Family::Ting`] without a body that relaxes.
+    /// [`Family::Ting`] without a body that relaxes; a law that ends by its definition otherwise.
     pub fn new(
         pair: &Pair,
         materials: [Option<Material>; 2],
         family: Family,
         end_rule: EndRule,
     ) -> Result<Self, FitError> {
-        let model = Self { pair: *pair, materials, family, end_rule };
+        if family.end_rule().is_some_and(|own| own != end_rule) {
+            return Err(FitError::OwnEnd { law: family.name() });
+        }
+        let model = Self { pair: *pair, materials, family, end_rule, finite_size: None };
         if family == Family::Ting && model.fastest_rate().is_none() {
             return Err(FitError::NoRelaxation);
         }
         Ok(model)
     }
 
-    /// The same bodies under another law.
+    /// The same with the spheres' own compliance in series, which only [`Family::Ting`] looks at.
+    pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
+        Self { finite_size: Some(finite_size), ..self }
+    }
+
+    /// The same bodies under another law, with its own end if it has one.
     ///
     /// # Errors
     /// As [`Model::new`].
     pub fn with_family(&self, family: Family) -> Result<Self, FitError> {
-        Self::new(&self.pair, self.materials.clone(), family, self.end_rule)
+        let end_rule = family.end_rule().unwrap_or(self.end_rule);
+        let model = Self::new(&self.pair, self.materials.clone(), family, end_rule)?;
+        Ok(Self { finite_size: self.finite_size.clone(), ..model })
     }
 
     /// The bodies.
@@ -91,7 +104,11 @@ impl Model {
             (None, &[rate, ..]) => {
                 let [first, second] = self.materials_at_rate(rate)?;
                 let relaxation = PairRelaxation::new(first.as_ref(), second.as_ref())?;
-                Ting::new(&self.pair, relaxation).impact(speed)
+                let ting = Ting::new(&self.pair, relaxation);
+                match &self.finite_size {
+                    Some(size) => ting.with_finite_size(size.clone()).impact(speed),
+                    None => ting.impact(speed),
+                }
             }
             (None, []) => Err(LawError::NotPositive { quantity: "decay_rate", value: 0.0 }),
         }

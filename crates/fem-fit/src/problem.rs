@@ -1,7 +1,8 @@
 //! What is fitted: data, the free parameters of a law, and the residuals between them.
 
+use fem_laws::{Parameter, Role};
+
 use crate::error::FitError;
-use crate::family::{Parameter, Role};
 use crate::least_squares::minimise;
 use crate::model::Model;
 
@@ -188,7 +189,7 @@ impl<'a> Problem<'a> {
         let number = self.free.iter().filter(open).find(|free| !self.is_logarithmic(free));
         let numbers = match number {
             Some(Free { index, bounds: (low, high), .. }) => {
-                let spread = [0.2, 0.5].map(|part| low + part * (high - low));
+                let spread = [0.2, 0.4].map(|part| low + part * (high - low));
                 vec![(*index, values[*index]), (*index, spread[0]), (*index, spread[1])]
             }
             None => vec![(0, values[0])],

@@ -5,14 +5,13 @@ mod common;
 use std::f64::consts::PI;
 
 use common::{glass, glass_model};
-use fem_fit::Family;
 use fem_fit::dem::{
     Dashpot, Elastic, Export, Sphere, TsujiVersion, characteristic_velocity, hertz_mindlin_entry,
     hooke_stiffness, lammps_snippets, liggghts_snippets, tsuji_entry, tsuji_outcome, viscel_entry,
     viscoelastic_damping, yade_betan, yade_snippets,
 };
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
-use fem_laws::{EndRule, HertzImpact, LawImpact, Pair, Partner};
+use fem_laws::{EndRule, Family, HertzImpact, LawImpact, Pair, Partner};
 
 fn export() -> Export {
     let glass = glass(None);

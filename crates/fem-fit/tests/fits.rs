@@ -3,8 +3,8 @@
 mod common;
 
 use common::{bridges, glass_model, ice_model};
-use fem_fit::{Family, FitError, Model, Point, Problem};
-use fem_laws::EndRule;
+use fem_fit::{FitError, Model, Point, Problem};
+use fem_laws::{EndRule, Family};
 
 /// Data that a model makes, e and T.
 fn made_by(model: &Model, values: &[f64], speeds: &[f64]) -> Vec<Point> {

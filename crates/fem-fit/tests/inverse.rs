@@ -3,8 +3,8 @@
 mod common;
 
 use common::{glass, glass_model};
-use fem_fit::{Family, FitError, Model, Point, Problem, invert};
-use fem_laws::EndRule;
+use fem_fit::{FitError, Model, Point, Problem, invert};
+use fem_laws::{EndRule, Family};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
 /// 0.92 at 0.5 m/s: β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
@@ -26,9 +26,10 @@ fn decay_rate_of_the_glass() {
 #[test]
 fn every_law_has_an_inverse() {
     for family in Family::ALL.into_iter().filter(|family| *family != Family::Ting) {
+        // Nothing of Hertz' is lost.
+        let Some(index) = family.loss_parameter() else { continue };
         let model = glass_model(family, None);
         let mut values = Problem::new(&model, &[Point::new(0.5, 0.9)], &[]).unwrap().values;
-        let index = family.loss_parameter();
         for wanted in [0.99, 0.92, 0.5, 0.1] {
             // Their coefficient is first order in 1 − e: the smallest e entered makes 0.66.
             if family == Family::HuntCrossley && wanted < 0.7 {

@@ -9,8 +9,7 @@
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. One law a
-//! file. Everything is SI; forces
-//! and pressures of a closed contact are positive, stresses are positive in tension.
+//! file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and pressures of a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
 //! use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};
@@ -38,6 +37,7 @@
 pub mod bisection;
 mod collocation;
 mod error;
+mod family;
 mod finite_size;
 mod hertz;
 mod hertz_history;
@@ -54,6 +54,7 @@ mod ting_record;
 mod ting_step;
 
 pub use error::LawError;
+pub use family::{Family, Parameter, Role};
 pub use finite_size::FiniteSize;
 pub use hertz::{HertzImpact, contact_time_coefficient};
 pub use hertz_history::HertzInstant;

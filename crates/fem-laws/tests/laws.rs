@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use fem_laws::laws::{
     ContactLaw, bordbar_hyppanen, dissipation_time, falcon, hertz, hunt_crossley, kuwabara_kono,
     linear, linear_from_restitution, mishra_murty, morgado_oppenheim, power, schwager_poeschel,
-    tsuji, tsuji_from_restitution,
+    tsuji, tsuji_coefficient,
 };
 use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, Partner};
 use fem_material::{ElasticModuli, Material};
@@ -211,7 +211,7 @@ fn small_loss_is_the_work_of_the_dashpot() {
 fn tsuji_gives_the_restitution_asked_for_at_any_speed() {
     let pair = glass_pair();
     for restitution in [1.0, 0.95, 0.5, 0.1] {
-        let law = tsuji_from_restitution(&pair, restitution).unwrap();
+        let law = tsuji(&pair, tsuji_coefficient(restitution).unwrap()).unwrap();
         for speed in [1e-3, 10.0] {
             assert_close(impact_to_zero_overlap(law, speed).restitution, restitution, DAMPED);
             // Zero force comes first, and pulling is left out.
@@ -383,7 +383,7 @@ fn impossible_data_are_refused() {
         Err(LawError::NotPositive { quantity: "stiffness", value: 0.0 })
     );
     for value in [0.0, -0.1, 1.1, f64::NAN] {
-        assert!(tsuji_from_restitution(&pair, value).is_err());
+        assert!(tsuji_coefficient(value).is_err());
         assert!(hunt_crossley(&pair, value, 0.5).is_err());
         assert!(linear_from_restitution(&pair, value, 1e-4, EndRule::ZeroForce).is_err());
     }

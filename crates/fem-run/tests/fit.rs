@@ -192,7 +192,7 @@ fn inverse_of_the_glass() {
     }
     let ran = place.run(&[&ting[..5], &["1.5"]].concat());
     assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("restitution must be greater than 0 and less than 1"));
+    assert!(ran.stderr.contains("it must be greater than 0 and less than 1"));
     let law = ["invert", "case.toml", "--restitution", "0.3", "--law", "hunt_crossley"];
     let ran = place.run(&law);
     assert_eq!(ran.code, Some(2));
@@ -200,6 +200,65 @@ fn inverse_of_the_glass() {
     let law = ["invert", "case.toml", "--restitution", "0.3", "--law", "linear"];
     let ran = place.run(&law);
     assert!(ran.stderr.contains("linear needs a value of k"), "{}", ran.stderr);
+}
+
+/// The law of `[model]`, its fixed numbers and its end are the defaults, and options go before them.
+#[test]
+fn a_case_gives_its_law() {
+    let place = ice();
+    let n = "model.law={bordbar_hyppanen={a=1e-4,n=0.65,end='zero_overlap'}}";
+    let fit = |more: &[&str]| {
+        let options = ["fit", "case.toml", "--data", "ice.csv", "--out", "fit", "--set", n];
+        place.succeed(&[&options[..], more].concat());
+        let numbers = place.json("fit/fit.json");
+        let text = |key: &str| numbers[key].as_str().unwrap().to_string();
+        let values = numbers["parameters"].as_array().unwrap().iter();
+        let values: Vec<_> = values.map(|value| value["value"].as_f64().unwrap()).collect();
+        (text("law"), text("end"), values)
+    };
+    let (law, end, values) = fit(&[]);
+    assert_eq!((law.as_str(), end.as_str(), values[1]), ("bordbar_hyppanen", "zero_overlap", 0.65));
+    // A is what is searched for; 2.35e-4 s at zero force is the published value.
+    let (_, end, values) = fit(&["--end", "zero_force"]);
+    assert_eq!((end.as_str(), format!("{:.2e}", values[0]).as_str()), ("zero_force", "2.35e-4"));
+    assert_eq!(fit(&["--param", "n=0.7"]).2[1], 0.7);
+    let (law, end, values) = fit(&["--law", "kuwabara_kono"]);
+    assert_eq!((law.as_str(), end.as_str(), values.len()), ("kuwabara_kono", "zero_force", 1));
+
+    let glass = Place::new();
+    let tsuji = "model.law={tsuji={e=0.9,end='zero_overlap'}}";
+    glass.succeed(&["export", "case.toml", "--set", tsuji]);
+    let e = glass.json("runs/case_export/export.json")["snippets"][0]["restitution"].as_f64();
+    // As the law gives it at each speed, to its tolerance.
+    assert!((e.unwrap() - 0.9).abs() < 1e-7, "{e:?}");
+    // A law found for a restitution gives it when the case runs.
+    let invert = ["invert", "case.toml", "--restitution", "0.92", "--set"];
+    let law = "model.law={zhang_whiten={e=0.5}}";
+    let ran = glass.succeed(&[&invert[..], &[law]].concat());
+    assert!(
+        ran.stdout.contains("zhang_whiten") && !ran.stdout.contains("falcon"),
+        "{}",
+        ran.stdout
+    );
+    let cell = |word: &str| word.contains("e-").then(|| word.parse::<f64>().ok()).flatten();
+    let alpha = ran.stdout.split_whitespace().find_map(cell).unwrap();
+    let law = format!("model.law={{zhang_whiten={{alpha={alpha}}}}}");
+    glass.succeed(&["case.toml", "--set", &law, "--out", "run"]);
+    let e = glass.json("run/summary.json")["restitution"].as_f64().unwrap();
+    // The value is printed in seven digits.
+    assert!((e - 0.92).abs() < 1e-6, "{e}");
+    let refused = |options: &[&str], expected: &str| {
+        let ran = glass.run(&[&invert[..4], options].concat());
+        assert_eq!(ran.code, Some(2), "{}", ran.stdout);
+        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    };
+    refused(&["--law", "zhang_whiten", "--end", "zero_overlap"], "zero force by its definition");
+    refused(&["--law", "ting", "--end", "zero_overlap"], "zero force by its definition");
+    refused(&["--law", "hertz"], "loses nothing");
+    refused(&["--find", "a"], "of which law?");
+    // What no law gives is bad input, not a table of refusals.
+    let ran = glass.run(&["invert", "case.toml", "--restitution", "1.2"]);
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
 }
 
 #[test]

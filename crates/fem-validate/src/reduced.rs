@@ -1,7 +1,7 @@
 //! The reduced models of a run's scene: what finite elements are held against.
 
-use fem_case::{Body, Scene};
-use fem_laws::{FiniteSize, Impact, Pair, PairRelaxation, Ting};
+use fem_case::Scene;
+use fem_laws::{Impact, Pair, PairRelaxation, Ting};
 
 use crate::error::StudyError;
 
@@ -14,9 +14,7 @@ pub(crate) fn ting(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
     let relaxation = PairRelaxation::new(lower.material(), upper.material())?;
     let mut ting = Ting::new(pair, relaxation);
     if finite_size {
-        let sphere = |body: &Body| body.diameter().map(|diameter| 0.5 * diameter);
-        let [first, second] = [lower, upper].map(|body| sphere(body).zip(body.material()));
-        ting = ting.with_finite_size(FiniteSize::new(first, second)?);
+        ting = ting.with_finite_size(scene.finite_size()?);
     }
-    Ok(ting.impact(lower.velocity - upper.velocity)?)
+    Ok(ting.impact(scene.approach_speed())?)
 }

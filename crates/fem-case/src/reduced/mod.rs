@@ -8,9 +8,7 @@ mod outcome;
 mod relative;
 
 use fem_laws::laws::ContactLaw;
-use fem_laws::{
-    EndRule, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting,
-};
+use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
 use crate::case::Case;
@@ -20,7 +18,6 @@ use crate::estimate::Estimate;
 use crate::model::{Law, Model};
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
-use crate::scene::Shape;
 use crate::schema::{CaseFile, End, HertzTable, LawTable, ModelTable, StartTable, TingTable};
 use contact_law::{Refusal, Setting};
 
@@ -45,7 +42,15 @@ pub struct Reduced {
 enum Motion {
     Hertz(HertzImpact),
     Ting(Ting),
-    Law(LawImpact, ContactLaw),
+    Law(LawMotion),
+}
+
+/// A law, its numbers, and its integration.
+#[derive(Clone, Debug)]
+struct LawMotion {
+    impact: LawImpact,
+    law: ContactLaw,
+    numbers: Vec<f64>,
 }
 
 impl Reduced {
@@ -72,13 +77,19 @@ impl Reduced {
                 ting(&case, &estimate, true, *finite_size, *tolerance)?
             }
             Model::Law { law, end_rule, tolerance } => {
-                let (law, pair) = contact_law(&case, &estimate, law, *end_rule)?;
+                let (numbers, pair) = law_numbers(&case, &estimate, law, *end_rule)?;
+                let Some(made) = law.family().law(&pair, &numbers) else {
+                    let message = format!("{} is no law of the overlap", law.name());
+                    return Err(case.error_at(&case.scene.model.path(), message));
+                };
+                let law = made.map_err(refuse)?;
                 let impact = LawImpact::new(&pair, law).with_end_rule(*end_rule);
-                (Motion::Law(impact.with_tolerance(*tolerance).map_err(refuse)?, law), pair)
+                let impact = impact.with_tolerance(*tolerance).map_err(refuse)?;
+                (Motion::Law(LawMotion { impact, law, numbers }), pair)
             }
         };
         let law = match &motion {
-            Motion::Law(_, law) => Some(law),
+            Motion::Law(motion) => Some(&motion.law),
             _ => None,
         };
         let (effects, warnings) = effects::decide(&case, &estimate, law);
@@ -90,7 +101,7 @@ impl Reduced {
         let name = self.case.scene.model.name();
         match (&self.motion, &self.case.scene.model) {
             (Motion::Hertz(_), _) => "model hertz, a closed form".to_string(),
-            (Motion::Law(..), Model::Law { law, .. }) => {
+            (Motion::Law(_), Model::Law { law, .. }) => {
                 format!("model law {}, one degree of freedom", law.name())
             }
             _ => format!("model {name}, one degree of freedom"),
@@ -100,25 +111,36 @@ impl Reduced {
     /// Stiffness and dashpot of a law.
     pub fn law(&self) -> Option<&ContactLaw> {
         match &self.motion {
-            Motion::Law(_, law) => Some(law),
+            Motion::Law(motion) => Some(&motion.law),
+            _ => None,
+        }
+    }
+
+    /// The law's numbers, SI, in the order of its family's parameters.
+    pub fn law_numbers(&self) -> Option<&[f64]> {
+        match &self.motion {
+            Motion::Law(motion) => Some(&motion.numbers),
             _ => None,
         }
     }
 
     /// Computes the collision; `halt` says why if it cannot.
     pub fn run(&self) -> Outcome {
-        match self.impact() {
+        match self.impact(self.estimate.hertz.approach_speed()) {
             Ok(impact) => self.outcome(&impact),
             Err(error) => Outcome::halted(error),
         }
     }
 
-    fn impact(&self) -> Result<Impact, LawError> {
-        let speed = self.estimate.hertz.approach_speed();
+    /// The relative motion at an approach speed, m/s, the law's numbers those of the case.
+    ///
+    /// # Errors
+    /// Those of the model.
+    pub fn impact(&self, speed: f64) -> Result<Impact, LawError> {
         match &self.motion {
-            Motion::Hertz(hertz) => Ok(hertz.impact()),
+            Motion::Hertz(hertz) => Ok(HertzImpact::new(hertz.pair(), speed)?.impact()),
             Motion::Ting(ting) => ting.impact(speed),
-            Motion::Law(impact, _) => impact.impact(speed),
+            Motion::Law(motion) => motion.impact.impact(speed),
         }
     }
 
@@ -188,11 +210,7 @@ fn ting(
     let mut ting =
         Ting::new(&pair, relaxation.map_err(refuse)?).with_tolerance(tolerance).map_err(refuse)?;
     if finite_size {
-        let sized = case.scene.bodies.each_ref().map(|body| match &body.shape {
-            Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
-            Shape::Wall => None,
-        });
-        let size = FiniteSize::new(sized[0], sized[1]).map_err(refuse)?;
+        let size = case.scene.finite_size().map_err(refuse)?;
         size.check(estimate.hertz.max_contact_radius()).map_err(|error| {
             case.error_at(&format!("{path}.finite_size"), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
@@ -202,12 +220,12 @@ fn ting(
     Ok((Motion::Ting(ting), pair))
 }
 
-fn contact_law(
+fn law_numbers(
     case: &Case,
     estimate: &Estimate,
     law: &Law,
     end_rule: EndRule,
-) -> Result<(ContactLaw, Pair), CaseError> {
+) -> Result<(Vec<f64>, Pair), CaseError> {
     let path = case.scene.model.path();
     let materials = materials(case);
     let relaxation = PairRelaxation::new(materials[0], materials[1])
@@ -219,7 +237,7 @@ fn contact_law(
         relaxation: &relaxation,
         end_rule,
     };
-    setting.law(law).map_err(|refusal| match refusal {
+    setting.numbers(law).map_err(|refusal| match refusal {
         Refusal::Law(error) => case.error_at(&path, error.to_string()),
         Refusal::Source(message, help) => case.error_at(&path, message).with_help(help),
     })

@@ -106,9 +106,10 @@ impl Check<'_> {
             End::ZeroOverlap => EndRule::ZeroOverlap,
         };
         let law = Keys { check: self, path: &path }.law(table)?;
-        if matches!(law, Law::ZhangWhiten(_)) && end_rule == EndRule::ZeroOverlap {
+        if law.family().end_rule().is_some_and(|own| own != end_rule) {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };
-            let error = self.error(&place, "zhang_whiten ends at zero force by its definition");
+            let message = format!("{name} ends at zero force by its definition");
+            let error = self.error(&place, message);
             return Err(error.with_help("leave end out; the same law with another end is tsuji"));
         }
         let tolerance = inner.or(outer).unwrap_or(LawImpact::DEFAULT_TOLERANCE);

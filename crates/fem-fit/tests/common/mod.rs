@@ -2,8 +2,8 @@
 
 #![allow(dead_code, reason = "no test file uses all of it")]
 
-use fem_fit::{Family, Model, Point};
-use fem_laws::{EndRule, Pair, Partner};
+use fem_fit::{Model, Point};
+use fem_laws::{EndRule, Family, Pair, Partner};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
 /// Table 1, with a decay rate, 1/s.

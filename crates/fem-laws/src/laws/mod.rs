@@ -23,8 +23,8 @@ pub use mishra_murty::mishra_murty;
 pub use morgado_oppenheim::morgado_oppenheim;
 pub use power::{ContactLaw, power};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel};
-pub use tsuji::{tsuji, tsuji_from_restitution};
-pub use zhang_whiten::zhang_whiten_from_restitution;
+pub use tsuji::{tsuji, tsuji_coefficient};
+pub use zhang_whiten::zhang_whiten_coefficient;
 
 /// K = (4/3) E* √R*, N/m^(3/2), of Hertz' force.
 fn hertz_stiffness(pair: &crate::Pair) -> f64 {

@@ -31,11 +31,11 @@ pub fn tsuji(pair: &Pair, damping_coefficient: f64) -> Result<ContactLaw, LawErr
     power(stiffness, 1.5, alpha * pair.effective_mass().sqrt() * stiffness.sqrt(), 0.25)
 }
 
-/// Of a pair and the restitution, in (0, 1], at the end of overlap.
+/// α of a restitution, in (0, 1], at the end of overlap.
 ///
 /// # Errors
 /// A restitution outside (0, 1].
-pub fn tsuji_from_restitution(pair: &Pair, restitution: f64) -> Result<ContactLaw, LawError> {
+pub fn tsuji_coefficient(restitution: f64) -> Result<f64, LawError> {
     let loss = checked(restitution)?.recip().ln();
-    tsuji(pair, 5f64.sqrt() * loss / PI.hypot(loss))
+    Ok(5f64.sqrt() * loss / PI.hypot(loss))
 }

@@ -11,18 +11,14 @@
 //! solved for ζ by bisection. Limits: a restitution that is to be the same at every speed.
 
 use super::linear::damping_ratio;
-use super::{ContactLaw, tsuji};
+use crate::EndRule;
 use crate::error::{LawError, restitution as checked};
-use crate::{EndRule, Pair};
 
-/// Of a pair and the restitution, in (0, 1], at the end of force.
+/// α of a restitution, in (0, 1], at the end of force.
 ///
 /// # Errors
 /// A restitution outside (0, 1].
-pub fn zhang_whiten_from_restitution(
-    pair: &Pair,
-    restitution: f64,
-) -> Result<ContactLaw, LawError> {
+pub fn zhang_whiten_coefficient(restitution: f64) -> Result<f64, LawError> {
     let loss = checked(restitution)?.recip().ln();
-    tsuji(pair, 5f64.sqrt() * damping_ratio(loss, EndRule::ZeroForce))
+    Ok(5f64.sqrt() * damping_ratio(loss, EndRule::ZeroForce))
 }

@@ -3,19 +3,19 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_case::Case;
+use fem_case::{Case, Model, Reduced};
 use fem_figure::{Axis, COLOURS, Chart, Curve as Line, Mark};
 use fem_fit::dem::{Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets};
-use fem_fit::{Family, Point};
-use fem_laws::EndRule;
+use fem_fit::{FitError, Point};
+use fem_laws::{EndRule, Family, Ting};
 use serde_json::{Value, json};
 
 use crate::arguments::CaseArguments;
 use crate::engineering::{Unit, show};
 use crate::failure::Failure;
 use crate::reduced::{
-    Curve, Drawn, OutputArguments, approach_speed, fit_export, from_fit_error, model_of,
-    parse_speed, read_data, spheres_of,
+    Curve, Drawn, OutputArguments, fit_export, from_fit_error, model_of, parse_speed, read_data,
+    spheres_of,
 };
 use crate::standard_output;
 use crate::tables::table;
@@ -23,7 +23,7 @@ use crate::tables::table;
 /// Write input for LAMMPS, LIGGGHTS and YADE that makes the same restitutions
 ///
 /// They come from the sweep.csv of a sweep over speeds, from a measurement, or, without --data,
-/// from Ting's model of the case. Each snippet says at which speeds it is good.
+/// from the case's [model]: a law, ting, or in place of finite elements ting. Each snippet says at which speeds it is good.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -31,7 +31,7 @@ pub struct Arguments {
     /// Restitutions, and contact times if it has them: a CSV file, such as a sweep's sweep.csv
     #[arg(long, value_name = "FILE", conflicts_with = "speeds")]
     data: Option<PathBuf>,
-    /// Speeds of Ting's model, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
+    /// Speeds that are computed, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
     #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
     speeds: Option<(f64, f64)>,
     /// Error of the restitution up to which a snippet is called good
@@ -41,7 +41,7 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// Speeds at which Ting's model is computed.
+/// Speeds at which a reduced model is computed.
 const N_SPEEDS: usize = 13;
 
 /// Fits and writes.
@@ -54,12 +54,25 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let Some(spheres) = spheres_of(&case) else {
         return Err(Failure::bad_input("the case has a wall; a snippet is for two spheres")
             .with_help(
-                "walls have commands of their own in DEM codes; replace the wall by a sphere",
+                "DEM codes take walls each in its own way (YADE as a sphere of the same radius, \
+                 LAMMPS by fix wall/gran with another modulus): replace the wall by a sphere, or \
+                 take the numbers from fem-run fit or invert, which know walls",
             ));
     };
     let curve = curve(arguments, &case)?;
     let fitted = fit_export(&case, spheres, &curve, arguments.tolerance);
-    let (export, drawn) = fitted.map_err(from_fit_error)?;
+    let (export, drawn) = fitted.map_err(|error| {
+        let is_lossless = matches!(error, FitError::Insensitive { .. });
+        let failure = from_fit_error(error);
+        if is_lossless {
+            failure.with_help(
+                "an elastic contact needs no fit, its restitution is 1; if there is a loss, narrow \
+                 the range of speeds",
+            )
+        } else {
+            failure
+        }
+    })?;
     let failed = |error: fem_laws::LawError| from_fit_error(error.into());
     let mut snippets = lammps_snippets(&export).map_err(failed)?;
     snippets.extend(liggghts_snippets(&export).map_err(failed)?);
@@ -88,19 +101,32 @@ fn curve(arguments: &Arguments, case: &Case) -> Result<Curve, Failure> {
             return Err(Failure::bad_input(format!("{}: one speed only", data.name))
                 .with_help("a range of validity needs two speeds or more"));
         }
-        let model = model_of(case, Family::Tsuji, EndRule::ZeroOverlap).map_err(from_fit_error)?;
-        return Curve::of(&model, data.points).map_err(from_fit_error);
+        let pair = case.scene.pair().map_err(|error| from_fit_error(error.into()))?;
+        return Curve::of(&pair, data.points).map_err(from_fit_error);
     }
-    let middle = approach_speed(&case.scene);
+    let reduced = reduced(case)?;
+    let middle = case.scene.approach_speed();
     let decade = 10f64.sqrt();
     let (low, high) = arguments.speeds.unwrap_or((middle / decade, middle * decade));
     let speed = |k: usize| low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64);
     let speeds: Vec<f64> = (0..N_SPEEDS).map(speed).collect();
-    Curve::of_ting(case, &speeds).map_err(|error| {
-        from_fit_error(error).with_help(
-            "give a material a [material.NAME.relaxation] table, or restitutions with --data",
-        )
-    })
+    Curve::computed(&reduced, &speeds).map_err(from_fit_error)
+}
+
+/// The case's own model; Ting's in place of finite elements.
+fn reduced(case: &Case) -> Result<Reduced, Failure> {
+    let mut case = case.clone();
+    if case.scene.model == Model::Fem {
+        model_of(&case, Family::Ting, EndRule::ZeroForce).map_err(|error| {
+            from_fit_error(error).with_help(
+                "give a material a [material.NAME.relaxation] table, a law in [model], or \
+                 restitutions with --data",
+            )
+        })?;
+        let tolerance = Ting::DEFAULT_TOLERANCE;
+        case.scene.model = Model::Ting { finite_size: false, tolerance };
+    }
+    Ok(Reduced::new(case)?)
 }
 
 fn parse_speeds(text: &str) -> Result<(f64, f64), String> {

@@ -3,14 +3,15 @@
 use std::path::PathBuf;
 
 use fem_case::Case;
-use fem_fit::{Family, Fit, Free, Model, Problem};
+use fem_fit::{Fit, Free, Model, Problem};
+use fem_laws::{Family, Role};
 
 use crate::arguments::{CaseArguments, stem_of};
 use crate::failure::Failure;
 use crate::reduced::{
-    Data, Fitted, LawArguments, Output, OutputArguments, find_key, fit_numbers, fit_picture,
-    fit_text, from_fit_error, histories_picture, model_of, parse_family, parse_speed, parse_value,
-    read_data, split,
+    ChosenLaw, Data, Fitted, LawArguments, Output, OutputArguments, family_of, find_key, find_loss,
+    fit_numbers, fit_picture, fit_text, from_fit_error, histories_picture, parse_family,
+    parse_speed, parse_value, read_data, split,
 };
 use crate::standard_output;
 
@@ -27,9 +28,9 @@ pub struct Arguments {
     /// A column restitution_uncertainty weighs them. The sweep.csv of a sweep over speeds will do.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
-    /// The law, such as bordbar_hyppanen or ting
+    /// The law, such as bordbar_hyppanen or ting [default: that of the case's [model]]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
-    law: Family,
+    law: Option<Family>,
     /// Parameters to find, such as a,n [default: the one that damps]
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     free: Vec<String>,
@@ -66,9 +67,13 @@ const GRID_REACH: f64 = 2.5;
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
     let data = read_data(&arguments.data, &case.scene, arguments.contact_time)?;
-    let end_rule = arguments.values.end.rule();
-    let model = model_of(&case, arguments.law, end_rule).map_err(from_fit_error)?;
-    let problem = problem(arguments, &model, &data)?;
+    let family = arguments.law.or_else(|| family_of(&case)).ok_or_else(|| {
+        Failure::bad_input("--law is missing, and the case's [model] names no law")
+            .with_help("name one, such as --law bordbar_hyppanen; docs/fits.md lists them")
+    })?;
+    let chosen = arguments.values.choose(&case, family)?;
+    let model = &chosen.model;
+    let problem = problem(arguments, &chosen, &data)?;
     let profiled = profiled(arguments, &problem)?;
     let fit = problem.fit(arguments.confidence).map_err(from_fit_error)?;
     let profile = profiled
@@ -96,7 +101,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     write_residuals(&mut output, &problem, &fit)?;
     output.write("fit.svg", fit_picture(&fitted))?;
     let speed = arguments.at.unwrap_or_else(|| problem.middle_speed());
-    let histories = histories_picture(&case.scene, &model, &fit.values, speed);
+    let histories = histories_picture(&case.scene, model, &fit.values, speed);
     output.write("histories.svg", histories.map_err(|error| from_fit_error(error.into()))?)?;
     let place = output.publish(fit_numbers(&fitted))?;
     if arguments.output.quiet {
@@ -105,44 +110,42 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&format!("{}\nResult: {place}\n", fit_text(&fitted)))
 }
 
-/// The problem with all that the options say.
+/// The problem with all that options and case say.
 fn problem<'a>(
     arguments: &Arguments,
-    model: &'a Model,
+    chosen: &'a ChosenLaw,
     data: &'a Data,
 ) -> Result<Problem<'a>, Failure> {
-    let family = arguments.law;
-    let default = [family.parameters()[family.loss_parameter()].key.to_string()];
+    let model = &chosen.model;
+    let family = model.family();
+    let default = [loss_key(family)?.to_string()];
     let keys = if arguments.free.is_empty() { &default[..] } else { &arguments.free };
     for key in keys {
         find_key(family, key, "--free")?;
     }
     let keys: Vec<&str> = keys.iter().map(|key| key.trim()).collect();
     let mut problem = Problem::new(model, &data.points, &keys).map_err(from_fit_error)?;
-    let settings = arguments.values.settings(family)?;
-    for setting in &settings {
-        problem.values[setting.index] = setting.value;
-        let free = problem.free.iter_mut().find(|free| free.index == setting.index);
-        if let Some(free) = free {
-            free.start = Some(setting.value);
-        }
+    problem.values = chosen.values(&problem.values);
+    for free in &mut problem.free {
+        free.start = chosen.start(free.index);
     }
-    for (index, parameter) in family.parameters().iter().enumerate() {
-        let is_given = settings.iter().any(|setting| setting.index == index)
-            || problem.free.iter().any(|free| free.index == index);
-        if !is_given && parameter.default.is_none() {
-            let message = format!("{} needs a value of {}", family.name(), parameter.key);
-            return Err(Failure::bad_input(message).with_help(format!(
-                "give it, --param {0}=VALUE, or let it be found, --free {1},{0}",
-                parameter.key,
-                keys.join(",")
-            )));
-        }
+    let is_free = |index: usize| problem.free.iter().any(|free| free.index == index);
+    if let Some(key) = chosen.missing(is_free) {
+        let message = format!("{} needs a value of {key}", family.name());
+        return Err(Failure::bad_input(message).with_help(format!(
+            "give it, --param {key}=VALUE, or let it be found, --free {},{key}",
+            keys.join(",")
+        )));
     }
     for text in &arguments.bounds {
         bound(&mut problem, family, text)?;
     }
     Ok(problem)
+}
+
+/// The key of what stands for the loss.
+fn loss_key(family: Family) -> Result<&'static str, Failure> {
+    Ok(family.parameters()[find_loss(family)?].key)
 }
 
 fn bound(problem: &mut Problem<'_>, family: Family, text: &str) -> Result<(), Failure> {
@@ -173,7 +176,7 @@ fn profiled<'p>(
     match &arguments.profile {
         None => Ok(problem.free.iter().find(|free| problem.parameter(free.index).key == "n")),
         Some(key) => {
-            let free = find(find_key(arguments.law, key, "--profile")?);
+            let free = find(find_key(problem.model.family(), key, "--profile")?);
             free.map(Some).ok_or_else(|| {
                 Failure::bad_input(format!("--profile {key}: this parameter is not free"))
                     .with_help(format!("add it to --free, such as --free {key}"))
@@ -211,8 +214,14 @@ fn compare<'a>(
     data: &Data,
     arguments: &Arguments,
 ) -> Result<(&'a Model, Fit), Failure> {
-    let key = family.parameters()[family.loss_parameter()].key;
-    let problem = Problem::new(model, &data.points, &[key]).map_err(from_fit_error)?;
+    let mut free = vec![loss_key(family)?];
+    // Contact times determine a stiffness that no theory gives; restitutions do not depend on it.
+    if data.points.iter().any(|point| point.contact_time.is_some()) {
+        let stiff =
+            family.parameters().iter().filter(|parameter| parameter.role == Role::Stiffness);
+        free.extend(stiff.map(|parameter| parameter.key));
+    }
+    let problem = Problem::new(model, &data.points, &free).map_err(from_fit_error)?;
     let fit = problem.fit(arguments.confidence).map_err(from_fit_error)?;
     Ok((model, fit))
 }

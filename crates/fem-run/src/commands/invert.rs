@@ -2,13 +2,14 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem_case::Case;
-use fem_fit::{Family, FitError, Inversion, Model, Problem, invert};
+use fem_fit::{FitError, Inversion, Model, Problem, invert};
+use fem_laws::{Family, Role};
 
 use crate::arguments::CaseArguments;
 use crate::engineering::show;
 use crate::failure::Failure;
 use crate::reduced::{
-    LawArguments, approach_speed, find_key, from_fit_error, model_of, parse_family, parse_speed,
+    LawArguments, family_of, find_key, find_loss, from_fit_error, parse_family, parse_speed,
     show_value,
 };
 use crate::standard_output;
@@ -17,7 +18,8 @@ use crate::tables::table;
 /// Find the parameter of a law that gives a wanted restitution at one speed
 ///
 /// The case gives the two bodies and the speed. For the law `ting` it is the decay rate of the
-/// bodies' relaxation. Without --law, all laws that need no more than one number.
+/// bodies' relaxation. Without --law, the law of the case's [model], or else all laws that need no
+/// more than one number.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -25,11 +27,11 @@ pub struct Arguments {
     /// The restitution that is wanted, between 0 and 1
     #[arg(long, value_name = "E")]
     restitution: f64,
-    /// The law [default: all]
+    /// The law [default: that of the case's [model], or else all]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<Family>,
     /// The parameter to find [default: the one that damps]
-    #[arg(long, value_name = "KEY", requires = "law")]
+    #[arg(long, value_name = "KEY")]
     find: Option<String>,
     #[command(flatten)]
     values: LawArguments,
@@ -44,16 +46,29 @@ pub struct Arguments {
 /// Solves and prints.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let speed = arguments.speed.unwrap_or_else(|| approach_speed(&case.scene));
-    let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
-    if arguments.law.is_none() && !arguments.values.param.is_empty() {
-        return Err(Failure::bad_input("--param: of which law?").with_help("name it with --law"));
+    let speed = arguments.speed.unwrap_or_else(|| case.scene.approach_speed());
+    let wanted = arguments.restitution;
+    if !(wanted > 0.0 && wanted < 1.0) {
+        let message = format!("--restitution {wanted}: it must be greater than 0 and less than 1");
+        return Err(Failure::bad_input(message));
     }
-    let families: Vec<Family> = arguments.law.map_or(Family::ALL.to_vec(), |law| vec![law]);
+    let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
+    let law = arguments.law.or_else(|| family_of(&case));
+    let options =
+        [("--param", !arguments.values.param.is_empty()), ("--find", arguments.find.is_some())];
+    if let (None, Some((option, _))) = (law, options.iter().find(|(_, is_given)| *is_given)) {
+        let message = format!("{option}: of which law?");
+        return Err(Failure::bad_input(message).with_help("name it with --law"));
+    }
+    let families: Vec<Family> = law.map_or(Family::ALL.to_vec(), |law| vec![law]);
+    let mut is_found = false;
     for family in families {
         match solve(arguments, &case, family, speed) {
-            Ok(solved) => rows.extend(lines(&solved, speed)),
-            Err(failure) if arguments.law.is_some() => return Err(failure),
+            Ok(solved) => {
+                is_found = true;
+                rows.extend(lines(&solved, speed));
+            }
+            Err(failure) if law.is_some() => return Err(failure),
             // Of all laws, those that cannot are told so in the table.
             Err(_) if needs_more(family) => {}
             Err(failure) => {
@@ -63,12 +78,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             }
         }
     }
+    if !is_found {
+        let message = format!("no law gives a restitution of {wanted} at {}", show(speed, "m/s"));
+        return Err(
+            Failure::bad_input(message).with_help("ask for one law, --law, to see its reach")
+        );
+    }
     if arguments.quiet {
         return Ok(());
     }
     standard_output::print(&format!(
-        "restitution {} at {}\n\n{}",
-        arguments.restitution,
+        "restitution {wanted} at {}\n\n{}",
         show(speed, "m/s"),
         table(&[Left, Left, Right, Right, Right], rows)
     ))
@@ -85,8 +105,10 @@ struct Solved {
 /// Laws with numbers that no theory gives.
 fn needs_more(family: Family) -> bool {
     let loss = family.loss_parameter();
-    let mut others = family.parameters().iter().enumerate().filter(|(index, _)| *index != loss);
-    others.any(|(_, parameter)| parameter.default.is_none() && parameter.unit != "m/s")
+    let mut others =
+        family.parameters().iter().enumerate().filter(|(index, _)| Some(*index) != loss);
+    loss.is_none()
+        || others.any(|(_, parameter)| parameter.default.is_none() && parameter.role != Role::Speed)
 }
 
 fn solve(
@@ -95,27 +117,21 @@ fn solve(
     family: Family,
     speed: f64,
 ) -> Result<Solved, Failure> {
-    let model = model_of(case, family, arguments.values.end.rule()).map_err(from_fit_error)?;
+    let chosen = arguments.values.choose(case, family)?;
     let index = match &arguments.find {
         Some(key) => find_key(family, key, "--find")?,
-        None => family.loss_parameter(),
+        None => find_loss(family)?,
     };
-    let settings = arguments.values.settings(family)?;
-    let missing = family.parameters().iter().enumerate().find(|(other, parameter)| {
-        let is_given = settings.iter().any(|setting| setting.index == *other);
-        *other != index && !is_given && parameter.default.is_none() && parameter.unit != "m/s"
-    });
-    if let Some((_, parameter)) = missing {
-        let message = format!("{} needs a value of {}", family.name(), parameter.key);
-        return Err(Failure::bad_input(message)
-            .with_help(format!("give it, --param {}=VALUE", parameter.key)));
+    // A speed is that of the collision.
+    let is_known = |other: usize| other == index || family.parameters()[other].role == Role::Speed;
+    if let Some(key) = chosen.missing(is_known) {
+        let message = format!("{} needs a value of {key}", family.name());
+        return Err(Failure::bad_input(message).with_help(format!("give it, --param {key}=VALUE")));
     }
     let at_speed = [fem_fit::Point::new(speed, arguments.restitution)];
-    let problem = Problem::new(&model, &at_speed, &[]).map_err(from_fit_error)?;
-    let mut values = problem.values;
-    for setting in settings {
-        values[setting.index] = setting.value;
-    }
+    let problem = Problem::new(&chosen.model, &at_speed, &[]).map_err(from_fit_error)?;
+    let values = chosen.values(&problem.values);
+    let model = chosen.model;
     let inversion = invert(&model, index, &values, speed, arguments.restitution);
     let inversion = inversion.map_err(|error| match error {
         FitError::NoSolution { .. } if family == Family::HuntCrossley => {

@@ -125,7 +125,8 @@ fn point(table: &CsvTable, columns: &Columns, row: usize) -> Result<Point, Failu
     let restitution = table.number(row, columns.restitution, [0; 3])?.value;
     if !(0.0..=LARGEST).contains(&restitution) {
         return Err(table.fault(line, format!("the restitution is {restitution:?}")).with_help(
-            "it must be from 0 to 1; name the column restitution_percent for per cents",
+            "it must be from 0 to 1, and scatter takes it to 1.2 at the most; name the column \
+             restitution_percent for per cents",
         ));
     }
     let optional = |column: Option<usize>, dimension| {

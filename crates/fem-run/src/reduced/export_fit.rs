@@ -1,9 +1,9 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
-use fem_case::{Case, Shape};
+use fem_case::{Case, Reduced, Shape};
 use fem_fit::dem::{Dashpot, Elastic, Export, Sphere};
-use fem_fit::{Family, FitError, Model, Outcome, Point, Problem};
-use fem_laws::{EndRule, HertzImpact};
+use fem_fit::{FitError, Model, Outcome, Point, Problem};
+use fem_laws::{EndRule, Family, HertzImpact, Pair};
 
 use super::bodies::model_of;
 
@@ -33,12 +33,12 @@ impl Curve {
     ///
     /// # Errors
     /// Speeds without a Hertz impact.
-    pub fn of(model: &Model, mut points: Vec<Point>) -> Result<Self, FitError> {
+    pub fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {
         points.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         let has_hertz_times = points.iter().any(|point| point.contact_time.is_none());
         for point in &mut points {
             if has_hertz_times {
-                let hertz = HertzImpact::new(model.pair(), point.speed)?;
+                let hertz = HertzImpact::new(pair, point.speed)?;
                 point.contact_time = Some(hertz.contact_time());
             }
             point.restitution_uncertainty = None;
@@ -46,19 +46,20 @@ impl Curve {
         Ok(Self { points, has_hertz_times })
     }
 
-    /// Computed by Ting's model at these speeds, m/s.
+    /// Computed by a reduced model at these speeds, m/s.
     ///
     /// # Errors
-    /// Bodies that do not relax.
-    pub fn of_ting(case: &Case, speeds: &[f64]) -> Result<Self, FitError> {
-        let model = model_of(case, Family::Ting, EndRule::ZeroForce)?;
-        let rate = model.fastest_rate().unwrap_or(1.0);
+    /// Collisions that cannot be computed.
+    pub fn computed(reduced: &Reduced, speeds: &[f64]) -> Result<Self, FitError> {
         let point = |speed: &f64| {
-            let Outcome { restitution, contact_time } = model.outcome(&[rate], *speed)?;
-            Ok(Point { contact_time, ..Point::new(*speed, restitution) })
+            let impact = reduced.impact(*speed)?;
+            Ok(Point {
+                contact_time: impact.contact_time,
+                ..Point::new(*speed, impact.restitution)
+            })
         };
         let points: Vec<Point> = speeds.iter().map(point).collect::<Result<_, FitError>>()?;
-        Self::of(&model, points)
+        Self::of(&reduced.case.scene.pair()?, points)
     }
 
     /// From, to, and the largest error of a law's e: the longest run of neighbouring speeds at which

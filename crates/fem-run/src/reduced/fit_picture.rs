@@ -2,9 +2,9 @@
 
 use fem_case::Scene;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
-use fem_fit::{Fit, Model, Role};
+use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
-use fem_laws::{Impact, LawError, LawImpact};
+use fem_laws::{Impact, LawError, LawImpact, Role};
 
 use super::fit_report::Fitted;
 use crate::engineering::Unit;

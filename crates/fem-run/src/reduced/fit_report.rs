@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_fit::{Estimate, Family, Fit, Model, Problem, Profile};
-use fem_laws::EndRule;
+use fem_fit::{Estimate, Fit, Model, Problem, Profile};
+use fem_laws::{EndRule, Family, Parameter};
 use serde_json::{Value, json};
 
 use super::data_file::Data;
@@ -159,7 +159,7 @@ pub fn fit_numbers(fitted: &Fitted<'_>) -> Value {
     let Fitted { problem, fit, .. } = fitted;
     let model = problem.model;
     let parameters = model.family().parameters();
-    let parameter = |(index, parameter): (usize, &fem_fit::Parameter)| {
+    let parameter = |(index, parameter): (usize, &Parameter)| {
         let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
         let profile = fitted.profile.filter(|profile| profile.index == index);
         json!({

@@ -1,8 +1,8 @@
 //! A law on the command line: `--law bordbar_hyppanen --param n=0.65 --end zero_overlap`.
 
 use fem_case::parse_quantity;
-use fem_fit::{Family, FitError, Parameter, Role};
-use fem_laws::EndRule;
+use fem_fit::FitError;
+use fem_laws::{EndRule, Family, Parameter, Role};
 
 use crate::failure::Failure;
 
@@ -11,12 +11,14 @@ use crate::failure::Failure;
 pub struct LawArguments {
     /// A parameter's value, such as a=2e-4 or a='0.2 ms'; may be repeated
     ///
-    /// Bare numbers are SI. The value of a parameter that is searched for is where to begin.
+    /// Bare numbers are SI. What is not given has the value of the case's [model], if that names the
+    /// same law. The value of a parameter that is searched for is where to begin.
     #[arg(long, value_name = "KEY=VALUE")]
     pub param: Vec<String>,
-    /// When a contact is over
-    #[arg(long, value_name = "RULE", default_value = "zero_force")]
-    pub end: End,
+    /// When a contact is over [default: that of the case's [model] if it names the same law, or else
+    /// zero_force]
+    #[arg(long, value_name = "RULE")]
+    pub end: Option<End>,
 }
 
 /// As the case file says it.
@@ -36,31 +38,6 @@ impl End {
             Self::ZeroForce => EndRule::ZeroForce,
             Self::ZeroOverlap => EndRule::ZeroOverlap,
         }
-    }
-}
-
-/// A parameter's value from the command line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Setting {
-    /// Its place among the law's parameters.
-    pub index: usize,
-    /// SI.
-    pub value: f64,
-}
-
-impl LawArguments {
-    /// The values that are given.
-    ///
-    /// # Errors
-    /// Keys that the law does not have, values without a meaning.
-    pub fn settings(&self, family: Family) -> Result<Vec<Setting>, Failure> {
-        let setting = |text: &String| {
-            let (key, value) = split(text, "--param")?;
-            let index = find_key(family, key, "--param")?;
-            let parameter = &family.parameters()[index];
-            Ok(Setting { index, value: parse_value(parameter, value, "--param")? })
-        };
-        self.param.iter().map(setting).collect()
     }
 }
 
@@ -84,6 +61,17 @@ pub fn find_key(family: Family, key: &str, option: &str) -> Result<usize, Failur
     keys.iter().position(|found| *found == key.trim()).ok_or_else(|| {
         let message = format!("{option}: {} has no parameter {:?}", family.name(), key.trim());
         Failure::bad_input(message).with_help(format!("its parameters are {}", keys.join(", ")))
+    })
+}
+
+/// The place of the parameter that stands for a law's loss.
+///
+/// # Errors
+/// A law without a loss.
+pub fn find_loss(family: Family) -> Result<usize, Failure> {
+    family.loss_parameter().ok_or_else(|| {
+        Failure::bad_input(format!("{} loses nothing: it has no parameter to find", family.name()))
+            .with_help("take another law; docs/fits.md lists them")
     })
 }
 
@@ -155,6 +143,7 @@ pub fn from_fit_error(error: FitError) -> Failure {
             "give a start with --param KEY=VALUE, or a range with --bounds KEY=LOW..HIGH"
         }
         FitError::NoSolution { .. } => "no value of this parameter makes it: take another law",
+        FitError::OwnEnd { .. } => "leave --end out; zhang_whiten with another end is tsuji",
         FitError::NoRelaxation => "give a material a [material.NAME.relaxation] table",
         _ => return Failure::bad_input(error.to_string()),
     };

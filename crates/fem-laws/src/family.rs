@@ -1,7 +1,8 @@
-//! Laws by name, with their parameters: what a fit can free and an inverse problem can ask for.
+//! Laws by name, with their parameters and how they are made of them: the one list that case files,
+//! fits and inverse problems read.
 
-use fem_laws::laws::{self, ContactLaw};
-use fem_laws::{LawError, Pair};
+use crate::laws::{self, ContactLaw};
+use crate::{EndRule, LawError, Pair};
 
 /// A law with parameters of its own. Values of parameters always come in the order of
 /// [`Family::parameters`].
@@ -11,12 +12,16 @@ pub enum Family {
     Linear,
     /// [`laws::power`].
     Power,
+    /// [`laws::hertz`].
+    Hertz,
     /// [`laws::kuwabara_kono`].
     KuwabaraKono,
     /// [`laws::hunt_crossley`].
     HuntCrossley,
     /// [`laws::tsuji`].
     Tsuji,
+    /// [`laws::tsuji`], ended at zero force.
+    ZhangWhiten,
     /// [`laws::falcon`].
     Falcon,
     /// [`laws::mishra_murty`].
@@ -27,7 +32,7 @@ pub enum Family {
     MorgadoOppenheim,
     /// [`laws::bordbar_hyppanen`].
     BordbarHyppanen,
-    /// [`fem_laws::Ting`] with the relaxation of the two materials.
+    /// [`crate::Ting`] with the relaxation of the two materials.
     Ting,
 }
 
@@ -50,10 +55,12 @@ pub struct Parameter {
 
 impl Parameter {
     /// A value to begin with that has a meaning, near a collision at `speed`, m/s.
-    pub(crate) fn guess(&self, speed: f64) -> f64 {
+    pub fn guess(&self, speed: f64) -> f64 {
         self.default.unwrap_or(match (self.role, self.key) {
             (Role::Speed, _) => speed,
             (Role::Number, "e") => 0.8,
+            // Like Poisson's ratio; at 0, the middle, nothing depends on it in first order.
+            (Role::Number, "eta_2") => 0.25,
             (Role::Number, _) => 0.5 * (self.limits.0 + self.limits.1),
             _ => 1.0,
         })
@@ -97,12 +104,14 @@ const N: Parameter = number("n", Some(0.5), (0.0, 3.0));
 
 impl Family {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Linear,
         Self::Power,
+        Self::Hertz,
         Self::KuwabaraKono,
         Self::HuntCrossley,
         Self::Tsuji,
+        Self::ZhangWhiten,
         Self::Falcon,
         Self::MishraMurty,
         Self::SchwagerPoeschel,
@@ -116,9 +125,11 @@ impl Family {
         match self {
             Self::Linear => "linear",
             Self::Power => "power",
+            Self::Hertz => "hertz",
             Self::KuwabaraKono => "kuwabara_kono",
             Self::HuntCrossley => "hunt_crossley",
             Self::Tsuji => "tsuji",
+            Self::ZhangWhiten => "zhang_whiten",
             Self::Falcon => "falcon",
             Self::MishraMurty => "mishra_murty",
             Self::SchwagerPoeschel => "schwager_poeschel",
@@ -164,9 +175,10 @@ impl Family {
         match self {
             Self::Linear => LINEAR,
             Self::Power => POWER,
+            Self::Hertz => &[],
             Self::KuwabaraKono => KUWABARA_KONO,
             Self::HuntCrossley => HUNT_CROSSLEY,
-            Self::Tsuji => TSUJI,
+            Self::Tsuji | Self::ZhangWhiten => TSUJI,
             Self::Falcon => FALCON,
             Self::MishraMurty => MISHRA_MURTY,
             Self::SchwagerPoeschel => SCHWAGER_POESCHEL,
@@ -176,10 +188,17 @@ impl Family {
         }
     }
 
-    /// Index of the parameter that stands for the loss: the first one that damps.
-    pub fn loss_parameter(self) -> usize {
+    /// Index of the parameter that stands for the loss: the first one that damps, or else the first;
+    /// `None` of a law without any.
+    pub fn loss_parameter(self) -> Option<usize> {
         let damps = |parameter: &Parameter| matches!(parameter.role, Role::Damping | Role::Rate);
-        self.parameters().iter().position(damps).unwrap_or(0)
+        let first = (!self.parameters().is_empty()).then_some(0);
+        self.parameters().iter().position(damps).or(first)
+    }
+
+    /// How a contact ends if that is part of the law itself.
+    pub fn end_rule(self) -> Option<EndRule> {
+        matches!(self, Self::ZhangWhiten | Self::Ting).then_some(EndRule::ZeroForce)
     }
 
     /// The law of a pair; `None` for [`Family::Ting`], which is no law of the overlap.
@@ -190,9 +209,10 @@ impl Family {
         Some(match (self, values) {
             (Self::Linear, &[k, c]) => laws::linear(k, c),
             (Self::Power, &[k, gamma, c, n]) => laws::power(k, gamma, c, n),
+            (Self::Hertz, &[]) => laws::hertz(pair),
             (Self::KuwabaraKono, &[a]) => laws::kuwabara_kono(pair, a),
             (Self::HuntCrossley, &[e, speed]) => laws::hunt_crossley(pair, e, speed),
-            (Self::Tsuji, &[alpha]) => laws::tsuji(pair, alpha),
+            (Self::Tsuji | Self::ZhangWhiten, &[alpha]) => laws::tsuji(pair, alpha),
             (Self::Falcon, &[c]) => laws::falcon(pair, c),
             (Self::MishraMurty, &[k, c]) => laws::mishra_murty(k, c),
             (Self::SchwagerPoeschel, &[a]) => laws::schwager_poeschel(pair, a),
