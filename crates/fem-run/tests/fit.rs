@@ -302,6 +302,11 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
         (Some(0.1), Some(1.0))
     );
     assert_eq!(numbers["has_hertz_times"], true);
+    // A wall is for LAMMPS alone.
+    let wall = "body.1={name='floor',wall={}}";
+    let ran = place.succeed(&["export", "case.toml", "--set", wall, "--out", "wall"]);
+    assert!(ran.stdout.contains("for LAMMPS only"), "{}", ran.stdout);
+    assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 3);
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
         .replace("[[body]]\nname = \"striker\"", "[material.other]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n\n[[body]]\nname = \"striker\""));
     let ran = elastic.run(&["export", "case.toml"]);

@@ -16,6 +16,7 @@
 //!
 //! made for a mass that counts double: up to the release of 22 July 2025 the code applies it to m*
 //! and damps too little by √2; later sources multiply by √2 (`gran_sub_mod_damping.cpp`).
+//! `fix wall/gran` gives a wall the sphere's own modulus, E* = E/(2(1−ν²)): half of a rigid wall's.
 //! All of it checked by a collision in LAMMPS itself, `.ci/check_dem.py`.
 
 use std::f64::consts::PI;
@@ -86,18 +87,30 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
         let validity = if is_constant { export.hertz.validity } else { viscoelastic_validity };
         let model = format!("LAMMPS, granular hertz/material, damping {damping}");
         let mut text = export.heading(&model, validity, notes);
-        text += "pair_style granular\n";
-        for (index, sphere) in export.spheres.iter().enumerate() {
-            text += &format!(
-                "pair_coeff {0} {0} hertz/material {1} {2} {3} tangential linear_nohistory 0.0 \
-                 0.0 damping {damping}{extra}\n",
-                index + 1,
-                short(sphere.youngs_modulus),
+        let contact = |modulus: f64, poissons_ratio: f64| {
+            format!(
+                "hertz/material {} {} {} tangential linear_nohistory 0.0 0.0 damping \
+                 {damping}{extra}",
+                short(modulus),
                 short(entry),
-                short(sphere.poissons_ratio)
+                short(poissons_ratio)
+            )
+        };
+        if let [sphere] = &export.spheres[..] {
+            text += &format!(
+                "# LAMMPS takes a wall for the sphere's own material; twice its modulus makes it \
+                 rigid.\n# Put your own wall in the place of zplane 0 NULL.\n\
+                 fix wall all wall/gran granular {} zplane 0 NULL\n",
+                contact(2.0 * sphere.youngs_modulus, sphere.poissons_ratio)
             );
+        } else {
+            text += "pair_style granular\n";
+            for (index, sphere) in export.spheres.iter().enumerate() {
+                let contact = contact(sphere.youngs_modulus, sphere.poissons_ratio);
+                text += &format!("pair_coeff {0} {0} {contact}\n", index + 1);
+            }
+            text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
         }
-        text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
         let restitution = is_constant.then_some(e);
         Snippet {
             name,
@@ -132,7 +145,9 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
                 format!(
                     "A = {time:.4e} s: restitution falls with speed; the contact ends at zero force."
                 ),
-                format!("eta = 2 E* A/m_eff holds for these two sizes only (1/(m s)): {eta:.6e}."),
+                format!(
+                    "eta = 2 E* A/m_eff holds for this contact's sizes only (1/(m s)): {eta:.6e}."
+                ),
                 frictionless.clone(),
             ],
         ),

@@ -27,15 +27,15 @@ pub fn characteristic_velocity(pair: &Pair, stiffness: f64) -> f64 {
     ((stiffness / unit).powi(5) * unit / pair.effective_mass()).sqrt()
 }
 
-/// Both models.
+/// Both models, of two spheres; of a wall none.
 ///
 /// # Errors
 /// A linear law without a meaning.
 pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
+    let [first, second] = &export.spheres[..] else { return Ok(Vec::new()) };
     let stiffness = export.linear_law(EndRule::ZeroOverlap)?.stiffness();
     let velocity = characteristic_velocity(&export.pair, stiffness);
     let code = "LIGGGHTS";
-    let [first, second] = &export.spheres;
     let globals = |e: f64| {
         format!(
             "fix m1 all property/global youngsModulus peratomtype {1} {2}\n\

@@ -3,7 +3,7 @@
 use fem_laws::laws::{ContactLaw, linear_from_restitution};
 use fem_laws::{EndRule, LawError, Pair};
 
-/// One of the two spheres, SI.
+/// A sphere, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
     /// D, m.
@@ -41,8 +41,8 @@ pub struct Dashpot {
 pub struct Export {
     /// Where it comes from, one line.
     pub title: String,
-    /// The two spheres.
-    pub spheres: [Sphere; 2],
+    /// The two spheres, or the one that strikes a rigid wall.
+    pub spheres: Vec<Sphere>,
     /// The same as a pair.
     pub pair: Pair,
     /// Smallest and largest speed of the data, m/s.
@@ -80,20 +80,20 @@ impl Export {
     /// Comment lines that open each snippet: what it is, for which spheres, where it is good.
     pub(crate) fn heading(&self, model: &str, validity: [f64; 3], notes: &[String]) -> String {
         let [from, to, worst] = validity;
-        let [first, second] = &self.spheres;
+        let diameters: Vec<_> = self.spheres.iter().map(|sphere| short(sphere.diameter)).collect();
+        let bodies = match &diameters[..] {
+            [one] => format!("a sphere of {one} m on a rigid wall"),
+            all => format!("spheres of {} m", all.join(" and ")),
+        };
         let range = if from <= to {
             format!("e is good to {} from {from:.4} to {to:.4} m/s", self.tolerance)
         } else {
             format!("e is nowhere good to {}", self.tolerance)
         };
         let mut text = format!(
-            "# {}\n# {model}; spheres of {} and {} m, SI units.\n# Fitted from {:.4} to {:.4} m/s; \
+            "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {:.4} to {:.4} m/s; \
              {range}\n# (largest error {worst:.4}).\n",
-            self.title,
-            short(first.diameter),
-            short(second.diameter),
-            self.speeds.0,
-            self.speeds.1
+            self.title, self.speeds.0, self.speeds.1
         );
         for note in notes {
             text += &format!("# {note}\n");

@@ -68,11 +68,14 @@ pub fn viscel_entry(export: &Export) -> Result<(f64, f64), LawError> {
     Ok((time, (-rate * time).exp()))
 }
 
-/// Both laws.
+/// Both laws, of two spheres; of a wall, which YADE takes for a sphere of the same radius, none.
 ///
 /// # Errors
 /// A linear law without a meaning.
 pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
+    if export.spheres.len() != 2 {
+        return Ok(Vec::new());
+    }
     let code = "YADE";
     let e = export.hertz.restitution;
     let en = hertz_mindlin_entry(&export.pair, e)?;

@@ -51,16 +51,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::bad_input(message).with_help("it must be between 0 and 1"));
     }
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let Some(spheres) = spheres_of(&case) else {
-        return Err(Failure::bad_input("the case has a wall; a snippet is for two spheres")
-            .with_help(
-                "DEM codes take walls each in its own way (YADE as a sphere of the same radius, \
-                 LAMMPS by fix wall/gran with another modulus): replace the wall by a sphere, or \
-                 take the numbers from fem-run fit or invert, which know walls",
-            ));
-    };
     let curve = curve(arguments, &case)?;
-    let fitted = fit_export(&case, spheres, &curve, arguments.tolerance);
+    let fitted = fit_export(&case, spheres_of(&case), &curve, arguments.tolerance);
     let (export, drawn) = fitted.map_err(|error| {
         let is_lossless = matches!(error, FitError::Insensitive { .. });
         let failure = from_fit_error(error);
@@ -86,11 +78,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.output.quiet {
         return Ok(());
     }
-    let note = if curve.has_hertz_times {
-        "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n"
-    } else {
-        ""
-    };
+    let mut note = String::new();
+    if curve.has_hertz_times {
+        note +=
+            "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n";
+    }
+    if export.spheres.len() < 2 {
+        note += "\nA wall is written for LAMMPS only: LIGGGHTS and YADE give it a material or a radius \
+                 of its own.\n";
+    }
     standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&export, &snippets)))
 }
 
@@ -208,6 +204,7 @@ fn numbers(
     };
     json!({
         "case": input.case.display().to_string(),
+        "wall": export.spheres.len() < 2,
         "spheres": export.spheres.iter().map(sphere).collect::<Vec<_>>(),
         "tolerance": export.tolerance,
         "speeds_m_s": export.speeds,

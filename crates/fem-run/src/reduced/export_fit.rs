@@ -1,6 +1,6 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
-use fem_case::{Case, Reduced, Shape};
+use fem_case::{Body, Case, Reduced};
 use fem_fit::dem::{Dashpot, Elastic, Export, Sphere};
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::{EndRule, Family, HertzImpact, Pair};
@@ -99,7 +99,7 @@ impl Curve {
 /// Data that do not determine them.
 pub fn fit_export(
     case: &Case,
-    spheres: [Sphere; 2],
+    spheres: Vec<Sphere>,
     curve: &Curve,
     tolerance: f64,
 ) -> Result<(Export, Vec<Drawn>), FitError> {
@@ -142,16 +142,16 @@ pub fn fit_export(
     Ok((export, drawn))
 }
 
-/// The two spheres of a case; `None` with a wall.
-pub fn spheres_of(case: &Case) -> Option<[Sphere; 2]> {
-    let sphere = |index: usize| match &case.scene.bodies[index].shape {
-        Shape::Sphere { diameter, material, .. } => Some(Sphere {
-            diameter: *diameter,
+/// The spheres of a case: two, or one and a wall.
+pub fn spheres_of(case: &Case) -> Vec<Sphere> {
+    let sphere = |body: &Body| {
+        let (diameter, material) = (body.diameter()?, body.material()?);
+        Some(Sphere {
+            diameter,
             density: material.density(),
             youngs_modulus: material.instantaneous().youngs_modulus(),
             poissons_ratio: material.instantaneous().poissons_ratio(),
-        }),
-        Shape::Wall => None,
+        })
     };
-    Some([sphere(0)?, sphere(1)?])
+    case.scene.bodies.iter().filter_map(sphere).collect()
 }
