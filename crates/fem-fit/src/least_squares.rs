@@ -23,7 +23,11 @@ struct Fitter<'a> {
 
 impl MPFitter for Fitter<'_> {
     fn eval(&mut self, parameters: &[f64], deviates: &mut [f64]) -> MPResult<()> {
-        let residuals = (self.residuals)(parameters).ok_or(MPError::Eval)?;
+        // Central differences reach beyond a bound, where the law may have no meaning.
+        let inside = parameters.iter().zip(&self.parameters);
+        let inside: Vec<f64> =
+            inside.map(|(value, bounds)| value.clamp(bounds.limit_low, bounds.limit_up)).collect();
+        let residuals = (self.residuals)(&inside).ok_or(MPError::Eval)?;
         deviates.copy_from_slice(&residuals);
         Ok(())
     }

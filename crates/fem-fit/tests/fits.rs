@@ -215,3 +215,22 @@ fn end_rule_is_part_of_the_fit() {
     assert_close(alpha(&overlap).values[0], exact, 1e-7);
     assert!(alpha(&force).values[0] > 1.01 * exact);
 }
+
+/// Hunt & Crossley's coefficient cannot make the losses of ice: the best e is at its bound, and said
+/// to be there.
+#[test]
+fn a_best_value_at_a_bound_is_found() {
+    let (model, points) = (ice_model(Family::HuntCrossley), bridges());
+    let fit = Problem::new(&model, &points, &["e"]).unwrap().fit(0.95).unwrap();
+    let bound = Family::HuntCrossley.parameters()[0].limits.0;
+    assert!((fit.values[0] - bound).abs() < 1e-9, "{fit:?}");
+    assert!(fit.estimates[0].is_at_bound);
+    // A grid of e: nothing is better.
+    for k in 1..20 {
+        let mut values = fit.values.clone();
+        values[0] = 0.05 * f64::from(k);
+        let problem = Problem::new(&model, &points, &["e"]).unwrap();
+        let residuals = problem.residuals(&values).unwrap();
+        assert!(residuals.iter().map(|r| r * r).sum::<f64>() > fit.sum_of_squares, "{values:?}");
+    }
+}

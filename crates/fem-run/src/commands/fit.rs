@@ -222,7 +222,10 @@ fn compare<'a>(
         free.extend(stiff.map(|parameter| parameter.key));
     }
     let problem = Problem::new(model, &data.points, &free).map_err(from_fit_error)?;
-    let fit = problem.fit(arguments.confidence).map_err(from_fit_error)?;
+    let fit = problem.fit(arguments.confidence).map_err(|error| {
+        Failure::bad_input(format!("--compare {}: {error}", family.name()))
+            .with_help("leave it out, or fit it alone with --law")
+    })?;
     Ok((model, fit))
 }
 
