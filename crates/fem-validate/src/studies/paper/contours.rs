@@ -81,11 +81,13 @@ impl Instant {
         Self { label, time: snapshot.time, halves, poles }
     }
 
-    /// Smallest and largest σ_yy, GPa.
+    /// Smallest and largest σ_yy, GPa; NaN if any point's is.
     fn range(&self) -> (f64, f64) {
-        let ranges = self.halves.iter().filter_map(Section::range);
-        ranges
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), (a, b)| (from.min(a), to.max(b)))
+        let values = || self.halves.iter().flat_map(|half| half.values.iter().copied());
+        if values().any(f64::is_nan) {
+            return (f64::NAN, f64::NAN);
+        }
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     }
 
     /// Of the half section, mm², where σ_yy is at most `level`.
