@@ -37,6 +37,7 @@
 mod bisection;
 mod collocation;
 mod error;
+mod finite_correction;
 mod finite_size;
 mod hertz;
 mod hertz_history;
@@ -47,6 +48,7 @@ mod law_impact;
 pub mod laws;
 mod pair;
 mod pair_relaxation;
+mod sphere_compliance;
 mod ting;
 mod ting_record;
 mod ting_step;
