@@ -38,6 +38,7 @@
 pub mod bisection;
 mod collocation;
 mod error;
+mod finite_correction;
 mod finite_size;
 mod hertz;
 mod hertz_history;
@@ -49,6 +50,7 @@ mod law_impact;
 pub mod laws;
 mod pair;
 mod pair_relaxation;
+mod sphere_compliance;
 mod ting;
 mod ting_record;
 mod ting_step;
