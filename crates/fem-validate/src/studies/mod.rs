@@ -1,6 +1,14 @@
 //! How quantities are measured: one study a file.
 
+mod balances;
+mod contact_patch;
+mod critical_step;
+mod hertz_field;
+mod invariance;
 mod summary;
+mod uniform_stress;
+mod vibration;
+mod vibration_loss;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
@@ -10,7 +18,17 @@ use crate::laboratory::Laboratory;
 pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 
 /// All studies by the names that claims call them.
-const STUDIES: &[(&str, Study)] = &[("summary", summary::study)];
+const STUDIES: &[(&str, Study)] = &[
+    ("balances", balances::study),
+    ("contact_patch", contact_patch::study),
+    ("critical_step", critical_step::study),
+    ("hertz_field", hertz_field::study),
+    ("invariance", invariance::study),
+    ("summary", summary::study),
+    ("uniform_stress", uniform_stress::study),
+    ("vibration", vibration::study),
+    ("vibration_loss", vibration_loss::study),
+];
 
 /// The names that claims can call.
 pub fn study_names() -> impl Iterator<Item = &'static str> {
