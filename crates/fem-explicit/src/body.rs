@@ -134,6 +134,11 @@ impl Body {
         self.mesh.as_ref()
     }
 
+    /// Lumped masses of the nodes, mass scaling included, kg; a wall's one node has none.
+    pub fn nodal_mass(&self) -> &[f64] {
+        &self.nodal_mass
+    }
+
     /// Mass without mass scaling, kg; infinite for a wall.
     pub fn mass(&self) -> f64 {
         self.mass

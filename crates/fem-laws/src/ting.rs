@@ -164,11 +164,7 @@ struct Collision<'a> {
 }
 
 impl<'a> Collision<'a> {
-    fn new(
-        contact: &'a Contact,
-        finite_size: Option<&'a FiniteSize>,
-        tolerance: f64,
-    ) -> Self {
+    fn new(contact: &'a Contact, finite_size: Option<&'a FiniteSize>, tolerance: f64) -> Self {
         let fastest = contact.elements.iter().map(|element| element.rate).fold(1.0, f64::max);
         let memory = vec![[0.0; 3]; contact.elements.len()];
         Self {
