@@ -30,7 +30,6 @@ mod recorder;
 mod snapshot;
 mod state;
 mod step;
-mod stress;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]
@@ -40,7 +39,7 @@ mod time_step;
 pub use body::{Body, BodyInput};
 pub use collision::{Collision, Monitor, Progress, RunSettings, collide};
 pub use error::{ModelError, Stop};
+pub use fem_field::{BodyFields, Label, Snapshot, SnapshotRequest, StressField, invariants};
 pub use history::HistoryRow;
 pub use model::{Model, Settings};
-pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
-pub use stress::{StressField, invariants};
+pub use snapshot::n_states;

@@ -3,9 +3,7 @@
 use std::path::Path;
 
 use fem_case::Problem;
-use fem_explicit::{
-    Body, Collision, Label, Model, Snapshot, SnapshotRequest, StressField, invariants,
-};
+use fem_explicit::{Body, Collision, Label, Model, Snapshot, SnapshotRequest, invariants};
 use fem_vtk::{VtuWriter, pad_vectors, write_collection};
 
 /// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
@@ -92,7 +90,7 @@ fn write_snapshot(
     for (body, fields) in meshed(model).map(|(side, body)| (body, &snapshot.bodies[side])) {
         displacement.extend(pad_vectors(fields.displacement.as_flattened()));
         velocity.extend(pad_vectors(fields.velocity.as_flattened()));
-        let stress = StressField::of(body, fields);
+        let stress = body.stress(fields);
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
     }
