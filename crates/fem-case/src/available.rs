@@ -3,57 +3,15 @@
 
 use crate::document::{Document, join};
 use crate::error::CaseError;
-use crate::explain::listed;
-use crate::schema::{EffectsTable, ModelTable, Switch};
+use crate::schema::{EffectsTable, Switch};
 
-/// How the collision is computed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Model {
-    /// Explicit finite elements.
-    #[default]
-    Fem,
-}
+/// Names of models that `[model]` knows and this version has not: to build one, take its name out
+/// and give it a variant in `model.rs`, its keys in `model_tables.rs` and `validate/models.rs`, and
+/// an arm in `simulation.rs`.
+pub(crate) const UNAVAILABLE_MODELS: &[&str] = &["condensed", "auto"];
 
 /// Names of effects that `[effects]` can turn on.
 const EFFECTS: &[&str] = &[];
-
-/// The model that `[model]` chooses; absent, explicit finite elements.
-pub(crate) fn model(document: &Document, table: Option<&ModelTable>) -> Result<Model, CaseError> {
-    let Some(ModelTable { fem, condensed, ting, hertz, law, auto }) = table else {
-        return Ok(Model::default());
-    };
-    let given = [
-        ("fem", fem.is_some()),
-        ("condensed", condensed.is_some()),
-        ("ting", ting.is_some()),
-        ("hertz", hertz.is_some()),
-        ("law", law.is_some()),
-        ("auto", auto.is_some()),
-    ];
-    let given: Vec<_> = given.iter().filter(|(_, is_given)| *is_given).map(|(n, _)| *n).collect();
-    match given.as_slice() {
-        ["fem"] => Ok(Model::Fem),
-        [other] => Err(document
-            .error_at(
-                &join("model", other),
-                format!("model `{other}` is not available in this version"),
-            )
-            .with_help("the model here is fem = {}")),
-        [] => Err(document
-            .error_at("model", "model names no model")
-            .with_help("write fem = {}, or leave [model] out")),
-        [.., last] => {
-            let paths: Vec<_> = given.iter().map(|name| join("model", name)).collect();
-            let paths: Vec<_> = paths.iter().map(String::as_str).collect();
-            let culprit = join("model", last);
-            let message = format!("model has the keys {}", listed(&given));
-            Err(document
-                .error_at(document.blamed(&culprit, &paths), message)
-                .with_help("exactly one model computes the collision"))
-        }
-    }
-}
 
 /// Refuses effects that are forced on and do not exist.
 pub(crate) fn effects(

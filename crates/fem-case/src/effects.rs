@@ -7,7 +7,7 @@ use crate::scene::{Body, Scene};
 /// of a percent: twice the strain of a glass impact at 5 m/s.
 const SMALL_STRAIN_LIMIT: f64 = 0.1;
 /// Above this share of the shear wave speed an impact sends shocks.
-const MACH_LIMIT: f64 = 0.02;
+pub(crate) const MACH_LIMIT: f64 = 0.02;
 
 /// An effect and the reason why it is on or off.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,48 +27,16 @@ pub(crate) fn scene_effects(scene: &Scene, estimate: &Estimate) -> (Vec<Effect>,
     let mut warnings = Vec::new();
     let mut effect = |name, active, reason| effects.push(Effect { name, active, reason });
 
-    let relaxing: Vec<&str> = scene
-        .bodies
-        .iter()
-        .filter(|body| body.material().is_some_and(|m| m.relaxation().is_some()))
-        .map(|body| body.name.as_str())
-        .collect();
-    effect(
-        "viscoelasticity",
-        !relaxing.is_empty(),
-        if relaxing.is_empty() {
-            "no material relaxes; no history is kept".to_string()
-        } else {
-            format!(
-                "{} relax{}: {} of the modulus is lost over one contact time",
-                relaxing.join(" and "),
-                if relaxing.len() == 1 { "es" } else { "" },
-                percent(estimate.relaxed),
-            )
-        },
-    );
+    let relaxation = relaxation(scene, estimate);
+    let (active, reason) = match relaxation {
+        Some(reason) => (true, reason),
+        None => (false, "no material relaxes; no history is kept".to_string()),
+    };
+    effect("viscoelasticity", active, reason);
 
-    let strain = estimate.strain;
-    effect(
-        "finite strain",
-        false,
-        format!(
-            "contact radius / effective radius = {strain:.3}; {}",
-            if strain > SMALL_STRAIN_LIMIT {
-                "called for, but not available in this version"
-            } else {
-                "small strain is enough"
-            }
-        ),
-    );
-    if strain > SMALL_STRAIN_LIMIT {
-        warnings.push(format!(
-            "the contact radius is {} of the effective radius; above {} the small-strain model \
-             is in doubt, and finite strain is not available in this version",
-            percent(strain),
-            percent(SMALL_STRAIN_LIMIT),
-        ));
-    }
+    let (reason, warning) = finite_strain(estimate);
+    effect("finite strain", false, reason);
+    warnings.extend(warning);
 
     let [first, second] = &scene.bodies;
     let identical = match (first.diameter(), second.diameter()) {
@@ -115,6 +83,47 @@ pub(crate) fn scene_effects(scene: &Scene, estimate: &Estimate) -> (Vec<Effect>,
     (effects, warnings)
 }
 
+/// Which bodies relax and by how much, if any does.
+pub(crate) fn relaxation(scene: &Scene, estimate: &Estimate) -> Option<String> {
+    let relaxing: Vec<&str> = scene
+        .bodies
+        .iter()
+        .filter(|body| body.material().is_some_and(|m| m.relaxation().is_some()))
+        .map(|body| body.name.as_str())
+        .collect();
+    (!relaxing.is_empty()).then(|| {
+        format!(
+            "{} relax{}: {} of the modulus is lost over one contact time",
+            relaxing.join(" and "),
+            if relaxing.len() == 1 { "es" } else { "" },
+            percent(estimate.relaxed),
+        )
+    })
+}
+
+/// The size of the strain, and a warning if it is large.
+pub(crate) fn finite_strain(estimate: &Estimate) -> (String, Option<String>) {
+    let strain = estimate.strain;
+    let is_large = strain > SMALL_STRAIN_LIMIT;
+    let reason = format!(
+        "contact radius / effective radius = {strain:.3}; {}",
+        if is_large {
+            "called for, but not available in this version"
+        } else {
+            "small strain is enough"
+        }
+    );
+    let warning = is_large.then(|| {
+        format!(
+            "the contact radius is {} of the effective radius; above {} the small-strain model \
+             is in doubt, and finite strain is not available in this version",
+            percent(strain),
+            percent(SMALL_STRAIN_LIMIT),
+        )
+    });
+    (reason, warning)
+}
+
 /// Effects that the built model decides.
 pub(crate) fn model_effects(model: &fem_explicit::Model, bodies: &[Body; 2]) -> Vec<Effect> {
     let interface = model.interface();
@@ -144,6 +153,6 @@ pub(crate) fn model_effects(model: &fem_explicit::Model, bodies: &[Body; 2]) -> 
     ]
 }
 
-fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }

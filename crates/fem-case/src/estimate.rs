@@ -3,6 +3,8 @@
 use fem_laws::{HertzImpact, LawError, Pair, Partner};
 use fem_material::ElasticModuli;
 
+use crate::case::Case;
+use crate::error::CaseError;
 use crate::scene::{Body, Scene, Shape};
 
 /// Least share of a modulus that the estimate counts with: a body that relaxes
@@ -32,6 +34,14 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Of a case, faults with their place.
+    pub(crate) fn checked(case: &Case) -> Result<Self, CaseError> {
+        Self::of(&case.scene).map_err(|error| {
+            case.error_at("body", format!("the collision cannot be estimated: {error}"))
+                .with_help("check sizes, densities, moduli and speeds, and their units")
+        })
+    }
+
     /// Of a scene.
     ///
     /// # Errors

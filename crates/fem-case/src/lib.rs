@@ -7,8 +7,10 @@
 //!                   positions  written
 //! ```
 //!
-//! [`Plan::of`] fills in what the case leaves open from closed forms and says which effects are
-//! on; [`Problem::new`] makes meshes and model, and [`Problem::run`] computes the collision.
+//! [`Simulation::new`] builds the [`Model`] that the case asks for, and [`Simulation::run`] computes
+//! the collision to an [`Outcome`], the same for every model. Finite elements are a [`Problem`]:
+//! [`Plan::of`] fills in what the case leaves open from closed forms and says which effects are on,
+//! [`Problem::new`] makes meshes and model. The models of one degree of freedom are a [`Reduced`].
 //!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
 //! is allowed. [`Case::load`] does all of it:
@@ -53,12 +55,17 @@ mod error;
 mod estimate;
 mod explain;
 mod keyword;
+mod model;
+mod model_tables;
+mod outcome;
 mod overrides;
 mod plan;
 mod problem;
 mod quantity;
+mod reduced;
 mod scene;
 pub mod schema;
+mod simulation;
 mod sweep;
 mod sweep_axes;
 mod sweep_file;
@@ -66,19 +73,22 @@ mod unit_table;
 mod units;
 mod validate;
 
-pub use available::Model;
 pub use case::Case;
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;
+pub use model::{Dashpot, Dissipation, Law, Model};
+pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow};
 pub use plan::Plan;
 pub use problem::{Cost, Problem, build_meshes};
 pub use quantity::{
-    Bytes, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate, Speed,
-    Stress, Time,
+    Bytes, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate,
+    Speed, Stiffness, Stress, Time, Viscosity,
 };
+pub use reduced::Reduced;
 pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
+pub use simulation::Simulation;
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};
 pub use sweep_file::{Combine, Keep, PlotTable};

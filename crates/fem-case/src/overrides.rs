@@ -12,6 +12,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
 use crate::document::{first_line, shift};
+use crate::model_tables::exclude_each_other;
 
 /// Deeper than any key of a case; keeps recursion over the tree shallow.
 const DEEPEST_PATH: usize = 32;
@@ -157,6 +158,7 @@ pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> R
     let Some((last, parents)) = path.split_last() else {
         return Ok(());
     };
+    drop_alternatives(root, &path);
     let mut place = Place::Table(root);
     for part in parents {
         let child = match place.child(part)? {
@@ -178,6 +180,24 @@ pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> R
         }
     }
     Ok(())
+}
+
+/// Of keys that exclude each other, such as the models, the path's takes the place of another.
+fn drop_alternatives(root: &mut DeTable<'_>, path: &[Spanned<String>]) {
+    let mut names: Vec<&str> = Vec::new();
+    let mut table = root;
+    for part in path {
+        let key = part.get_ref().as_str();
+        let present: Vec<String> = table.iter().map(|(key, _)| key.get_ref().to_string()).collect();
+        for other in present.iter().filter(|other| exclude_each_other(&names, key, other)) {
+            table.remove(other.as_str());
+        }
+        names.push(key);
+        table = match table.get_mut(key).map(Spanned::get_mut) {
+            Some(DeValue::Table(inner)) => inner,
+            _ => return,
+        };
+    }
 }
 
 /// Where a part of a path can lead on from.

@@ -84,10 +84,7 @@ impl Plan {
     /// A scene whose closed-form estimates are not finite.
     pub fn of(case: &Case) -> Result<Self, CaseError> {
         let scene = &case.scene;
-        let estimate = Estimate::of(scene).map_err(|error| {
-            case.error_at("body", format!("the collision cannot be estimated: {error}"))
-                .with_help("check sizes, densities, moduli and speeds, and their units")
-        })?;
+        let estimate = Estimate::checked(case)?;
         // Half of the radius is as far as the fine block of a half disc reaches.
         let half_radius = 0.5 * estimate.smallest_radius;
         let contact_radius = estimate.contact_radius.min(half_radius);

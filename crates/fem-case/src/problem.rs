@@ -1,4 +1,4 @@
-//! A case that is ready to run.
+//! A case that is ready to run with finite elements.
 
 use std::path::Path;
 
@@ -74,6 +74,10 @@ impl Problem {
     /// # Errors
     /// As [`Problem::new`].
     pub fn with_plan(case: Case, plan: Plan) -> Result<Self, CaseError> {
+        if case.scene.model != crate::Model::Fem {
+            let message = format!("model `{}` has no finite elements", case.scene.model.name());
+            return Err(case.error_at(&case.scene.model.path(), message));
+        }
         let meshes = build_meshes(&case, &plan)?;
         let quality = meshes.each_ref().map(|mesh| mesh.as_ref().map(Quality::of));
         let mut bodies = case.scene.bodies.iter().zip(meshes);

@@ -66,6 +66,9 @@ kinds! {
     Density, "a density", [-3, 1, 0, 0], "kg/m^3", "\"2390 kg/m^3\"";
     Stress, "a pressure", [-1, 1, -2, 0], "Pa", "\"63 GPa\"";
     Time, "a time", [0, 0, 1, 0], "s", "\"10 us\"";
+    Stiffness, "a stiffness", [0, 1, -2, 0], "N/m", "\"1e7 N/m\"";
+    Damping, "a damping coefficient", [0, 1, -1, 0], "N s/m", "\"30 N s/m\"";
+    Viscosity, "a viscosity", [-1, 1, -1, 0], "Pa s", "\"1e4 Pa s\"";
     Rate, "a rate", [0, 0, -1, 0], "1/s", "\"2708 1/s\"";
     Bytes, "an amount of memory", [0, 0, 0, 1], "bytes", "\"8 GB\"";
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use fem_material::Material;
 
-use crate::available::Model;
+use crate::model::Model;
 use crate::schema::{EffectsTable, SnapshotLabel};
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.

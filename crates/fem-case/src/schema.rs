@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
+pub use crate::model_tables::*;
 use crate::quantity::{
     Bytes, Density, Length, Number, Quantity, QuantityKind, Rate, Speed, Stress, Time,
 };
@@ -270,30 +271,6 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
     }
 }
 
-/// `[model]`: exactly one key.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
-pub struct ModelTable {
-    /// Explicit finite elements.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fem: Option<EmptyTable>,
-    /// Linear bodies condensed to their contact nodes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub condensed: Option<toml::Table>,
-    /// Quasi-static viscoelastic half-space.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ting: Option<toml::Table>,
-    /// Quasi-static elastic half-space.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hertz: Option<toml::Table>,
-    /// A contact law of one degree of freedom.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub law: Option<toml::Table>,
-    /// The cheapest that serves.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub auto: Option<toml::Table>,
-}
-
 /// `[effects]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [effects]")]
@@ -340,6 +317,5 @@ pub struct LimitsTable {
 /// reads `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
     let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
-    let is_in_a_model = path.starts_with("model.") && path.matches('.').count() > 1;
-    is_terms || is_in_a_model || path == "body" || path == "output.snapshots"
+    is_terms || path == "body" || path == "output.snapshots"
 }

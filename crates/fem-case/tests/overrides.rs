@@ -114,7 +114,8 @@ fn faults_in_the_value() {
     fault("material.glass", "material.glass={«densty»=1}", "unknown key `densty`");
     fault("body", "body=«[]»", "no [[body]]");
     fault("mesh", "mesh=«3»", "mesh is an integer");
-    fault("model.ting", "model.ting=«{}»", "not available");
+    fault("model.auto", "model.auto=«{}»", "not available");
+    fault("model.ting", "model.ting={«finite»=true}", "unknown key `finite` in model.ting");
 }
 
 #[test]
@@ -170,7 +171,7 @@ fn of_keys_that_contradict_each_other_the_override_is_to_blame() {
         ("body.1.name", "'a'"),
         ("body.1.approach_speed", "-1"),
         ("model.auto", "{}"),
-        ("model.ting", "{}"),
+        ("model.condensed", "{}"),
     ] {
         let error = parse(&[format!("{key}={value}"), "start.gap=0".to_string()]).unwrap_err();
         assert_eq!(error.source_name(), format!("--set {key}=…"), "{error}");

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fem_case::{Case, CaseError, Plan, Problem};
+use fem_case::schema::LawTable;
+use fem_case::{Case, CaseError, Plan, Problem, Simulation};
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
 
@@ -133,10 +134,13 @@ fn the_case_reference_is_true() {
     let reference = include_str!("../../../docs/cases.md");
     let examples: Vec<&str> =
         reference.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    assert_eq!(examples.len(), 3);
+    assert_eq!(examples.len(), 4);
     for example in examples {
         let case = Case::parse("cases.md", example, Path::new("."), &[]);
         let case = case.unwrap_or_else(|error| panic!("{error}"));
-        Plan::of(&case).unwrap_or_else(|error| panic!("{error}"));
+        Simulation::resolve(case).unwrap_or_else(|error| panic!("{error}"));
+    }
+    for law in LawTable::NAMES {
+        assert!(reference.contains(&format!("| `{law}` |")), "{law}");
     }
 }

@@ -90,3 +90,12 @@ pub(crate) fn restitution(value: f64) -> Result<f64, LawError> {
         Err(LawError::OutOfRange { quantity: "restitution", value, range: "(0, 1]" })
     }
 }
+
+/// `value` if an integration can be asked for this accuracy.
+pub(crate) fn tolerance(value: f64) -> Result<f64, LawError> {
+    if (1e-10..=1e-2).contains(&value) {
+        Ok(value)
+    } else {
+        Err(LawError::OutOfRange { quantity: "tolerance", value, range: "1e-10 ..= 1e-2" })
+    }
+}

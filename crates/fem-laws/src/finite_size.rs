@@ -92,9 +92,11 @@ impl FiniteSize {
         }
     }
 
+    /// Whether the first order holds for a contact radius, m.
+    ///
     /// # Errors
-    /// A contact too large for the first order.
-    pub(crate) fn check(&self, contact_radius: f64) -> Result<(), LawError> {
+    /// A contact too large.
+    pub fn check(&self, contact_radius: f64) -> Result<(), LawError> {
         let smallest =
             self.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
         let value = contact_radius / smallest;
@@ -111,6 +113,16 @@ impl FiniteSize {
 impl Correction {
     /// Of half-spaces.
     pub const NONE: Self = Self { alpha: 0.0, beta: 0.0 };
+
+    /// ∫F dδ of an elastic contact up to Hertz' u: with w = u^(3/2) the second part is ∫w dδ₂.
+    pub fn strain_energy(&self, hertz: f64) -> f64 {
+        let half_space = 0.4 * hertz * hertz * hertz.sqrt();
+        if *self == Self::NONE || hertz == 0.0 {
+            return half_space;
+        }
+        let cube = hertz * hertz * hertz;
+        half_space + cube * (0.5 * (self.alpha - self.beta * hertz.ln()) - self.beta / 6.0)
+    }
 
     /// u, and du/dδ there, at δ ≥ 0.
     pub fn hertz_approach(&self, approach: f64) -> (f64, f64) {

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use statrs::function::beta::beta_reg;
 
-use crate::HertzImpact;
+use crate::{HertzImpact, Impact, ImpactInstant};
 
 /// State of a collision at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +49,46 @@ impl HertzImpact {
             }
         } else {
             flying(-speed * (time - contact_time), -speed)
+        }
+    }
+}
+
+/// Phases of [`HertzImpact::impact`] from first touch to the largest approach.
+const N_PHASES: usize = 64;
+
+impl HertzImpact {
+    /// Summary and history in the form of the models that are integrated.
+    pub fn impact(&self) -> Impact {
+        let phase = |k: usize| FRAC_PI_2 * (k as f64 / N_PHASES as f64);
+        let half = 0.5 * self.contact_time();
+        let instants = (0..=2 * N_PHASES).map(|k| {
+            let is_leaving = k > N_PHASES;
+            let phase = phase(if is_leaving { 2 * N_PHASES - k } else { k });
+            let time = half * half_time_fraction_at(phase);
+            let rate = self.approach_speed() * kinetic_fraction(phase).sqrt();
+            let approach = self.max_approach() * phase.sin();
+            let pressure = self.pressure(approach);
+            let strain_energy = 0.4 * self.force(approach) * approach;
+            ImpactInstant {
+                time: if is_leaving { 2.0 * half - time } else { time },
+                approach,
+                approach_rate: if is_leaving { -rate } else { rate },
+                force: self.force(approach),
+                contact_radius: pressure.contact_radius,
+                centre_pressure: Some(pressure.peak_pressure),
+                work: strain_energy,
+                strain_energy: Some(strain_energy),
+                dissipated: Some(0.0),
+            }
+        });
+        Impact {
+            restitution: self.restitution(),
+            contact_time: Some(self.contact_time()),
+            peak_force: self.peak_force(),
+            max_approach: self.max_approach(),
+            max_contact_radius: self.max_contact_radius(),
+            peak_pressure: Some(self.peak_pressure()),
+            history: instants.collect(),
         }
     }
 }

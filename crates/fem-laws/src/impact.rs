@@ -33,4 +33,29 @@ pub struct ImpactInstant {
     pub force: f64,
     /// a, m.
     pub contact_radius: f64,
+    /// Pressure on the axis, Pa; `None` for a model without a pressure distribution.
+    pub centre_pressure: Option<f64>,
+    /// ∫F dδ since first touch: what the motion has given to the contact, J.
+    pub work: f64,
+    /// What of it the contact holds, J, from the state; `None` for a model that knows it not.
+    pub strain_energy: Option<f64>,
+    /// What of it is lost, J, from the state; `None` likewise.
+    pub dissipated: Option<f64>,
+}
+
+impl ImpactInstant {
+    /// First touch at a relative speed, m/s; `pressure` and `energies` are known to the model.
+    pub(crate) fn first_touch(speed: f64, pressure: bool, energies: bool) -> Self {
+        Self {
+            time: 0.0,
+            approach: 0.0,
+            approach_rate: speed,
+            force: 0.0,
+            contact_radius: 0.0,
+            centre_pressure: pressure.then_some(0.0),
+            work: 0.0,
+            strain_energy: energies.then_some(0.0),
+            dissipated: energies.then_some(0.0),
+        }
+    }
 }

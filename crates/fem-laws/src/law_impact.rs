@@ -20,7 +20,7 @@
 //! ```
 //!
 //! which makes x change by a constant factor a step while ẋ is large, and leaves a creep alone; b ≤ 1 is the overlap at which the dashpot
-//! alone would stop the motion. Limits: a strongly damped creep back to zero overlap is refused when it needs more than
+//! alone would stop the motion. What the dashpot takes, ∫c xⁿ ẋ² dt, is integrated along. Limits: a strongly damped creep back to zero overlap is refused when it needs more than
 //! 100 000 steps.
 
 use differential_equations::control::ControlFlag;
@@ -31,7 +31,7 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
 use crate::bisection::falling_zero;
-use crate::error::{LawError, positive};
+use crate::error::{LawError, positive, tolerance as checked_tolerance};
 use crate::laws::ContactLaw;
 use crate::{Impact, ImpactInstant, Pair};
 
@@ -85,12 +85,7 @@ impl LawImpact {
     /// # Errors
     /// A tolerance outside.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self, LawError> {
-        if (1e-10..=1e-2).contains(&tolerance) {
-            Ok(Self { tolerance, ..self })
-        } else {
-            let (quantity, range) = ("tolerance", "1e-10 ..= 1e-2");
-            Err(LawError::OutOfRange { quantity, value: tolerance, range })
-        }
+        Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
     }
 
     /// The collision at an approach speed, m/s.
@@ -119,16 +114,24 @@ impl LawImpact {
         })?;
         let radius = self.pair.effective_radius();
         let contact_radius = |overlap: f64| (radius * (overlap.max(0.0) * length)).sqrt();
-        let history = outcome.history.iter().map(|([x, w, t], f)| ImpactInstant {
-            time: t * time,
-            approach: x * length,
-            approach_rate: w * speed,
-            force: f * force,
-            contact_radius: contact_radius(*x),
+        let energy = mass * speed * speed;
+        let history = outcome.history.iter().map(|([x, w, t, lost], f)| {
+            let strain_energy = energy * (x.max(0.0).powf(gamma + 1.0) / (gamma + 1.0));
+            ImpactInstant {
+                time: t * time,
+                approach: x * length,
+                approach_rate: w * speed,
+                force: f * force,
+                contact_radius: contact_radius(*x),
+                centre_pressure: None,
+                work: strain_energy + energy * lost,
+                strain_energy: Some(strain_energy),
+                dissipated: Some(energy * lost),
+            }
         });
         Ok(Impact {
-            restitution: outcome.end.map_or(0.0, |[_, w, _]| -w),
-            contact_time: outcome.end.map(|[_, _, t]| t * time),
+            restitution: outcome.end.map_or(0.0, |[_, w, ..]| -w),
+            contact_time: outcome.end.map(|[_, _, t, _]| t * time),
             peak_force: outcome.peak_force * force,
             max_approach: outcome.max_approach * length,
             max_contact_radius: contact_radius(outcome.max_approach),
@@ -145,26 +148,26 @@ struct Oscillator {
     damping: f64,
 }
 
-/// x, ẋ, t.
-type State = [f64; 3];
+/// x, ẋ, t, and what the dashpot has taken.
+type State = [f64; 4];
 
 impl Oscillator {
     /// The spring continues as an odd function, the dashpot as an even one, below x = 0, where only
     /// trial states of the integrator lie.
-    fn force(&self, [x, w, _]: State) -> f64 {
+    fn force(&self, [x, w, ..]: State) -> f64 {
         let overlap = x.abs();
         (overlap.powf(self.gamma)).copysign(x) + self.damping * overlap.powf(self.n) * w
     }
 
     /// dF/dt at x > 0.
     fn force_rate(&self, state: State) -> f64 {
-        let [x, w, _] = state;
+        let [x, w, ..] = state;
         let stretched = self.n * x.powf(self.n - 1.0) * w * w - x.powf(self.n) * self.force(state);
         self.gamma * x.powf(self.gamma - 1.0) * w + self.damping * stretched
     }
 
     /// Not positive when the contact is over; the power of x common to both parts of F is left out.
-    fn margin(&self, end_rule: EndRule, [x, w, _]: State) -> f64 {
+    fn margin(&self, end_rule: EndRule, [x, w, ..]: State) -> f64 {
         let common = self.gamma.min(self.n);
         match end_rule {
             EndRule::ZeroOverlap => x,
@@ -177,7 +180,7 @@ impl Oscillator {
     }
 
     /// Energy still in motion and spring, of 1.
-    fn energy(&self, [x, w, _]: State) -> f64 {
+    fn energy(&self, [x, w, ..]: State) -> f64 {
         w * w + 2.0 / (self.gamma + 1.0) * x.abs().powf(self.gamma + 1.0)
     }
 
@@ -197,7 +200,7 @@ impl Oscillator {
         let local = 1e-2 * tolerance;
         let method = ExplicitRungeKutta::dop853()
             .rtol(local)
-            .atol([local * braking, local, local * braking])
+            .atol([local * braking, local, local * braking, local])
             .h_max(LONGEST_STEP)
             .max_steps(MAX_STEPS);
         let motion = Motion { oscillator: self, braking };
@@ -205,7 +208,7 @@ impl Oscillator {
         let mut watch = Watch { motion: &motion, method: method.clone(), end_rule, outcome };
         // Beyond what MAX_STEPS of LONGEST_STEP reach.
         let horizon = MAX_STEPS as f64;
-        let start = [0.0, 1.0, 0.0];
+        let start = [0.0, 1.0, 0.0, 0.0];
         match solve_ode(&mut method.h0(0.1), &motion, 0.0, horizon, &start, &mut watch) {
             Ok(_) => Ok(watch.outcome),
             Err(_) => Err(watch.outcome.history.last().map_or(0.0, |(state, _)| state[2])),
@@ -224,7 +227,9 @@ impl ODE<f64, State> for Motion<'_> {
         let overlap = state[0].max(0.0);
         let near = overlap + UNRESOLVED * self.braking;
         let pace = self.braking * near / (near + self.braking * state[1] * state[1]);
-        *rate = [pace * state[1], -pace * self.oscillator.force(*state), pace];
+        let Oscillator { n, damping, .. } = self.oscillator;
+        let taken = damping * state[0].abs().powf(*n) * state[1] * state[1];
+        *rate = [pace * state[1], -pace * self.oscillator.force(*state), pace, pace * taken];
     }
 }
 

@@ -8,7 +8,8 @@
 //!   [`FiniteSize`] of the spheres;
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
-//! The last two return an [`Impact`]: summary and history. One law a file. Everything is SI; forces
+//! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. One law a
+//! file. Everything is SI; forces
 //! and pressures of a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
@@ -42,6 +43,7 @@ mod hertz;
 mod hertz_history;
 mod hertz_pressure;
 mod impact;
+mod impact_path;
 mod interlacing;
 mod law_impact;
 pub mod laws;
@@ -57,6 +59,7 @@ pub use hertz::{HertzImpact, contact_time_coefficient};
 pub use hertz_history::HertzInstant;
 pub use hertz_pressure::{AxisStress, HertzPressure};
 pub use impact::{Impact, ImpactInstant};
+pub use impact_path::ImpactPath;
 pub use law_impact::{EndRule, LawImpact};
 pub use pair::{Pair, Partner, sphere_mass};
 pub use pair_relaxation::PairRelaxation;

@@ -83,6 +83,15 @@ impl Pair {
         })
     }
 
+    /// The same pair with a share of its modulus, such as what relaxation leaves of it.
+    ///
+    /// # Errors
+    /// A share that is not positive and finite.
+    pub fn softened(self, share: f64) -> Result<Self, LawError> {
+        let contact_modulus = self.contact_modulus * positive("share of the modulus", share)?;
+        Ok(Self { contact_modulus: positive("contact_modulus", contact_modulus)?, ..self })
+    }
+
     /// R*, m.
     pub fn effective_radius(&self) -> f64 {
         self.effective_radius

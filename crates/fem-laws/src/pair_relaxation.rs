@@ -20,7 +20,7 @@
 //! A body whose bulk modulus relaxes with its shear modulus (`ActsOn::All`) is one element, an
 //! elastic body a constant, a rigid wall nothing. Limits: linear viscoelasticity.
 
-use fem_material::{ActsOn, Material, PronyTerm};
+use fem_material::{ActsOn, Material, PronyTerm, relaxation_at};
 
 use crate::error::{LawError, positive};
 use crate::interlacing::{Pole, merged, zeros};
@@ -64,13 +64,23 @@ impl PairRelaxation {
 
     /// E*(t)/E*(0) at `time` (s) after a step; 1 at and before 0, up to rounding.
     pub fn relaxation(&self, time: f64) -> f64 {
-        let elapsed = if time < 0.0 { 0.0 } else { time };
-        let decaying: f64 = self
-            .terms
-            .iter()
-            .map(|term| term.weight * (-elapsed / term.relaxation_time).exp())
-            .sum();
-        self.equilibrium_weight + decaying
+        relaxation_at(self.equilibrium_weight, &self.terms, time)
+    }
+
+    /// Dissipation time of the slow limit, s, the A of [`crate::laws::kuwabara_kono`]; `None` if
+    /// either body flows.
+    ///
+    /// A contact that changes slowly next to every p_k meets E*(s) = E*∞(1 + A s) with
+    ///
+    /// ```math
+    /// A = \frac{\mathrm d\ln E^*}{\mathrm ds}\Big|_{s=0} = \frac1{g_\infty}\sum_k\frac{g_k}{p_k},
+    /// ```
+    ///
+    /// which is Kelvin's solid: E* g∞ for the spring, and for one material the viscosities
+    /// Σ G_k τ_k and Σ K_k τ_k in [`crate::laws::corrected_dissipation_time`].
+    pub fn dissipation_time(&self) -> Option<f64> {
+        let viscosity: f64 = self.terms.iter().map(|term| term.weight * term.relaxation_time).sum();
+        (self.equilibrium_weight > 0.0).then(|| viscosity / self.equilibrium_weight)
     }
 
     /// g∞ = E*(∞)/E*(0), in 0 ..= 1; exactly 0 if either body flows, 1 if both are elastic.

@@ -31,14 +31,14 @@ use std::f64::consts::PI;
 
 use crate::bisection::last_where;
 use crate::collocation::{Interpolation, N, POINTS, evaluate};
-use crate::error::LawError;
+use crate::error::{LawError, tolerance as checked_tolerance};
 use crate::finite_size::Correction;
 use crate::ting_record::{Contact, Record, peak};
 use crate::ting_step::{Solved, State, Stepper};
 use crate::{FiniteSize, HertzImpact, Impact, ImpactInstant, Pair, PairRelaxation};
 
-/// Local error of the rate, of the approach speed. A collision takes some tens of steps.
-const TOLERANCE: f64 = 1e-9;
+/// Local error of the rate over the tolerance. A collision takes some tens of steps.
+const LOCAL_SHARE: f64 = 0.1;
 
 /// Restitution that is none; also of the energy that could still come back, its root.
 const STUCK: f64 = 1e-8;
@@ -58,12 +58,24 @@ pub struct Ting {
     pair: Pair,
     relaxation: PairRelaxation,
     finite_size: Option<FiniteSize>,
+    tolerance: f64,
 }
 
 impl Ting {
+    /// Accuracy of restitution, time and force that [`Ting::new`] asks for.
+    pub const DEFAULT_TOLERANCE: f64 = 1e-8;
+
     /// Of a pair, whose modulus is the instantaneous one, and its relaxation.
     pub fn new(pair: &Pair, relaxation: PairRelaxation) -> Self {
-        Self { pair: *pair, relaxation, finite_size: None }
+        Self { pair: *pair, relaxation, finite_size: None, tolerance: Self::DEFAULT_TOLERANCE }
+    }
+
+    /// With another tolerance, 1e-10 to 1e-2.
+    ///
+    /// # Errors
+    /// A tolerance outside.
+    pub fn with_tolerance(self, tolerance: f64) -> Result<Self, LawError> {
+        Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
     }
 
     /// With the finite size of the spheres in series.
@@ -96,7 +108,7 @@ impl Ting {
             elements: elements.collect(),
             correction,
         };
-        let impact = Collision::new(&contact).run(&units)?;
+        let impact = Collision::new(&contact, self.tolerance).run(&units)?;
         if let Some(size) = &self.finite_size {
             size.check(impact.max_contact_radius)?;
         }
@@ -112,6 +124,7 @@ struct Units {
     force: f64,
     radius: f64,
     pressure: f64,
+    energy: f64,
 }
 
 impl Units {
@@ -126,6 +139,7 @@ impl Units {
             force: hertz.force(length),
             radius: pair.effective_radius().sqrt() * length.sqrt(),
             pressure: 2.0 / PI * pair.contact_modulus() * (length / pair.effective_radius()).sqrt(),
+            energy: pair.effective_mass() * speed * speed,
         }
     }
 }
@@ -134,8 +148,10 @@ impl Units {
 struct Collision<'a> {
     contact: &'a Contact,
     interpolation: Interpolation,
+    local_tolerance: f64,
     state: State,
     length: f64,
+    work: f64,
     n_steps: usize,
     peak_force: f64,
     peak_pressure: f64,
@@ -143,25 +159,21 @@ struct Collision<'a> {
 }
 
 impl<'a> Collision<'a> {
-    fn new(contact: &'a Contact) -> Self {
+    fn new(contact: &'a Contact, tolerance: f64) -> Self {
         let fastest = contact.elements.iter().map(|(_, rate)| *rate).fold(1.0, f64::max);
         let memory = vec![[0.0; 3]; contact.elements.len()];
         Self {
             contact,
             interpolation: Interpolation::new(),
+            local_tolerance: LOCAL_SHARE * tolerance,
             state: State { time: 0.0, approach: 0.0, rate: 1.0, force: 0.0, memory },
             // δ^(3/2) is not smooth at first touch: begin far below all time scales.
             length: 1e-5 / fastest,
+            work: 0.0,
             n_steps: 0,
             peak_force: 0.0,
             peak_pressure: 0.0,
-            history: vec![ImpactInstant {
-                time: 0.0,
-                approach: 0.0,
-                approach_rate: 1.0,
-                force: 0.0,
-                contact_radius: 0.0,
-            }],
+            history: vec![ImpactInstant::first_touch(1.0, true, contact.elements.is_empty())],
         }
     }
 
@@ -219,6 +231,9 @@ impl<'a> Collision<'a> {
                 self.state.force = 0.0;
                 if let Some(last) = self.history.last_mut() {
                     (last.force, last.contact_radius) = (0.0, 0.0);
+                    last.centre_pressure = Some(0.0);
+                    // A surface without load gives nothing back.
+                    last.dissipated.get_or_insert(last.work);
                 }
                 return Ok(());
             }
@@ -236,10 +251,10 @@ impl<'a> Collision<'a> {
                 continue;
             };
             // The finest detail falls with the fifth power of the step.
-            let factor = (0.9 * (TOLERANCE / solved.error).powf(0.2)).clamp(0.2, 2.0);
+            let factor = (0.9 * (self.local_tolerance / solved.error).powf(0.2)).clamp(0.2, 2.0);
             // Many iterations say that the step nears the limit of contraction.
             self.length *= if solved.n_iterations > 14 { factor.min(0.8) } else { factor };
-            if solved.error <= TOLERANCE {
+            if solved.error <= self.local_tolerance {
                 return Ok(solved);
             }
         }
@@ -251,26 +266,33 @@ impl<'a> Collision<'a> {
     fn advance(&mut self, solved: &Solved, theta: f64) {
         let step = &solved.step;
         let radii = self.interpolation.coefficients(&solved.contact_approach);
-        let instant = |theta: f64, force: f64, hertz: f64| ImpactInstant {
-            time: step.start + theta * step.length,
-            approach: step.approach_at(theta),
-            approach_rate: step.rate_at(theta),
-            force,
-            contact_radius: hertz.max(0.0).sqrt(),
+        let pressures = self.interpolation.coefficients(&solved.pressure);
+        let is_elastic = self.contact.elements.is_empty();
+        let instant = |theta: f64| {
+            let hertz = evaluate(&radii, theta).max(0.0);
+            ImpactInstant {
+                time: step.start + theta * step.length,
+                approach: step.approach_at(theta),
+                approach_rate: step.rate_at(theta),
+                force: evaluate(&step.force, theta),
+                contact_radius: hertz.sqrt(),
+                centre_pressure: Some(evaluate(&pressures, theta).max(0.0)),
+                work: self.work + step.work_until(&self.interpolation, theta),
+                strain_energy: is_elastic.then(|| self.contact.correction.strain_energy(hertz)),
+                dissipated: is_elastic.then_some(0.0),
+            }
         };
-        if POINTS[MIDDLE] < theta {
-            let force = evaluate(&step.force, POINTS[MIDDLE]);
-            self.history.push(instant(POINTS[MIDDLE], force, solved.contact_approach[MIDDLE]));
-        }
-        let force = evaluate(&step.force, theta);
-        let last = instant(theta, force, evaluate(&radii, theta));
+        let middle = (POINTS[MIDDLE] < theta).then(|| instant(POINTS[MIDDLE]));
+        let last = instant(theta);
+        self.history.extend(middle);
         self.history.push(last);
+        self.work = last.work;
         let elements = self.contact.elements.iter().enumerate();
         self.state = State {
             time: last.time,
             approach: last.approach,
             rate: last.approach_rate,
-            force,
+            force: last.force,
             memory: elements.map(|(k, (_, rate))| step.memory_at(k, *rate, theta)).collect(),
         };
     }
@@ -284,6 +306,10 @@ impl Units {
             approach_rate: instant.approach_rate * self.speed,
             force: instant.force * self.force,
             contact_radius: instant.contact_radius * self.radius,
+            centre_pressure: instant.centre_pressure.map(|pressure| pressure * self.pressure),
+            work: instant.work * self.energy,
+            strain_energy: instant.strain_energy.map(|energy| energy * self.energy),
+            dissipated: instant.dissipated.map(|energy| energy * self.energy),
         }
     }
 }

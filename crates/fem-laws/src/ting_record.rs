@@ -5,7 +5,9 @@
 //! t₁, of √u the pressure on the axis.
 
 use crate::collocation::dot;
-use crate::collocation::{Vector, double_integral, evaluate, fading_moments, integral};
+use crate::collocation::{
+    Interpolation, POINTS, Vector, double_integral, evaluate, fading_moments, integral,
+};
 use crate::finite_size::Correction;
 
 /// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
@@ -52,6 +54,15 @@ impl Step {
         self.rate - self.length * integral(&self.force, theta)
     }
 
+    /// ∫F dδ from the start to θ, exactly.
+    pub fn work_until(&self, interpolation: &Interpolation, theta: f64) -> f64 {
+        let power = POINTS.map(|point| {
+            let point = point * theta;
+            evaluate(&self.force, point) * self.rate_at(point)
+        });
+        self.length * theta * integral(&interpolation.coefficients(&power), 1.0)
+    }
+
     pub fn memory_at(&self, element: usize, rate: f64, theta: f64) -> Memory {
         let z = rate * self.length;
         let decay = (-z * theta).exp();
@@ -88,6 +99,8 @@ pub(crate) struct Shrunk {
     pub force: f64,
     /// u(t₁).
     pub hertz_approach: f64,
+    /// On the axis.
+    pub pressure: f64,
 }
 
 impl Record {
@@ -96,7 +109,7 @@ impl Record {
     pub fn shrunk(&self, contact: &Contact, time: f64, surface: f64, guess: f64) -> Shrunk {
         let (mut low, mut high) = (0.0, self.end);
         if surface <= 0.0 {
-            return Shrunk { equivalent_time: 0.0, force: 0.0, hertz_approach: 0.0 };
+            return Shrunk { equivalent_time: 0.0, force: 0.0, hertz_approach: 0.0, pressure: 0.0 };
         }
         let mut t1 = guess.clamp(0.0, self.end);
         // Newton's method inside a bracket that bisection shrinks where it fails.
@@ -128,16 +141,18 @@ impl Record {
         let (hertz, compression) = contact.correction.hertz_approach(approach);
         let mut surface = contact.equilibrium * hertz;
         let mut force = contact.equilibrium * hertz * hertz.sqrt();
+        let mut pressure = contact.equilibrium * hertz.sqrt();
         let mut relaxation = contact.equilibrium;
         for (k, (weight, rate)) in contact.elements.iter().enumerate() {
             let faded = weight * (-rate * (time - t1)).exp();
             let memory = step.memory_at(k, *rate, theta);
             surface += faded * memory[SURFACE];
             force += faded * memory[FORCE];
+            pressure += faded * memory[PRESSURE];
             relaxation += faded;
         }
         let slope = relaxation * compression * step.rate_at(theta);
-        (surface, slope, Shrunk { equivalent_time: t1, force, hertz_approach: hertz })
+        (surface, slope, Shrunk { equivalent_time: t1, force, hertz_approach: hertz, pressure })
     }
 }
 

@@ -25,7 +25,7 @@ pub(crate) struct State {
 #[derive(Debug, Clone)]
 pub(crate) struct Solved {
     pub step: Step,
-    /// Pressure on the axis; meaningful in loading.
+    /// Pressure on the axis.
     pub pressure: Vector,
     /// u at which the growing contact was as large as at each point.
     pub contact_approach: Vector,
@@ -80,6 +80,7 @@ impl Stepper<'_> {
                 drives[PRESSURE][i] = if u > 0.0 { 0.5 / u.sqrt() * slope * rate } else { 0.0 };
             }
             let mut contact_approach = hertz;
+            let mut shrunk_pressure = [0.0; N];
             let new_force = match self.record {
                 None => self.remembered(&kernel, FORCE, &hertz.map(|u| u * u.sqrt()), &drives),
                 Some(record) => {
@@ -88,6 +89,7 @@ impl Stepper<'_> {
                         let shrunk = record.shrunk(self.contact, times[i], surface[i], guesses[i]);
                         guesses[i] = shrunk.equivalent_time;
                         contact_approach[i] = shrunk.hertz_approach;
+                        shrunk_pressure[i] = shrunk.pressure;
                         shrunk.force
                     })
                 }
@@ -95,7 +97,10 @@ impl Stepper<'_> {
             let change = (0..N).map(|i| (new_force[i] - force[i]).abs()).fold(0.0, f64::max);
             force = new_force;
             if length * change <= SETTLED {
-                let pressure = self.remembered(&kernel, PRESSURE, &hertz.map(f64::sqrt), &drives);
+                let pressure = match self.record {
+                    None => self.remembered(&kernel, PRESSURE, &hertz.map(f64::sqrt), &drives),
+                    Some(_) => shrunk_pressure,
+                };
                 let step = self.polynomials(state, length, &force, &drives);
                 let error = length
                     * (finest_detail(&step.force) + length * finest_detail(&step.drives[FORCE]));

@@ -27,5 +27,5 @@ mod relaxation_step;
 pub use elastic::{ElasticModuli, ModuliInput};
 pub use error::MaterialError;
 pub use material::Material;
-pub use prony::{ActsOn, PronySeries, PronyTerm};
+pub use prony::{ActsOn, PronySeries, PronyTerm, relaxation_at};
 pub use relaxation_step::RelaxationStep;

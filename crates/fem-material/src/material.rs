@@ -34,6 +34,11 @@ impl Material {
         Ok(Self { density: positive("density", density)?, instantaneous, relaxation })
     }
 
+    /// The elastic material with the same density and instantaneous moduli.
+    pub fn without_relaxation(&self) -> Self {
+        Self { relaxation: None, ..self.clone() }
+    }
+
     /// ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density

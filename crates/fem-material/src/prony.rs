@@ -110,13 +110,7 @@ impl PronySeries {
 
     /// g at `time` (s) after a step of strain; 1 at and before 0, up to the rounding of the sum.
     pub fn relaxation(&self, time: f64) -> f64 {
-        let elapsed = if time < 0.0 { 0.0 } else { time };
-        let decaying: f64 = self
-            .terms
-            .iter()
-            .map(|term| term.weight * (-elapsed / term.relaxation_time).exp())
-            .sum();
-        self.equilibrium_weight + decaying
+        relaxation_at(self.equilibrium_weight, &self.terms, time)
     }
 
     /// g∞, in 0 ..= 1.
@@ -133,4 +127,12 @@ impl PronySeries {
     pub fn acts_on(&self) -> ActsOn {
         self.acts_on
     }
+}
+
+/// g∞ + Σ g_k e^(−t/τ_k) at `time`, s, after a step; that of a step at and before 0.
+pub fn relaxation_at(equilibrium_weight: f64, terms: &[PronyTerm], time: f64) -> f64 {
+    let elapsed = if time < 0.0 { 0.0 } else { time };
+    let decaying: f64 =
+        terms.iter().map(|term| term.weight * (-elapsed / term.relaxation_time).exp()).sum();
+    equilibrium_weight + decaying
 }

@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
-use fem_case::Problem;
-use fem_explicit::HistoryRow;
+use fem_case::{Case, OutcomeRow};
 
 /// The name of the file.
 pub const HISTORY_FILE: &str = "history.csv";
 
-/// Writes the history, a row an instant; numbers are the shortest that read back as the same.
+/// Writes the history, a row an instant; numbers are the shortest that read back as the same, what
+/// the model does not know is blank.
 ///
 /// # Errors
 /// The file system.
-pub fn write_history(folder: &Path, problem: &Problem, rows: &[HistoryRow]) -> csv::Result<()> {
-    let [first, second] = &problem.case.scene.bodies;
+pub fn write_history(folder: &Path, case: &Case, rows: &[OutcomeRow]) -> csv::Result<()> {
+    let [first, second] = &case.scene.bodies;
     let mut file = csv::Writer::from_path(folder.join(HISTORY_FILE))?;
     file.write_record([
         "time_s",
@@ -30,20 +30,19 @@ pub fn write_history(folder: &Path, problem: &Problem, rows: &[HistoryRow]) -> c
         "residual_j",
     ])?;
     for row in rows {
-        file.serialize([
+        file.serialize((
             row.time,
             row.contact_force,
             row.contact_radius,
             row.approach,
             row.centre_pressure,
-            row.velocity[0],
-            row.velocity[1],
+            row.velocity,
             row.kinetic,
             row.strain,
             row.contact,
             row.viscous_dissipation,
             row.residual,
-        ])?;
+        ))?;
     }
     Ok(file.flush()?)
 }

@@ -1,6 +1,8 @@
 //! Why a run stops early, and what helps.
 
+use fem_case::Halt;
 use fem_explicit::Stop;
+use fem_laws::LawError;
 
 /// Likely cause and remedy of a stop.
 pub struct Remedy {
@@ -11,7 +13,11 @@ pub struct Remedy {
 }
 
 /// Likely cause and remedy; none for a run that the user stopped.
-pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
+pub fn remedy_of(halt: &Halt) -> Option<Remedy> {
+    let stop = match halt {
+        Halt::Fem(stop) => stop,
+        Halt::Law(error) => return Some(law_remedy(error)),
+    };
     let (cause, remedy) = match stop {
         Stop::Interrupted { .. } => return None,
         Stop::EnergyGrowth { .. } => (
@@ -33,4 +39,22 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
         ),
     };
     Some(Remedy { cause, remedy })
+}
+
+fn law_remedy(error: &LawError) -> Remedy {
+    let (cause, remedy) = match error {
+        LawError::NotFinished { .. } => (
+            "the damping is so strong that the bodies creep back for ever",
+            "lower the damping, or end the contact earlier with end = \"zero_force\"",
+        ),
+        LawError::OutsideValidity { .. } => (
+            "the contact is too wide for the first-order correction of the spheres' size",
+            "write finite_size = false, or use model fem",
+        ),
+        _ => (
+            "the case is so extreme that a result leaves the range of numbers",
+            "check the model's parameters, sizes, densities and speeds, and their units",
+        ),
+    };
+    Remedy { cause, remedy }
 }

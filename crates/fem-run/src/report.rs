@@ -84,7 +84,7 @@ fn bodies(bodies: &[BodySummary]) -> String {
     let row = |body: &BodySummary| {
         [
             body.name.clone(),
-            HumanCount(body.elements as u64).to_string(),
+            body.elements.map_or(NONE.into(), |n| HumanCount(n as u64).to_string()),
             quantity(body.mass_kg.map(|mass| 1e3 * mass), "g"),
             speed(body.velocity_before_m_s),
             speed(body.velocity_after_m_s),
@@ -98,8 +98,6 @@ fn bodies(bodies: &[BodySummary]) -> String {
 fn balances(summary: &Summary) -> String {
     let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.1e}"));
     let dissipated = summary.energy.viscous_dissipation_j;
-    let cost = &summary.cost;
-    let memory = cost.peak_memory_bytes.map(|bytes| format!(", {}", DecimalBytes(bytes)));
     let rows = [
         [
             "energy".to_string(),
@@ -110,21 +108,27 @@ fn balances(summary: &Summary) -> String {
             ),
         ],
         ["momentum".into(), format!("residual {}", residual(summary.momentum_residual_relative))],
-        [
-            "cost".into(),
-            format!(
-                "{:.2} s for {} steps of {} ({} an element update, {} thread{}{})",
-                cost.solve_s,
-                HumanCount(summary.steps),
-                summary.time_step_s.map_or(NONE.into(), |step| show(step, "s")),
-                cost.ns_per_element_update.map_or(NONE.into(), |ns| format!("{ns:.1} ns")),
-                cost.threads,
-                if cost.threads == 1 { "" } else { "s" },
-                memory.unwrap_or_default(),
-            ),
-        ],
+        ["cost".into(), price(summary)],
     ];
     table(&[Left, Left], rows)
+}
+
+fn price(summary: &Summary) -> String {
+    let cost = &summary.cost;
+    let memory = cost.peak_memory_bytes.map(|bytes| format!(", {}", DecimalBytes(bytes)));
+    let memory = memory.unwrap_or_default();
+    let Some(steps) = summary.steps else {
+        return format!("{}{memory}", show(cost.solve_s, "s"));
+    };
+    format!(
+        "{:.2} s for {} steps of {} ({} an element update, {} thread{}{memory})",
+        cost.solve_s,
+        HumanCount(steps),
+        summary.time_step_s.map_or(NONE.into(), |step| show(step, "s")),
+        cost.ns_per_element_update.map_or(NONE.into(), |ns| format!("{ns:.1} ns")),
+        cost.threads,
+        if cost.threads == 1 { "" } else { "s" },
+    )
 }
 
 /// On or off, and why.

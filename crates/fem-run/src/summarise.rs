@@ -2,8 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use fem_case::Problem;
-use fem_explicit::Collision;
+use fem_case::{Outcome, Simulation};
 use fem_laws::HertzImpact;
 
 use crate::peak_memory::peak_memory;
@@ -24,40 +23,40 @@ pub struct Clock {
 /// Sums up a collision. `warnings` and `files` are those so far; numbers that are not finite become
 /// `None` and another warning.
 pub fn summarise(
-    problem: &Problem,
-    collision: &Collision,
+    simulation: &Simulation,
+    outcome: &Outcome,
     clock: Clock,
     warnings: Vec<String>,
     files: Vec<String>,
 ) -> Summary {
     let mut numbers = Numbers { warnings };
     let solve_s = clock.solve.as_secs_f64();
-    let updates = collision.element_updates;
+    let updates = outcome.element_updates.filter(|updates| *updates > 0);
     Summary {
-        collision: quantities(collision, &mut numbers),
-        contact_episodes: collision.contact_episodes,
-        hertz: hertz(&problem.plan.estimate.hertz, &mut numbers),
-        energy: energy(collision, &mut numbers),
+        collision: quantities(outcome, &mut numbers),
+        contact_episodes: outcome.contact_episodes,
+        hertz: hertz(simulation.hertz(), &mut numbers),
+        energy: energy(outcome, &mut numbers),
         momentum_residual_relative: numbers
-            .finite("momentum_residual_relative", collision.momentum_residual_relative),
-        bodies: [0, 1].map(|side| body(problem, collision, side, &mut numbers)).to_vec(),
-        time_step_s: numbers.finite("time_step_s", problem.model.time_step()),
-        steps: collision.steps,
-        element_updates: updates,
+            .finite_if_any("momentum_residual_relative", outcome.momentum_residual_relative),
+        bodies: [0, 1].map(|side| body(simulation, outcome, side, &mut numbers)).to_vec(),
+        time_step_s: numbers.finite_if_any("time_step_s", outcome.time_step),
+        steps: outcome.steps,
+        element_updates: outcome.element_updates,
         cost: CostSummary {
             wall_s: clock.started.elapsed().as_secs_f64(),
             solve_s,
-            ns_per_element_update: (updates > 0).then(|| 1e9 * solve_s / updates as f64),
+            ns_per_element_update: updates.map(|updates| 1e9 * solve_s / updates as f64),
             threads: THREADS,
             peak_memory_bytes: peak_memory(),
         },
-        effects: problem.effects(),
-        complete: collision.stopped.is_none(),
-        stopped_because: collision.stopped.as_ref().map(ToString::to_string),
+        effects: simulation.effects(),
+        complete: outcome.halt.is_none(),
+        stopped_because: outcome.halt.as_ref().map(ToString::to_string),
         program: PROGRAM,
         version: env!("CARGO_PKG_VERSION"),
         files,
-        case: problem.plan.resolve(&problem.case),
+        case: simulation.resolved(),
         warnings: numbers.warnings,
     }
 }
@@ -80,19 +79,15 @@ impl Numbers {
     }
 }
 
-fn quantities(collision: &Collision, numbers: &mut Numbers) -> Quantities {
-    // A contact that was left before its end has no duration.
-    let contact_time = match (&collision.stopped, collision.first_contact, collision.last_contact) {
-        (None, Some(first), Some(last)) => Some(last - first),
-        _ => None,
-    };
+fn quantities(outcome: &Outcome, numbers: &mut Numbers) -> Quantities {
+    let mut number = |key: &str, value: Option<f64>| numbers.finite_if_any(key, value);
     Quantities {
-        restitution: numbers.finite_if_any("restitution", collision.restitution),
-        contact_time_s: numbers.finite_if_any("contact_time_s", contact_time),
-        peak_force_n: numbers.finite("peak_force_n", collision.peak_force),
-        max_approach_m: numbers.finite("max_approach_m", collision.max_approach),
-        max_contact_radius_m: numbers.finite("max_contact_radius_m", collision.max_contact_radius),
-        peak_pressure_pa: numbers.finite("peak_pressure_pa", collision.peak_pressure),
+        restitution: number("restitution", outcome.restitution),
+        contact_time_s: number("contact_time_s", outcome.contact_time),
+        peak_force_n: number("peak_force_n", outcome.peak_force),
+        max_approach_m: number("max_approach_m", outcome.max_approach),
+        max_contact_radius_m: number("max_contact_radius_m", outcome.max_contact_radius),
+        peak_pressure_pa: number("peak_pressure_pa", outcome.peak_pressure),
     }
 }
 
@@ -108,46 +103,42 @@ fn hertz(impact: &HertzImpact, numbers: &mut Numbers) -> Quantities {
     }
 }
 
-fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
-    let last = collision.history.last();
+fn energy(outcome: &Outcome, numbers: &mut Numbers) -> Energy {
+    let last = outcome.history.last();
     let mut at_end = |key: &str, value: Option<f64>| numbers.finite_if_any(key, value);
     Energy {
-        initial_j: at_end("energy.initial_j", Some(collision.initial_energy)),
+        initial_j: at_end("energy.initial_j", outcome.initial_energy),
         kinetic_j: at_end("energy.kinetic_j", last.map(|row| row.kinetic)),
-        strain_j: at_end("energy.strain_j", last.map(|row| row.strain)),
-        contact_j: at_end("energy.contact_j", last.map(|row| row.contact)),
+        strain_j: at_end("energy.strain_j", last.and_then(|row| row.strain)),
+        contact_j: at_end("energy.contact_j", last.and_then(|row| row.contact)),
         viscous_dissipation_j: at_end(
             "energy.viscous_dissipation_j",
-            last.map(|row| row.viscous_dissipation),
+            last.and_then(|row| row.viscous_dissipation),
         ),
         wall_work_j: at_end("energy.wall_work_j", last.map(|row| row.wall_work)),
-        residual_j: at_end("energy.residual_j", last.map(|row| row.residual)),
-        residual_relative: at_end("energy.residual_relative", Some(collision.residual_relative)),
+        residual_j: at_end("energy.residual_j", last.and_then(|row| row.residual)),
+        residual_relative: at_end("energy.residual_relative", outcome.residual_relative),
     }
 }
 
 fn body(
-    problem: &Problem,
-    collision: &Collision,
+    simulation: &Simulation,
+    outcome: &Outcome,
     side: usize,
     numbers: &mut Numbers,
 ) -> BodySummary {
-    let (named, body) = (&problem.case.scene.bodies[side], &problem.model.bodies()[side]);
-    let is_sphere = body.mesh().is_some();
-    let of_sphere = |value: f64| is_sphere.then_some(value);
-    let after = collision.stopped.is_none().then_some(collision.velocity_after[side]);
-    let vibration = collision.vibration_energy.filter(|_| is_sphere).map(|energy| energy[side]);
+    let (named, body) = (&simulation.case().scene.bodies[side], &outcome.bodies[side]);
     let mut number = |key: &str, value: Option<f64>| {
         numbers.finite_if_any(&format!("{key} of {}", named.name), value)
     };
     BodySummary {
         name: named.name.clone(),
-        elements: body.n_elements(),
-        nodes: body.n_nodes(),
-        mass_kg: number("mass_kg", of_sphere(body.mass())),
-        added_mass_kg: number("added_mass_kg", of_sphere(body.added_mass())),
+        elements: body.elements,
+        nodes: body.nodes,
+        mass_kg: number("mass_kg", body.mass),
+        added_mass_kg: number("added_mass_kg", body.added_mass),
         velocity_before_m_s: number("velocity_before_m_s", Some(named.velocity)),
-        velocity_after_m_s: number("velocity_after_m_s", after),
-        vibration_energy_j: number("vibration_energy_j", vibration),
+        velocity_after_m_s: number("velocity_after_m_s", body.velocity_after),
+        vibration_energy_j: number("vibration_energy_j", body.vibration_energy),
     }
 }

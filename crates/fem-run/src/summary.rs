@@ -23,8 +23,8 @@ pub struct Summary {
     pub momentum_residual_relative: Option<f64>,
     pub bodies: Vec<BodySummary>,
     pub time_step_s: Option<f64>,
-    pub steps: u64,
-    pub element_updates: u64,
+    pub steps: Option<u64>,
+    pub element_updates: Option<u64>,
     pub cost: CostSummary,
     #[serde(serialize_with = "effects")]
     pub effects: Vec<Effect>,
@@ -65,12 +65,12 @@ pub struct Energy {
     pub residual_relative: Option<f64>,
 }
 
-/// One body; a wall has no mass and no vibration.
+/// One body; a wall has no mass and no vibration, a reduced model no elements.
 #[derive(Clone, Debug, Serialize)]
 pub struct BodySummary {
     pub name: String,
-    pub elements: usize,
-    pub nodes: usize,
+    pub elements: Option<usize>,
+    pub nodes: Option<usize>,
     pub mass_kg: Option<f64>,
     pub added_mass_kg: Option<f64>,
     /// Along +y.

@@ -3,6 +3,7 @@
 
 mod bodies;
 mod materials;
+mod models;
 mod snapshots;
 
 use std::path::Path;
@@ -83,7 +84,7 @@ pub(crate) fn validate(
             MASS_SCALING,
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
-        model: available::model(document, file.model.as_ref())?,
+        model: check.model(file.model.as_ref())?,
         effects: available::effects(document, file.effects.as_ref())?,
         limits: Limits {
             elements: count("limits.elements", limits.elements.as_ref())?,

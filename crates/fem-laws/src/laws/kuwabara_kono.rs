@@ -7,6 +7,22 @@
 //! Kuwabara & Kono (1987); Brilliantov, Spahn, Hertzsch & Pöschel (1996); Bordbar & Hyppänen (2007),
 //! eqs. 12 and 13. It is the first order in A of K (ξ + A ξ̇)^(3/2), eq. 11. Limits: A ξ̇ ≪ ξ but for
 //! a share of the contact time, so a mild loss.
+//!
+//! A from the viscosities of Kelvin's solid, shear η₁ (deviatoric stress 2η₁ė) and bulk η₂: the
+//! correspondence principle puts G + η₁s and K + η₂s into the contact modulus
+//! 4G(3K+G)/(3K+4G) = E/(1−ν²), and A is the first order in s,
+//!
+//! ```math
+//! A_i = \frac{\mathrm d}{\mathrm ds}\ln\frac{E_i}{1-\nu_i^2}\Big|_0 = \frac{1+\nu}{(1-\nu)E}
+//! \left[\tfrac43\eta_1(1-\nu+\nu^2) + \eta_2(1-2\nu)^2\right], \qquad
+//! A = E^*\sum_i\frac{1-\nu_i^2}{E_i}A_i,
+//! ```
+//!
+//! the form of Goldobin, Susloparov, Pimenova & Brilliantov (2015). It corrects that of Brilliantov
+//! et al. (1996), [`super::dissipation_time`], which has no loss at ν = 1/2 and none of the third
+//! law between unlike bodies.
+
+use fem_material::ElasticModuli;
 
 use super::{ContactLaw, hertz_stiffness, power};
 use crate::Pair;
@@ -20,4 +36,30 @@ pub fn kuwabara_kono(pair: &Pair, dissipation_time: f64) -> Result<ContactLaw, L
     let stiffness = hertz_stiffness(pair);
     let time = not_negative("dissipation_time", dissipation_time)?;
     power(stiffness, 1.5, 1.5 * time * stiffness, 0.5)
+}
+
+/// A, s, of the viscosities of shear and bulk, Pa s, that both bodies have; `None` is a rigid wall.
+///
+/// # Errors
+/// A viscosity that is negative or not finite; two walls.
+pub fn corrected_dissipation_time(
+    bodies: [Option<&ElasticModuli>; 2],
+    shear_viscosity: f64,
+    bulk_viscosity: f64,
+) -> Result<f64, LawError> {
+    let shear = not_negative("shear_viscosity", shear_viscosity)?;
+    let bulk = not_negative("bulk_viscosity", bulk_viscosity)?;
+    let (mut compliance, mut weighted) = (0.0, 0.0);
+    for moduli in bodies.into_iter().flatten() {
+        let nu = moduli.poissons_ratio();
+        let viscosity = 4.0 / 3.0 * shear * (1.0 - nu + nu * nu) + bulk * (1.0 - 2.0 * nu).powi(2);
+        let time = (1.0 + nu) / (1.0 - nu) * viscosity / moduli.youngs_modulus();
+        let share = moduli.plane_strain_modulus().recip();
+        compliance += share;
+        weighted += share * time;
+    }
+    if compliance == 0.0 {
+        return Err(LawError::TwoWalls);
+    }
+    not_negative("dissipation_time", weighted / compliance)
 }

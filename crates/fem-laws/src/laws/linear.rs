@@ -43,19 +43,26 @@ pub fn linear_from_restitution(
 ) -> Result<ContactLaw, LawError> {
     let loss = checked(restitution)?.recip().ln();
     let time = positive("contact_time", contact_time)?;
-    // ζ, and ω₀ T.
-    let (ratio, phase) = match end_rule {
-        EndRule::ZeroOverlap => (loss / PI.hypot(loss), PI.hypot(loss)),
-        EndRule::ZeroForce => {
-            // e = exp(−2ζψ) rises by 1 a ζ at first, then as ln ζ.
-            let ratio =
-                last_where(0.0, loss + loss.exp(), |ratio| ratio * zero_force_phase(ratio) < loss);
-            (ratio, zero_force_phase(ratio))
-        }
+    let ratio = damping_ratio(loss, end_rule);
+    // ω₀ T.
+    let phase = match end_rule {
+        EndRule::ZeroOverlap => PI.hypot(loss),
+        EndRule::ZeroForce => zero_force_phase(ratio),
     };
     let frequency = phase / time;
     let mass = pair.effective_mass();
     linear(mass * frequency * frequency, 2.0 * ratio * mass * frequency)
+}
+
+/// ζ at which −ln e is `loss`.
+pub(super) fn damping_ratio(loss: f64, end_rule: EndRule) -> f64 {
+    match end_rule {
+        EndRule::ZeroOverlap => loss / PI.hypot(loss),
+        // e = exp(−2ζψ) rises by 1 a ζ at first, then as ln ζ.
+        EndRule::ZeroForce => {
+            last_where(0.0, loss + loss.exp(), |ratio| ratio * zero_force_phase(ratio) < loss)
+        }
+    }
 }
 
 /// ω₀ T = 2φ/√(1−ζ²) of the end at zero force.

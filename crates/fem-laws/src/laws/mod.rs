@@ -11,18 +11,20 @@ mod morgado_oppenheim;
 mod power;
 mod schwager_poeschel;
 mod tsuji;
+mod zhang_whiten;
 
 pub use bordbar_hyppanen::bordbar_hyppanen;
 pub use falcon::falcon;
 pub use hertz::hertz;
 pub use hunt_crossley::hunt_crossley;
-pub use kuwabara_kono::kuwabara_kono;
+pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono};
 pub use linear::{linear, linear_from_restitution};
 pub use mishra_murty::mishra_murty;
 pub use morgado_oppenheim::morgado_oppenheim;
 pub use power::{ContactLaw, power};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel};
 pub use tsuji::{tsuji, tsuji_from_restitution};
+pub use zhang_whiten::zhang_whiten_from_restitution;
 
 /// K = (4/3) E* √R*, N/m^(3/2), of Hertz' force.
 fn hertz_stiffness(pair: &crate::Pair) -> f64 {

@@ -59,6 +59,12 @@ impl ContactLaw {
         self.damping_exponent
     }
 
+    /// K ξ^(γ+1)/(γ+1), J: what the spring holds at an overlap, m.
+    pub fn strain_energy(&self, overlap: f64) -> f64 {
+        let exponent = self.elastic_exponent + 1.0;
+        self.stiffness * overlap.max(0.0).powf(exponent) / exponent
+    }
+
     /// F, N, at an overlap, m, and its rate, m/s; negative (attraction) where damping outweighs
     /// the spring in separation; 0 for an open contact (ξ < 0).
     pub fn force(&self, overlap: f64, rate: f64) -> f64 {

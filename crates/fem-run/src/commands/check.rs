@@ -1,6 +1,7 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
-use fem_case::{Case, Problem};
+use comfy_table::CellAlignment::Left;
+use fem_case::{Case, Problem, Reduced, Simulation};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::CaseArguments;
@@ -8,7 +9,7 @@ use crate::engineering::show;
 use crate::failure::Failure;
 use crate::report;
 use crate::standard_output;
-use crate::tables::{mesh_table, pairs};
+use crate::tables::{mesh_table, pairs, table};
 
 /// Check a case and print it with all defaults filled in
 ///
@@ -24,8 +25,8 @@ pub struct Arguments {
 
 /// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let problem = Problem::new(Case::load(&arguments.input.case, &arguments.input.set)?)?;
-    let resolved = problem.plan.resolve(&problem.case).to_toml();
+    let simulation = Simulation::new(Case::load(&arguments.input.case, &arguments.input.set)?)?;
+    let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
@@ -34,14 +35,34 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let case = arguments.input.case.display().to_string();
     let heading = format!("{case} is sound. What to expect of a run:");
-    let expectation = format!("{}\n\n{}", standard_output::one_line(&heading), expect(&problem));
+    let expectation = format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation));
     standard_output::print(&format!("{}\n{resolved}", as_comment(&expectation)))
 }
 
 /// What to expect of a run.
-fn expect(problem: &Problem) -> String {
+fn expect(simulation: &Simulation) -> String {
+    let hertz = simulation.hertz();
+    let closed_form = pairs([
+        ("contact time", show(hertz.contact_time(), "s")),
+        ("peak force", show(hertz.peak_force(), "N")),
+        ("largest approach", show(hertz.max_approach(), "m")),
+        ("largest contact radius", show(hertz.max_contact_radius(), "m")),
+        ("peak pressure", show(hertz.peak_pressure(), "Pa")),
+    ]);
+    let model = match simulation {
+        Simulation::Fem(problem) => elements(problem),
+        Simulation::Reduced(reduced) => one_degree_of_freedom(reduced),
+    };
+    format!(
+        "{model}\nHertz, instantaneous moduli\n{closed_form}\nEffects\n{}\n{}",
+        report::effects(&simulation.effects()),
+        report::warnings(simulation.warnings()),
+    )
+}
+
+/// Mesh and cost of finite elements.
+fn elements(problem: &Problem) -> String {
     let (cost, model) = (&problem.cost, &problem.model);
-    let hertz = &problem.plan.estimate.hertz;
     let longer = model.time_step() / model.plain_time_step();
     let costs = pairs([
         (
@@ -55,19 +76,25 @@ fn expect(problem: &Problem) -> String {
         ("element updates", format!("about {:.1e}", cost.element_updates as f64)),
         ("memory", format!("about {}", DecimalBytes(cost.memory))),
     ]);
-    let closed_form = pairs([
-        ("contact time", show(hertz.contact_time(), "s")),
-        ("peak force", show(hertz.peak_force(), "N")),
-        ("largest approach", show(hertz.max_approach(), "m")),
-        ("largest contact radius", show(hertz.max_contact_radius(), "m")),
-        ("peak pressure", show(hertz.peak_pressure(), "Pa")),
-    ]);
-    format!(
-        "Mesh\n{}\nCost\n{costs}\nHertz, instantaneous moduli\n{closed_form}\nEffects\n{}\n{}",
-        mesh_table(&problem.case.scene, model.bodies().each_ref().map(|body| body.mesh())),
-        report::effects(&problem.effects()),
-        report::warnings(&problem.plan.warnings),
-    )
+    let meshes = model.bodies().each_ref().map(|body| body.mesh());
+    format!("Mesh\n{}\nCost\n{costs}", mesh_table(&problem.case.scene, meshes))
+}
+
+/// Model and cost of a reduced one.
+fn one_degree_of_freedom(reduced: &Reduced) -> String {
+    let force = reduced.law().map(|law| {
+        format!(
+            "F = K x^{} + C x^{} dx/dt, K = {:.5e} and C = {:.5e} SI",
+            law.elastic_exponent(),
+            law.damping_exponent(),
+            law.stiffness(),
+            law.damping()
+        )
+    });
+    let mut rows = vec![["computes", reduced.describe().as_str()].map(String::from)];
+    rows.extend(force.map(|force| ["force".to_string(), force]));
+    rows.push(["cost", "milliseconds"].map(String::from));
+    format!("Model\n{}", table(&[Left, Left], rows))
 }
 
 /// The same as TOML comments.

@@ -5,8 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fem_case::{Case, Keep, Problem};
-use fem_explicit::{Collision, Stop};
+use fem_case::{Case, Halt, Keep, Outcome, Simulation};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::CaseArguments;
@@ -43,28 +42,28 @@ pub struct Options {
 /// Runs a case.
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
-    let mut problem = Problem::new(Case::load(&input.case, &input.set)?)?;
+    let mut simulation = Simulation::new(Case::load(&input.case, &input.set)?)?;
     let stem = input.stem();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&stem));
     let folder = ResultFolder::claim(&out, &longest_name(&stem))?;
     if !options.quiet {
-        announce(&problem, &input.case, &out);
+        announce(&simulation, &input.case, &out);
     }
 
     let mut watch = Watch::new(interrupt, options.quiet);
     let solving = Instant::now();
-    let collision = problem.run(&mut watch);
+    let outcome = simulation.run(&mut watch);
     let clock = Clock { started, solve: solving.elapsed() };
     watch.finish();
 
-    let summary = write_result(folder.path(), &stem, &problem, &collision, clock, Keep::All)?;
+    let summary = write_result(folder.path(), &stem, &simulation, &outcome, clock, Keep::All)?;
     let place = folder.publish()?;
     if !options.quiet {
         standard_output::print(&report(&summary, &place))?;
     }
-    match &collision.stopped {
+    match &outcome.halt {
         None => Ok(()),
-        Some(stop) => Err(stopped(stop, &summary, &place)),
+        Some(halt) => Err(stopped(halt, &summary, &place)),
     }
 }
 
@@ -74,25 +73,33 @@ pub fn longest_name(stem: &str) -> String {
 }
 
 /// One line on stderr about what begins.
-fn announce(problem: &Problem, case: &Path, out: &Path) {
-    let cost = &problem.cost;
-    let line = format!(
-        "{}: {} elements, about {} steps, about {}; result: {}",
-        case.display(),
-        HumanCount(cost.elements),
-        HumanCount(cost.steps),
-        DecimalBytes(cost.memory),
-        out.display()
-    );
+fn announce(simulation: &Simulation, case: &Path, out: &Path) {
+    let line = format!("{}: {}; result: {}", case.display(), price(simulation), out.display());
     let _ = writeln!(stderr(), "{}", standard_output::one_line(&line));
+}
+
+/// The model and what it costs.
+fn price(simulation: &Simulation) -> String {
+    match simulation {
+        Simulation::Fem(problem) => {
+            let cost = &problem.cost;
+            format!(
+                "{} elements, about {} steps, about {}",
+                HumanCount(cost.elements),
+                HumanCount(cost.steps),
+                DecimalBytes(cost.memory)
+            )
+        }
+        Simulation::Reduced(reduced) => format!("{}, milliseconds", reduced.describe()),
+    }
 }
 
 /// Writes the files of a result that are to be kept, the summary last.
 pub fn write_result(
     folder: &Path,
     stem: &str,
-    problem: &Problem,
-    collision: &Collision,
+    simulation: &Simulation,
+    outcome: &Outcome,
     clock: Clock,
     keep: Keep,
 ) -> Result<Summary, Failure> {
@@ -104,34 +111,38 @@ pub fn write_result(
     let mut files = vec![SUMMARY_FILE.to_string()];
     let mut left_out = Vec::new();
     if keep == Keep::All {
-        write_history(folder, problem, &collision.history).map_err(|error| fault(&error))?;
-        let (vtk_files, missing) =
-            write_snapshots(folder, stem, problem, collision).map_err(|error| fault(&error))?;
+        write_history(folder, simulation.case(), &outcome.history)
+            .map_err(|error| fault(&error))?;
         files.push(HISTORY_FILE.to_string());
-        files.extend(vtk_files);
-        left_out = missing;
     }
-
-    let mut warnings = problem.plan.warnings.clone();
-    warnings.extend(assess(problem, collision));
-    warnings.extend(collision.warnings.iter().cloned());
+    let mut warnings = simulation.warnings().to_vec();
+    if let (Simulation::Fem(problem), Some(collision)) = (simulation, &outcome.collision) {
+        if keep == Keep::All {
+            let (vtk_files, missing) =
+                write_snapshots(folder, stem, problem, collision).map_err(|error| fault(&error))?;
+            files.extend(vtk_files);
+            left_out = missing;
+        }
+        warnings.extend(assess(problem, collision));
+    }
+    warnings.extend(outcome.warnings.iter().cloned());
     warnings.extend(left_out);
-    let summary = summarise(problem, collision, clock, warnings, files);
+    let summary = summarise(simulation, outcome, clock, warnings, files);
     let mut text = serde_json::to_string_pretty(&summary).map_err(|error| fault(&error))?;
     text.push('\n');
     std::fs::write(folder.join(SUMMARY_FILE), text).map_err(|error| fault(&error))?;
     Ok(summary)
 }
 
-fn stopped(stop: &Stop, summary: &Summary, place: &Path) -> Failure {
+fn stopped(halt: &Halt, summary: &Summary, place: &Path) -> Failure {
     let kept = format!(
         "what was computed so far is in {}, marked incomplete",
         standard_output::one_line(&place.display().to_string())
     );
-    let Some(remedy) = remedy_of(stop) else {
-        return Failure::interrupted(stop.to_string()).with_help(kept);
+    let Some(remedy) = remedy_of(halt) else {
+        return Failure::interrupted(halt.to_string()).with_help(kept);
     };
     let between: Vec<&str> = summary.bodies.iter().map(|body| body.name.as_str()).collect();
-    Failure::failed(format!("the run of {} failed: {stop}", between.join(" and ")))
+    Failure::failed(format!("the run of {} failed: {halt}", between.join(" and ")))
         .with_help(format!("likely cause: {}\nremedy: {}\n{kept}", remedy.cause, remedy.remedy))
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_case::{Problem, Sweep};
+use fem_case::{Simulation, Sweep};
 use serde_json::{Value, json};
 
 use crate::arguments::stem_of;
@@ -117,7 +117,7 @@ fn find_todo<'m>(
         if !known.insert(&member.identity) || folder.has(&member.identity, sweep.keep) {
             continue;
         }
-        let updates = |case| Ok(Problem::new(case)?.cost.element_updates);
+        let updates = |case| Ok(Simulation::new(case)?.element_updates());
         todo.push((sweep.build(member.index, updates)?, member));
     }
     todo.sort_by_key(|(updates, member)| (std::cmp::Reverse(*updates), member.index));

@@ -43,7 +43,8 @@ pub fn value_of(summary: &Value, column: &str) -> Value {
     match column {
         "elements" => {
             let bodies = summary["bodies"].as_array().into_iter().flatten();
-            bodies.filter_map(|body| body["elements"].as_u64()).sum::<u64>().into()
+            let counts: Vec<u64> = bodies.filter_map(|body| body["elements"].as_u64()).collect();
+            if counts.is_empty() { Value::Null } else { counts.into_iter().sum::<u64>().into() }
         }
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
         _ => table("hertz_").or(table("energy_")).unwrap_or(&summary[column]).clone(),

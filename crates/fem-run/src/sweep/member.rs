@@ -1,6 +1,6 @@
 //! A member of a sweep and what it is known by.
 
-use fem_case::{Case, CaseError, CaseFile, Plan, Shape, Sweep};
+use fem_case::{Case, CaseError, CaseFile, Shape, Simulation, Sweep};
 use sha2::{Digest, Sha256};
 
 /// Bytes of the digest that go into a name: two of a million members share one by a chance of
@@ -24,7 +24,10 @@ pub struct Member {
 /// The first member that is no valid case.
 pub fn members(sweep: &Sweep) -> Result<Vec<Member>, CaseError> {
     let member = |index| {
-        let resolve = |case: Case| Ok((Plan::of(&case)?.resolve(&case), mesh_files(&case)?));
+        let resolve = |case: Case| {
+            let meshes = mesh_files(&case)?;
+            Ok((Simulation::resolve(case)?, meshes))
+        };
         let (case, meshes) = sweep.build(index, resolve)?;
         let identity = identity(&case, &meshes);
         Ok(Member { index, identity, case })

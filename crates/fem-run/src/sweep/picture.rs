@@ -52,7 +52,26 @@ pub fn picture(sweep: &Sweep, members: &[Member], rows: &[Row], choice: &Choice)
     if !legend.is_empty() {
         figure = figure.with_shared_legend().with_shared_legend_entries(legend);
     }
-    Some(SvgBackend::new().render_scene(&figure.render()) + "\n")
+    Some(renumber(&SvgBackend::new().render_scene(&figure.render())) + "\n")
+}
+
+/// The same with its clip paths counted from 0: kuva counts on from one picture of a process to the
+/// next, and whoever draws a sweep writes the same bytes.
+fn renumber(svg: &str) -> String {
+    const CLIP: &str = "kuva-clip-";
+    let mut parts = svg.split(CLIP);
+    let mut text = parts.next().unwrap_or_default().to_string();
+    let mut known: Vec<&str> = Vec::new();
+    for part in parts {
+        let end = part.find(|c: char| !c.is_ascii_digit()).unwrap_or(part.len());
+        let (number, rest) = part.split_at(end);
+        let index = known.iter().position(|other| *other == number).unwrap_or_else(|| {
+            known.push(number);
+            known.len() - 1
+        });
+        text += &format!("{CLIP}{index}{rest}");
+    }
+    text
 }
 
 fn draw(sweep: &Sweep, x: usize, column: &str, curves: &[Curve]) -> (Vec<Plot>, Layout) {
@@ -162,5 +181,19 @@ impl Scale {
             Some("") | None => name.to_string(),
             Some(symbol) => format!("{name} [{symbol}]"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::renumber;
+
+    #[test]
+    fn clip_paths_are_counted_from_0() {
+        let svg = "<clipPath id=\"kuva-clip-4\"/><clipPath id=\"kuva-clip-15\"/>url(#kuva-clip-4)";
+        let expected =
+            "<clipPath id=\"kuva-clip-0\"/><clipPath id=\"kuva-clip-1\"/>url(#kuva-clip-0)";
+        assert_eq!(renumber(svg), expected);
+        assert_eq!(renumber("none"), "none");
     }
 }

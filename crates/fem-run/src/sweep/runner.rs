@@ -4,8 +4,7 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use fem_case::{Problem, Sweep};
-use fem_explicit::Stop;
+use fem_case::{Simulation, Sweep};
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
@@ -71,26 +70,26 @@ fn run_member(job: &Job<'_>, board: &Board, member: &Member) -> Result<(), Failu
         return Ok(());
     }
     let started = Instant::now();
-    let mut problem = sweep.build(member.index, Problem::new)?;
+    let mut simulation = sweep.build(member.index, Simulation::new)?;
     let mut watch = MemberWatch::new(board);
     let solving = Instant::now();
-    let collision = problem.run(&mut watch);
+    let outcome = simulation.run(&mut watch);
     let clock = Clock { started, solve: solving.elapsed() };
-    if matches!(collision.stopped, Some(Stop::Interrupted { .. })) {
+    if outcome.is_interrupted() {
         return Ok(());
     }
     let stem = &member.identity;
     let place = ResultFolder::claim(&folder.member(stem), &longest_name(stem))
         .map_err(|failure| Failure::failed(format!("{name}: {failure}")))?;
-    let summary = write_result(place.path(), stem, &problem, &collision, clock, sweep.keep)?;
+    let summary = write_result(place.path(), stem, &simulation, &outcome, clock, sweep.keep)?;
     place.publish()?;
     watch.finish();
-    board.finish_member(&format!("{name}: {}", outcome(&summary)));
+    board.finish_member(&format!("{name}: {}", in_a_few_words(&summary)));
     Ok(())
 }
 
 /// A member's result in a few words.
-fn outcome(summary: &Summary) -> String {
+fn in_a_few_words(summary: &Summary) -> String {
     if let Some(reason) = &summary.stopped_because {
         return format!("FAILED: {reason}");
     }

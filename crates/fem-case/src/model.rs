@@ -1,0 +1,171 @@
+//! The model that a case chooses, its numbers checked. One variant a model.
+
+use fem_laws::EndRule;
+
+/// How the collision is computed.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Model {
+    /// Explicit finite elements.
+    #[default]
+    Fem,
+    /// Elastic half-spaces.
+    Hertz {
+        /// Whether the spheres' finite size adds to the approach.
+        finite_size: bool,
+    },
+    /// Viscoelastic half-spaces, quasi-static.
+    Ting {
+        /// Whether the spheres' finite size adds to the approach.
+        finite_size: bool,
+        /// Accuracy of restitution, time and force.
+        tolerance: f64,
+    },
+    /// A contact law.
+    Law {
+        /// Which, with its numbers.
+        law: Law,
+        /// When the contact is over.
+        end_rule: EndRule,
+        /// Accuracy of restitution, time and force.
+        tolerance: f64,
+    },
+}
+
+impl Model {
+    /// Its key under `[model]`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Model::Fem => "fem",
+            Model::Hertz { .. } => "hertz",
+            Model::Ting { .. } => "ting",
+            Model::Law { .. } => "law",
+        }
+    }
+
+    /// The dotted key of its table.
+    pub fn path(&self) -> String {
+        match self {
+            Model::Law { law, .. } => format!("model.law.{}", law.name()),
+            _ => format!("model.{}", self.name()),
+        }
+    }
+}
+
+/// A contact law with its numbers, SI.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Law {
+    /// Spring and dashpot.
+    Linear {
+        /// K, N/m.
+        stiffness: f64,
+        /// C, N s/m.
+        damping: f64,
+    },
+    /// The same by what comes out.
+    LinearFromRestitution {
+        /// e.
+        restitution: f64,
+        /// T, s.
+        contact_time: f64,
+    },
+    /// F = K ξ^γ + C ξⁿ ξ̇.
+    Power {
+        /// K, N/m^γ.
+        stiffness: f64,
+        /// γ.
+        elastic_exponent: f64,
+        /// C, N s/m^(n+1).
+        damping: f64,
+        /// n.
+        damping_exponent: f64,
+    },
+    /// Hertz.
+    Hertz,
+    /// By A.
+    KuwabaraKono(Dissipation),
+    /// By the restitution at a speed.
+    HuntCrossley {
+        /// e.
+        restitution: f64,
+        /// m/s; the case's approach speed if none.
+        speed: Option<f64>,
+    },
+    /// By e or α.
+    Tsuji(Dashpot),
+    /// By e or α.
+    ZhangWhiten(Dashpot),
+    /// By its dashpot.
+    Falcon {
+        /// C, N s/m^(5/4).
+        damping: f64,
+    },
+    /// Spring and dashpot.
+    MishraMurty {
+        /// K, N/m^(8/5).
+        stiffness: f64,
+        /// C, N s/m^(9/5).
+        damping: f64,
+    },
+    /// By C_n.
+    SchwagerPoeschel(Dissipation),
+    /// By viscoelastic coefficients.
+    MorgadoOppenheim {
+        /// η₁, Pa s.
+        eta_1: f64,
+        /// η₂.
+        eta_2: f64,
+    },
+    /// By A and n.
+    BordbarHyppanen {
+        /// A, s.
+        dissipation_time: f64,
+        /// n.
+        damping_exponent: f64,
+    },
+}
+
+/// Where a dissipation time comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dissipation {
+    /// Given, s.
+    Time(f64),
+    /// From viscosities.
+    Viscosities {
+        /// η₁, Pa s.
+        shear: f64,
+        /// η₂, Pa s.
+        bulk: f64,
+    },
+    /// From the relaxation of the materials.
+    Relaxation,
+}
+
+/// How strong a dashpot is that makes the restitution independent of speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dashpot {
+    /// By the restitution e.
+    Restitution(f64),
+    /// By its coefficient α.
+    Coefficient(f64),
+}
+
+impl Law {
+    /// Its key under `law`.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Law::Linear { .. } | Law::LinearFromRestitution { .. } => "linear",
+            Law::Power { .. } => "power",
+            Law::Hertz => "hertz",
+            Law::KuwabaraKono(_) => "kuwabara_kono",
+            Law::HuntCrossley { .. } => "hunt_crossley",
+            Law::Tsuji(_) => "tsuji",
+            Law::ZhangWhiten(_) => "zhang_whiten",
+            Law::Falcon { .. } => "falcon",
+            Law::MishraMurty { .. } => "mishra_murty",
+            Law::SchwagerPoeschel(_) => "schwager_poeschel",
+            Law::MorgadoOppenheim { .. } => "morgado_oppenheim",
+            Law::BordbarHyppanen { .. } => "bordbar_hyppanen",
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! `[model]` as written: which model computes the collision, and its keys.
+
+use serde::{Deserialize, Serialize};
+
+use crate::keyword::keywords;
+use crate::quantity::{Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
+use crate::schema::EmptyTable;
+
+/// `[model]`: exactly one key.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
+pub struct ModelTable {
+    /// Explicit finite elements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fem: Option<EmptyTable>,
+    /// Linear bodies condensed to their contact nodes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub condensed: Option<toml::Table>,
+    /// Quasi-static viscoelastic half-space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ting: Option<TingTable>,
+    /// Quasi-static elastic half-space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hertz: Option<HertzTable>,
+    /// A contact law of one degree of freedom.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<LawTable>,
+    /// The cheapest that serves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub auto: Option<toml::Table>,
+}
+
+/// `ting = { … }`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
+pub struct TingTable {
+    /// Whether the spheres' finite size adds to the approach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_size: Option<bool>,
+    /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<Quantity<Number>>,
+}
+
+/// `hertz = { … }`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
+pub struct HertzTable {
+    /// Whether the spheres' finite size adds to the approach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finite_size: Option<bool>,
+}
+
+keywords! {
+    /// When a contact with a law is over.
+    End {
+        /// The force falls to zero: the surfaces cannot pull.
+        ZeroForce = "zero_force",
+        /// The overlap falls to zero; until then the dashpot may pull.
+        ZeroOverlap = "zero_overlap",
+    }
+}
+
+/// One table a law, `end` and `tolerance` in each, and the table `law` around them.
+macro_rules! law_tables {
+    ($(
+        $(#[$doc:meta])*
+        $law:ident: $table:ident = $example:literal {
+            $($(#[$key_doc:meta])* $key:ident: $kind:ty,)*
+        }
+    )+) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+            #[serde(deny_unknown_fields, expecting = $example)]
+            pub struct $table {
+                $(
+                    $(#[$key_doc])*
+                    #[serde(skip_serializing_if = "Option::is_none")]
+                    pub $key: Option<Quantity<$kind>>,
+                )*
+                /// When the contact is over.
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub end: Option<End>,
+                /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub tolerance: Option<Quantity<Number>>,
+            }
+        )+
+
+        /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand beside it.
+        #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+        #[serde(
+            deny_unknown_fields,
+            expecting = "a table such as { kuwabara_kono = { a = \"1e-6 s\" } }"
+        )]
+        pub struct LawTable {
+            $(
+                $(#[$doc])*
+                #[serde(skip_serializing_if = "Option::is_none")]
+                pub $law: Option<$table>,
+            )+
+            /// When the contact is over.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub end: Option<End>,
+            /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
+            #[serde(skip_serializing_if = "Option::is_none")]
+            pub tolerance: Option<Quantity<Number>>,
+        }
+
+        impl LawTable {
+            /// The names of all laws.
+            pub const NAMES: &'static [&'static str] = &[$(stringify!($law),)+];
+
+            /// The names of the laws that are given.
+            pub fn given(&self) -> Vec<&'static str> {
+                let mut given = Vec::new();
+                $(if self.$law.is_some() { given.push(stringify!($law)) })+
+                given
+            }
+
+            /// `end` and `tolerance` of the law that is given.
+            pub(crate) fn inner(&self) -> (Option<End>, Option<&Quantity<Number>>) {
+                $(if let Some(table) = &self.$law { return (table.end, table.tolerance.as_ref()) })+
+                (None, None)
+            }
+
+            /// The same with `end` and `tolerance` in the law's own table.
+            pub(crate) fn filled(mut self, end: End, tolerance: f64) -> Self {
+                (self.end, self.tolerance) = (None, None);
+                $(if let Some(table) = &mut self.$law {
+                    table.end = Some(end);
+                    table.tolerance = Some(Quantity::from_si(tolerance));
+                })+
+                self
+            }
+        }
+    };
+}
+
+law_tables! {
+    /// F = k ξ + c ξ̇.
+    linear: LinearTable = "a table such as { k = \"1e7 N/m\", c = \"30 N s/m\" }" {
+        /// Stiffness, > 0; with `c`.
+        k: Stiffness,
+        /// Damping, ≥ 0; 0 if absent.
+        c: Damping,
+        /// Restitution, > 0 and ≤ 1; with `contact_time`, in place of `k` and `c`.
+        e: Number,
+        /// > 0.
+        contact_time: Time,
+    }
+    /// F = k ξ^gamma + c ξ^n ξ̇.
+    power: PowerTable = "a table such as { k = 3e9, gamma = 1.5, c = 1e4, n = 0.5 }" {
+        /// Stiffness, N/m^gamma, > 0.
+        k: Number,
+        /// Exponent of the spring, > 0.
+        gamma: Number,
+        /// Damping, N s/m^(n+1), ≥ 0; 0 if absent.
+        c: Number,
+        /// Exponent of the dashpot, ≥ 0; wanted with `c`.
+        n: Number,
+    }
+    /// Hertz' spring without a dashpot, integrated as a law.
+    hertz: HertzLawTable = "a table such as {}" {}
+    /// Hertz' spring with the damping of a Kelvin solid.
+    kuwabara_kono: KuwabaraKonoTable = "a table such as { a = \"1e-6 s\" }" {
+        /// Dissipation time A, ≥ 0; absent: from `eta_1` and `eta_2`, or else from the materials.
+        a: Time,
+        /// Viscosity in shear, ≥ 0; with `eta_2`.
+        eta_1: Viscosity,
+        /// Viscosity in compression, ≥ 0.
+        eta_2: Viscosity,
+    }
+    /// Hertz' spring with damping in proportion to its force.
+    hunt_crossley: HuntCrossleyTable = "a table such as { e = 0.9 }" {
+        /// Restitution wanted, > 0 and ≤ 1.
+        e: Number,
+        /// Approach speed at which it is wanted, > 0; the case's if absent.
+        v: Speed,
+    }
+    /// Hertz' spring with a restitution independent of speed.
+    tsuji: TsujiTable = "a table such as { e = 0.9 }" {
+        /// Restitution wanted, > 0 and ≤ 1, under the law's `end`.
+        e: Number,
+        /// Damping coefficient α, ≥ 0, in place of `e`.
+        alpha: Number,
+    }
+    /// The law of `tsuji` for a contact that ends at zero force.
+    zhang_whiten: ZhangWhitenTable = "a table such as { e = 0.9 }" {
+        /// Restitution wanted, > 0 and ≤ 1.
+        e: Number,
+        /// Damping coefficient α, ≥ 0, in place of `e`.
+        alpha: Number,
+    }
+    /// Hertz' spring with the damping c ξ^(1/4) ξ̇.
+    falcon: FalconTable = "a table such as { c = 500 }" {
+        /// Damping, N s/m^(5/4), ≥ 0.
+        c: Number,
+    }
+    /// F = k ξ^(8/5) + c ξ^(4/5) ξ̇.
+    mishra_murty: MishraMurtyTable = "a table such as { k = 1e10, c = 1e5 }" {
+        /// Stiffness, N/m^(8/5), > 0.
+        k: Number,
+        /// Damping, N s/m^(9/5), ≥ 0.
+        c: Number,
+    }
+    /// Kelvin's damping from the viscosities of the material.
+    schwager_poeschel: SchwagerPoeschelTable = "a table such as { a = \"1e-6 s\" }" {
+        /// Normal damping C_n, ≥ 0; or `eta_1` and `eta_2`.
+        a: Time,
+        /// Viscosity in shear, > 0; with `eta_2`.
+        eta_1: Viscosity,
+        /// Viscosity in compression, > 0.
+        eta_2: Viscosity,
+    }
+    /// Hertz' spring with a damping of the spring's own form.
+    morgado_oppenheim: MorgadoOppenheimTable =
+        "a table such as { eta_1 = \"1e4 Pa s\", eta_2 = 0.2 }" {
+        /// Viscoelastic coefficient in place of E, ≥ 0.
+        eta_1: Viscosity,
+        /// Viscoelastic coefficient in place of ν, between −1 and 1.
+        eta_2: Number,
+    }
+    /// Hertz' spring with the damping 2 A E* R*^(1−n) ξ^n ξ̇.
+    bordbar_hyppanen: BordbarHyppanenTable = "a table such as { a = \"1e-6 s\", n = 0.65 }" {
+        /// Dissipation time A, ≥ 0.
+        a: Time,
+        /// Exponent of the dashpot, ≥ 0.
+        n: Number,
+    }
+}
+
+/// Whether a table holds at most one of these two keys, so that an override with the one takes the
+/// place of the other.
+pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool {
+    let is_law = |key| LawTable::NAMES.contains(&key);
+    match table {
+        ["model"] => key != other,
+        ["model", "law"] => key != other && is_law(key) && is_law(other),
+        _ => false,
+    }
+}

@@ -1,0 +1,107 @@
+//! A case with the model that computes it, whichever that is: one variant a model family, one arm
+//! each in the methods.
+
+use fem_explicit::Monitor;
+use fem_laws::HertzImpact;
+
+use crate::case::Case;
+use crate::effects::Effect;
+use crate::error::CaseError;
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::plan::Plan;
+use crate::problem::Problem;
+use crate::reduced::Reduced;
+use crate::schema::CaseFile;
+
+/// A case that is ready to run.
+#[derive(Clone, Debug)]
+pub enum Simulation {
+    /// Explicit finite elements.
+    Fem(Box<Problem>),
+    /// One degree of freedom: Hertz, Ting, contact laws.
+    Reduced(Box<Reduced>),
+}
+
+impl Simulation {
+    /// Builds the model that the case asks for.
+    ///
+    /// # Errors
+    /// What the model refuses; see [`Problem::new`] and [`Reduced::new`].
+    pub fn new(case: Case) -> Result<Self, CaseError> {
+        Ok(match case.scene.model {
+            Model::Fem => Self::Fem(Box::new(Problem::new(case)?)),
+            _ => Self::Reduced(Box::new(Reduced::new(case)?)),
+        })
+    }
+
+    /// The case with every default filled in, without the cost of building its model.
+    ///
+    /// # Errors
+    /// A scene whose closed-form estimates are not finite; what a reduced model refuses.
+    pub fn resolve(case: Case) -> Result<CaseFile, CaseError> {
+        match case.scene.model {
+            Model::Fem => Ok(Plan::of(&case)?.resolve(&case)),
+            _ => Ok(Reduced::new(case)?.resolve()),
+        }
+    }
+
+    /// The case.
+    pub fn case(&self) -> &Case {
+        match self {
+            Self::Fem(problem) => &problem.case,
+            Self::Reduced(reduced) => &reduced.case,
+        }
+    }
+
+    /// The case with every default filled in.
+    pub fn resolved(&self) -> CaseFile {
+        match self {
+            Self::Fem(problem) => problem.plan.resolve(&problem.case),
+            Self::Reduced(reduced) => reduced.resolve(),
+        }
+    }
+
+    /// Hertz with instantaneous moduli, to compare with.
+    pub fn hertz(&self) -> &HertzImpact {
+        match self {
+            Self::Fem(problem) => &problem.plan.estimate.hertz,
+            Self::Reduced(reduced) => &reduced.estimate.hertz,
+        }
+    }
+
+    /// Which effects are on, and why.
+    pub fn effects(&self) -> Vec<Effect> {
+        match self {
+            Self::Fem(problem) => problem.effects(),
+            Self::Reduced(reduced) => reduced.effects.clone(),
+        }
+    }
+
+    /// What the user should know before the run.
+    pub fn warnings(&self) -> &[String] {
+        match self {
+            Self::Fem(problem) => &problem.plan.warnings,
+            Self::Reduced(reduced) => &reduced.warnings,
+        }
+    }
+
+    /// Element updates to come: what runs are ordered by. A reduced model takes microseconds.
+    pub fn element_updates(&self) -> u64 {
+        match self {
+            Self::Fem(problem) => problem.cost.element_updates,
+            Self::Reduced(_) => 0,
+        }
+    }
+
+    /// Computes the collision.
+    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Outcome {
+        match self {
+            Self::Fem(problem) => {
+                let collision = problem.run(monitor);
+                Outcome::of_fem(problem, collision)
+            }
+            Self::Reduced(reduced) => reduced.run(),
+        }
+    }
+}
