@@ -82,6 +82,9 @@ impl CondensedPair {
         collision: &Collision,
         request: &SnapshotRequest,
     ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
+        if *request == SnapshotRequest::Labels(Vec::new()) {
+            return Ok((Vec::new(), Vec::new()));
+        }
         let kept = self.keep_steps(frame.approach_speed(), relaxations, collision)?;
         let (chosen, missing) = choose(&kept, request, frame.first_touch());
         let mut snapshots = Vec::with_capacity(chosen.len());

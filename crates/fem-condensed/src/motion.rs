@@ -170,7 +170,7 @@ impl<'a> Motion<'a> {
             .iter()
             .zip(&self.pair.spring_compliance)
             .map(|(force, compliance)| 0.5 * compliance * force * force)
-            .sum();
+            .fold(0.0, |sum, energy| sum + energy);
         energies
     }
 }
