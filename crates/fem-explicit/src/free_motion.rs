@@ -9,11 +9,11 @@ use fem_mesh::SphereMesh;
 use crate::body::Body;
 use crate::error::ModelError;
 use crate::model::check_step_factor;
-use crate::snapshot::BodyFields;
+
 use crate::state::BodyState;
 use crate::step::{advance_body, update_internal_forces};
-use crate::stress::StressField;
 use crate::time_step::NodalBound;
+use fem_field::{BodyFields, StressField};
 
 /// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
 ///
@@ -147,7 +147,7 @@ impl FreeMotion {
             velocity: Vec::new(),
             effective: self.state.w.clone(),
         };
-        StressField::of(&self.body, &fields)
+        self.body.stress(&fields)
     }
 
     fn at_nodes(&self, field: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {

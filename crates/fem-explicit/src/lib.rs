@@ -31,7 +31,6 @@ mod recorder;
 mod snapshot;
 mod state;
 mod step;
-mod stress;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]
@@ -41,8 +40,8 @@ mod time_step;
 pub use body::{Body, BodyInput};
 pub use collision::{Collision, Monitor, Progress, RunSettings, collide};
 pub use error::{ModelError, Stop};
+pub use fem_field::{BodyFields, Label, Snapshot, SnapshotRequest, StressField, invariants};
 pub use free_motion::FreeMotion;
 pub use history::HistoryRow;
 pub use model::{Model, Settings};
-pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
-pub use stress::{StressField, invariants};
+pub use snapshot::n_states;

@@ -2,7 +2,7 @@
 //! and pressure p₀ at the same force.
 
 use fem_case::Shape;
-use fem_explicit::{Label, Snapshot, StressField};
+use fem_explicit::{Label, Snapshot};
 use fem_laws::HertzPressure;
 use fem_mesh::segment_measures;
 
@@ -45,7 +45,7 @@ impl Fields {
         };
         let u = displacements(run, snapshot);
         let hertz = hertz_at_force(run, &u);
-        let stress = StressField::of(&bodies[side], &snapshot.bodies[side]);
+        let stress = bodies[side].stress(&snapshot.bodies[side]);
         let poissons_ratio = material.instantaneous().poissons_ratio();
         let boundary = |profile: Profile| {
             let (nodes, along, end, component) = match profile {

@@ -1,6 +1,6 @@
 //! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
 
-use fem_explicit::{Label, Snapshot, StressField};
+use fem_explicit::{Label, Snapshot};
 use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
 use fem_figure::engineering::Unit;
 use serde::Deserialize;
@@ -59,7 +59,7 @@ impl Instant {
         let mut poles = [f64::NAN; 2];
         for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {
             let Some(mesh) = body.mesh() else { continue };
-            let stress = StressField::of(body, fields).points;
+            let stress = body.stress(fields).points;
             let nodes = mesh.nodes().iter().zip(&fields.displacement);
             halves[k] = Section {
                 points: nodes.map(|(x, u)| [0, 1].map(|axis: usize| x[axis] + u[axis])).collect(),
