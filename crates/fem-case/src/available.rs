@@ -8,7 +8,7 @@ use crate::schema::{EffectsTable, Switch};
 /// Names of models that `[model]` knows and this version has not: to build one, take its name out
 /// and give it a variant in `model.rs`, its keys in `model_tables.rs` and `validate/models.rs`, and
 /// an arm in `simulation.rs`.
-pub(crate) const UNAVAILABLE_MODELS: &[&str] = &["condensed", "auto"];
+pub(crate) const UNAVAILABLE_MODELS: &[&str] = &["auto"];
 
 /// Names of effects that `[effects]` can turn on.
 const EFFECTS: &[&str] = &[];

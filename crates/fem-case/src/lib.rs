@@ -10,7 +10,8 @@
 //! [`Simulation::new`] builds the [`Model`] that the case asks for, and [`Simulation::run`] computes
 //! the collision to an [`Outcome`], the same for every model. Finite elements are a [`Problem`]:
 //! [`Plan::of`] fills in what the case leaves open from closed forms and says which effects are on,
-//! [`Problem::new`] makes meshes and model. The models of one degree of freedom are a [`Reduced`].
+//! [`Problem::new`] makes meshes and model; the same linear bodies condensed to their contact are a
+//! [`Condensed`]. The models of one degree of freedom are a [`Reduced`].
 //!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
 //! is allowed. [`Case::load`] does all of it:
@@ -49,6 +50,7 @@
 
 mod available;
 mod case;
+mod condensed;
 mod document;
 mod effects;
 mod error;
@@ -74,6 +76,7 @@ mod units;
 mod validate;
 
 pub use case::Case;
+pub use condensed::{Condensed, Options as CondensedOptions, PairCache};
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;

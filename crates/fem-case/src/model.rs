@@ -2,6 +2,8 @@
 
 use fem_laws::{EndRule, Family};
 
+use crate::condensed::Options;
+
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -9,6 +11,8 @@ pub enum Model {
     /// Explicit finite elements.
     #[default]
     Fem,
+    /// Linear finite elements condensed to their contact nodes.
+    Condensed(Options),
     /// Elastic half-spaces.
     Hertz {
         /// Whether the spheres' finite size adds to the approach.
@@ -37,6 +41,7 @@ impl Model {
     pub fn name(&self) -> &'static str {
         match self {
             Model::Fem => "fem",
+            Model::Condensed(_) => "condensed",
             Model::Hertz { .. } => "hertz",
             Model::Ting { .. } => "ting",
             Model::Law { .. } => "law",

@@ -17,7 +17,7 @@ pub struct ModelTable {
     pub fem: Option<EmptyTable>,
     /// Linear bodies condensed to their contact nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub condensed: Option<toml::Table>,
+    pub condensed: Option<CondensedTable>,
     /// Quasi-static viscoelastic half-space.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ting: Option<TingTable>,
@@ -30,6 +30,21 @@ pub struct ModelTable {
     /// The cheapest that serves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub auto: Option<toml::Table>,
+}
+
+/// `condensed = { … }`.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { vibration_modes = 12 }")]
+pub struct CondensedTable {
+    /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vibration_modes: Option<Quantity<Number>>,
+    /// Steps over the elastic contact time, 50 to 100,000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Quantity<Number>>,
+    /// Whether the penalty springs of model fem resist overlap; false: nothing overlaps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub penalty_springs: Option<bool>,
 }
 
 /// `ting = { … }`.

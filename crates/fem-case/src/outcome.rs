@@ -3,7 +3,9 @@
 
 use std::fmt;
 
+use fem_condensed::CondensedError;
 use fem_explicit::{Collision, Stop};
+use fem_field::Snapshot;
 use fem_laws::LawError;
 
 use crate::problem::Problem;
@@ -46,8 +48,10 @@ pub struct Outcome {
     pub halt: Option<Halt>,
     /// What the user should know.
     pub warnings: Vec<String>,
-    /// With the fields of finite elements.
+    /// Of the explicit model.
     pub collision: Option<Box<Collision>>,
+    /// Fields of finite elements, in the order of time.
+    pub snapshots: Vec<Snapshot>,
 }
 
 /// One body after a collision.
@@ -103,6 +107,20 @@ pub enum Halt {
     Fem(Stop),
     /// A reduced model.
     Law(LawError),
+    /// Condensed bodies.
+    Condensed(CondensedError),
+}
+
+impl From<LawError> for Halt {
+    fn from(error: LawError) -> Self {
+        Self::Law(error)
+    }
+}
+
+impl From<CondensedError> for Halt {
+    fn from(error: CondensedError) -> Self {
+        Self::Condensed(error)
+    }
 }
 
 impl fmt::Display for Halt {
@@ -110,6 +128,7 @@ impl fmt::Display for Halt {
         match self {
             Halt::Fem(stop) => stop.fmt(f),
             Halt::Law(error) => error.fmt(f),
+            Halt::Condensed(error) => error.fmt(f),
         }
     }
 }
@@ -121,7 +140,7 @@ impl Outcome {
     }
 
     /// Nothing, and why.
-    pub(crate) fn halted(error: LawError) -> Self {
+    pub(crate) fn halted(halt: Halt) -> Self {
         Self {
             restitution: None,
             contact_time: None,
@@ -138,14 +157,15 @@ impl Outcome {
             steps: None,
             element_updates: None,
             history: Vec::new(),
-            halt: Some(Halt::Law(error)),
+            halt: Some(halt),
             warnings: Vec::new(),
             collision: None,
+            snapshots: Vec::new(),
         }
     }
 
     /// Of finite elements.
-    pub(crate) fn of_fem(problem: &Problem, collision: Collision) -> Self {
+    pub(crate) fn of_fem(problem: &Problem, mut collision: Collision) -> Self {
         let is_complete = collision.stopped.is_none();
         let ends = collision.first_contact.zip(collision.last_contact);
         Self {
@@ -167,6 +187,7 @@ impl Outcome {
             history: collision.history.iter().map(OutcomeRow::of_fem).collect(),
             halt: collision.stopped.clone().map(Halt::Fem),
             warnings: collision.warnings.clone(),
+            snapshots: std::mem::take(&mut collision.snapshots),
             collision: Some(Box::new(collision)),
         }
     }

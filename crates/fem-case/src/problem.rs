@@ -4,6 +4,7 @@ use std::path::Path;
 
 use fem_explicit::{
     BodyInput, Collision, Model, ModelError, Monitor, RunSettings, Settings, Stop, collide,
+    n_states,
 };
 use fem_mesh::{HalfDisc, MeshError, Quality, Side, SphereMesh};
 use fem_vtk::read_quad_mesh;
@@ -212,7 +213,7 @@ fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
 }
 
 fn state_memory(plan: &Plan, elements: u64) -> u64 {
-    (elements * BYTES_PER_STATE).saturating_mul(plan.snapshots.n_states() as u64)
+    (elements * BYTES_PER_STATE).saturating_mul(n_states(&plan.snapshots) as u64)
 }
 
 fn check_elements(case: &Case, plan: &Plan, elements: u64) -> Result<(), CaseError> {

@@ -5,6 +5,7 @@ use fem_explicit::Monitor;
 use fem_laws::HertzImpact;
 
 use crate::case::Case;
+use crate::condensed::{Condensed, PairCache};
 use crate::effects::Effect;
 use crate::error::CaseError;
 use crate::model::Model;
@@ -19,6 +20,8 @@ use crate::schema::CaseFile;
 pub enum Simulation {
     /// Explicit finite elements.
     Fem(Box<Problem>),
+    /// Linear finite elements condensed to their contact.
+    Condensed(Box<Condensed>),
     /// One degree of freedom: Hertz, Ting, contact laws.
     Reduced(Box<Reduced>),
 }
@@ -29,8 +32,17 @@ impl Simulation {
     /// # Errors
     /// What the model refuses; see [`Problem::new`] and [`Reduced::new`].
     pub fn new(case: Case) -> Result<Self, CaseError> {
+        Self::with_cache(case, &PairCache::default())
+    }
+
+    /// The same; condensed bodies are taken from the cache where it has them.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn with_cache(case: Case, cache: &PairCache) -> Result<Self, CaseError> {
         Ok(match case.scene.model {
             Model::Fem => Self::Fem(Box::new(Problem::new(case)?)),
+            Model::Condensed(_) => Self::Condensed(Box::new(Condensed::new(case, cache)?)),
             _ => Self::Reduced(Box::new(Reduced::new(case)?)),
         })
     }
@@ -42,6 +54,7 @@ impl Simulation {
     pub fn resolve(case: Case) -> Result<CaseFile, CaseError> {
         match case.scene.model {
             Model::Fem => Ok(Plan::of(&case)?.resolve(&case)),
+            Model::Condensed(_) => Condensed::resolve_case(&case),
             _ => Ok(Reduced::new(case)?.resolve()),
         }
     }
@@ -50,6 +63,7 @@ impl Simulation {
     pub fn case(&self) -> &Case {
         match self {
             Self::Fem(problem) => &problem.case,
+            Self::Condensed(condensed) => &condensed.case,
             Self::Reduced(reduced) => &reduced.case,
         }
     }
@@ -58,6 +72,7 @@ impl Simulation {
     pub fn resolved(&self) -> CaseFile {
         match self {
             Self::Fem(problem) => problem.plan.resolve(&problem.case),
+            Self::Condensed(condensed) => condensed.resolve(),
             Self::Reduced(reduced) => reduced.resolve(),
         }
     }
@@ -66,6 +81,7 @@ impl Simulation {
     pub fn hertz(&self) -> &HertzImpact {
         match self {
             Self::Fem(problem) => &problem.plan.estimate.hertz,
+            Self::Condensed(condensed) => &condensed.plan.estimate.hertz,
             Self::Reduced(reduced) => &reduced.estimate.hertz,
         }
     }
@@ -74,6 +90,7 @@ impl Simulation {
     pub fn effects(&self) -> Vec<Effect> {
         match self {
             Self::Fem(problem) => problem.effects(),
+            Self::Condensed(condensed) => condensed.effects.clone(),
             Self::Reduced(reduced) => reduced.effects.clone(),
         }
     }
@@ -82,15 +99,21 @@ impl Simulation {
     pub fn warnings(&self) -> &[String] {
         match self {
             Self::Fem(problem) => &problem.plan.warnings,
+            Self::Condensed(condensed) => &condensed.warnings,
             Self::Reduced(reduced) => &reduced.warnings,
         }
     }
 
-    /// Element updates to come: what runs are ordered by. A reduced model takes microseconds.
-    pub fn element_updates(&self) -> u64 {
-        match self {
-            Self::Fem(problem) => problem.cost.element_updates,
-            Self::Reduced(_) => 0,
+    /// Element updates to come, what runs are ordered by, of a case that could run: a factor takes
+    /// milliseconds and is not made, a reduced model takes microseconds.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`], but for a stiffness that cannot be factored.
+    pub fn price(case: Case) -> Result<u64, CaseError> {
+        match case.scene.model {
+            Model::Fem => Ok(Problem::new(case)?.cost.element_updates),
+            Model::Condensed(_) => Condensed::check(&case).map(|()| 0),
+            _ => Reduced::new(case).map(|_| 0),
         }
     }
 
@@ -101,6 +124,7 @@ impl Simulation {
                 let collision = problem.run(monitor);
                 Outcome::of_fem(problem, collision)
             }
+            Self::Condensed(condensed) => condensed.run(),
             Self::Reduced(reduced) => reduced.run(),
         }
     }

@@ -126,7 +126,7 @@ fn faults_point_at_their_key() {
     fault("law = { hertz = «[]» }", "is an array", "table");
     fault("hertz = { finite_size = «1» }", "finite_size is an integer", "boolean");
     fault("ting = { tolerance = «\"1 m\"» }", "wants a plain number", "");
-    fault("auto = «{}»", "not available", "fem, ting, hertz and law");
+    fault("auto = «{}»", "not available", "fem, condensed, ting, hertz and law");
     // Only the relaxation that is there has a slow limit, and this glass flows.
     fault("law = { kuwabara_kono = «{}» }", "flows", "give a");
 }

@@ -171,7 +171,6 @@ fn of_keys_that_contradict_each_other_the_override_is_to_blame() {
         ("body.1.name", "'a'"),
         ("body.1.approach_speed", "-1"),
         ("model.auto", "{}"),
-        ("model.condensed", "{}"),
     ] {
         let error = parse(&[format!("{key}={value}"), "start.gap=0".to_string()]).unwrap_err();
         assert_eq!(error.source_name(), format!("--set {key}=…"), "{error}");

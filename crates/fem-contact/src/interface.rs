@@ -4,25 +4,25 @@ use std::f64::consts::PI;
 
 use crate::{ContactError, Surface};
 
-/// One body's end of an integration point.
+/// One body's end of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Foot {
+pub struct Foot {
     /// Nodes at the inner and the outer end of the segment.
     pub nodes: [u32; 2],
     /// Their shape functions at the point; they sum to 1.
     pub shape: [f64; 2],
 }
 
-/// A Gauss point of the common interface.
+/// A point at which the bodies can touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Point {
+pub struct ContactPoint {
     /// Distance from the axis, m.
     pub radius: f64,
     /// Share of the plane's area, 2πr dr, m².
     pub area: f64,
     /// Gap of the undeformed arcs, m.
     pub initial_gap: f64,
-    /// Penalty stiffness per area, Pa/m.
+    /// Penalty stiffness per area, Pa/m; infinite where no overlap is allowed.
     pub stiffness: f64,
     /// Lower and upper body.
     pub feet: [Foot; 2],
@@ -31,7 +31,7 @@ pub(crate) struct Point {
 /// All points at which two bodies can touch, from the axis outward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactInterface {
-    pub(crate) points: Vec<Point>,
+    pub(crate) points: Vec<ContactPoint>,
     pub(crate) surfaces: [Surface; 2],
     candidate_radius: f64,
 }
@@ -80,19 +80,12 @@ impl ContactInterface {
                 let radius = middle + offset;
                 let located = surfaces.each_ref().map(|surface| surface.locate(radius));
                 let length = mean_length(&surfaces, located.map(|(segment, _)| segment));
-                points.push(Point {
+                points.push(ContactPoint {
                     radius,
                     area: 2.0 * PI * radius * half,
                     initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
                     stiffness: stiffness / length,
-                    feet: std::array::from_fn(|side| {
-                        let (segment, share) = located[side];
-                        let nodes = &surfaces[side].nodes;
-                        Foot {
-                            nodes: [nodes[segment], nodes[segment + 1]],
-                            shape: [1.0 - share, share],
-                        }
-                    }),
+                    feet: std::array::from_fn(|side| surfaces[side].foot(located[side])),
                 });
             }
         }
@@ -105,6 +98,11 @@ impl ContactInterface {
         self.candidate_radius
     }
 
+    /// The Gauss points, from the axis outward.
+    pub fn points(&self) -> &[ContactPoint] {
+        &self.points
+    }
+
     /// Number of integration points.
     pub fn n_points(&self) -> usize {
         self.points.len()
@@ -112,13 +110,7 @@ impl ContactInterface {
 
     /// Nodes of a side (0 lower, 1 upper) out to the candidate radius.
     pub fn candidate_nodes(&self, side: usize) -> impl Iterator<Item = u32> + '_ {
-        let surface = &self.surfaces[side];
-        let n = if surface.is_wall() {
-            1
-        } else {
-            surface.radii.partition_point(|&r| r <= self.candidate_radius * (1.0 + 1e-12))
-        };
-        surface.nodes[..n].iter().copied()
+        self.surfaces[side].nodes_within(self.candidate_radius).iter().copied()
     }
 
     /// Adds a bound of the contact stiffness at each node (N/m) of a side

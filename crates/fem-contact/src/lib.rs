@@ -24,10 +24,13 @@
 mod error;
 mod evaluate;
 mod interface;
+mod nodal;
 mod pressure;
 mod surface;
 
 pub use error::ContactError;
 pub use evaluate::ContactForces;
-pub use interface::ContactInterface;
+pub use interface::{ContactInterface, ContactPoint, Foot};
+pub use nodal::nodal_points;
+pub use pressure::centre_pressure;
 pub use surface::Surface;

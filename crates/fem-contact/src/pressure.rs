@@ -64,30 +64,40 @@ impl ContactInterface {
     /// their areas are, and √α returned; with fewer than four nodes there, or
     /// a fit that rises outward from nothing, the axis node's own value.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let limit = FIT_RADIUS * self.contact_radius(u);
         let side = usize::from(self.surfaces[0].is_wall());
         let spacing = self.surfaces[side].segment_length(0);
-        let (mut own, mut n_inside) = (0.0, 0);
-        let mut sums = [0.0; 5];
-        for (node, (r, p)) in self.nodal_pressure(u).enumerate() {
-            if node == 0 {
-                own = p;
-            }
-            if r >= limit {
-                break;
-            }
-            n_inside += 1;
-            let (weight, x, y) = (r.max(0.25 * spacing), (r / limit).powi(2), p * p);
-            let terms = [1.0, x, x * x, y, x * y];
-            for (sum, term) in sums.iter_mut().zip(terms) {
-                *sum += weight * term;
-            }
-        }
-        if n_inside < FIT_NODES {
-            return own;
-        }
-        let [s0, s1, s2, y0, y1] = sums;
-        let squared = (y0 * s2 - y1 * s1) / (s0 * s2 - s1 * s1);
-        if squared > 0.0 { squared.sqrt() } else { own }
+        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), spacing)
     }
+}
+
+/// Pressure on the axis (Pa) of pressures at nodes, (r in m, p in Pa) from the axis outward, for a
+/// contact radius and an element size on the axis (m); see [`ContactInterface::centre_pressure`].
+pub fn centre_pressure(
+    nodes: impl Iterator<Item = (f64, f64)>,
+    contact_radius: f64,
+    spacing: f64,
+) -> f64 {
+    let limit = FIT_RADIUS * contact_radius;
+    let (mut own, mut n_inside) = (0.0, 0);
+    let mut sums = [0.0; 5];
+    for (node, (r, p)) in nodes.enumerate() {
+        if node == 0 {
+            own = p;
+        }
+        if r >= limit {
+            break;
+        }
+        n_inside += 1;
+        let (weight, x, y) = (r.max(0.25 * spacing), (r / limit).powi(2), p * p);
+        let terms = [1.0, x, x * x, y, x * y];
+        for (sum, term) in sums.iter_mut().zip(terms) {
+            *sum += weight * term;
+        }
+    }
+    if n_inside < FIT_NODES {
+        return own;
+    }
+    let [s0, s1, s2, y0, y1] = sums;
+    let squared = (y0 * s2 - y1 * s1) / (s0 * s2 - s1 * s1);
+    if squared > 0.0 { squared.sqrt() } else { own }
 }

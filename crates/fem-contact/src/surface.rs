@@ -2,6 +2,8 @@
 
 use fem_mesh::SphereMesh;
 
+use crate::interface::Foot;
+
 /// The touching side of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
@@ -36,6 +38,21 @@ impl Surface {
     /// Whether this is the rigid plane.
     pub fn is_wall(&self) -> bool {
         self.curvature == 0.0
+    }
+
+    /// Nodes with r ≤ `radius` (m), from the axis outward; a wall has one.
+    pub fn nodes_within(&self, radius: f64) -> &[u32] {
+        let n = if self.is_wall() {
+            1
+        } else {
+            self.radii.partition_point(|&r| r <= radius * (1.0 + 1e-12))
+        };
+        &self.nodes[..n]
+    }
+
+    /// Where a segment carries a point, given as [`Surface::locate`] finds it.
+    pub(crate) fn foot(&self, (segment, share): (usize, f64)) -> Foot {
+        Foot { nodes: [self.nodes[segment], self.nodes[segment + 1]], shape: [1.0 - share, share] }
     }
 
     /// Distance of the true arc from the plane through its pole, m.

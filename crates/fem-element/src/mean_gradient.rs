@@ -38,23 +38,30 @@ impl QuadGeometry {
 pub fn mean_gradient(geometry: &QuadGeometry) -> ElementStiffness {
     let dilatation = geometry.dilatation();
     let bulk = dilatation * dilatation.transpose() * geometry.volume;
-    let strain = |i: usize| {
-        let mut u = [[0.0; 2]; 4];
-        u[i / 2][i % 2] = 1.0;
-        geometry.mean_strain(&u)
-    };
-    let [k_rr, k_yy, k_ry] = geometry.hourglass_stiffness();
-    let deviatoric = ElementMatrix::from_fn(|i, j| {
-        let (e, f) = (strain(i), strain(j));
-        let trace = (e[0] + e[1] + e[2]) * (f[0] + f[1] + f[2]);
-        let product = e[0] * f[0] + e[1] * f[1] + e[2] * f[2];
-        let k = match (i % 2, j % 2) {
-            (0, 0) => k_rr,
-            (1, 1) => k_yy,
-            _ => k_ry,
-        };
-        geometry.volume * (2.0 * (product - trace / 3.0) + e[3] * f[3])
-            + k * geometry.hourglass[i / 2] * geometry.hourglass[j / 2]
+    let strains: [[f64; 4]; 8] = std::array::from_fn(|i| {
+        let a = i / 2;
+        if i % 2 == 0 {
+            [geometry.gradient_r[a], 0.0, geometry.hoop[a], geometry.gradient_y[a]]
+        } else {
+            [0.0, geometry.gradient_y[a], 0.0, geometry.gradient_r[a]]
+        }
     });
+    let [k_rr, k_yy, k_ry] = geometry.hourglass_stiffness();
+    let mut deviatoric = ElementMatrix::zeros();
+    for (i, e) in strains.iter().enumerate() {
+        for (j, f) in strains[..=i].iter().enumerate() {
+            let trace = (e[0] + e[1] + e[2]) * (f[0] + f[1] + f[2]);
+            let product = e[0] * f[0] + e[1] * f[1] + e[2] * f[2];
+            let k = match (i % 2, j % 2) {
+                (0, 0) => k_rr,
+                (1, 1) => k_yy,
+                _ => k_ry,
+            };
+            let value = geometry.volume * (2.0 * (product - trace / 3.0) + e[3] * f[3])
+                + k * geometry.hourglass[i / 2] * geometry.hourglass[j / 2];
+            deviatoric[(i, j)] = value;
+            deviatoric[(j, i)] = value;
+        }
+    }
     ElementStiffness { bulk, deviatoric }
 }

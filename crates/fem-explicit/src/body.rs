@@ -1,7 +1,8 @@
 //! One body as the solver sees it: constant over a run.
 
+use fem_field::{BodyFields, StressField};
 use fem_material::{ActsOn, Material, RelaxationStep};
-use fem_mesh::{SphereMesh, cap_volume};
+use fem_mesh::SphereMesh;
 
 use crate::block::Blocks;
 use crate::kernel::{Field, Moduli, strain_energy};
@@ -59,6 +60,7 @@ pub struct Body {
     pub(crate) inverse_mass: Vec<[f64; 2]>,
     pub(crate) velocity: f64,
     mesh: Option<SphereMesh>,
+    material: Option<Material>,
     mass: f64,
     added_mass: f64,
 }
@@ -74,6 +76,7 @@ impl Body {
             inverse_mass: vec![[0.0; 2]],
             velocity,
             mesh: None,
+            material: None,
             mass: f64::INFINITY,
             added_mass: 0.0,
         }
@@ -124,6 +127,7 @@ impl Body {
             inverse_mass,
             velocity,
             mesh: Some(mesh),
+            material: Some(material.clone()),
             mass,
             added_mass,
         }
@@ -132,6 +136,24 @@ impl Body {
     /// Its mesh; a wall has none.
     pub fn mesh(&self) -> Option<&SphereMesh> {
         self.mesh.as_ref()
+    }
+
+    /// Lumped masses of the nodes, mass scaling included, kg; a wall's one node has none.
+    pub fn nodal_mass(&self) -> &[f64] {
+        &self.nodal_mass
+    }
+
+    /// Its material; a wall has none.
+    pub fn material(&self) -> Option<&Material> {
+        self.material.as_ref()
+    }
+
+    /// Stress of its fields; a wall has none.
+    pub fn stress(&self, fields: &BodyFields) -> StressField {
+        match (&self.mesh, &self.material) {
+            (Some(mesh), Some(material)) => StressField::of(mesh, material, fields),
+            _ => StressField::default(),
+        }
     }
 
     /// Mass without mass scaling, kg; infinite for a wall.
@@ -206,22 +228,4 @@ impl Body {
         }
         (stored, power)
     }
-}
-
-/// Lumped masses of a homogeneous sphere, kg. What the chords of the boundary
-/// cut off is given to the boundary's nodes, so that the sum is ρπD³/6 exactly.
-pub(crate) fn lump_mass(mesh: &SphereMesh, density: f64, nodal_volumes: &[[f64; 4]]) -> Vec<f64> {
-    let mut mass = vec![0.0; mesh.nodes().len()];
-    for (quad, volumes) in mesh.quads().iter().zip(nodal_volumes) {
-        for (&node, volume) in quad.iter().zip(volumes) {
-            mass[node as usize] += density * volume;
-        }
-    }
-    for segment in mesh.surface().windows(2) {
-        let [start, end] = [segment[0], segment[1]].map(|node| mesh.nodes()[node as usize]);
-        let half = 0.5 * density * cap_volume(start, end, mesh.radius());
-        mass[segment[0] as usize] += half;
-        mass[segment[1] as usize] += half;
-    }
-    mass
 }

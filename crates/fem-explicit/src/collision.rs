@@ -1,11 +1,12 @@
 //! A run from first touch to separation.
 
+use fem_field::{Snapshot, SnapshotRequest};
+
 use crate::error::Stop;
 use crate::history::{History, HistoryRow, RowKind};
 use crate::ledger::Ledger;
 use crate::model::Model;
 use crate::recorder::{Instant, Recorder};
-use crate::snapshot::{Snapshot, SnapshotRequest};
 use crate::state::{Scratch, State};
 use crate::step::{advance, is_closed_next, update_forces};
 

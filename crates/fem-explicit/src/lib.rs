@@ -14,12 +14,13 @@
 //! [`collide`] runs a [`Model`] from first touch until the bodies have separated
 //! and returns a [`Collision`]: history with energy ledger, snapshots, and the
 //! quantities of the collision. [`StressField`] recovers stresses from a
-//! snapshot.
+//! snapshot. [`FreeMotion`] is one body without contact.
 
 mod block;
 mod body;
 mod collision;
 mod error;
+mod free_motion;
 mod history;
 mod kernel;
 mod lanes;
@@ -30,7 +31,6 @@ mod recorder;
 mod snapshot;
 mod state;
 mod step;
-mod stress;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]
@@ -40,7 +40,8 @@ mod time_step;
 pub use body::{Body, BodyInput};
 pub use collision::{Collision, Monitor, Progress, RunSettings, collide};
 pub use error::{ModelError, Stop};
+pub use fem_field::{BodyFields, Label, Snapshot, SnapshotRequest, StressField, invariants};
+pub use free_motion::FreeMotion;
 pub use history::HistoryRow;
 pub use model::{Model, Settings};
-pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
-pub use stress::{StressField, invariants};
+pub use snapshot::n_states;

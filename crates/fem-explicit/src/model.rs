@@ -140,9 +140,7 @@ impl BodyInput {
 fn check(settings: &Settings) -> Result<(), ModelError> {
     let &Settings { step_factor, mass_scaling, gap, .. } = settings;
     let setting = |name, value, allowed| Err(ModelError::Setting { name, value, allowed });
-    if !(step_factor > 0.0 && step_factor <= 1.0) {
-        return setting("step factor", step_factor, "above 0 and at most 1");
-    }
+    check_step_factor(step_factor)?;
     if !(0.0..1.0).contains(&mass_scaling) {
         return setting("mass scaling", mass_scaling, "at least 0 and below 1");
     }
@@ -150,4 +148,11 @@ fn check(settings: &Settings) -> Result<(), ModelError> {
         return setting("gap", gap, "at least 0");
     }
     Ok(())
+}
+
+pub(crate) fn check_step_factor(value: f64) -> Result<(), ModelError> {
+    if value > 0.0 && value <= 1.0 {
+        return Ok(());
+    }
+    Err(ModelError::Setting { name: "step factor", value, allowed: "above 0 and at most 1" })
 }

@@ -6,8 +6,10 @@
 //! Snapshots spread evenly over the contact need its length; states are kept at
 //! an even spacing that doubles whenever there are too many.
 
+use fem_field::{Label, Snapshot, SnapshotRequest};
+
 use crate::model::Model;
-use crate::snapshot::{Label, Snapshot, SnapshotRequest};
+use crate::snapshot::{in_free_flight, take};
 use crate::state::{Scratch, State};
 
 /// Growth of the approach from rung to rung: the nearest to half of the maximum
@@ -64,7 +66,7 @@ impl Recorder {
         if let SnapshotRequest::Times(times) = &mut request {
             times.sort_by(f64::total_cmp);
             let in_flight = times.iter().take_while(|&&time| time < model.first_touch());
-            kept.extend(in_flight.map(|&time| Snapshot::in_free_flight(model, time)));
+            kept.extend(in_flight.map(|&time| in_free_flight(model, time)));
         }
         let spacing = match request {
             SnapshotRequest::Count(n) => 2.0 * expected_contact_time / n_kept(n) as f64,
@@ -87,8 +89,8 @@ impl Recorder {
     /// Keeps the state at t_n if it may be asked for.
     pub fn observe(&mut self, model: &Model, state: &State, scratch: &Scratch, now: Instant) {
         let copy = |recycled: Option<Snapshot>, label: Option<Label>| {
-            let mut snapshot = recycled.unwrap_or_else(Snapshot::empty);
-            snapshot.take(model, state, scratch, now.approach, label);
+            let mut snapshot = recycled.unwrap_or_default();
+            take(&mut snapshot, model, state, scratch, now.approach, label);
             snapshot
         };
         let wants_last = match &self.request {
@@ -163,7 +165,7 @@ impl Recorder {
             k += 1;
             let keep = k % 2 == 1;
             if !keep {
-                pool.push(std::mem::replace(snapshot, Snapshot::empty()));
+                pool.push(std::mem::take(snapshot));
             }
             keep
         });

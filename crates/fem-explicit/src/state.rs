@@ -1,5 +1,6 @@
 //! What changes in a run.
 
+use crate::body::Body;
 use crate::model::Model;
 
 /// State of a body at time t_n; velocities belong to t_n − Δt/2.
@@ -36,19 +37,22 @@ impl State {
     /// The bodies at first touch, undeformed.
     pub fn at_first_touch(model: &Model) -> Self {
         let time = model.first_touch();
-        let bodies = model.bodies().each_ref().map(|body| {
-            let n = body.nodal_mass.len();
-            let u = vec![[0.0, body.velocity * time]; n];
-            let v = vec![[0.0, body.velocity]; n];
-            let n_branches = body.n_branches();
-            let w = if n_branches > 0 { vec![[0.0; 2]; n] } else { Vec::new() };
-            // Rigid motion strains nothing: the branches start at zero.
-            BodyState { u, v, w, q: vec![vec![[0.0; 2]; n]; n_branches] }
-        });
-        let mut state = Self { step: 0, time, bodies };
-        for (body, state) in model.bodies().iter().zip(&mut state.bodies) {
-            state.update_effective(body);
-        }
+        let bodies = model.bodies().each_ref().map(|body| BodyState::in_flight(body, time));
+        Self { step: 0, time, bodies }
+    }
+}
+
+impl BodyState {
+    /// Undeformed, after a time (s) of free flight.
+    pub fn in_flight(body: &Body, time: f64) -> Self {
+        let n = body.nodal_mass.len();
+        let u = vec![[0.0, body.velocity * time]; n];
+        let v = vec![[0.0, body.velocity]; n];
+        let n_branches = body.n_branches();
+        let w = if n_branches > 0 { vec![[0.0; 2]; n] } else { Vec::new() };
+        // Rigid motion strains nothing: the branches start at zero.
+        let mut state = Self { u, v, w, q: vec![vec![[0.0; 2]; n]; n_branches] };
+        state.update_effective(body);
         state
     }
 }

@@ -52,7 +52,8 @@ pub(crate) fn is_closed_next(model: &Model, state: &State, scratch: &Scratch) ->
     model.interface().is_closed([next(0), next(1)])
 }
 
-fn update_internal_forces(body: &Body, state: &BodyState, forces: &mut [[f64; 2]]) {
+/// Internal forces alone, by their sign on the nodes.
+pub(crate) fn update_internal_forces(body: &Body, state: &BodyState, forces: &mut [[f64; 2]]) {
     forces.fill([0.0; 2]);
     match &body.relaxation {
         None => subtract_internal_forces(&body.blocks, body.moduli, &state.u, forces),
@@ -69,7 +70,13 @@ fn update_internal_forces(body: &Body, state: &BodyState, forces: &mut [[f64; 2]
     }
 }
 
-fn advance_body(body: &Body, time_step: f64, state: &mut BodyState, forces: &[[f64; 2]]) {
+/// Moves one body to the next time.
+pub(crate) fn advance_body(
+    body: &Body,
+    time_step: f64,
+    state: &mut BodyState,
+    forces: &[[f64; 2]],
+) {
     advance_motion(time_step, &body.inverse_mass, forces, &mut state.v, &mut state.u);
     if let Some(relaxation) = &body.relaxation {
         start_effective(relaxation.equilibrium_weight, &state.u, &mut state.w);

@@ -17,9 +17,7 @@
 
 use fem_element::{QuadGeometry, largest_eigenvalue, mean_gradient};
 use fem_material::Material;
-use fem_mesh::SphereMesh;
-
-use crate::body::lump_mass;
+use fem_mesh::{SphereMesh, lump_mass};
 
 /// Masses of a body's nodes and a bound of the stiffness that pulls at them.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,6 +2,7 @@
 //!
 //! A [`Chart`] is drawn by [`kuva`]; what is said here is the house style: colours that
 //! colour-blind eyes tell apart, short tick labels, room around the data of logarithmic axes.
+//! Fields on a section are drawn by [`contour`].
 //!
 //! ```
 //! use fem_figure::{Axis, Chart, Curve};

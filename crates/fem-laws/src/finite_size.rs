@@ -24,33 +24,32 @@
 //! −2(1−2ν): a quarter for the force, three for the displacement. So this is the linear theory
 //! that small-strain finite elements with contact along the axis approach; finite rotation of
 //! the surface is of the same order in a/R. Limits: a/R at most [`FiniteSize::MAX_CONTACT_RATIO`].
+//!
+//! A relaxing sphere has c/E of its moduli in Carson's transform, and F is E*(s) times the
+//! pseudo-force K u^(3/2). With E*(s)/E*₀ = g∞ + Σ g_k s/(s+p_k) of [`crate::PairRelaxation`],
+//!
+//! ```math
+//! m(s) = \sum_i\frac{c_i}{E_iR_i}(s)\,\frac{E^*(s)}{E^*_0}
+//! = m_\infty + \sum_k \frac{m_k\,s}{s+p_k}, \qquad
+//! m_k = g_k \sum_i\frac{c_i}{E_iR_i}(-p_k), \quad m_\infty + \sum_k m_k = m(\infty),
+//! ```
+//!
+//! since the poles of c/E are zeros of E*. So δ − u is m∞ w + Σ m_k ∫ e^(−p_k(t−s)) dw of the
+//! pseudo-force w. If both bodies relax alike with constant ν, c/E falls at every p_k to 0: the
+//! correction is the instantaneous one. With an elastic bulk modulus ν rises as the shear modulus
+//! relaxes, and the correction of glass grows by some per cent of itself.
 
 use fem_material::Material;
 
-use crate::error::{LawError, positive};
+use crate::PairRelaxation;
+use crate::error::LawError;
+use crate::finite_correction::{Correction, RelaxingCorrection};
+use crate::sphere_compliance::{Parts, SphereCompliance};
 
-/// The finite size of up to two spheres, at their instantaneous moduli.
+/// The finite size of up to two spheres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FiniteSize {
     spheres: Vec<SphereCompliance>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct SphereCompliance {
-    radius: f64,
-    /// 1/(E R), 1/(Pa m).
-    unit: f64,
-    /// c at R = a.
-    constant: f64,
-    /// dc/d ln(R/a).
-    slope: f64,
-}
-
-/// δ = u + u^(3/2)(α − β ln u): the approach of Hertz u and the whole one, in units of a length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Correction {
-    alpha: f64,
-    beta: f64,
 }
 
 impl FiniteSize {
@@ -60,36 +59,61 @@ impl FiniteSize {
     /// Of the radius, m, and the material of each body; `None` is the rigid wall.
     ///
     /// # Errors
-    /// A radius that is not positive and finite.
+    /// A radius that is not positive and finite; relaxation times that leave the range of f64.
     pub fn new(
         first: Option<(f64, &Material)>,
         second: Option<(f64, &Material)>,
     ) -> Result<Self, LawError> {
-        let spheres = [first, second].into_iter().flatten().map(|(radius, material)| {
-            let radius = positive("radius", radius)?;
-            let moduli = material.instantaneous();
-            let (constant, slope) = coefficient(moduli.poissons_ratio());
-            let unit = (moduli.youngs_modulus() * radius).recip();
-            Ok(SphereCompliance { radius, unit, constant, slope })
-        });
+        let spheres = [first, second].into_iter().flatten();
+        let spheres = spheres.map(|(radius, material)| SphereCompliance::new(radius, material));
         Ok(Self { spheres: spheres.collect::<Result<_, LawError>>()? })
     }
 
-    /// What is added to Hertz' approach, m, at a force, N, and a contact radius, m.
+    /// What is added to Hertz' approach, m, at a force, N, and a contact radius, m, before any
+    /// relaxation.
     pub fn added_approach(&self, force: f64, contact_radius: f64) -> f64 {
-        let coefficient = |sphere: &SphereCompliance| {
-            sphere.unit * (sphere.constant + sphere.slope * (sphere.radius / contact_radius).ln())
-        };
-        force * self.spheres.iter().map(coefficient).sum::<f64>()
+        let instantaneous = SphereCompliance::instantaneous;
+        force * self.compliance(contact_radius, instantaneous)
     }
 
-    /// In units of `length`, where the force is `force` u^(3/2) and a = `contact_radius` √u.
-    pub(crate) fn correction(&self, length: f64, force: f64, contact_radius: f64) -> Correction {
-        Correction {
-            alpha: self.added_approach(force, contact_radius) / length,
+    /// In units of `length`, where the force is `force` u^(3/2), a = `contact_radius` √u, and
+    /// the force relaxes as `relaxation`.
+    pub(crate) fn correction(
+        &self,
+        length: f64,
+        force: f64,
+        contact_radius: f64,
+        relaxation: &PairRelaxation,
+    ) -> RelaxingCorrection {
+        let part = |coefficient: &dyn Fn(&SphereCompliance) -> Parts| Correction {
+            alpha: force * self.compliance(contact_radius, coefficient) / length,
             beta: 0.5 * force / length
-                * self.spheres.iter().map(|sphere| sphere.unit * sphere.slope).sum::<f64>(),
+                * self
+                    .spheres
+                    .iter()
+                    .map(|sphere| sphere.unit() * coefficient(sphere)[1])
+                    .sum::<f64>(),
+        };
+        let terms = relaxation.terms().iter();
+        let fading: Vec<_> = terms.map(|term| part(&|sphere| sphere.fading(term))).collect();
+        let mut equilibrium = part(&SphereCompliance::instantaneous);
+        for fading in &fading {
+            equilibrium.add(fading, -1.0);
         }
+        RelaxingCorrection { equilibrium, fading }
+    }
+
+    /// Σ c/(E R), 1/(Pa m), with the coefficients c at R = a and their slopes.
+    fn compliance(
+        &self,
+        contact_radius: f64,
+        coefficient: impl Fn(&SphereCompliance) -> Parts,
+    ) -> f64 {
+        let of_sphere = |sphere: &SphereCompliance| {
+            let [constant, slope] = coefficient(sphere);
+            sphere.unit() * (constant + slope * (sphere.radius() / contact_radius).ln())
+        };
+        self.spheres.iter().map(of_sphere).sum()
     }
 
     /// Whether the first order holds for a contact radius, m.
@@ -98,7 +122,7 @@ impl FiniteSize {
     /// A contact too large.
     pub fn check(&self, contact_radius: f64) -> Result<(), LawError> {
         let smallest =
-            self.spheres.iter().map(|sphere| sphere.radius).fold(f64::INFINITY, f64::min);
+            self.spheres.iter().map(SphereCompliance::radius).fold(f64::INFINITY, f64::min);
         let value = contact_radius / smallest;
         if value <= Self::MAX_CONTACT_RATIO {
             Ok(())
@@ -110,40 +134,8 @@ impl FiniteSize {
     }
 }
 
-impl Correction {
-    /// Of half-spaces.
-    pub const NONE: Self = Self { alpha: 0.0, beta: 0.0 };
-
-    /// ∫F dδ of an elastic contact up to Hertz' u: with w = u^(3/2) the second part is ∫w dδ₂.
-    pub fn strain_energy(&self, hertz: f64) -> f64 {
-        let half_space = 0.4 * hertz * hertz * hertz.sqrt();
-        if *self == Self::NONE || hertz == 0.0 {
-            return half_space;
-        }
-        let cube = hertz * hertz * hertz;
-        half_space + cube * (0.5 * (self.alpha - self.beta * hertz.ln()) - self.beta / 6.0)
-    }
-
-    /// u, and du/dδ there, at δ ≥ 0.
-    pub fn hertz_approach(&self, approach: f64) -> (f64, f64) {
-        if *self == Self::NONE || approach == 0.0 {
-            return (approach, 1.0);
-        }
-        let mut hertz = approach;
-        let mut slope = 1.0;
-        // Newton's method from an error of 1e-2: 1e-4, 1e-8, 1e-16.
-        for _ in 0..4 {
-            let (root, log) = (hertz.sqrt(), hertz.ln());
-            let factor = self.alpha - self.beta * log;
-            slope = (1.0 + root * (1.5 * factor - self.beta)).recip();
-            hertz -= (hertz + hertz * root * factor - approach) * slope;
-        }
-        (hertz, slope)
-    }
-}
-
 /// c at R = a, and its slope in ln(R/a).
-fn coefficient(nu: f64) -> (f64, f64) {
+pub(crate) fn coefficient(nu: f64) -> (f64, f64) {
     let logarithm = 2.0 * (1.0 - 2.0 * nu).powi(2);
     let scale = (1.0 + nu) / (4.0 * std::f64::consts::PI);
     let weighing = 19.0 / 12.0 + std::f64::consts::LN_2;
@@ -220,21 +212,5 @@ mod tests {
         assert!((slope - 0.0519).abs() < 0.5e-4);
         // Finite elements (tests/ting.rs) side with this value.
         assert!((constant + 0.5402).abs() < 0.5e-4, "{constant}");
-    }
-
-    /// δ(u) and du/dδ, put back.
-    #[test]
-    fn correction_is_inverted() {
-        let correction = Correction { alpha: -0.03, beta: 0.002 };
-        let whole = |u: f64| u + u * u.sqrt() * (correction.alpha - correction.beta * u.ln());
-        for approach in [1e-30, 1e-9, 0.3, 1.0, 3.0] {
-            let (hertz, slope) = correction.hertz_approach(approach);
-            assert!((whole(hertz) / approach - 1.0).abs() < 1e-15);
-            let h = 1e-6 * hertz;
-            let secant = 2.0 * h / (whole(hertz + h) - whole(hertz - h));
-            // Rounding over the width of the secant.
-            assert!((slope - secant).abs() < 1e-9);
-        }
-        assert_eq!(Correction::NONE.hertz_approach(0.7), (0.7, 1.0));
     }
 }

@@ -20,9 +20,16 @@
 //! b_k = ℓ/(v τ_k).
 //!
 //! With a [`FiniteSize`], Hertz' approach u(t) takes the place of δ(t) in the integrals, and
-//! δ = u + Σ c_i K u^(3/2)/(E_i R_i) with instantaneous K, E, ν. That is exact for elastic bodies,
-//! and in loading for equal materials of constant Poisson's ratio (there F relaxes as E does);
-//! otherwise an approximation in a correction of some per cent of δ.
+//!
+//! ```math
+//! \delta = u + \sum_i\frac{c_i}{E_iR_i}(s)\,F(s)
+//! = u + \Bigl[m_\infty + \sum_k\frac{m_k\,s}{s+p_k}\Bigr] K u^{3/2},
+//! ```
+//!
+//! products in Carson's transform, with c(a), E, ν of the relaxed moduli. That is the correspondence
+//! principle in loading, to first order in a/R. In unloading F lacks what E* makes of K u^(3/2)
+//! since t₁. Keeping it makes the restitution of glass, from 0.1 to 2 m/s and of whatever loss, too
+//! small by up to 4e-4, found by direct integration; finite elements agree.
 //!
 //! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8 is returned as
 //! bodies that stay together.
@@ -32,8 +39,8 @@ use std::f64::consts::PI;
 use crate::bisection::last_where;
 use crate::collocation::{Interpolation, N, POINTS, evaluate};
 use crate::error::{LawError, tolerance as checked_tolerance};
-use crate::finite_size::Correction;
-use crate::ting_record::{Contact, Record, peak};
+use crate::finite_correction::RelaxingCorrection;
+use crate::ting_record::{Contact, Element, Record, peak};
 use crate::ting_step::{Solved, State, Stepper};
 use crate::{FiniteSize, HertzImpact, Impact, ImpactInstant, Pair, PairRelaxation};
 
@@ -78,7 +85,7 @@ impl Ting {
         Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
     }
 
-    /// With the finite size of the spheres in series.
+    /// With the finite size of the spheres in series; of the same materials as the relaxation.
     pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
         Self { finite_size: Some(finite_size), ..self }
     }
@@ -91,28 +98,25 @@ impl Ting {
     pub fn impact(&self, approach_speed: f64) -> Result<Impact, LawError> {
         let hertz = HertzImpact::new(&self.pair, approach_speed)?;
         let units = Units::of(&hertz);
-        let correction = match &self.finite_size {
+        let terms = self.relaxation.terms();
+        let corrections = match &self.finite_size {
             Some(size) => {
                 size.check(hertz.max_contact_radius())?;
-                size.correction(units.length, units.force, units.radius)
+                size.correction(units.length, units.force, units.radius, &self.relaxation)
             }
-            None => Correction::NONE,
+            None => RelaxingCorrection::none(terms.len()),
         };
-        let elements = self
-            .relaxation
-            .terms()
-            .iter()
-            .map(|term| (term.weight, (units.time / term.relaxation_time).min(MAX_RATE)));
+        let elements = terms.iter().zip(corrections.fading).map(|(term, correction)| Element {
+            weight: term.weight,
+            rate: (units.time / term.relaxation_time).min(MAX_RATE),
+            correction,
+        });
         let contact = Contact {
             equilibrium: self.relaxation.equilibrium_weight(),
             elements: elements.collect(),
-            correction,
+            correction: corrections.equilibrium,
         };
-        let impact = Collision::new(&contact, self.tolerance).run(&units)?;
-        if let Some(size) = &self.finite_size {
-            size.check(impact.max_contact_radius)?;
-        }
-        Ok(impact)
+        Collision::new(&contact, self.finite_size.as_ref(), self.tolerance).run(&units)
     }
 }
 
@@ -147,6 +151,7 @@ impl Units {
 /// The dimensionless motion and what is gathered along it.
 struct Collision<'a> {
     contact: &'a Contact,
+    finite_size: Option<&'a FiniteSize>,
     interpolation: Interpolation,
     local_tolerance: f64,
     state: State,
@@ -159,11 +164,12 @@ struct Collision<'a> {
 }
 
 impl<'a> Collision<'a> {
-    fn new(contact: &'a Contact, tolerance: f64) -> Self {
-        let fastest = contact.elements.iter().map(|(_, rate)| *rate).fold(1.0, f64::max);
+    fn new(contact: &'a Contact, finite_size: Option<&'a FiniteSize>, tolerance: f64) -> Self {
+        let fastest = contact.elements.iter().map(|element| element.rate).fold(1.0, f64::max);
         let memory = vec![[0.0; 3]; contact.elements.len()];
         Self {
             contact,
+            finite_size,
             interpolation: Interpolation::new(),
             local_tolerance: LOCAL_SHARE * tolerance,
             state: State { time: 0.0, approach: 0.0, rate: 1.0, force: 0.0, memory },
@@ -184,7 +190,7 @@ impl<'a> Collision<'a> {
             self.unload(record, units)?;
         }
         let parted = -self.state.rate > STUCK;
-        let (hertz, _) = self.contact.correction.hertz_approach(turned.approach);
+        let hertz = self.contact.hertz_approach(turned.approach, &turned.memory);
         Ok(Impact {
             restitution: if parted { -self.state.rate } else { 0.0 },
             contact_time: parted.then_some(self.state.time * units.time),
@@ -210,6 +216,9 @@ impl<'a> Collision<'a> {
             self.peak_force = self.peak_force.max(peak(&solved.step.force, turn));
             self.peak_pressure = self.peak_pressure.max(peak(&pressure, turn));
             self.advance(&solved, turn);
+            if let (Some(size), Some(last)) = (self.finite_size, self.history.last()) {
+                size.check(last.contact_radius * units.radius)?;
+            }
             steps.push(solved.step);
             if turn < 1.0 {
                 return Ok(Some(Record { steps, end: self.state.time }));
@@ -287,13 +296,12 @@ impl<'a> Collision<'a> {
         self.history.extend(middle);
         self.history.push(last);
         self.work = last.work;
-        let elements = self.contact.elements.iter().enumerate();
         self.state = State {
             time: last.time,
             approach: last.approach,
             rate: last.approach_rate,
             force: last.force,
-            memory: elements.map(|(k, (_, rate))| step.memory_at(k, *rate, theta)).collect(),
+            memory: step.memories(self.contact, theta),
         };
     }
 }

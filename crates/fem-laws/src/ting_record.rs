@@ -8,7 +8,7 @@ use crate::collocation::dot;
 use crate::collocation::{
     Interpolation, POINTS, Vector, double_integral, evaluate, fading_moments, integral,
 };
-use crate::finite_size::Correction;
+use crate::finite_correction::Correction;
 
 /// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
 pub(crate) type Memory = [f64; 3];
@@ -18,15 +18,41 @@ pub(crate) const FORCE: usize = 0;
 pub(crate) const SURFACE: usize = 1;
 pub(crate) const PRESSURE: usize = 2;
 
+/// One Maxwell element of the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Element {
+    /// g_k.
+    pub weight: f64,
+    /// b_k.
+    pub rate: f64,
+    /// Finite size: of the memory of the force, without its weight.
+    pub correction: Correction,
+}
+
 /// The constants of one collision.
 #[derive(Debug, Clone)]
 pub(crate) struct Contact {
     /// g∞.
     pub equilibrium: f64,
-    /// g_k and b_k.
-    pub elements: Vec<(f64, f64)>,
-    /// Finite size.
+    pub elements: Vec<Element>,
+    /// Finite size: of u^(3/2) itself.
     pub correction: Correction,
+}
+
+impl Contact {
+    /// Hertz' approach u at δ, with what the elements remember.
+    pub fn hertz_approach(&self, approach: f64, memory: &[Memory]) -> f64 {
+        self.correction.hertz_approach(approach, &self.remembered(memory)).0
+    }
+
+    /// What the finite size does with what the elements remember.
+    pub fn remembered(&self, memory: &[Memory]) -> Correction {
+        let mut remembered = Correction::NONE;
+        for (element, memory) in self.elements.iter().zip(memory) {
+            remembered.add(&element.correction, memory[FORCE]);
+        }
+        remembered
+    }
 }
 
 /// One step of the motion as polynomials of θ = (t − start)/length.
@@ -72,14 +98,18 @@ impl Step {
         })
     }
 
+    /// Of each element.
+    pub fn memories(&self, contact: &Contact, theta: f64) -> Vec<Memory> {
+        let elements = contact.elements.iter().enumerate();
+        elements.map(|(k, element)| self.memory_at(k, element.rate, theta)).collect()
+    }
+
     /// g∞ u + Σ g_k ∫ e^(−b_k(t−s)) du: the force on a punch that has kept its first contact.
     pub fn surface_at(&self, contact: &Contact, theta: f64) -> f64 {
-        let (hertz, _) = contact.correction.hertz_approach(self.approach_at(theta).max(0.0));
-        let remembered = contact.elements.iter().enumerate();
-        contact.equilibrium * hertz
-            + remembered
-                .map(|(k, (weight, rate))| weight * self.memory_at(k, *rate, theta)[SURFACE])
-                .sum::<f64>()
+        let memories = self.memories(contact, theta);
+        let remembered = contact.elements.iter().zip(&memories);
+        contact.equilibrium * contact.hertz_approach(self.approach_at(theta), &memories)
+            + remembered.map(|(element, memory)| element.weight * memory[SURFACE]).sum::<f64>()
     }
 }
 
@@ -137,20 +167,22 @@ impl Record {
         let index = self.steps.partition_point(|step| step.start <= t1).max(1) - 1;
         let step = &self.steps[index];
         let theta = (t1 - step.start) / step.length;
-        let approach = step.approach_at(theta).max(0.0);
-        let (hertz, compression) = contact.correction.hertz_approach(approach);
+        let memories = step.memories(contact, theta);
+        let remembered = contact.remembered(&memories);
+        let approach = step.approach_at(theta);
+        let (hertz, compression) = contact.correction.hertz_approach(approach, &remembered);
         let mut surface = contact.equilibrium * hertz;
         let mut force = contact.equilibrium * hertz * hertz.sqrt();
         let mut pressure = contact.equilibrium * hertz.sqrt();
         let mut relaxation = contact.equilibrium;
-        for (k, (weight, rate)) in contact.elements.iter().enumerate() {
-            let faded = weight * (-rate * (time - t1)).exp();
-            let memory = step.memory_at(k, *rate, theta);
+        for (element, memory) in contact.elements.iter().zip(&memories) {
+            let faded = element.weight * (-element.rate * (time - t1)).exp();
             surface += faded * memory[SURFACE];
             force += faded * memory[FORCE];
             pressure += faded * memory[PRESSURE];
             relaxation += faded;
         }
+        // But for the creep of the finite size, some per cent of a per cent.
         let slope = relaxation * compression * step.rate_at(theta);
         (surface, slope, Shrunk { equivalent_time: t1, force, hertz_approach: hertz, pressure })
     }

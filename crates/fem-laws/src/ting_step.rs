@@ -9,6 +9,7 @@ use crate::collocation::{
     Interpolation, N, POINTS, Vector, dot, double_integral_moments, fading_moments, finest_detail,
     integral_moments,
 };
+use crate::finite_correction::Correction;
 use crate::ting_record::{Contact, FORCE, Memory, PRESSURE, Record, SURFACE, Step};
 
 /// Where the motion stands.
@@ -36,8 +37,29 @@ pub(crate) struct Solved {
 
 /// The step sizes' share of the memory: what fades of the past, and weights of the present.
 struct Kernel {
+    force: Fading,
+    /// Of α_k and β_k of the finite size.
+    creep: [Fading; 2],
+    /// Of α_k b_k and β_k b_k.
+    creep_decay: [Fading; 2],
+}
+
+/// Of one combination of the elements.
+#[derive(Clone, Copy)]
+struct Fading {
     faded: [Vector; 3],
     weights: [Vector; N],
+    /// Sum of the factors.
+    instantaneous: f64,
+}
+
+impl Fading {
+    const NONE: Self = Self { faded: [[0.0; N]; 3], weights: [[0.0; N]; N], instantaneous: 0.0 };
+
+    /// The memory of one drive at point `i`, with an elastic part.
+    fn at(&self, kind: usize, drives: &[Vector; 3], i: usize, elastic: f64) -> f64 {
+        elastic + self.faded[kind][i] + dot(&self.weights[i], &drives[kind])
+    }
 }
 
 /// More than this says that the step is too long.
@@ -53,6 +75,19 @@ pub(crate) struct Stepper<'a> {
     pub record: Option<&'a Record>,
 }
 
+impl Kernel {
+    /// What the finite size remembers at point `i`, and its rate, of a drive.
+    fn creep_at(&self, drives: &[Vector; 3], i: usize) -> (Correction, Correction) {
+        let value = self.creep.map(|fading| fading.at(FORCE, drives, i, 0.0));
+        let rate: [f64; 2] = std::array::from_fn(|part| {
+            let decay = self.creep_decay[part].at(FORCE, drives, i, 0.0);
+            self.creep[part].instantaneous * drives[FORCE][i] - decay
+        });
+        let correction = |[alpha, beta]: [f64; 2]| Correction { alpha, beta };
+        (correction(value), correction(rate))
+    }
+}
+
 impl Stepper<'_> {
     /// `None` if the iteration does not settle.
     pub fn solve(&self, state: &State, length: f64) -> Option<Solved> {
@@ -65,16 +100,19 @@ impl Stepper<'_> {
             None => times,
         };
         let mut force = [state.force; N];
+        let mut drives = [[0.0; N]; 3];
         for n_iterations in 1..=MAX_ITERATIONS {
             let coefficients = self.interpolation.coefficients(&force);
             let mut hertz = [0.0; N];
-            let mut drives = [[0.0; N]; 3];
+            let creep: [_; N] = std::array::from_fn(|i| kernel.creep_at(&drives, i));
             for i in 0..N {
                 let rate = state.rate - length * dot(&coefficients, &singles[i]);
                 let lost = length * dot(&coefficients, &doubles[i]);
                 let approach = state.approach + length * (state.rate * POINTS[i] - lost);
-                let (u, slope) = self.contact.correction.hertz_approach(approach.max(0.0));
+                let (remembered, creeping) = &creep[i];
+                let (u, slope) = self.contact.correction.hertz_approach(approach, remembered);
                 hertz[i] = u;
+                let rate = rate - creeping.at(u);
                 drives[SURFACE][i] = slope * rate;
                 drives[FORCE][i] = 1.5 * u.sqrt() * slope * rate;
                 drives[PRESSURE][i] = if u > 0.0 { 0.5 / u.sqrt() * slope * rate } else { 0.0 };
@@ -111,19 +149,31 @@ impl Stepper<'_> {
     }
 
     fn kernel(&self, state: &State, length: f64) -> Kernel {
-        let mut kernel = Kernel { faded: [[0.0; N]; 3], weights: [[0.0; N]; N] };
-        for ((weight, rate), memory) in self.contact.elements.iter().zip(&state.memory) {
-            let z = rate * length;
-            for i in 0..N {
-                let decay = weight * (-z * POINTS[i]).exp();
-                for kind in [FORCE, SURFACE, PRESSURE] {
-                    kernel.faded[kind][i] += decay * memory[kind];
+        let none = [Fading::NONE; 2];
+        let mut kernel = Kernel { force: Fading::NONE, creep: none, creep_decay: none };
+        for (element, memory) in self.contact.elements.iter().zip(&state.memory) {
+            let z = element.rate * length;
+            let decay = POINTS.map(|theta| (-z * theta).exp());
+            let weights = POINTS.map(|theta| self.interpolation.weights(&fading_moments(theta, z)));
+            let add = |fading: &mut Fading, factor: f64| {
+                fading.instantaneous += factor;
+                for i in 0..N {
+                    for kind in [FORCE, SURFACE, PRESSURE] {
+                        fading.faded[kind][i] += factor * decay[i] * memory[kind];
+                    }
+                    for j in 0..N {
+                        fading.weights[i][j] += length * factor * weights[i][j];
+                    }
                 }
-                let moments = fading_moments(POINTS[i], z);
-                let weights = self.interpolation.weights(&moments);
-                for j in 0..N {
-                    kernel.weights[i][j] += length * weight * weights[j];
-                }
+            };
+            add(&mut kernel.force, element.weight);
+            for (part, factor) in [element.correction.alpha, element.correction.beta]
+                .into_iter()
+                .enumerate()
+                .filter(|(_, factor)| *factor != 0.0)
+            {
+                add(&mut kernel.creep[part], factor);
+                add(&mut kernel.creep_decay[part], factor * element.rate);
             }
         }
         kernel
@@ -138,9 +188,7 @@ impl Stepper<'_> {
         drives: &[Vector; 3],
     ) -> Vector {
         std::array::from_fn(|i| {
-            self.contact.equilibrium * elastic[i]
-                + kernel.faded[kind][i]
-                + dot(&kernel.weights[i], &drives[kind])
+            kernel.force.at(kind, drives, i, self.contact.equilibrium * elastic[i])
         })
     }
 
@@ -162,8 +210,9 @@ impl Stepper<'_> {
         };
         // d√u is singular at first touch; its integral over the step is known all the same.
         let root =
-            |approach: f64| self.contact.correction.hertz_approach(approach.max(0.0)).0.sqrt();
-        let gained = root(step.approach_at(1.0)) - root(state.approach);
+            |approach: f64, memory: &[Memory]| self.contact.hertz_approach(approach, memory).sqrt();
+        let end = step.memories(self.contact, 1.0);
+        let gained = root(step.approach_at(1.0), &end) - root(state.approach, &state.memory);
         let drive = &mut step.drives[PRESSURE];
         drive[0] += gained / length - dot(drive, &integral_moments(1.0));
         step

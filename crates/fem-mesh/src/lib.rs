@@ -20,6 +20,6 @@ mod sphere_mesh;
 
 pub use error::MeshError;
 pub use half_disc::HalfDisc;
-pub use measures::{cap_volume, segment_measures, sphere_volume};
+pub use measures::{cap_volume, lump_mass, segment_measures, sphere_volume};
 pub use quality::Quality;
 pub use sphere_mesh::{Side, SphereMesh};

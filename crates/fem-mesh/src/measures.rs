@@ -1,6 +1,8 @@
-//! Measures of revolved curves and caps.
+//! Measures of revolved curves and caps, and the masses that follow from them.
 
 use std::f64::consts::PI;
+
+use crate::SphereMesh;
 
 /// Shares of the two ends of a straight segment in the area that it sweeps
 /// about the axis, ∫ N 2π r ds with linear N, in m².
@@ -33,4 +35,24 @@ pub fn cap_volume(start: [f64; 2], end: [f64; 2], radius: f64) -> f64 {
     // The middle's direction is the chord's normal; its radial part is |dy| / chord.
     let radial = if chord > 0.0 { dy.abs() / chord } else { 0.0 };
     4.0 / 3.0 * PI * (radius * sin_half_angle).powi(3) * radial
+}
+
+/// Lumped masses of a homogeneous sphere, kg. What the chords of the boundary
+/// cut off is given to the boundary's nodes, so that the sum is ρπD³/6 exactly.
+///
+/// `nodal_volumes` are the shares ∫ N 2πr dA of each element's corners, m³.
+pub fn lump_mass(mesh: &SphereMesh, density: f64, nodal_volumes: &[[f64; 4]]) -> Vec<f64> {
+    let mut mass = vec![0.0; mesh.nodes().len()];
+    for (quad, volumes) in mesh.quads().iter().zip(nodal_volumes) {
+        for (&node, volume) in quad.iter().zip(volumes) {
+            mass[node as usize] += density * volume;
+        }
+    }
+    for segment in mesh.surface().windows(2) {
+        let [start, end] = [segment[0], segment[1]].map(|node| mesh.nodes()[node as usize]);
+        let half = 0.5 * density * cap_volume(start, end, mesh.radius());
+        mass[segment[0] as usize] += half;
+        mass[segment[1] as usize] += half;
+    }
+    mass
 }

@@ -1,6 +1,7 @@
 //! Why a run stops early, and what helps.
 
 use fem_case::Halt;
+use fem_condensed::CondensedError;
 use fem_explicit::Stop;
 use fem_laws::LawError;
 
@@ -17,6 +18,7 @@ pub fn remedy_of(halt: &Halt) -> Option<Remedy> {
     let stop = match halt {
         Halt::Fem(stop) => stop,
         Halt::Law(error) => return Some(law_remedy(error)),
+        Halt::Condensed(error) => return Some(condensed_remedy(error)),
     };
     let (cause, remedy) = match stop {
         Stop::Interrupted { .. } => return None,
@@ -39,6 +41,29 @@ pub fn remedy_of(halt: &Halt) -> Option<Remedy> {
         ),
     };
     Some(Remedy { cause, remedy })
+}
+
+fn condensed_remedy(error: &CondensedError) -> Remedy {
+    let (cause, remedy) = match error {
+        CondensedError::ContactTooLarge { .. } | CondensedError::ContactBeyondCandidates { .. } => {
+            (
+                "the contact is as wide as the smaller sphere, where small strain says nothing: the \
+             impact is too fast or the material too soft",
+                "lower body.N.approach_speed, or check the moduli and their units",
+            )
+        }
+        CondensedError::NoSeparation { .. } => (
+            "the material has relaxed so far that nothing is left to push the bodies apart",
+            "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
+             their units: the weights' sum below 1 leaves a lasting stiffness",
+        ),
+        _ => (
+            "an imported mesh has elements that are far too distorted, or Poisson's ratio is \
+             within rounding of its limits",
+            "leave sphere.mesh out, or use model fem",
+        ),
+    };
+    Remedy { cause, remedy }
 }
 
 fn law_remedy(error: &LawError) -> Remedy {

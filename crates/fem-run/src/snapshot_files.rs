@@ -2,15 +2,53 @@
 
 use std::path::Path;
 
-use fem_case::Problem;
-use fem_explicit::{
-    Body, Collision, Label, Model, Snapshot, SnapshotRequest, StressField, invariants,
-};
+use fem_case::{Outcome, Simulation};
+use fem_field::{Label, Snapshot, SnapshotRequest, StressField, invariants};
+use fem_material::Material;
+use fem_mesh::SphereMesh;
 use fem_vtk::{VtuWriter, pad_vectors, write_collection};
 
 /// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
 const STRESSES: [&str; 6] =
     ["sigma_yy", "sigma_rr", "sigma_tt", "sigma_ry", "pressure", "von_mises"];
+
+/// What is drawn of a collision.
+pub struct Drawing<'a> {
+    meshes: [Option<&'a SphereMesh>; 2],
+    materials: [Option<&'a Material>; 2],
+    /// m.
+    gap: f64,
+    request: &'a SnapshotRequest,
+    snapshots: &'a [Snapshot],
+    is_complete: bool,
+}
+
+impl<'a> Drawing<'a> {
+    /// Of finite elements; other models have no fields.
+    pub fn of(simulation: &'a Simulation, outcome: &'a Outcome) -> Option<Self> {
+        let (meshes, plan) = match simulation {
+            Simulation::Fem(problem) => {
+                (problem.model.bodies().each_ref().map(|body| body.mesh()), &problem.plan)
+            }
+            Simulation::Condensed(condensed) => (condensed.meshes(), &condensed.plan),
+            Simulation::Reduced(_) => return None,
+        };
+        Some(Self {
+            meshes,
+            materials: simulation.case().scene.bodies.each_ref().map(|body| body.material()),
+            gap: plan.gap,
+            request: &plan.snapshots,
+            snapshots: &outcome.snapshots,
+            is_complete: outcome.halt.is_none(),
+        })
+    }
+
+    /// Bodies with a mesh, and which side they are on.
+    fn meshed(&self) -> impl Iterator<Item = (usize, &'a SphereMesh, &'a Material)> {
+        let both = self.meshes.into_iter().zip(self.materials).enumerate();
+        both.filter_map(|(side, (mesh, material))| Some((side, mesh?, material?)))
+    }
+}
 
 /// A grid of both bodies, the second body's points after the first's.
 struct Grid {
@@ -32,15 +70,13 @@ type GridStress = [Vec<f64>; 6];
 pub fn write_snapshots(
     folder: &Path,
     stem: &str,
-    problem: &Problem,
-    collision: &Collision,
+    drawing: &Drawing<'_>,
 ) -> Result<(Vec<String>, Vec<String>), fem_vtk::Error> {
-    let model = &problem.model;
-    let grid = Grid::of(model);
+    let grid = Grid::of(drawing);
     let (mut series, mut warnings): (Vec<(f64, String)>, _) = (Vec::new(), Vec::new());
-    for snapshot in &collision.snapshots {
-        let label = label(snapshot, &problem.plan.snapshots);
-        if snapshot.label == Some(Label::LastContact) && collision.stopped.is_some() {
+    for snapshot in drawing.snapshots {
+        let label = label(snapshot, drawing.request);
+        if snapshot.label == Some(Label::LastContact) && !drawing.is_complete {
             warnings.push(format!("the run ended before the instant \"{label}\"; it is left out"));
             continue;
         }
@@ -54,7 +90,7 @@ pub fn write_snapshots(
             continue;
         }
         let name = format!("{stem}_{}_{label}.vtu", series.len());
-        match write_snapshot(&folder.join(&name), &grid, model, snapshot) {
+        match write_snapshot(&folder.join(&name), &grid, drawing, snapshot) {
             Err(error @ fem_vtk::Error::NotFinite { .. }) => {
                 warnings.push(format!("the snapshot \"{label}\" is left out: {error}"));
             }
@@ -84,15 +120,16 @@ fn label(snapshot: &Snapshot, request: &SnapshotRequest) -> &'static str {
 fn write_snapshot(
     path: &Path,
     grid: &Grid,
-    model: &Model,
+    drawing: &Drawing<'_>,
     snapshot: &Snapshot,
 ) -> Result<(), fem_vtk::Error> {
     let (mut displacement, mut velocity) = (Vec::new(), Vec::new());
     let (mut cells, mut points) = (GridStress::default(), GridStress::default());
-    for (body, fields) in meshed(model).map(|(side, body)| (body, &snapshot.bodies[side])) {
+    for (side, mesh, material) in drawing.meshed() {
+        let fields = &snapshot.bodies[side];
         displacement.extend(pad_vectors(fields.displacement.as_flattened()));
         velocity.extend(pad_vectors(fields.velocity.as_flattened()));
-        let stress = StressField::of(body, fields);
+        let stress = StressField::of(mesh, material, fields);
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
     }
@@ -104,11 +141,6 @@ fn write_snapshot(
         writer = writer.point_data(name, 1, &points[k]).cell_data(name, 1, &cells[k]);
     }
     writer.cell_data("body", 1, &grid.body).write(path)
-}
-
-/// Bodies with a mesh, and which side they are on.
-fn meshed(model: &Model) -> impl Iterator<Item = (usize, &Body)> {
-    model.bodies().iter().enumerate().filter(|(_, body)| body.mesh().is_some())
 }
 
 fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
@@ -123,11 +155,10 @@ fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
 
 impl Grid {
     /// Reference positions (r, y, 0), half of the start gap between each body and y = 0.
-    fn of(model: &Model) -> Self {
+    fn of(drawing: &Drawing<'_>) -> Self {
         let mut grid = Self { points: Vec::new(), quads: Vec::new(), body: Vec::new() };
-        for (side, body) in meshed(model) {
-            let Some(mesh) = body.mesh() else { continue };
-            let shift = if side == 0 { -0.5 * model.gap() } else { 0.5 * model.gap() };
+        for (side, mesh, _) in drawing.meshed() {
+            let shift = if side == 0 { -0.5 * drawing.gap } else { 0.5 * drawing.gap };
             let first = grid.points.len() as u32;
             grid.points.extend(mesh.nodes().iter().map(|[r, y]| [*r, y + shift, 0.0]));
             grid.quads.extend(mesh.quads().iter().map(|quad| quad.map(|node| first + node)));

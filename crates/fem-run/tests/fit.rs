@@ -302,6 +302,9 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
         (Some(0.1), Some(1.0))
     );
     assert_eq!(numbers["has_hertz_times"], true);
+    // A model with elements has Ting in its place.
+    place.succeed(&["export", "case.toml", "--set", "model.condensed={}", "--quiet", "--out", "c"]);
+    assert_eq!(place.read("c/lammps_tsuji.in"), place.read("runs/case_export/lammps_tsuji.in"));
     // A wall is for LAMMPS alone.
     let wall = "body.1={name='floor',wall={}}";
     let ran = place.succeed(&["export", "case.toml", "--set", wall, "--out", "wall"]);

@@ -215,3 +215,25 @@ fn a_sweep_runs_over_models() {
     let again = place.run(&["sweep", "sweep.toml", "--out", "out"]);
     assert!(again.stderr.contains("8 done before, 0 to run"), "{}", again.stderr);
 }
+
+/// Condensed finite elements write what finite elements write.
+#[test]
+fn condensed_bodies_write_all_files_of_finite_elements() {
+    let place = Place::new();
+    let fem = summary(&place, &[]);
+    let files = place.list("out");
+    let columns = String::from_utf8(place.read("out/history.csv")).unwrap();
+    let condensed = summary(&place, &["model.condensed={}"]);
+    assert_eq!(keys(&condensed), keys(&fem));
+    assert_eq!(place.list("out"), files);
+    let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+    assert_eq!(history.lines().next(), columns.lines().next());
+    assert!(condensed["element_updates"].is_null() && condensed["complete"] == true);
+    assert_eq!(condensed["bodies"][0]["elements"], fem["bodies"][0]["elements"]);
+    // The mesh is coarse, and the penalty of the explicit model soft on it.
+    for key in ["restitution", "contact_time_s", "peak_force_n", "max_approach_m"] {
+        let ratio = number(&condensed[key]) / number(&fem[key]);
+        assert!((0.97..1.03).contains(&ratio), "{key}: {ratio}");
+    }
+    assert!(number(&condensed["energy"]["residual_relative"]) < 1e-5);
+}

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use fem_case::CaseError;
 use fem_explicit::{ModelError, Stop};
 use fem_laws::LawError;
+use fem_material::MaterialError;
 use fem_mesh::MeshError;
 
 /// A folder of claims that cannot be read.
@@ -66,6 +67,9 @@ pub enum StudyError {
     /// A mesh that cannot be made.
     #[error("{0}")]
     Mesh(#[from] MeshError),
+    /// A material that cannot be.
+    #[error("{0}")]
+    Material(#[from] MaterialError),
     /// A model that cannot be made.
     #[error("{0}")]
     Model(#[from] ModelError),

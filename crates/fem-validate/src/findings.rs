@@ -51,9 +51,7 @@ impl Findings {
     /// The larger of a quantity so far and a value; NaN stays.
     pub fn measure_worst(&mut self, quantity: &str, value: f64) {
         let worst = self.quantities.entry(quantity.to_string()).or_insert(value);
-        if value.is_nan() || value > *worst {
-            *worst = value;
-        }
+        *worst = worse(*worst, value);
     }
 
     /// Charts side by side; nothing if they have no points.
@@ -75,5 +73,28 @@ impl Findings {
             header: header.map(String::from).to_vec(),
             rows: rows.into_iter().map(|row| row.to_vec()).collect(),
         });
+    }
+}
+
+/// The larger of a worst so far and a value; NaN stays.
+pub(crate) fn worse(so_far: f64, value: f64) -> f64 {
+    if so_far.is_nan() || value <= so_far { so_far } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_is_the_largest_and_nan_stays() {
+        let worst = |values: &[f64]| {
+            let mut findings = Findings::new();
+            values.iter().for_each(|&value| findings.measure_worst("q", value));
+            findings.quantities["q"]
+        };
+        assert_eq!(worst(&[1.0, 3.0, 2.0]), 3.0);
+        assert_eq!(worst(&[-2.0, -3.0]), -2.0);
+        assert!(worst(&[1.0, f64::NAN, 2.0]).is_nan());
+        assert!(worst(&[f64::NAN, 2.0]).is_nan());
     }
 }

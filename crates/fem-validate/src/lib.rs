@@ -18,7 +18,7 @@ mod evaluate;
 mod findings;
 mod laboratory;
 mod markdown;
-
+mod order;
 mod page;
 mod position;
 mod power_law;

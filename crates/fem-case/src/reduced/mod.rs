@@ -5,7 +5,7 @@
 mod contact_law;
 mod effects;
 mod outcome;
-mod relative;
+pub(crate) mod relative;
 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting};
@@ -63,7 +63,7 @@ impl Reduced {
         let estimate = Estimate::checked(&case)?;
         let refuse = |error: LawError| case.error_at(&case.scene.model.path(), error.to_string());
         let (motion, pair) = match &case.scene.model {
-            Model::Fem => {
+            Model::Fem | Model::Condensed(_) => {
                 return Err(case.error_at("model", "finite elements are no reduced model"));
             }
             Model::Hertz { finite_size: false } => {
@@ -128,7 +128,7 @@ impl Reduced {
     pub fn run(&self) -> Outcome {
         match self.impact(self.estimate.hertz.approach_speed()) {
             Ok(impact) => self.outcome(&impact),
-            Err(error) => Outcome::halted(error),
+            Err(error) => Outcome::halted(error.into()),
         }
     }
 
@@ -151,7 +151,7 @@ impl Reduced {
         file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });
         let given = file.model.take().unwrap_or_default();
         file.model = Some(match &self.case.scene.model {
-            Model::Fem => given,
+            Model::Fem | Model::Condensed(_) => given,
             Model::Hertz { finite_size } => ModelTable {
                 hertz: Some(HertzTable { finite_size: Some(*finite_size) }),
                 ..ModelTable::default()

@@ -52,6 +52,7 @@ impl Reduced {
             halt: None,
             warnings,
             collision: None,
+            snapshots: Vec::new(),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 
 /// Two bodies along +y.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Relative {
+pub(crate) struct Relative {
     masses: [Option<f64>; 2],
     velocities: [f64; 2],
     effective_mass: f64,

@@ -4,15 +4,20 @@ use fem_laws::{EndRule, LawImpact, Ting};
 
 use super::{Allowed, Check, NOT_NEGATIVE, POSITIVE, allowed};
 use crate::available::UNAVAILABLE_MODELS;
+use crate::condensed::Options;
 use crate::document::join;
 use crate::error::CaseError;
 use crate::explain::listed;
 use crate::model::{Dashpot, Dissipation, Law, Model};
-use crate::model_tables::{End, LawTable, ModelTable};
+use crate::model_tables::{CondensedTable, End, LawTable, ModelTable};
 use crate::quantity::{Number, Quantity, QuantityKind};
 
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
+const MODES: Allowed =
+    allowed("a whole number from 0 to 100", |x| (0.0..=100.0).contains(&x) && x.fract() == 0.0);
+const STEPS: Allowed =
+    allowed("a whole number from 50 to 100000", |x| (50.0..=1e5).contains(&x) && x.fract() == 0.0);
 const LIKE_POISSON: Allowed = allowed("between -1 and 1", |x| x > -1.0 && x < 1.0);
 
 impl Check<'_> {
@@ -33,7 +38,10 @@ impl Check<'_> {
         if UNAVAILABLE_MODELS.contains(&name) {
             let message = format!("model `{name}` is not available in this version");
             let error = self.error(&join("model", name), message);
-            return Err(error.with_help("the models here are fem, ting, hertz and law"));
+            return Err(error.with_help("the models here are fem, condensed, ting, hertz and law"));
+        }
+        if let Some(condensed) = condensed {
+            return self.condensed_model(condensed);
         }
         if let Some(ting) = ting {
             let tolerance = self.tolerance("model.ting.tolerance", ting.tolerance.as_ref())?;
@@ -49,6 +57,22 @@ impl Check<'_> {
             (_, Some(law)) => self.law_model(law),
             _ => Ok(Model::Fem),
         }
+    }
+
+    fn condensed_model(&self, table: &CondensedTable) -> Result<Model, CaseError> {
+        let CondensedTable { vibration_modes, steps, penalty_springs } = table;
+        let count = |key: &str, value: &Option<Quantity<Number>>, allowed| {
+            let path = join("model.condensed", key);
+            let count = self.optional(&path, value.as_ref(), allowed)?;
+            Ok::<_, CaseError>(count.map(|count| count as usize))
+        };
+        let default = Options::default();
+        Ok(Model::Condensed(Options {
+            vibration_modes: count("vibration_modes", vibration_modes, MODES)?
+                .unwrap_or(default.vibration_modes),
+            steps: count("steps", steps, STEPS)?.unwrap_or(default.steps),
+            penalty_springs: penalty_springs.unwrap_or(default.penalty_springs),
+        }))
     }
 
     /// The one key that is given.

@@ -3,12 +3,12 @@
 use fem_material::{ActsOn, ElasticModuli, Material};
 use fem_mesh::Side;
 
+use crate::BodyFields;
 use crate::body::Body;
 use crate::kernel::Moduli;
 use crate::state::{BodyState, Scratch, State};
 use crate::step::{advance, update_forces};
 use crate::test_support::{assembled, free_sphere, moduli, relaxing_glass, unit_sphere, vector};
-use crate::{BodyFields, StressField};
 
 const TERMS: [(f64, f64); 3] = [(0.3, 0.02), (0.4, 0.3), (0.1, 5.0)];
 
@@ -86,7 +86,7 @@ fn recovered_stress_relaxes_alike() {
         let mut fields = BodyFields::default();
         fields.displacement.clone_from(&state.bodies[1].u);
         fields.effective.clone_from(&state.bodies[1].w);
-        let stress = StressField::of(body, &fields);
+        let stress = body.stress(&fields);
         for found in stress.cells.iter().chain(&stress.points) {
             for (found, exact) in found.iter().zip(exact) {
                 // Rounding of strains of 0.02 by unit moduli.

@@ -6,38 +6,30 @@ use std::f64::consts::PI;
 
 use fem_mesh::Side;
 
-use crate::state::Scratch;
-use crate::step::{advance, update_forces};
-use crate::test_support::{free_sphere, unit_glass, unit_sphere};
+use crate::FreeMotion;
+use crate::test_support::{unit_glass, unit_sphere};
 
 /// Starts the unit sphere with a velocity field of (r, y), y from its centre, and finds the
 /// frequency near `guess` at which Σ m v₀·u, with a Hann window over 24 periods, is strongest.
 fn frequency(n: f64, guess: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
-    let mesh = unit_sphere(n, Side::Above);
-    let start: Vec<_> = mesh.nodes().iter().map(|&[r, y]| velocity([r, y - 1.0])).collect();
-    let (model, mut state) = free_sphere(mesh, unit_glass(), 0.9);
-    let body = &model.bodies()[1];
-    state.bodies[1].v.copy_from_slice(&start);
-    let mut scratch = Scratch::new(&model);
-    let length = 24.0 * 2.0 * PI / guess;
-    let n_steps = (length / model.time_step()) as usize;
+    let mut sphere = FreeMotion::new(unit_sphere(n, Side::Above), &unit_glass(), 0.9).unwrap();
+    sphere.set_velocity(|[r, y]| velocity([r, y - 1.0]));
+    let start = sphere.velocity().to_vec();
+    let time_step = sphere.time_step();
+    let n_steps = (24.0 * 2.0 * PI / guess / time_step) as usize;
     let signal: Vec<f64> = (0..n_steps)
         .map(|_| {
-            update_forces(&model, &state, &mut scratch);
-            advance(&model, &mut state, &scratch);
-            let u = &state.bodies[1].u;
-            body.nodal_mass
-                .iter()
-                .zip(start.iter().zip(u))
-                .map(|(m, (v, u))| m * (v[0] * u[0] + v[1] * u[1]))
-                .sum()
+            sphere.step();
+            let moved = start.iter().zip(sphere.displacement());
+            let mass = sphere.body().nodal_mass().iter();
+            mass.zip(moved).map(|(m, (v, u))| m * (v[0] * u[0] + v[1] * u[1])).sum()
         })
         .collect();
     let strength = |omega: f64| {
         let (mut re, mut im) = (0.0, 0.0);
         for (k, x) in signal.iter().enumerate() {
             let window = 1.0 - (2.0 * PI * (k as f64 + 0.5) / n_steps as f64).cos();
-            let (sin, cos) = (omega * model.time_step() * (k + 1) as f64).sin_cos();
+            let (sin, cos) = (omega * time_step * (k + 1) as f64).sin_cos();
             re += window * x * cos;
             im += window * x * sin;
         }

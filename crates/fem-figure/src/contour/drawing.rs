@@ -241,21 +241,15 @@ fn words(text: &str) -> String {
     for part in parts {
         let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
         let (below, rest) = part.split_at(end);
+        // A first space in a span is dropped; an empty span would not bring the line back up.
+        let (gap, rest) = rest.strip_prefix(' ').map_or((0, rest), |rest| (4, rest));
+        let rest = if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) };
         let _ = write!(
             words,
-            "<tspan dy=\"3.5\" font-size=\"75%\">{}</tspan><tspan dy=\"-3.5\">{}</tspan>",
-            escaped(below),
-            // An empty span would not bring the line back up.
-            if rest.is_empty() { "\u{200b}".to_string() } else { kept_apart(rest) }
+            "<tspan dy=\"3.5\" font-size=\"75%\">{}</tspan><tspan dx=\"{gap}\" \
+             dy=\"-3.5\">{rest}</tspan>",
+            escaped(below)
         );
     }
     words
-}
-
-/// Escaped, with a first space that SVG does not drop.
-fn kept_apart(text: &str) -> String {
-    match text.strip_prefix(' ') {
-        Some(rest) => format!("\u{a0}{}", escaped(rest)),
-        None => escaped(text),
-    }
 }

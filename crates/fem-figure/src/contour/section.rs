@@ -17,7 +17,6 @@ impl Section {
     /// With its mirror image in the vertical axis; points on the axis belong to both halves. The
     /// outline starts at or ends on the axis, and goes on in the mirror image.
     pub fn mirrored(&self) -> Self {
-        let n = self.points.len() as u32;
         let mut both = self.clone();
         let mut image: Vec<u32> = Vec::with_capacity(self.points.len());
         for ([x, y], value) in self.points.iter().zip(&self.values) {
@@ -28,7 +27,6 @@ impl Section {
                 both.values.push(*value);
             }
         }
-        debug_assert!(both.points.len() as u32 >= n);
         let mirrored = |quad: &[u32; 4]| {
             let [a, b, c, d] = quad.map(|point| image[point as usize]);
             [d, c, b, a]

@@ -1,7 +1,7 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
 use comfy_table::CellAlignment::Left;
-use fem_case::{Case, Problem, Reduced, Simulation};
+use fem_case::{Case, Condensed, Problem, Reduced, Simulation};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::CaseArguments;
@@ -51,6 +51,7 @@ fn expect(simulation: &Simulation) -> String {
     ]);
     let model = match simulation {
         Simulation::Fem(problem) => elements(problem),
+        Simulation::Condensed(condensed) => contact_nodes(condensed),
         Simulation::Reduced(reduced) => one_degree_of_freedom(reduced),
     };
     format!(
@@ -78,6 +79,17 @@ fn elements(problem: &Problem) -> String {
     ]);
     let meshes = model.bodies().each_ref().map(|body| body.mesh());
     format!("Mesh\n{}\nCost\n{costs}", mesh_table(&problem.case.scene, meshes))
+}
+
+/// Mesh and cost of condensed bodies.
+fn contact_nodes(condensed: &Condensed) -> String {
+    let pair = &condensed.pair;
+    let costs = pairs([
+        ("contact points", format!("{} condensed", pair.n_points())),
+        ("steps", format!("about {}", HumanCount(condensed.options().steps as u64))),
+        ("factors", DecimalBytes(pair.factor_bytes() as u64).to_string()),
+    ]);
+    format!("Mesh\n{}\nCost\n{costs}", mesh_table(&condensed.case.scene, condensed.meshes()))
 }
 
 /// Model and cost of a reduced one.

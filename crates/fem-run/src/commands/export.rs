@@ -109,10 +109,10 @@ fn curve(arguments: &Arguments, case: &Case) -> Result<Curve, Failure> {
     Curve::computed(&reduced, &speeds).map_err(from_fit_error)
 }
 
-/// The case's own model; Ting's in place of finite elements.
+/// The case's own model; Ting's in place of one with elements.
 fn reduced(case: &Case) -> Result<Reduced, Failure> {
     let mut case = case.clone();
-    if case.scene.model == Model::Fem {
+    if !matches!(case.scene.model, Model::Hertz { .. } | Model::Ting { .. } | Model::Law { .. }) {
         model_of(&case, Family::Ting, EndRule::ZeroForce).map_err(|error| {
             from_fit_error(error).with_help(
                 "give a material a [material.NAME.relaxation] table, a law in [model], or \

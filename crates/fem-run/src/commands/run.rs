@@ -17,7 +17,7 @@ use crate::progress::Watch;
 use crate::remedy::remedy_of;
 use crate::report::report;
 use crate::result_folder::ResultFolder;
-use crate::snapshot_files::write_snapshots;
+use crate::snapshot_files::{Drawing, write_snapshots};
 use crate::standard_output;
 use crate::summarise::{Clock, summarise};
 use crate::summary::{SUMMARY_FILE, Summary};
@@ -90,6 +90,12 @@ fn price(simulation: &Simulation) -> String {
                 DecimalBytes(cost.memory)
             )
         }
+        Simulation::Condensed(condensed) => format!(
+            "{} elements condensed to {} contact points, factors of {}",
+            HumanCount(condensed.n_elements() as u64),
+            condensed.pair.n_points(),
+            DecimalBytes(condensed.pair.factor_bytes() as u64)
+        ),
         Simulation::Reduced(reduced) => format!("{}, milliseconds", reduced.describe()),
     }
 }
@@ -116,13 +122,13 @@ pub fn write_result(
         files.push(HISTORY_FILE.to_string());
     }
     let mut warnings = simulation.warnings().to_vec();
+    if let Some(drawing) = Drawing::of(simulation, outcome).filter(|_| keep == Keep::All) {
+        let (vtk_files, missing) =
+            write_snapshots(folder, stem, &drawing).map_err(|error| fault(&error))?;
+        files.extend(vtk_files);
+        left_out = missing;
+    }
     if let (Simulation::Fem(problem), Some(collision)) = (simulation, &outcome.collision) {
-        if keep == Keep::All {
-            let (vtk_files, missing) =
-                write_snapshots(folder, stem, problem, collision).map_err(|error| fault(&error))?;
-            files.extend(vtk_files);
-            left_out = missing;
-        }
         warnings.extend(assess(problem, collision));
     }
     warnings.extend(outcome.warnings.iter().cloned());

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_case::{Simulation, Sweep};
+use fem_case::{PairCache, Simulation, Sweep};
 use serde_json::{Value, json};
 
 use crate::arguments::stem_of;
@@ -93,6 +93,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         folder: &folder,
         threads: arguments.threads,
         quiet: arguments.quiet,
+        pairs: PairCache::default(),
         interrupt: interrupt.clone(),
     };
     let ran = run_members(&job, &todo);
@@ -117,8 +118,7 @@ fn find_todo<'m>(
         if !known.insert(&member.identity) || folder.has(&member.identity, sweep.keep) {
             continue;
         }
-        let updates = |case| Ok(Simulation::new(case)?.element_updates());
-        todo.push((sweep.build(member.index, updates)?, member));
+        todo.push((sweep.build(member.index, Simulation::price)?, member));
     }
     todo.sort_by_key(|(updates, member)| (std::cmp::Reverse(*updates), member.index));
     Ok(todo.into_iter().map(|(_, member)| member).collect())

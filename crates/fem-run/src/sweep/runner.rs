@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use fem_case::{Simulation, Sweep};
+use fem_case::{PairCache, Simulation, Sweep};
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
@@ -29,6 +29,8 @@ pub struct Job<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Show no progress.
     pub quiet: bool,
+    /// Condensed bodies that members share.
+    pub pairs: PairCache,
     /// Whether the user wants the sweep to end.
     pub interrupt: Interrupt,
 }
@@ -70,7 +72,8 @@ fn run_member(job: &Job<'_>, board: &Board, member: &Member) -> Result<(), Failu
         return Ok(());
     }
     let started = Instant::now();
-    let mut simulation = sweep.build(member.index, Simulation::new)?;
+    let mut simulation =
+        sweep.build(member.index, |case| Simulation::with_cache(case, &job.pairs))?;
     let mut watch = MemberWatch::new(board);
     let solving = Instant::now();
     let outcome = simulation.run(&mut watch);

@@ -1,8 +1,16 @@
 //! How quantities are measured: one study a file.
 
+mod balances;
+mod contact_patch;
 mod convergence;
+mod critical_step;
+mod hertz_field;
+mod invariance;
 mod paper;
 mod summary;
+mod uniform_stress;
+mod vibration;
+mod vibration_loss;
 mod viscoelastic;
 
 use crate::error::StudyError;
@@ -14,7 +22,12 @@ pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 
 /// All studies by the names that claims call them.
 const STUDIES: &[(&str, Study)] = &[
+    ("balances", balances::study),
+    ("contact_patch", contact_patch::study),
     ("convergence", convergence::study),
+    ("critical_step", critical_step::study),
+    ("hertz_field", hertz_field::study),
+    ("invariance", invariance::study),
     ("paper_contact_stress", paper::contact_stress::study),
     ("paper_contact_time", paper::contact_time::study),
     ("paper_contours", paper::contours::study),
@@ -23,6 +36,9 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_solid", paper::solid::study),
     ("paper_velocities", paper::velocities::study),
     ("summary", summary::study),
+    ("uniform_stress", uniform_stress::study),
+    ("vibration", vibration::study),
+    ("vibration_loss", vibration_loss::study),
     ("viscoelastic", viscoelastic::study),
 ];
 

@@ -1,6 +1,6 @@
 //! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
 
-use fem_explicit::{Label, Snapshot, StressField};
+use fem_explicit::{Label, Snapshot};
 use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
 use fem_figure::engineering::Unit;
 use serde::Deserialize;
@@ -59,7 +59,7 @@ impl Instant {
         let mut poles = [f64::NAN; 2];
         for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {
             let Some(mesh) = body.mesh() else { continue };
-            let stress = StressField::of(body, fields).points;
+            let stress = body.stress(fields).points;
             let nodes = mesh.nodes().iter().zip(&fields.displacement);
             halves[k] = Section {
                 points: nodes.map(|(x, u)| [0, 1].map(|axis: usize| x[axis] + u[axis])).collect(),
@@ -81,11 +81,13 @@ impl Instant {
         Self { label, time: snapshot.time, halves, poles }
     }
 
-    /// Smallest and largest σ_yy, GPa.
+    /// Smallest and largest σ_yy, GPa; NaN if any point's is.
     fn range(&self) -> (f64, f64) {
-        let ranges = self.halves.iter().filter_map(Section::range);
-        ranges
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), (a, b)| (from.min(a), to.max(b)))
+        let values = || self.halves.iter().flat_map(|half| half.values.iter().copied());
+        if values().any(f64::is_nan) {
+            return (f64::NAN, f64::NAN);
+        }
+        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
     }
 
     /// Of the half section, mm², where σ_yy is at most `level`.

@@ -80,9 +80,10 @@ fn measure(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
     }
     for row in &collision.history {
         let expected = rigid.velocities(hertz.at(row.time).approach_rate);
-        let worst = [0, 1].map(|k: usize| (row.velocity[k] - expected[k]).abs());
-        let worst = worst[0].max(worst[1]) / hertz.approach_speed();
-        findings.measure_worst("worst_velocity_difference", worst);
+        for (velocity, expected) in row.velocity.iter().zip(expected) {
+            let difference = (velocity - expected).abs() / hertz.approach_speed();
+            findings.measure_worst("worst_velocity_difference", difference);
+        }
     }
     // The circle in which the undeformed spheres would cut each other.
     let overlap = (2.0 * collision.max_approach * hertz.pair().effective_radius()).sqrt();

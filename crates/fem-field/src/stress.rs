@@ -1,10 +1,10 @@
 //! Stress from a snapshot.
 
 use fem_element::QuadGeometry;
-use fem_material::{ActsOn, ElasticModuli};
+use fem_material::{ActsOn, Material};
+use fem_mesh::SphereMesh;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::body::Body;
 use crate::snapshot::BodyFields;
 
 /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry), tension positive, Pa.
@@ -18,20 +18,13 @@ pub struct StressField {
 }
 
 impl StressField {
-    /// Recovers the stress of a body; a wall has none.
-    pub fn of(body: &Body, fields: &BodyFields) -> Self {
-        let Some(mesh) = body.mesh() else {
-            return Self::default();
-        };
-        let Ok(moduli) = ElasticModuli::from_bulk_shear(body.moduli.bulk, body.moduli.shear) else {
-            return Self::default();
-        };
-        let shear_field = match body.relaxation {
-            Some(_) => &fields.effective,
-            None => &fields.displacement,
-        };
-        let bulk_field = match &body.relaxation {
-            Some(relaxation) if relaxation.acts_on == ActsOn::All => &fields.effective,
+    /// Recovers the stress of a body.
+    pub fn of(mesh: &SphereMesh, material: &Material, fields: &BodyFields) -> Self {
+        let moduli = material.instantaneous();
+        let relaxed = if fields.effective.is_empty() { None } else { material.relaxation() };
+        let shear_field = if relaxed.is_some() { &fields.effective } else { &fields.displacement };
+        let bulk_field = match relaxed {
+            Some(series) if series.acts_on() == ActsOn::All => &fields.effective,
             _ => &fields.displacement,
         };
         let cells = (0..mesh.quads().len())
@@ -60,7 +53,7 @@ pub fn invariants([rr, yy, tt, ry]: [f64; 4]) -> (f64, f64) {
     (pressure, (square + 3.0 * ry * ry).sqrt())
 }
 
-fn recover(mesh: &fem_mesh::SphereMesh, cells: &[[f64; 4]]) -> Vec<[f64; 4]> {
+fn recover(mesh: &SphereMesh, cells: &[[f64; 4]]) -> Vec<[f64; 4]> {
     let n_nodes = mesh.nodes().len();
     let mut around: Vec<Vec<u32>> = vec![Vec::with_capacity(4); n_nodes];
     for (element, quad) in mesh.quads().iter().enumerate() {

@@ -1,0 +1,251 @@
+//! A case with linear finite elements that are condensed to their contact nodes: the meshes and the
+//! materials of the explicit model, milliseconds instead of seconds.
+
+mod cache;
+mod effects;
+mod outcome;
+
+use std::sync::Arc;
+
+use fem_condensed::{
+    BodyInput, CollideSettings, Collision, CondensedError, CondensedPair, ContactModel, Frame,
+    PairSettings,
+};
+use fem_field::Snapshot;
+use fem_material::PronySeries;
+use fem_mesh::SphereMesh;
+
+use crate::case::Case;
+use crate::effects::Effect;
+use crate::error::CaseError;
+use crate::estimate::Estimate;
+use crate::model::Model;
+use crate::model_tables::{CondensedTable, ModelTable};
+use crate::outcome::Outcome;
+use crate::plan::Plan;
+use crate::problem::build_meshes;
+use crate::quantity::Quantity;
+use crate::schema::CaseFile;
+
+pub use cache::PairCache;
+
+/// Growth of the condensed region when the contact leaves it.
+const CANDIDATE_GROWTH: f64 = 2.0;
+/// Half-width of the condensed region over that of the fine block.
+const CANDIDATES_OVER_REFINED: f64 = 1.25;
+/// A run gives up after so many elastic contact times.
+const GIVE_UP_AFTER: f64 = 50.0;
+/// Bytes an element takes: factor, assembly, a share of fields.
+const BYTES_PER_ELEMENT: u64 = 8_000;
+
+/// A case with condensed bodies, ready to run.
+#[derive(Clone, Debug)]
+pub struct Condensed {
+    /// The case.
+    pub case: Case,
+    /// What was decided.
+    pub plan: Plan,
+    /// Which effects are on, and why.
+    pub effects: Vec<Effect>,
+    /// What the user should know before the run.
+    pub warnings: Vec<String>,
+    /// The bodies.
+    pub pair: Arc<CondensedPair>,
+    options: Options,
+}
+
+/// The keys of `model.condensed`, resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Modes of free vibration of each body.
+    pub vibration_modes: usize,
+    /// Steps over the elastic contact time.
+    pub steps: usize,
+    /// Whether overlap is resisted by the explicit model's springs.
+    pub penalty_springs: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { vibration_modes: 0, steps: 1000, penalty_springs: false }
+    }
+}
+
+impl Condensed {
+    /// Meshes and condenses, or takes the same pair from the cache.
+    ///
+    /// # Errors
+    /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
+    /// limits allow; a stiffness that cannot be factored.
+    pub fn new(case: Case, cache: &PairCache) -> Result<Self, CaseError> {
+        let options = options(&case);
+        let plan = Plan::of(&case)?;
+        let meshes = build_meshes(&case, &plan)?;
+        check_memory(&case, &plan, &meshes)?;
+        let settings = settings(&plan, options);
+        let inputs = inputs(&case, meshes);
+        let pair = cache
+            .pair(inputs, settings)
+            .map_err(|error| case.error_at(&case.scene.model.path(), error.to_string()))?;
+        let (effects, warnings) = effects::decide(&case, &plan, &pair, options);
+        Ok(Self { effects, warnings, pair, options, plan, case })
+    }
+
+    /// Whether the case could run, without making a factor.
+    ///
+    /// # Errors
+    /// As [`Condensed::new`], but for a stiffness that cannot be factored.
+    pub fn check(case: &Case) -> Result<(), CaseError> {
+        let plan = Plan::of(case)?;
+        check_memory(case, &plan, &build_meshes(case, &plan)?)
+    }
+
+    /// What closed forms say.
+    pub fn estimate(&self) -> &Estimate {
+        &self.plan.estimate
+    }
+
+    /// The keys of the model with their defaults.
+    pub fn options(&self) -> Options {
+        self.options
+    }
+
+    /// The case with the model's defaults filled in.
+    pub fn resolve(&self) -> CaseFile {
+        resolve(&self.case, &self.plan)
+    }
+
+    /// The case with the model's defaults filled in, without making a mesh.
+    ///
+    /// # Errors
+    /// What the plan refuses.
+    pub fn resolve_case(case: &Case) -> Result<CaseFile, CaseError> {
+        Ok(resolve(case, &Plan::of(case)?))
+    }
+
+    /// Computes the collision; `halt` says why if it cannot.
+    pub fn run(&mut self) -> Outcome {
+        match self.collide() {
+            Ok((collision, snapshots, missing)) => self.outcome(&collision, snapshots, missing),
+            Err(error) => Outcome::halted(error.into()),
+        }
+    }
+
+    /// Condenses further out as long as the contact reaches the end.
+    fn collide(&mut self) -> Result<(Collision, Vec<Snapshot>, Vec<String>), CondensedError> {
+        let frame = self.frame();
+        let settings = CollideSettings {
+            n_steps: self.options.steps,
+            history: true,
+            give_up_after: GIVE_UP_AFTER,
+        };
+        let speed = frame.approach_speed();
+        let collision = loop {
+            match self.pair.collide(speed, relaxations(&self.case), &settings) {
+                Err(CondensedError::ContactBeyondCandidates { radius }) => {
+                    self.pair = Arc::new(self.pair.enlarge(CANDIDATE_GROWTH * radius)?);
+                }
+                result => break result?,
+            }
+        };
+        let request = &self.plan.snapshots;
+        let (snapshots, missing) =
+            self.pair.snapshots(&frame, relaxations(&self.case), &collision, request)?;
+        Ok((collision, snapshots, missing))
+    }
+
+    fn frame(&self) -> Frame {
+        let velocities = self.case.scene.bodies.each_ref().map(|body| body.velocity);
+        Frame { velocities, gap: self.plan.gap }
+    }
+
+    /// Elements of both bodies.
+    pub fn n_elements(&self) -> usize {
+        self.meshes().iter().flatten().map(|mesh| mesh.quads().len()).sum()
+    }
+
+    /// The meshes; a wall has none.
+    pub fn meshes(&self) -> [Option<&SphereMesh>; 2] {
+        self.pair.inputs().each_ref().map(|input| match input {
+            BodyInput::Sphere { mesh, .. } => Some(mesh),
+            BodyInput::Wall => None,
+        })
+    }
+}
+
+fn options(case: &Case) -> Options {
+    match case.scene.model {
+        Model::Condensed(options) => options,
+        _ => Options::default(),
+    }
+}
+
+fn relaxations(case: &Case) -> [Option<&PronySeries>; 2] {
+    case.scene.bodies.each_ref().map(|body| body.material()?.relaxation())
+}
+
+/// Bodies without their relaxations, which only the collision reads.
+fn inputs(case: &Case, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
+    let mut meshes = meshes.into_iter();
+    case.scene.bodies.each_ref().map(|body| match (meshes.next().flatten(), body.material()) {
+        (Some(mesh), Some(material)) => {
+            BodyInput::Sphere { mesh, material: material.without_relaxation() }
+        }
+        _ => BodyInput::Wall,
+    })
+}
+
+/// The condensed region goes by the fine block, so that all speeds that share a mesh share a
+/// factor; a contact that is expected further out doubles it.
+fn settings(plan: &Plan, options: Options) -> PairSettings {
+    let mut candidate_radius = CANDIDATES_OVER_REFINED * plan.refined_radius;
+    while candidate_radius < plan.candidate_radius * (1.0 - 1e-9) {
+        candidate_radius *= CANDIDATE_GROWTH;
+    }
+    let contact = if options.penalty_springs {
+        ContactModel::Springs(plan.contact_stiffness)
+    } else {
+        ContactModel::Exact
+    };
+    PairSettings {
+        contact,
+        vibration_modes: options.vibration_modes,
+        ..PairSettings::new(candidate_radius)
+    }
+}
+
+fn check_memory(
+    case: &Case,
+    plan: &Plan,
+    meshes: &[Option<SphereMesh>; 2],
+) -> Result<(), CaseError> {
+    let elements: usize = meshes.iter().flatten().map(|mesh| mesh.quads().len()).sum();
+    let bytes = BYTES_PER_ELEMENT.saturating_mul(elements as u64);
+    if bytes <= plan.max_memory {
+        return Ok(());
+    }
+    let message = format!("the factors would take about {:.1e} bytes", bytes as f64);
+    Err(case.error_at("limits.memory", message).with_help(format!(
+        "at most {:.1e} are allowed; use a larger mesh.contact_element_size, or raise \
+         limits.memory",
+        plan.max_memory as f64
+    )))
+}
+
+/// Tables that the model does not read stay as they are.
+fn resolve(case: &Case, plan: &Plan) -> CaseFile {
+    let given = case.file.clone();
+    let options = options(case);
+    let mut file = plan.resolve(case);
+    file.time = given.time;
+    if !options.penalty_springs {
+        file.contact = given.contact;
+    }
+    let table = CondensedTable {
+        vibration_modes: Some(Quantity::from_si(options.vibration_modes as f64)),
+        steps: Some(Quantity::from_si(options.steps as f64)),
+        penalty_springs: Some(options.penalty_springs),
+    };
+    file.model = Some(ModelTable { condensed: Some(table), ..ModelTable::default() });
+    file
+}

@@ -1,0 +1,156 @@
+//! `[model] condensed`: its keys, its results in the outcome that all models share, pairs that
+//! cases share.
+
+use std::path::Path;
+
+use fem_case::{Case, CondensedOptions, Model, Outcome, PairCache, Simulation};
+
+const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
+
+fn parse(overrides: &[&str]) -> Result<Case, fem_case::CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse("glass.toml", GLASS, Path::new("."), &overrides)
+}
+
+fn simulation(overrides: &[&str]) -> Simulation {
+    Simulation::new(parse(overrides).unwrap()).unwrap()
+}
+
+fn run(overrides: &[&str]) -> Outcome {
+    simulation(overrides).run(&mut ())
+}
+
+const CONDENSED: &str = "model.condensed={}";
+
+#[test]
+fn keys_are_read_and_checked() {
+    let model = |value: &str| parse(&[value]).map(|case| case.scene.model);
+    assert_eq!(model(CONDENSED).unwrap(), Model::Condensed(CondensedOptions::default()));
+    let all = "model.condensed={vibration_modes=12, steps=200, penalty_springs=true}";
+    let expected = CondensedOptions { vibration_modes: 12, steps: 200, penalty_springs: true };
+    assert_eq!(model(all).unwrap(), Model::Condensed(expected));
+    for (value, message) in [
+        ("model.condensed.vibration_modes=-1", "vibration_modes is -1"),
+        ("model.condensed.vibration_modes=1.5", "vibration_modes is 1.5"),
+        ("model.condensed.steps=10", "steps is 10"),
+        ("model.condensed.mesh=1", "mesh"),
+    ] {
+        let error = model(value).unwrap_err();
+        assert!(error.message().contains(message), "{error}");
+    }
+}
+
+/// The case as the explicit model reads it: both readings, a wall, a gap.
+#[test]
+fn results_are_those_of_the_explicit_model() {
+    for extra in [&[][..], &["start.gap='1 um'", "body.1.approach_speed='0.2 m/s'"]] {
+        // The case's own relaxation, on a mesh of some hundred elements.
+        let coarse = ["mesh.contact_element_size='60 um'"];
+        let overrides: Vec<&str> = coarse.iter().chain(extra).copied().collect();
+        let fem = run(&overrides);
+        let overrides: Vec<&str> = overrides.into_iter().chain([CONDENSED]).collect();
+        let condensed = run(&overrides);
+        assert_eq!(condensed.halt, None);
+        let close = |a: Option<f64>, b: Option<f64>, relative: f64| {
+            let error = a.unwrap() / b.unwrap() - 1.0;
+            assert!(error.abs() < relative, "{a:?} {b:?} {error:e}");
+        };
+        // Less than four elements across the contact: the difference is the penalty's.
+        close(condensed.restitution, fem.restitution, 2e-3);
+        close(condensed.contact_time, fem.contact_time, 1e-2);
+        close(condensed.peak_force, fem.peak_force, 2e-2);
+        close(condensed.max_approach, fem.max_approach, 1e-2);
+        // Mass scaling adds up to 2e-4 of the mass to the explicit bodies.
+        close(condensed.initial_energy, fem.initial_energy, 2e-4);
+        for (a, b) in condensed.bodies.iter().zip(&fem.bodies) {
+            assert_eq!((a.elements, a.nodes), (b.elements, b.nodes));
+            close(a.mass, b.mass, 1e-9);
+            assert!((a.velocity_after.unwrap() - b.velocity_after.unwrap()).abs() < 1e-3);
+        }
+        let labels = |outcome: &Outcome| -> Vec<_> {
+            outcome.snapshots.iter().map(|snapshot| snapshot.label).collect()
+        };
+        assert_eq!(labels(&condensed), labels(&fem));
+        for (a, b) in condensed.snapshots.iter().zip(&fem.snapshots) {
+            assert!((a.time - b.time).abs() < 1e-6, "{} {}", a.time, b.time);
+        }
+        assert!(condensed.residual_relative.unwrap() < 1e-5);
+        assert!(condensed.momentum_residual_relative.unwrap() < 1e-12);
+        let rows = &condensed.history;
+        assert!(rows.windows(2).all(|two| two[0].time < two[1].time));
+        assert!((1000..1400).contains(&rows.len()));
+    }
+}
+
+#[test]
+fn a_wall_at_rest_and_a_moving_one() {
+    let relative = |first: &str, second: &str| {
+        run(&[
+            "body.1={name='floor', wall={}}",
+            &format!("body.0.approach_speed={first}"),
+            &format!("body.1.approach_speed={second}"),
+            CONDENSED,
+        ])
+    };
+    let (ball, floor) = (relative("0.5", "0"), relative("0.1", "0.4"));
+    assert!((ball.restitution.unwrap() - floor.restitution.unwrap()).abs() < 1e-9);
+    assert_eq!(floor.bodies[1].velocity_after, Some(-0.4));
+    let last = floor.history.last().unwrap();
+    // Kinetic energy and the work of the wall, against the loss in the frame of the wall.
+    assert!(last.wall_work > 0.0 && floor.residual_relative.unwrap() < 1e-5);
+}
+
+#[test]
+fn a_resolved_case_computes_the_same() {
+    for value in [CONDENSED, "model.condensed={vibration_modes=4, penalty_springs=true, steps=300}"]
+    {
+        let first = simulation(&[value, "mesh.contact_element_size='50 um'"]);
+        let text = first.resolved().to_toml().unwrap();
+        let case = Case::parse("again.toml", &text, Path::new("."), &[]).unwrap();
+        let mut again = Simulation::new(case).unwrap();
+        assert_eq!(again.resolved().to_toml().unwrap(), text);
+        let expected = run(&[value, "mesh.contact_element_size='50 um'"]);
+        assert_eq!(again.run(&mut ()).history, expected.history);
+    }
+}
+
+/// Speeds and relaxations on one mesh share a factor, to the same bits.
+#[test]
+fn cases_share_a_pair() {
+    let mesh = ["mesh.contact_element_size='50 um'", "mesh.refined_radius='0.4 mm'", CONDENSED];
+    let cache = PairCache::default();
+    let pair_of = |extra: &str| {
+        let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
+        let mut simulation = Simulation::with_cache(parse(&overrides).unwrap(), &cache).unwrap();
+        let shared = simulation.run(&mut ());
+        assert_eq!(shared.history, run(&overrides).history);
+        let Simulation::Condensed(condensed) = simulation else { panic!() };
+        condensed.pair.clone()
+    };
+    let first = pair_of("body.0.approach_speed=0.5");
+    for extra in [
+        "body.0.approach_speed=0.2",
+        "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, decay_rate=1e4}]}",
+    ] {
+        assert!(std::sync::Arc::ptr_eq(&first, &pair_of(extra)), "{extra}");
+    }
+    // Another density is another pair.
+    assert!(!std::sync::Arc::ptr_eq(&first, &pair_of("material.glass.density=2000")));
+}
+
+/// What the model does not read or know is said.
+#[test]
+fn limits_are_told() {
+    let warned = |overrides: &[&str], words: &str| {
+        let warnings = simulation(overrides).warnings().join("\n");
+        assert!(warnings.contains(words), "{warnings}");
+    };
+    assert!(simulation(&[CONDENSED]).warnings().is_empty());
+    warned(&[CONDENSED, "time.step_factor=0.5"], "time.step_factor has no effect");
+    warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
+    warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");
+    warned(&[CONDENSED, "body.0.approach_speed=30"], "small-strain");
+    let tight = parse(&[CONDENSED, "limits.memory=1000"]).unwrap();
+    let error = Simulation::new(tight).unwrap_err();
+    assert!(error.help().is_some_and(|help| help.contains("limits.memory")), "{error}");
+}

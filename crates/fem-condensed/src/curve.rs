@@ -1,0 +1,92 @@
+//! The elastic collision of a condensed pair, in closed form.
+//!
+//! With E = L Lᵀ, L s = 1 and L t = g₀, point k joins the contact at the approach δ_k = t_k/s_k and
+//!
+//! ```math
+//! F(\delta) = \sum_k s_k^2\,\langle\delta-\delta_k\rangle, \qquad
+//! W(\delta) = \tfrac12\sum_k s_k^2\,\langle\delta-\delta_k\rangle^2 ,
+//! ```
+//!
+//! so the quasi-static motion is harmonic between the δ_k and its duration a sum of arcs. It sets
+//! the time step of a run, says how far the contact reaches, and is what a run of an elastic pair
+//! has to converge to.
+
+use faer::Mat;
+
+use crate::dense::cholesky;
+
+/// Force against approach, piecewise linear.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ElasticCurve {
+    /// δ_k, m, rising.
+    touch: Vec<f64>,
+    /// s_k², N/m.
+    stiffness: Vec<f64>,
+}
+
+/// An elastic, quasi-static collision.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElasticImpact {
+    /// s.
+    pub contact_time: f64,
+    /// m.
+    pub max_approach: f64,
+    /// N.
+    pub peak_force: f64,
+    /// Points in contact at the largest approach.
+    pub n_closed: usize,
+}
+
+impl ElasticCurve {
+    /// Of a compliance (m/N) and the initial gaps (m) at the points, the gap of the poles left out.
+    /// Where points would not join from the axis outward (penalty springs at Gauss points), one
+    /// that comes early waits for the others: then the curve is an estimate.
+    pub fn new(compliance: &Mat<f64>, gaps: &[f64]) -> Option<Self> {
+        let factor = cholesky(compliance)?;
+        let n = gaps.len();
+        let (mut s, mut t) = (vec![0.0; n], vec![0.0; n]);
+        let (mut touch, mut stiffness) = (Vec::with_capacity(n), Vec::with_capacity(n));
+        for k in 0..n {
+            let before = |x: &[f64]| (0..k).map(|j| factor[(k, j)] * x[j]).sum::<f64>();
+            (s[k], t[k]) =
+                ((1.0 - before(&s)) / factor[(k, k)], (gaps[k] - before(&t)) / factor[(k, k)]);
+            let joins = t[k] / s[k];
+            if s[k] <= 0.0 || s[k].is_nan() {
+                break;
+            }
+            touch.push(touch.last().map_or(joins, |&last: &f64| joins.max(last)));
+            stiffness.push(s[k] * s[k]);
+        }
+        Some(Self { touch, stiffness })
+    }
+
+    /// The collision of a reduced mass (kg) at a speed (m/s); `None` if the contact would reach
+    /// the last point.
+    pub fn impact(&self, mass: f64, speed: f64) -> Option<ElasticImpact> {
+        let (mut time, mut velocity) = (0.0, speed);
+        let (mut force, mut stiffness) = (0.0, 0.0);
+        for k in 0..self.touch.len() {
+            stiffness += self.stiffness[k];
+            let width = self.touch.get(k + 1)? - self.touch[k];
+            let (a, squared) = (force / mass, stiffness / mass);
+            let omega = squared.sqrt();
+            // ω x + a/ω = A sin(ω t + φ)
+            let amplitude = (omega * velocity).hypot(a) / squared;
+            let phase = |x: f64| ((x + a / squared) / amplitude).min(1.0).asin();
+            let turn = amplitude - a / squared;
+            if turn <= width {
+                time += (std::f64::consts::FRAC_PI_2 - phase(0.0)) / omega;
+                return Some(ElasticImpact {
+                    contact_time: 2.0 * time,
+                    max_approach: self.touch[k] + turn - self.touch[0],
+                    peak_force: force + stiffness * turn,
+                    n_closed: k + 1,
+                });
+            }
+            time += (phase(width) - phase(0.0)) / omega;
+            velocity = (velocity * velocity - (2.0 * a + squared * width) * width).sqrt();
+            force += stiffness * width;
+        }
+        None
+    }
+}

@@ -1,0 +1,241 @@
+//! Time stepping of the relative motion.
+//!
+//! ```math
+//! m^*\ddot\delta = -F, \qquad F = \mathbf 1^T\mathbf p, \qquad
+//! \mathbf g = \mathbf g_0 - \delta + \sum_i \mathbf u_i \ge 0
+//! ```
+//!
+//! Newmark's formulas with γ = 1/2, β = 1/12 ([`BETA`]): the approach at the end of a step depends
+//! on the force there, which adds β Δt²/m* to every entry of the compliance. So do the relaxing
+//! springs and the masses of vibration modes ([`Chain`]); one contact problem with a constant
+//! matrix is solved a step.
+
+use fem_material::{ActsOn, PronySeries};
+
+use crate::CondensedError;
+use crate::chain::{BETA, Chain, Memory};
+use crate::disc::{Disc, DiscSolver};
+use crate::fields::active;
+use crate::pair::{CondensedPair, PairSide};
+
+/// What acts on one body beside its elastic compliance.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SideState {
+    /// Relaxing springs, if the body relaxes.
+    pub springs: Option<Chain>,
+    /// The static response of the modes of vibration, taken away, and their dynamic response.
+    pub vibration: Option<[Chain; 2]>,
+}
+
+/// Relative motion and contact at an instant.
+#[derive(Debug, Clone)]
+pub(crate) struct Motion<'a> {
+    pair: &'a CondensedPair,
+    pub time_step: f64,
+    pub step: usize,
+    pub approach: f64,
+    pub rate: f64,
+    acceleration: f64,
+    pub sides: [SideState; 2],
+    solver: DiscSolver,
+    overlap: Vec<f64>,
+    /// Forces at the points, N.
+    pub forces: Vec<f64>,
+    pub force: f64,
+    pub contact: Disc,
+}
+
+impl<'a> Motion<'a> {
+    /// First touch at a relative speed (m/s), the first `n_points` points followed.
+    ///
+    /// # Errors
+    /// Springs of a relaxing shear that cannot be made.
+    pub fn new(
+        pair: &'a CondensedPair,
+        speed: f64,
+        relaxations: [Option<&PronySeries>; 2],
+        time_step: f64,
+        n_points: usize,
+    ) -> Result<Self, CondensedError> {
+        let mut compliance = faer::Mat::zeros(n_points, n_points);
+        let inertia = BETA * time_step * time_step / pair.reduced_mass;
+        for i in 0..n_points {
+            compliance[(i, i)] = pair.spring_compliance[i];
+            for j in 0..n_points {
+                compliance[(i, j)] += inertia;
+            }
+        }
+        let mut sides = [SideState::default(), SideState::default()];
+        for (state, (side, series)) in sides.iter_mut().zip(pair.sides.iter().zip(relaxations)) {
+            let Some(side) = side else { continue };
+            *state = SideState::new(pair, side, series, time_step, n_points)?;
+            match &state.springs {
+                Some(springs) => springs.add_compliance(&mut compliance),
+                None => compliance += side.compliance.as_ref().submatrix(0, 0, n_points, n_points),
+            }
+            for chain in state.vibration.iter().flatten() {
+                chain.add_compliance(&mut compliance);
+            }
+        }
+        Ok(Self {
+            pair,
+            time_step,
+            step: 0,
+            approach: 0.0,
+            rate: speed,
+            acceleration: 0.0,
+            sides,
+            solver: DiscSolver::new(compliance),
+            overlap: vec![0.0; n_points],
+            forces: vec![0.0; n_points],
+            force: 0.0,
+            contact: Disc { n_closed: 0, tension: 0.0, gap: 0.0 },
+        })
+    }
+
+    pub fn time(&self) -> f64 {
+        self.step as f64 * self.time_step
+    }
+
+    pub fn n_fallbacks(&self) -> usize {
+        self.solver.n_fallbacks
+    }
+
+    /// Overlap on the axis that the forces of the last step had to undo, m; ≤ 0 without contact.
+    pub fn axis_overlap(&self) -> f64 {
+        self.overlap[0]
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// No contact state; a contact that reaches the last point.
+    pub fn advance(&mut self) -> Result<(), CondensedError> {
+        let dt = self.time_step;
+        let predicted = self.approach + dt * self.rate + (0.5 - BETA) * dt * dt * self.acceleration;
+        for (overlap, point) in self.overlap.iter_mut().zip(&self.pair.points) {
+            *overlap = predicted - point.initial_gap;
+        }
+        for state in &mut self.sides {
+            for chain in state.chains_mut() {
+                chain.subtract_past(&mut self.overlap);
+            }
+        }
+        self.contact = self
+            .solver
+            .solve(&self.overlap, &mut self.forces)
+            .map_err(|_| CondensedError::NoContactState { time: (self.step + 1) as f64 * dt })?;
+        if self.contact.n_closed == self.forces.len() {
+            let radius = self.pair.points[self.forces.len() - 1].radius;
+            return Err(CondensedError::ContactBeyondCandidates { radius });
+        }
+        for state in &mut self.sides {
+            for chain in state.chains_mut() {
+                chain.advance(&self.forces[..self.contact.n_closed]);
+            }
+        }
+        self.force = self.forces.iter().sum();
+        let acceleration = -self.force / self.pair.reduced_mass;
+        self.approach = predicted + BETA * dt * dt * acceleration;
+        self.rate += 0.5 * dt * (self.acceleration + acceleration);
+        self.acceleration = acceleration;
+        self.step += 1;
+        Ok(())
+    }
+
+    /// Energy stored in the bodies (J), in penalty springs (J), power that relaxation takes (W),
+    /// and kinetic energy of the vibrations of each body (J).
+    pub fn energies(&self) -> Energies {
+        let n = self.contact.n_closed;
+        let forces = &self.forces[..n];
+        let mut energies = Energies::default();
+        for ((state, side), vibration) in
+            self.sides.iter().zip(&self.pair.sides).zip(&mut energies.vibration)
+        {
+            let Some(side) = side else { continue };
+            if state.springs.is_none() {
+                for i in 0..n {
+                    let row: f64 = (0..n).map(|j| side.compliance[(j, i)] * forces[j]).sum();
+                    energies.stored += 0.5 * forces[i] * row;
+                }
+            }
+            for chain in state.chains() {
+                let (stored, power) = chain.stored_and_dissipated();
+                energies.stored += stored;
+                energies.power += power;
+                *vibration += chain.kinetic();
+            }
+        }
+        energies.contact = forces
+            .iter()
+            .zip(&self.pair.spring_compliance)
+            .map(|(force, compliance)| 0.5 * compliance * force * force)
+            .fold(0.0, |sum, energy| sum + energy);
+        energies
+    }
+}
+
+/// Energies of an instant.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Energies {
+    pub stored: f64,
+    pub contact: f64,
+    pub power: f64,
+    pub vibration: [f64; 2],
+}
+
+impl SideState {
+    fn new(
+        pair: &CondensedPair,
+        side: &PairSide,
+        series: Option<&PronySeries>,
+        time_step: f64,
+        n_points: usize,
+    ) -> Result<Self, CondensedError> {
+        let series = active(series);
+        let rows = |matrix: &faer::Mat<f64>| matrix.as_ref().subrows(0, n_points).to_owned();
+        let springs = match series {
+            None => None,
+            Some(series) if series.acts_on() == ActsOn::All => {
+                // Φ is lower triangular but for one diagonal where meshes do not match: columns
+                // further out than the last point are zero.
+                let all = rows(&side.uniform);
+                let n_modes = (0..all.ncols())
+                    .rposition(|j| (0..n_points).any(|i| all[(i, j)] != 0.0))
+                    .map_or(0, |j| j + 1);
+                let shapes = all.as_ref().subcols(0, n_modes).to_owned();
+                let share = vec![1.0; n_modes];
+                Some(Chain::new(Memory::new(series, time_step), shapes, &share))
+            }
+            Some(series) => {
+                let shear = side.shear(pair.settings().shear_blocks)?;
+                let share = &shear.springs.deviatoric_share;
+                Some(Chain::new(Memory::new(series, time_step), rows(&shear.at_points), share))
+            }
+        };
+        let vibration = side.vibrations.as_ref().map(|vibrations| {
+            let (memory, ones) = match series {
+                None => (Memory::elastic(), None),
+                Some(series) => {
+                    let uniform = series.acts_on() == ActsOn::All;
+                    (Memory::new(series, time_step), uniform.then_some(1.0))
+                }
+            };
+            let modes = &vibrations.modes;
+            let share: Vec<f64> =
+                modes.deviatoric_share.iter().map(|&share| ones.unwrap_or(share)).collect();
+            let springs = Chain::new(memory, rows(&vibrations.at_points), &share);
+            let dynamic = springs.clone().with_inertia(&modes.squared_frequency, time_step);
+            [springs.removed(), dynamic]
+        });
+        Ok(Self { springs, vibration })
+    }
+
+    pub fn chains(&self) -> impl Iterator<Item = &Chain> {
+        self.springs.iter().chain(self.vibration.iter().flatten())
+    }
+
+    fn chains_mut(&mut self) -> impl Iterator<Item = &mut Chain> {
+        self.springs.iter_mut().chain(self.vibration.iter_mut().flatten())
+    }
+}

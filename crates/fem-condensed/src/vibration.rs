@@ -1,0 +1,137 @@
+//! Free vibrations of a body, for what a quasi-static contact lacks.
+//!
+//! Lanczos' method on the flexibility of the free body, G = P K⁻¹ Pᵀ with P the projection that
+//! takes out the mean motion, in the inner product of the masses: G M φ = φ/ω². It begins with the
+//! answer to a load on the contact pole, so that the modes which the contact excites come first,
+//! and is orthogonalised in full. Modes are normalised to φᵀMφ = 1.
+
+use faer::Mat;
+
+use crate::CondensedError;
+use crate::body::CondensedBody;
+use crate::dense::symmetric_eigen;
+
+/// Lanczos vectors a mode: enough for the frequencies of the modes kept to settle to 1e-6.
+const VECTORS_PER_MODE: usize = 3;
+/// And as many more.
+const VECTORS_MORE: usize = 20;
+
+/// Modes of free vibration.
+#[derive(Debug, Clone)]
+pub(crate) struct Vibrations {
+    /// ω², rising, 1/s².
+    pub squared_frequency: Vec<f64>,
+    /// θ: share of the deviatoric energy.
+    pub deviatoric_share: Vec<f64>,
+    /// Inward displacement of the contact nodes over ω, m/√J.
+    pub contact: Mat<f64>,
+    /// Displacement of all equations over ω, the ground's last, m/√J.
+    pub fields: Mat<f64>,
+}
+
+impl Vibrations {
+    /// The lowest so many modes.
+    ///
+    /// # Errors
+    /// Missing memory; a stiffness that is not positive definite to rounding.
+    pub fn new(body: &CondensedBody, n_modes: usize) -> Result<Self, CondensedError> {
+        let n = body.mass_of_equation.len();
+        let n_vectors = (VECTORS_PER_MODE * n_modes + VECTORS_MORE).min(n / 2);
+        let loads = body.balanced_loads();
+        let mut load = Mat::from_fn(n, 1, |i, _| loads[(i, 0)]);
+        let mut basis = Mat::<f64>::zeros(n, n_vectors);
+        let mut weighted = Mat::<f64>::zeros(n, n_vectors);
+        let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
+        let mut count = 0;
+        for k in 0..n_vectors {
+            body.solve_balanced(&mut load)?;
+            body.remove_mean_motion(&mut load);
+            // The first pass gives the projection of G, the second removes what rounding left.
+            for pass in 0..2 {
+                let done = weighted.as_ref().subcols(0, k);
+                let shares = done.transpose() * &load;
+                load -= basis.as_ref().subcols(0, k) * &shares;
+                if pass == 0 && k > 0 {
+                    for j in 0..k {
+                        projected[(j, k - 1)] = shares[(j, 0)];
+                        projected[(k - 1, j)] = shares[(j, 0)];
+                    }
+                }
+            }
+            let norm = (0..n)
+                .map(|i| body.mass_of_equation[i] * load[(i, 0)] * load[(i, 0)])
+                .sum::<f64>()
+                .sqrt();
+            if norm <= 0.0 || norm.is_nan() {
+                break;
+            }
+            for i in 0..n {
+                basis[(i, k)] = load[(i, 0)] / norm;
+                weighted[(i, k)] = body.mass_of_equation[i] * basis[(i, k)];
+                load[(i, 0)] = weighted[(i, k)];
+            }
+            count = k + 1;
+        }
+        // The last vector's own column of the projection is not known: leave it out.
+        let m = count - 1;
+        let flexibility = projected.as_ref().submatrix(0, 0, m, m).to_owned();
+        let (values, vectors) =
+            symmetric_eigen(&flexibility).ok_or(CondensedError::NotPositiveDefinite)?;
+        let n_modes = n_modes.min(m);
+        // The largest flexibilities are the lowest frequencies.
+        let chosen: Vec<usize> = (m - n_modes..m).rev().collect();
+        let squared_frequency: Vec<f64> = chosen.iter().map(|&j| values[j].recip()).collect();
+        let scaled = Mat::from_fn(m, n_modes, |i, j| {
+            vectors[(i, chosen[j])] * values[chosen[j]].max(0.0).sqrt()
+        });
+        let fields = basis.as_ref().subcols(0, m) * scaled;
+        let forces = body.apply_deviatoric(&fields);
+        let deviatoric_share = (0..n_modes)
+            .map(|j| (0..n).map(|i| fields[(i, j)] * forces[(i, j)]).sum::<f64>().clamp(0.0, 1.0))
+            .collect();
+        let first = body.numbering.first_contact();
+        let contact = Mat::from_fn(body.numbering.n_contact, n_modes, |i, j| {
+            body.inward * fields[(first + i, j)]
+        });
+        Ok(Self { squared_frequency, deviatoric_share, contact, fields })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_material::{ElasticModuli, Material};
+    use fem_mesh::HalfDisc;
+
+    use super::*;
+
+    /// ωR/c_s at ν = 0.244 of 0S2, 0S1, 0S3, 0S0, 1S2, 0S4 (exact, all axisymmetric).
+    const EXACT: [f64; 6] = [2.63906, 3.41139, 3.91364, 4.38361, 4.84778, 5.00467];
+
+    fn frequencies(size: f64) -> Vec<f64> {
+        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.488, 0.244).unwrap();
+        let material = Material::new(1.0, moduli, None).unwrap();
+        let mesh =
+            HalfDisc { radius: 1.0, contact_element_size: size, refined_radius: 0.5, growth: None };
+        let mesh = mesh.build().unwrap();
+        let contact = mesh.surface()[..4].to_vec();
+        let body = CondensedBody::new(mesh, material, &contact).unwrap();
+        let modes = Vibrations::new(&body, 6).unwrap();
+        // ψ of each mode has unit energy in the stiffness, and a share of it is deviatoric; the
+        // breathing mode 0S0 has the least.
+        let least = modes.deviatoric_share.iter().copied().fold(1.0, f64::min);
+        assert!((modes.deviatoric_share[3] - least).abs() < 1e-12 && least < 0.7);
+        modes.squared_frequency.iter().map(|squared| squared.sqrt()).collect()
+    }
+
+    #[test]
+    fn frequencies_are_those_of_a_sphere_to_second_order() {
+        let [coarse, fine] = [0.1, 0.05].map(frequencies);
+        for (k, exact) in EXACT.into_iter().enumerate() {
+            let (a, b) = (coarse[k] / exact - 1.0, fine[k] / exact - 1.0);
+            // Lumped masses: low by 2.3 % at most at twenty elements over the radius.
+            assert!(b.abs() < 0.03, "{k} {b}");
+            let order = (a / b).log2();
+            assert!(order > 1.6 && order < 2.4, "{k} {order}");
+        }
+    }
+}

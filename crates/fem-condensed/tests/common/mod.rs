@@ -1,0 +1,118 @@
+//! Scenes that the condensed model, the explicit model and the closed forms all understand.
+
+#![allow(dead_code)]
+
+use fem_condensed::{BodyInput, CollideSettings, Collision, CondensedPair, PairSettings};
+use fem_laws::{FiniteSize, HertzImpact, Impact, Pair, PairRelaxation, Partner, Ting};
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_mesh::{HalfDisc, Side, SphereMesh};
+
+/// E (Pa), ν, ρ (kg/m³), and terms (weight, rate in 1/s).
+pub fn material(constants: [f64; 3], acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
+    let moduli =
+        ElasticModuli::from_youngs_modulus_poissons_ratio(constants[0], constants[1]).unwrap();
+    let term = |&(weight, rate): &(f64, f64)| PronyTerm { weight, relaxation_time: 1.0 / rate };
+    let relaxation = (!terms.is_empty())
+        .then(|| PronySeries::new(terms.iter().map(term).collect(), acts_on).unwrap());
+    Material::new(constants[2], moduli, relaxation).unwrap()
+}
+
+pub const GLASS: [f64; 3] = [63e9, 0.244, 2390.0];
+pub const STEEL: [f64; 3] = [210e9, 0.29, 7850.0];
+pub const POLYMER: [f64; 3] = [3e9, 0.4, 1200.0];
+
+pub fn glass() -> Material {
+    material(GLASS, ActsOn::All, &[])
+}
+
+/// A body of a scene: diameter (m) and material; `None` is a wall.
+pub type Body = Option<(f64, Material)>;
+
+/// Two bodies that meet.
+#[derive(Clone)]
+pub struct Scene {
+    pub bodies: [Body; 2],
+    /// Relative speed, m/s.
+    pub speed: f64,
+}
+
+impl Scene {
+    /// The paper's pair of spheres, 22.2 and 15.9 mm, at 0.5 m/s.
+    pub fn paper(lower: Material, upper: Material) -> Self {
+        Self { bodies: [Some((22.2e-3, lower)), Some((15.9e-3, upper))], speed: 0.5 }
+    }
+
+    pub fn pair(&self) -> Pair {
+        let partner = |body: &Body| match body {
+            Some((diameter, material)) => Partner::solid_sphere(*diameter, material),
+            None => Partner::Wall,
+        };
+        Pair::new(partner(&self.bodies[0]), partner(&self.bodies[1])).unwrap()
+    }
+
+    pub fn hertz(&self) -> HertzImpact {
+        HertzImpact::new(&self.pair(), self.speed).unwrap()
+    }
+
+    /// Ting's impact, with the finite size of the spheres if asked for.
+    pub fn ting(&self, finite_size: bool) -> Impact {
+        let [first, second] = self.bodies.each_ref().map(|b| b.as_ref().map(|(_, m)| m));
+        let ting = Ting::new(&self.pair(), PairRelaxation::new(first, second).unwrap());
+        let ting = if finite_size {
+            let [first, second] =
+                self.bodies.each_ref().map(|b| b.as_ref().map(|(d, m)| (0.5 * d, m)));
+            ting.with_finite_size(FiniteSize::new(first, second).unwrap())
+        } else {
+            ting
+        };
+        ting.impact(self.speed).unwrap()
+    }
+
+    /// Mesh of a body with so many elements across Hertz' contact radius.
+    pub fn mesh(&self, side: usize, elements: f64) -> Option<SphereMesh> {
+        let contact_radius = self.hertz().max_contact_radius();
+        let (diameter, _) = self.bodies[side].as_ref()?;
+        let disc = HalfDisc {
+            radius: 0.5 * diameter,
+            contact_element_size: contact_radius / elements,
+            refined_radius: 1.2 * contact_radius,
+            growth: None,
+        };
+        Some(disc.build().unwrap().on_side([Side::Below, Side::Above][side]))
+    }
+
+    pub fn inputs(&self, elements: f64) -> [BodyInput; 2] {
+        [0, 1].map(|side| match (self.mesh(side, elements), &self.bodies[side]) {
+            (Some(mesh), Some((_, material))) => {
+                BodyInput::Sphere { mesh, material: material.clone() }
+            }
+            _ => BodyInput::Wall,
+        })
+    }
+
+    pub fn settings(&self) -> PairSettings {
+        PairSettings::new(1.5 * self.hertz().max_contact_radius())
+    }
+
+    /// Condensed with so many elements across the contact, exact contact, no vibration.
+    pub fn condensed(&self, elements: f64) -> CondensedPair {
+        CondensedPair::new(self.inputs(elements), self.settings()).unwrap()
+    }
+
+    pub fn collide(&self, pair: &CondensedPair) -> Collision {
+        collide(pair, self.speed, &CollideSettings::default())
+    }
+}
+
+/// A collision with the relaxations of the bodies' own materials.
+pub fn collide(pair: &CondensedPair, speed: f64, settings: &CollideSettings) -> Collision {
+    pair.collide(speed, pair.relaxations(), settings).unwrap()
+}
+
+pub fn assert_close(what: &str, found: f64, expected: f64, relative: f64) {
+    let error = found / expected - 1.0;
+    assert!(
+        error.abs() <= relative,
+        "{what}: found {found:e}, expected {expected:e}, off by {error:.2e} of {relative:.0e}"
+    );
+}

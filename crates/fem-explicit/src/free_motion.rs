@@ -1,0 +1,157 @@
+//! One body without contact: its free vibrations, and the forces of a given deformation.
+//!
+//! The body moves by the step of a collision, M ü = −f(u), central differences at a step that is
+//! stable for it alone, without mass scaling.
+
+use fem_material::Material;
+use fem_mesh::SphereMesh;
+
+use crate::body::Body;
+use crate::error::ModelError;
+use crate::model::check_step_factor;
+
+use crate::state::BodyState;
+use crate::step::{advance_body, update_internal_forces};
+use crate::time_step::NodalBound;
+use fem_field::{BodyFields, StressField};
+
+/// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
+///
+/// Displacement u_n and velocity v_{n−1/2} are half a step apart, as leapfrog has them.
+///
+/// ```
+/// use fem_explicit::FreeMotion;
+/// # use fem_material::{ElasticModuli, Material};
+/// # use fem_mesh::HalfDisc;
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244)?;
+/// let glass = Material::new(2390.0, moduli, None)?;
+/// let disc = HalfDisc {
+///     radius: 1e-2,
+///     contact_element_size: 1e-3,
+///     refined_radius: 5e-3,
+///     growth: None,
+/// };
+/// let mut sphere = FreeMotion::new(disc.build()?, &glass, 0.9)?;
+/// // It breathes: as much energy as it was given is there after any number of steps.
+/// sphere.set_velocity(|[r, y]| [r, y - 1e-2]);
+/// let start = sphere.energy();
+/// for _ in 0..100 {
+///     sphere.step();
+/// }
+/// assert!((sphere.energy() / start - 1.0).abs() < 1e-12);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct FreeMotion {
+    body: Body,
+    time_step: f64,
+    n_steps: u64,
+    state: BodyState,
+    /// −f(u_n), N.
+    forces: Vec<[f64; 2]>,
+}
+
+impl FreeMotion {
+    /// Lumps masses and chooses the time step: `step_factor`, in (0, 1], of the critical one.
+    ///
+    /// # Errors
+    /// A step factor out of range.
+    pub fn new(
+        mesh: SphereMesh,
+        material: &Material,
+        step_factor: f64,
+    ) -> Result<Self, ModelError> {
+        check_step_factor(step_factor)?;
+        let bound = NodalBound::of_sphere(&mesh, material);
+        let time_step = step_factor * bound.critical_time_step();
+        let body = Body::deformable(mesh, material, 0.0, bound.mass, 0.0, time_step);
+        let state = BodyState::in_flight(&body, 0.0);
+        let forces = vec![[0.0; 2]; body.n_nodes()];
+        Ok(Self { body, time_step, n_steps: 0, state, forces })
+    }
+
+    /// The body.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// Time step, s.
+    pub fn time_step(&self) -> f64 {
+        self.time_step
+    }
+
+    /// Time since the start, s.
+    pub fn time(&self) -> f64 {
+        self.n_steps as f64 * self.time_step
+    }
+
+    /// Gives every node the velocity (r, y), m/s, of its place (r, y), m.
+    pub fn set_velocity(&mut self, velocity: impl Fn([f64; 2]) -> [f64; 2]) {
+        self.state.v = self.at_nodes(velocity);
+    }
+
+    /// Gives every node the displacement (r, y), m, of its place (r, y), m, in no time: nothing
+    /// of it has relaxed.
+    pub fn set_displacement(&mut self, displacement: impl Fn([f64; 2]) -> [f64; 2]) {
+        self.state.u = self.at_nodes(displacement);
+        for branch in &mut self.state.q {
+            branch.clone_from(&self.state.u);
+        }
+        self.state.update_effective(&self.body);
+        update_internal_forces(&self.body, &self.state, &mut self.forces);
+    }
+
+    /// Moves the body by a time step.
+    pub fn step(&mut self) {
+        advance_body(&self.body, self.time_step, &mut self.state, &self.forces);
+        self.n_steps += 1;
+        update_internal_forces(&self.body, &self.state, &mut self.forces);
+    }
+
+    /// Displacements (r, y) of the nodes, m.
+    pub fn displacement(&self) -> &[[f64; 2]] {
+        &self.state.u
+    }
+
+    /// Velocities (r, y) of the nodes half a step ago, m/s.
+    pub fn velocity(&self) -> &[[f64; 2]] {
+        &self.state.v
+    }
+
+    /// Forces (r, y) with which the deformed body pulls its nodes back, −f(u), N.
+    pub fn internal_forces(&self) -> &[[f64; 2]] {
+        &self.forces
+    }
+
+    /// ½ v_{n−1/2}·M v_{n+1/2} and what the body stores, ½ u_n·K u_n if it is elastic, J: what
+    /// leapfrog keeps, to rounding, of an elastic body.
+    pub fn energy(&self) -> f64 {
+        let inverse_mass = self.body.inverse_mass.as_flattened();
+        let forces = self.forces.as_flattened();
+        let twice_kinetic: f64 = (self.state.v.as_flattened().iter().enumerate())
+            .map(|(k, v)| {
+                let next = v + self.time_step * (inverse_mass[k] * forces[k]);
+                self.body.nodal_mass[k / 2] * v * next
+            })
+            .sum();
+        let (stored, _) = self.body.stored_and_dissipated(&self.state.u, &self.state.q);
+        0.5 * twice_kinetic + stored
+    }
+
+    /// Stress of the deformed body.
+    pub fn stress(&self) -> StressField {
+        let fields = BodyFields {
+            displacement: self.state.u.clone(),
+            velocity: Vec::new(),
+            effective: self.state.w.clone(),
+        };
+        self.body.stress(&fields)
+    }
+
+    fn at_nodes(&self, field: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<[f64; 2]> {
+        let nodes = self.body.mesh().map_or(&[][..], SphereMesh::nodes);
+        nodes.iter().map(|&place| field(place)).collect()
+    }
+}

@@ -1,0 +1,66 @@
+//! Fields of both bodies at an instant.
+
+/// The named instants of a collision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Label {
+    /// Approach at half its maximum, going in.
+    MidCompression,
+    /// Approach at its maximum.
+    Maximum,
+    /// Approach at half its maximum, coming out.
+    MidSeparation,
+    /// The last step with a contact force.
+    LastContact,
+}
+
+impl Label {
+    /// All of them, in the order of time.
+    pub const ALL: [Self; 4] =
+        [Self::MidCompression, Self::Maximum, Self::MidSeparation, Self::LastContact];
+
+    /// The name in case and file names.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MidCompression => "mid-compression",
+            Self::Maximum => "maximum",
+            Self::MidSeparation => "mid-separation",
+            Self::LastContact => "last-contact",
+        }
+    }
+}
+
+/// Which snapshots a run keeps.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SnapshotRequest {
+    /// At named instants.
+    Labels(Vec<Label>),
+    /// So many, evenly over the contact.
+    Count(usize),
+    /// At these times since the start of the case, s.
+    Times(Vec<f64>),
+}
+
+/// Nodal fields of one body; empty for a wall.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BodyFields {
+    /// Total displacement (r, y), m.
+    pub displacement: Vec<[f64; 2]>,
+    /// Velocity (r, y), m/s.
+    pub velocity: Vec<[f64; 2]>,
+    /// Effective displacement that the relaxing stress sees, m; empty for an
+    /// elastic body.
+    pub effective: Vec<[f64; 2]>,
+}
+
+/// Both bodies at an instant.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Snapshot {
+    /// Which instant, for named ones.
+    pub label: Option<Label>,
+    /// Time since the start of the case, s.
+    pub time: f64,
+    /// Approach, m.
+    pub approach: f64,
+    /// Lower and upper body.
+    pub bodies: [BodyFields; 2],
+}

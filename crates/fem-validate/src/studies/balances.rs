@@ -1,0 +1,78 @@
+//! Energy and momentum of whole collisions, whatever the scene.
+//!
+//! `energy` and `momentum`, the worst imbalance of any run at any instant (over the energy of
+//! approach, over Σ m|v|), and `NAME.energy`, `NAME.momentum` of each run.
+
+use fem_explicit::HistoryRow;
+use fem_figure::{Axis, Chart, Curve, GREY, Mark};
+use serde::Deserialize;
+
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::{Laboratory, Run};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// The runs whose energies are drawn.
+    drawn: Vec<String>,
+}
+
+/// Runs every case of the claim.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let mut findings = Findings::new();
+    for (name, run) in names.iter().zip(&runs) {
+        let collision = &run.collision;
+        findings.measure(format!("{name}.energy"), collision.residual_relative);
+        findings.measure(format!("{name}.momentum"), collision.momentum_residual_relative);
+        findings.measure_worst("energy", collision.residual_relative);
+        findings.measure_worst("momentum", collision.momentum_residual_relative);
+    }
+    let drawn = names.iter().zip(&runs).filter(|(name, _)| parameters.drawn.contains(name));
+    let charts: Vec<Chart> = drawn.map(|(name, run)| energies(run, name)).collect();
+    let caption = "Where the energy is during some of the collisions. The account sums up kinetic, \
+                   strain and contact energy and what was dissipated, less the work of a moving wall.";
+    findings.draw("energies", caption, &charts);
+    let rows = names.iter().zip(&runs).map(|(name, run)| {
+        let collision = &run.collision;
+        [
+            name.replace('_', " "),
+            run.problem.case.scene.title.clone(),
+            format!("{:.4}", run.restitution),
+            format!("{:.1e}", collision.residual_relative),
+            format!("{:.1e}", collision.momentum_residual_relative),
+        ]
+    });
+    let header = ["run", "case", "restitution", "energy", "momentum"];
+    findings.tabulate("Worst imbalance of each run.", header, rows);
+    Ok(findings)
+}
+
+/// Energies of one run over that of approach, ½ m* v².
+fn energies(run: &Run, name: &str) -> Chart {
+    let hertz = run.problem.plan.estimate.hertz;
+    let scale = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
+    let start = run.collision.first_contact.unwrap_or(f64::NAN);
+    let curve = |label: &str, mark: Mark, value: fn(&HistoryRow) -> f64| {
+        let point = |row: &HistoryRow| ((row.time - start) / run.contact_time, value(row) / scale);
+        Curve::new(label, mark, run.collision.history.iter().map(point).collect())
+    };
+    let account = |row: &HistoryRow| {
+        row.kinetic + row.strain + row.contact + row.viscous_dissipation - row.wall_work
+    };
+    Chart::new(
+        Axis::new("time/contact time").from_to(0.0, 1.2),
+        Axis::new("energy/energy of approach"),
+    )
+    .titled(name.replace('_', " "))
+    .with(curve("kinetic", Mark::Line, |row| row.kinetic))
+    .with(curve("strain", Mark::Line, |row| row.strain))
+    .with(curve("contact springs", Mark::Line, |row| row.contact))
+    .with(curve("dissipated", Mark::Line, |row| row.viscous_dissipation))
+    .with(curve("work of a wall", Mark::Line, |row| row.wall_work))
+    .with(curve("account", Mark::Dashed, account).coloured(GREY))
+}

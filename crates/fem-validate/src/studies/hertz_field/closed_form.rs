@@ -1,0 +1,97 @@
+//! Hertz' field in units of the contact radius a and the pressure p₀.
+
+use fem_laws::HertzPressure;
+
+const UNIT: HertzPressure = HertzPressure { contact_radius: 1.0, peak_pressure: 1.0 };
+
+/// What is compared, along a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Profile {
+    /// Contact pressure against the distance from the axis.
+    Pressure,
+    /// σ_yy on the axis against the depth.
+    Axial,
+    /// σ_rr on the axis against the depth.
+    Radial,
+    /// σ_rr on the surface against the distance from the axis.
+    Surface,
+}
+
+impl Profile {
+    /// All, in the order of their declaration.
+    pub const ALL: [Self; 4] = [Self::Pressure, Self::Axial, Self::Radial, Self::Surface];
+
+    /// As claims call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pressure => "pressure",
+            Self::Axial => "axial",
+            Self::Radial => "radial",
+            Self::Surface => "surface",
+        }
+    }
+
+    /// As readers call it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Pressure => "contact pressure",
+            Self::Axial => "σ_yy, axis",
+            Self::Radial => "σ_rr, axis",
+            Self::Surface => "σ_rr, surface",
+        }
+    }
+}
+
+/// The value over p₀ at a place over a.
+pub fn closed_form(profile: Profile, place: f64, poissons_ratio: f64) -> f64 {
+    match profile {
+        Profile::Pressure => UNIT.pressure(place),
+        Profile::Axial => UNIT.axis_stress(place, poissons_ratio).axial,
+        Profile::Radial => UNIT.axis_stress(place, poissons_ratio).radial,
+        Profile::Surface => surface_stress(place, poissons_ratio),
+    }
+}
+
+/// ½|σ_rr − σ_yy| on the axis.
+pub fn shear(depth: f64, poissons_ratio: f64) -> f64 {
+    UNIT.axis_stress(depth, poissons_ratio).max_shear()
+}
+
+/// σ_rr on the surface (Johnson, *Contact Mechanics*, eqs. 3.42 and 3.44), inside and outside of
+/// the contact:
+///
+/// ```math
+/// \frac{\sigma_{rr}}{p_0} = \frac{1-2\nu}{3}\frac{a^2}{r^2}
+///   \left[1-\left(1-\tfrac{r^2}{a^2}\right)^{3/2}\right] - \sqrt{1-\tfrac{r^2}{a^2}},
+/// \qquad \frac{\sigma_{rr}}{p_0} = \frac{1-2\nu}{3}\frac{a^2}{r^2} .
+/// ```
+fn surface_stress(r: f64, poissons_ratio: f64) -> f64 {
+    let rim = UNIT.rim_tension(poissons_ratio);
+    let square = r * r;
+    // What the bracket tends to on the axis: 3/2 r²/a².
+    if square < 1e-12 {
+        return 1.5 * rim - 1.0;
+    }
+    let inside = (1.0 - square).max(0.0);
+    rim / square * (1.0 - inside * inside.sqrt()) - UNIT.pressure(r)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Surface and axis meet in one point, the rim has Hertz' largest tension, and far away it is
+    /// Boussinesq's point force: σ_rr = (1−2ν)F/2πr².
+    #[test]
+    fn the_surface_fits_what_is_around_it() {
+        for nu in [0.0, 0.244, 0.3, 0.5] {
+            let surface = |r: f64| closed_form(Profile::Surface, r, nu);
+            let axis = closed_form(Profile::Radial, 0.0, nu);
+            assert!((surface(0.0) - axis).abs() < 1e-15);
+            assert!((surface(1e-3) - axis).abs() < 1e-6);
+            assert!((surface(1.0) - UNIT.rim_tension(nu)).abs() < 1e-15);
+            let point = (1.0 - 2.0 * nu) * UNIT.force() / (2.0 * std::f64::consts::PI * 9.0);
+            assert!((surface(3.0) - point).abs() < 1e-15);
+        }
+    }
+}

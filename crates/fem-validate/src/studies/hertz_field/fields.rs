@@ -1,0 +1,146 @@
+//! The fields of a computed collision at its largest approach, in units of Hertz' contact radius a
+//! and pressure p₀ at the same force.
+
+use fem_case::Shape;
+use fem_explicit::{Label, Snapshot};
+use fem_laws::HertzPressure;
+use fem_mesh::segment_measures;
+
+use super::closed_form::{Profile, closed_form};
+use crate::error::StudyError;
+use crate::laboratory::Run;
+
+/// A value at a place, and the share of the place in an integral.
+#[derive(Clone, Copy)]
+pub struct Sample {
+    /// Distance from the axis or depth, over a.
+    pub place: f64,
+    /// Over p₀.
+    pub value: f64,
+    /// The closed form, over p₀.
+    pub exact: f64,
+    pub weight: f64,
+}
+
+/// Profiles of one run; stresses are those of the first sphere.
+pub struct Fields {
+    /// Largest a/R of the two bodies.
+    pub size: f64,
+    /// Of the sphere.
+    pub poissons_ratio: f64,
+    profiles: [Vec<Sample>; 4],
+}
+
+impl Fields {
+    /// Out to the given depth and distance over a.
+    pub fn of(run: &Run, depth: f64, distance: f64) -> Result<Self, StudyError> {
+        let missing = || StudyError::parameters("the run has no snapshot of its largest approach");
+        let is_maximum = |snapshot: &&Snapshot| snapshot.label == Some(Label::Maximum);
+        let snapshot = run.collision.snapshots.iter().find(is_maximum).ok_or_else(missing)?;
+        let bodies = run.problem.model.bodies();
+        let side = usize::from(bodies[0].mesh().is_none());
+        let shape = &run.problem.case.scene.bodies[side].shape;
+        let (Some(mesh), Shape::Sphere { material, .. }) = (bodies[side].mesh(), shape) else {
+            return Err(StudyError::parameters("the case has no sphere"));
+        };
+        let u = displacements(run, snapshot);
+        let hertz = hertz_at_force(run, &u);
+        let stress = bodies[side].stress(&snapshot.bodies[side]);
+        let poissons_ratio = material.instantaneous().poissons_ratio();
+        let boundary = |profile: Profile| {
+            let (nodes, along, end, component) = match profile {
+                Profile::Surface => (mesh.surface(), 0, distance, 0),
+                Profile::Axial => (mesh.axis(), 1, depth, 1),
+                _ => (mesh.axis(), 1, depth, 0),
+            };
+            let places: Vec<f64> = (nodes.iter())
+                .map(|&node| mesh.nodes()[node as usize][along].abs() / hertz.contact_radius)
+                .take_while(|&place| place <= end)
+                .collect();
+            let value = |k: usize| stress.points[nodes[k] as usize][component];
+            samples(&places, |k| value(k) / hertz.peak_pressure, profile, poissons_ratio)
+        };
+        Ok(Self {
+            size: hertz.contact_radius / run.problem.plan.estimate.smallest_radius,
+            poissons_ratio,
+            profiles: Profile::ALL.map(|profile| match profile {
+                Profile::Pressure => pressure(run, &u, hertz),
+                _ => boundary(profile),
+            }),
+        })
+    }
+
+    /// Along its curve, from the axis or the surface.
+    pub fn profile(&self, profile: Profile) -> &[Sample] {
+        &self.profiles[profile as usize]
+    }
+
+    /// ½|σ_rr − σ_yy| along the axis: (depth, value).
+    pub fn shear(&self) -> Vec<(f64, f64)> {
+        let both = self.profile(Profile::Axial).iter().zip(self.profile(Profile::Radial));
+        both.map(|(axial, radial)| (axial.place, 0.5 * (radial.value - axial.value).abs()))
+            .collect()
+    }
+}
+
+/// Of both bodies, m; a wall has moved as its one node.
+fn displacements(run: &Run, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
+    std::array::from_fn(|side| match run.problem.model.bodies()[side].mesh() {
+        Some(_) => snapshot.bodies[side].displacement.clone(),
+        None => vec![[0.0, run.problem.case.scene.bodies[side].velocity * snapshot.time]],
+    })
+}
+
+/// a and p₀ of the contact force: a³ = 3FR*/4E*, p₀ = 3F/2πa².
+fn hertz_at_force(run: &Run, u: &[Vec<[f64; 2]>; 2]) -> HertzPressure {
+    let mut forces = u.each_ref().map(|u| vec![[0.0; 2]; u.len()]);
+    let [lower, upper] = &mut forces;
+    let force = run.problem.model.interface().add_forces([&u[0], &u[1]], [lower, upper]).force;
+    let hertz = run.problem.plan.estimate.hertz;
+    let approach = (force / hertz.stiffness()).powf(2.0 / 3.0);
+    hertz.pressure(approach)
+}
+
+/// Contact pressure at the nodes of the first sphere, out to a tenth beyond the contact.
+fn pressure(run: &Run, u: &[Vec<[f64; 2]>; 2], hertz: HertzPressure) -> Vec<Sample> {
+    let pressure = run.problem.model.interface().nodal_pressure([&u[0], &u[1]]);
+    let (places, values): (Vec<f64>, Vec<f64>) = pressure
+        .map(|(r, p)| (r / hertz.contact_radius, p / hertz.peak_pressure))
+        .take_while(|(place, _)| *place < 1.1)
+        .unzip();
+    let mut all = samples(&places, |k| values[k], Profile::Pressure, f64::NAN);
+    // Over the area instead of the length.
+    let n = places.len();
+    for k in 0..n {
+        let share = |inner: usize, which: usize| {
+            segment_measures([places[inner], 0.0], [places[inner + 1], 0.0])[which]
+        };
+        let inside = if k > 0 { share(k - 1, 1) } else { 0.0 };
+        all[k].weight = inside + if k + 1 < n { share(k, 0) } else { 0.0 };
+    }
+    all
+}
+
+/// Values at rising places with what the closed form says there, weighted with the length around.
+fn samples(
+    places: &[f64],
+    value: impl Fn(usize) -> f64,
+    profile: Profile,
+    poissons_ratio: f64,
+) -> Vec<Sample> {
+    let last = places.len().saturating_sub(1);
+    (0..places.len())
+        .map(|k| Sample {
+            place: places[k],
+            value: value(k),
+            exact: closed_form(profile, places[k], poissons_ratio),
+            weight: 0.5 * (places[(k + 1).min(last)] - places[k.saturating_sub(1)]),
+        })
+        .collect()
+}
+
+/// √(Σ w (x − exact)² / Σ w exact²).
+pub fn relative_error(samples: &[Sample]) -> f64 {
+    let sum = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(|s| s.weight * of(s)).sum::<f64>();
+    (sum(&|s| (s.value - s.exact).powi(2)) / sum(&|s| s.exact * s.exact)).sqrt()
+}

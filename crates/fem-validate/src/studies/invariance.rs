@@ -1,0 +1,63 @@
+//! What must not matter: which body lies below, a common velocity, the units.
+//!
+//! Each run of the claim is compared with the run `plain` in numbers without unit: restitution, and
+//! all else over Hertz' values of the run itself. `NAME.difference` is the largest relative
+//! difference of results, and of the contact force in any row of the history over the peak;
+//! `NAME.pressure` that of the largest pressure, which is read at the nodes of one body.
+
+use crate::error::StudyError;
+use crate::findings::{Findings, worse};
+use crate::laboratory::{Laboratory, Run};
+
+const REFERENCE: &str = "plain";
+
+/// Runs all cases.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let Some(plain) = names.iter().position(|name| *name == REFERENCE) else {
+        return Err(StudyError::parameters(format!("the claim has no [run.{REFERENCE}]")));
+    };
+    let mut findings = Findings::new();
+    for (name, run) in names.iter().zip(&runs).filter(|(name, _)| **name != REFERENCE) {
+        findings.measure(format!("{name}.difference"), difference(run, &runs[plain]));
+        let [ours, theirs] = [run, &runs[plain]].map(|run| run.pressure_over_hertz_at_force());
+        findings.measure(format!("{name}.pressure"), (ours / theirs - 1.0).abs());
+    }
+    Ok(findings)
+}
+
+/// Results without unit.
+fn results(run: &Run) -> [f64; 6] {
+    let (collision, hertz) = (&run.collision, run.problem.plan.estimate.hertz);
+    let [lower, upper] = collision.velocity_after;
+    [
+        run.restitution,
+        run.contact_time / hertz.contact_time(),
+        collision.peak_force / hertz.peak_force(),
+        collision.max_approach / hertz.max_approach(),
+        collision.max_contact_radius / hertz.max_contact_radius(),
+        (upper - lower) / hertz.approach_speed(),
+    ]
+}
+
+/// Contact forces over the peak, from the first to the last contact. After it, a tie of rounding
+/// may decide whether the run goes on for a step.
+fn forces(run: &Run) -> Vec<f64> {
+    let last = run.collision.last_contact.unwrap_or(f64::NAN);
+    let rows = run.collision.history.iter().take_while(|row| row.time <= last);
+    rows.map(|row| row.contact_force / run.collision.peak_force).collect()
+}
+
+/// NaN if the histories have not the same rows.
+fn difference(run: &Run, plain: &Run) -> f64 {
+    let (ours, theirs) = (forces(run), forces(plain));
+    if ours.len() != theirs.len() || ours.is_empty() {
+        return f64::NAN;
+    }
+    let forces = ours.iter().zip(&theirs).map(|(ours, theirs)| (ours - theirs).abs());
+    let results = results(run).into_iter().zip(results(plain));
+    let all = forces.chain(results.map(|(ours, theirs)| (ours / theirs - 1.0).abs()));
+    all.fold(0.0, worse)
+}
