@@ -11,8 +11,8 @@ mod measured;
 mod output;
 mod table;
 
-pub use bodies::{approach_speed, model_of};
-pub use data_file::{Data, read_data};
+pub use bodies::{approach_speed, model_of, pair_of};
+pub use data_file::{Data, points_of, read_data};
 pub use export_fit::{Curve, Drawn, fit_export, spheres_of};
 pub use fit_picture::{fit_picture, histories_picture};
 pub use fit_report::{Fitted, fit_numbers, fit_text, show_value};
