@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use kuva::plot::legend::{LegendEntry, LegendShape};
-use kuva::prelude::{Layout, LinePlot, Plot, ScatterPlot, TickFormat};
+use kuva::prelude::{BandPlot, Layout, LinePlot, Plot, ScatterPlot, TickFormat};
 
 use crate::style::{COLOURS, tick};
 
@@ -12,6 +12,7 @@ const MARGIN: f64 = 1.2;
 const LINE_WIDTH: f64 = 1.5;
 const POINT_SIZE: f64 = 3.5;
 const ERROR_BAR_WIDTH: f64 = 1.0;
+const BAND_OPACITY: f64 = 0.15;
 const DASHES: &str = "8 4";
 
 /// An axis: what it shows, and how.
@@ -125,19 +126,29 @@ impl Curve {
     }
 }
 
+/// An area between two curves.
+#[derive(Debug, Clone, PartialEq)]
+struct Band {
+    label: String,
+    /// (x, one end, the other).
+    points: Vec<(f64, f64, f64)>,
+    colour: &'static str,
+}
+
 /// A panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     x: Axis,
     y: Axis,
     title: Option<String>,
+    bands: Vec<Band>,
     curves: Vec<Curve>,
 }
 
 impl Chart {
     /// A panel without curves.
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self { x, y, title: None, curves: Vec::new() }
+        Self { x, y, title: None, bands: Vec::new(), curves: Vec::new() }
     }
 
     /// A title above the panel.
@@ -149,6 +160,17 @@ impl Chart {
     /// With one more curve.
     pub fn with(mut self, curve: Curve) -> Self {
         self.curves.push(curve);
+        self
+    }
+
+    /// With a shaded area behind the curves: (x, one end, the other), all finite.
+    pub fn with_band(
+        mut self,
+        label: impl Into<String>,
+        points: Vec<(f64, f64, f64)>,
+        colour: &'static str,
+    ) -> Self {
+        self.bands.push(Band { label: label.into(), points, colour });
         self
     }
 
@@ -169,6 +191,12 @@ impl Chart {
     pub(crate) fn draw(&self) -> (Vec<Plot>, Layout) {
         let mut plots: Vec<Plot> = Vec::new();
         let mut all = Vec::new();
+        for band in &self.bands {
+            all.extend(band.points.iter().flat_map(|(x, a, b)| [(*x, *a), (*x, *b)]));
+            let part = |get: fn(&(f64, f64, f64)) -> f64| band.points.iter().map(get);
+            let area = BandPlot::new(part(|p| p.0), part(|p| p.1), part(|p| p.2));
+            plots.push(area.with_color(band.colour).with_opacity(BAND_OPACITY).into());
+        }
         for (curve, points, colour) in self.drawn() {
             all.extend_from_slice(&points);
             for ((x, y), error) in curve.points.iter().zip(&curve.errors) {
@@ -211,18 +239,19 @@ impl Chart {
     }
 
     pub(crate) fn legend(&self) -> Vec<LegendEntry> {
+        let bands = self.bands.iter().map(|band| LegendEntry {
+            label: band.label.clone(),
+            color: band.colour.to_string(),
+            shape: LegendShape::Rect,
+            dasharray: None,
+        });
         let named = self.drawn().filter(|(curve, ..)| !curve.label.is_empty());
-        named
-            .map(|(curve, _, colour)| LegendEntry {
-                label: curve.label.clone(),
-                color: colour.to_string(),
-                shape: if curve.mark == Mark::Points {
-                    LegendShape::Circle
-                } else {
-                    LegendShape::Line
-                },
-                dasharray: (curve.mark == Mark::Dashed).then(|| DASHES.to_string()),
-            })
-            .collect()
+        let named = named.map(|(curve, _, colour)| LegendEntry {
+            label: curve.label.clone(),
+            color: colour.to_string(),
+            shape: if curve.mark == Mark::Points { LegendShape::Circle } else { LegendShape::Line },
+            dasharray: (curve.mark == Mark::Dashed).then(|| DASHES.to_string()),
+        });
+        named.chain(bands).collect()
     }
 }

@@ -92,6 +92,13 @@ pub enum FitError {
         law: &'static str,
     },
 
+    /// A collision of a model outside of this crate.
+    #[error("a collision cannot be computed: {reason}")]
+    Collision {
+        /// What the model says.
+        reason: String,
+    },
+
     /// Ting's model of bodies that do not relax.
     #[error("no body relaxes, so there is no decay rate to find")]
     NoRelaxation,

@@ -5,6 +5,7 @@
 //! pair,  ├─ invert                     the parameter that gives one e at one speed
 //! law    └─ dem                        the numbers that LAMMPS, LIGGGHTS, YADE ask for
 //!
+//! spectrum                         a Prony series to e(v), and what the data leave open
 //! cradle                               angles of a Newton's cradle to e
 //! ```
 //!
@@ -43,6 +44,7 @@ mod least_squares;
 mod model;
 mod problem;
 mod profile;
+pub mod spectrum;
 
 pub use error::FitError;
 pub use fit::{Estimate, Fit};

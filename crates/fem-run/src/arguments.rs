@@ -6,7 +6,7 @@ use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
 use crate::commands::{
-    check, completions, cradle, export, fit, invert, mesh, run, sweep, validate,
+    calibrate, check, completions, cradle, export, fit, invert, mesh, run, sweep, validate,
 };
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
@@ -76,6 +76,7 @@ pub enum Command {
     Sweep(sweep::Arguments),
     Validate(validate::Arguments),
     Fit(fit::Arguments),
+    Calibrate(calibrate::Arguments),
     Invert(invert::Arguments),
     Export(export::Arguments),
     Cradle(cradle::Arguments),

@@ -12,6 +12,7 @@
 
 mod arguments;
 mod assess;
+mod calibrate;
 mod commands;
 mod failure;
 mod history_file;

@@ -10,7 +10,8 @@ use serde::Deserialize;
 use crate::summary::{PROGRAM, SUMMARY_FILE};
 
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.
-const MARK_FILES: [&str; 4] = [SUMMARY_FILE, "fit.json", "export.json", "cradle.json"];
+const MARK_FILES: [&str; 5] =
+    [SUMMARY_FILE, "fit.json", "calibrate.json", "export.json", "cradle.json"];
 
 /// What is at a path.
 #[derive(Debug)]

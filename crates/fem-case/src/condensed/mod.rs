@@ -131,7 +131,21 @@ impl Condensed {
         }
     }
 
-    /// Condenses further out as long as the contact reaches the end.
+    /// The same bodies at another speed, m/s, with other relaxations, lower body first: the factors
+    /// are kept.
+    ///
+    /// # Errors
+    /// As [`CondensedPair::collide`].
+    pub fn collide_with(
+        &mut self,
+        speed: f64,
+        relaxations: [Option<&PronySeries>; 2],
+        n_steps: usize,
+    ) -> Result<Collision, CondensedError> {
+        let settings = CollideSettings { n_steps, history: false, give_up_after: GIVE_UP_AFTER };
+        collide(&mut self.pair, speed, relaxations, &settings)
+    }
+
     fn collide(&mut self) -> Result<(Collision, Vec<Snapshot>, Vec<String>), CondensedError> {
         let frame = self.frame();
         let settings = CollideSettings {
@@ -139,15 +153,8 @@ impl Condensed {
             history: true,
             give_up_after: GIVE_UP_AFTER,
         };
-        let speed = frame.approach_speed();
-        let collision = loop {
-            match self.pair.collide(speed, relaxations(&self.case), &settings) {
-                Err(CondensedError::ContactBeyondCandidates { radius }) => {
-                    self.pair = Arc::new(self.pair.enlarge(CANDIDATE_GROWTH * radius)?);
-                }
-                result => break result?,
-            }
-        };
+        let collision =
+            collide(&mut self.pair, frame.approach_speed(), relaxations(&self.case), &settings)?;
         let request = &self.plan.snapshots;
         let (snapshots, missing) =
             self.pair.snapshots(&frame, relaxations(&self.case), &collision, request)?;
@@ -170,6 +177,23 @@ impl Condensed {
             BodyInput::Sphere { mesh, .. } => Some(mesh),
             BodyInput::Wall => None,
         })
+    }
+}
+
+/// Condenses further out as long as the contact reaches the end.
+fn collide(
+    pair: &mut Arc<CondensedPair>,
+    speed: f64,
+    relaxations: [Option<&PronySeries>; 2],
+    settings: &CollideSettings,
+) -> Result<Collision, CondensedError> {
+    loop {
+        match pair.collide(speed, relaxations, settings) {
+            Err(CondensedError::ContactBeyondCandidates { radius }) => {
+                *pair = Arc::new(pair.enlarge(CANDIDATE_GROWTH * radius)?);
+            }
+            result => return result,
+        }
     }
 }
 

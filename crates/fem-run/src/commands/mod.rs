@@ -1,5 +1,6 @@
 //! One file a job of the command line.
 
+pub mod calibrate;
 pub mod check;
 pub mod completions;
 pub mod cradle;
@@ -24,6 +25,7 @@ pub fn execute(arguments: Arguments, started: Instant) -> Result<(), Failure> {
         (Some(Command::Sweep(arguments)), _) => sweep::execute(&arguments),
         (Some(Command::Validate(arguments)), _) => validate::execute(&arguments),
         (Some(Command::Fit(arguments)), _) => fit::execute(&arguments),
+        (Some(Command::Calibrate(arguments)), _) => calibrate::execute(&arguments),
         (Some(Command::Invert(arguments)), _) => invert::execute(&arguments),
         (Some(Command::Export(arguments)), _) => export::execute(&arguments),
         (Some(Command::Cradle(arguments)), _) => cradle::execute(&arguments),

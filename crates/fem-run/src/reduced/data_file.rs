@@ -15,6 +15,8 @@ pub struct Data {
     pub name: String,
     /// In the order of the file.
     pub points: Vec<Point>,
+    /// The row of the file that each point is from, counted from 0.
+    pub rows: Vec<usize>,
     /// Rows of members that failed.
     pub n_left_out: usize,
 }
@@ -48,9 +50,21 @@ struct Columns {
 /// # Errors
 /// What is wrong, with file and line.
 pub fn read_data(path: &Path, scene: &Scene, with_contact_time: bool) -> Result<Data, Failure> {
-    let table = CsvTable::read(path)?;
-    let columns = columns(&table, scene, with_contact_time)?;
-    let mut points = Vec::new();
+    points_of(&CsvTable::read(path)?, scene, with_contact_time, &[])
+}
+
+/// As [`read_data`], of a table in which other columns of a sweep may vary.
+///
+/// # Errors
+/// As [`read_data`].
+pub fn points_of(
+    table: &CsvTable,
+    scene: &Scene,
+    with_contact_time: bool,
+    may_vary: &[usize],
+) -> Result<Data, Failure> {
+    let columns = columns(table, scene, with_contact_time, may_vary)?;
+    let (mut points, mut rows) = (Vec::new(), Vec::new());
     let mut n_left_out = 0;
     for row in 0..table.n_rows() {
         let is_failed = columns.complete.is_some_and(|column| table.text(row, column) == "false");
@@ -60,7 +74,8 @@ pub fn read_data(path: &Path, scene: &Scene, with_contact_time: bool) -> Result<
             n_left_out += 1;
             continue;
         }
-        points.push(point(&table, &columns, row)?);
+        points.push(point(table, &columns, row)?);
+        rows.push(row);
     }
     if points.is_empty() {
         return Err(Failure::bad_input(format!("{}: no row has a restitution", table.name())));
@@ -71,10 +86,15 @@ pub fn read_data(path: &Path, scene: &Scene, with_contact_time: bool) -> Result<
             format!("{}: {with} of {} rows have an uncertainty", table.name(), points.len());
         return Err(Failure::bad_input(message).with_help("give one in every row, or in none"));
     }
-    Ok(Data { name: table.name().to_string(), points, n_left_out })
+    Ok(Data { name: table.name().to_string(), points, rows, n_left_out })
 }
 
-fn columns(table: &CsvTable, scene: &Scene, with_time: bool) -> Result<Columns, Failure> {
+fn columns(
+    table: &CsvTable,
+    scene: &Scene,
+    with_time: bool,
+    may_vary: &[usize],
+) -> Result<Columns, Failure> {
     let swept = |index: usize| {
         let name = format!("body.{index}.approach_speed");
         table.header().iter().position(|header| *header == name)
@@ -92,6 +112,7 @@ fn columns(table: &CsvTable, scene: &Scene, with_time: bool) -> Result<Columns, 
             || (1..table.n_rows()).find(|row| table.text(*row, column) != table.text(0, column));
         if header.contains('.')
             && !speeds.contains(&column)
+            && !may_vary.contains(&column)
             && let Some(row) = varies()
         {
             let line = table.line(row);

@@ -12,7 +12,7 @@ mod output;
 mod table;
 
 pub use bodies::{ChosenLaw, family_of, model_of};
-pub use data_file::{Data, read_data};
+pub use data_file::{Data, points_of, read_data};
 pub use export_fit::{Curve, Drawn, fit_export, spheres_of};
 pub use fit_picture::{fit_picture, histories_picture};
 pub use fit_report::{Fitted, fit_numbers, fit_text, show_value};

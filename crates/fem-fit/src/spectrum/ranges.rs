@@ -1,0 +1,99 @@
+//! How far a combination of weights can go with all others free.
+//!
+//! An end of c·w is where Σ r², least over all admissible weights with c·w held there, has risen by
+//! (tσ)² (a profile: Bates & Watts, *Nonlinear Regression Analysis*, ch. 6), or where the weights end:
+//! w ≥ 0, Σ w ≤ 1. The collision is linear about the best weights at first and then, by chords, about
+//! the end that was found. No ridge: that is the user's wish and no knowledge.
+
+use super::bounded::Linear;
+use crate::FitError;
+
+/// Corrections of an end by a collision computed there.
+const CHORDS: usize = 4;
+/// Halvings of the way to an end.
+const HALVINGS: usize = 26;
+
+/// Where a combination of weights can lie.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Of the best weights.
+    pub value: f64,
+    /// Least value that the data allow.
+    pub low: f64,
+    /// Largest.
+    pub high: f64,
+}
+
+/// Coefficients of Σ w, Σ w/τ (1/s) and Σ w τ (s).
+pub(super) fn moments(times: &[f64]) -> [Vec<f64>; 3] {
+    let of = |moment: fn(f64) -> f64| times.iter().map(|time| moment(*time)).collect();
+    [of(|_| 1.0), of(f64::recip), of(|time| time)]
+}
+
+type Evaluate<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;
+type Linearise<'a> = dyn Fn(&[f64], &[f64]) -> Linear + 'a;
+
+/// Looks for ends.
+pub(super) struct Seeker<'a> {
+    /// Weights to restitutions.
+    pub restitutions: &'a Evaluate<'a>,
+    /// Weights and restitutions to the problem linear about them.
+    pub linear: &'a Linearise<'a>,
+    /// Best weights.
+    pub best: &'a [f64],
+    /// Σ r² of them.
+    pub best_misfit: f64,
+    /// Rise of Σ r² that is allowed.
+    pub rise: f64,
+}
+
+impl Seeker<'_> {
+    /// The range of c·w.
+    pub fn range(&self, combination: &[f64]) -> Result<Range, FitError> {
+        let value = dot(combination, self.best);
+        let least = combination.iter().copied().fold(0.0, f64::min);
+        let most = combination.iter().copied().fold(0.0, f64::max);
+        let low = self.end(combination, value, least)?;
+        let high = self.end(combination, value, most)?;
+        Ok(Range { value, low: low.min(value), high: high.max(value) })
+    }
+
+    /// The end on the way from the best value to `limit`.
+    fn end(&self, combination: &[f64], value: f64, limit: f64) -> Result<f64, FitError> {
+        let mut at = self.best.to_vec();
+        let mut end = value;
+        for _ in 0..=CHORDS {
+            let linear = (self.linear)(&at, &(self.restitutions)(&at)?);
+            let small = linear.compressed();
+            let reachable = linear.misfit(&linear.solve(0.0, None));
+            // The ridge may have led the best weights off the least misfit: they are admissible.
+            let level = self.best_misfit.max(reachable + self.rise);
+            let offset = reachable - small.misfit(&small.solve(0.0, None));
+            let weights = |share: f64| {
+                let held = value + share * (limit - value);
+                small.solve(0.0, Some((combination, held)))
+            };
+            let allows = |share: f64| small.misfit(&weights(share)) + offset <= level;
+            let (mut inside, mut outside) = (0.0, 1.0);
+            if allows(outside) {
+                inside = outside;
+            } else {
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (inside + outside);
+                    *(if allows(middle) { &mut inside } else { &mut outside }) = middle;
+                }
+            }
+            at = weights(inside);
+            let found = value + inside * (limit - value);
+            if (found - end).abs() <= 1e-3 * (found - value).abs() {
+                return Ok(found);
+            }
+            end = found;
+        }
+        Ok(end)
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

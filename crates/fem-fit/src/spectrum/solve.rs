@@ -1,0 +1,182 @@
+//! Gauss–Newton with line search over the weights, and the statistics at the minimum.
+
+use std::cell::Cell;
+
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use super::bounded::Linear;
+use super::ranges::{Seeker, moments};
+use super::resolution::Resolution;
+use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem};
+use crate::FitError;
+
+/// Step of the differences: weights are of order 1, collisions smooth to 1e-7.
+const STEP: f64 = 1e-3;
+/// Weights that move less than this stand.
+const STANDS: f64 = 1e-6;
+const MOST_STEPS: usize = 40;
+const MOST_HALVINGS: usize = 8;
+
+pub(super) struct Solver<'a> {
+    problem: &'a SpectrumProblem<'a>,
+    n_evaluations: Cell<usize>,
+}
+
+/// Weights with their restitutions.
+struct State {
+    weights: Vec<f64>,
+    restitutions: Vec<f64>,
+}
+
+impl<'a> Solver<'a> {
+    pub fn new(problem: &'a SpectrumProblem<'a>) -> Self {
+        Self { problem, n_evaluations: Cell::new(0) }
+    }
+
+    pub fn fit(&self, confidence: f64) -> Result<SpectrumFit, FitError> {
+        let problem = self.problem;
+        let (state, jacobian) = self.minimise()?;
+        let linear = self.linear(&state, &jacobian);
+        let sum = self.misfit(&state.restitutions);
+        let n_values = problem.measured.len();
+        let n_free = state.weights.iter().filter(|weight| **weight > STANDS).count();
+        let freedom = n_values.saturating_sub(n_free);
+        let unit = problem.unit();
+        let scatter = (sum / freedom.max(1) as f64).sqrt();
+        let is_weighted = problem.uncertainties.is_some();
+        let error = if is_weighted { unit } else { scatter.max(MODEL_ERROR) };
+        let quantile = quantile(confidence, (!is_weighted).then_some(freedom));
+        let seeker = Seeker {
+            restitutions: &|weights| self.evaluate(weights),
+            linear: &|weights, restitutions| {
+                let at = State { weights: weights.to_vec(), restitutions: restitutions.to_vec() };
+                self.linear(&at, &jacobian)
+            },
+            best: &state.weights,
+            best_misfit: sum,
+            rise: (error * quantile).powi(2),
+        };
+        let n = problem.times.len();
+        let single = |k: usize| (0..n).map(|j| f64::from(u8::from(j == k))).collect::<Vec<f64>>();
+        let weight_ranges =
+            (0..n).map(|k| seeker.range(&single(k))).collect::<Result<Vec<_>, _>>()?;
+        let [total, rate, time] = moments(problem.times);
+        let moments = [seeker.range(&total)?, seeker.range(&rate)?, seeker.range(&time)?];
+        let squares = state.restitutions.iter().zip(problem.measured).map(|(e, m)| (e - m).powi(2));
+        Ok(SpectrumFit {
+            rms: (squares.sum::<f64>() / n_values as f64).sqrt(),
+            resolution: Resolution::of(&linear.a, error, problem.regularisation, &state.weights),
+            misfit: (is_weighted && freedom > 0).then_some(scatter / unit),
+            weights: state.weights,
+            restitutions: state.restitutions,
+            error,
+            degrees_of_freedom: freedom,
+            quantile,
+            weight_ranges,
+            moments,
+            n_evaluations: self.n_evaluations.get(),
+        })
+    }
+
+    fn evaluate(&self, weights: &[f64]) -> Result<Vec<f64>, FitError> {
+        self.n_evaluations.set(self.n_evaluations.get() + 1);
+        (self.problem.restitutions)(weights)
+    }
+
+    /// Σ ((e − ê)/ρ)².
+    fn misfit(&self, restitutions: &[f64]) -> f64 {
+        let measured = self.problem.measured.iter().zip(restitutions).enumerate();
+        measured.map(|(i, (m, e))| ((e - m) / self.problem.ratio(i)).powi(2)).sum()
+    }
+
+    /// From a body that does not relax to the minimum; its state and ∂e_i/∂w_k there.
+    fn minimise(&self) -> Result<(State, DMatrix<f64>), FitError> {
+        let ridge = self.problem.regularisation;
+        let cost = |state: &State| {
+            let size: f64 = state.weights.iter().map(|weight| weight * weight).sum();
+            self.misfit(&state.restitutions) + ridge * ridge * size
+        };
+        let start = vec![0.0; self.problem.times.len()];
+        let mut state = State { restitutions: self.evaluate(&start)?, weights: start };
+        for _ in 0..MOST_STEPS {
+            let jacobian = self.jacobian(&state)?;
+            let target = self.linear(&state, &jacobian).solve(ridge, None);
+            let mut share = 1.0;
+            let mut better = None;
+            for _ in 0..MOST_HALVINGS {
+                let toward = |(from, to): (&f64, &f64)| from + share * (to - from);
+                let weights: Vec<f64> = state.weights.iter().zip(&target).map(toward).collect();
+                let tried = State { restitutions: self.evaluate(&weights)?, weights };
+                if cost(&tried) < cost(&state) {
+                    better = Some(tried);
+                    break;
+                }
+                share *= 0.5;
+            }
+            let Some(better) = better else { return Ok((state, jacobian)) };
+            let moves = better.weights.iter().zip(&state.weights).map(|(a, b)| (a - b).abs());
+            let moves = moves.fold(0.0, f64::max);
+            let gain = cost(&state) - cost(&better);
+            state = better;
+            if moves < STANDS || gain < 1e-10 * cost(&state) + 1e-16 {
+                let jacobian = self.jacobian(&state)?;
+                return Ok((state, jacobian));
+            }
+        }
+        let reason = format!("the weights still move after {MOST_STEPS} steps");
+        Err(FitError::NotConverged { reason })
+    }
+
+    /// ∂e_i/∂w_k by differences that keep Σ w ≤ 1: where the sum leaves no room, a weight grows at
+    /// the cost of the largest.
+    fn jacobian(&self, state: &State) -> Result<DMatrix<f64>, FitError> {
+        let weights = &state.weights;
+        let difference = |other: Vec<f64>, step: f64| {
+            let difference = other.iter().zip(&state.restitutions).map(|(b, a)| (b - a) / step);
+            DVector::from_iterator(state.restitutions.len(), difference)
+        };
+        let moved = |k: usize, step: f64, from: Option<usize>| {
+            let mut moved = weights.clone();
+            moved[k] += step;
+            if let Some(from) = from {
+                moved[from] -= step;
+            }
+            self.evaluate(&moved)
+        };
+        let is_full = weights.iter().sum::<f64>() + STEP > 1.0;
+        let largest = (0..weights.len()).max_by(|i, j| weights[*i].total_cmp(&weights[*j]));
+        let giver = largest.filter(|_| is_full);
+        let less = giver.map(|k| Ok::<_, FitError>(difference(moved(k, -STEP, None)?, -STEP)));
+        let less = less.transpose()?;
+        let mut columns = Vec::new();
+        for k in 0..weights.len() {
+            columns.push(match (&less, giver) {
+                (Some(less), Some(giver)) if giver == k => less.clone(),
+                (Some(less), Some(giver)) => difference(moved(k, STEP, Some(giver))?, STEP) + less,
+                _ => difference(moved(k, STEP, None)?, STEP),
+            });
+        }
+        Ok(DMatrix::from_columns(&columns))
+    }
+
+    /// e(w) + J (w' − w) as residuals in w'.
+    fn linear(&self, at: &State, jacobian: &DMatrix<f64>) -> Linear {
+        let own = jacobian * DVector::from_row_slice(&at.weights);
+        let n_values = self.problem.measured.len();
+        let ratio = |i: usize| self.problem.ratio(i);
+        let wanted = |i: usize| (self.problem.measured[i] - at.restitutions[i] + own[i]) / ratio(i);
+        Linear {
+            a: DMatrix::from_fn(n_values, jacobian.ncols(), |i, k| jacobian[(i, k)] / ratio(i)),
+            b: DVector::from_fn(n_values, |i, _| wanted(i)),
+        }
+    }
+}
+
+/// Student's if the error is the fit's own scatter of so many degrees of freedom.
+fn quantile(confidence: f64, freedom: Option<usize>) -> f64 {
+    let upper = 0.5 * (1.0 + confidence);
+    let student = freedom.and_then(|freedom| StudentsT::new(0.0, 1.0, freedom as f64).ok());
+    let normal = || Normal::standard().inverse_cdf(upper);
+    student.map_or_else(normal, |student| student.inverse_cdf(upper))
+}

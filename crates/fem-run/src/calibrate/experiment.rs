@@ -1,0 +1,241 @@
+//! One pair of bodies and its speeds: any series to restitutions.
+//!
+//! The condensed model factors the pair once, on a mesh for all of its speeds: fine block and
+//! condensed region are those of the largest contact (instantaneous moduli), elements are small
+//! enough for the smallest, unless the case gives their size.
+
+use std::sync::Mutex;
+
+use fem_case::{Case, Condensed, PairCache, Shape};
+use fem_condensed::CondensedError;
+use fem_fit::FitError;
+use fem_laws::{FiniteSize, HertzImpact, LawError, Pair, PairRelaxation, Ting};
+use fem_material::{ActsOn, Material, PronySeries, PronyTerm};
+
+use super::ends;
+use super::pairs::{Bodies, Measured};
+use crate::arguments::CaseArguments;
+use crate::failure::Failure;
+
+/// Elements across the largest and the smallest contact radius, at least.
+const ELEMENTS_ACROSS: (f64, f64) = (8.0, 4.0);
+/// Elements across the radius of the smaller sphere, at least.
+const ACROSS_SPHERE: f64 = 12.0;
+/// Steps over the elastic contact time: restitutions within 2e-5 of 1000 steps'.
+const STEPS: usize = 300;
+/// Accuracy of Ting's model: differences over 1e-3 of a weight are good to 1e-4.
+const TOLERANCE: f64 = 1e-7;
+
+/// Which model computes the restitutions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum ModelName {
+    /// Finite elements condensed to their contact
+    Condensed,
+    /// Ting's half-spaces with the spheres' finite size
+    Ting,
+}
+
+/// The material that is calibrated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    /// Its name in the case.
+    pub material: String,
+    /// Which of its moduli relax.
+    pub acts_on: ActsOn,
+    /// The bodies that are made of it.
+    pub sides: [bool; 2],
+}
+
+impl Target {
+    /// The material that the user names, or the only one.
+    ///
+    /// # Errors
+    /// None, or more than one without a name.
+    pub fn of(case: &Case, name: Option<&str>, acts_on: Option<ActsOn>) -> Result<Self, Failure> {
+        let own = |side: usize| case.file.body.get(side).and_then(|body| body.material.as_deref());
+        let own = [own(0), own(1)];
+        let mut names: Vec<&str> = own.into_iter().flatten().collect();
+        names.dedup();
+        let material = match (name, &names[..]) {
+            (Some(name), _) if names.contains(&name) => name,
+            (None, [only]) => only,
+            (Some(name), _) => {
+                let message = format!("--material {name}: no body is made of it");
+                return Err(Failure::bad_input(message)
+                    .with_help(format!("the bodies are made of {}", names.join(" and "))));
+            }
+            (None, _) => {
+                let message = format!("the bodies are made of {}", names.join(" and "));
+                return Err(Failure::bad_input(message)
+                    .with_help(format!("say which to calibrate: --material {}", names[0])));
+            }
+        };
+        let sides = own.map(|own| own == Some(material));
+        let bodies = case.scene.bodies.iter().zip(sides).filter(|(_, is_it)| *is_it);
+        let series = bodies.filter_map(|(body, _)| body.material()?.relaxation()).next();
+        let acts_on = acts_on.or(series.map(PronySeries::acts_on)).unwrap_or(ActsOn::All);
+        Ok(Self { material: material.to_string(), acts_on, sides })
+    }
+}
+
+/// A pair, its data and its model.
+#[derive(Debug)]
+pub struct Experiment {
+    /// Places of its points in the data.
+    pub points: Vec<usize>,
+    /// m/s.
+    pub speeds: Vec<f64>,
+    /// Hertz' with instantaneous moduli, s.
+    pub contact_times: Vec<f64>,
+    /// Diameters of the bodies, m; a wall has none.
+    pub diameters: [Option<f64>; 2],
+    /// Elements across the smallest and the largest contact radius; none without a mesh.
+    pub elements_across: Option<(f64, f64)>,
+    /// What the user should know of the model's limits.
+    pub warnings: Vec<String>,
+    target: Target,
+    materials: [Option<Material>; 2],
+    model: Evaluator,
+}
+
+#[derive(Debug)]
+enum Evaluator {
+    Condensed(Box<Mutex<Condensed>>),
+    Ting(Pair),
+}
+
+impl Experiment {
+    /// Loads the case with the bodies of the data, at its speeds, and makes its model.
+    ///
+    /// # Errors
+    /// A case that cannot be, a mesh or a factor that cannot be made.
+    pub fn new(
+        input: &CaseArguments,
+        measured: &Measured,
+        bodies: &Bodies,
+        target: &Target,
+        model: ModelName,
+    ) -> Result<Self, Failure> {
+        let speeds: Vec<f64> =
+            bodies.points.iter().map(|point| measured.data.points[*point].speed).collect();
+        let given = [input.set.clone(), bodies.overrides()].concat();
+        let base = Case::load(&input.case, &given)?;
+        let moving = usize::from(base.scene.bodies[0].diameter().is_none());
+        let at = |speed: f64, more: &[String]| {
+            let speeds = [
+                format!("body.{moving}.approach_speed={speed:?}"),
+                format!("body.{}.approach_speed=0.0", 1 - moving),
+            ];
+            Case::load(&input.case, &[&given[..], &speeds, more].concat())
+        };
+        let bad = |error: LawError| Failure::bad_input(error.to_string());
+        let pair = base.scene.pair().map_err(bad)?;
+        let hertz = |speed: f64| HertzImpact::new(&pair, speed).map_err(bad);
+        let (slowest, fastest) = ends(&speeds);
+        let (small, large) = (hertz(slowest)?, hertz(fastest)?);
+        let radii = base.scene.bodies.iter().filter_map(|body| Some(0.5 * body.diameter()?));
+        let smallest_radius = radii.fold(f64::INFINITY, f64::min);
+        let time = |speed: &f64| large.contact_time() * (speed / fastest).powf(-0.2);
+        let contact_times = speeds.iter().map(time).collect();
+        let mut experiment = Self {
+            points: bodies.points.clone(),
+            speeds,
+            contact_times,
+            diameters: base.scene.bodies.each_ref().map(fem_case::Body::diameter),
+            elements_across: None,
+            warnings: Vec::new(),
+            target: target.clone(),
+            materials: base.scene.bodies.each_ref().map(|body| body.material().cloned()),
+            model: match model {
+                ModelName::Condensed => {
+                    let size = (large.max_contact_radius() / ELEMENTS_ACROSS.0)
+                        .min(small.max_contact_radius() / ELEMENTS_ACROSS.1)
+                        .min(smallest_radius / ACROSS_SPHERE);
+                    let mesh = format!("mesh.contact_element_size={size:?}");
+                    let is_given = base.gives("mesh.contact_element_size");
+                    let case =
+                        at(fastest, if is_given { &[] } else { std::slice::from_ref(&mesh) })?;
+                    let condensed = Condensed::new(case, &PairCache::default())?;
+                    Evaluator::Condensed(Box::new(Mutex::new(condensed)))
+                }
+                ModelName::Ting => {
+                    let size = base.scene.finite_size().map_err(bad)?;
+                    size.check(large.max_contact_radius()).map_err(bad)?;
+                    Evaluator::Ting(pair)
+                }
+            },
+        };
+        if let Evaluator::Condensed(condensed) = &experiment.model {
+            let condensed = lock(condensed);
+            let size = condensed.plan.contact_element_size;
+            let across = (small.max_contact_radius() / size, large.max_contact_radius() / size);
+            experiment.elements_across = Some(across);
+            experiment.warnings = condensed.warnings.clone();
+        }
+        Ok(experiment)
+    }
+
+    /// The restitution at a speed with these terms in the calibrated material; 0 where the bodies
+    /// do not part.
+    ///
+    /// # Errors
+    /// A collision that cannot be computed.
+    pub fn restitution(&self, terms: &[PronyTerm], speed: f64) -> Result<f64, FitError> {
+        let failed =
+            |error: &dyn std::fmt::Display| FitError::Collision { reason: error.to_string() };
+        let series = match terms {
+            [] => None,
+            terms => Some(
+                PronySeries::new(terms.to_vec(), self.target.acts_on).map_err(|e| failed(&e))?,
+            ),
+        };
+        let relaxation = |side: usize| match self.target.sides[side] {
+            true => series.as_ref(),
+            false => self.materials[side].as_ref().and_then(Material::relaxation),
+        };
+        match &self.model {
+            Evaluator::Condensed(condensed) => {
+                let relaxations = [relaxation(0), relaxation(1)];
+                match lock(condensed).collide_with(speed, relaxations, STEPS) {
+                    Ok(collision) => Ok(collision.restitution),
+                    Err(CondensedError::NoSeparation { .. }) => Ok(0.0),
+                    Err(error) => Err(failed(&error)),
+                }
+            }
+            Evaluator::Ting(pair) => {
+                let material = |side: usize| {
+                    let own = self.materials[side].as_ref();
+                    let with = |own: &Material| {
+                        let series = relaxation(side).cloned();
+                        Material::new(own.density(), *own.instantaneous(), series)
+                    };
+                    own.map(with).transpose().map_err(|error| failed(&error))
+                };
+                match ting(pair, [material(0)?, material(1)?], &self.diameters, speed) {
+                    Ok(restitution) => Ok(restitution),
+                    Err(LawError::NotFinished { .. }) => Ok(0.0),
+                    Err(error) => Err(failed(&error)),
+                }
+            }
+        }
+    }
+}
+
+/// A thread that panicked left the pair whole.
+fn lock(condensed: &Mutex<Condensed>) -> std::sync::MutexGuard<'_, Condensed> {
+    condensed.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+fn ting(
+    pair: &Pair,
+    materials: [Option<Material>; 2],
+    diameters: &[Option<f64>; 2],
+    speed: f64,
+) -> Result<f64, LawError> {
+    let [first, second] = materials.each_ref().map(Option::as_ref);
+    let relaxation = PairRelaxation::new(first, second)?;
+    let sized = |side: usize, material| Some((0.5 * diameters[side]?, material?));
+    let size = FiniteSize::new(sized(0, first), sized(1, second))?;
+    let ting = Ting::new(pair, relaxation).with_tolerance(TOLERANCE)?.with_finite_size(size);
+    Ok(ting.impact(speed)?.restitution)
+}

@@ -1,0 +1,82 @@
+//! Measured restitutions, sorted by the pair of bodies they are of.
+
+use std::path::Path;
+
+use fem_case::Case;
+
+use crate::failure::Failure;
+use crate::reduced::{CsvTable, Data, points_of};
+
+/// Columns that tell bodies apart, for the lower and the upper one; a sweep's own names last.
+const DIAMETERS: [[&str; 2]; 2] =
+    [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
+const LENGTH: [i32; 3] = [1, 0, 0];
+
+/// The data of a file by pairs of bodies.
+#[derive(Debug)]
+pub struct Measured {
+    /// All points, in the order of the file.
+    pub data: Data,
+    /// In the order of their first points.
+    pub bodies: Vec<Bodies>,
+}
+
+/// The points of one pair.
+#[derive(Debug)]
+pub struct Bodies {
+    /// Diameters that the file gives in place of the case's, m.
+    pub diameters: [Option<f64>; 2],
+    /// Places in the data.
+    pub points: Vec<usize>,
+}
+
+impl Bodies {
+    /// What the case must be told.
+    pub fn overrides(&self) -> Vec<String> {
+        let given = self.diameters.iter().enumerate();
+        let given = given.filter_map(|(body, diameter)| Some((body, (*diameter)?)));
+        given.map(|(body, diameter)| format!("body.{body}.sphere.diameter={diameter:?}")).collect()
+    }
+}
+
+impl Measured {
+    /// Restitutions of all points.
+    pub fn restitutions(&self) -> Vec<f64> {
+        self.data.points.iter().map(|point| point.restitution).collect()
+    }
+
+    /// The pair of each point.
+    pub fn pair_of(&self, point: usize) -> usize {
+        self.bodies.iter().position(|bodies| bodies.points.contains(&point)).unwrap_or(0)
+    }
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// What is wrong, with file and line.
+pub fn read_measured(path: &Path, case: &Case) -> Result<Measured, Failure> {
+    let table = CsvTable::read(path)?;
+    let [first, second] = DIAMETERS;
+    let columns = [table.find(&first)?, table.find(&second)?];
+    let may_vary: Vec<usize> = columns.iter().flatten().copied().collect();
+    let data = points_of(&table, &case.scene, false, &may_vary)?;
+    let mut bodies: Vec<Bodies> = Vec::new();
+    for (point, &row) in data.rows.iter().enumerate() {
+        let mut diameters = [None, None];
+        for (diameter, column) in diameters.iter_mut().zip(columns) {
+            let Some(column) = column else { continue };
+            let cell = table.number(row, column, LENGTH)?;
+            if cell.value <= 0.0 {
+                let message = format!("{} is {:?}", table.header()[column], cell.value);
+                return Err(table.fault(cell.line, message).with_help("it must be greater than 0"));
+            }
+            *diameter = Some(cell.value);
+        }
+        match bodies.iter_mut().find(|known| known.diameters == diameters) {
+            Some(known) => known.points.push(point),
+            None => bodies.push(Bodies { diameters, points: vec![point] }),
+        }
+    }
+    Ok(Measured { data, bodies })
+}

@@ -1,0 +1,126 @@
+//! A calibration as text.
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem_fit::spectrum::Range;
+
+use super::verdict::measured_exponent;
+use super::{Calibrated, ModelName};
+use crate::engineering::show;
+use crate::reduced::show_value;
+use crate::tables::table;
+
+/// For stdout.
+pub fn calibration_text(found: &Calibrated<'_>) -> String {
+    let mut text = heading(found);
+    text += &weights(found);
+    text += "\n";
+    text += &combinations(found);
+    text += "\n";
+    let fit = found.fit;
+    text += &format!(
+        "rms error: {:.2e}; that of a single Maxwell term (weight 1, {}) with the same mean: {:.2e}\n",
+        fit.rms,
+        show(found.maxwell.time, "s"),
+        found.maxwell.rms
+    );
+    if let Some(exponent) = measured_exponent(found.measured) {
+        let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
+        text += &format!(
+            "1 - e goes as the speed to the power {:.3}{error} (any Prony series: -0.2 to 0.2)\n",
+            exponent.value
+        );
+    }
+    for warning in found.warnings {
+        text += &format!("warning: {warning}\n");
+    }
+    text
+}
+
+fn heading(found: &Calibrated<'_>) -> String {
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let span = |(low, high): (f64, f64), unit: &str| match low == high {
+        true => show(low, unit),
+        false => format!("{} to {}", show(low, unit), show(high, unit)),
+    };
+    let name = match found.model {
+        ModelName::Condensed => "condensed",
+        ModelName::Ting => "ting with finite size",
+    };
+    let moduli = if found.acts_on() == "all" { "all moduli" } else { "the shear modulus" };
+    let mut text = format!(
+        "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
+        counted(found.times.len(), "term"),
+        found.target.material,
+        found.regularisation,
+        counted(found.measured.data.points.len(), "point"),
+        found.measured.data.name,
+        counted(found.experiments.len(), "pair"),
+        span(found.speeds(), "m/s"),
+        span(found.contact_times(), "s"),
+    );
+    let across = found.experiments.iter().filter_map(|experiment| experiment.elements_across);
+    let across = across.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    if let Some((smallest, largest)) = across {
+        text += &format!(
+            "one mesh a pair: {smallest:.1} elements across the smallest contact radius, \
+             {largest:.1} across the largest\n"
+        );
+    }
+    text + "\n"
+}
+
+fn weights(found: &Calibrated<'_>) -> String {
+    let fit = found.fit;
+    let level = format!("{} % range, others free", 100.0 * found.confidence);
+    let header = ["", "relaxation time", "best", level.as_str(), "from the data"].map(String::from);
+    let span = |range: &Range, shown: &dyn Fn(f64) -> String| {
+        format!("{} to {}", shown(range.low), shown(range.high))
+    };
+    let plain = |value: f64| format!("{value:.4}");
+    let terms = (0..found.times.len()).map(|k| {
+        [
+            format!("g{}", k + 1),
+            show(found.times[k], "s"),
+            plain(fit.weights[k]),
+            span(&fit.weight_ranges[k], &plain),
+            format!("{:.0} %", 100.0 * fit.resolution.shares[k]),
+        ]
+    });
+    let [total, rate, time] = &fit.moments;
+    let rates = |value: f64| show_value(value, "1/s");
+    let times = |value: f64| show(value, "s");
+    let moment = |name: &str, range: &Range, shown: &dyn Fn(f64) -> String| {
+        [name.to_string(), String::new(), shown(range.value), span(range, shown), String::new()]
+    };
+    let moments = [
+        moment("Σ g", total, &plain),
+        moment("Σ g/τ", rate, &rates),
+        moment("Σ g τ", time, &times),
+    ];
+    let rows = std::iter::once(header).chain(terms).chain(moments);
+    table(&[Left, Right, Right, Left, Right], rows)
+}
+
+fn combinations(found: &Calibrated<'_>) -> String {
+    let header = ["combination", "singular value", "value", "standard error", ""].map(String::from);
+    let rows = found.fit.resolution.combinations.iter().map(|combination| {
+        let coefficients = combination.coefficients.iter().enumerate();
+        let words = coefficients.filter(|(_, v)| v.abs() > 0.05).map(|(k, v)| {
+            let sign = if *v < 0.0 { "- " } else { "+ " };
+            format!("{sign}{:.2} g{}", v.abs(), k + 1)
+        });
+        let words = words.collect::<Vec<_>>().join(" ");
+        let error = match combination.is_determined {
+            true => format!("{:.1e}", combination.standard_error),
+            false => "-".to_string(),
+        };
+        [
+            words.trim_start_matches("+ ").to_string(),
+            format!("{:.1e}", combination.singular_value),
+            format!("{:.4}", combination.value),
+            error,
+            if combination.is_determined { "determined" } else { "not determined" }.to_string(),
+        ]
+    });
+    table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows))
+}
