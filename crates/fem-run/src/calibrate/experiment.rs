@@ -6,7 +6,7 @@
 
 use std::sync::Mutex;
 
-use fem_case::{Case, Condensed, PairCache, Shape};
+use fem_case::{Case, Condensed, PairCache};
 use fem_condensed::CondensedError;
 use fem_fit::FitError;
 use fem_laws::{FiniteSize, HertzImpact, LawError, Pair, PairRelaxation, Ting};

@@ -109,7 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         regularisation,
     };
     let fit = problem.fit(arguments.confidence).map_err(refused)?;
-    let maxwell = mean_maxwell(&restitutions, &wanted, contacts).map_err(refused)?;
+    let maxwell = mean_maxwell(restitutions, &wanted, contacts).map_err(refused)?;
     let warnings = warnings(&measured, &experiments, &fit);
     let found = Calibrated {
         case: &arguments.input.case,
@@ -173,7 +173,7 @@ fn all_restitutions(
 
 /// The relaxation time of weight 1 that makes the mean of the restitutions.
 fn mean_maxwell(
-    restitutions: &dyn Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError>,
+    restitutions: impl Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError>,
     wanted: &[f64],
     contacts: (f64, f64),
 ) -> Result<Maxwell, FitError> {
