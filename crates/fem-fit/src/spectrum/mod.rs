@@ -80,6 +80,11 @@ pub struct SpectrumFit {
     pub n_evaluations: usize,
 }
 
+/// √(Σ x²/N).
+pub fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
+}
+
 impl SpectrumProblem<'_> {
     /// The best weights and their intervals at this level of confidence (such as 0.95).
     ///
@@ -105,8 +110,7 @@ impl SpectrumProblem<'_> {
 
     /// rms uncertainty; 1 without uncertainties.
     fn unit(&self) -> f64 {
-        let mean = |u: &[f64]| u.iter().map(|u| u * u).sum::<f64>() / u.len() as f64;
-        self.uncertainties.map_or(1.0, |u| mean(u).sqrt())
+        self.uncertainties.map_or(1.0, root_mean_square)
     }
 
     /// ρ_i.

@@ -14,7 +14,8 @@ const WORTH: f64 = 0.5;
 /// A combination v·w, |v| = 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Combination {
-    /// s: the change of all restitutions, root of the sum of squares, for a change of 1.
+    /// s: the change of all restitutions, root of the sum of squares, for a change of 1; 0 if
+    /// rounding.
     pub singular_value: f64,
     /// v; its largest coefficient is positive.
     pub coefficients: Vec<f64>,
@@ -38,9 +39,9 @@ pub struct Resolution {
 impl Resolution {
     pub(super) fn of(jacobian: &DMatrix<f64>, error: f64, ridge: f64, weights: &[f64]) -> Self {
         let n = jacobian.ncols();
-        // JᵀJ has all n directions, those without data too; s below 1e-8 of the largest is 0.
+        // JᵀJ has all n directions, those without data too; s below 1e-7 of the largest is rounding.
         let normal = (jacobian.transpose() * jacobian).symmetric_eigen();
-        let floor = normal.eigenvalues.max().max(0.0) * 1e-16;
+        let floor = normal.eigenvalues.max().max(0.0) * 1e-14;
         let mut order: Vec<usize> = (0..n).collect();
         order.sort_by(|i, j| normal.eigenvalues[*j].total_cmp(&normal.eigenvalues[*i]));
         let mut shares = vec![0.0; n];

@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 use super::bounded::Linear;
 use super::ranges::{Seeker, moments};
 use super::resolution::Resolution;
-use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem};
+use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
 use crate::FitError;
 
 /// Step of the differences: weights are of order 1, collisions smooth to 1e-7.
@@ -63,9 +63,10 @@ impl<'a> Solver<'a> {
             (0..n).map(|k| seeker.range(&single(k))).collect::<Result<Vec<_>, _>>()?;
         let [total, rate, time] = moments(problem.times);
         let moments = [seeker.range(&total)?, seeker.range(&rate)?, seeker.range(&time)?];
-        let squares = state.restitutions.iter().zip(problem.measured).map(|(e, m)| (e - m).powi(2));
+        let residuals = state.restitutions.iter().zip(problem.measured).map(|(e, m)| e - m);
+        let residuals: Vec<f64> = residuals.collect();
         Ok(SpectrumFit {
-            rms: (squares.sum::<f64>() / n_values as f64).sqrt(),
+            rms: root_mean_square(&residuals),
             resolution: Resolution::of(&linear.a, error, problem.regularisation, &state.weights),
             misfit: (is_weighted && freedom > 0).then_some(scatter / unit),
             weights: state.weights,

@@ -51,7 +51,7 @@ fn heading(found: &Calibrated<'_>) -> String {
         "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
         counted(found.times.len(), "term"),
         found.target.material,
-        found.regularisation,
+        fem_figure::tick(found.regularisation),
         counted(found.measured.data.points.len(), "point"),
         found.measured.data.name,
         counted(found.experiments.len(), "pair"),
@@ -103,7 +103,10 @@ fn weights(found: &Calibrated<'_>) -> String {
 
 fn combinations(found: &Calibrated<'_>) -> String {
     let header = ["combination", "singular value", "value", "standard error", ""].map(String::from);
-    let rows = found.fit.resolution.combinations.iter().map(|combination| {
+    let all = &found.fit.resolution.combinations;
+    let seen = all.iter().filter(|combination| combination.singular_value > 0.0);
+    let n_unseen = all.len() - seen.clone().count();
+    let rows = seen.map(|combination| {
         let coefficients = combination.coefficients.iter().enumerate();
         let words = coefficients.filter(|(_, v)| v.abs() > 0.05).map(|(k, v)| {
             let sign = if *v < 0.0 { "- " } else { "+ " };
@@ -122,5 +125,9 @@ fn combinations(found: &Calibrated<'_>) -> String {
             if combination.is_determined { "determined" } else { "not determined" }.to_string(),
         ]
     });
-    table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows))
+    let text = table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows));
+    match n_unseen {
+        0 => text,
+        n => text + &format!("{n} more that the data do not see at all\n"),
+    }
 }

@@ -25,19 +25,20 @@ pub fn measured_exponent(measured: &Measured) -> Option<SpeedExponent> {
 /// In the order of their weight.
 pub fn warnings(measured: &Measured, experiments: &[Experiment], fit: &SpectrumFit) -> Vec<String> {
     let mut warnings = Vec::new();
-    warnings.extend(measured_exponent(measured).and_then(|found| falling(&found)));
+    warnings.extend(measured_exponent(measured).and_then(|found| falling(&found, fit)));
     let data = &measured.data;
     if data.n_left_out > 0 {
         warnings.push(format!("{} rows without a result were left out", data.n_left_out));
     }
     match fit.misfit {
-        Some(misfit) if misfit > LARGE_MISFIT => warnings.push(format!(
+        Some(misfit) if misses(fit) => warnings.push(format!(
             "the misfit is {misfit:.1} times the uncertainties: no series of these relaxation \
-             times makes these data, or the uncertainties are too small, and so are the ranges"
+             times makes these data, or the uncertainties are too small, and so are the ranges; try more \
+             --terms or other --times"
         )),
-        None if fit.rms > LARGE_ERROR => warnings.push(format!(
+        None if misses(fit) => warnings.push(format!(
             "the rms error is {:.3}: no series of these relaxation times makes these data, and \
-             the ranges tell flatness, no probability",
+             the ranges tell flatness, no probability; try more --terms or other --times",
             fit.rms
         )),
         _ => {}
@@ -75,8 +76,13 @@ pub fn warnings(measured: &Measured, experiments: &[Experiment], fit: &SpectrumF
     warnings
 }
 
+/// Whether the best series does not make the data.
+fn misses(fit: &SpectrumFit) -> bool {
+    fit.misfit.map_or(fit.rms > LARGE_ERROR, |misfit| misfit > LARGE_MISFIT)
+}
+
 /// The sentence on restitutions that fall with speed.
-fn falling(found: &SpeedExponent) -> Option<String> {
+fn falling(found: &SpeedExponent, fit: &SpectrumFit) -> Option<String> {
     if !found.is_above(0.0) {
         return None;
     }
@@ -87,13 +93,14 @@ fn falling(found: &SpeedExponent) -> Option<String> {
          spectrum more than 0.2",
         found.value
     );
-    Some(if found.is_above(SpeedExponent::LIMIT) {
-        start
-            + ": no Prony series makes these data; a loss that grows with the strain, such as \
-               plastic flow, fracture or friction, is at work"
+    let verdict = if found.is_above(SpeedExponent::LIMIT) {
+        "no Prony series makes these data; a loss that grows with the strain, such as plastic \
+         flow, fracture or friction, is at work"
+    } else if misses(fit) {
+        "a single Maxwell term (weight 1) cannot make these data, and the best series misses them"
     } else {
-        start
-            + ": a single Maxwell term (weight 1) cannot make these data, only terms faster than \
-                 the contact beside an equilibrium modulus can"
-    })
+        "a single Maxwell term (weight 1) cannot make these data, only terms faster than the \
+         contact beside an equilibrium modulus can"
+    };
+    Some(format!("{start}: {verdict}"))
 }

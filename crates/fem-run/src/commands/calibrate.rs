@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use fem_case::{Case, parse_quantity};
 use fem_fit::FitError;
-use fem_fit::spectrum::SpectrumProblem;
+use fem_fit::spectrum::{SpectrumProblem, root_mean_square};
 use fem_laws::bisection::falling_zero;
 use fem_material::{ActsOn, PronyTerm};
 use rayon::prelude::*;
@@ -82,10 +82,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     fill_uncertainties(arguments, &mut measured)?;
     let uncertainties: Option<Vec<f64>> =
         measured.data.points.iter().map(|point| point.restitution_uncertainty).collect();
-    let regularisation = arguments.regularisation.unwrap_or_else(|| {
-        let mean = |u: &Vec<f64>| (u.iter().map(|u| u * u).sum::<f64>() / u.len() as f64).sqrt();
-        uncertainties.as_ref().map_or(REGULARISATION, mean)
-    });
+    let regularisation = arguments
+        .regularisation
+        .unwrap_or_else(|| uncertainties.as_deref().map_or(REGULARISATION, root_mean_square));
     let (n_values, n_free) = (measured.data.points.len(), usize::from(arguments.terms));
     if n_values < n_free && regularisation == 0.0 {
         let free = "the weights".to_string();
@@ -109,7 +108,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         regularisation,
     };
     let fit = problem.fit(arguments.confidence).map_err(refused)?;
-    let maxwell = mean_maxwell(restitutions, &wanted, contacts).map_err(refused)?;
+    let maxwell = mean_maxwell(&restitutions, &wanted, contacts).map_err(refused)?;
     let warnings = warnings(&measured, &experiments, &fit);
     let found = Calibrated {
         case: &arguments.input.case,
@@ -171,9 +170,12 @@ fn all_restitutions(
     Ok(restitutions)
 }
 
+/// Terms to the restitutions of all points.
+type OfTerms<'a> = dyn Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError> + 'a;
+
 /// The relaxation time of weight 1 that makes the mean of the restitutions.
 fn mean_maxwell(
-    restitutions: impl Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError>,
+    restitutions: &OfTerms<'_>,
     wanted: &[f64],
     contacts: (f64, f64),
 ) -> Result<Maxwell, FitError> {
@@ -194,8 +196,7 @@ fn mean_maxwell(
     if let Some(error) = failure.into_inner() {
         return Err(error);
     }
-    let squares: f64 = differences(time)?.iter().map(|d| d * d).sum();
-    Ok(Maxwell { time, rms: (squares / wanted.len() as f64).sqrt() })
+    Ok(Maxwell { time, rms: root_mean_square(&differences(time)?) })
 }
 
 fn write_residuals(output: &mut Output, found: &Calibrated<'_>) -> Result<(), Failure> {
