@@ -20,7 +20,7 @@ use crate::estimate::Estimate;
 use crate::model::{Law, Model};
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
-use crate::scene::Shape;
+use crate::scene::{Body, Scene, Shape};
 use crate::schema::{CaseFile, End, HertzTable, LawTable, ModelTable, StartTable, TingTable};
 use contact_law::{Refusal, Setting};
 
@@ -167,7 +167,7 @@ fn materials(case: &Case) -> [Option<&Material>; 2] {
     case.scene.bodies.each_ref().map(|body| body.material())
 }
 
-/// Ting's model, of the materials or of elastic ones with the same instantaneous moduli.
+/// Ting's model of a case, of the materials or of elastic ones with the same instantaneous moduli.
 fn ting(
     case: &Case,
     estimate: &Estimate,
@@ -178,28 +178,54 @@ fn ting(
     let path = case.scene.model.path();
     let refuse = |error: LawError| case.error_at(&path, error.to_string());
     let pair = *estimate.hertz.pair();
-    let [first, second] = materials(case);
-    let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
-    let relaxation = if relaxes {
-        PairRelaxation::new(first, second)
-    } else {
-        PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())
-    };
-    let mut ting =
-        Ting::new(&pair, relaxation.map_err(refuse)?).with_tolerance(tolerance).map_err(refuse)?;
-    if finite_size {
-        let sized = case.scene.bodies.each_ref().map(|body| match &body.shape {
-            Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
-            Shape::Wall => None,
-        });
-        let size = FiniteSize::new(sized[0], sized[1]).map_err(refuse)?;
+    let size = finite_size.then(|| size_of(&case.scene)).transpose().map_err(refuse)?;
+    if let Some(size) = &size {
         size.check(estimate.hertz.max_contact_radius()).map_err(|error| {
             case.error_at(&format!("{path}.finite_size"), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;
-        ting = ting.with_finite_size(size);
     }
-    Ok((Motion::Ting(ting), pair))
+    let ting = ting_of(&case.scene, &pair, relaxes, size).map_err(refuse)?;
+    Ok((Motion::Ting(ting.with_tolerance(tolerance).map_err(refuse)?), pair))
+}
+
+/// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
+/// however large the contact.
+///
+/// # Errors
+/// Numbers that the law refuses.
+pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impact, LawError> {
+    let size = finite_size.then(|| size_of(scene)).transpose()?;
+    let [first, second] = &scene.bodies;
+    ting_of(scene, pair, true, size)?.impact(first.velocity - second.velocity)
+}
+
+fn ting_of(
+    scene: &Scene,
+    pair: &Pair,
+    relaxes: bool,
+    size: Option<FiniteSize>,
+) -> Result<Ting, LawError> {
+    let [first, second] = scene.bodies.each_ref().map(Body::material);
+    let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
+    let relaxation = if relaxes {
+        PairRelaxation::new(first, second)?
+    } else {
+        PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())?
+    };
+    let ting = Ting::new(pair, relaxation);
+    Ok(match size {
+        Some(size) => ting.with_finite_size(size),
+        None => ting,
+    })
+}
+
+fn size_of(scene: &Scene) -> Result<FiniteSize, LawError> {
+    let [first, second] = scene.bodies.each_ref().map(|body| match &body.shape {
+        Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
+        Shape::Wall => None,
+    });
+    FiniteSize::new(first, second)
 }
 
 fn contact_law(
