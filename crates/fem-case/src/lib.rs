@@ -88,7 +88,7 @@ pub use quantity::{
     Bytes, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate,
     Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use reduced::Reduced;
+pub use reduced::{Reduced, ting_impact};
 pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
 pub use simulation::Simulation;

@@ -23,7 +23,6 @@ mod page;
 mod position;
 mod power_law;
 mod price;
-mod reduced;
 mod studies;
 
 pub use check::{Check, CheckResult, Kind, Tolerance};
@@ -32,7 +31,7 @@ pub use error::{ClaimError, StudyError};
 pub use evaluate::{ClaimResult, evaluate};
 pub use findings::{Figure, Findings, Table};
 pub use laboratory::{Laboratory, Observer, Run, Shelf};
-pub use markdown::markdown;
+pub use markdown::{markdown, pictures};
 pub use page::page;
 pub use price::Price;
 pub use studies::study_names;

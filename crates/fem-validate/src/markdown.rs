@@ -4,8 +4,20 @@ use std::fmt::Write;
 
 use crate::claim::Section;
 use crate::evaluate::ClaimResult;
+use crate::findings::Figure;
 
-/// A Markdown page: a table a section, a row a check. It says nothing that changes from run to
+/// The figures that the Markdown page shows, those of the paper, by their addresses from its
+/// folder.
+pub fn pictures(results: &[ClaimResult]) -> impl Iterator<Item = (String, &Figure)> {
+    let of_paper = results.iter().filter(|result| result.claim.section == Section::Paper);
+    of_paper.flat_map(|result| {
+        let name =
+            move |figure: &Figure| format!("images/{}_{}.svg", result.claim.name, figure.name);
+        result.findings.figures.iter().map(move |figure| (name(figure), figure))
+    })
+}
+
+/// A Markdown page: a table a section, a row a check, and the paper's figures. It says nothing that changes from run to
 /// run on the same program: no times, no machine.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
@@ -32,6 +44,14 @@ pub fn markdown(results: &[ClaimResult]) -> String {
         for result in claims {
             rows(&mut text, result);
         }
+    }
+    let mut figures = pictures(results).peekable();
+    if figures.peek().is_some() {
+        text += "\n## The paper's figures\n";
+    }
+    for (address, figure) in figures {
+        let caption = cell(&figure.caption);
+        let _ = write!(text, "\n![{}]({address})\n\n{caption}\n", figure.name.replace('_', " "));
     }
     text
 }

@@ -13,16 +13,17 @@ use crate::findings::Figure;
 struct Page<'a> {
     version: &'a str,
     n_claims: usize,
+    n_all: usize,
     n_checks: usize,
     failed: Vec<&'a ClaimResult>,
     sections: Vec<(&'static str, Vec<&'a ClaimResult>)>,
 }
 
-/// The page as HTML.
+/// The page as HTML, of so many claims; the others were not tried.
 ///
 /// # Errors
 /// None that depend on the results.
-pub fn page(results: &[ClaimResult], version: &str) -> Result<String, askama::Error> {
+pub fn page(results: &[ClaimResult], n_all: usize, version: &str) -> Result<String, askama::Error> {
     let of = |section: Section| {
         let claims: Vec<_> = results.iter().filter(|r| r.claim.section == section).collect();
         (section.heading(), claims)
@@ -30,6 +31,7 @@ pub fn page(results: &[ClaimResult], version: &str) -> Result<String, askama::Er
     let page = Page {
         version,
         n_claims: results.len(),
+        n_all,
         n_checks: results.iter().map(|result| result.checks.len()).sum(),
         failed: results.iter().filter(|result| !result.passed()).collect(),
         sections: Section::ALL.map(of).into_iter().filter(|(_, c)| !c.is_empty()).collect(),

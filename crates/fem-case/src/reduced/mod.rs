@@ -8,7 +8,9 @@ mod outcome;
 pub(crate) mod relative;
 
 use fem_laws::laws::ContactLaw;
-use fem_laws::{EndRule, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting};
+use fem_laws::{
+    EndRule, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation, Ting,
+};
 use fem_material::Material;
 
 use crate::case::Case;
@@ -18,6 +20,7 @@ use crate::estimate::Estimate;
 use crate::model::{Law, Model};
 use crate::outcome::Outcome;
 use crate::quantity::Quantity;
+use crate::scene::{Body, Scene};
 use crate::schema::{CaseFile, End, HertzTable, LawTable, ModelTable, StartTable, TingTable};
 use contact_law::{Refusal, Setting};
 
@@ -189,7 +192,7 @@ fn materials(case: &Case) -> [Option<&Material>; 2] {
     case.scene.bodies.each_ref().map(|body| body.material())
 }
 
-/// Ting's model, of the materials or of elastic ones with the same instantaneous moduli.
+/// Ting's model of a case, of the materials or of elastic ones with the same instantaneous moduli.
 fn ting(
     case: &Case,
     estimate: &Estimate,
@@ -200,24 +203,45 @@ fn ting(
     let path = case.scene.model.path();
     let refuse = |error: LawError| case.error_at(&path, error.to_string());
     let pair = *estimate.hertz.pair();
-    let [first, second] = materials(case);
-    let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
-    let relaxation = if relaxes {
-        PairRelaxation::new(first, second)
-    } else {
-        PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())
-    };
-    let mut ting =
-        Ting::new(&pair, relaxation.map_err(refuse)?).with_tolerance(tolerance).map_err(refuse)?;
-    if finite_size {
-        let size = case.scene.finite_size().map_err(refuse)?;
+    let size = finite_size.then(|| case.scene.finite_size()).transpose().map_err(refuse)?;
+    if let Some(size) = &size {
         size.check(estimate.hertz.max_contact_radius()).map_err(|error| {
             case.error_at(&format!("{path}.finite_size"), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;
-        ting = ting.with_finite_size(size);
     }
-    Ok((Motion::Ting(ting), pair))
+    let ting = ting_of(&case.scene, &pair, relaxes, size).map_err(refuse)?;
+    Ok((Motion::Ting(ting.with_tolerance(tolerance).map_err(refuse)?), pair))
+}
+
+/// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
+/// however large the contact.
+///
+/// # Errors
+/// Numbers that the law refuses.
+pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impact, LawError> {
+    let size = finite_size.then(|| scene.finite_size()).transpose()?;
+    ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
+}
+
+fn ting_of(
+    scene: &Scene,
+    pair: &Pair,
+    relaxes: bool,
+    size: Option<FiniteSize>,
+) -> Result<Ting, LawError> {
+    let [first, second] = scene.bodies.each_ref().map(Body::material);
+    let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
+    let relaxation = if relaxes {
+        PairRelaxation::new(first, second)?
+    } else {
+        PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())?
+    };
+    let ting = Ting::new(pair, relaxation);
+    Ok(match size {
+        Some(size) => ting.with_finite_size(size),
+        None => ting,
+    })
 }
 
 fn law_numbers(

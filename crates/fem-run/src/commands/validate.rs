@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem_validate::{
-    Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, load_claims, markdown,
+    Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, load_claims, markdown, pictures,
 };
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
@@ -33,7 +33,8 @@ pub struct Arguments {
     /// Folder for the page, the table and the pictures
     #[arg(long, value_name = "DIR", default_value = "runs/validation")]
     out: PathBuf,
-    /// Also write the table as Markdown; for all claims only
+    /// Also write the table as Markdown, and the pictures of the paper's figures into images
+    /// beside it; for all claims only
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
     /// Threads to use [default: one a processor]
@@ -64,11 +65,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let results = run(&claims, arguments, &interrupt)?;
     let is_complete = results.len() == claims.len();
-    write_files(folder.path(), &results, is_complete)?;
+    write_files(folder.path(), &results, claims.len())?;
     let place = folder.publish()?;
     if let Some(path) = arguments.table.as_ref().filter(|_| is_complete) {
-        fs::write(path, markdown(&results))
-            .map_err(|error| Failure::failed(format!("{}: {error}", path.display())))?;
+        write_table(path, &results)?;
     }
     if !arguments.quiet {
         standard_output::print(&report(&results, &place))?;
@@ -114,6 +114,20 @@ fn run(
     Ok(results.into_iter().filter(is_whole).collect())
 }
 
+/// The Markdown table, and its pictures beside it.
+fn write_table(path: &Path, results: &[ClaimResult]) -> Result<(), Failure> {
+    let write = |path: &Path, text: &str| {
+        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+        made.and_then(|()| fs::write(path, text))
+            .map_err(|error| Failure::failed(format!("{}: {error}", path.display())))
+    };
+    write(path, &markdown(results))?;
+    for (name, figure) in pictures(results) {
+        write(&path.with_file_name(name), &figure.svg)?;
+    }
+    Ok(())
+}
+
 fn listing(claims: &[Claim]) -> String {
     let rows = claims.iter().map(|claim| {
         [claim.name.clone(), claim.section.heading().to_string(), claim.title.clone()]
@@ -139,7 +153,9 @@ fn report(results: &[ClaimResult], place: &Path) -> String {
         text += "\n";
     }
     let n_checks: usize = results.iter().map(|result| result.checks.len()).sum();
-    text += &format!("{} claims, {n_checks} checks\n", results.len());
+    let n_failed = results.iter().flat_map(|result| &result.checks).filter(|c| !c.passed).count();
+    let plural = if results.len() == 1 { "" } else { "s" };
+    text += &format!("{} claim{plural}, {n_checks} checks, {n_failed} failed\n", results.len());
     text + &format!("Page: {}\n", one_line(&place.join(PAGE_FILE).display().to_string()))
 }
 

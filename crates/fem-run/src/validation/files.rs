@@ -15,19 +15,16 @@ pub const PAGE_FILE: &str = "index.html";
 const TABLE_FILE: &str = "checks.csv";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Writes page, table, pictures and summary.
+/// Writes page, table, pictures and summary of what is done of so many claims.
 ///
 /// # Errors
 /// The file system.
-pub fn write_files(
-    folder: &Path,
-    results: &[ClaimResult],
-    is_complete: bool,
-) -> Result<(), Failure> {
+pub fn write_files(folder: &Path, results: &[ClaimResult], n_all: usize) -> Result<(), Failure> {
     let fault = |error: &dyn std::error::Error| {
         Failure::failed(format!("the page cannot be written: {error}"))
     };
-    let mut files = vec![(PAGE_FILE.to_string(), page(results, VERSION).map_err(|e| fault(&e))?)];
+    let mut files =
+        vec![(PAGE_FILE.to_string(), page(results, n_all, VERSION).map_err(|e| fault(&e))?)];
     files.push((TABLE_FILE.into(), table(results).map_err(|error| fault(&error))?));
     for result in results {
         for figure in &result.findings.figures {
@@ -54,7 +51,7 @@ pub fn write_files(
         "program": PROGRAM,
         "version": VERSION,
         "files": names,
-        "complete": is_complete,
+        "complete": results.len() == n_all,
         "passed": results.iter().all(ClaimResult::passed),
         "claims": claims,
     });

@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use fem_case::ting_impact;
 use fem_figure::{Axis, Chart, Curve};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -14,7 +15,6 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::{Laboratory, Run};
-use crate::reduced::ting;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -124,8 +124,8 @@ fn measure(
     overrides.push(format!("mesh.contact_element_size={size:?}"));
     let run = laboratory.run(laboratory.case("base", &overrides)?)?;
     let (scene, pair) = (&run.problem.case.scene, run.problem.plan.estimate.hertz.pair());
-    let half_space = ting(scene, pair, false)?.restitution;
-    let finite = ting(scene, pair, true)?.restitution;
+    let half_space = ting_impact(scene, pair, false)?.restitution;
+    let finite = ting_impact(scene, pair, true)?.restitution;
     Ok(Outcome { member, half_space, finite, run })
 }
 

@@ -15,11 +15,14 @@ pub enum Profile {
     Radial,
     /// σ_rr on the surface against the distance from the axis.
     Surface,
+    /// σ_θθ on the surface against the distance from the axis.
+    Hoop,
 }
 
 impl Profile {
     /// All, in the order of their declaration.
-    pub const ALL: [Self; 4] = [Self::Pressure, Self::Axial, Self::Radial, Self::Surface];
+    pub const ALL: [Self; 5] =
+        [Self::Pressure, Self::Axial, Self::Radial, Self::Surface, Self::Hoop];
 
     /// As claims call it.
     pub fn name(self) -> &'static str {
@@ -28,6 +31,7 @@ impl Profile {
             Self::Axial => "axial",
             Self::Radial => "radial",
             Self::Surface => "surface",
+            Self::Hoop => "hoop",
         }
     }
 
@@ -38,6 +42,7 @@ impl Profile {
             Self::Axial => "σ_yy, axis",
             Self::Radial => "σ_rr, axis",
             Self::Surface => "σ_rr, surface",
+            Self::Hoop => "σ_θθ, surface",
         }
     }
 }
@@ -48,7 +53,8 @@ pub fn closed_form(profile: Profile, place: f64, poissons_ratio: f64) -> f64 {
         Profile::Pressure => UNIT.pressure(place),
         Profile::Axial => UNIT.axis_stress(place, poissons_ratio).axial,
         Profile::Radial => UNIT.axis_stress(place, poissons_ratio).radial,
-        Profile::Surface => surface_stress(place, poissons_ratio),
+        Profile::Surface => surface_stress(place, poissons_ratio)[0],
+        Profile::Hoop => surface_stress(place, poissons_ratio)[1],
     }
 }
 
@@ -57,23 +63,42 @@ pub fn shear(depth: f64, poissons_ratio: f64) -> f64 {
     UNIT.axis_stress(depth, poissons_ratio).max_shear()
 }
 
-/// σ_rr on the surface (Johnson, *Contact Mechanics*, eqs. 3.42 and 3.44), inside and outside of
-/// the contact:
+/// σ_rr and σ_θθ on the surface (Johnson, *Contact Mechanics*, eqs. 3.42 and 3.44), inside and
+/// outside of the contact:
 ///
 /// ```math
 /// \frac{\sigma_{rr}}{p_0} = \frac{1-2\nu}{3}\frac{a^2}{r^2}
 ///   \left[1-\left(1-\tfrac{r^2}{a^2}\right)^{3/2}\right] - \sqrt{1-\tfrac{r^2}{a^2}},
-/// \qquad \frac{\sigma_{rr}}{p_0} = \frac{1-2\nu}{3}\frac{a^2}{r^2} .
+/// \qquad \frac{\sigma_{rr}}{p_0} = \frac{1-2\nu}{3}\frac{a^2}{r^2} ,
 /// ```
-fn surface_stress(r: f64, poissons_ratio: f64) -> f64 {
+/// ```math
+/// \frac{\sigma_{rr}+\sigma_{\theta\theta}}{p_0} = -(1+2\nu)\sqrt{1-\tfrac{r^2}{a^2}},
+/// \qquad \sigma_{rr}+\sigma_{\theta\theta} = 0 .
+/// ```
+fn surface_stress(r: f64, poissons_ratio: f64) -> [f64; 2] {
     let rim = UNIT.rim_tension(poissons_ratio);
     let square = r * r;
-    // What the bracket tends to on the axis: 3/2 r²/a².
-    if square < 1e-12 {
-        return 1.5 * rim - 1.0;
-    }
     let inside = (1.0 - square).max(0.0);
-    rim / square * (1.0 - inside * inside.sqrt()) - UNIT.pressure(r)
+    // What the bracket tends to on the axis: 3/2 r²/a².
+    let bracket = if square < 1e-12 { 1.5 } else { (1.0 - inside * inside.sqrt()) / square };
+    let radial = rim * bracket - UNIT.pressure(r);
+    [radial, -(1.0 + 2.0 * poissons_ratio) * UNIT.pressure(r) - radial]
+}
+
+/// σ_rz below the surface, z into the body, with 2u = r² + z² − a² + √((r² + z² − a²)² + 4a²z²)
+/// (Huber 1904):
+///
+/// ```math
+/// \frac{\sigma_{rz}}{p_0} = -\frac{rz^2}{u^2+a^2z^2}\,\frac{a^2\sqrt u}{a^2+u} .
+/// ```
+pub fn shear_below(r: f64, z: f64) -> f64 {
+    // Inside of the contact u falls as z².
+    if z <= 0.0 {
+        return 0.0;
+    }
+    let excess = r * r + z * z - 1.0;
+    let u = 0.5 * (excess + excess.hypot(2.0 * z));
+    -r * z * z / (u * u + z * z) * u.sqrt() / (1.0 + u)
 }
 
 #[cfg(test)]
@@ -87,11 +112,30 @@ mod tests {
         for nu in [0.0, 0.244, 0.3, 0.5] {
             let surface = |r: f64| closed_form(Profile::Surface, r, nu);
             let axis = closed_form(Profile::Radial, 0.0, nu);
+            assert!((closed_form(Profile::Hoop, 0.0, nu) - axis).abs() < 1e-15);
             assert!((surface(0.0) - axis).abs() < 1e-15);
             assert!((surface(1e-3) - axis).abs() < 1e-6);
             assert!((surface(1.0) - UNIT.rim_tension(nu)).abs() < 1e-15);
             let point = (1.0 - 2.0 * nu) * UNIT.force() / (2.0 * std::f64::consts::PI * 9.0);
             assert!((surface(3.0) - point).abs() < 1e-15);
+        }
+    }
+
+    /// Equilibrium along z with σ_zz = −p₀ (z/√u)³ a²u/(u² + a²z²): ∂σ_zz/∂z + ∂(rσ_rz)/r∂r = 0.
+    #[test]
+    fn shear_is_in_equilibrium_with_the_axial_stress() {
+        let axial = |r: f64, z: f64| {
+            let excess = r * r + z * z - 1.0;
+            let u = 0.5 * (excess + excess.hypot(2.0 * z));
+            -(z / u.sqrt()).powi(3) * u / (u * u + z * z)
+        };
+        assert!((axial(0.0, 0.7) - UNIT.axis_stress(0.7, 0.3).axial).abs() < 1e-15);
+        for (r, z) in [(0.5, 0.3), (1.0, 0.5), (1.4, 0.2), (0.2, 1.5)] {
+            let h = 1e-5;
+            let rise = (axial(r, z + h) - axial(r, z - h)) / (2.0 * h);
+            let moment = |r: f64| r * shear_below(r, z);
+            let flow = (moment(r + h) - moment(r - h)) / (2.0 * h * r);
+            assert!((rise + flow).abs() < 1e-8, "{r} {z}: {rise} {flow}");
         }
     }
 }

@@ -6,7 +6,7 @@ use fem_explicit::{Label, Snapshot};
 use fem_laws::HertzPressure;
 use fem_mesh::segment_measures;
 
-use super::closed_form::{Profile, closed_form};
+use super::closed_form::{Profile, closed_form, shear_below};
 use crate::error::StudyError;
 use crate::laboratory::Run;
 
@@ -28,7 +28,9 @@ pub struct Fields {
     pub size: f64,
     /// Of the sphere.
     pub poissons_ratio: f64,
-    profiles: [Vec<Sample>; 4],
+    profiles: [Vec<Sample>; 5],
+    /// σ_rz at the nodes within the depth and the distance, in the order of the mesh.
+    pub inner_shear: Vec<Sample>,
 }
 
 impl Fields {
@@ -50,6 +52,7 @@ impl Fields {
         let boundary = |profile: Profile| {
             let (nodes, along, end, component) = match profile {
                 Profile::Surface => (mesh.surface(), 0, distance, 0),
+                Profile::Hoop => (mesh.surface(), 0, distance, 2),
                 Profile::Axial => (mesh.axis(), 1, depth, 1),
                 _ => (mesh.axis(), 1, depth, 0),
             };
@@ -60,7 +63,20 @@ impl Fields {
             let value = |k: usize| stress.points[nodes[k] as usize][component];
             samples(&places, |k| value(k) / hertz.peak_pressure, profile, poissons_ratio)
         };
+        // With y out of the lower body and into the upper one, z into either.
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let inner_shear = (mesh.nodes().iter().zip(&stress.points))
+            .map(|(node, stress)| (node.map(|x| x.abs() / hertz.contact_radius), stress))
+            .filter(|([r, z], _)| *r <= depth && *z <= depth)
+            .map(|([r, z], stress)| Sample {
+                place: r,
+                value: sign * stress[3] / hertz.peak_pressure,
+                exact: shear_below(r, z),
+                weight: 1.0,
+            })
+            .collect();
         Ok(Self {
+            inner_shear,
             size: hertz.contact_radius / run.problem.plan.estimate.smallest_radius,
             poissons_ratio,
             profiles: Profile::ALL.map(|profile| match profile {

@@ -1,7 +1,8 @@
 //! The field of a Hertz contact at the largest approach, on meshes of several sizes.
 //!
 //! The one case of the claim is run with so many elements over Hertz' contact radius. Of each
-//! profile (`pressure`, `axial`, `radial`, `surface`): `.error` on the finest mesh, relative L2,
+//! profile (`pressure`, `axial`, `radial`, `surface`,
+//! `hoop`) and of σ_rz in the body, `inner_shear`: `.error` on the finest mesh, relative L2,
 //! and `.order`. Of the finest mesh besides: `max_shear` and `max_shear_depth` over their closed
 //! forms, `rim_tension` over (1−2ν)p₀/3, and `size`, a/R.
 
@@ -58,6 +59,10 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         findings.measure(format!("{name}.order"), fitted_order(sizes.zip(errors.iter().copied())));
         errors
     });
+    let inner: Vec<f64> = fields.iter().map(|f| relative_error(&f.inner_shear)).collect();
+    let sizes = parameters.elements.iter().map(|n| n.recip());
+    findings.measure("inner_shear.error", inner[inner.len() - 1]);
+    findings.measure("inner_shear.order", fitted_order(sizes.zip(inner.iter().copied())));
     let marks: Vec<[f64; 3]> = fields.iter().map(|fields| marks(fields, parameters.rim)).collect();
     let names = ["max_shear", "max_shear_depth", "rim_tension"];
     for (name, value) in names.into_iter().zip(marks[marks.len() - 1]) {
@@ -67,12 +72,24 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     draw(&mut findings, &parameters, &fields, &errors);
     let rows = parameters.elements.iter().zip(&marks).enumerate().map(|(k, (n, marks))| {
         let percent = |value: f64| format!("{:.2} %", 100.0 * value);
-        let [pressure, axial, radial, surface] = errors.each_ref().map(|errors| percent(errors[k]));
+        let [pressure, axial, radial, surface, hoop] =
+            errors.each_ref().map(|errors| percent(errors[k]));
         let [largest, depth, rim] = marks.map(|mark| format!("{mark:.4}"));
-        [n.to_string(), pressure, axial, radial, surface, largest, depth, rim]
+        let inner = percent(inner[k]);
+        [n.to_string(), pressure, axial, radial, surface, hoop, inner, largest, depth, rim]
     });
-    let header =
-        ["elements over a", "p", "σ_yy axis", "σ_rr axis", "σ_rr surface", "τ", "depth", "rim"];
+    let header = [
+        "elements over a",
+        "p",
+        "σ_yy axis",
+        "σ_rr axis",
+        "σ_rr surface",
+        "σ_θθ surface",
+        "σ_ry inside",
+        "τ",
+        "depth",
+        "rim",
+    ];
     findings.tabulate(
         "Relative L2 errors; largest shear, its depth and tension at the rim over Hertz'.",
         header,
@@ -127,7 +144,7 @@ fn draw(
     findings: &mut Findings,
     parameters: &Parameters,
     fields: &[Fields],
-    errors: &[Vec<f64>; 4],
+    errors: &[Vec<f64>; 5],
 ) {
     let finest = &fields[fields.len() - 1];
     let add = |chart: Chart, profile: Profile, colour: usize, end: f64| {
@@ -144,9 +161,10 @@ fn draw(
     let axis = add(chart("depth/a", "stress/p0"), Profile::Axial, 1, parameters.depth);
     let exact = places(parameters.depth).map(|z| (z, shear(z, finest.poissons_ratio))).collect();
     let axis = add(axis, Profile::Radial, 2, parameters.depth)
-        .with(Curve::points("τ, axis", finest.shear()).like_curve(4))
+        .with(Curve::points("τ, axis", finest.shear()).like_curve(5))
         .with(Curve::dashed("closed form", exact).coloured(GREY));
     let surface = add(chart("r/a", "stress/p0"), Profile::Surface, 3, parameters.distance);
+    let surface = add(surface, Profile::Hoop, 4, parameters.distance);
     let mut convergence = Chart::new(
         Axis::new("elements over the contact radius").logarithmic(),
         Axis::new("relative L2 error").logarithmic(),

@@ -1,12 +1,12 @@
 //! Fig. 12: contact time against speed, beside Hertz and Hertz with finite spheres.
 
+use fem_case::ting_impact;
 use fem_figure::{Axis, Chart, Curve};
 
 use super::{Speeds, exponent};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::reduced::ting;
 
 /// Contact times at one speed, s.
 struct Point {
@@ -22,7 +22,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut points = Vec::new();
     for run in speeds.run_elastic(laboratory)? {
         let hertz = run.problem.plan.estimate.hertz;
-        let finite = ting(&run.problem.case.scene, hertz.pair(), true)?;
+        let finite = ting_impact(&run.problem.case.scene, hertz.pair(), true)?;
         points.push(Point {
             speed: hertz.approach_speed(),
             ours: run.contact_time,
@@ -31,17 +31,15 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         });
     }
     let mut findings = Findings::new();
-    let mut logarithms = 0.0;
     for point in &points {
         let Point { speed, ours, hertz, finite } = point;
+        findings.measure(format!("time.{speed}"), *ours);
         findings.measure(format!("over_hertz.{speed}"), ours / hertz - 1.0);
         findings.measure(format!("finite_over_hertz.{speed}"), finite / hertz - 1.0);
         findings.measure_worst("worst_over_finite", (ours / finite - 1.0).abs());
-        logarithms += ours.ln() / points.len() as f64;
     }
     let times: Vec<_> = points.iter().map(|point| (point.speed, point.ours)).collect();
     findings.measure("exponent", exponent(&times));
-    findings.measure("mean", logarithms.exp());
     draw(&points, &mut findings);
     Ok(findings)
 }

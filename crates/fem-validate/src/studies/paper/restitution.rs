@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fem_case::{Case, Plan};
+use fem_case::{Case, Plan, ting_impact};
 use fem_figure::{Axis, Chart, Curve, GREY};
 use serde::Deserialize;
 
@@ -10,7 +10,6 @@ use super::falls_through;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::{Laboratory, Run};
-use crate::reduced::ting;
 
 /// The two readings: run, label.
 const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic bulk")];
@@ -39,8 +38,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     for (name, run) in names.iter().zip(&runs) {
         let scene = &run.problem.case.scene;
         let pair = run.problem.plan.estimate.hertz.pair();
-        let half_space = ting(scene, pair, false)?.restitution;
-        let finite = ting(scene, pair, true)?.restitution;
+        let half_space = ting_impact(scene, pair, false)?.restitution;
+        let finite = ting_impact(scene, pair, true)?.restitution;
         let with_loss = run.restitution * parameters.published_elastic;
         for (quantity, value) in [
             ("restitution", run.restitution),
@@ -110,7 +109,7 @@ fn restitution_by_ting(
 ) -> Result<f64, StudyError> {
     let case = with_rate(laboratory, run, rate)?;
     let hertz = Plan::of(&case)?.estimate.hertz;
-    Ok(ting(&case.scene, hertz.pair(), finite_size)?.restitution)
+    Ok(ting_impact(&case.scene, hertz.pair(), finite_size)?.restitution)
 }
 
 fn draw(

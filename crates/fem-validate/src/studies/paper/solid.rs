@@ -3,7 +3,7 @@
 //! The dashpot and the series spring stay the same, the spring beside the dashpot grows: from
 //! Maxwell's fluid, which the paper's finite elements use, to stiffer and stiffer solids.
 
-use fem_case::{Case, Plan};
+use fem_case::{Case, Plan, ting_impact};
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::{ActsOn, PronySeries};
 use serde::Deserialize;
@@ -11,7 +11,6 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::reduced::ting;
 
 /// Steps of the integration of springs and dashpot, over three relaxation times.
 const N_STEPS: u32 = 600;
@@ -58,7 +57,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let series = parameters.series(*ratio)?;
         let term = series.terms()[0];
         let pair = run.problem.plan.estimate.hertz.pair();
-        let expected = ting(&run.problem.case.scene, pair, true)?.restitution;
+        let expected = ting_impact(&run.problem.case.scene, pair, true)?.restitution;
         findings.measure(format!("weight.{ratio}"), term.weight);
         findings.measure(format!("restitution.{ratio}"), run.restitution);
         findings.measure_worst("worst_over_ting", (run.restitution - expected).abs());
@@ -83,7 +82,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let ratio = parameters.largest_ratio * f64::from(k) / 24.0;
         let case = parameters.case(laboratory, ratio)?;
         let hertz = Plan::of(&case)?.estimate.hertz;
-        Ok((ratio, ting(&case.scene, hertz.pair(), true)?.restitution))
+        Ok((ratio, ting_impact(&case.scene, hertz.pair(), true)?.restitution))
     };
     let curve = (0..=24).map(by_ting).collect::<Result<_, StudyError>>()?;
     let restitution = Chart::new(Axis::new("k₂ / k₁"), Axis::new("restitution"))
