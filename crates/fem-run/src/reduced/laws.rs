@@ -11,11 +11,11 @@ use crate::failure::Failure;
 pub struct LawArguments {
     /// A parameter's value, such as a=2e-4 or a='0.2 ms'; may be repeated
     ///
-    /// Bare numbers are SI. What is not given has the value of the case's [model], if that names the
+    /// Bare numbers are SI. What is not given has the value of the case's model, if that names the
     /// same law. The value of a parameter that is searched for is where to begin.
     #[arg(long, value_name = "KEY=VALUE")]
     pub param: Vec<String>,
-    /// When a contact is over [default: that of the case's [model] if it names the same law, or else
+    /// When a contact is over [default: that of the case's model if it names the same law, or else
     /// zero_force]
     #[arg(long, value_name = "RULE")]
     pub end: Option<End>,
