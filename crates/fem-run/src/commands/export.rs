@@ -23,7 +23,7 @@ use crate::tables::table;
 /// Write input for LAMMPS, LIGGGHTS and YADE that makes the same restitutions
 ///
 /// They come from the sweep.csv of a sweep over speeds, from a measurement, or, without --data,
-/// from the case's [model]: a law, ting, or in place of finite elements ting. Each snippet says at which speeds it is good.
+/// from the case's model: a law, ting, or in place of finite elements ting. Each snippet says at which speeds it is good.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]

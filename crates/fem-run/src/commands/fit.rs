@@ -28,7 +28,7 @@ pub struct Arguments {
     /// A column restitution_uncertainty weighs them. The sweep.csv of a sweep over speeds will do.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
-    /// The law, such as bordbar_hyppanen or ting [default: that of the case's [model]]
+    /// The law, such as bordbar_hyppanen or ting [default: that of the case's model]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<Family>,
     /// Parameters to find, such as a,n [default: the one that damps]

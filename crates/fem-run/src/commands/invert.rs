@@ -18,7 +18,7 @@ use crate::tables::table;
 /// Find the parameter of a law that gives a wanted restitution at one speed
 ///
 /// The case gives the two bodies and the speed. For the law `ting` it is the decay rate of the
-/// bodies' relaxation. Without --law, the law of the case's [model], or else all laws that need no
+/// bodies' relaxation. Without --law, the law of the case's model, or else all laws that need no
 /// more than one number.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
@@ -27,7 +27,7 @@ pub struct Arguments {
     /// The restitution that is wanted, between 0 and 1
     #[arg(long, value_name = "E")]
     restitution: f64,
-    /// The law [default: that of the case's [model], or else all]
+    /// The law [default: that of the case's model, or else all]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<Family>,
     /// The parameter to find [default: the one that damps]
