@@ -15,24 +15,30 @@
 //! contact nodes relative to the mass centre. With the contact unknowns last in the factor,
 //! C_pin = (L₂₂L₂₂ᵀ)⁻¹, L₂₂ the trailing block: no solution with a right-hand side a node.
 
-use faer::Mat;
-use fem_element::{QuadGeometry, mean_gradient};
-use fem_material::{ElasticModuli, Material};
+use faer::sparse::SymbolicSparseColMat;
+use faer::{ColRef, Mat};
+use fem_material::Material;
 use fem_mesh::{Side, SphereMesh, lump_mass};
 
 use crate::CondensedError;
-use crate::assembly::{Assembly, equations_of};
+use crate::assembly::Assembly;
 use crate::dense::{cholesky, invert_lower};
 use crate::factor::Factor;
 use crate::numbering::{FIXED, Numbering};
+
+/// Columns that are multiplied at a time.
+const CHUNK: usize = 8;
 
 /// A sphere's mesh, factor and contact compliance; instantaneous moduli.
 #[derive(Debug)]
 pub(crate) struct CondensedBody {
     pub mesh: SphereMesh,
-    pub material: Material,
     pub numbering: Numbering,
     pub factor: Factor,
+    /// Places of the stiffness' upper triangle, without the ground.
+    pattern: SymbolicSparseColMat<u32>,
+    /// The deviatoric stiffness there, N/m.
+    deviatoric: Vec<f64>,
     /// Lumped masses of the nodes, kg.
     pub nodal_mass: Vec<f64>,
     /// Mass of each equation, the ground's last, kg.
@@ -42,6 +48,8 @@ pub(crate) struct CondensedBody {
     pub mass: f64,
     /// +1 if inward is +y, for the upper body, −1 for the lower.
     pub inward: f64,
+    /// Displacements under the inertia of a unit acceleration, m/(m/s²).
+    inertia_response: Vec<f64>,
     /// Contact compliance, m/N.
     pub compliance: Mat<f64>,
     /// Its lower Cholesky factor.
@@ -55,13 +63,14 @@ impl CondensedBody {
     /// A stiffness without factor, missing memory.
     pub fn new(
         mesh: SphereMesh,
-        material: Material,
+        material: &Material,
         contact_nodes: &[u32],
     ) -> Result<Self, CondensedError> {
         let numbering = Numbering::new(&mesh, contact_nodes)?;
         let moduli = *material.instantaneous();
         let assembly = Assembly::new(&mesh, &moduli, &numbering);
         let factor = Factor::new(&assembly.stiffness)?;
+        let (pattern, _) = assembly.stiffness.into_parts();
         let nodal_mass = lump_mass(&mesh, material.density(), &assembly.nodal_volumes);
         let n = numbering.n_equations;
         let (mut mass_of_equation, mut is_axial) = (vec![0.0; n + 1], vec![false; n + 1]);
@@ -80,57 +89,74 @@ impl CondensedBody {
         };
         let mut body = Self {
             mesh,
-            material,
             numbering,
             factor,
+            pattern,
+            deviatoric: assembly.deviatoric,
             nodal_mass,
             mass_of_equation,
             is_axial,
             mass,
             inward,
+            inertia_response: Vec::new(),
             compliance: Mat::new(),
             compliance_factor: Mat::new(),
         };
-        body.compliance = body.condense()?;
+        body.inertia_response = body.respond_to_inertia();
+        body.compliance = body.condense();
         body.compliance_factor =
             cholesky(&body.compliance).ok_or(CondensedError::NotPositiveDefinite)?;
         Ok(body)
     }
 
-    fn condense(&self) -> Result<Mat<f64>, CondensedError> {
-        let (n, n_contact) = (self.numbering.n_equations, self.numbering.n_contact);
-        let axial_mass = |equation: usize| {
-            if self.is_axial[equation] { self.mass_of_equation[equation] } else { 0.0 }
-        };
-        let mut response = Mat::from_fn(n, 1, |i, _| axial_mass(i));
-        self.factor.solve(response.as_mut())?;
-        let weighted: f64 = (0..n).map(|i| axial_mass(i) * response[(i, 0)]).sum();
-        let first = self.numbering.first_contact();
-        let inverse = invert_lower(&self.factor.trailing(n_contact));
-        let pinned = inverse.transpose() * &inverse;
-        let w = |i: usize| response[(first + i, 0)];
-        let m = self.mass;
-        Ok(Mat::from_fn(n_contact, n_contact, |i, j| {
-            pinned[(i, j)] - (w(i) + w(j)) / m + weighted / (m * m)
-        }))
+    /// w over all equations, K⁻¹M1.
+    fn respond_to_inertia(&self) -> Vec<f64> {
+        let n = self.numbering.n_equations;
+        let mut response = Mat::from_fn(n, 1, |i, _| self.mass * self.inertia_share(i));
+        self.factor.solve(response.as_mut());
+        response.col(0).iter().copied().collect()
     }
 
-    /// Balanced unit loads at the contact nodes, inward, one a column; the ground's row last, N.
-    pub fn balanced_loads(&self) -> Mat<f64> {
-        let (n, first) = (self.numbering.n_equations, self.numbering.first_contact());
-        Mat::from_fn(n + 1, self.numbering.n_contact, |i, j| {
-            let applied = if i == first + j { 1.0 } else { 0.0 };
-            self.inward * (applied - self.inertia_share(i))
+    fn condense(&self) -> Mat<f64> {
+        let (n_contact, first) = (self.numbering.n_contact, self.numbering.first_contact());
+        let (w, m) = (&self.inertia_response, self.mass);
+        let weighted: f64 = w.iter().enumerate().map(|(i, w)| m * self.inertia_share(i) * w).sum();
+        let inverse = invert_lower(&self.factor.trailing(n_contact));
+        let pinned = inverse.transpose() * &inverse;
+        Mat::from_fn(n_contact, n_contact, |i, j| {
+            pinned[(i, j)] - (w[first + i] + w[first + j]) / m + weighted / (m * m)
         })
     }
 
-    /// Inward forces at the contact nodes with the inertia that balances them, N.
-    pub fn balanced_load(&self, forces: &[f64]) -> Mat<f64> {
+    /// Displacements under balanced loads at the contact nodes (the ground's row last, m), combined
+    /// so that they are orthonormal in the stiffness: K⁻¹B̂ L_c⁻ᵀ, one a contact node.
+    pub fn orthonormal_answers(&self) -> Mat<f64> {
+        let (n, n_contact) = (self.numbering.n_equations, self.numbering.n_contact);
+        let loads = invert_lower(&self.compliance_factor).transpose().to_owned();
+        // Loads at the last equations leave nothing to do for the forward substitution.
+        let last = invert_lower(&self.factor.trailing(n_contact)) * &loads;
+        let mut answers = Mat::zeros(n + 1, n_contact);
+        answers.subrows_mut(n - n_contact, n_contact).copy_from(last);
+        self.factor.solve_transposed(answers.as_mut().subrows_mut(0, n));
+        let totals: Vec<f64> = loads.col_iter().map(|column| column.iter().sum()).collect();
+        for (answer, total) in answers.as_mut().col_iter_mut().zip(totals) {
+            for (value, w) in answer.iter_mut().zip(&self.inertia_response) {
+                *value = self.inward * (*value - w * total / self.mass);
+            }
+        }
+        answers
+    }
+
+    /// Inward forces at the contact nodes, a case a column, with the inertia that balances them, N.
+    pub fn balanced_load(&self, forces: &Mat<f64>) -> Mat<f64> {
         let (n, first) = (self.numbering.n_equations, self.numbering.first_contact());
-        let total: f64 = forces.iter().sum();
-        Mat::from_fn(n + 1, 1, |i, _| {
-            let applied = i.checked_sub(first).and_then(|k| forces.get(k)).copied().unwrap_or(0.0);
-            self.inward * (applied - total * self.inertia_share(i))
+        let totals: Vec<f64> = forces.col_iter().map(|column| column.iter().sum()).collect();
+        Mat::from_fn(n + 1, forces.ncols(), |i, j| {
+            let applied = match i.checked_sub(first) {
+                Some(k) if k < forces.nrows() => forces[(k, j)],
+                _ => 0.0,
+            };
+            self.inward * (applied - totals[j] * self.inertia_share(i))
         })
     }
 
@@ -140,15 +166,10 @@ impl CondensedBody {
     }
 
     /// Solves for balanced loads (N) in place; the ground stays at 0, m.
-    ///
-    /// # Errors
-    /// Missing memory.
-    pub fn solve_balanced(&self, loads: &mut Mat<f64>) -> Result<(), CondensedError> {
+    pub fn solve_balanced(&self, loads: &mut Mat<f64>) {
         let n = self.numbering.n_equations;
-        for column in 0..loads.ncols() {
-            loads[(n, column)] = 0.0;
-        }
-        self.factor.solve(loads.as_mut().subrows_mut(0, n))
+        loads.as_mut().row_mut(n).fill(0.0);
+        self.factor.solve(loads.as_mut().subrows_mut(0, n));
     }
 
     /// Subtracts the mass-weighted mean axial motion of each column, m.
@@ -168,42 +189,34 @@ impl CondensedBody {
 
     /// Product of the deviatoric stiffness with fields, ground's row included, N.
     pub fn apply_deviatoric(&self, fields: &Mat<f64>) -> Mat<f64> {
-        let moduli: &ElasticModuli = self.material.instantaneous();
-        let n_columns = fields.ncols();
-        // Equations of an element are scattered: work on rows that lie together.
-        let rows = fields.nrows();
-        let (mut input, mut output) = (vec![0.0; rows * n_columns], vec![0.0; rows * n_columns]);
-        for j in 0..n_columns {
-            for i in 0..rows {
-                input[i * n_columns + j] = fields[(i, j)];
-            }
-        }
-        for (element, quad) in self.mesh.quads().iter().enumerate() {
-            let geometry = QuadGeometry::new(&self.mesh.corners(element));
-            let matrix = mean_gradient(&geometry).deviatoric * moduli.shear_modulus();
-            let equations = equations_of(quad, &self.numbering);
-            for (a, &row) in equations.iter().enumerate() {
-                if row == FIXED {
-                    continue;
-                }
-                let target = &mut output[row as usize * n_columns..][..n_columns];
-                for (b, &column) in equations.iter().enumerate() {
-                    if column == FIXED {
-                        continue;
-                    }
-                    let (factor, source) =
-                        (matrix[(a, b)], &input[column as usize * n_columns..][..n_columns]);
-                    for (target, source) in target.iter_mut().zip(source) {
-                        *target += factor * source;
-                    }
+        let n = self.numbering.n_equations;
+        let mut forces = Mat::zeros(n + 1, fields.ncols());
+        // Entries are scattered over the rows: the columns of a chunk lie together there.
+        let (mut input, mut output) = (vec![[0.0; CHUNK]; n], vec![[0.0; CHUNK]; n]);
+        for start in (0..fields.ncols()).step_by(CHUNK) {
+            let columns = start..(start + CHUNK).min(fields.ncols());
+            for (k, j) in columns.clone().enumerate() {
+                // A translation costs no force, so fields are taken relative to the ground.
+                let ground = fields[(n, j)];
+                for (i, row) in input.iter_mut().enumerate() {
+                    row[k] = fields[(i, j)] - if self.is_axial[i] { ground } else { 0.0 };
                 }
             }
+            multiply(&self.pattern, &self.deviatoric, &input, &mut output);
+            for (k, j) in columns.enumerate() {
+                let mut axial = 0.0;
+                for (i, row) in output.iter().enumerate() {
+                    forces[(i, j)] = row[k];
+                    axial += if self.is_axial[i] { row[k] } else { 0.0 };
+                }
+                forces[(n, j)] = -axial;
+            }
         }
-        Mat::from_fn(rows, n_columns, |i, j| output[i * n_columns + j])
+        forces
     }
 
     /// Nodal displacements (u_r, u_y) of a field given by equations, m.
-    pub fn nodal_field(&self, field: &[f64]) -> Vec<[f64; 2]> {
+    pub fn nodal_field(&self, field: ColRef<'_, f64>) -> Vec<[f64; 2]> {
         let value = |equation: u32| if equation == FIXED { 0.0 } else { field[equation as usize] };
         self.numbering.equations.iter().map(|equations| equations.map(value)).collect()
     }
@@ -214,34 +227,59 @@ impl CondensedBody {
     }
 }
 
+/// Product of a symmetric matrix, given by its upper triangle, with a chunk of columns.
+fn multiply(
+    pattern: &SymbolicSparseColMat<u32>,
+    values: &[f64],
+    input: &[[f64; CHUNK]],
+    output: &mut [[f64; CHUNK]],
+) {
+    for column in 0..input.len() {
+        let entries = pattern.col_range(column);
+        let (own, mut sum) = (input[column], [0.0; CHUNK]);
+        for (&row, &value) in pattern.row_idx()[entries.clone()].iter().zip(&values[entries]) {
+            let row = row as usize;
+            if row == column {
+                (0..CHUNK).for_each(|k| sum[k] += value * own[k]);
+            } else {
+                let (target, source) = (&mut output[row], &input[row]);
+                for k in 0..CHUNK {
+                    target[k] += value * own[k];
+                    sum[k] += value * source[k];
+                }
+            }
+        }
+        output[column] = sum;
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use fem_material::ElasticModuli;
     use fem_mesh::HalfDisc;
 
     use super::*;
 
-    pub(crate) fn unit_sphere(size: f64, n_contact: usize) -> CondensedBody {
+    fn unit_sphere(size: f64, n_contact: usize, side: Side) -> CondensedBody {
         let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.488, 0.244).unwrap();
         let material = Material::new(1.0, moduli, None).unwrap();
         let mesh =
             HalfDisc { radius: 1.0, contact_element_size: size, refined_radius: 0.4, growth: None }
                 .build()
-                .unwrap();
+                .unwrap()
+                .on_side(side);
         let contact = mesh.surface()[..n_contact].to_vec();
-        CondensedBody::new(mesh, material, &contact).unwrap()
+        CondensedBody::new(mesh, &material, &contact).unwrap()
     }
 
     /// The trailing block of the factor gives what full solutions give.
     #[test]
     fn compliance_is_that_of_full_solutions() {
         for side in [Side::Above, Side::Below] {
-            let body = unit_sphere(0.1, 5);
-            let (mesh, material) = (body.mesh.clone().on_side(side), body.material.clone());
-            let contact = mesh.surface()[..5].to_vec();
-            let body = CondensedBody::new(mesh, material, &contact).unwrap();
-            let loads = body.balanced_loads();
+            let body = unit_sphere(0.1, 5, side);
+            let loads = body.balanced_load(&Mat::identity(5, 5));
             let mut fields = loads.clone();
-            body.solve_balanced(&mut fields).unwrap();
+            body.solve_balanced(&mut fields);
             let full = loads.transpose() * &fields;
             for i in 0..5 {
                 for j in 0..5 {
@@ -255,6 +293,16 @@ mod tests {
             let first = body.numbering.first_contact();
             let inward = body.inward * fields[(first + 1, 3)];
             assert!((inward - body.compliance[(1, 3)]).abs() < 1e-11 * body.compliance[(0, 0)]);
+            // And combined: C L_c⁻ᵀ = L_c.
+            let mut answers = body.orthonormal_answers();
+            body.remove_mean_motion(&mut answers);
+            for i in 0..5 {
+                for j in 0..5 {
+                    let error =
+                        body.inward * answers[(first + i, j)] - body.compliance_factor[(i, j)];
+                    assert!(error.abs() < 1e-11 * body.compliance_factor[(0, 0)], "{error:e}");
+                }
+            }
         }
     }
 
@@ -262,8 +310,8 @@ mod tests {
     /// ground's among them.
     #[test]
     fn the_hold_carries_nothing() {
-        let body = unit_sphere(0.1, 4);
-        let loads = body.balanced_load(&[1.0, -0.3, 0.2, 0.7]);
+        let body = unit_sphere(0.1, 4, Side::Above);
+        let loads = body.balanced_load(&Mat::from_fn(4, 1, |i, _| [1.0, -0.3, 0.2, 0.7][i]));
         let total: f64 =
             (0..loads.nrows()).filter(|&i| body.is_axial[i]).map(|i| loads[(i, 0)]).sum();
         assert!(total.abs() < 1e-14);

@@ -6,50 +6,19 @@
 //! central difference of the coordinates.
 
 use faer::Mat;
-use fem_field::{BodyFields, Label, Snapshot, SnapshotRequest};
+use fem_field::{BodyFields, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::CondensedError;
 use crate::collision::Collision;
+use crate::frame::Frame;
+use crate::instants::{Kept, choose};
 use crate::motion::{Motion, SideState};
 use crate::pair::{CondensedPair, PairSide};
 
-/// Motion of the bodies as a whole.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
-    /// Velocities along +y at the start, lower body first, m/s.
-    pub velocities: [f64; 2],
-    /// Distance of the surfaces at time 0, m.
-    pub gap: f64,
-}
-
-impl Frame {
-    /// Relative speed of approach, m/s.
-    pub fn approach_speed(&self) -> f64 {
-        self.velocities[0] - self.velocities[1]
-    }
-
-    /// Time of first touch, s.
-    pub fn first_touch(&self) -> f64 {
-        self.gap / self.approach_speed()
-    }
-
-    /// What the two mass centres do along +y (m, or m/s) at an approach since time 0 (m, or its
-    /// rate in m/s), the time since then (s, or 1 for the rates), and the masses, kg.
-    pub fn centres(&self, masses: [f64; 2], approach: f64, time: f64) -> [f64; 2] {
-        let share = |own: f64, other: f64| {
-            if own.is_infinite() { 0.0 } else { (1.0 + own / other).recip() }
-        };
-        let shares = [share(masses[0], masses[1]), share(masses[1], masses[0])];
-        // The lighter body does more of the approach; the common mass centre moves on.
-        let common = shares[1] * self.velocities[0] + shares[0] * self.velocities[1];
-        [common * time + shares[0] * approach, common * time - shares[1] * approach]
-    }
-}
-
 /// A body's deformation in coordinates.
 #[derive(Debug, Clone, Default)]
-struct Coordinates {
+pub(crate) struct Coordinates {
     /// Forces at the contact nodes of an elastic body, displacements of a relaxing one's springs.
     springs: Vec<f64>,
     /// What the relaxing stress sees; empty for an elastic body.
@@ -57,16 +26,6 @@ struct Coordinates {
     /// Modes of vibration, dynamic less static.
     vibration: Vec<f64>,
     vibration_effective: Vec<f64>,
-}
-
-/// One step.
-#[derive(Debug, Clone)]
-struct Kept {
-    time: f64,
-    approach: f64,
-    rate: f64,
-    is_closed: bool,
-    sides: [Coordinates; 2],
 }
 
 impl CondensedPair {
@@ -87,31 +46,36 @@ impl CondensedPair {
         }
         let kept = self.keep_steps(frame.approach_speed(), relaxations, collision)?;
         let (chosen, missing) = choose(&kept, request, frame.first_touch());
-        let mut snapshots = Vec::with_capacity(chosen.len());
-        for (index, label) in chosen {
-            let now = &kept[index];
-            let time = frame.first_touch() + now.time;
-            let centre = frame.centres(self.masses(), now.approach + frame.gap, time);
-            let velocity = frame.centres(self.masses(), now.rate, 1.0);
-            let mut bodies = [BodyFields::default(), BodyFields::default()];
-            for (s, side) in self.sides.iter().enumerate() {
-                let Some(side) = side else { continue };
-                let rates = rate_of(&kept, index, s, collision.time_step);
-                let now = &now.sides[s];
-                let field = |springs: &[f64], vibration: &[f64], mean: f64| {
-                    self.field(side, relaxations[s], springs, vibration, mean)
-                };
-                bodies[s] = BodyFields {
-                    displacement: field(&now.springs, &now.vibration, centre[s])?,
-                    velocity: field(&rates.springs, &rates.vibration, velocity[s])?,
-                    effective: if now.effective.is_empty() {
-                        Vec::new()
-                    } else {
-                        field(&now.effective, &now.vibration_effective, centre[s])?
-                    },
-                };
+        let mut snapshots: Vec<Snapshot> = chosen
+            .iter()
+            .map(|&(index, label)| Snapshot {
+                label,
+                time: frame.first_touch() + kept[index].time,
+                approach: kept[index].approach,
+                bodies: [BodyFields::default(), BodyFields::default()],
+            })
+            .collect();
+        for (s, side) in self.sides.iter().enumerate() {
+            let Some(side) = side else { continue };
+            let wanted: Vec<_> = chosen
+                .iter()
+                .flat_map(|&(index, _)| {
+                    let (now, rates) =
+                        (&kept[index], rate_of(&kept, index, s, collision.time_step));
+                    let time = frame.first_touch() + now.time;
+                    let centre = frame.centres(self.masses(), now.approach + frame.gap, time)[s];
+                    let velocity = frame.centres(self.masses(), now.rate, 1.0)[s];
+                    let effective = now.sides[s].effective();
+                    let displacement = (now.sides[s].clone(), centre);
+                    [Some(displacement), Some((rates, velocity)), effective.map(|e| (e, centre))]
+                })
+                .collect();
+            let mut fields = self.fields(side, relaxations[s], &wanted)?.into_iter();
+            let mut next = || fields.next().unwrap_or_default();
+            for snapshot in &mut snapshots {
+                snapshot.bodies[s] =
+                    BodyFields { displacement: next(), velocity: next(), effective: next() };
             }
-            snapshots.push(Snapshot { label, time, approach: now.approach, bodies });
         }
         Ok((snapshots, missing))
     }
@@ -144,42 +108,58 @@ impl CondensedPair {
         }
     }
 
-    /// Nodal displacements (m) of coordinates, on top of a mean motion along the axis.
-    fn field(
+    /// Nodal displacements (m) of coordinates, each on top of a mean motion along the axis; none
+    /// where none are wanted.
+    fn fields(
         &self,
         side: &PairSide,
         relaxation: Option<&PronySeries>,
-        springs: &[f64],
-        vibration: &[f64],
-        mean: f64,
-    ) -> Result<Vec<[f64; 2]>, CondensedError> {
+        wanted: &[Option<(Coordinates, f64)>],
+    ) -> Result<Vec<Vec<[f64; 2]>>, CondensedError> {
         let body = &side.body;
-        let shear = match active(relaxation) {
-            Some(series) if series.acts_on() == ActsOn::Shear => {
-                Some(side.shear(self.settings().shear_blocks)?)
+        let all = || wanted.iter().flatten();
+        let springs = columns(all().map(|(coordinates, _)| coordinates.springs.as_slice()));
+        let relaxation = active(relaxation);
+        let mut fields = match relaxation.map(PronySeries::acts_on) {
+            Some(ActsOn::Shear) => {
+                side.shear(self.settings().shear_blocks)?.springs.fields(&springs)
             }
-            _ => None,
-        };
-        let mut field = match shear {
-            Some(shear) => &shear.springs.fields * column(springs),
-            None => {
-                let forces = match active(relaxation) {
-                    Some(_) => transposed_solve(&body.compliance_factor, springs),
-                    None => springs.to_vec(),
+            acts_on => {
+                let forces = match acts_on {
+                    Some(_) => transposed_solve(&body.compliance_factor, &springs),
+                    None => springs,
                 };
+                // One solution for all, so that the factor is read once.
                 let mut loads = body.balanced_load(&forces);
-                body.solve_balanced(&mut loads)?;
+                body.solve_balanced(&mut loads);
                 loads
             }
         };
         if let Some(vibrations) = &side.vibrations {
-            field += &vibrations.modes.fields * column(vibration);
+            let modes = columns(all().map(|(coordinates, _)| coordinates.vibration.as_slice()));
+            fields += &vibrations.modes.fields * modes;
         }
-        body.remove_mean_motion(&mut field);
-        let values: Vec<f64> = (0..field.nrows()).map(|i| field[(i, 0)]).collect();
-        let mut nodal = body.nodal_field(&values);
-        nodal.iter_mut().for_each(|u| u[1] += mean);
-        Ok(nodal)
+        body.remove_mean_motion(&mut fields);
+        let mut column = 0;
+        let nodal = wanted.iter().map(|wanted| {
+            let Some((_, mean)) = wanted else { return Vec::new() };
+            let mut nodal = body.nodal_field(fields.as_ref().col(column));
+            nodal.iter_mut().for_each(|u| u[1] += mean);
+            column += 1;
+            nodal
+        });
+        Ok(nodal.collect())
+    }
+}
+
+impl Coordinates {
+    /// Those of the field that the relaxing stress sees; `None` for an elastic body.
+    fn effective(&self) -> Option<Self> {
+        (!self.effective.is_empty()).then(|| Self {
+            springs: self.effective.clone(),
+            vibration: self.vibration_effective.clone(),
+            ..Self::default()
+        })
     }
 }
 
@@ -225,94 +205,21 @@ fn rate_of(kept: &[Kept], index: usize, side: usize, time_step: f64) -> Coordina
     }
 }
 
-fn column(values: &[f64]) -> Mat<f64> {
-    Mat::from_fn(values.len(), 1, |i, _| values[i])
+/// Side by side; all of one length.
+fn columns<'a>(values: impl Iterator<Item = &'a [f64]>) -> Mat<f64> {
+    let values: Vec<&[f64]> = values.collect();
+    Mat::from_fn(values.first().map_or(0, |first| first.len()), values.len(), |i, j| values[j][i])
 }
 
-/// Lᵀ x = z with z zero beyond its end.
-fn transposed_solve(lower: &Mat<f64>, z: &[f64]) -> Vec<f64> {
+/// Lᵀ x = z for each column, z zero beyond its end.
+fn transposed_solve(lower: &Mat<f64>, z: &Mat<f64>) -> Mat<f64> {
     let n = lower.nrows();
-    let mut x = vec![0.0; n];
-    for i in (0..z.len()).rev() {
-        let sum: f64 = (i + 1..n).map(|k| lower[(k, i)] * x[k]).sum();
-        x[i] = (z[i] - sum) / lower[(i, i)];
+    let mut x = Mat::zeros(n, z.ncols());
+    for j in 0..z.ncols() {
+        for i in (0..z.nrows()).rev() {
+            let sum: f64 = (i + 1..n).map(|k| lower[(k, i)] * x[(k, j)]).sum();
+            x[(i, j)] = (z[(i, j)] - sum) / lower[(i, i)];
+        }
     }
     x
-}
-
-/// Steps of the snapshots that are asked for, and what cannot be had.
-fn choose(
-    kept: &[Kept],
-    request: &SnapshotRequest,
-    first_touch: f64,
-) -> (Vec<(usize, Option<Label>)>, Vec<String>) {
-    let nearest = |time: f64| {
-        (0..kept.len())
-            .min_by(|&a, &b| (kept[a].time - time).abs().total_cmp(&(kept[b].time - time).abs()))
-            .unwrap_or(0)
-    };
-    let mut missing = Vec::new();
-    let last = kept.iter().rposition(|step| step.is_closed).unwrap_or(0);
-    let top =
-        (0..kept.len()).max_by(|&a, &b| kept[a].approach.total_cmp(&kept[b].approach)).unwrap_or(0);
-    let chosen = match request {
-        SnapshotRequest::Labels(labels) => {
-            let half = 0.5 * kept[top].approach;
-            let nearest_half = |steps: std::ops::Range<usize>| {
-                let distance = |k: usize| (kept[k].approach - half).abs();
-                steps
-                    .filter(|&k| kept[k].is_closed && distance(k) <= 0.02 * half)
-                    .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-            };
-            let found = |label: &Label| match label {
-                Label::MidCompression => nearest_half(0..top),
-                Label::Maximum => Some(top),
-                Label::MidSeparation => nearest_half(top..kept.len()),
-                Label::LastContact => Some(last),
-            };
-            let wanted = Label::ALL.iter().filter(|label| labels.contains(label));
-            let mut chosen = Vec::new();
-            for label in wanted {
-                match found(label) {
-                    Some(step) => chosen.push((step, Some(*label))),
-                    None => missing.push(format!(
-                        "the instant \"{}\" did not occur; its snapshot is left out",
-                        label.name()
-                    )),
-                }
-            }
-            chosen
-        }
-        SnapshotRequest::Count(n) => {
-            let end = kept[last].time;
-            let time = |k: usize| match n {
-                1 => 0.5 * end,
-                _ => end * k as f64 / (*n - 1) as f64,
-            };
-            let mut chosen: Vec<_> = (0..*n).map(|k| (nearest(time(k)), None)).collect();
-            chosen.dedup();
-            if chosen.len() < *n {
-                missing.push(format!(
-                    "{n} snapshots were asked for; the contact has steps for {}",
-                    chosen.len()
-                ));
-            }
-            chosen
-        }
-        SnapshotRequest::Times(times) => {
-            let mut times = times.clone();
-            times.sort_by(f64::total_cmp);
-            let end = first_touch + kept[kept.len() - 1].time;
-            let (within, beyond): (Vec<f64>, Vec<f64>) =
-                times.into_iter().partition(|&time| time >= first_touch && time <= end);
-            for time in beyond {
-                missing.push(format!(
-                    "{time:.4e} s lies outside of the contact and the flight that is computed; \
-                     its snapshot is left out"
-                ));
-            }
-            within.into_iter().map(|time| (nearest(time - first_touch), None)).collect()
-        }
-    };
-    (chosen, missing)
 }

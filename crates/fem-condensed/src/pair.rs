@@ -362,7 +362,7 @@ fn condense(
         .map(|point| (point.feet[side].nodes.map(place), point.feet[side].shape))
         .collect();
     let outermost = feet.iter().flat_map(|(nodes, _)| *nodes).max().unwrap_or(0);
-    let body = CondensedBody::new(mesh.clone(), material.clone(), &along[..=outermost])?;
+    let body = CondensedBody::new(mesh.clone(), material, &along[..=outermost])?;
     let compliance = gather(&feet, &gather(&feet, &body.compliance).transpose().to_owned());
     let uniform = gather(&feet, &body.compliance_factor);
     let vibrations = (n_vibrations > 0)

@@ -18,11 +18,12 @@
 //! n blocks reproduce 2 n terms of the series. θ = 1 throughout is constant Poisson's ratio, exact
 //! with Φ the Cholesky factor of C; θ = 0 an elastic body.
 
-use faer::Mat;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
 
 use crate::CondensedError;
 use crate::body::CondensedBody;
-use crate::dense::{invert_lower, symmetric_eigen};
+use crate::dense::symmetric_eigen;
 
 /// Directions with less than this share of a block's energy are left out.
 const NEGLIGIBLE: f64 = 1e-10;
@@ -34,8 +35,10 @@ pub(crate) struct ShearSprings {
     pub contact: Mat<f64>,
     /// Deviatoric share of each mode's energy.
     pub deviatoric_share: Vec<f64>,
-    /// Displacement of all equations in each mode, the ground's last, m/√J.
-    pub fields: Mat<f64>,
+    /// Displacement of all equations in the basis, the ground's last, m/√J, block by block.
+    basis: Vec<Mat<f64>>,
+    /// The modes in the basis.
+    vectors: Mat<f64>,
 }
 
 impl ShearSprings {
@@ -44,25 +47,23 @@ impl ShearSprings {
     /// # Errors
     /// Missing memory; a stiffness that is not positive definite to rounding.
     pub fn new(body: &CondensedBody, n_blocks: usize) -> Result<Self, CondensedError> {
-        let mut first = body.balanced_loads();
-        body.solve_balanced(&mut first)?;
-        let mut blocks = vec![first * invert_lower(&body.compliance_factor).transpose()];
-        let mut forces: Vec<Mat<f64>> = Vec::new();
+        let mut blocks = vec![body.orthonormal_answers()];
+        let mut projected = Vec::with_capacity(n_blocks);
         loop {
-            let last = &blocks[blocks.len() - 1];
-            let force = body.apply_deviatoric(last);
-            if blocks.len() < n_blocks.max(1)
-                && let Some(next) = next_block(body, &blocks, &force)?
-            {
-                blocks.push(next);
-                forces.push(force);
+            let force = body.apply_deviatoric(&blocks[blocks.len() - 1]);
+            let shares: Vec<_> = blocks.iter().map(|block| block.transpose() * &force).collect();
+            let next = if blocks.len() < n_blocks.max(1) {
+                next_block(body, &blocks, force, &shares)?
             } else {
-                forces.push(force);
-                break;
+                None
+            };
+            projected.push(shares);
+            match next {
+                Some(next) => blocks.push(next),
+                None => break,
             }
         }
-        let fields = side_by_side(&blocks);
-        let projected = fields.transpose() * side_by_side(&forces);
+        let projected = side_by_side(&projected);
         let (shares, vectors) =
             symmetric_eigen(&projected).ok_or(CondensedError::NotPositiveDefinite)?;
         let n_contact = body.numbering.n_contact;
@@ -71,26 +72,58 @@ impl ShearSprings {
         Ok(Self {
             contact,
             deviatoric_share: shares.into_iter().map(|share| share.clamp(0.0, 1.0)).collect(),
-            fields: fields * vectors,
+            basis: blocks,
+            vectors,
         })
+    }
+
+    /// Displacement of all equations (m), a state of the springs' displacements (√J) a column.
+    pub fn fields(&self, springs: &Mat<f64>) -> Mat<f64> {
+        let shares = &self.vectors * springs;
+        let mut fields = Mat::zeros(self.basis[0].nrows(), springs.ncols());
+        let mut start = 0;
+        for block in &self.basis {
+            fields += block * shares.subrows(start, block.ncols());
+            start += block.ncols();
+        }
+        fields
     }
 }
 
+/// The lower triangle of VᵀK_devV from the shares of each block's forces in the blocks up to it.
+fn side_by_side(shares: &[Vec<Mat<f64>>]) -> Mat<f64> {
+    let widths = shares.iter().map(|shares| shares[0].ncols());
+    let starts: Vec<usize> =
+        widths.clone().scan(0, |end, n| Some(std::mem::replace(end, *end + n))).collect();
+    let n = widths.sum();
+    let mut projected = Mat::zeros(n, n);
+    for (&row, shares) in starts.iter().zip(shares) {
+        for (&column, share) in starts.iter().zip(shares) {
+            projected
+                .submatrix_mut(row, column, share.ncols(), share.nrows())
+                .copy_from(share.transpose());
+        }
+    }
+    projected
+}
+
 /// K⁻¹ of the last block's deviatoric forces, orthonormal to all blocks; `None` if nothing is left.
+/// `shares` are the forces' shares in the blocks.
 fn next_block(
     body: &CondensedBody,
     blocks: &[Mat<f64>],
-    force: &Mat<f64>,
+    mut force: Mat<f64>,
+    shares: &[Mat<f64>],
 ) -> Result<Option<Mat<f64>>, CondensedError> {
-    let mut next = force.clone();
-    body.solve_balanced(&mut next)?;
-    let mut gram = force.transpose() * &next;
-    let scale = (0..gram.nrows()).map(|i| gram[(i, i)]).fold(0.0, f64::max);
-    for block in blocks {
-        let share = block.transpose() * force;
-        gram -= share.transpose() * &share;
-        next -= block * share;
+    let n = body.numbering.n_equations;
+    force.as_mut().row_mut(n).fill(0.0);
+    // fᵀK⁻¹f = yᵀy with L y = f.
+    body.factor.solve_lower(force.as_mut().subrows_mut(0, n));
+    let mut gram = force.transpose() * &force;
+    for share in shares {
+        gram -= share.transpose() * share;
     }
+    let scale = (0..gram.nrows()).map(|i| gram[(i, i)]).fold(0.0, f64::max);
     let (values, vectors) = symmetric_eigen(&gram).ok_or(CondensedError::NotPositiveDefinite)?;
     let first = values.partition_point(|&value| value <= NEGLIGIBLE * scale);
     if first == values.len() {
@@ -99,16 +132,10 @@ fn next_block(
     let kept = Mat::from_fn(vectors.nrows(), values.len() - first, |i, j| {
         vectors[(i, first + j)] / values[first + j].sqrt()
     });
-    Ok(Some(next * kept))
-}
-
-fn side_by_side(blocks: &[Mat<f64>]) -> Mat<f64> {
-    let n_columns = blocks.iter().map(Mat::ncols).sum();
-    let mut whole = Mat::zeros(blocks[0].nrows(), n_columns);
-    let mut start = 0;
-    for block in blocks {
-        whole.as_mut().subcols_mut(start, block.ncols()).copy_from(block);
-        start += block.ncols();
+    let mut next = force;
+    body.factor.solve_transposed(next.as_mut().subrows_mut(0, n));
+    for (block, share) in blocks.iter().zip(shares) {
+        matmul(next.as_mut(), Accum::Add, block.as_ref(), share.as_ref(), -1.0, Par::Seq);
     }
-    whole
+    Ok(Some(next * kept))
 }

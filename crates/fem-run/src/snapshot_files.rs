@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use fem_case::{Outcome, Simulation};
-use fem_field::{Label, Snapshot, SnapshotRequest, StressField, invariants};
+use fem_field::{Label, Snapshot, SnapshotRequest, StressRecovery, invariants};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
-use fem_vtk::{VtuWriter, pad_vectors, write_collection};
+use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};
 
 /// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
 const STRESSES: [&str; 6] =
@@ -50,12 +50,20 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// A grid of both bodies, the second body's points after the first's.
-struct Grid {
+/// The arrays of a grid of both bodies, the second body's points after the first's.
+struct GridArrays {
     points: Vec<[f64; 3]>,
     quads: Vec<[u32; 4]>,
     /// 0 or 1 for each cell.
     body: Vec<i32>,
+}
+
+/// What all snapshots share.
+struct Scene<'a> {
+    grid: VtuGrid<'a>,
+    body: &'a [i32],
+    /// Of the bodies with a mesh.
+    recoveries: Vec<StressRecovery<'a>>,
 }
 
 /// Six arrays of one value a cell or point.
@@ -72,7 +80,15 @@ pub fn write_snapshots(
     stem: &str,
     drawing: &Drawing<'_>,
 ) -> Result<(Vec<String>, Vec<String>), fem_vtk::Error> {
-    let grid = Grid::of(drawing);
+    if drawing.snapshots.is_empty() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let arrays = GridArrays::of(drawing);
+    let scene = Scene {
+        grid: VtuGrid::new(&arrays.points, &arrays.quads),
+        body: &arrays.body,
+        recoveries: drawing.meshed().map(|(_, mesh, _)| StressRecovery::new(mesh)).collect(),
+    };
     let (mut series, mut warnings): (Vec<(f64, String)>, _) = (Vec::new(), Vec::new());
     for snapshot in drawing.snapshots {
         let label = label(snapshot, drawing.request);
@@ -90,7 +106,7 @@ pub fn write_snapshots(
             continue;
         }
         let name = format!("{stem}_{}_{label}.vtu", series.len());
-        match write_snapshot(&folder.join(&name), &grid, drawing, snapshot) {
+        match write_snapshot(&folder.join(&name), &scene, drawing, snapshot) {
             Err(error @ fem_vtk::Error::NotFinite { .. }) => {
                 warnings.push(format!("the snapshot \"{label}\" is left out: {error}"));
             }
@@ -119,28 +135,28 @@ fn label(snapshot: &Snapshot, request: &SnapshotRequest) -> &'static str {
 
 fn write_snapshot(
     path: &Path,
-    grid: &Grid,
+    scene: &Scene<'_>,
     drawing: &Drawing<'_>,
     snapshot: &Snapshot,
 ) -> Result<(), fem_vtk::Error> {
     let (mut displacement, mut velocity) = (Vec::new(), Vec::new());
     let (mut cells, mut points) = (GridStress::default(), GridStress::default());
-    for (side, mesh, material) in drawing.meshed() {
+    for ((side, _, material), recovery) in drawing.meshed().zip(&scene.recoveries) {
         let fields = &snapshot.bodies[side];
         displacement.extend(pad_vectors(fields.displacement.as_flattened()));
         velocity.extend(pad_vectors(fields.velocity.as_flattened()));
-        let stress = StressField::of(mesh, material, fields);
+        let stress = recovery.stress(material, fields);
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
     }
-    let mut writer = VtuWriter::new(&grid.points, &grid.quads)
+    let mut writer = VtuWriter::on(&scene.grid)
         .time(snapshot.time)
         .point_data("displacement", 3, &displacement)
         .point_data("velocity", 3, &velocity);
     for (k, name) in STRESSES.into_iter().enumerate() {
         writer = writer.point_data(name, 1, &points[k]).cell_data(name, 1, &cells[k]);
     }
-    writer.cell_data("body", 1, &grid.body).write(path)
+    writer.cell_data("body", 1, scene.body).write(path)
 }
 
 fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
@@ -153,17 +169,17 @@ fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
     }
 }
 
-impl Grid {
+impl GridArrays {
     /// Reference positions (r, y, 0), half of the start gap between each body and y = 0.
     fn of(drawing: &Drawing<'_>) -> Self {
-        let mut grid = Self { points: Vec::new(), quads: Vec::new(), body: Vec::new() };
+        let mut arrays = Self { points: Vec::new(), quads: Vec::new(), body: Vec::new() };
         for (side, mesh, _) in drawing.meshed() {
             let shift = if side == 0 { -0.5 * drawing.gap } else { 0.5 * drawing.gap };
-            let first = grid.points.len() as u32;
-            grid.points.extend(mesh.nodes().iter().map(|[r, y]| [*r, y + shift, 0.0]));
-            grid.quads.extend(mesh.quads().iter().map(|quad| quad.map(|node| first + node)));
-            grid.body.extend(mesh.quads().iter().map(|_| side as i32));
+            let first = arrays.points.len() as u32;
+            arrays.points.extend(mesh.nodes().iter().map(|[r, y]| [*r, y + shift, 0.0]));
+            arrays.quads.extend(mesh.quads().iter().map(|quad| quad.map(|node| first + node)));
+            arrays.body.extend(mesh.quads().iter().map(|_| side as i32));
         }
-        grid
+        arrays
     }
 }

@@ -1,7 +1,7 @@
 //! VTK XML files of quadrilateral meshes: an own writer and reader, no VTK library.
 //!
 //! What is written: one `.vtu` (`UnstructuredGrid` of `VTK_QUAD` cells) a snapshot with
-//! [`VtuWriter`], and a `.pvd` with its `.vtu.series` twin that gives the files their times with
+//! [`VtuWriter`] (a series on one [`VtuGrid`]), and a `.pvd` with its `.vtu.series` twin that gives the files their times with
 //! [`write_collection`]. They are for ParaView ≥ 5.11, VTK ≥ 9.2 and meshio 5.3;
 //! `.ci/check_vtk.py` reads them with the last two.
 //!
@@ -37,6 +37,7 @@ mod decode;
 mod document;
 mod encoding;
 mod error;
+mod grid;
 mod reader;
 mod render;
 mod scalar_type;
@@ -47,6 +48,7 @@ mod writer;
 pub use collection::write_collection;
 pub use encoding::Encoding;
 pub use error::Error;
+pub use grid::VtuGrid;
 pub use reader::{QuadMesh, ReadArray, VtuFile, read_quad_mesh};
 pub use values::{Numbers, Values, pad_vectors};
 pub use writer::VtuWriter;

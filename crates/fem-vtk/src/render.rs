@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use quick_xml::escape::escape;
 
-use crate::blocks::compress;
+use crate::Encoding;
+use crate::blocks::{Compressed, compress};
+use crate::scalar_type::ScalarType;
 use crate::section::Section;
-use crate::values::Values;
 use crate::writer::{NamedArray, VtuWriter};
-use crate::{Encoding, VTK_QUAD};
 
 /// The file: XML, appended data (empty if inline), XML again.
 pub(crate) struct RenderedFile {
@@ -52,8 +52,8 @@ impl RenderedFile {
     }
 
     fn push_grid(&mut self, writer: &VtuWriter) -> std::io::Result<()> {
-        let n_points = writer.points.len();
-        let n_cells = writer.quads.len();
+        let n_points = writer.grid.points.len();
+        let n_cells = writer.grid.quads.len();
         let time = writer.time.map(|time| [time]);
         let time = time.as_ref().map(|time| NamedArray {
             section: Section::FieldData,
@@ -99,52 +99,48 @@ impl RenderedFile {
     }
 
     fn push_mesh(&mut self, writer: &VtuWriter) -> std::io::Result<()> {
-        let n_cells = writer.quads.len() as i64;
-        let connectivity: Vec<i64> =
-            writer.quads.as_flattened().iter().map(|&point| point.into()).collect();
-        let offsets: Vec<i64> = (1..=n_cells).map(|cell| 4 * cell).collect();
-        let types = vec![VTK_QUAD; writer.quads.len()];
+        let grid = writer.grid.compressed()?;
         self.push_line(3, "<Points>");
-        self.push_values(
-            Section::Points,
-            "Points",
-            3,
-            Values::Float64(writer.points.as_flattened()),
-        )?;
+        let points = Declaration::new("Points", ScalarType::Float64, 3);
+        self.push_compressed(&points, &grid.points);
         self.push_line(3, "</Points>");
         self.push_line(3, "<Cells>");
-        self.push_values(Section::Cells, "connectivity", 1, Values::Int64(&connectivity))?;
-        self.push_values(Section::Cells, "offsets", 1, Values::Int64(&offsets))?;
-        self.push_values(Section::Cells, "types", 1, Values::UInt8(&types))?;
+        for (name, scalar_type, data) in [
+            ("connectivity", ScalarType::Int64, &grid.connectivity),
+            ("offsets", ScalarType::Int64, &grid.offsets),
+            ("types", ScalarType::UInt8, &grid.types),
+        ] {
+            self.push_compressed(&Declaration::new(name, scalar_type, 1), data);
+        }
         self.push_line(3, "</Cells>");
         Ok(())
     }
 
-    fn push_values(
-        &mut self,
-        section: Section,
-        name: &str,
-        components: usize,
-        values: Values,
-    ) -> std::io::Result<()> {
-        self.push_array(&NamedArray { section, name, components, values })
-    }
-
     fn push_array(&mut self, array: &NamedArray) -> std::io::Result<()> {
         let &NamedArray { section, name, components, values } = array;
-        let data = self.encoding.encode(&compress(&values.to_le_bytes())?);
+        let mut declaration = Declaration::new(name, values.scalar_type(), components);
+        if section == Section::FieldData {
+            declaration.n_tuples = Some(values.len() / components);
+        }
+        self.push_compressed(&declaration, &compress(&values.to_le_bytes())?);
+        Ok(())
+    }
+
+    fn push_compressed(&mut self, declaration: &Declaration, data: &Compressed) {
+        let &Declaration { name, scalar_type, components, n_tuples } = declaration;
         let _ = write!(
             self.xml,
             "        <DataArray type=\"{}\" Name=\"{}\"",
-            values.scalar_type().name(),
+            scalar_type.name(),
             escape(name)
         );
         if components != 1 {
             let _ = write!(self.xml, " NumberOfComponents=\"{components}\"");
         }
-        if section == Section::FieldData {
-            let _ = write!(self.xml, " NumberOfTuples=\"{}\"", values.len() / components);
+        if let Some(n_tuples) = n_tuples {
+            let _ = write!(self.xml, " NumberOfTuples=\"{n_tuples}\"");
         }
+        let data = self.encoding.encode(data);
         if self.encoding.is_appended() {
             let _ = writeln!(self.xml, " format=\"appended\" offset=\"{}\"/>", self.appended.len());
             self.appended.extend(data);
@@ -152,7 +148,21 @@ impl RenderedFile {
             let text = String::from_utf8_lossy(&data);
             let _ = writeln!(self.xml, " format=\"binary\">{text}</DataArray>");
         }
-        Ok(())
+    }
+}
+
+/// What a `DataArray` says of itself.
+struct Declaration<'a> {
+    name: &'a str,
+    scalar_type: ScalarType,
+    components: usize,
+    /// Where it is not the number of points or cells.
+    n_tuples: Option<usize>,
+}
+
+impl<'a> Declaration<'a> {
+    fn new(name: &'a str, scalar_type: ScalarType, components: usize) -> Self {
+        Self { name, scalar_type, components, n_tuples: None }
     }
 }
 

@@ -71,13 +71,19 @@ impl Values<'_> {
 
     pub(crate) fn to_le_bytes(self) -> Vec<u8> {
         match self {
-            Self::Float64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::Float64(values) => little_endian(values, f64::to_le_bytes),
             Self::UInt8(values) => values.to_vec(),
-            Self::Int32(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
-            Self::UInt32(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
-            Self::Int64(values) => values.iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::Int32(values) => little_endian(values, i32::to_le_bytes),
+            Self::UInt32(values) => little_endian(values, u32::to_le_bytes),
+            Self::Int64(values) => little_endian(values, i64::to_le_bytes),
         }
     }
+}
+
+fn little_endian<T: Copy, const N: usize>(values: &[T], bytes: fn(T) -> [u8; N]) -> Vec<u8> {
+    let mut all = Vec::with_capacity(N * values.len());
+    values.iter().for_each(|&value| all.extend_from_slice(&bytes(value)));
+    all
 }
 
 /// Numbers read from a file, widened without loss.

@@ -7,7 +7,7 @@ use crate::atomic::write_atomically;
 use crate::render::RenderedFile;
 use crate::section::Section;
 use crate::values::Values;
-use crate::{Encoding, Error};
+use crate::{Encoding, Error, VtuGrid};
 
 /// An array to write.
 pub(crate) struct NamedArray<'a> {
@@ -24,8 +24,7 @@ pub(crate) struct NamedArray<'a> {
 /// type, connectivity as `Int64`; bytes are little-endian in zlib blocks. The first scalar and the
 /// first vector of point and cell data are marked as active, so readers show them first.
 pub struct VtuWriter<'a> {
-    pub(crate) points: &'a [[f64; 3]],
-    pub(crate) quads: &'a [[u32; 4]],
+    pub(crate) grid: VtuGrid<'a>,
     pub(crate) time: Option<f64>,
     pub(crate) encoding: Encoding,
     pub(crate) arrays: Vec<NamedArray<'a>>,
@@ -34,7 +33,13 @@ pub struct VtuWriter<'a> {
 impl<'a> VtuWriter<'a> {
     /// Points in metres and the four corners of each cell, point numbers from 0.
     pub fn new(points: &'a [[f64; 3]], quads: &'a [[u32; 4]]) -> Self {
-        Self { points, quads, time: None, encoding: Encoding::default(), arrays: Vec::new() }
+        Self::on(&VtuGrid::new(points, quads))
+    }
+
+    /// On a grid that other files show too.
+    pub fn on(grid: &VtuGrid<'a>) -> Self {
+        let (time, encoding) = (None, Encoding::default());
+        Self { grid: grid.clone(), time, encoding, arrays: Vec::new() }
     }
 
     /// The snapshot's time in seconds: field data `TimeValue`.
@@ -108,10 +113,15 @@ impl<'a> VtuWriter<'a> {
     }
 
     fn check(&self) -> Result<(), Error> {
-        if self.points.is_empty() || self.quads.is_empty() {
+        if self.grid.points.is_empty() || self.grid.quads.is_empty() {
             return Err(Error::Empty { what: "mesh".to_owned() });
         }
-        check_finite(Section::Points, "Points", 3, &Values::Float64(self.points.as_flattened()))?;
+        check_finite(
+            Section::Points,
+            "Points",
+            3,
+            &Values::Float64(self.grid.points.as_flattened()),
+        )?;
         self.check_connectivity()?;
         let mut names = BTreeSet::new();
         if let Some(time) = self.time {
@@ -131,8 +141,8 @@ impl<'a> VtuWriter<'a> {
     }
 
     fn check_connectivity(&self) -> Result<(), Error> {
-        let n_points = self.points.len();
-        for (cell, corners) in self.quads.iter().enumerate() {
+        let n_points = self.grid.points.len();
+        for (cell, corners) in self.grid.quads.iter().enumerate() {
             if let Some(corner) = corners.iter().position(|&point| point as usize >= n_points) {
                 return Err(Error::Connectivity { cell, corner, point: corners[corner], n_points });
             }
@@ -174,8 +184,8 @@ impl<'a> VtuWriter<'a> {
 
     fn expected_length(&self, section: Section, components: usize, found: usize) -> (bool, String) {
         let (entities, count) = match section {
-            Section::PointData => ("points", self.points.len()),
-            _ => ("cells", self.quads.len()),
+            Section::PointData => ("points", self.grid.points.len()),
+            _ => ("cells", self.grid.quads.len()),
         };
         let expected = format!("{count} {entities} x {components} components");
         (count.checked_mul(components) == Some(found), expected)

@@ -32,7 +32,7 @@ pub use cache::PairCache;
 /// Growth of the condensed region when the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 2.0;
 /// Half-width of the condensed region over that of the fine block.
-const CANDIDATES_OVER_REFINED: f64 = 1.25;
+const CANDIDATES_OVER_REFINED: f64 = 1.125;
 /// A run gives up after so many elastic contact times.
 const GIVE_UP_AFTER: f64 = 50.0;
 /// Bytes an element takes: factor, assembly, a share of fields.
