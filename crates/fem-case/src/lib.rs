@@ -81,7 +81,7 @@ pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;
 pub use model::{Dashpot, Dissipation, Law, Model};
-pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow};
+pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
 pub use plan::Plan;
 pub use problem::{Cost, Problem, build_meshes};
 pub use quantity::{

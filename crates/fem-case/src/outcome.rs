@@ -2,6 +2,7 @@
 //! has no value.
 
 use std::fmt;
+use std::time::Duration;
 
 use fem_condensed::CondensedError;
 use fem_explicit::{Collision, Stop};
@@ -52,6 +53,17 @@ pub struct Outcome {
     pub collision: Option<Box<Collision>>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
+    /// Of a model whose run does more than to step.
+    pub timing: Option<Timing>,
+}
+
+/// Where the time of a run went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Timing {
+    /// Until the collision could begin.
+    pub setup: Duration,
+    /// The collision alone.
+    pub collision: Duration,
 }
 
 /// One body after a collision.
@@ -161,6 +173,7 @@ impl Outcome {
             warnings: Vec::new(),
             collision: None,
             snapshots: Vec::new(),
+            timing: None,
         }
     }
 
@@ -189,6 +202,7 @@ impl Outcome {
             warnings: collision.warnings.clone(),
             snapshots: std::mem::take(&mut collision.snapshots),
             collision: Some(Box::new(collision)),
+            timing: None,
         }
     }
 }

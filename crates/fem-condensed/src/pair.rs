@@ -4,12 +4,13 @@ use std::sync::OnceLock;
 
 use faer::Mat;
 use fem_contact::{ContactInterface, ContactPoint, Surface, nodal_points};
-use fem_material::{Material, PronySeries};
+use fem_material::{ActsOn, Material, PronySeries};
 use fem_mesh::SphereMesh;
 
 use crate::CondensedError;
 use crate::body::CondensedBody;
 use crate::curve::{ElasticCurve, ElasticImpact};
+use crate::fields::active;
 use crate::shear::ShearSprings;
 use crate::vibration::Vibrations;
 
@@ -310,6 +311,21 @@ impl CondensedPair {
             BodyInput::Sphere { material, .. } => material.relaxation(),
             BodyInput::Wall => None,
         })
+    }
+
+    /// Makes what the first collision with these relaxations would make: the springs of a shear
+    /// modulus that relaxes beside an elastic bulk modulus.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive definite to rounding.
+    pub fn prepare(&self, relaxations: [Option<&PronySeries>; 2]) -> Result<(), CondensedError> {
+        for (side, series) in self.sides.iter().zip(relaxations) {
+            let relaxes_in_shear = active(series).is_some_and(|s| s.acts_on() == ActsOn::Shear);
+            if let Some(side) = side.as_ref().filter(|_| relaxes_in_shear) {
+                side.shear(self.settings.shear_blocks)?;
+            }
+        }
+        Ok(())
     }
 
     /// The elastic quasi-static collision at a relative speed, m/s, exact in time.

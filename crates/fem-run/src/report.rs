@@ -120,14 +120,18 @@ fn price(summary: &Summary) -> String {
     let Some(steps) = summary.steps else {
         return format!("{}{memory}", show(cost.solve_s, "s"));
     };
+    let (solve, each) = match cost.ns_per_element_update {
+        Some(ns) => (format!("{:.2} s", cost.solve_s), format!("{ns:.1} ns an element update, ")),
+        None => (show(cost.solve_s, "s"), format!("after {} of setup, ", show(cost.setup_s, "s"))),
+    };
+    let factors = cost.factor_bytes.map(|bytes| format!(", {} of it factors", DecimalBytes(bytes)));
     format!(
-        "{:.2} s for {} steps of {} ({} an element update, {} thread{}{memory})",
-        cost.solve_s,
+        "{solve} for {} steps of {} ({each}{} thread{}{memory}{})",
         HumanCount(steps),
         summary.time_step_s.map_or(NONE.into(), |step| show(step, "s")),
-        cost.ns_per_element_update.map_or(NONE.into(), |ns| format!("{ns:.1} ns")),
         cost.threads,
         if cost.threads == 1 { "" } else { "s" },
+        factors.unwrap_or_default(),
     )
 }
 

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use fem_case::{Outcome, Simulation};
+use fem_explicit::Monitor;
 use fem_laws::HertzImpact;
 
 use crate::peak_memory::peak_memory;
@@ -11,13 +12,28 @@ use crate::summary::{BodySummary, CostSummary, Energy, PROGRAM, Quantities, Summ
 /// A single run uses one thread; several serve several runs.
 const THREADS: usize = 1;
 
-/// When the process began, and how long the time steps took.
+/// What a run took, by the clock.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
-    /// Start of the process.
-    pub started: Instant,
-    /// The run alone.
-    pub solve: Duration,
+    /// Start of the process, or of this run in it.
+    started: Instant,
+    /// Until the model was built.
+    setup: Duration,
+    /// The run of the model.
+    run: Duration,
+}
+
+impl Clock {
+    /// Runs a model that has just been built.
+    pub fn run(
+        started: Instant,
+        simulation: &mut Simulation,
+        monitor: &mut dyn Monitor,
+    ) -> (Outcome, Self) {
+        let setup = started.elapsed();
+        let outcome = simulation.run(monitor);
+        (outcome, Self { started, setup, run: started.elapsed() - setup })
+    }
 }
 
 /// Sums up a collision. `warnings` and `files` are those so far; numbers that are not finite become
@@ -30,7 +46,11 @@ pub fn summarise(
     files: Vec<String>,
 ) -> Summary {
     let mut numbers = Numbers { warnings };
-    let solve_s = clock.solve.as_secs_f64();
+    let (setup, solve) = match outcome.timing {
+        Some(timing) => (clock.setup + timing.setup, timing.collision),
+        None => (clock.setup, clock.run),
+    };
+    let solve_s = solve.as_secs_f64();
     let updates = outcome.element_updates.filter(|updates| *updates > 0);
     Summary {
         collision: quantities(outcome, &mut numbers),
@@ -45,10 +65,15 @@ pub fn summarise(
         element_updates: outcome.element_updates,
         cost: CostSummary {
             wall_s: clock.started.elapsed().as_secs_f64(),
+            setup_s: setup.as_secs_f64(),
             solve_s,
             ns_per_element_update: updates.map(|updates| 1e9 * solve_s / updates as f64),
             threads: THREADS,
             peak_memory_bytes: peak_memory(),
+            factor_bytes: match simulation {
+                Simulation::Condensed(condensed) => Some(condensed.pair.factor_bytes() as u64),
+                _ => None,
+            },
         },
         effects: simulation.effects(),
         complete: outcome.halt.is_none(),

@@ -84,11 +84,15 @@ pub struct BodySummary {
 pub struct CostSummary {
     /// The process up to now.
     pub wall_s: f64,
-    /// The time steps alone.
+    /// Until the collision could begin: case, meshes, factors.
+    pub setup_s: f64,
+    /// The collision alone.
     pub solve_s: f64,
     pub ns_per_element_update: Option<f64>,
     pub threads: usize,
     pub peak_memory_bytes: Option<u64>,
+    /// Of condensed bodies.
+    pub factor_bytes: Option<u64>,
 }
 
 fn effects<S: Serializer>(effects: &[Effect], serializer: S) -> Result<S::Ok, S::Error> {

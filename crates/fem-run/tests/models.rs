@@ -237,3 +237,31 @@ fn condensed_bodies_write_all_files_of_finite_elements() {
     }
     assert!(number(&condensed["energy"]["residual_relative"]) < 1e-5);
 }
+
+/// What a condensed run costs, and what it says of its own errors.
+#[test]
+fn condensed_bodies_report_cost_and_doubts() {
+    let place = Place::new();
+    let good = summary(&place, &["model.condensed={}"]);
+    let cost = &good["cost"];
+    let (setup, solve) = (number(&cost["setup_s"]), number(&cost["solve_s"]));
+    assert!(setup > 0.0 && solve > 0.0 && setup + solve <= number(&cost["wall_s"]));
+    // A factor holds at least the stiffness of its body, some ten numbers an equation.
+    let nodes: f64 = (0..2).map(|k| number(&good["bodies"][k]["nodes"])).sum();
+    assert!(number(&cost["factor_bytes"]) > 80.0 * 2.0 * nodes);
+    assert!(cost["ns_per_element_update"].is_null());
+
+    let doubts = |overrides: &[&str]| {
+        let summary = summary(&place, overrides);
+        summary["warnings"].as_array().unwrap().iter().map(|w| w.to_string()).collect::<Vec<_>>()
+    };
+    let coarse = "mesh.contact_element_size=\"80 um\"";
+    let found = doubts(&["model.condensed={}", coarse]);
+    assert!(found.len() == 1 && found[0].contains("spans 2.8 elements"), "{found:?}");
+    let soft = "contact.penalty_factor=0.1";
+    let found = doubts(&["model.condensed={penalty_springs=true}", soft]);
+    assert!(found.iter().any(|text| text.contains("the surfaces overlap")), "{found:?}");
+    // Without springs there is nothing to overlap.
+    let found = doubts(&["model.condensed={}", soft]);
+    assert!(!found.iter().any(|text| text.contains("the surfaces overlap")), "{found:?}");
+}

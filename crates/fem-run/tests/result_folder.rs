@@ -63,7 +63,15 @@ fn the_summary_has_the_keys_of_the_contract() {
         "velocity_after_m_s",
         "vibration_energy_j",
     ];
-    let cost = ["wall_s", "solve_s", "ns_per_element_update", "threads", "peak_memory_bytes"];
+    let cost = [
+        "wall_s",
+        "setup_s",
+        "solve_s",
+        "ns_per_element_update",
+        "threads",
+        "peak_memory_bytes",
+        "factor_bytes",
+    ];
     assert_eq!(keys(&summary["bodies"][1]), body);
     assert_eq!(keys(&summary["cost"]), cost);
     assert_eq!(keys(&summary["effects"][0]), ["name", "active", "reason"]);

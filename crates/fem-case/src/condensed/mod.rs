@@ -6,6 +6,7 @@ mod effects;
 mod outcome;
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use fem_condensed::{
     BodyInput, CollideSettings, Collision, CondensedError, CondensedPair, ContactModel, Frame,
@@ -21,7 +22,7 @@ use crate::error::CaseError;
 use crate::estimate::Estimate;
 use crate::model::Model;
 use crate::model_tables::{CondensedTable, ModelTable};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Timing};
 use crate::plan::Plan;
 use crate::problem::build_meshes;
 use crate::quantity::Quantity;
@@ -33,6 +34,9 @@ pub use cache::PairCache;
 const CANDIDATE_GROWTH: f64 = 2.0;
 /// Half-width of the condensed region over that of the fine block.
 const CANDIDATES_OVER_REFINED: f64 = 1.125;
+/// And at least so much over the contact radius that Hertz expects, and so many elements.
+const CANDIDATES_OVER_CONTACT: f64 = 1.3;
+const CANDIDATE_ELEMENTS: f64 = 3.0;
 /// A run gives up after so many elastic contact times.
 const GIVE_UP_AFTER: f64 = 50.0;
 /// Bytes an element takes: factor, assembly, a share of fields.
@@ -126,7 +130,10 @@ impl Condensed {
     /// Computes the collision; `halt` says why if it cannot.
     pub fn run(&mut self) -> Outcome {
         match self.collide() {
-            Ok((collision, snapshots, missing)) => self.outcome(&collision, snapshots, missing),
+            Ok((collision, timing)) => match self.snapshots(&collision) {
+                Ok((snapshots, missing)) => self.outcome(&collision, timing, snapshots, missing),
+                Err(error) => Outcome::halted(error.into()),
+            },
             Err(error) => Outcome::halted(error.into()),
         }
     }
@@ -143,22 +150,25 @@ impl Condensed {
         n_steps: usize,
     ) -> Result<Collision, CondensedError> {
         let settings = CollideSettings { n_steps, history: false, give_up_after: GIVE_UP_AFTER };
-        collide(&mut self.pair, speed, relaxations, &settings)
+        Ok(collide(&mut self.pair, speed, relaxations, &settings)?.0)
     }
 
-    fn collide(&mut self) -> Result<(Collision, Vec<Snapshot>, Vec<String>), CondensedError> {
-        let frame = self.frame();
+    fn collide(&mut self) -> Result<(Collision, Timing), CondensedError> {
         let settings = CollideSettings {
             n_steps: self.options.steps,
             history: true,
             give_up_after: GIVE_UP_AFTER,
         };
-        let collision =
-            collide(&mut self.pair, frame.approach_speed(), relaxations(&self.case), &settings)?;
-        let request = &self.plan.snapshots;
-        let (snapshots, missing) =
-            self.pair.snapshots(&frame, relaxations(&self.case), &collision, request)?;
-        Ok((collision, snapshots, missing))
+        let speed = self.frame().approach_speed();
+        collide(&mut self.pair, speed, relaxations(&self.case), &settings)
+    }
+
+    fn snapshots(
+        &self,
+        collision: &Collision,
+    ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
+        let relaxations = relaxations(&self.case);
+        self.pair.snapshots(&self.frame(), relaxations, collision, &self.plan.snapshots)
     }
 
     fn frame(&self) -> Frame {
@@ -186,13 +196,19 @@ fn collide(
     speed: f64,
     relaxations: [Option<&PronySeries>; 2],
     settings: &CollideSettings,
-) -> Result<Collision, CondensedError> {
+) -> Result<(Collision, Timing), CondensedError> {
+    let start = Instant::now();
     loop {
+        pair.prepare(relaxations)?;
+        let setup = start.elapsed();
         match pair.collide(speed, relaxations, settings) {
             Err(CondensedError::ContactBeyondCandidates { radius }) => {
                 *pair = Arc::new(pair.enlarge(CANDIDATE_GROWTH * radius)?);
             }
-            result => return result,
+            result => {
+                let collision = start.elapsed() - setup;
+                return Ok((result?, Timing { setup, collision }));
+            }
         }
     }
 }
@@ -222,8 +238,10 @@ fn inputs(case: &Case, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
 /// The condensed region goes by the fine block, so that all speeds that share a mesh share a
 /// factor; a contact that is expected further out doubles it.
 fn settings(plan: &Plan, options: Options) -> PairSettings {
+    let needed = (CANDIDATES_OVER_CONTACT * plan.estimate.hertz.max_contact_radius())
+        .max(CANDIDATE_ELEMENTS * plan.contact_element_size);
     let mut candidate_radius = CANDIDATES_OVER_REFINED * plan.refined_radius;
-    while candidate_radius < plan.candidate_radius * (1.0 - 1e-9) {
+    while candidate_radius < needed {
         candidate_radius *= CANDIDATE_GROWTH;
     }
     let contact = if options.penalty_springs {

@@ -4,7 +4,7 @@ use fem_condensed::{Collision, Row};
 use fem_field::Snapshot;
 
 use super::Condensed;
-use crate::outcome::{BodyOutcome, Outcome, OutcomeRow};
+use crate::outcome::{BodyOutcome, Outcome, OutcomeRow, Timing};
 use crate::reduced::relative::Relative;
 
 /// Contact problems that are no discs, as a share of the steps, that are worth a word.
@@ -14,6 +14,7 @@ impl Condensed {
     pub(super) fn outcome(
         &self,
         collision: &Collision,
+        timing: Timing,
         snapshots: Vec<Snapshot>,
         missing: Vec<String>,
     ) -> Outcome {
@@ -58,6 +59,7 @@ impl Condensed {
             warnings,
             collision: None,
             snapshots,
+            timing: Some(timing),
         }
     }
 

@@ -53,6 +53,7 @@ impl Reduced {
             warnings,
             collision: None,
             snapshots: Vec::new(),
+            timing: None,
         }
     }
 

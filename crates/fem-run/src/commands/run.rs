@@ -51,9 +51,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     }
 
     let mut watch = Watch::new(interrupt, options.quiet);
-    let solving = Instant::now();
-    let outcome = simulation.run(&mut watch);
-    let clock = Clock { started, solve: solving.elapsed() };
+    let (outcome, clock) = Clock::run(started, &mut simulation, &mut watch);
     watch.finish();
 
     let summary = write_result(folder.path(), &stem, &simulation, &outcome, clock, Keep::All)?;
@@ -128,9 +126,7 @@ pub fn write_result(
         files.extend(vtk_files);
         left_out = missing;
     }
-    if let (Simulation::Fem(problem), Some(collision)) = (simulation, &outcome.collision) {
-        warnings.extend(assess(problem, collision));
-    }
+    warnings.extend(assess(simulation, outcome));
     warnings.extend(outcome.warnings.iter().cloned());
     warnings.extend(left_out);
     let summary = summarise(simulation, outcome, clock, warnings, files);

@@ -75,9 +75,7 @@ fn run_member(job: &Job<'_>, board: &Board, member: &Member) -> Result<(), Failu
     let mut simulation =
         sweep.build(member.index, |case| Simulation::with_cache(case, &job.pairs))?;
     let mut watch = MemberWatch::new(board);
-    let solving = Instant::now();
-    let outcome = simulation.run(&mut watch);
-    let clock = Clock { started, solve: solving.elapsed() };
+    let (outcome, clock) = Clock::run(started, &mut simulation, &mut watch);
     if outcome.is_interrupted() {
         return Ok(());
     }
