@@ -13,7 +13,7 @@
 //!
 //! Elements, masses and penalty springs are those of the explicit model; contact acts along the
 //! common normal of the flattened interface, at matching nodes (the finer of two unlike meshes is
-//! interpolated), gaps are those of the true arcs. The contact problem of a step is solved exactly,
+//! projected on the nodes of the coarser), gaps are those of the true arcs. The contact problem of a step is solved exactly,
 //! without iteration (`disc`). Relaxing bodies are chains of scalar springs (`chain`): as many as
 //! contact nodes for constant Poisson's ratio, a Galerkin basis of twice that for a relaxing shear
 //! beside an elastic bulk modulus (`shear`). Modes of free vibration bring back the inertia that

@@ -197,8 +197,8 @@ impl SideState {
         let springs = match series {
             None => None,
             Some(series) if series.acts_on() == ActsOn::All => {
-                // Φ is lower triangular but for one diagonal where meshes do not match: columns
-                // further out than the last point are zero.
+                // Φ is lower triangular, with a few diagonals more where meshes do not match: columns
+                // of nodes further out than any that carries these points are zero.
                 let all = rows(&side.uniform);
                 let n_modes = (0..all.ncols())
                     .rposition(|j| (0..n_points).any(|i| all[(i, j)] != 0.0))

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use faer::Mat;
-use fem_contact::{ContactInterface, ContactPoint, Surface, nodal_points};
+use fem_contact::{ContactInterface, ContactPoint, NodalContact, Surface};
 use fem_material::{ActsOn, Material, PronySeries};
 use fem_mesh::SphereMesh;
 
@@ -58,12 +58,14 @@ impl PairSettings {
     }
 }
 
+/// For each contact point the contact nodes that carry it, numbered outward, and their shares.
+type Feet = Vec<Vec<(usize, f64)>>;
+
 /// A body and how the contact points hang on its contact nodes.
 #[derive(Debug)]
 pub(crate) struct PairSide {
     pub body: CondensedBody,
-    /// For each contact point the two contact nodes, numbered outward, and their shares.
-    feet: Vec<([usize; 2], [f64; 2])>,
+    feet: Feet,
     /// Compliance at the points, m/N.
     pub compliance: Mat<f64>,
     /// Φ of constant Poisson's ratio at the points, m/√J.
@@ -113,9 +115,9 @@ impl PairSide {
     /// Forces (N) at the contact nodes of forces at the points.
     pub fn nodal_forces(&self, forces: &[f64]) -> Vec<f64> {
         let mut nodal = vec![0.0; self.body.numbering.n_contact];
-        for ((nodes, shares), force) in self.feet.iter().zip(forces) {
-            for (node, share) in nodes.iter().zip(shares) {
-                nodal[*node] += share * force;
+        for (feet, force) in self.feet.iter().zip(forces) {
+            for &(node, share) in feet {
+                nodal[node] += share * force;
             }
         }
         nodal
@@ -144,8 +146,8 @@ fn pressure_nodes(points: &[ContactPoint], side: Option<&PairSide>) -> Vec<Press
         .into_iter()
         .map(|radius| PressureNode { radius, area: 0.0, shares: Vec::new() })
         .collect();
-    for (k, (point, (feet, shares))) in points.iter().zip(&side.feet).enumerate() {
-        for (&node, &share) in feet.iter().zip(shares) {
+    for (k, (point, feet)) in points.iter().zip(&side.feet).enumerate() {
+        for &(node, share) in feet {
             nodes[node].area += share * point.area;
             nodes[node].shares.push((k, share));
         }
@@ -153,10 +155,9 @@ fn pressure_nodes(points: &[ContactPoint], side: Option<&PairSide>) -> Vec<Press
     nodes
 }
 
-fn gather(feet: &[([usize; 2], [f64; 2])], nodal: &Mat<f64>) -> Mat<f64> {
+fn gather(feet: &Feet, nodal: &Mat<f64>) -> Mat<f64> {
     Mat::from_fn(feet.len(), nodal.ncols(), |i, j| {
-        let (nodes, shares) = feet[i];
-        shares[0] * nodal[(nodes[0], j)] + shares[1] * nodal[(nodes[1], j)]
+        feet[i].iter().map(|&(node, share)| share * nodal[(node, j)]).sum()
     })
 }
 
@@ -194,12 +195,13 @@ impl CondensedPair {
             BodyInput::Sphere { mesh, .. } => Surface::of_sphere(mesh),
             BodyInput::Wall => Surface::wall(),
         });
-        let (points, nodal_side) = contact_points(&surfaces, &settings)?;
+        let Points { points, nodal_side, feet } = Points::new(&surfaces, &settings)?;
         let mut sides = [None, None];
-        for (side, input) in inputs.iter().enumerate() {
+        for (side, (input, feet)) in inputs.iter().zip(feet).enumerate() {
             if let BodyInput::Sphere { mesh, material } = input {
-                let vibrations = settings.vibration_modes;
-                sides[side] = Some(condense(side, mesh, material, &surfaces, &points, vibrations)?);
+                let nodes = surfaces[side].nodes_within(f64::INFINITY);
+                let side_made = condense(mesh, material, nodes, feet, settings.vibration_modes)?;
+                sides[side] = Some(side_made);
             }
         }
         let spring_compliance: Vec<f64> =
@@ -339,46 +341,62 @@ impl CondensedPair {
     }
 }
 
-fn contact_points(
-    surfaces: &[Surface; 2],
-    settings: &PairSettings,
-) -> Result<(Vec<ContactPoint>, Option<usize>), CondensedError> {
-    let [lower, upper] = surfaces;
-    match settings.contact {
-        ContactModel::Exact => {
-            let (points, side) = nodal_points([lower, upper], 0.0, settings.candidate_radius)?;
-            Ok((points, Some(side)))
-        }
-        ContactModel::Springs(stiffness) => {
-            let interface = ContactInterface::new(
-                lower.clone(),
-                upper.clone(),
-                stiffness,
-                0.0,
-                settings.candidate_radius,
-            )?;
-            Ok((interface.points().to_vec(), None))
+/// Where the bodies can touch.
+struct Points {
+    points: Vec<ContactPoint>,
+    /// The side whose nodes the points are; `None` for Gauss points.
+    nodal_side: Option<usize>,
+    feet: [Feet; 2],
+}
+
+impl Points {
+    fn new(surfaces: &[Surface; 2], settings: &PairSettings) -> Result<Self, CondensedError> {
+        let [lower, upper] = surfaces;
+        match settings.contact {
+            ContactModel::Exact => {
+                let contact = NodalContact::new([lower, upper], 0.0, settings.candidate_radius)?;
+                let NodalContact { points, side, shares } = contact;
+                let own: Feet = (0..points.len()).map(|k| vec![(k, 1.0)]).collect();
+                let feet = if side == 0 { [own, shares] } else { [shares, own] };
+                Ok(Self { points, nodal_side: Some(side), feet })
+            }
+            ContactModel::Springs(stiffness) => {
+                let interface = ContactInterface::new(
+                    lower.clone(),
+                    upper.clone(),
+                    stiffness,
+                    0.0,
+                    settings.candidate_radius,
+                )?;
+                let points = interface.points().to_vec();
+                let feet = [0, 1].map(|side: usize| spring_feet(&points, side, &surfaces[side]));
+                Ok(Self { points, nodal_side: None, feet })
+            }
         }
     }
 }
 
+/// A Gauss point lies between two nodes of each surface.
+fn spring_feet(points: &[ContactPoint], side: usize, surface: &Surface) -> Feet {
+    let along = surface.nodes_within(f64::INFINITY);
+    let place = |node: u32| along.iter().position(|&other| other == node).unwrap_or(0);
+    let feet = points.iter().map(|point| {
+        let foot = &point.feet[side];
+        foot.nodes.into_iter().map(place).zip(foot.shape).collect()
+    });
+    feet.collect()
+}
+
+/// Condenses a body with the nodes of its surface from the axis outward.
 fn condense(
-    side: usize,
     mesh: &SphereMesh,
     material: &Material,
-    surfaces: &[Surface; 2],
-    points: &[ContactPoint],
+    nodes: &[u32],
+    feet: Feet,
     n_vibrations: usize,
 ) -> Result<PairSide, CondensedError> {
-    // The surface's nodes are numbered outward, and a point lies between two of them.
-    let along: Vec<u32> = surfaces[side].nodes_within(f64::INFINITY).to_vec();
-    let place = |node: u32| along.iter().position(|&other| other == node).unwrap_or(0);
-    let feet: Vec<_> = points
-        .iter()
-        .map(|point| (point.feet[side].nodes.map(place), point.feet[side].shape))
-        .collect();
-    let outermost = feet.iter().flat_map(|(nodes, _)| *nodes).max().unwrap_or(0);
-    let body = CondensedBody::new(mesh.clone(), material, &along[..=outermost])?;
+    let outermost = feet.iter().flatten().map(|(node, _)| *node).max().unwrap_or(0);
+    let body = CondensedBody::new(mesh.clone(), material, &nodes[..=outermost])?;
     let compliance = gather(&feet, &gather(&feet, &body.compliance).transpose().to_owned());
     let uniform = gather(&feet, &body.compliance_factor);
     let vibrations = (n_vibrations > 0)

@@ -31,6 +31,6 @@ mod surface;
 pub use error::ContactError;
 pub use evaluate::ContactForces;
 pub use interface::{ContactInterface, ContactPoint, Foot};
-pub use nodal::nodal_points;
+pub use nodal::NodalContact;
 pub use pressure::centre_pressure;
 pub use surface::Surface;

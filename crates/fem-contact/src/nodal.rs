@@ -1,53 +1,191 @@
 //! Contact at the nodes of one surface, without overlap.
 //!
 //! Where two meshes match, each pair of nodes is a point. Where they do not, the coarser surface
-//! gives the points and the finer one is interpolated linearly, so that no pressure is asked for
-//! that the points could not tell apart. A force at a point acts on both bodies: on a node of one,
-//! shared between two nodes of the other.
+//! gives the points, so that no pressure is asked for that the points could not tell apart, and the
+//! displacement of the finer one is projected on them (mortar method):
+//!
+//! ```math
+//! u_k = \sum_j D_{kj} u_j, \qquad
+//! D_{kj} = \frac{\int \psi_k N_j\, 2\pi r\, dr}{\int \phi_k\, 2\pi r\, dr},
+//! ```
+//!
+//! with the hats φ of the coarser and N of the finer surface, and ψ dual to φ, so that D is the unit
+//! matrix for meshes that match (Wohlmuth 2000). A force at a point acts on its own node and, with
+//! the shares D, on nodes of the other body: a smooth pressure stays smooth there. Put on the
+//! nearest nodes alone it would dig into the finer mesh: 1 % of the contact time at twice the
+//! resolution.
+
+use std::f64::consts::PI;
 
 use fem_mesh::segment_measures;
 
 use crate::{ContactError, ContactPoint, Surface};
 
-/// Points at the nodes out to `candidate_radius` (m), from the axis outward, their areas the loads
-/// of unit pressure; `gap` (m) separates the poles. The second value is the side whose nodes they
-/// are (0 lower, 1 upper).
-///
-/// # Errors
-/// Two walls; a radius that is not positive and finite.
-pub fn nodal_points(
-    surfaces: [&Surface; 2],
-    gap: f64,
-    candidate_radius: f64,
-) -> Result<(Vec<ContactPoint>, usize), ContactError> {
-    if surfaces.iter().all(|surface| surface.is_wall()) {
-        return Err(ContactError::TwoWalls);
-    }
-    if !(candidate_radius > 0.0 && candidate_radius.is_finite()) {
-        let (name, value) = ("candidate radius", candidate_radius);
-        return Err(ContactError::NotPositive { name, value });
-    }
-    let n_nodes = surfaces.map(|surface| {
-        if surface.is_wall() { usize::MAX } else { surface.nodes_within(candidate_radius).len() }
-    });
-    let side = usize::from(n_nodes[1] < n_nodes[0]);
-    let radii = &surfaces[side].radii;
-    let limit = candidate_radius.min(surfaces[1 - side].extent());
-    let n = radii.partition_point(|&r| r <= limit * (1.0 + 1e-12));
-    let points = (0..n).map(|k| {
-        let radius = radii[k];
-        let share = |other: Option<usize>, own: usize| match other {
-            Some(other) => segment_measures([radii[other], 0.0], [radii[own], 0.0])[1],
-            None => 0.0,
-        };
-        let outer = (k + 1 < radii.len()).then_some(k + 1);
-        ContactPoint {
-            radius,
-            area: share(k.checked_sub(1), k) + share(outer, k),
-            initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
-            stiffness: f64::INFINITY,
-            feet: std::array::from_fn(|body| surfaces[body].foot(surfaces[body].locate(radius))),
+/// Points at the nodes of one of two surfaces.
+#[derive(Debug, Clone)]
+pub struct NodalContact {
+    /// From the axis outward, their areas the loads of unit pressure.
+    pub points: Vec<ContactPoint>,
+    /// The side whose nodes they are: 0 lower, 1 upper.
+    pub side: usize,
+    /// Of each point the nodes of the other surface, counted from the axis outward, and their
+    /// shares, 1 in sum; none for a wall.
+    pub shares: Vec<Vec<(usize, f64)>>,
+}
+
+impl NodalContact {
+    /// Points out to `candidate_radius` (m); `gap` (m) separates the poles.
+    ///
+    /// # Errors
+    /// Two walls; a radius that is not positive and finite.
+    pub fn new(
+        surfaces: [&Surface; 2],
+        gap: f64,
+        candidate_radius: f64,
+    ) -> Result<Self, ContactError> {
+        if surfaces.iter().all(|surface| surface.is_wall()) {
+            return Err(ContactError::TwoWalls);
         }
-    });
-    Ok((points.collect(), side))
+        if !(candidate_radius > 0.0 && candidate_radius.is_finite()) {
+            let (name, value) = ("candidate radius", candidate_radius);
+            return Err(ContactError::NotPositive { name, value });
+        }
+        let n_nodes = surfaces.map(|surface| match surface.is_wall() {
+            true => usize::MAX,
+            false => surface.nodes_within(candidate_radius).len(),
+        });
+        let side = usize::from(n_nodes[1] < n_nodes[0]);
+        let (own, other) = (surfaces[side], surfaces[1 - side]);
+        let limit = candidate_radius.min(other.extent());
+        let n = own.radii.partition_point(|&r| r <= limit * (1.0 + 1e-12));
+        let points = (0..n).map(|k| {
+            let radius = own.radii[k];
+            let share = |neighbour: f64| segment_measures([neighbour, 0.0], [radius, 0.0])[1];
+            let neighbours = [k.checked_sub(1), Some(k + 1)];
+            let neighbours = neighbours.into_iter().filter_map(|k| own.radii.get(k?).copied());
+            ContactPoint {
+                radius,
+                area: neighbours.map(share).sum(),
+                initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
+                stiffness: f64::INFINITY,
+                feet: surfaces.map(|surface| surface.foot(surface.locate(radius))),
+            }
+        });
+        let shares = (0..n).map(|k| match other.is_wall() {
+            true => Vec::new(),
+            false => project(&own.radii, k, &other.radii),
+        });
+        Ok(Self { points: points.collect(), side, shares: shares.collect() })
+    }
+}
+
+/// Shares below this are rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// Row k of D, between surfaces with nodes at these radii (m).
+fn project(own: &[f64], k: usize, other: &[f64]) -> Vec<(usize, f64)> {
+    let mut row: Vec<(usize, f64)> = Vec::new();
+    let inner = k.checked_sub(1).map(|inner| ([own[inner], own[k]], 1));
+    let outer = own.get(k + 1).map(|&outer| ([own[k], outer], 0));
+    for ([start, end], corner) in inner.into_iter().chain(outer) {
+        let dual = dual_hat([start, end], corner);
+        let first = other.partition_point(|&r| r <= start).saturating_sub(1);
+        let segments = other.windows(2).enumerate().skip(first);
+        for (segment, ends) in segments.take_while(|(_, ends)| ends[0] < end) {
+            // Between the nodes of both surfaces all is polynomial.
+            for (r, weight) in gauss(ends[0].max(start), ends[1].min(end)) {
+                let [x, y] = [(r - start) / (end - start), (r - ends[0]) / (ends[1] - ends[0])];
+                let psi = weight * (dual[0] * (1.0 - x) + dual[1] * x);
+                add(&mut row, segment, psi * (1.0 - y));
+                add(&mut row, segment + 1, psi * y);
+            }
+        }
+    }
+    // The other surface may end within the outer segment.
+    let sum: f64 = row.iter().map(|(_, share)| share).sum();
+    row.iter_mut().for_each(|(_, share)| *share /= sum);
+    row.retain(|(_, share)| share.abs() > ROUNDING);
+    row
+}
+
+/// Values at both ends of a segment of the function that is dual to the hat of one of them:
+/// M ψ = m e, with the mass matrix M of the segment and the hat's own integral m.
+fn dual_hat([start, end]: [f64; 2], corner: usize) -> [f64; 2] {
+    let (mut mass, mut integral) = ([[0.0; 2]; 2], 0.0);
+    for (r, weight) in gauss(start, end) {
+        let x = (r - start) / (end - start);
+        let hats = [1.0 - x, x];
+        integral += weight * hats[corner];
+        for (row, a) in mass.iter_mut().zip(hats) {
+            for (entry, b) in row.iter_mut().zip(hats) {
+                *entry += weight * a * b;
+            }
+        }
+    }
+    let determinant = mass[0][0] * mass[1][1] - mass[0][1] * mass[1][0];
+    let mut values = [-mass[0][1] * integral / determinant; 2];
+    values[corner] = mass[1 - corner][1 - corner] * integral / determinant;
+    values
+}
+
+/// Two Gauss points with 2π r dr, exact for a product of two linear functions.
+fn gauss(from: f64, to: f64) -> [(f64, f64); 2] {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    [-1.0, 1.0].map(|sign| {
+        let r = middle + sign * half / 3f64.sqrt();
+        (r, 2.0 * PI * r * half)
+    })
+}
+
+fn add(row: &mut Vec<(usize, f64)>, node: usize, share: f64) {
+    match row.iter_mut().find(|(other, _)| *other == node) {
+        Some((_, sum)) => *sum += share,
+        None => row.push((node, share)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COARSE: [f64; 6] = [0.0, 1.0, 1.9, 3.1, 4.0, 5.2];
+    const FINE: [f64; 13] = [0.0, 0.45, 0.8, 1.3, 1.7, 2.1, 2.4, 2.9, 3.3, 3.8, 4.2, 4.7, 5.5];
+
+    /// Area of the hat of node k.
+    fn area(radii: &[f64], k: usize) -> f64 {
+        let share = |j: usize| segment_measures([radii[j], 0.0], [radii[k], 0.0])[1];
+        let inner = k.checked_sub(1).map_or(0.0, share);
+        inner + if k + 1 < radii.len() { share(k + 1) } else { 0.0 }
+    }
+
+    #[test]
+    fn matching_nodes_are_pairs() {
+        for k in 0..COARSE.len() {
+            let row = project(&COARSE, k, &COARSE);
+            assert_eq!(row.len(), 1, "{row:?}");
+            assert!(row[0].0 == k && (row[0].1 - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// Linear displacements are projected on their values at the nodes; uniform pressure on the
+    /// coarse surface is uniform on the fine one.
+    #[test]
+    fn linear_displacement_and_uniform_pressure_are_kept() {
+        let rows: Vec<_> = (0..COARSE.len()).map(|k| project(&COARSE, k, &FINE)).collect();
+        for (row, r) in rows.iter().zip(COARSE) {
+            let value: f64 = row.iter().map(|&(j, share)| share * (3.0 - 2.0 * FINE[j])).sum();
+            assert!((value - (3.0 - 2.0 * r)).abs() < 1e-12, "{r}: {value}");
+        }
+        // Up to the last node whose hat the coarse surface covers.
+        for j in 0..11 {
+            let force: f64 = rows
+                .iter()
+                .enumerate()
+                .flat_map(|(k, row)| row.iter().map(move |&(node, share)| (k, node, share)))
+                .filter(|(_, node, _)| *node == j)
+                .map(|(k, _, share)| area(&COARSE, k) * share)
+                .sum();
+            assert!((force / area(&FINE, j) - 1.0).abs() < 1e-12, "{j}: {force}");
+        }
+    }
 }
