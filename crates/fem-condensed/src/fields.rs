@@ -14,7 +14,8 @@ use crate::collision::Collision;
 use crate::frame::Frame;
 use crate::instants::{Kept, choose};
 use crate::motion::{Motion, SideState};
-use crate::pair::{CondensedPair, PairSide};
+use crate::pair::CondensedPair;
+use crate::side::PairSide;
 
 /// A body's deformation in coordinates.
 #[derive(Debug, Clone, Default)]

@@ -16,7 +16,8 @@ use crate::CondensedError;
 use crate::chain::{BETA, Chain, Memory};
 use crate::disc::{Disc, DiscSolver};
 use crate::fields::active;
-use crate::pair::{CondensedPair, PairSide};
+use crate::pair::CondensedPair;
+use crate::side::PairSide;
 
 /// What acts on one body beside its elastic compliance.
 #[derive(Debug, Clone, Default)]

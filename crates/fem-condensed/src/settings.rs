@@ -1,0 +1,48 @@
+//! What a pair is condensed from, and how.
+
+use fem_material::Material;
+use fem_mesh::SphereMesh;
+
+/// What a body is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BodyInput {
+    /// A meshed sphere.
+    Sphere {
+        /// Its mesh, on its side of the plane y = 0.
+        mesh: SphereMesh,
+        /// Its material; a relaxation in it is what [`crate::CondensedPair::relaxations`] gives.
+        material: Material,
+    },
+    /// A rigid plane of infinite mass.
+    Wall,
+}
+
+/// How the surfaces resist overlap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContactModel {
+    /// They do not overlap at the nodes.
+    Exact,
+    /// Penalty springs at Gauss points, those of the explicit model: stiffness per area times
+    /// element size, Pa.
+    Springs(f64),
+}
+
+/// What a pair is condensed with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairSettings {
+    /// Radius out to which the surfaces are condensed, m; [`crate::CondensedPair::enlarge`] makes more.
+    pub candidate_radius: f64,
+    /// How overlap is prevented.
+    pub contact: ContactModel,
+    /// Blocks of the basis for a relaxing shear beside an elastic bulk modulus; 2 is the default.
+    pub shear_blocks: usize,
+    /// Modes of free vibration of each body; 0 is quasi-static.
+    pub vibration_modes: usize,
+}
+
+impl PairSettings {
+    /// Exact contact, two blocks, no vibration.
+    pub fn new(candidate_radius: f64) -> Self {
+        Self { candidate_radius, contact: ContactModel::Exact, shear_blocks: 2, vibration_modes: 0 }
+    }
+}

@@ -1,0 +1,132 @@
+//! One body of a pair, seen at the contact points.
+
+use std::sync::OnceLock;
+
+use faer::Mat;
+use fem_contact::ContactPoint;
+use fem_material::Material;
+use fem_mesh::SphereMesh;
+
+use crate::CondensedError;
+use crate::body::CondensedBody;
+use crate::points::{Feet, gather};
+use crate::shear::ShearSprings;
+use crate::vibration::Vibrations;
+
+/// A body and how the contact points hang on its contact nodes.
+#[derive(Debug)]
+pub(crate) struct PairSide {
+    pub body: CondensedBody,
+    feet: Feet,
+    /// Compliance at the points, m/N.
+    pub compliance: Mat<f64>,
+    /// Φ of constant Poisson's ratio at the points, m/√J.
+    pub uniform: Mat<f64>,
+    shear: OnceLock<Result<ShearSide, CondensedError>>,
+    pub vibrations: Option<VibratingSide>,
+}
+
+/// Springs of a relaxing shear, seen at the points.
+#[derive(Debug)]
+pub(crate) struct ShearSide {
+    pub springs: ShearSprings,
+    pub at_points: Mat<f64>,
+}
+
+/// Modes of vibration, seen at the points.
+#[derive(Debug)]
+pub(crate) struct VibratingSide {
+    pub modes: Vibrations,
+    /// Inward displacement over frequency, m/√J.
+    pub at_points: Mat<f64>,
+}
+
+impl PairSide {
+    /// Condenses a body to the nodes that carry the points; `nodes` are those of its surface from the
+    /// axis outward.
+    ///
+    /// # Errors
+    /// A stiffness without factor, missing memory.
+    pub fn new(
+        mesh: &SphereMesh,
+        material: &Material,
+        nodes: &[u32],
+        feet: Feet,
+        n_vibrations: usize,
+    ) -> Result<Self, CondensedError> {
+        let outermost = feet.iter().flatten().map(|(node, _)| *node).max().unwrap_or(0);
+        let body = CondensedBody::new(mesh.clone(), material, &nodes[..=outermost])?;
+        let compliance = gather(&feet, &gather(&feet, &body.compliance).transpose().to_owned());
+        let uniform = gather(&feet, &body.compliance_factor);
+        let vibrations = (n_vibrations > 0)
+            .then(|| {
+                let modes = Vibrations::new(&body, n_vibrations)?;
+                let at_points = gather(&feet, &modes.contact);
+                Ok::<_, CondensedError>(VibratingSide { modes, at_points })
+            })
+            .transpose()?;
+        Ok(Self { body, feet, compliance, uniform, shear: OnceLock::new(), vibrations })
+    }
+
+    /// Springs for a relaxing shear modulus, made when first asked for.
+    pub fn shear(&self, n_blocks: usize) -> Result<&ShearSide, CondensedError> {
+        let made = self.shear.get_or_init(|| {
+            let springs = ShearSprings::new(&self.body, n_blocks)?;
+            let at_points = gather(&self.feet, &springs.contact);
+            Ok(ShearSide { springs, at_points })
+        });
+        made.as_ref().map_err(Clone::clone)
+    }
+
+    /// Radii of the contact nodes, from the axis outward, m.
+    fn contact_radii(&self) -> Vec<f64> {
+        let mesh = &self.body.mesh;
+        let nodes = mesh.surface()[..self.body.numbering.n_contact].iter();
+        nodes.map(|&node| mesh.nodes()[node as usize][0]).collect()
+    }
+
+    /// Forces (N) at the contact nodes of forces at the points.
+    pub fn nodal_forces(&self, forces: &[f64]) -> Vec<f64> {
+        let mut nodal = vec![0.0; self.body.numbering.n_contact];
+        for (feet, force) in self.feet.iter().zip(forces) {
+            for &(node, share) in feet {
+                nodal[node] += share * force;
+            }
+        }
+        nodal
+    }
+}
+
+/// A surface node and the points whose forces it carries.
+#[derive(Debug, Clone)]
+pub(crate) struct PressureNode {
+    pub radius: f64,
+    pub area: f64,
+    /// Point and share of its force.
+    pub shares: Vec<(usize, f64)>,
+}
+
+/// Nodes of the points' own surface, or those of a deformable side that carry the Gauss points.
+pub(crate) fn pressure_nodes(
+    points: &[ContactPoint],
+    side: Option<&PairSide>,
+) -> Vec<PressureNode> {
+    let Some(side) = side else {
+        let own = points.iter().enumerate();
+        return own
+            .map(|(k, p)| PressureNode { radius: p.radius, area: p.area, shares: vec![(k, 1.0)] })
+            .collect();
+    };
+    let radii = side.contact_radii();
+    let mut nodes: Vec<_> = radii
+        .into_iter()
+        .map(|radius| PressureNode { radius, area: 0.0, shares: Vec::new() })
+        .collect();
+    for (k, (point, feet)) in points.iter().zip(&side.feet).enumerate() {
+        for &(node, share) in feet {
+            nodes[node].area += share * point.area;
+            nodes[node].shares.push((k, share));
+        }
+    }
+    nodes
+}
