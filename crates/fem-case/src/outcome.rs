@@ -148,7 +148,13 @@ impl fmt::Display for Halt {
 impl Outcome {
     /// Whether the user ended it.
     pub fn is_interrupted(&self) -> bool {
-        matches!(self.halt, Some(Halt::Fem(Stop::Interrupted { .. })))
+        matches!(
+            self.halt,
+            Some(
+                Halt::Fem(Stop::Interrupted { .. })
+                    | Halt::Condensed(CondensedError::Interrupted { .. })
+            )
+        )
     }
 
     /// Nothing, and why.

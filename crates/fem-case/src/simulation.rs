@@ -124,7 +124,7 @@ impl Simulation {
                 let collision = problem.run(monitor);
                 Outcome::of_fem(problem, collision)
             }
-            Self::Condensed(condensed) => condensed.run(),
+            Self::Condensed(condensed) => condensed.run(monitor),
             Self::Reduced(reduced) => reduced.run(),
         }
     }

@@ -3,6 +3,7 @@
 use fem_material::PronySeries;
 
 use crate::CondensedError;
+use crate::instants::Trace;
 use crate::motion::Motion;
 use crate::pair::CondensedPair;
 use crate::run::Run;
@@ -61,12 +62,39 @@ pub struct Row {
     pub vibration: [f64; 2],
 }
 
+/// How a collision ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ending {
+    /// The bodies have parted.
+    Parted,
+    /// They stay together: what energy is left could not part them at a restitution of 1e-4.
+    Together,
+    /// It did not; the results are those so far.
+    Stopped(CondensedError),
+}
+
+/// A glance at a collision under way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Glance {
+    /// Time since first touch, s.
+    pub time: f64,
+    /// Steps done.
+    pub step: usize,
+    /// Estimated share of the run that is done, 0 to 1.
+    pub fraction: f64,
+    /// N.
+    pub contact_force: f64,
+}
+
 /// What came out of a collision.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Collision {
-    /// Relative speed after over before.
+    /// How it ended.
+    pub ending: Ending,
+    /// Relative speed after over before; 0 for bodies that stay together.
     pub restitution: f64,
-    /// First touch to the end of contact, openings in between included, s.
+    /// First touch to the end of contact, openings in between included, s; for bodies that stay
+    /// together, until that was clear.
     pub contact_time: f64,
     /// Number of separate contacts.
     pub contact_episodes: usize,
@@ -84,8 +112,10 @@ pub struct Collision {
     pub initial_energy: f64,
     /// Worst imbalance of energy over the initial.
     pub residual_relative: f64,
-    /// Every step, if asked for.
+    /// About a thousand steps over the contact, its first and last among them, if asked for.
     pub history: Vec<Row>,
+    /// Every step, with the history.
+    pub(crate) trace: Vec<Trace>,
     /// s.
     pub time_step: f64,
     /// Steps until the run ended.
@@ -99,13 +129,32 @@ impl CondensedPair {
     /// first; `None` is elastic.
     ///
     /// # Errors
-    /// A speed that is not positive and finite, a contact beyond the condensed region, bodies that
-    /// do not part.
+    /// A speed that is not positive and finite; whatever stops a collision before its end: a contact
+    /// beyond the condensed region, bodies that do not part within the time.
     pub fn collide(
         &self,
         speed: f64,
         relaxations: [Option<&PronySeries>; 2],
         settings: &CollideSettings,
+    ) -> Result<Collision, CondensedError> {
+        let collision = self.follow(speed, relaxations, settings, &mut |_| true)?;
+        match collision.ending {
+            Ending::Stopped(error) => Err(error),
+            _ => Ok(collision),
+        }
+    }
+
+    /// The same, as far as it gets; `watch` looks on every few steps and stops it with `false`.
+    ///
+    /// # Errors
+    /// A speed that is not positive and finite, settings out of range, a contact that is beyond the
+    /// condensed region already without relaxation.
+    pub fn follow(
+        &self,
+        speed: f64,
+        relaxations: [Option<&PronySeries>; 2],
+        settings: &CollideSettings,
+        watch: &mut dyn FnMut(Glance) -> bool,
     ) -> Result<Collision, CondensedError> {
         if !(speed > 0.0 && speed.is_finite()) {
             return Err(CondensedError::NotApproaching(speed));
@@ -119,14 +168,17 @@ impl CondensedPair {
         let n_all = self.points.len();
         let n_near = (self.points.partition_point(|point| point.radius <= reach) + 2).min(n_all);
         let time_step = self.time_step(elastic.contact_time / settings.n_steps as f64);
-        let give_up = settings.give_up_after * elastic.contact_time;
-        let run = |n_points: usize| {
+        let mut run = |n_points: usize| {
             let motion = Motion::new(self, speed, relaxations, time_step, n_points)?;
-            Run::new(self, motion, speed, settings.history).until_parted(give_up)
+            let run = Run::new(self, motion, speed, settings, elastic.contact_time);
+            Ok(run.until_parted(watch))
         };
-        match run(n_near) {
-            Err(CondensedError::ContactBeyondCandidates { .. }) if n_near < n_all => run(n_all),
-            result => result,
+        let collision = run(n_near)?;
+        match collision.ending {
+            Ending::Stopped(CondensedError::ContactBeyondCandidates { .. }) if n_near < n_all => {
+                run(n_all)
+            }
+            _ => Ok(collision),
         }
     }
 

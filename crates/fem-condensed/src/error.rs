@@ -62,4 +62,20 @@ pub enum CondensedError {
         /// Time since first touch, s.
         time: f64,
     },
+    /// Energy came from nowhere.
+    #[error("at {time:.4e} s the energy does not add up by {relative:.1e} of the initial")]
+    EnergyImbalance {
+        /// Time since first touch, s.
+        time: f64,
+        /// Imbalance over the initial energy.
+        relative: f64,
+    },
+    /// Whoever looked on stopped it.
+    #[error("interrupted at {time:.4e} s, step {steps}")]
+    Interrupted {
+        /// Time since first touch, s.
+        time: f64,
+        /// Steps done.
+        steps: usize,
+    },
 }

@@ -2,8 +2,10 @@
 //!
 //! A body's displacement is linear in a few coordinates: the forces at its contact nodes if it is
 //! elastic, the displacements of its springs if it relaxes, and those of its modes of vibration.
-//! They are kept for every step, so that a field costs one solution a body and its velocity is the
-//! central difference of the coordinates.
+//! A field costs one solution a body, all snapshots' in one go; its velocity is the difference of the
+//! coordinates over the steps around.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use faer::Mat;
 use fem_field::{BodyFields, Snapshot, SnapshotRequest};
@@ -12,7 +14,7 @@ use fem_material::{ActsOn, PronySeries};
 use crate::CondensedError;
 use crate::collision::Collision;
 use crate::frame::Frame;
-use crate::instants::{Kept, choose};
+use crate::instants::{Instant, choose};
 use crate::motion::{Motion, SideState};
 use crate::pair::CondensedPair;
 use crate::side::PairSide;
@@ -29,9 +31,16 @@ pub(crate) struct Coordinates {
     vibration_effective: Vec<f64>,
 }
 
+/// Approach (m) and deformation of both bodies, or their rates.
+#[derive(Debug, Clone)]
+struct State {
+    approach: f64,
+    sides: [Coordinates; 2],
+}
+
 impl CondensedPair {
     /// The snapshots of a collision in the order of time, and what could not be had. `collision`
-    /// is what [`CondensedPair::collide`] gave for the same speed, relaxations and settings.
+    /// is what [`CondensedPair::collide`] gave for the same speed and relaxations, its history kept.
     ///
     /// # Errors
     /// As [`CondensedPair::collide`].
@@ -45,33 +54,42 @@ impl CondensedPair {
         if *request == SnapshotRequest::Labels(Vec::new()) {
             return Ok((Vec::new(), Vec::new()));
         }
-        let kept = self.keep_steps(frame.approach_speed(), relaxations, collision)?;
-        let (chosen, missing) = choose(&kept, request, frame.first_touch());
+        let (chosen, missing) =
+            choose(&collision.trace, collision.time_step, request, frame.first_touch());
+        let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
+        let states = self.states(frame.approach_speed(), relaxations, collision, &instants)?;
+        let time =
+            |instant: Instant| frame.first_touch() + instant.position() * collision.time_step;
         let mut snapshots: Vec<Snapshot> = chosen
             .iter()
-            .map(|&(index, label)| Snapshot {
+            .zip(&states)
+            .map(|(&(instant, label), [now, _])| Snapshot {
                 label,
-                time: frame.first_touch() + kept[index].time,
-                approach: kept[index].approach,
+                time: time(instant),
+                approach: now.approach,
                 bodies: [BodyFields::default(), BodyFields::default()],
             })
             .collect();
         for (s, side) in self.sides.iter().enumerate() {
             let Some(side) = side else { continue };
-            let wanted: Vec<_> = chosen
+            let wanted: Vec<_> = instants
                 .iter()
-                .flat_map(|&(index, _)| {
-                    let (now, rates) =
-                        (&kept[index], rate_of(&kept, index, s, collision.time_step));
-                    let time = frame.first_touch() + now.time;
-                    let centre = frame.centres(self.masses(), now.approach + frame.gap, time)[s];
-                    let velocity = frame.centres(self.masses(), now.rate, 1.0)[s];
+                .zip(&states)
+                .flat_map(|(&instant, [now, rates])| {
+                    let approach = now.approach + frame.gap;
+                    let centre = frame.centres(self.masses(), approach, time(instant))[s];
+                    let velocity = frame.centres(self.masses(), rates.approach, 1.0)[s];
                     let effective = now.sides[s].effective();
-                    let displacement = (now.sides[s].clone(), centre);
-                    [Some(displacement), Some((rates, velocity)), effective.map(|e| (e, centre))]
+                    [
+                        Some((now.sides[s].clone(), centre)),
+                        Some((rates.sides[s].clone(), velocity)),
+                        effective.map(|effective| (effective, centre)),
+                    ]
                 })
                 .collect();
-            let mut fields = self.fields(side, relaxations[s], &wanted)?.into_iter();
+            let shear_blocks = self.shear_blocks(relaxations[s], frame.approach_speed())?;
+            let fields = self.fields(side, relaxations[s], shear_blocks, &wanted)?;
+            let mut fields = fields.into_iter();
             let mut next = || fields.next().unwrap_or_default();
             for snapshot in &mut snapshots {
                 snapshot.bodies[s] =
@@ -81,32 +99,52 @@ impl CondensedPair {
         Ok((snapshots, missing))
     }
 
-    fn keep_steps(
+    /// State and rates at each instant: the motion once more, of which the steps around are kept.
+    fn states(
         &self,
         speed: f64,
         relaxations: [Option<&PronySeries>; 2],
         collision: &Collision,
-    ) -> Result<Vec<Kept>, CondensedError> {
-        let n = self.points.len();
-        let mut motion = Motion::new(self, speed, relaxations, collision.time_step, n)?;
-        let mut kept = Vec::with_capacity(collision.steps + 1);
-        loop {
-            let sides = [0, 1].map(|s: usize| match &self.sides[s] {
-                Some(side) => coordinates(side, &motion.sides[s], &motion.forces),
-                None => Coordinates::default(),
-            });
-            kept.push(Kept {
-                time: motion.time(),
-                approach: motion.approach,
-                rate: motion.rate,
-                is_closed: motion.contact.n_closed > 0,
-                sides,
-            });
-            if motion.step == collision.steps {
-                return Ok(kept);
+        instants: &[Instant],
+    ) -> Result<Vec<[State; 2]>, CondensedError> {
+        let around = |instant: Instant| match instant.part {
+            0.0 => [instant.step.saturating_sub(1), (instant.step + 1).min(collision.steps)],
+            _ => [instant.step, instant.step + 1],
+        };
+        let needed: BTreeSet<usize> =
+            instants.iter().flat_map(|&i| [around(i)[0], i.step, around(i)[1]]).collect();
+        let mut motion =
+            Motion::new(self, speed, relaxations, collision.time_step, self.points.len())?;
+        let mut kept: BTreeMap<usize, (State, f64)> = BTreeMap::new();
+        for step in needed {
+            while motion.step < step {
+                motion.advance()?;
             }
-            motion.advance()?;
+            kept.insert(step, (self.state(&motion), motion.rate));
         }
+        let states = instants.iter().map(|&instant| {
+            let [before, after] = around(instant);
+            let ((a, rate_a), (b, rate_b)) = (&kept[&before], &kept[&after]);
+            let width = (after - before) as f64 * collision.time_step;
+            let mut rates = a.combine(b, [-1.0 / width, 1.0 / width]);
+            if instant.part == 0.0 {
+                let (now, rate) = &kept[&instant.step];
+                rates.approach = *rate;
+                return [now.clone(), rates];
+            }
+            let shares = [1.0 - instant.part, instant.part];
+            rates.approach = shares[0] * rate_a + shares[1] * rate_b;
+            [a.combine(b, shares), rates]
+        });
+        Ok(states.collect())
+    }
+
+    fn state(&self, motion: &Motion<'_>) -> State {
+        let sides = [0, 1].map(|s: usize| match &self.sides[s] {
+            Some(side) => coordinates(side, &motion.sides[s], &motion.forces),
+            None => Coordinates::default(),
+        });
+        State { approach: motion.approach, sides }
     }
 
     /// Nodal displacements (m) of coordinates, each on top of a mean motion along the axis; none
@@ -115,6 +153,7 @@ impl CondensedPair {
         &self,
         side: &PairSide,
         relaxation: Option<&PronySeries>,
+        shear_blocks: usize,
         wanted: &[Option<(Coordinates, f64)>],
     ) -> Result<Vec<Vec<[f64; 2]>>, CondensedError> {
         let body = &side.body;
@@ -122,9 +161,7 @@ impl CondensedPair {
         let springs = columns(all().map(|(coordinates, _)| coordinates.springs.as_slice()));
         let relaxation = active(relaxation);
         let mut fields = match relaxation.map(PronySeries::acts_on) {
-            Some(ActsOn::Shear) => {
-                side.shear(self.settings().shear_blocks)?.springs.fields(&springs)
-            }
+            Some(ActsOn::Shear) => side.shear(shear_blocks)?.springs.fields(&springs),
             acts_on => {
                 let forces = match acts_on {
                     Some(_) => transposed_solve(&body.compliance_factor, &springs),
@@ -153,7 +190,30 @@ impl CondensedPair {
     }
 }
 
+impl State {
+    /// Weighted sum of two.
+    fn combine(&self, other: &Self, weights: [f64; 2]) -> Self {
+        let [a, b] = weights;
+        Self {
+            approach: a * self.approach + b * other.approach,
+            sides: [0, 1].map(|s: usize| self.sides[s].combine(&other.sides[s], weights)),
+        }
+    }
+}
+
 impl Coordinates {
+    fn combine(&self, other: &Self, [a, b]: [f64; 2]) -> Self {
+        let sum = |get: fn(&Self) -> &[f64]| {
+            get(self).iter().zip(get(other)).map(|(x, y)| a * x + b * y).collect()
+        };
+        Self {
+            springs: sum(|c| &c.springs),
+            effective: sum(|c| &c.effective),
+            vibration: sum(|c| &c.vibration),
+            vibration_effective: sum(|c| &c.vibration_effective),
+        }
+    }
+
     /// Those of the field that the relaxing stress sees; `None` for an elastic body.
     fn effective(&self) -> Option<Self> {
         (!self.effective.is_empty()).then(|| Self {
@@ -188,21 +248,6 @@ fn coordinates(side: &PairSide, state: &SideState, forces: &[f64]) -> Coordinate
         vibration_effective: vibration
             .map(|both| difference(both.each_ref().map(|chain| chain.effective())))
             .unwrap_or_default(),
-    }
-}
-
-/// Central difference of the coordinates, one-sided at the ends.
-fn rate_of(kept: &[Kept], index: usize, side: usize, time_step: f64) -> Coordinates {
-    let (before, after) = (index.saturating_sub(1), (index + 1).min(kept.len() - 1));
-    let width = (after - before) as f64 * time_step;
-    let rate = |get: fn(&Coordinates) -> &[f64]| {
-        let [a, b] = [before, after].map(|k| get(&kept[k].sides[side]));
-        a.iter().zip(b).map(|(a, b)| (b - a) / width).collect()
-    };
-    Coordinates {
-        springs: rate(|c| &c.springs),
-        vibration: rate(|c| &c.vibration),
-        ..Coordinates::default()
     }
 }
 

@@ -1,54 +1,75 @@
-//! The steps that snapshots show.
+//! The instants that snapshots show.
+
+use std::ops::Range;
 
 use fem_field::{Label, SnapshotRequest};
 
-use crate::fields::Coordinates;
-
-/// A step with the deformation of both bodies.
-#[derive(Debug, Clone)]
-pub(crate) struct Kept {
-    pub time: f64,
+/// What is remembered of every step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Trace {
+    /// m.
     pub approach: f64,
-    pub rate: f64,
     pub is_closed: bool,
-    pub sides: [Coordinates; 2],
 }
 
-/// Steps of the snapshots that are asked for, and what cannot be had.
+/// An instant between two steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Instant {
+    /// The step before, or at it.
+    pub step: usize,
+    /// Share of the way to the next step, 0 to 1.
+    pub part: f64,
+}
+
+impl Instant {
+    fn at(step: usize) -> Self {
+        Self { step, part: 0.0 }
+    }
+
+    /// Steps since first touch.
+    pub fn position(self) -> f64 {
+        self.step as f64 + self.part
+    }
+}
+
+/// Instants of the snapshots that are asked for, in the order of time, and what cannot be had.
+/// Times are those of the case, s.
 pub(crate) fn choose(
-    kept: &[Kept],
+    trace: &[Trace],
+    time_step: f64,
     request: &SnapshotRequest,
     first_touch: f64,
-) -> (Vec<(usize, Option<Label>)>, Vec<String>) {
-    let nearest = |time: f64| {
-        (0..kept.len())
-            .min_by(|&a, &b| (kept[a].time - time).abs().total_cmp(&(kept[b].time - time).abs()))
-            .unwrap_or(0)
-    };
+) -> (Vec<(Instant, Option<Label>)>, Vec<String>) {
     let mut missing = Vec::new();
-    let last = kept.iter().rposition(|step| step.is_closed).unwrap_or(0);
-    let top =
-        (0..kept.len()).max_by(|&a, &b| kept[a].approach.total_cmp(&kept[b].approach)).unwrap_or(0);
+    let steps = 0..trace.len();
+    let last = trace.iter().rposition(|step| step.is_closed).unwrap_or(0);
+    let end = trace.len().saturating_sub(1);
+    let since_touch = |time: f64| {
+        let position = (time / time_step).clamp(0.0, end as f64);
+        let step = position.floor();
+        // What is nearer to a step than rounding is the step.
+        match position - step {
+            part if part < 1e-6 => Instant::at(step as usize),
+            part if part > 1.0 - 1e-6 => Instant::at(step as usize + 1),
+            part => Instant { step: step as usize, part },
+        }
+    };
     let chosen = match request {
         SnapshotRequest::Labels(labels) => {
-            let half = 0.5 * kept[top].approach;
-            let nearest_half = |steps: std::ops::Range<usize>| {
-                let distance = |k: usize| (kept[k].approach - half).abs();
-                steps
-                    .filter(|&k| kept[k].is_closed && distance(k) <= 0.02 * half)
-                    .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
-            };
-            let found = |label: &Label| match label {
-                Label::MidCompression => nearest_half(0..top),
-                Label::Maximum => Some(top),
-                Label::MidSeparation => nearest_half(top..kept.len()),
-                Label::LastContact => Some(last),
-            };
+            let top =
+                steps.max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach)).unwrap_or(0);
+            let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
             let wanted = Label::ALL.iter().filter(|label| labels.contains(label));
             let mut chosen = Vec::new();
             for label in wanted {
-                match found(label) {
-                    Some(step) => chosen.push((step, Some(*label))),
+                let found = match label {
+                    Label::MidCompression => passes(trace, 0..top, half),
+                    Label::Maximum => Some(Instant::at(top)),
+                    Label::MidSeparation => passes(trace, top..end, half),
+                    Label::LastContact => Some(Instant::at(last)),
+                };
+                match found {
+                    Some(instant) => chosen.push((instant, Some(*label))),
                     None => missing.push(format!(
                         "the instant \"{}\" did not occur; its snapshot is left out",
                         label.name()
@@ -58,25 +79,17 @@ pub(crate) fn choose(
             chosen
         }
         SnapshotRequest::Count(n) => {
-            let end = kept[last].time;
+            let end = last as f64 * time_step;
             let time = |k: usize| match n {
                 1 => 0.5 * end,
                 _ => end * k as f64 / (*n - 1) as f64,
             };
-            let mut chosen: Vec<_> = (0..*n).map(|k| (nearest(time(k)), None)).collect();
-            chosen.dedup();
-            if chosen.len() < *n {
-                missing.push(format!(
-                    "{n} snapshots were asked for; the contact has steps for {}",
-                    chosen.len()
-                ));
-            }
-            chosen
+            (0..*n).map(|k| (since_touch(time(k)), None)).collect()
         }
         SnapshotRequest::Times(times) => {
             let mut times = times.clone();
             times.sort_by(f64::total_cmp);
-            let end = first_touch + kept[kept.len() - 1].time;
+            let end = first_touch + end as f64 * time_step;
             let (within, beyond): (Vec<f64>, Vec<f64>) =
                 times.into_iter().partition(|&time| time >= first_touch && time <= end);
             for time in beyond {
@@ -85,8 +98,22 @@ pub(crate) fn choose(
                      its snapshot is left out"
                 ));
             }
-            within.into_iter().map(|time| (nearest(time - first_touch), None)).collect()
+            within.into_iter().map(|time| (since_touch(time - first_touch), None)).collect()
         }
     };
     (chosen, missing)
+}
+
+/// Where the approach passes a level between two steps with contact.
+fn passes(trace: &[Trace], steps: Range<usize>, level: f64) -> Option<Instant> {
+    steps.into_iter().find_map(|step| {
+        let [before, after] = [trace[step], *trace.get(step + 1)?];
+        let (low, high) =
+            (before.approach.min(after.approach), before.approach.max(after.approach));
+        let is_here = low < high && (low..=high).contains(&level);
+        (is_here && after.is_closed).then(|| Instant {
+            step,
+            part: (level - before.approach) / (after.approach - before.approach),
+        })
+    })
 }

@@ -62,6 +62,7 @@ mod error;
 mod factor;
 mod fields;
 mod frame;
+mod history;
 mod instants;
 mod motion;
 mod numbering;
@@ -74,7 +75,7 @@ mod shear;
 mod side;
 mod vibration;
 
-pub use collision::{CollideSettings, Collision, ContactState, Row};
+pub use collision::{CollideSettings, Collision, ContactState, Ending, Glance, Row};
 pub use curve::ElasticImpact;
 pub use error::CondensedError;
 pub use frame::Frame;

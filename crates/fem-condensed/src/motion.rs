@@ -69,7 +69,8 @@ impl<'a> Motion<'a> {
         let mut sides = [SideState::default(), SideState::default()];
         for (state, (side, series)) in sides.iter_mut().zip(pair.sides.iter().zip(relaxations)) {
             let Some(side) = side else { continue };
-            *state = SideState::new(pair, side, series, time_step, n_points)?;
+            let shear_blocks = pair.shear_blocks(series, speed)?;
+            *state = SideState::new(side, series, shear_blocks, time_step, n_points)?;
             match &state.springs {
                 Some(springs) => springs.add_compliance(&mut compliance),
                 None => compliance += side.compliance.as_ref().submatrix(0, 0, n_points, n_points),
@@ -187,9 +188,9 @@ pub(crate) struct Energies {
 
 impl SideState {
     fn new(
-        pair: &CondensedPair,
         side: &PairSide,
         series: Option<&PronySeries>,
+        shear_blocks: usize,
         time_step: f64,
         n_points: usize,
     ) -> Result<Self, CondensedError> {
@@ -209,7 +210,7 @@ impl SideState {
                 Some(Chain::new(Memory::new(series, time_step), shapes, &share))
             }
             Some(series) => {
-                let shear = side.shear(pair.settings().shear_blocks)?;
+                let shear = side.shear(shear_blocks)?;
                 let share = &shear.springs.deviatoric_share;
                 Some(Chain::new(Memory::new(series, time_step), rows(&shear.at_points), share))
             }

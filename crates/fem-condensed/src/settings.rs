@@ -34,7 +34,8 @@ pub struct PairSettings {
     pub candidate_radius: f64,
     /// How overlap is prevented.
     pub contact: ContactModel,
-    /// Blocks of the basis for a relaxing shear beside an elastic bulk modulus; 2 is the default.
+    /// Least blocks of the basis for a relaxing shear beside an elastic bulk modulus; 2 is the
+    /// default. A modulus that falls to nearly nothing gets more.
     pub shear_blocks: usize,
     /// Modes of free vibration of each body; 0 is quasi-static.
     pub vibration_modes: usize,

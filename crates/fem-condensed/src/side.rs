@@ -1,6 +1,7 @@
 //! One body of a pair, seen at the contact points.
 
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use faer::Mat;
 use fem_contact::ContactPoint;
@@ -22,7 +23,8 @@ pub(crate) struct PairSide {
     pub compliance: Mat<f64>,
     /// Φ of constant Poisson's ratio at the points, m/√J.
     pub uniform: Mat<f64>,
-    shear: OnceLock<Result<ShearSide, CondensedError>>,
+    /// Springs of a relaxing shear by the number of blocks of their basis.
+    shear: Mutex<BTreeMap<usize, Arc<ShearSide>>>,
     pub vibrations: Option<VibratingSide>,
 }
 
@@ -60,22 +62,29 @@ impl PairSide {
         let uniform = gather(&feet, &body.compliance_factor);
         let vibrations = (n_vibrations > 0)
             .then(|| {
-                let modes = Vibrations::new(&body, n_vibrations)?;
+                let modes = Vibrations::new(&body, material.shear_wave_speed(), n_vibrations)?;
                 let at_points = gather(&feet, &modes.contact);
                 Ok::<_, CondensedError>(VibratingSide { modes, at_points })
             })
             .transpose()?;
-        Ok(Self { body, feet, compliance, uniform, shear: OnceLock::new(), vibrations })
+        Ok(Self { body, feet, compliance, uniform, shear: Mutex::default(), vibrations })
     }
 
     /// Springs for a relaxing shear modulus, made when first asked for.
-    pub fn shear(&self, n_blocks: usize) -> Result<&ShearSide, CondensedError> {
-        let made = self.shear.get_or_init(|| {
-            let springs = ShearSprings::new(&self.body, n_blocks)?;
-            let at_points = gather(&self.feet, &springs.contact);
-            Ok(ShearSide { springs, at_points })
-        });
-        made.as_ref().map_err(Clone::clone)
+    ///
+    /// # Errors
+    /// A stiffness that is not positive definite to rounding.
+    pub fn shear(&self, n_blocks: usize) -> Result<Arc<ShearSide>, CondensedError> {
+        // A thread that panicked left the map whole.
+        let mut made = self.shear.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(side) = made.get(&n_blocks) {
+            return Ok(side.clone());
+        }
+        let springs = ShearSprings::new(&self.body, n_blocks)?;
+        let at_points = gather(&self.feet, &springs.contact);
+        let side = Arc::new(ShearSide { springs, at_points });
+        made.insert(n_blocks, side.clone());
+        Ok(side)
     }
 
     /// Radii of the contact nodes, from the axis outward, m.

@@ -15,6 +15,11 @@ use crate::dense::symmetric_eigen;
 const VECTORS_PER_MODE: usize = 3;
 /// And as many more.
 const VECTORS_MORE: usize = 20;
+/// Largest residual of a mode's flexibility, over it, that counts as settled.
+const SETTLED: f64 = 1e-3;
+/// Elements that a shear wave of a mode's frequency spans at least, where they are largest: with
+/// fewer the mode is the mesh's, and a glass pair loses ten times too much energy at 50 m/s.
+const ELEMENTS_PER_WAVE: f64 = 2.0;
 
 /// Modes of free vibration.
 #[derive(Debug, Clone)]
@@ -30,18 +35,23 @@ pub(crate) struct Vibrations {
 }
 
 impl Vibrations {
-    /// The lowest so many modes.
+    /// The lowest so many modes, as far as the mesh resolves them. `shear_speed` is that of shear
+    /// waves, m/s.
     ///
     /// # Errors
     /// Missing memory; a stiffness that is not positive definite to rounding.
-    pub fn new(body: &CondensedBody, n_modes: usize) -> Result<Self, CondensedError> {
+    pub fn new(
+        body: &CondensedBody,
+        shear_speed: f64,
+        n_modes: usize,
+    ) -> Result<Self, CondensedError> {
         let n = body.mass_of_equation.len();
         let n_vectors = (VECTORS_PER_MODE * n_modes + VECTORS_MORE).min(n / 2);
         let mut load = body.balanced_load(&Mat::full(1, 1, 1.0));
         let mut basis = Mat::<f64>::zeros(n, n_vectors);
         let mut weighted = Mat::<f64>::zeros(n, n_vectors);
         let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
-        let mut count = 0;
+        let (mut count, mut last_norm) = (0, 0.0);
         for k in 0..n_vectors {
             body.solve_balanced(&mut load);
             body.remove_mean_motion(&mut load);
@@ -69,16 +79,27 @@ impl Vibrations {
                 weighted[(i, k)] = body.mass_of_equation[i] * basis[(i, k)];
                 load[(i, 0)] = weighted[(i, k)];
             }
-            count = k + 1;
+            (count, last_norm) = (k + 1, norm);
         }
         // The last vector's own column of the projection is not known: leave it out.
-        let m = count - 1;
+        let m = usize::saturating_sub(count, 1);
         let flexibility = projected.as_ref().submatrix(0, 0, m, m).to_owned();
         let (values, vectors) =
             symmetric_eigen(&flexibility).ok_or(CondensedError::NotPositiveDefinite)?;
-        let n_modes = n_modes.min(m);
-        // The largest flexibilities are the lowest frequencies.
-        let chosen: Vec<usize> = (m - n_modes..m).rev().collect();
+        // A wave of frequency ω is 2π c/ω long.
+        let shortest = ELEMENTS_PER_WAVE * longest_edge(body);
+        let largest = (std::f64::consts::TAU * shear_speed / shortest).powi(2);
+        // The largest flexibilities are the lowest frequencies. What the next vector would add to a
+        // mode is the residual of its flexibility.
+        let chosen: Vec<usize> = (0..m)
+            .rev()
+            .take(n_modes)
+            .take_while(|&j| {
+                let residual = last_norm * vectors[(m - 1, j)].abs();
+                values[j] * largest >= 1.0 && residual <= SETTLED * values[j]
+            })
+            .collect();
+        let n_modes = chosen.len();
         let squared_frequency: Vec<f64> = chosen.iter().map(|&j| values[j].recip()).collect();
         let scaled = Mat::from_fn(m, n_modes, |i, j| {
             vectors[(i, chosen[j])] * values[chosen[j]].max(0.0).sqrt()
@@ -94,6 +115,18 @@ impl Vibrations {
         });
         Ok(Self { squared_frequency, deviatoric_share, contact, fields })
     }
+}
+
+/// Length of the longest edge of a body's elements, m.
+fn longest_edge(body: &CondensedBody) -> f64 {
+    let nodes = body.mesh.nodes();
+    let edges = body.mesh.quads().iter().flat_map(|quad| {
+        (0..4).map(move |k| {
+            let [a, b] = [quad[k], quad[(k + 1) % 4]].map(|node| nodes[node as usize]);
+            (b[0] - a[0]).hypot(b[1] - a[1])
+        })
+    });
+    edges.fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -114,7 +147,7 @@ mod tests {
         let mesh = mesh.build().unwrap();
         let contact = mesh.surface()[..4].to_vec();
         let body = CondensedBody::new(mesh, &material, &contact).unwrap();
-        let modes = Vibrations::new(&body, 6).unwrap();
+        let modes = Vibrations::new(&body, 1.0, 6).unwrap();
         // ψ of each mode has unit energy in the stiffness, and a share of it is deviatoric; the
         // breathing mode 0S0 has the least.
         let least = modes.deviatoric_share.iter().copied().fold(1.0, f64::min);

@@ -3,8 +3,10 @@
 mod common;
 
 use common::{GLASS, Scene, collide, glass, material};
-use fem_condensed::{BodyInput, CollideSettings, CondensedError, CondensedPair, PairSettings};
-use fem_material::ActsOn::All;
+use fem_condensed::{
+    BodyInput, CollideSettings, CondensedError, CondensedPair, Ending, PairSettings,
+};
+use fem_material::ActsOn::{All, Shear};
 
 #[test]
 fn a_contact_beyond_the_candidates_is_told_and_enlarged() {
@@ -44,20 +46,64 @@ fn impossible_inputs_are_refused() {
     }
 }
 
+/// What relaxes completely within the contact keeps nothing that could part the bodies, whichever
+/// moduli relax: the restitution is 0, or nearly.
 #[test]
-fn bodies_that_stay_together_are_given_up() {
-    let fluid = material(GLASS, All, &[(1.0, 1e10)]);
+fn bodies_that_stay_together() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(4.0).enlarge(4e-3).unwrap();
-    let run = pair.collide(0.5, [fluid.relaxation(); 2], &CollideSettings::default());
-    assert!(
-        matches!(
-            run,
-            Err(CondensedError::NoSeparation { .. }
-                | CondensedError::ContactBeyondCandidates { .. })
-        ),
-        "{run:?}"
-    );
+    let settings = CollideSettings { history: true, ..Default::default() };
+    for (acts_on, rate) in [(All, 1e6), (Shear, 1e6), (Shear, 3e5)] {
+        let fluid = material(GLASS, acts_on, &[(1.0, rate)]);
+        let run = pair.collide(0.5, [fluid.relaxation(); 2], &settings).unwrap();
+        assert!(run.restitution < 1e-4, "{acts_on:?} {rate:e} {}", run.restitution);
+        if acts_on == All {
+            assert_eq!((run.ending.clone(), run.restitution), (Ending::Together, 0.0));
+        }
+        assert!(run.residual_relative < 1e-3, "{}", run.residual_relative);
+        // A stiff fluid flows deeper than elastic bodies are pressed.
+        assert!(run.max_approach > 11e-6 && run.max_approach < 1e-4, "{}", run.max_approach);
+        assert!(run.history.len() < 5000);
+    }
+}
+
+/// A run that does not end keeps what it has.
+#[test]
+fn a_stopped_run_keeps_what_it_has() {
+    let scene = Scene::paper(glass(), glass());
+    let pair = scene.condensed(4.0);
+    let settings = CollideSettings { history: true, ..Default::default() };
+    let mut glances = 0;
+    let run = pair.follow(0.5, [None; 2], &settings, &mut |glance| {
+        glances += 1;
+        assert!(glance.fraction > 0.0 && glance.fraction < 1.0);
+        glances < 2
+    });
+    let run = run.unwrap();
+    let Ending::Stopped(CondensedError::Interrupted { steps, .. }) = run.ending else {
+        panic!("{:?}", run.ending);
+    };
+    assert!(run.steps == steps && run.history.len() == steps + 1 && run.max_approach > 9e-6);
+    let brief = CollideSettings { give_up_after: 0.4, ..settings };
+    assert!(matches!(
+        pair.collide(0.5, [None; 2], &brief),
+        Err(CondensedError::NoSeparation { .. })
+    ));
+}
+
+/// Modes that the mesh cannot carry are left out; with those that it can, energy adds up.
+#[test]
+fn only_modes_that_the_mesh_resolves() {
+    let scene = Scene::paper(glass(), glass());
+    for (elements, most) in [(0.25, 12), (4.0, 30)] {
+        let settings = PairSettings { vibration_modes: 100, ..scene.settings() };
+        let settings = PairSettings { candidate_radius: 1.2e-3, ..settings };
+        let pair = CondensedPair::new(scene.inputs(elements), settings).unwrap();
+        let counts = pair.frequencies().map(<[f64]>::len);
+        assert!(counts.iter().all(|&n| n > 0 && n < most), "{elements}: {counts:?}");
+        let run = collide(&pair, 0.5, &CollideSettings::default());
+        assert!(run.restitution < 1.0 + 1e-6 && run.residual_relative < 1e-4);
+    }
 }
 
 /// One pair serves any number of threads.

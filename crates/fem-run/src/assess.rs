@@ -19,6 +19,8 @@ const LARGEST_VIBRATION: f64 = 0.01;
 const LARGEST_NOISE: f64 = 0.005;
 /// Contact radius over effective radius.
 const LARGEST_STRAIN: f64 = 0.1;
+/// Contact radius over the half-width of the fine block.
+const LARGEST_OUTGROWTH: f64 = 1.05;
 /// Restitution above 1 that is no rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
 
@@ -30,6 +32,7 @@ pub fn assess(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
         run.energy_residual(),
         run.restitution(),
         run.resolution(),
+        run.refinement(),
         run.penetration(),
         run.vibration(),
         run.noise(),
@@ -113,6 +116,18 @@ impl<'a> Run<'a> {
             format!(
                 "the contact radius spans {n_elements:.1} elements; below {FEWEST_ELEMENTS}, use \
                  a smaller mesh.contact_element_size"
+            )
+        })
+    }
+
+    /// Whether the contact stayed in the block of fine elements.
+    fn refinement(&self) -> Option<String> {
+        let (radius, fine) = (self.outcome.max_contact_radius?, self.plan.refined_radius);
+        (self.plan.makes_meshes && radius > LARGEST_OUTGROWTH * fine).then(|| {
+            format!(
+                "the contact grew to {radius:.2e} m, beyond the block of fine elements \
+                 (mesh.refined_radius, {fine:.2e} m): its edge is in coarser ones; use a larger \
+                 mesh.refined_radius"
             )
         })
     }

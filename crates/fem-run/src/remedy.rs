@@ -18,6 +18,7 @@ pub fn remedy_of(halt: &Halt) -> Option<Remedy> {
     let stop = match halt {
         Halt::Fem(stop) => stop,
         Halt::Law(error) => return Some(law_remedy(error)),
+        Halt::Condensed(CondensedError::Interrupted { .. }) => return None,
         Halt::Condensed(error) => return Some(condensed_remedy(error)),
     };
     let (cause, remedy) = match stop {
@@ -56,6 +57,10 @@ fn condensed_remedy(error: &CondensedError) -> Remedy {
             "the material has relaxed so far that nothing is left to push the bodies apart",
             "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
              their units: the weights' sum below 1 leaves a lasting stiffness",
+        ),
+        CondensedError::EnergyImbalance { .. } => (
+            "modes of vibration that the mesh does not resolve, or steps that are too long for them",
+            "lower model.condensed.vibration_modes, or raise model.condensed.steps",
         ),
         _ => (
             "an imported mesh has elements that are far too distorted, or Poisson's ratio is \

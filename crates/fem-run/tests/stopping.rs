@@ -43,8 +43,11 @@ mod signals {
 
     /// Starts an endless run and waits for its first line.
     fn start(place: &Place, more: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
-        let arguments = [&["case.toml"][..], &ENDLESS, more].concat();
-        let mut command = place.command(&arguments);
+        start_with(place, &[&["case.toml"][..], &ENDLESS, more].concat())
+    }
+
+    fn start_with(place: &Place, arguments: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
+        let mut command = place.command(arguments);
         let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         let mut stderr = BufReader::new(child.stderr.take().unwrap());
         let mut line = String::new();
@@ -74,6 +77,22 @@ mod signals {
             assert!(history.lines().count() >= 2, "{history}");
             assert_eq!(place.list("runs"), ["case"]);
         }
+    }
+
+    #[test]
+    fn condensed_bodies_are_interrupted_too() {
+        let place = Place::new();
+        let slow = ["case.toml", "--set", "model.condensed={steps=100000, vibration_modes=30}"];
+        let fine = ["--set", "mesh.contact_element_size=20e-6"];
+        let (mut child, mut stderr) = start_with(&place, &[&slow[..], &fine].concat());
+        send(&child, Signal::SIGINT);
+        let mut message = String::new();
+        stderr.read_to_string(&mut message).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
+        assert!(message.contains("interrupted at"), "{message}");
+        let summary = place.json("runs/case/summary.json");
+        assert_eq!(summary["complete"], false);
+        assert!(summary["bodies"][0]["mass_kg"].as_f64().unwrap() > 0.0);
     }
 
     /// `timeout` and some shells send one signal to the process and one to its group.

@@ -4,7 +4,7 @@ use fem_condensed::CondensedPair;
 
 use super::Options;
 use crate::case::Case;
-use crate::effects::{Effect, finite_strain, percent, relaxation, scene_effects};
+use crate::effects::{Effect, MACH_LIMIT, finite_strain, percent, relaxation, scene_effects};
 use crate::plan::Plan;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
@@ -34,6 +34,25 @@ pub(super) fn decide(
             percent(QUASI_STATIC_LIMIT),
         ));
     }
+    if estimate.mach > MACH_LIMIT {
+        warnings.push(format!(
+            "the approach speed is {} of the shear wave speed; above {} shocks form that no mode of \
+             vibration carries: use model fem, which warns of them as well",
+            percent(estimate.mach),
+            percent(MACH_LIMIT),
+        ));
+    }
+    let resolved = pair.frequencies().map(<[f64]>::len);
+    let spheres = scene.bodies.iter().zip(resolved).filter(|(body, _)| body.diameter().is_some());
+    for (body, resolved) in spheres {
+        if resolved < options.vibration_modes {
+            warnings.push(format!(
+                "the mesh of {} resolves {resolved} of the {} modes of vibration asked for, the \
+                 others are left out: use a smaller mesh.contact_element_size for more",
+                body.name, options.vibration_modes
+            ));
+        }
+    }
     for key in ["time.step_factor", "time.mass_scaling"] {
         if case.gives(key) {
             warnings.push(format!("{key} has no effect: model condensed has no critical step"));
@@ -49,7 +68,16 @@ pub(super) fn decide(
     let effect = |name, active, reason| Effect { name, active, reason };
     let vibration = match options.vibration_modes {
         0 => format!("quasi-static: approach speed / shear wave speed = {:.1e}", estimate.mach),
-        n => format!("{n} modes of each body"),
+        _ => {
+            let counts: Vec<String> = pair
+                .frequencies()
+                .iter()
+                .zip(&scene.bodies)
+                .filter(|(_, body)| body.diameter().is_some())
+                .map(|(frequencies, body)| format!("{} modes of {}", frequencies.len(), body.name))
+                .collect();
+            counts.join(", ")
+        }
     };
     let search = format!(
         "{} points within {:.4e} m of the axis; free flight is not stepped",

@@ -9,9 +9,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use fem_condensed::{
-    BodyInput, CollideSettings, Collision, CondensedError, CondensedPair, ContactModel, Frame,
-    PairSettings,
+    BodyInput, CollideSettings, Collision, CondensedError, CondensedPair, ContactModel, Ending,
+    Frame, Glance, PairSettings,
 };
+use fem_explicit::{Monitor, Progress};
 use fem_field::Snapshot;
 use fem_material::PronySeries;
 use fem_mesh::SphereMesh;
@@ -128,13 +129,36 @@ impl Condensed {
     }
 
     /// Computes the collision; `halt` says why if it cannot.
-    pub fn run(&mut self) -> Outcome {
-        match self.collide() {
-            Ok((collision, timing)) => match self.snapshots(&collision) {
-                Ok((snapshots, missing)) => self.outcome(&collision, timing, snapshots, missing),
-                Err(error) => Outcome::halted(error.into()),
+    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Outcome {
+        let settings = CollideSettings {
+            n_steps: self.options.steps,
+            history: true,
+            give_up_after: GIVE_UP_AFTER,
+        };
+        let frame = self.frame();
+        let mut watch = |glance: Glance| {
+            monitor.report(Progress {
+                time: frame.first_touch() + glance.time,
+                step: glance.step as u64,
+                fraction: glance.fraction,
+                contact_force: glance.contact_force,
+            })
+        };
+        let relaxations = relaxations(&self.case);
+        let speed = frame.approach_speed();
+        match collide(&mut self.pair, speed, relaxations, &settings, &mut watch) {
+            Ok((collision, timing)) => self.finish(&collision, timing),
+            Err(error) => self.stopped(error),
+        }
+    }
+
+    fn finish(&self, collision: &Collision, timing: Timing) -> Outcome {
+        match self.snapshots(collision) {
+            Ok((snapshots, missing)) => self.outcome(collision, timing, snapshots, missing),
+            Err(error) => Outcome {
+                halt: Some(error.into()),
+                ..self.outcome(collision, timing, Vec::new(), Vec::new())
             },
-            Err(error) => Outcome::halted(error.into()),
         }
     }
 
@@ -150,17 +174,11 @@ impl Condensed {
         n_steps: usize,
     ) -> Result<Collision, CondensedError> {
         let settings = CollideSettings { n_steps, history: false, give_up_after: GIVE_UP_AFTER };
-        Ok(collide(&mut self.pair, speed, relaxations, &settings)?.0)
-    }
-
-    fn collide(&mut self) -> Result<(Collision, Timing), CondensedError> {
-        let settings = CollideSettings {
-            n_steps: self.options.steps,
-            history: true,
-            give_up_after: GIVE_UP_AFTER,
-        };
-        let speed = self.frame().approach_speed();
-        collide(&mut self.pair, speed, relaxations(&self.case), &settings)
+        let (collision, _) = collide(&mut self.pair, speed, relaxations, &settings, &mut |_| true)?;
+        match collision.ending {
+            Ending::Stopped(error) => Err(error),
+            _ => Ok(collision),
+        }
     }
 
     fn snapshots(
@@ -196,19 +214,32 @@ fn collide(
     speed: f64,
     relaxations: [Option<&PronySeries>; 2],
     settings: &CollideSettings,
+    watch: &mut dyn FnMut(Glance) -> bool,
 ) -> Result<(Collision, Timing), CondensedError> {
     let start = Instant::now();
     loop {
-        pair.prepare(relaxations)?;
+        let prepared = pair.prepare(speed, relaxations);
         let setup = start.elapsed();
-        match pair.collide(speed, relaxations, settings) {
-            Err(CondensedError::ContactBeyondCandidates { radius }) => {
-                *pair = Arc::new(pair.enlarge(CANDIDATE_GROWTH * radius)?);
-            }
-            result => {
+        let run = prepared.and_then(|()| pair.follow(speed, relaxations, settings, watch));
+        let radius = match &run {
+            Err(CondensedError::ContactBeyondCandidates { radius })
+            | Ok(Collision {
+                ending: Ending::Stopped(CondensedError::ContactBeyondCandidates { radius }),
+                ..
+            }) => *radius,
+            _ => {
                 let collision = start.elapsed() - setup;
-                return Ok((result?, Timing { setup, collision }));
+                return run.map(|run| (run, Timing { setup, collision }));
             }
+        };
+        match (pair.enlarge(CANDIDATE_GROWTH * radius), run) {
+            (Ok(larger), _) => *pair = Arc::new(larger),
+            (Err(error), Ok(mut so_far)) => {
+                let collision = start.elapsed() - setup;
+                so_far.ending = Ending::Stopped(error);
+                return Ok((so_far, Timing { setup, collision }));
+            }
+            (Err(error), Err(_)) => return Err(error),
         }
     }
 }

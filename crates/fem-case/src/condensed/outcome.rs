@@ -1,10 +1,10 @@
 //! From a condensed collision to what is asked of every model.
 
-use fem_condensed::{Collision, Row};
+use fem_condensed::{Collision, CondensedError, Ending, Row};
 use fem_field::Snapshot;
 
 use super::Condensed;
-use crate::outcome::{BodyOutcome, Outcome, OutcomeRow, Timing};
+use crate::outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
 use crate::reduced::relative::Relative;
 
 /// Contact problems that are no discs, as a share of the steps, that are worth a word.
@@ -30,9 +30,21 @@ impl Condensed {
                 100.0 * share
             ));
         }
+        let (halt, is_parted) = match &collision.ending {
+            Ending::Parted => (None, true),
+            Ending::Together => {
+                warnings.push(
+                    "the bodies stay together: nothing drives them apart, and the contact has no \
+                     end"
+                    .to_string(),
+                );
+                (None, false)
+            }
+            Ending::Stopped(error) => (Some(Halt::Condensed(error.clone())), false),
+        };
         Outcome {
-            restitution: Some(collision.restitution),
-            contact_time: Some(collision.contact_time),
+            restitution: halt.is_none().then_some(collision.restitution),
+            contact_time: is_parted.then_some(collision.contact_time),
             contact_episodes: collision.contact_episodes as u64,
             peak_force: Some(collision.peak_force),
             max_approach: Some(collision.max_approach),
@@ -44,18 +56,17 @@ impl Condensed {
                 collision.history.iter().map(drift).fold(0.0, f64::max),
             ),
             bodies: [0, 1].map(|side| BodyOutcome {
-                elements: Some(meshes[side].map_or(0, |mesh| mesh.quads().len())),
-                nodes: Some(meshes[side].map_or(0, |mesh| mesh.nodes().len())),
-                mass: relative.masses()[side],
-                added_mass: meshes[side].map(|_| 0.0),
-                velocity_after: Some(after[side]),
-                vibration_energy: meshes[side].map(|_| collision.vibration_energy[side]),
+                velocity_after: halt.is_none().then_some(after[side]),
+                vibration_energy: meshes[side]
+                    .filter(|_| is_parted)
+                    .map(|_| collision.vibration_energy[side]),
+                ..self.body_before(side)
             }),
             time_step: Some(collision.time_step),
             steps: Some(collision.steps as u64),
             element_updates: None,
             history: self.rows(&relative, collision),
-            halt: None,
+            halt,
             warnings,
             collision: None,
             snapshots,
@@ -63,9 +74,34 @@ impl Condensed {
         }
     }
 
-    /// Every step, and the end of the contact between two of them.
+    /// Of a collision that could not begin.
+    pub(super) fn stopped(&self, error: CondensedError) -> Outcome {
+        let relative = Relative::of(&self.case.scene, self.pair.reduced_mass());
+        Outcome {
+            initial_energy: Some(relative.kinetic(relative.speed())),
+            bodies: [0, 1].map(|side| self.body_before(side)),
+            ..Outcome::halted(error.into())
+        }
+    }
+
+    /// What is known of a body before the collision.
+    fn body_before(&self, side: usize) -> BodyOutcome {
+        let mesh = self.meshes()[side];
+        BodyOutcome {
+            elements: Some(mesh.map_or(0, |mesh| mesh.quads().len())),
+            nodes: Some(mesh.map_or(0, |mesh| mesh.nodes().len())),
+            mass: Relative::of(&self.case.scene, self.pair.reduced_mass()).masses()[side],
+            added_mass: mesh.map(|_| 0.0),
+            ..BodyOutcome::default()
+        }
+    }
+
+    /// The rows that were kept, and the end of the contact between two of them.
     fn rows(&self, relative: &Relative, collision: &Collision) -> Vec<OutcomeRow> {
-        let end = collision.contact_time;
+        let end = match collision.ending {
+            Ending::Parted => collision.contact_time,
+            _ => f64::INFINITY,
+        };
         let mut rows = Vec::with_capacity(collision.history.len() + 1);
         for two in collision.history.windows(2) {
             rows.push(self.row(relative, &two[0]));
