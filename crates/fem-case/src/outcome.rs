@@ -183,8 +183,8 @@ impl Outcome {
         }
     }
 
-    /// Of finite elements.
-    pub(crate) fn of_fem(problem: &Problem, mut collision: Collision) -> Self {
+    /// Of explicit finite elements.
+    pub fn of_fem(problem: &Problem, mut collision: Collision) -> Self {
         let is_complete = collision.stopped.is_none();
         let ends = collision.first_contact.zip(collision.last_contact);
         Self {

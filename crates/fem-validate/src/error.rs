@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use fem_case::CaseError;
-use fem_explicit::{ModelError, Stop};
+use fem_case::{CaseError, Halt};
+use fem_explicit::ModelError;
 use fem_laws::LawError;
 use fem_material::MaterialError;
 use fem_mesh::MeshError;
@@ -51,12 +51,12 @@ pub enum StudyError {
     #[error("{0}")]
     Case(#[from] CaseError),
     /// A run that did not end by itself.
-    #[error("{title}: {stop}")]
+    #[error("{title}: {halt}")]
     Stopped {
         /// Of the case.
         title: String,
         /// Why.
-        stop: Stop,
+        halt: Halt,
     },
     /// The user wants to stop.
     #[error("interrupted")]

@@ -4,8 +4,9 @@ use crate::check::CheckResult;
 use crate::claim::Claim;
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Observer, Shelf};
+use crate::laboratory::{Laboratory, Observer};
 use crate::price::Price;
+use crate::shelf::Shelf;
 
 /// A claim that was tried.
 #[derive(Debug, Clone)]

@@ -1,16 +1,17 @@
 //! Runs the cases of a claim.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use fem_case::{Case, Problem};
-use fem_explicit::{Collision, Monitor, Progress, Stop};
+use fem_case::{Case, CaseFile, Halt, Model, Problem, Simulation};
+use fem_explicit::{Monitor, Progress, Stop};
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 
 use crate::claim::Claim;
 use crate::error::StudyError;
 use crate::price::Price;
+use crate::run::{Run, Simulated};
+use crate::shelf::Shelf;
 
 /// Looks on while claims are evaluated, from several threads.
 pub trait Observer: Sync {
@@ -19,37 +20,6 @@ pub trait Observer: Sync {
     /// Whether the user wants to stop.
     fn is_interrupted(&self) -> bool;
 }
-
-/// A case and what came out of it; the run ended by itself.
-#[derive(Debug)]
-pub struct Run {
-    /// Case, plan, meshes and model.
-    pub problem: Problem,
-    /// The result.
-    pub collision: Collision,
-    /// The restitution.
-    pub restitution: f64,
-    /// First to last contact, s.
-    pub contact_time: f64,
-    /// What the run took, s.
-    pub seconds: f64,
-}
-
-impl Run {
-    /// Centre pressure over Hertz' at this run's own peak force: free of the error in force.
-    pub fn pressure_over_hertz_at_force(&self) -> f64 {
-        let hertz = self.problem.plan.estimate.hertz;
-        let at_force =
-            hertz.peak_pressure() * (self.collision.peak_force / hertz.peak_force()).cbrt();
-        self.collision.peak_pressure / at_force
-    }
-}
-
-type Slot = Arc<OnceLock<Result<Arc<Run>, StudyError>>>;
-
-/// The runs that claims share: a case is run once.
-#[derive(Debug, Default)]
-pub struct Shelf(Mutex<HashMap<String, Slot>>);
 
 /// Where a study runs the cases of its claim.
 pub struct Laboratory<'a> {
@@ -90,22 +60,17 @@ impl<'a> Laboratory<'a> {
         Ok(self.claim.load_case(file, overrides)?)
     }
 
-    /// Runs a case, or takes the result of an earlier run of it.
+    /// Runs a case of the explicit model, or takes the result of an earlier run of it.
     ///
     /// # Errors
-    /// A case that cannot be prepared, a run that does not end by itself, an interrupt.
+    /// A case that cannot be prepared or has another model, a run that does not end by itself, an
+    /// interrupt.
     pub fn run(&self, case: Case) -> Result<Arc<Run>, StudyError> {
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
         let problem = Problem::new(case)?;
-        let mut file = problem.plan.resolve(&problem.case);
-        file.title = None;
-        let key = file.to_toml().map_err(|error| StudyError::parameters(error.to_string()))?;
-        let slot = {
-            let mut shelf = self.shelf.0.lock().unwrap_or_else(PoisonError::into_inner);
-            shelf.entry(key).or_default().clone()
-        };
+        let slot = self.shelf.explicit.slot(key(problem.plan.resolve(&problem.case))?);
         let result = slot.get_or_init(|| self.collide(problem)).clone();
         if let Ok(run) = &result {
             self.pay(run.collision.element_updates, run.seconds);
@@ -119,6 +84,33 @@ impl<'a> Laboratory<'a> {
     /// As [`Laboratory::run`], of the first case that has one.
     pub fn run_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Run>>, StudyError> {
         cases.into_par_iter().map(|case| self.run(case)).collect()
+    }
+
+    /// Runs a case of any model, or takes the result of an earlier run of it.
+    ///
+    /// # Errors
+    /// As [`Laboratory::run`], but for the model.
+    pub fn simulate(&self, case: Case) -> Result<Arc<Simulated>, StudyError> {
+        if case.scene.model == Model::Fem {
+            return self.run(case).map(|run| Arc::new(Simulated::from(&*run)));
+        }
+        if self.observer.is_interrupted() {
+            return Err(StudyError::Interrupted);
+        }
+        let slot = self.shelf.others.slot(key(Simulation::resolve(case.clone())?)?);
+        let result = slot.get_or_init(|| self.simulate_other(case)).clone();
+        if let Ok(run) = &result {
+            self.pay(run.outcome.element_updates.unwrap_or(0), run.seconds);
+        }
+        result
+    }
+
+    /// Runs cases of any model on all cores; results in the order of the cases.
+    ///
+    /// # Errors
+    /// As [`Laboratory::simulate`], of the first case that has one.
+    pub fn simulate_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Simulated>>, StudyError> {
+        cases.into_par_iter().map(|case| self.simulate(case)).collect()
     }
 
     /// Does some other work than [`Laboratory::run`], which says how many element updates it took.
@@ -157,8 +149,8 @@ impl<'a> Laboratory<'a> {
         let title = problem.case.scene.title.clone();
         match (&collision.stopped, collision.restitution) {
             (Some(Stop::Interrupted { .. }), _) => Err(StudyError::Interrupted),
-            (Some(stop), _) => Err(StudyError::Stopped { title, stop: stop.clone() }),
-            (None, None) => Err(StudyError::parameters(format!("{title}: no restitution"))),
+            (Some(stop), _) => Err(StudyError::Stopped { title, halt: Halt::Fem(stop.clone()) }),
+            (None, None) => Err(no_restitution(&title)),
             (None, Some(restitution)) => {
                 let contact_time =
                     collision.last_contact.zip(collision.first_contact).map_or(0.0, |(b, a)| b - a);
@@ -167,6 +159,34 @@ impl<'a> Laboratory<'a> {
             }
         }
     }
+
+    /// A condensed pair that the shelf has is not made again.
+    fn simulate_other(&self, case: Case) -> Result<Arc<Simulated>, StudyError> {
+        let started = self.observer.clock();
+        let mut simulation = Simulation::with_cache(case, &self.shelf.pairs)?;
+        let outcome = simulation.run(&mut Listener(self.observer));
+        let seconds = self.observer.clock() - started;
+        let (case, hertz) = (simulation.case().clone(), *simulation.hertz());
+        let title = case.scene.title.clone();
+        if outcome.is_interrupted() {
+            return Err(StudyError::Interrupted);
+        }
+        if let Some(halt) = outcome.halt {
+            return Err(StudyError::Stopped { title, halt });
+        }
+        let restitution = outcome.restitution.ok_or_else(|| no_restitution(&title))?;
+        Ok(Arc::new(Simulated { case, hertz, outcome, restitution, seconds }))
+    }
+}
+
+/// What a case is known by on the shelf: all of it but its title.
+fn key(mut resolved: CaseFile) -> Result<String, StudyError> {
+    resolved.title = None;
+    resolved.to_toml().map_err(|error| StudyError::parameters(error.to_string()))
+}
+
+fn no_restitution(title: &str) -> StudyError {
+    StudyError::parameters(format!("{title}: no restitution"))
 }
 
 /// Passes an interrupt on to a run.

@@ -9,7 +9,8 @@ use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

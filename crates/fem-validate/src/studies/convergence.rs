@@ -12,8 +12,9 @@ use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
 use crate::power_law::PowerLaw;
+use crate::run::Run;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -7,7 +7,8 @@
 
 use crate::error::StudyError;
 use crate::findings::{Findings, worse};
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 const REFERENCE: &str = "plain";
 

@@ -1,6 +1,7 @@
 //! How quantities are measured: one study a file.
 
 mod balances;
+mod condensed_explicit;
 mod contact_patch;
 mod convergence;
 mod critical_step;
@@ -23,6 +24,7 @@ pub(crate) type Study = fn(&Laboratory) -> Result<Findings, StudyError>;
 /// All studies by the names that claims call them.
 const STUDIES: &[(&str, Study)] = &[
     ("balances", balances::study),
+    ("condensed_explicit", condensed_explicit::study),
     ("contact_patch", contact_patch::study),
     ("convergence", convergence::study),
     ("critical_step", critical_step::study),

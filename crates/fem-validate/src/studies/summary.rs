@@ -2,13 +2,14 @@
 
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Simulated;
 
 /// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
     let cases = names.iter().map(|name| laboratory.case(name, &[]));
-    let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
+    let runs = laboratory.simulate_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {
         for (quantity, value) in quantities(run) {
@@ -18,25 +19,27 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// The quantities of a run by name, SI.
-pub(crate) fn quantities(run: &Run) -> impl Iterator<Item = (&'static str, f64)> {
-    let collision = &run.collision;
-    let hertz = run.problem.plan.estimate.hertz;
-    let vibration: f64 = collision.vibration_energy.map_or(f64::NAN, |both| both.iter().sum());
+/// The quantities of a run by name, SI; NaN where the model has none.
+pub(crate) fn quantities(run: &Simulated) -> impl Iterator<Item = (&'static str, f64)> {
+    let (outcome, hertz) = (&run.outcome, &run.hertz);
+    let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let vibration = outcome.bodies.iter().filter_map(|body| body.vibration_energy);
+    let vibration = known(vibration.reduce(|lower, upper| lower + upper));
+    let (contact_time, peak_force) = (known(outcome.contact_time), known(outcome.peak_force));
     [
         ("restitution", run.restitution),
         ("loss", 1.0 - run.restitution),
-        ("contact_time", run.contact_time),
-        ("contact_time_over_hertz", run.contact_time / hertz.contact_time()),
-        ("peak_force", collision.peak_force),
-        ("peak_force_over_hertz", collision.peak_force / hertz.peak_force()),
-        ("max_approach", collision.max_approach),
-        ("max_contact_radius", collision.max_contact_radius),
-        ("peak_pressure", collision.peak_pressure),
+        ("contact_time", contact_time),
+        ("contact_time_over_hertz", contact_time / hertz.contact_time()),
+        ("peak_force", peak_force),
+        ("peak_force_over_hertz", peak_force / hertz.peak_force()),
+        ("max_approach", known(outcome.max_approach)),
+        ("max_contact_radius", known(outcome.max_contact_radius)),
+        ("peak_pressure", known(outcome.peak_pressure)),
         ("pressure_over_hertz_at_force", run.pressure_over_hertz_at_force()),
-        ("energy_residual", collision.residual_relative),
-        ("momentum_residual", collision.momentum_residual_relative),
-        ("vibration_energy_share", vibration / collision.initial_energy),
+        ("energy_residual", known(outcome.residual_relative)),
+        ("momentum_residual", known(outcome.momentum_residual_relative)),
+        ("vibration_energy_share", vibration / known(outcome.initial_energy)),
     ]
     .into_iter()
 }

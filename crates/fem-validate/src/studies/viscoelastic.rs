@@ -14,7 +14,8 @@ use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Simulated;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -46,7 +47,7 @@ struct Member {
 /// Finite elements, Ting on half-spaces, Ting with finite spheres.
 struct Outcome {
     member: Member,
-    run: Arc<Run>,
+    run: Arc<Simulated>,
     half_space: f64,
     finite: f64,
 }
@@ -122,8 +123,8 @@ fn measure(
     let plan = fem_case::Plan::of(&laboratory.case("base", &overrides)?)?;
     let size = plan.contact_element_size / refinement;
     overrides.push(format!("mesh.contact_element_size={size:?}"));
-    let run = laboratory.run(laboratory.case("base", &overrides)?)?;
-    let (scene, pair) = (&run.problem.case.scene, run.problem.plan.estimate.hertz.pair());
+    let run = laboratory.simulate(laboratory.case("base", &overrides)?)?;
+    let (scene, pair) = (&run.case.scene, run.hertz.pair());
     let half_space = ting_impact(scene, pair, false)?.restitution;
     let finite = ting_impact(scene, pair, true)?.restitution;
     Ok(Outcome { member, half_space, finite, run })

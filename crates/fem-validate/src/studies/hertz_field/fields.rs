@@ -8,7 +8,7 @@ use fem_mesh::segment_measures;
 
 use super::closed_form::{Profile, closed_form, shear_below};
 use crate::error::StudyError;
-use crate::laboratory::Run;
+use crate::run::Run;
 
 /// A value at a place, and the share of the place in an integral.
 #[derive(Clone, Copy)]

@@ -5,7 +5,8 @@ use fem_figure::{Axis, Chart, Curve, GREY};
 use super::{Speeds, exponent};
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 /// Runs `[run.elastic]` at all speeds.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {

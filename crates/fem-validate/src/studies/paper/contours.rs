@@ -7,7 +7,8 @@ use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::{Figure, Findings};
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 /// σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
 const AXIAL: usize = 1;

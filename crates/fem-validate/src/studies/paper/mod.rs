@@ -14,7 +14,8 @@ use fem_case::{Case, Plan};
 use serde::Deserialize;
 
 use crate::error::StudyError;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 /// Parameters of a study over speeds.
 #[derive(Deserialize)]

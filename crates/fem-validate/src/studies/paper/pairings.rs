@@ -11,7 +11,8 @@ use serde::Deserialize;
 use super::{case_at, exponent, falls_through};
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

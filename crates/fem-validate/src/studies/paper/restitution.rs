@@ -9,7 +9,8 @@ use serde::Deserialize;
 use super::falls_through;
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 
 /// The two readings: run, label.
 const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic bulk")];

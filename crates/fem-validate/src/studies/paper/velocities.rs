@@ -14,7 +14,8 @@ use fem_figure::{Axis, Chart, Curve, GREY};
 
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::{Run, Simulated};
 use crate::studies::summary::quantities;
 
 /// The run that is drawn.
@@ -27,7 +28,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let cases = names.iter().map(|name| laboratory.case(name, &[]));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     for (name, run) in names.iter().zip(&runs) {
-        for (quantity, value) in quantities(run) {
+        for (quantity, value) in quantities(&Simulated::from(&**run)) {
             findings.measure(format!("{name}.{quantity}"), value);
         }
     }

@@ -13,7 +13,8 @@ use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
-use crate::laboratory::{Laboratory, Run};
+use crate::laboratory::Laboratory;
+use crate::run::Run;
 use modes::{Excited, Pulse, excite};
 
 #[derive(Deserialize)]

@@ -1,0 +1,40 @@
+//! The runs that claims share.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use fem_case::PairCache;
+
+use crate::error::StudyError;
+use crate::run::{Run, Simulated};
+
+/// A run that is there, is being made, or failed.
+pub(crate) type Slot<T> = Arc<OnceLock<Result<Arc<T>, StudyError>>>;
+
+/// Runs by their resolved case.
+#[derive(Debug)]
+pub(crate) struct Slots<T>(Mutex<HashMap<String, Slot<T>>>);
+
+impl<T> Slots<T> {
+    /// That of a resolved case.
+    pub fn slot(&self, key: String) -> Slot<T> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone()
+    }
+}
+
+impl<T> Default for Slots<T> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+/// The runs that claims share: a case is run once.
+#[derive(Debug, Default)]
+pub struct Shelf {
+    /// Of the explicit model.
+    pub(crate) explicit: Slots<Run>,
+    /// Of all other models.
+    pub(crate) others: Slots<Simulated>,
+    /// Condensed pairs, which runs at several speeds or relaxations share.
+    pub(crate) pairs: PairCache,
+}

@@ -1,0 +1,122 @@
+//! Condensed bodies against the explicit model: the same meshes, materials and springs.
+//!
+//! Each run of the claim is computed twice, and `NAME.QUANTITY` is the difference of the two over
+//! the explicit value; `NAME.restitution` is |Δe|. `worst.QUANTITY` is the largest of all runs.
+//!
+//! The explicit force is noisy where nodes touch first and last, which the contact time sees. So
+//! the duration is held as the width of the pulse, from the instant at which the approach rate has
+//! lost half of what compression takes to the one at which it has gained half of what restitution
+//! gives: a velocity is an integral of the force.
+
+use std::sync::Arc;
+
+use fem_case::{Outcome, OutcomeRow, Plan};
+use serde::Deserialize;
+
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::Laboratory;
+use crate::run::Simulated;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Elements across Hertz' contact radius.
+    elements_per_contact_radius: f64,
+    /// Overrides of all cases.
+    set: Vec<String>,
+    /// Override that makes the model condensed.
+    condensed: String,
+}
+
+/// Name and value.
+type Quantity = (&'static str, fn(&Simulated) -> f64);
+
+const RELATIVE: [Quantity; 5] = [
+    ("pulse_width", pulse_width),
+    ("max_approach", |run| known(run.outcome.max_approach)),
+    ("max_contact_radius", |run| known(run.outcome.max_contact_radius)),
+    ("peak_force", |run| known(run.outcome.peak_force)),
+    ("peak_pressure", |run| known(run.outcome.peak_pressure)),
+];
+
+/// Runs every case of the claim with both models.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let mut cases = Vec::new();
+    for name in &names {
+        let mut overrides = parameters.set.clone();
+        let radius = Plan::of(&laboratory.case(name, &overrides)?)?.estimate.contact_radius;
+        let size = radius / parameters.elements_per_contact_radius;
+        overrides.push(format!("mesh.contact_element_size={size:?}"));
+        cases.push(laboratory.case(name, &overrides)?);
+        overrides.push(parameters.condensed.clone());
+        cases.push(laboratory.case(name, &overrides)?);
+    }
+    let runs = laboratory.simulate_all(cases)?;
+    let pairs: Vec<_> = runs.chunks_exact(2).map(|two| (&two[0], &two[1])).collect();
+    let mut findings = Findings::new();
+    for (name, (explicit, condensed)) in names.iter().zip(&pairs) {
+        let mut measure = |quantity: &str, difference: f64| {
+            findings.measure(format!("{name}.{quantity}"), difference);
+            findings.measure_worst(&format!("worst.{quantity}"), difference);
+        };
+        measure("restitution", (condensed.restitution - explicit.restitution).abs());
+        for (quantity, value) in RELATIVE {
+            measure(quantity, (value(condensed) / value(explicit) - 1.0).abs());
+        }
+    }
+    tabulate(&mut findings, &names, &pairs);
+    Ok(findings)
+}
+
+fn known(value: Option<f64>) -> f64 {
+    value.unwrap_or(f64::NAN)
+}
+
+/// s; NaN if the approach rate does not pass both instants.
+fn pulse_width(run: &Simulated) -> f64 {
+    let speed = run.hertz.approach_speed();
+    let passes = |rate: f64| passes(&run.outcome, rate);
+    passes(-0.5 * run.restitution * speed) - passes(0.5 * speed)
+}
+
+/// When the approach rate falls through a value (m/s), s.
+fn passes(outcome: &Outcome, value: f64) -> f64 {
+    let rate = |row: &OutcomeRow| row.velocity[0] - row.velocity[1];
+    let is_around = |two: &&[OutcomeRow]| rate(&two[0]) > value && rate(&two[1]) <= value;
+    outcome.history.windows(2).find(is_around).map_or(f64::NAN, |two| {
+        let part = (rate(&two[0]) - value) / (rate(&two[0]) - rate(&two[1]));
+        two[0].time + part * (two[1].time - two[0].time)
+    })
+}
+
+fn tabulate(
+    findings: &mut Findings,
+    names: &[&String],
+    pairs: &[(&Arc<Simulated>, &Arc<Simulated>)],
+) {
+    let rows = names.iter().zip(pairs).map(|(name, (explicit, condensed))| {
+        let differences =
+            RELATIVE.map(|(_, value)| format!("{:.1e}", value(condensed) / value(explicit) - 1.0));
+        let [width, approach, radius, force, pressure] = differences;
+        [
+            name.to_string(),
+            format!("{:.6}", explicit.restitution),
+            format!("{:.1e}", condensed.restitution - explicit.restitution),
+            width,
+            approach,
+            radius,
+            force,
+            pressure,
+        ]
+    });
+    let header =
+        ["run", "explicit e", "Δe", "pulse width", "approach", "contact radius", "force", "p0"];
+    findings.tabulate(
+        "What condensed bodies give more than the explicit model; all but e relative.",
+        header,
+        rows,
+    );
+}
