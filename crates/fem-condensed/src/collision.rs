@@ -114,7 +114,7 @@ pub struct Collision {
     pub residual_relative: f64,
     /// About a thousand steps over the contact, its first and last among them, if asked for.
     pub history: Vec<Row>,
-    /// Every step, with the history.
+    /// Every step.
     pub(crate) trace: Vec<Trace>,
     /// s.
     pub time_step: f64,

@@ -19,6 +19,9 @@ use crate::motion::{Motion, SideState};
 use crate::pair::CondensedPair;
 use crate::side::PairSide;
 
+/// Fields that are solved for at a time: those of eight snapshots.
+const FIELDS_AT_ONCE: usize = 24;
+
 /// A body's deformation in coordinates.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Coordinates {
@@ -40,7 +43,7 @@ struct State {
 
 impl CondensedPair {
     /// The snapshots of a collision in the order of time, and what could not be had. `collision`
-    /// is what [`CondensedPair::collide`] gave for the same speed and relaxations, its history kept.
+    /// is what [`CondensedPair::collide`] gave for the same speed and relaxations.
     ///
     /// # Errors
     /// As [`CondensedPair::collide`].
@@ -88,7 +91,10 @@ impl CondensedPair {
                 })
                 .collect();
             let shear_blocks = self.shear_blocks(relaxations[s], frame.approach_speed())?;
-            let fields = self.fields(side, relaxations[s], shear_blocks, &wanted)?;
+            let mut fields = Vec::with_capacity(wanted.len());
+            for some in wanted.chunks(FIELDS_AT_ONCE) {
+                fields.extend(self.fields(side, relaxations[s], shear_blocks, some)?);
+            }
             let mut fields = fields.into_iter();
             let mut next = || fields.next().unwrap_or_default();
             for snapshot in &mut snapshots {

@@ -1,7 +1,6 @@
 //! Rows of a history, thinned as they come.
 
 use crate::collision::Row;
-use crate::instants::Trace;
 
 /// Rows over the elastic contact time.
 const ROWS: usize = 1000;
@@ -14,7 +13,7 @@ pub(crate) struct History {
     kept: Vec<Kept>,
     /// The last step, if it was not kept.
     skipped: Option<Kept>,
-    trace: Vec<Trace>,
+    was_closed: Option<bool>,
 }
 
 struct Kept {
@@ -28,13 +27,12 @@ impl History {
     /// For so many steps over the elastic contact time.
     pub fn new(n_steps: usize) -> Self {
         let stride = n_steps.div_ceil(ROWS).max(1);
-        Self { stride, kept: Vec::new(), skipped: None, trace: Vec::new() }
+        Self { stride, kept: Vec::new(), skipped: None, was_closed: None }
     }
 
     /// Adds the next step.
     pub fn push(&mut self, step: usize, is_closed: bool, row: Row) {
-        let changes = self.trace.last().is_none_or(|before| before.is_closed != is_closed);
-        self.trace.push(Trace { approach: row.approach, is_closed });
+        let changes = self.was_closed.replace(is_closed) != Some(is_closed);
         if changes {
             if let Some(before) = self.skipped.take() {
                 self.kept.push(Kept { is_end: true, ..before });
@@ -56,10 +54,10 @@ impl History {
         }
     }
 
-    /// The rows, the last step among them, and the trace of every step.
-    pub fn finish(mut self) -> (Vec<Row>, Vec<Trace>) {
+    /// The rows, the last step among them.
+    pub fn finish(mut self) -> Vec<Row> {
         self.kept.extend(self.skipped.take());
-        (self.kept.into_iter().map(|kept| kept.row).collect(), self.trace)
+        self.kept.into_iter().map(|kept| kept.row).collect()
     }
 }
 
@@ -92,8 +90,7 @@ mod tests {
         for step in 0..=last {
             history.push(step, closed.contains(&step), row(step));
         }
-        let (rows, trace) = history.finish();
-        assert_eq!(trace.len(), last + 1);
+        let rows = history.finish();
         assert!(rows.len() > MOST_ROWS / 2 && rows.len() <= MOST_ROWS, "{}", rows.len());
         assert!(rows.windows(2).all(|two| two[0].time < two[1].time));
         for step in [0, 776, 777, 90_000, 90_001, last] {

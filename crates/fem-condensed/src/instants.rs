@@ -84,7 +84,15 @@ pub(crate) fn choose(
                 1 => 0.5 * end,
                 _ => end * k as f64 / (*n - 1) as f64,
             };
-            (0..*n).map(|k| (since_touch(time(k)), None)).collect()
+            if *n <= last + 1 {
+                (0..*n).map(|k| (since_touch(time(k)), None)).collect()
+            } else {
+                missing.push(format!(
+                    "{n} snapshots were asked for; the contact has steps for {}",
+                    last + 1
+                ));
+                (0..=last).map(|step| (Instant::at(step), None)).collect()
+            }
         }
         SnapshotRequest::Times(times) => {
             let mut times = times.clone();

@@ -3,6 +3,7 @@
 use crate::CondensedError;
 use crate::collision::{CollideSettings, Collision, Ending, Glance, Row};
 use crate::history::History;
+use crate::instants::Trace;
 use crate::motion::Motion;
 use crate::pair::CondensedPair;
 
@@ -37,6 +38,7 @@ pub(crate) struct Run<'a> {
     give_up: f64,
     expected_end: f64,
     history: Option<History>,
+    trace: Vec<Trace>,
 }
 
 /// Largest value of a smooth function given at even steps: the vertex of the parabola through the
@@ -86,6 +88,7 @@ impl<'a> Run<'a> {
             vibration_after: [0.0; 2],
             n_after: 0,
             history: settings.history.then(|| History::new(settings.n_steps)),
+            trace: Vec::with_capacity(2 * settings.n_steps),
             motion,
         }
     }
@@ -177,6 +180,7 @@ impl<'a> Run<'a> {
                 *sum += energy;
             }
         }
+        self.trace.push(Trace { approach: motion.approach, is_closed: self.was_closed });
         if let Some(history) = &mut self.history {
             history.push(
                 motion.step,
@@ -206,7 +210,6 @@ impl<'a> Run<'a> {
             Ending::Together => (0.0, motion.time()),
             _ => (-motion.rate / self.speed, self.last_contact),
         };
-        let (history, trace) = self.history.map(History::finish).unwrap_or_default();
         Collision {
             ending,
             restitution,
@@ -225,8 +228,8 @@ impl<'a> Run<'a> {
             time_step: motion.time_step,
             steps: motion.step,
             n_fallbacks: motion.n_fallbacks(),
-            history,
-            trace,
+            history: self.history.map(History::finish).unwrap_or_default(),
+            trace: self.trace,
         }
     }
 }

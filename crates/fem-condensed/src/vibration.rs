@@ -19,7 +19,7 @@ const VECTORS_MORE: usize = 20;
 const SETTLED: f64 = 1e-3;
 /// Elements that a shear wave of a mode's frequency spans at least, where they are largest: with
 /// fewer the mode is the mesh's, and a glass pair loses ten times too much energy at 50 m/s.
-const ELEMENTS_PER_WAVE: f64 = 2.0;
+const ELEMENTS_PER_WAVE: f64 = 2.5;
 
 /// Modes of free vibration.
 #[derive(Debug, Clone)]
