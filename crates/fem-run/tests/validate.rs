@@ -81,6 +81,18 @@ fn a_run_that_fails_is_a_claim_that_fails() {
 }
 
 #[test]
+fn a_claim_may_have_any_model() {
+    for model in ["model.condensed={}", "model.ting={}"] {
+        let place = place(CHECK);
+        let text =
+            claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = ['{model}']\n"));
+        assert!(text.contains(model));
+        place.write("validation/mine/claim.toml", &text);
+        place.succeed(&["validate", "--quiet"]);
+    }
+}
+
+#[test]
 fn bad_claims_are_refused_before_anything_runs() {
     let no_tolerance = CHECK.replace("absolute = 0.01\n", "");
     let no_reference = CHECK.replace("reference = 0.93\n", "");
