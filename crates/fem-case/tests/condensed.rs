@@ -237,6 +237,23 @@ fn an_enlarged_pair_is_not_put_back() {
     assert_eq!(cache.n_made(), 1);
 }
 
+/// Without snapshots all else keeps its bits.
+#[test]
+fn snapshots_are_skipped_on_demand() {
+    for model in [CONDENSED, "model.fem={}", "model.ting={}"] {
+        let overrides = ["mesh.contact_element_size='90 um'", model];
+        let mut skipping = simulation(&overrides);
+        skipping.skip_snapshots();
+        let (skipped, whole) = (skipping.run(&mut ()), run(&overrides));
+        assert!(skipped.snapshots.is_empty());
+        assert_eq!(whole.snapshots.is_empty(), model.contains("ting"));
+        assert_eq!(skipped.history, whole.history);
+        assert_eq!(skipped.restitution, whole.restitution);
+        assert_eq!(skipped.bodies, whole.bodies);
+        assert_eq!(skipping.resolved(), simulation(&overrides).resolved());
+    }
+}
+
 /// What the model does not read or know is said.
 #[test]
 fn limits_are_told() {
