@@ -57,6 +57,7 @@ mod error;
 mod estimate;
 mod explain;
 mod keyword;
+mod meshes;
 mod model;
 mod model_tables;
 mod outcome;
@@ -80,10 +81,11 @@ pub use condensed::{Condensed, Options as CondensedOptions, PairCache};
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;
+pub use meshes::build_meshes;
 pub use model::{Dashpot, Dissipation, Law, Model};
 pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
 pub use plan::Plan;
-pub use problem::{Cost, Problem, build_meshes};
+pub use problem::{Cost, Problem};
 pub use quantity::{
     Bytes, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate,
     Speed, Stiffness, Stress, Time, Viscosity,

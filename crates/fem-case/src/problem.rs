@@ -1,17 +1,15 @@
 //! A case that is ready to run with finite elements.
 
-use std::path::Path;
-
 use fem_explicit::{
     BodyInput, Collision, Model, ModelError, Monitor, RunSettings, Settings, Stop, collide,
     n_states,
 };
-use fem_mesh::{HalfDisc, MeshError, Quality, Side, SphereMesh};
-use fem_vtk::read_quad_mesh;
+use fem_mesh::Quality;
 
 use crate::case::Case;
 use crate::effects::{Effect, model_effects};
 use crate::error::CaseError;
+use crate::meshes::{build_meshes, half_disc, mesh_error};
 use crate::plan::Plan;
 use crate::scene::{Body, Shape};
 
@@ -165,37 +163,8 @@ fn settings(plan: &Plan) -> Settings {
     }
 }
 
-/// The meshes of both bodies in their places; a wall has none.
-///
-/// # Errors
-/// As [`Problem::new`].
-pub fn build_meshes(case: &Case, plan: &Plan) -> Result<[Option<SphereMesh>; 2], CaseError> {
-    check_size(case, plan)?;
-    let mut meshes = [None, None];
-    for (k, body) in case.scene.bodies.iter().enumerate() {
-        let side = if k == 0 { Side::Below } else { Side::Above };
-        if let Shape::Sphere { diameter, mesh, .. } = &body.shape {
-            let mesh = match mesh {
-                Some(path) => import(case, k, *diameter, path)?,
-                None => half_disc(plan, *diameter).build().map_err(|e| mesh_error(case, &e))?,
-            };
-            meshes[k] = Some(mesh.on_side(side));
-        }
-    }
-    Ok(meshes)
-}
-
-fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
-    HalfDisc {
-        radius: 0.5 * diameter,
-        contact_element_size: plan.contact_element_size,
-        refined_radius: plan.refined_radius,
-        growth: plan.growth,
-    }
-}
-
 /// Refuses meshes that are too large before they are made.
-fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
+pub(crate) fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
     let mut elements = 0;
     let mut memory = 0;
     for body in &case.scene.bodies {
@@ -257,36 +226,6 @@ fn check_memory(case: &Case, plan: &Plan, elements: u64, memory: u64) -> Result<
 fn blamed<'a>(case: &Case, limit: &'a str) -> &'a str {
     let size = "mesh.contact_element_size";
     if !case.gives(size) && case.gives(limit) { limit } else { size }
-}
-
-fn import(case: &Case, k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, CaseError> {
-    let fault = |found: String| {
-        case.error_at(&format!("body.{k}.sphere.mesh"), format!("mesh {}: {found}", path.display()))
-            .with_help(
-                "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
-                 r >= 0 of the sphere with its contact pole at the origin; \
-                 `fem-run mesh CASE` writes such files",
-            )
-    };
-    let mesh = read_quad_mesh(path).map_err(|error| fault(error.to_string()))?;
-    if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
-        return Err(fault(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
-    }
-    let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
-    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| fault(error.to_string()))
-}
-
-fn mesh_error(case: &Case, error: &MeshError) -> CaseError {
-    let key = match error {
-        MeshError::RefinedRadius { .. } => "mesh.refined_radius",
-        MeshError::Growth(_) => "mesh.growth",
-        _ => "mesh.contact_element_size",
-    };
-    let fault = case.error_at(key, error.to_string());
-    match error {
-        MeshError::TooLarge(_) => fault.with_help("use a larger contact_element_size"),
-        _ => fault,
-    }
 }
 
 fn model_error(case: &Case, error: &ModelError) -> CaseError {

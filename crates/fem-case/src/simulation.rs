@@ -1,7 +1,7 @@
 //! A case with the model that computes it, whichever that is: one variant a model family, one arm
 //! each in the methods.
 
-use fem_explicit::Monitor;
+use fem_explicit::{Monitor, SnapshotRequest};
 use fem_laws::HertzImpact;
 
 use crate::case::Case;
@@ -115,6 +115,17 @@ impl Simulation {
             Model::Condensed(_) => Condensed::check(&case).map(|()| 0),
             _ => Reduced::new(case).map(|_| 0),
         }
+    }
+
+    /// Makes the run compute no fields to draw, nor warn of those that could not be had. All else
+    /// keeps its bits, the resolved case too.
+    pub fn skip_snapshots(&mut self) {
+        let plan = match self {
+            Self::Fem(problem) => &mut problem.plan,
+            Self::Condensed(condensed) => &mut condensed.plan,
+            Self::Reduced(_) => return,
+        };
+        plan.snapshots = SnapshotRequest::Labels(Vec::new());
     }
 
     /// Computes the collision.

@@ -134,8 +134,124 @@ fn cases_share_a_pair() {
     ] {
         assert!(std::sync::Arc::ptr_eq(&first, &pair_of(extra)), "{extra}");
     }
+    assert_eq!(cache.n_made(), 1);
     // Another density is another pair.
     assert!(!std::sync::Arc::ptr_eq(&first, &pair_of("material.glass.density=2000")));
+    assert_eq!(cache.n_made(), 2);
+    // So are other elements, bodies, sides, and another way of condensing.
+    let others = [
+        "mesh.contact_element_size='60 um'",
+        "mesh.growth=1.5",
+        "body.1.sphere.diameter='16 mm'",
+        "material.glass.poissons_ratio=0.25",
+        "model.condensed.penalty_springs=true",
+        "model.condensed.vibration_modes=1",
+    ];
+    for (k, extra) in others.into_iter().enumerate() {
+        pair_of(extra);
+        assert_eq!(cache.n_made(), 3 + k, "{extra}");
+    }
+}
+
+/// Bodies of a few hundred elements; the contact stays within them.
+const COARSE: [&str; 3] =
+    ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.4 mm'", CONDENSED];
+
+/// Two speeds of nine pairings, the speed running slowest, or fastest.
+fn nine_pairings(speed_is_slow: bool) -> Vec<Case> {
+    let case = |speed: usize, pairing: usize| {
+        let [first, second] = [pairing / 3, pairing % 3];
+        let speed = format!("body.0.approach_speed={}", [0.1, 0.3][speed]);
+        let first = format!("body.0.sphere.diameter='{} mm'", 20 + first);
+        let second = format!("body.1.sphere.diameter='{} mm'", 15 + second);
+        parse(&[&COARSE[..], &[&speed, &first, &second]].concat()).unwrap()
+    };
+    let index = |k: usize| if speed_is_slow { (k / 9, k % 9) } else { (k % 2, k / 2) };
+    (0..18).map(index).map(|(speed, pairing)| case(speed, pairing)).collect()
+}
+
+fn restitution(case: Case, cache: &PairCache) -> f64 {
+    Simulation::with_cache(case, cache).unwrap().run(&mut ()).restitution.unwrap()
+}
+
+/// A pairing is factored once, whatever the order, and the order changes no bit.
+#[test]
+fn nine_pairings_take_nine_factors_in_any_order() {
+    let run = |speed_is_slow: bool, cache: &PairCache| -> Vec<f64> {
+        nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, cache)).collect()
+    };
+    let [slow, fast, tight] =
+        [PairCache::default(), PairCache::default(), PairCache::with_max_bytes(1)];
+    let (by_speed, by_pairing) = (run(true, &slow), run(false, &fast));
+    assert_eq!((slow.n_made(), fast.n_made()), (9, 9));
+    assert_eq!(slow.n_kept(), 9);
+    let reordered: Vec<f64> = (0..18).map(|k| by_pairing[2 * (k % 9) + k / 9]).collect();
+    assert_eq!(by_speed, reordered);
+    // A cache with room for nothing keeps the last pair, and gives the same.
+    assert_eq!(run(false, &tight), by_pairing);
+    assert_eq!((tight.n_made(), tight.n_kept()), (9, 1));
+    assert_eq!(run(true, &tight), by_speed);
+    assert_eq!(tight.n_made(), 9 + 18);
+}
+
+/// Threads that want the same pair wait for the one that makes it.
+#[test]
+fn threads_do_not_factor_a_pair_twice() {
+    let cache = PairCache::default();
+    let barrier = std::sync::Barrier::new(4);
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let case = parse(&COARSE).unwrap();
+                barrier.wait();
+                Simulation::with_cache(case, &cache).unwrap();
+            });
+        }
+    });
+    assert_eq!(cache.n_made(), 1);
+}
+
+/// A contact beyond the condensed region enlarges the pair of that case alone.
+#[test]
+fn an_enlarged_pair_is_not_put_back() {
+    let cache = PairCache::default();
+    let soft = |weight: f64| {
+        let terms = format!(
+            "material.glass.relaxation={{acts_on='all', terms=[{{weight={weight}, \
+             decay_rate=1e6}}]}}"
+        );
+        let fine = ["mesh.contact_element_size='0.1 mm'", "body.0.approach_speed=1.2", &terms];
+        parse(&[&COARSE[1..], &fine].concat()).unwrap()
+    };
+    let condensed = |case: Case| {
+        let mut simulation = Simulation::with_cache(case, &cache).unwrap();
+        simulation.run(&mut ());
+        let Simulation::Condensed(condensed) = simulation else { panic!() };
+        condensed.pair.candidate_radius()
+    };
+    let small = condensed(soft(0.0));
+    // It sinks in so much deeper that the region does not reach.
+    let large = condensed(soft(0.95));
+    assert!(large > small, "{large} {small}");
+    assert_eq!(condensed(soft(0.0)), small);
+    assert_eq!(cache.n_made(), 1);
+}
+
+/// Without snapshots all else keeps its bits.
+#[test]
+fn snapshots_are_skipped_on_demand() {
+    for model in [CONDENSED, "model.fem={}", "model.ting={}"] {
+        let overrides = ["mesh.contact_element_size='90 um'", model];
+        let mut skipping = simulation(&overrides);
+        skipping.skip_snapshots();
+        let (skipped, whole) = (skipping.run(&mut ()), run(&overrides));
+        assert!(skipped.snapshots.is_empty());
+        assert_eq!(whole.snapshots.is_empty(), model.contains("ting"));
+        assert_eq!(skipped.history, whole.history);
+        assert_eq!(skipped.restitution, whole.restitution);
+        assert_eq!(skipped.bodies, whole.bodies);
+        assert_eq!(skipping.resolved(), simulation(&overrides).resolved());
+    }
 }
 
 /// What the model does not read or know is said.

@@ -97,10 +97,10 @@ impl HalfDisc {
 
         // Rings between the blocks; station k runs from the axis to the surface.
         let first_ring = nodes.len();
+        let stations: Vec<Station> = (0..=2 * m).map(|k| Station::new(m, k)).collect();
         for ring in 1..n_rings {
-            for k in 0..=2 * m {
-                nodes.push(self.image(layout.ring_point(ring, k)));
-            }
+            let ring = layout.ring(ring);
+            nodes.extend(stations.iter().map(|station| self.image(ring.point(station))));
         }
         // Far block, in 1/ζ; its outline is the last ring.
         let first_far = nodes.len();
@@ -192,33 +192,73 @@ impl HalfDisc {
     }
 }
 
-impl Layout {
-    /// ζ of station k (0 on the axis, 2 m on the surface) of an inner ring.
-    fn ring_point(&self, ring: usize, k: usize) -> [f64; 2] {
-        let m = self.n_block;
-        let length = (self.far / self.near).ln();
-        let x = length * ring as f64 / self.n_rings as f64;
+/// What all rings share at a station (0 on the axis, 2 m on the surface).
+struct Station {
+    circle_angle: f64,
+    /// Deviation of a block's outline from the circle.
+    outline_angle: f64,
+    outline_log_radius: f64,
+    is_on_axis: bool,
+    is_on_surface: bool,
+}
+
+impl Station {
+    /// Station k around blocks of m × m cells.
+    fn new(m: usize, k: usize) -> Self {
         let circle_angle = std::f64::consts::FRAC_PI_4 * k as f64 / m as f64;
         let [bx, by] = if k <= m {
             block_point(1.0, k as f64 / m as f64)
         } else {
             block_point((2 * m - k) as f64 / m as f64, 1.0)
         };
-        let outline_angle = by.atan2(bx) - circle_angle;
-        let outline_log_radius = bx.hypot(by).ln();
+        Self {
+            circle_angle,
+            outline_angle: by.atan2(bx) - circle_angle,
+            outline_log_radius: bx.hypot(by).ln(),
+            is_on_axis: k == 0,
+            is_on_surface: k == 2 * m,
+        }
+    }
+}
+
+/// An inner ring.
+struct Ring {
+    /// Half-width of the near block in ζ.
+    near: f64,
+    /// Logarithm of the ring's radius over it.
+    log_radius: f64,
+    /// Shares of the blocks' outlines in the ring's.
+    near_share: f64,
+    far_share: f64,
+}
+
+impl Ring {
+    /// ζ of a station.
+    fn point(&self, station: &Station) -> [f64; 2] {
+        let Self { near_share, far_share, .. } = *self;
+        let deviation = (near_share - far_share) * station.outline_log_radius;
+        let radius = self.near * (self.log_radius + deviation).exp();
+        if station.is_on_axis {
+            return [radius, 0.0];
+        }
+        if station.is_on_surface {
+            return [0.0, radius];
+        }
+        let angle = station.circle_angle + (near_share + far_share) * station.outline_angle;
+        [radius * angle.cos(), radius * angle.sin()]
+    }
+}
+
+impl Layout {
+    fn ring(&self, ring: usize) -> Ring {
+        let length = (self.far / self.near).ln();
+        let x = length * ring as f64 / self.n_rings as f64;
         // sinh(p (L − x)) / sinh(p L): 1 at x = 0, 0 at x = L, e^{−p x} between.
         let fade = |x: f64| {
             let p = OUTLINE_DECAY;
             (-p * x).exp() * (-2.0 * p * (length - x)).exp_m1() / (-2.0 * p * length).exp_m1()
         };
-        let (near_share, far_share) = (fade(x), fade(length - x));
-        let radius = self.near * (x + (near_share - far_share) * outline_log_radius).exp();
-        let angle = circle_angle + (near_share + far_share) * outline_angle;
-        match k {
-            0 => [radius, 0.0],
-            _ if k == 2 * m => [0.0, radius],
-            _ => [radius * angle.cos(), radius * angle.sin()],
-        }
+        Ring { near: self.near, log_radius: x, near_share: fade(x), far_share: fade(length - x) }
     }
 }
 

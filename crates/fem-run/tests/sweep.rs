@@ -282,3 +282,30 @@ fn the_page_on_sweeps_is_true() {
         assert!(is_varied || page.contains(bare), "{column} is not on the page");
     }
 }
+
+/// Condensed members share a factor if the case gives the mesh; that is said where it does not.
+#[test]
+fn condensed_members_are_told_how_to_share_a_factor() {
+    let vary = "[vary]\nbody.0.approach_speed = [0.2, 0.3]\n\
+                material.glass.relaxation.terms.0.decay_rate = [1000, 2000]\n";
+    let place = place(&format!("case = 'case.toml'\n{vary}"));
+    let condensed = ["sweep", "sweep.toml", "--set", "model.condensed={}"];
+    let hint = "give mesh.contact_element_size and mesh.refined_radius";
+    let stderr = place.succeed(&[&condensed[..], &["--out", "open"]].concat()).stderr;
+    assert_eq!(stderr.matches(hint).count(), 1, "{stderr}");
+    let given = ["--set", "mesh.refined_radius='0.4 mm'", "--out", "given"];
+    let stderr = place.succeed(&[&condensed[..], &given].concat()).stderr;
+    assert!(!stderr.contains(hint), "{stderr}");
+    // A member is the case alone, but for the files that are not kept.
+    let rows = rows(&place, "given/sweep.csv");
+    let member = format!("given/members/{}/summary.json", rows[4].last().unwrap());
+    let speed = ["case.toml", "--out", "alone", "--set", "body.0.approach_speed=0.3"];
+    let rate = ["--set", "material.glass.relaxation.terms.0.decay_rate=2000"];
+    place.succeed(&[&speed[..], &rate, &condensed[2..], &given[..2]].concat());
+    let [mut alone, mut member] = ["alone/summary.json", &member].map(|name| place.json(name));
+    for summary in [&mut alone, &mut member] {
+        let summary = summary.as_object_mut().unwrap();
+        summary.retain(|key, _| !["cost", "files"].contains(&key.as_str()));
+    }
+    assert_eq!(alone, member);
+}

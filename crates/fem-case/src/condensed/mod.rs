@@ -14,20 +14,22 @@ use fem_condensed::{
 };
 use fem_explicit::{Monitor, Progress};
 use fem_field::Snapshot;
-use fem_material::PronySeries;
+use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
 use crate::case::Case;
 use crate::effects::Effect;
 use crate::error::CaseError;
 use crate::estimate::Estimate;
+use crate::meshes::{MeshSource, mesh_error, mesh_sources};
 use crate::model::Model;
 use crate::model_tables::{CondensedTable, ModelTable};
 use crate::outcome::{Outcome, Timing};
 use crate::plan::Plan;
-use crate::problem::build_meshes;
 use crate::quantity::Quantity;
 use crate::schema::CaseFile;
+
+use cache::PairKey;
 
 pub use cache::PairCache;
 
@@ -77,7 +79,7 @@ impl Default for Options {
 }
 
 impl Condensed {
-    /// Meshes and condenses, or takes the same pair from the cache.
+    /// Meshes and condenses, or takes the same pair from the cache without making a mesh.
     ///
     /// # Errors
     /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
@@ -85,24 +87,24 @@ impl Condensed {
     pub fn new(case: Case, cache: &PairCache) -> Result<Self, CaseError> {
         let options = options(&case);
         let plan = Plan::of(&case)?;
-        let meshes = build_meshes(&case, &plan)?;
-        check_memory(&case, &plan, &meshes)?;
-        let settings = settings(&plan, options);
-        let inputs = inputs(&case, meshes);
-        let pair = cache
-            .pair(inputs, settings)
-            .map_err(|error| case.error_at(&case.scene.model.path(), error.to_string()))?;
+        let sources = mesh_sources(&case, &plan)?;
+        check_memory(&case, &plan, &sources)?;
+        let key = PairKey { bodies: bodies(&case, sources), settings: settings(&plan, options) };
+        let pair = cache.pair(key, |key| {
+            CondensedPair::new(inputs(&case, key)?, key.settings)
+                .map_err(|error| case.error_at(&case.scene.model.path(), error.to_string()))
+        })?;
         let (effects, warnings) = effects::decide(&case, &plan, &pair, options);
         Ok(Self { effects, warnings, pair, options, plan, case })
     }
 
-    /// Whether the case could run, without making a factor.
+    /// Whether the case could run, without making a mesh or a factor.
     ///
     /// # Errors
     /// As [`Condensed::new`], but for a stiffness that cannot be factored.
     pub fn check(case: &Case) -> Result<(), CaseError> {
         let plan = Plan::of(case)?;
-        check_memory(case, &plan, &build_meshes(case, &plan)?)
+        check_memory(case, &plan, &mesh_sources(case, &plan)?)
     }
 
     /// What closed forms say.
@@ -256,14 +258,23 @@ fn relaxations(case: &Case) -> [Option<&PronySeries>; 2] {
 }
 
 /// Bodies without their relaxations, which only the collision reads.
-fn inputs(case: &Case, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
-    let mut meshes = meshes.into_iter();
-    case.scene.bodies.each_ref().map(|body| match (meshes.next().flatten(), body.material()) {
-        (Some(mesh), Some(material)) => {
-            BodyInput::Sphere { mesh, material: material.without_relaxation() }
-        }
-        _ => BodyInput::Wall,
+fn bodies(case: &Case, sources: [Option<MeshSource>; 2]) -> [Option<(MeshSource, Material)>; 2] {
+    let mut sources = sources.into_iter();
+    case.scene.bodies.each_ref().map(|body| {
+        let source = sources.next().flatten()?;
+        Some((source, body.material()?.without_relaxation()))
     })
+}
+
+fn inputs(case: &Case, key: &PairKey) -> Result<[BodyInput; 2], CaseError> {
+    let input = |k: usize| match &key.bodies[k] {
+        Some((source, material)) => {
+            let mesh = source.build(k).map_err(|error| mesh_error(case, &error))?;
+            Ok(BodyInput::Sphere { mesh, material: material.clone() })
+        }
+        None => Ok(BodyInput::Wall),
+    };
+    Ok([input(0)?, input(1)?])
 }
 
 /// The condensed region goes by the fine block, so that all speeds that share a mesh share a
@@ -290,9 +301,12 @@ fn settings(plan: &Plan, options: Options) -> PairSettings {
 fn check_memory(
     case: &Case,
     plan: &Plan,
-    meshes: &[Option<SphereMesh>; 2],
+    sources: &[Option<MeshSource>; 2],
 ) -> Result<(), CaseError> {
-    let elements: usize = meshes.iter().flatten().map(|mesh| mesh.quads().len()).sum();
+    let mut elements = 0;
+    for source in sources.iter().flatten() {
+        elements += source.n_elements().map_err(|error| mesh_error(case, &error))?;
+    }
     let bytes = BYTES_PER_ELEMENT.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
         return Ok(());

@@ -86,6 +86,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let folder = SweepFolder::claim(&out, &mark(&sweep, &members, arguments))?;
     if !arguments.quiet {
         announce(arguments, members.len(), own.len(), todo.len());
+        if let Some(hint) = hint_at_meshes(&sweep, &todo)? {
+            let _ = writeln!(stderr(), "{hint}");
+        }
     }
 
     let job = Job {
@@ -157,6 +160,28 @@ fn announce(arguments: &Arguments, n_members: usize, n_own: usize, n_todo: usize
         "{name}: {n_members} members{shard}; {} done before, {n_todo} to run",
         n_own - n_todo
     );
+}
+
+/// What would make condensed members cheaper: a mesh that the case leaves open goes by the contact
+/// that is expected, another one for each speed.
+fn hint_at_meshes(sweep: &Sweep, todo: &[&Member]) -> Result<Option<String>, Failure> {
+    let is_condensed = |member: &&&Member| {
+        member.case.model.as_ref().is_some_and(|model| model.condensed.is_some())
+    };
+    let condensed: Vec<&Member> = todo.iter().filter(is_condensed).copied().collect();
+    let Some(first) = condensed.first() else { return Ok(None) };
+    let Some(other) = condensed.iter().find(|member| member.case.mesh != first.case.mesh) else {
+        return Ok(None);
+    };
+    let is_open = sweep.build(other.index, |case| {
+        let mesh = case.scene.mesh;
+        Ok(mesh.contact_element_size.is_none() || mesh.refined_radius.is_none())
+    })?;
+    Ok(is_open.then(|| {
+        "hint: members have meshes of their own; give mesh.contact_element_size and \
+         mesh.refined_radius, and those of equal bodies share one factor"
+            .to_string()
+    }))
 }
 
 /// The main results of each member, and where the rest is.

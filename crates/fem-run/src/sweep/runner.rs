@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use fem_case::{PairCache, Simulation, Sweep};
+use fem_case::{Keep, PairCache, Simulation, Sweep};
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
@@ -74,6 +74,9 @@ fn run_member(job: &Job<'_>, board: &Board, member: &Member) -> Result<(), Failu
     let started = Instant::now();
     let mut simulation =
         sweep.build(member.index, |case| Simulation::with_cache(case, &job.pairs))?;
+    if sweep.keep == Keep::Summary {
+        simulation.skip_snapshots();
+    }
     let mut watch = MemberWatch::new(board);
     let (outcome, clock) = Clock::run(started, &mut simulation, &mut watch);
     if outcome.is_interrupted() {
