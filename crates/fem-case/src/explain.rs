@@ -76,13 +76,16 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
 
 /// `did you mean …? ` if one of the allowed words is near.
 pub(crate) fn near<S: AsRef<str>>(found: &str, allowed: &[S]) -> String {
+    // 0.8 lets `densty`, `diametre` and `youngs_modul` through and `radius` for `name` not.
+    nearest(found, allowed, 0.8).map_or(String::new(), |word| format!("did you mean `{word}`? "))
+}
+
+/// The allowed word that is nearest to what was found, if it is more than so similar (Jaro and
+/// Winkler's, 0 to 1).
+pub fn nearest<'w, S: AsRef<str>>(found: &str, allowed: &'w [S], least: f64) -> Option<&'w str> {
     let similarity = |word: &S| strsim::jaro_winkler(&found.to_lowercase(), word.as_ref());
     let nearest = allowed.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
-    // 0.8 lets `densty`, `diametre` and `youngs_modul` through and `radius` for `name` not.
-    match nearest.filter(|word| similarity(word) > 0.8) {
-        Some(word) => format!("did you mean `{}`? ", word.as_ref()),
-        None => String::new(),
-    }
+    nearest.filter(|word| similarity(word) > least).map(AsRef::as_ref)
 }
 
 fn name(path: &str) -> &str {

@@ -81,14 +81,15 @@ pub use condensed::{Condensed, Options as CondensedOptions, PairCache};
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;
+pub use explain::nearest;
 pub use meshes::build_meshes;
 pub use model::{Dashpot, Dissipation, Law, Model};
 pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
 pub use plan::Plan;
 pub use problem::{Cost, Problem};
 pub use quantity::{
-    Bytes, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind, Rate,
-    Speed, Stiffness, Stress, Time, Viscosity,
+    Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind,
+    Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use reduced::{Reduced, ting_impact};
 pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
-use crate::quantity::{Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
+use crate::quantity::{Count, Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
 #[cfg(test)]
 use crate::quantity::{Kind, QuantityKind};
 use crate::schema::EmptyTable;
@@ -38,10 +38,10 @@ pub struct ModelTable {
 pub struct CondensedTable {
     /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub vibration_modes: Option<Quantity<Number>>,
+    pub vibration_modes: Option<Quantity<Count>>,
     /// Steps over the elastic contact time, 50 to 100,000.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub steps: Option<Quantity<Number>>,
+    pub steps: Option<Quantity<Count>>,
     /// Whether the penalty springs of model fem resist overlap; false: nothing overlaps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penalty_springs: Option<bool>,

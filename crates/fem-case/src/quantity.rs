@@ -20,6 +20,8 @@ pub struct Kind {
     pub si: &'static str,
     /// How a user may write it: `"22.2 mm"`, quotes included where it needs them.
     pub example: &'static str,
+    /// Whether it counts things: a whole value is shown and written without a point.
+    pub is_count: bool,
 }
 
 /// A type that stands for a kind of quantity.
@@ -41,6 +43,7 @@ macro_rules! kinds {
                     dimension: Dimension($dimension),
                     si: $si,
                     example: $example,
+                    is_count: false,
                 };
             }
         )+
@@ -72,6 +75,18 @@ kinds! {
     Rate, "a rate", [0, 0, -1, 0], "1/s", "\"2708 1/s\"";
     Bytes, "an amount of memory", [0, 0, 0, 1], "bytes", "\"8 GB\"";
 }
+
+/// Marks a whole number, such as 12.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {}
+
+impl QuantityKind for Count {
+    const KIND: Kind =
+        Kind { name: "a whole number", example: "12", is_count: true, ..Number::KIND };
+}
+
+/// Counts above it are no whole numbers of f64 for sure.
+const LARGEST_COUNT: f64 = 9e15;
 
 /// The name of a dimension: "a length", or "in kg m^2" where it has none.
 fn name_dimension(dimension: Dimension) -> String {
@@ -138,6 +153,12 @@ impl<K: QuantityKind> Quantity<K> {
         }
     }
 
+    /// A count that is whole.
+    fn whole(value: f64) -> Option<i64> {
+        let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST_COUNT;
+        (K::KIND.is_count && is_whole).then_some(value as i64)
+    }
+
     /// The text, if it was written as a string.
     pub fn text(&self) -> Option<&str> {
         match &self.written {
@@ -148,8 +169,9 @@ impl<K: QuantityKind> Quantity<K> {
 
     /// Message and help for `error`, which [`Quantity::si`] gave, of the key `key`.
     pub(crate) fn explain(&self, error: &QuantityError, key: &str) -> (String, String) {
-        let Kind { name, si, example, .. } = K::KIND;
+        let Kind { name, si, example, is_count, .. } = K::KIND;
         let bare = match si {
+            _ if is_count => format!("write {name}, such as {example}"),
             "" => format!("write a number, such as {example}"),
             si => format!("write {name} with its unit, {example}, or a bare number in {si}"),
         };
@@ -182,8 +204,11 @@ impl<K: QuantityKind> fmt::Display for Quantity<K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.written {
             Written::Text(text) => write!(f, "\"{text}\""),
-            Written::Si(value) if K::KIND.si.is_empty() => write!(f, "{value:?}"),
-            Written::Si(value) => write!(f, "{value:?} {}", K::KIND.si),
+            Written::Si(value) => match (Self::whole(*value), K::KIND.si) {
+                (Some(count), _) => write!(f, "{count}"),
+                (None, "") => write!(f, "{value:?}"),
+                (None, si) => write!(f, "{value:?} {si}"),
+            },
         }
     }
 }
@@ -197,7 +222,10 @@ impl<K: QuantityKind> fmt::Debug for Quantity<K> {
 impl<K: QuantityKind> Serialize for Quantity<K> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match (self.si(), &self.written) {
-            (Ok(value), _) | (Err(_), &Written::Si(value)) => serializer.serialize_f64(value),
+            (Ok(value), _) | (Err(_), &Written::Si(value)) => match Self::whole(value) {
+                Some(count) => serializer.serialize_i64(count),
+                None => serializer.serialize_f64(value),
+            },
             (Err(_), Written::Text(text)) => serializer.serialize_str(text),
         }
     }
@@ -280,6 +308,20 @@ mod tests {
             explained::<Length>("'3 furlong'", "diameter"),
             "unknown unit `furlong` in \"3 furlong\"; diameter wants a length",
         );
+    }
+
+    #[test]
+    fn a_count_reads_as_a_whole_number() {
+        for written in ["101", "101.0", "'101'"] {
+            let count = quantity::<Count>(written);
+            assert_eq!(serde_json::to_string(&count).unwrap(), "101");
+        }
+        assert_eq!(quantity::<Count>("49.0").to_string(), "49");
+        assert_eq!(quantity::<Count>("49.5").to_string(), "49.5");
+        assert_eq!(quantity::<Number>("1").to_string(), "1.0");
+        let many = quantity::<Count>("'many'");
+        let (_, help) = many.explain(&many.si().unwrap_err(), "steps");
+        assert_eq!(help, "write a whole number, such as 12");
     }
 
     #[test]

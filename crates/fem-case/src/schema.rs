@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::keyword::keywords;
 pub use crate::model_tables::*;
 use crate::quantity::{
-    Bytes, Density, Length, Number, Quantity, QuantityKind, Rate, Speed, Stress, Time,
+    Bytes, Count, Density, Length, Number, Quantity, QuantityKind, Rate, Speed, Stress, Time,
 };
 
 /// A whole case file.
@@ -304,10 +304,10 @@ keywords! {
 pub struct LimitsTable {
     /// Elements of both bodies together.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements: Option<Quantity<Number>>,
+    pub elements: Option<Quantity<Count>>,
     /// Elements times steps.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub element_updates: Option<Quantity<Number>>,
+    pub element_updates: Option<Quantity<Count>>,
     /// Memory of the run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory: Option<Quantity<Bytes>>,

@@ -13,7 +13,7 @@ use crate::document::{Document, Insertions};
 use crate::error::CaseError;
 use crate::explain::explain;
 use crate::overrides;
-use crate::quantity::{Number, Quantity};
+use crate::quantity::{Count, Quantity};
 use crate::sweep_axes::{Axis, read_axes};
 use crate::sweep_file::{Combine, Keep, PlotTable, SweepFile};
 
@@ -190,7 +190,7 @@ impl Sweep {
     }
 }
 
-fn max_members(document: &Document, given: Option<&Quantity<Number>>) -> Result<u64, CaseError> {
+fn max_members(document: &Document, given: Option<&Quantity<Count>>) -> Result<u64, CaseError> {
     let Some(given) = given else { return Ok(MAX_MEMBERS) };
     let count = given.si().ok().filter(|count| *count >= 1.0 && *count <= 9e15);
     count.filter(|count| count.fract() == 0.0).map(|count| count as u64).ok_or_else(|| {

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use crate::keyword::keywords;
-use crate::quantity::{Number, Quantity};
+use crate::quantity::{Count, Quantity};
 
 /// A whole sweep file.
 #[derive(Debug, Deserialize)]
@@ -19,7 +19,7 @@ pub(crate) struct SweepFile {
     #[serde(default)]
     pub(crate) keep: Keep,
     /// A sweep of more is refused.
-    pub(crate) max_members: Option<Quantity<Number>>,
+    pub(crate) max_members: Option<Quantity<Count>>,
     /// Dotted keys and lists; [`crate::sweep_axes`] reads them, positions included.
     #[serde(default, rename = "vary")]
     pub(crate) _vary: Option<IgnoredAny>,

@@ -428,7 +428,7 @@ fn snapshots() {
     fault(list, "[«\"1 um\"»]", "is a length; snapshots wants a time", "");
     fault(list, "[«-1e-6»]", "snapshots is -1e-6 s", "");
     fault(list, "[«[]»]", "snapshots.0 is an array", "");
-    fault(list, "«0»", "snapshots is 0.0", "a whole number");
+    fault(list, "«0»", "snapshots is 0", "a whole number");
     fault(list, "«1.5»", "snapshots is 1.5", "a whole number");
 }
 

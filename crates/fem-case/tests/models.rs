@@ -127,6 +127,9 @@ fn faults_point_at_their_key() {
     fault("hertz = { finite_size = «1» }", "finite_size is an integer", "boolean");
     fault("ting = { tolerance = «\"1 m\"» }", "wants a plain number", "");
     fault("auto = «{}»", "not available", "fem, condensed, ting, hertz and law");
+    fault("condensed = { vibration_modes = «101» }", "vibration_modes is 101", "whole number");
+    fault("condensed = { steps = «49.0» }", "steps is 49", "whole number");
+    fault("condensed = { steps = «\"many\"» }", "not a whole number", "such as 12");
     // Only the relaxation that is there has a slow limit, and this glass flows.
     fault("law = { kuwabara_kono = «{}» }", "flows", "give a");
 }

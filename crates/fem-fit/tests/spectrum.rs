@@ -36,8 +36,14 @@ fn fit(
     let model = |weights: &[f64]| {
         restitutions(&weights.iter().copied().zip(times.iter().copied()).collect::<Vec<_>>())
     };
-    let problem =
-        SpectrumProblem { restitutions: &model, measured, uncertainties, times, regularisation };
+    let problem = SpectrumProblem {
+        restitutions: &model,
+        measured,
+        collisions: &(0..measured.len()).collect::<Vec<_>>(),
+        uncertainties,
+        times,
+        regularisation,
+    };
     problem.fit(0.95)
 }
 
@@ -117,6 +123,7 @@ fn one_point_determines_one_combination() {
     let problem = |regularisation| SpectrumProblem {
         restitutions: &model,
         measured: &[0.925],
+        collisions: &[0],
         uncertainties: None,
         times: &GRID[1..],
         regularisation,

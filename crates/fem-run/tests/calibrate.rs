@@ -155,9 +155,11 @@ fn faults_are_pointed_at_and_nothing_is_written() {
         &["--regularisation", "0"],
         &["2 measured values cannot determine 4 parameters", "lower --terms"],
     );
-    refused(good, &["--regularisation=-1"], &["regularisation must be at least 0"]);
-    refused(good, &["--confidence", "95"], &["confidence must be between 0 and 1"]);
+    refused(good, &["--regularisation", "-1"], &["--regularisation", "it must be at least 0"]);
+    refused(good, &["--confidence", "95"], &["--confidence", "between 0 and 1, such as 0.95"]);
     refused(good, &["--uncertainty", "0"], &["it must be greater than 0"]);
+    refused(good, &["--uncertainty", "-1"], &["--uncertainty is -1.0", "greater than 0"]);
+    refused(good, &["--uncertainty", "5"], &["--uncertainty is 5.0", "at most 1"]);
     refused(good, &["--material", "steel"], &["no body is made of it", "glass"]);
     refused(good, &["--times", "1 ms..1 us"], &["at most the last"]);
     refused(good, &["--times", "1 m..2 m"], &["is no time"]);
@@ -169,6 +171,25 @@ fn faults_are_pointed_at_and_nothing_is_written() {
         &["bad.csv:3: diameter_1_mm is -0.003"],
     );
     refused(
+        "speed_m_s,e,sigma\n0.2,0.9,5\n",
+        &[],
+        &["bad.csv:2: sigma is 5.0", "at most 1", "percent"],
+    );
+    refused(
+        "speed_m_s,e,restitution_uncertainy\n0.2,0.9,0.01\n",
+        &[],
+        &[
+            "bad.csv:1: unknown column restitution_uncertainy",
+            "did you mean `restitution_uncertainty`?",
+            "diameter_1, diameter_2",
+        ],
+    );
+    refused(
+        "diameter1_mm,diameter2_mm,speed_m_s,e\n10,10,0.2,0.9\n20,20,0.2,0.9\n",
+        &[],
+        &["bad.csv:1: unknown column diameter1_mm", "did you mean `diameter_1`?"],
+    );
+    refused(
         "speed_m_s,e,uncertainty\n0.2,0.9,0.01\n",
         &["--uncertainty", "0.01"],
         &["has uncertainties of its own"],
@@ -178,4 +199,116 @@ fn faults_are_pointed_at_and_nothing_is_written() {
         &[],
         &["bad.csv:3: the sweep varies material.glass.density"],
     );
+}
+
+/// Runs of Ting's model on the paper's spheres, the quickest there are.
+fn calibrated(csv: &str, more: &[&str]) -> (String, serde_json::Value) {
+    let place = Place::with(GLASS);
+    place.write("e.csv", csv);
+    let calibrate = ["calibrate", "case.toml", "--data", "e.csv", "--out", "found", "--terms", "2"];
+    let ting = if more.contains(&"--model") { &[][..] } else { &["--model", "ting"] };
+    let ran = place.succeed(&[&calibrate[..], ting, more].concat());
+    (ran.stdout, place.json("found/calibrate.json"))
+}
+
+#[test]
+fn a_wall_has_no_diameter_to_give() {
+    let place = Place::with(include_str!("../../../cases/glass_on_wall.toml"));
+    place.write("nine.csv", PAIRINGS);
+    let ran = place.run(&["calibrate", "case.toml", "--data", "nine.csv"]);
+    assert_eq!(ran.code, Some(2));
+    for part in ["nine.csv:4: diameter_1_mm", "is a wall", "leave the column out"] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    assert!(!ran.stderr.contains("--set"), "{}", ran.stderr);
+}
+
+#[test]
+fn columns_that_are_not_read_are_named_and_those_of_the_program_are_not() {
+    let header = "speed_m_s,e,humidity,contact_radius_um,speed_uncertainty_m_s,member";
+    let (text, _) = calibrated(&format!("{header}\n0.2,0.9,0.4,3,0.01,a\n"), &[]);
+    let warning = "warning: columns that are not read: humidity, contact_radius_um\n";
+    assert!(text.contains(warning), "{text}");
+}
+
+#[test]
+fn given_uncertainties_and_repeats_are_the_scatter() {
+    let unknown = "their scatter is unknown";
+    let (text, numbers) = calibrated("speed_m_s,e\n0.2,0.9\n", &[]);
+    assert!(text.contains(unknown) && text.contains("error of 4.0e-4 in e"), "{text}");
+    assert!(numbers["pure_error"].is_null());
+
+    // One standard deviation is known, with no degree of freedom left.
+    let (text, numbers) = calibrated("speed_m_s,e,sigma\n0.2,0.9,0.01\n", &[]);
+    assert!(!text.contains(unknown), "{text}");
+    assert!((number(&numbers["error"]) - 0.01).abs() < 1e-15);
+
+    // Four of one collision: ±0.01 and ±0.01 about the mean over three.
+    let repeats = "speed_m_s,e\n0.2,0.91\n0.2,0.89\n0.2,0.91\n20 cm/s,0.89\n";
+    let (text, numbers) =
+        calibrated(&repeats.replace("speed_m_s", "speed").replace("0.2,", "0.2 m/s,"), &[]);
+    assert!(!text.contains(unknown), "{text}");
+    assert_eq!(numbers["degrees_of_freedom"], 3);
+    let expected = (4e-4f64 / 3.0).sqrt();
+    assert!((number(&numbers["pure_error"]) - expected).abs() < 1e-12);
+    // The regularisation keeps the fit off the mean by some 1e-5 of 0.01.
+    assert!((number(&numbers["error"]) / expected - 1.0).abs() < 1e-3, "{}", numbers["error"]);
+}
+
+#[test]
+fn the_end_of_the_maxwell_search_is_no_result() {
+    let finite = ["--model", "condensed"];
+    let (text, numbers) = calibrated("speed_m_s,e\n0.2,0\n", &finite);
+    assert!(text.contains("or faster, where the search ends"), "{text}");
+    assert_eq!(numbers["maxwell"]["beyond_search"], "faster");
+    let (text, _) = calibrated("speed_m_s,e\n0.2,1\n", &finite);
+    assert!(text.contains("or slower, where the search ends"), "{text}");
+    // Little comes back from a term a tenth as slow as the contact.
+    let (_, numbers) = calibrated("speed_m_s,e\n0.2,0.01\n", &finite);
+    assert!(numbers["maxwell"]["beyond_search"].is_null());
+    assert!(number(&numbers["maxwell"]["rms"]) < 1e-5);
+}
+
+#[test]
+fn what_is_not_looked_at_is_said() {
+    let with = |more: &[&str]| calibrated("speed_m_s,e\n0.2,0.9\n", more).0;
+    let text = with(&["--set", "model.condensed.steps=50"]);
+    assert!(
+        text.contains("model.condensed is not looked at: --model chooses, here ting"),
+        "{text}"
+    );
+    let text = with(&["--set", "model.condensed.steps=50", "--model", "condensed"]);
+    assert!(text.contains("model.condensed.steps is not looked at: calibrate takes 300"), "{text}");
+    let text = with(&["--set", "model.ting={}"]);
+    assert!(text.contains("model.ting is not looked at"), "{text}");
+    assert!(!with(&[]).contains("not looked at"));
+}
+
+#[test]
+fn speeds_in_millimetres_are_doubted_first() {
+    let fast = "speed_m_s,e\n200,0.9\n300,0.9\n";
+    let (text, numbers) = calibrated(fast, &["--model", "condensed"]);
+    let first = numbers["warnings"][0].as_str().unwrap_or_default();
+    assert!(first.contains("is the unit of the speeds right?"), "{text}");
+    assert!(!text.contains("model fem"), "{text}");
+    // Ting's contact would be too large for its spheres.
+    let place = Place::with(GLASS);
+    place.write("e.csv", fast);
+    let ran = place.run(&["calibrate", "case.toml", "--data", "e.csv", "--model", "ting"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("e.csv:3: "), "{}", ran.stderr);
+    assert!(ran.stderr.contains("is the unit of the speeds right?"), "{}", ran.stderr);
+}
+
+#[test]
+fn speeds_too_far_apart_for_one_mesh_are_told_what_to_do() {
+    let place = Place::with(GLASS);
+    place.write("e.csv", "speed_m_s,e\n1e-6,0.9\n1e3,0.9\n");
+    let ran = place.run(&["calibrate", "case.toml", "--data", "e.csv"]);
+    assert_eq!(ran.code, Some(2));
+    let parts = ["no mesh for all speeds from", "split the data by speed", "--model ting"];
+    for part in parts {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    assert!(!ran.stderr.contains("--set"), "{}", ran.stderr);
 }

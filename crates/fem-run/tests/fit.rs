@@ -112,6 +112,11 @@ fn faults_of_data_and_options_are_pointed_at() {
         &["bad.csv:2: the restitution is 92.0", "restitution_percent"],
     );
     refused("speed_m_s,e\n1,0.9,3\n", &[], &["bad.csv:2:"]);
+    refused(
+        "speed_m_s,e,uncertanty\n1,0.9,0.01\n",
+        &[],
+        &["bad.csv:1: unknown column uncertanty", "did you mean `uncertainty`?"],
+    );
     refused("v_m_s,speed_m_s,e\n1,1,0.9\n", &[], &["mean the same"]);
     refused(
         "speed_m_s\n1\n",
@@ -144,7 +149,7 @@ fn faults_of_data_and_options_are_pointed_at() {
     refused(good, &["--bounds", "a=2..1"], &["the range is empty"]);
     refused(good, &["--bounds", "n=0.4..1"], &["the parameter is not free"]);
     refused(good, &["--profile", "n"], &["this parameter is not free"]);
-    refused(good, &["--confidence", "95"], &["confidence must be between 0 and 1"]);
+    refused(good, &["--confidence", "95"], &["--confidence <P>': it must be between 0 and 1"]);
     refused(
         "speed_m_s,e\n1,0.9\n1,0.91\n1,0.92\n",
         &["--free", "a,n"],

@@ -10,7 +10,7 @@ use crate::error::CaseError;
 use crate::explain::listed;
 use crate::model::{Dashpot, Dissipation, Law, Model};
 use crate::model_tables::{CondensedTable, End, LawTable, ModelTable};
-use crate::quantity::{Number, Quantity, QuantityKind};
+use crate::quantity::{Count, Number, Quantity, QuantityKind};
 
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
@@ -61,7 +61,7 @@ impl Check<'_> {
 
     fn condensed_model(&self, table: &CondensedTable) -> Result<Model, CaseError> {
         let CondensedTable { vibration_modes, steps, penalty_springs } = table;
-        let count = |key: &str, value: &Option<Quantity<Number>>, allowed| {
+        let count = |key: &str, value: &Option<Quantity<Count>>, allowed| {
             let path = join("model.condensed", key);
             let count = self.optional(&path, value.as_ref(), allowed)?;
             Ok::<_, CaseError>(count.map(|count| count as usize))

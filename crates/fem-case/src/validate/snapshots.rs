@@ -4,7 +4,7 @@ use super::{Allowed, Check, NOT_NEGATIVE, allowed};
 use crate::document::join;
 use crate::error::CaseError;
 use crate::explain::near;
-use crate::quantity::{Number, Quantity};
+use crate::quantity::{Count, Quantity};
 use crate::scene::Snapshots;
 use crate::schema::{SnapshotLabel, SnapshotsValue};
 
@@ -17,7 +17,7 @@ impl Check<'_> {
         let list = match value {
             SnapshotsValue::Count(count) => {
                 let count =
-                    self.number(path, &Quantity::<Number>::from_si(*count), SNAPSHOT_COUNT)?;
+                    self.number(path, &Quantity::<Count>::from_si(*count), SNAPSHOT_COUNT)?;
                 return Ok(Snapshots::Count(count as usize));
             }
             SnapshotsValue::List(list) => list,

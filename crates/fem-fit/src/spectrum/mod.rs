@@ -22,11 +22,13 @@
 
 mod bounded;
 mod ranges;
+mod repeats;
 mod resolution;
 mod solve;
 mod speed_exponent;
 
 pub use ranges::Range;
+pub use repeats::PureError;
 pub use resolution::{Combination, Resolution};
 pub use speed_exponent::{SpeedExponent, SpeedPoint, speed_exponent};
 
@@ -44,6 +46,8 @@ pub struct SpectrumProblem<'a> {
     pub restitutions: &'a Restitutions<'a>,
     /// Measured restitutions.
     pub measured: &'a [f64],
+    /// Which collision each is of, any number: those of one number are repeats.
+    pub collisions: &'a [usize],
     /// Their standard uncertainties, if known.
     pub uncertainties: Option<&'a [f64]>,
     /// Relaxation times, s.
@@ -64,12 +68,15 @@ pub struct SpectrumFit {
     /// Error of a restitution that the intervals assume: the rms uncertainty; without
     /// uncertainties the scatter, or [`MODEL_ERROR`] if that is larger.
     pub error: f64,
-    /// Data less weights that are neither 0 nor spare.
+    /// Data less weights that are neither 0 nor spare, of which no more count than collisions.
     pub degrees_of_freedom: usize,
     /// How many errors an interval reaches.
     pub quantile: f64,
-    /// Weighted misfit over the uncertainties, √(χ²/freedom); `None` without either.
+    /// Weighted misfit over the uncertainties, √(χ²/freedom), freedom at least 1; without
+    /// uncertainties over the repeats' scatter, which is left out of it; `None` without either.
     pub misfit: Option<f64>,
+    /// The scatter of repeats, if there are any.
+    pub pure_error: Option<PureError>,
     /// Which combinations are determined.
     pub resolution: Resolution,
     /// Each weight's, the others free.

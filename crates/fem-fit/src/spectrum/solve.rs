@@ -7,6 +7,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::bounded::Linear;
 use super::ranges::{Seeker, moments};
+use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
 use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
 use crate::FitError;
@@ -39,9 +40,12 @@ impl<'a> Solver<'a> {
         let (state, jacobian) = self.minimise()?;
         let linear = self.linear(&state, &jacobian);
         let sum = self.misfit(&state.restitutions);
-        let n_values = problem.measured.len();
+        let (n_values, n_collisions) = (problem.measured.len(), n_distinct(problem.collisions));
         let n_free = state.weights.iter().filter(|weight| **weight > STANDS).count();
-        let freedom = n_values.saturating_sub(n_free);
+        // Repeats determine no more weights than one measurement does: the rest is scatter.
+        let n_free = n_free.min(n_collisions);
+        let freedom = n_values - n_free;
+        let pure_error = PureError::of(problem.measured, problem.collisions);
         let unit = problem.unit();
         let scatter = (sum / freedom.max(1) as f64).sqrt();
         let is_weighted = problem.uncertainties.is_some();
@@ -68,7 +72,11 @@ impl<'a> Solver<'a> {
         Ok(SpectrumFit {
             rms: root_mean_square(&residuals),
             resolution: Resolution::of(&linear.a, error, problem.regularisation, &state.weights),
-            misfit: (is_weighted && freedom > 0).then_some(scatter / unit),
+            misfit: match is_weighted {
+                true => Some(scatter / unit),
+                false => pure_error.and_then(|pure| pure.misfit(sum, n_collisions - n_free)),
+            },
+            pure_error,
             weights: state.weights,
             restitutions: state.restitutions,
             error,

@@ -3,6 +3,8 @@
 //! paste.
 
 mod experiment;
+mod faults;
+mod maxwell;
 mod numbers;
 mod pairs;
 mod picture;
@@ -15,9 +17,11 @@ use fem_fit::spectrum::SpectrumFit;
 use fem_material::{ActsOn, PronyTerm};
 
 pub use experiment::{Experiment, ModelName, Target};
+pub use faults::unused_model;
+pub use maxwell::Maxwell;
 pub use numbers::{calibration_numbers, relaxation_table};
 pub use pairs::{Measured, read_measured};
-pub use picture::{Maxwell, calibration_picture};
+pub use picture::calibration_picture;
 pub use report::calibration_text;
 pub use verdict::warnings;
 

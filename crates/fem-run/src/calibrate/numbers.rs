@@ -3,16 +3,13 @@
 use fem_fit::spectrum::Range;
 use serde_json::{Value, json};
 
+use super::Calibrated;
+use super::maxwell::Beyond;
 use super::verdict::measured_exponent;
-use super::{Calibrated, ModelName};
 
 /// `calibrate.json`.
 pub fn calibration_numbers(found: &Calibrated<'_>) -> Value {
     let fit = found.fit;
-    let model = match found.model {
-        ModelName::Condensed => "condensed",
-        ModelName::Ting => "ting",
-    };
     let range = |range: &Range| json!({ "value": range.value, "range": [range.low, range.high] });
     let terms = (0..found.times.len()).map(|k| {
         json!({
@@ -47,7 +44,7 @@ pub fn calibration_numbers(found: &Calibrated<'_>) -> Value {
     json!({
         "case": found.case.display().to_string(),
         "data": found.measured.data.name,
-        "model": model,
+        "model": found.model.word(),
         "material": found.target.material,
         "acts_on": found.acts_on(),
         "points": found.measured.data.points.len(),
@@ -66,7 +63,12 @@ pub fn calibration_numbers(found: &Calibrated<'_>) -> Value {
         "misfit": fit.misfit,
         "degrees_of_freedom": fit.degrees_of_freedom,
         "evaluations": fit.n_evaluations,
-        "maxwell": { "relaxation_time_s": found.maxwell.time, "rms": found.maxwell.rms },
+        "maxwell": {
+            "relaxation_time_s": found.maxwell.time,
+            "beyond_search": found.maxwell.beyond.map(Beyond::word),
+            "rms": found.maxwell.rms,
+        },
+        "pure_error": fit.pure_error.map(|pure| pure.error),
         "loss_exponent_of_speed": exponent,
         "warnings": found.warnings,
     })

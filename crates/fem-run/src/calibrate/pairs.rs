@@ -5,11 +5,12 @@ use std::path::Path;
 use fem_case::Case;
 
 use crate::failure::Failure;
-use crate::reduced::{CsvTable, Data, points_of};
+use crate::reduced::{CsvTable, Data, OtherColumns, points_of};
 
 /// Columns that tell bodies apart, for the lower and the upper one; a sweep's own names last.
 const DIAMETERS: [[&str; 2]; 2] =
     [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
+const SIDES: [&str; 2] = ["first", "second"];
 const LENGTH: [i32; 3] = [1, 0, 0];
 
 /// The data of a file by pairs of bodies.
@@ -45,6 +46,22 @@ impl Measured {
         self.data.points.iter().map(|point| point.restitution).collect()
     }
 
+    /// For each point the first that is of the same collision: the same pair and speed.
+    pub fn collisions(&self) -> Vec<usize> {
+        let points = &self.data.points;
+        let is_same = |a: usize, b: usize| {
+            let (first, second) = (points[a].speed, points[b].speed);
+            // Units round.
+            (first - second).abs() <= 1e-12 * first && self.pair_of(a) == self.pair_of(b)
+        };
+        (0..points.len()).map(|k| (0..k).find(|j| is_same(*j, k)).unwrap_or(k)).collect()
+    }
+
+    /// A fault of a point.
+    pub fn fault(&self, point: usize, message: impl std::fmt::Display) -> Failure {
+        Failure::bad_input(format!("{}:{}: {message}", self.data.name, self.data.lines[point]))
+    }
+
     /// The pair of each point.
     pub fn pair_of(&self, point: usize) -> usize {
         self.bodies.iter().position(|bodies| bodies.points.contains(&point)).unwrap_or(0)
@@ -60,7 +77,17 @@ pub fn read_measured(path: &Path, case: &Case) -> Result<Measured, Failure> {
     let [first, second] = DIAMETERS;
     let columns = [table.find(&first)?, table.find(&second)?];
     let may_vary: Vec<usize> = columns.iter().flatten().copied().collect();
-    let data = points_of(&table, &case.scene, false, &may_vary)?;
+    for ((column, body), side) in columns.iter().zip(&case.scene.bodies).zip(SIDES) {
+        if let (Some(column), None) = (column, body.diameter()) {
+            let (header, name) = (&table.header()[*column], &body.name);
+            let message = format!("{header} is of the {side} body, and \"{name}\" is a wall");
+            return Err(table
+                .fault(table.header_line(), message)
+                .with_help("leave the column out, or take a case of two spheres"));
+        }
+    }
+    let others = OtherColumns { columns: &may_vary, names: &[first[0], second[0]] };
+    let data = points_of(&table, &case.scene, false, others)?;
     let mut bodies: Vec<Bodies> = Vec::new();
     for (point, &row) in data.rows.iter().enumerate() {
         let mut diameters = [None, None];

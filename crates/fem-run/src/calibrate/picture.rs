@@ -12,21 +12,6 @@ const N: usize = 33;
 /// Space beside a single speed.
 const BESIDE: f64 = 2.0;
 
-/// A single Maxwell term of weight 1 whose restitutions have the mean of the measured ones.
-pub struct Maxwell {
-    /// Its relaxation time, s.
-    pub time: f64,
-    /// rms error of e.
-    pub rms: f64,
-}
-
-impl Maxwell {
-    /// Its term.
-    pub fn term(&self) -> PronyTerm {
-        PronyTerm { weight: 1.0, relaxation_time: self.time }
-    }
-}
-
 /// Restitutions over speed (over the contact time where there are several pairs: in linear bodies
 /// nothing else counts but for the small ratio of contact to sphere), and weights over relaxation
 /// time.

@@ -18,9 +18,16 @@ pub fn calibration_text(found: &Calibrated<'_>) -> String {
     text += "\n";
     let fit = found.fit;
     text += &format!(
-        "rms error: {:.2e}; that of a single Maxwell term (weight 1, {}) with the same mean: {:.2e}\n",
+        "rms error: {:.2e}; that of a single Maxwell term (weight 1, {}): {:.2e}\n",
         fit.rms,
-        show(found.maxwell.time, "s"),
+        match found.maxwell.beyond {
+            None => format!("{} with the same mean", show(found.maxwell.time, "s")),
+            Some(beyond) => format!(
+                "{} or {}, where the search ends",
+                show(found.maxwell.time, "s"),
+                beyond.word()
+            ),
+        },
         found.maxwell.rms
     );
     if let Some(exponent) = measured_exponent(found.measured) {

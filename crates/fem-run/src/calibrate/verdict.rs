@@ -24,13 +24,19 @@ pub fn measured_exponent(measured: &Measured) -> Option<SpeedExponent> {
 
 /// In the order of their weight.
 pub fn warnings(measured: &Measured, experiments: &[Experiment], fit: &SpectrumFit) -> Vec<String> {
-    let mut warnings = Vec::new();
-    warnings.extend(measured_exponent(measured).and_then(|found| falling(&found, fit)));
     let data = &measured.data;
-    if data.n_left_out > 0 {
-        warnings.push(format!("{} rows without a result were left out", data.n_left_out));
-    }
+    let is_given = data.points.iter().any(|point| point.restitution_uncertainty.is_some());
+    // Pairs in the same unit are in doubt together.
+    let doubts = experiments.iter().filter_map(|experiment| experiment.doubt.clone());
+    let mut warnings: Vec<String> = doubts.take(1).collect();
+    warnings.extend(measured_exponent(measured).and_then(|found| falling(&found, fit)));
+    warnings.extend(data.warnings());
     match fit.misfit {
+        Some(misfit) if misses(fit) && !is_given => warnings.push(format!(
+            "the misfit is {misfit:.1} times the scatter of repeats: no series of these relaxation \
+             times makes these data, and the ranges tell flatness, no probability; try more --terms \
+             or other --times"
+        )),
         Some(misfit) if misses(fit) => warnings.push(format!(
             "the misfit is {misfit:.1} times the uncertainties: no series of these relaxation \
              times makes these data, or the uncertainties are too small, and so are the ranges; try more \
@@ -43,10 +49,10 @@ pub fn warnings(measured: &Measured, experiments: &[Experiment], fit: &SpectrumF
         )),
         _ => {}
     }
-    if fit.degrees_of_freedom == 0 && fit.misfit.is_none() {
+    if fit.degrees_of_freedom == 0 && !is_given {
         warnings.push(format!(
             "no more data than weights: their scatter is unknown, and the ranges are those of an \
-             error of {} in e; give --uncertainty",
+             error of {:.1e} in e; give --uncertainty",
             fit.error
         ));
     }

@@ -1,22 +1,23 @@
 //! `fem-run calibrate CASE --data E.csv`: a Prony series from measured restitutions.
 
-use std::cell::RefCell;
 use std::path::PathBuf;
 
 use fem_case::{Case, parse_quantity};
 use fem_fit::FitError;
 use fem_fit::spectrum::{SpectrumProblem, root_mean_square};
-use fem_laws::bisection::falling_zero;
 use fem_material::{ActsOn, PronyTerm};
 use rayon::prelude::*;
 
 use crate::arguments::{CaseArguments, stem_of};
 use crate::calibrate::{
     Calibrated, Experiment, Maxwell, Measured, ModelName, Target, calibration_numbers,
-    calibration_picture, calibration_text, ends, read_measured, relaxation_table, terms, warnings,
+    calibration_picture, calibration_text, ends, read_measured, relaxation_table, terms,
+    unused_model, warnings,
 };
 use crate::failure::Failure;
-use crate::reduced::{Output, OutputArguments, from_fit_error};
+use crate::reduced::{
+    LARGEST_UNCERTAINTY, Output, OutputArguments, from_fit_error, parse_confidence,
+};
 use crate::standard_output;
 
 /// Find a Prony series that makes measured restitutions, and what they leave open
@@ -51,16 +52,17 @@ pub struct Arguments {
     material: Option<String>,
     /// A weight of 1 costs as much as this error of a restitution; 0 for none [default: the data's
     /// uncertainty, or 0.001]
-    #[arg(long, value_name = "LAMBDA")]
+    #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = parse_ridge)]
     regularisation: Option<f64>,
     /// Standard uncertainty of the restitutions, where the file has none
-    #[arg(long, value_name = "U")]
+    #[arg(long, value_name = "U", allow_negative_numbers = true)]
     uncertainty: Option<f64>,
     /// What computes a collision
     #[arg(long, value_name = "MODEL", value_enum, default_value_t = ModelName::Condensed)]
     model: ModelName,
     /// Level of the ranges
-    #[arg(long, value_name = "P", default_value_t = 0.95)]
+    #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
+        value_parser = parse_confidence)]
     confidence: f64,
     #[command(flatten)]
     output: OutputArguments,
@@ -103,13 +105,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let problem = SpectrumProblem {
         restitutions: &of_weights,
         measured: &wanted,
+        collisions: &measured.collisions(),
         uncertainties: uncertainties.as_deref(),
         times: &times,
         regularisation,
     };
     let fit = problem.fit(arguments.confidence).map_err(refused)?;
-    let maxwell = mean_maxwell(&restitutions, &wanted, contacts).map_err(refused)?;
-    let warnings = warnings(&measured, &experiments, &fit);
+    let maxwell = Maxwell::of_mean(&restitutions, &wanted, contacts).map_err(refused)?;
+    let mut warnings = warnings(&measured, &experiments, &fit);
+    warnings.extend(unused_model(&case, arguments.model));
     let found = Calibrated {
         case: &arguments.input.case,
         measured: &measured,
@@ -138,9 +142,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// `--uncertainty` for all rows of a file that has none.
 fn fill_uncertainties(arguments: &Arguments, measured: &mut Measured) -> Result<(), Failure> {
     let Some(uncertainty) = arguments.uncertainty else { return Ok(()) };
-    if !(uncertainty > 0.0 && uncertainty.is_finite()) {
+    if !(uncertainty > 0.0 && uncertainty <= LARGEST_UNCERTAINTY) {
         let message = format!("--uncertainty is {uncertainty:?}");
-        return Err(Failure::bad_input(message).with_help("it must be greater than 0"));
+        return Err(Failure::bad_input(message)
+            .with_help("it must be greater than 0 and at most 1: restitutions lie between"));
     }
     let points = &mut measured.data.points;
     if points.iter().any(|point| point.restitution_uncertainty.is_some()) {
@@ -157,9 +162,8 @@ fn all_restitutions(
     terms: &[PronyTerm],
     n_points: usize,
 ) -> Result<Vec<f64>, FitError> {
-    let of_pair = |experiment: &Experiment| -> Result<Vec<f64>, FitError> {
-        experiment.speeds.iter().map(|speed| experiment.restitution(terms, *speed)).collect()
-    };
+    let of_pair =
+        |experiment: &Experiment| -> Result<Vec<f64>, FitError> { experiment.restitutions(terms) };
     let found: Vec<_> = experiments.par_iter().map(of_pair).collect::<Result<_, _>>()?;
     let mut restitutions = vec![0.0; n_points];
     for (experiment, found) in experiments.iter().zip(found) {
@@ -168,35 +172,6 @@ fn all_restitutions(
         }
     }
     Ok(restitutions)
-}
-
-/// Terms to the restitutions of all points.
-type OfTerms<'a> = dyn Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError> + 'a;
-
-/// The relaxation time of weight 1 that makes the mean of the restitutions.
-fn mean_maxwell(
-    restitutions: &OfTerms<'_>,
-    wanted: &[f64],
-    contacts: (f64, f64),
-) -> Result<Maxwell, FitError> {
-    let differences = |time: f64| -> Result<Vec<f64>, FitError> {
-        let found = restitutions(&[PronyTerm { weight: 1.0, relaxation_time: time }])?;
-        Ok(wanted.iter().zip(found).map(|(wanted, e)| wanted - e).collect())
-    };
-    let failure = RefCell::new(None);
-    let lacks = |time: f64| match differences(time.exp()) {
-        Ok(differences) => differences.iter().sum(),
-        Err(error) => {
-            *failure.borrow_mut() = Some(error);
-            0.0
-        }
-    };
-    // From a loss that leaves little to one that nobody sees.
-    let time = falling_zero((0.2 * contacts.0).ln(), (1e4 * contacts.1).ln(), lacks).exp();
-    if let Some(error) = failure.into_inner() {
-        return Err(error);
-    }
-    Ok(Maxwell { time, rms: root_mean_square(&differences(time)?) })
 }
 
 fn write_residuals(output: &mut Output, found: &Calibrated<'_>) -> Result<(), Failure> {
@@ -223,6 +198,12 @@ fn write_residuals(output: &mut Output, found: &Calibrated<'_>) -> Result<(), Fa
         ]
     });
     output.write_table("residuals.csv", &header, rows)
+}
+
+/// A λ.
+fn parse_ridge(text: &str) -> Result<f64, String> {
+    let ridge = text.parse::<f64>().ok().filter(|ridge| *ridge >= 0.0 && ridge.is_finite());
+    ridge.ok_or_else(|| "it must be at least 0, such as 0.001; 0 is none".to_string())
 }
 
 /// Evenly in the logarithm, the ends included; one alone lies in the middle.
@@ -253,7 +234,7 @@ fn refused(error: FitError) -> Failure {
         FitError::TooFewData { .. } => Failure::bad_input(error.to_string())
             .with_help("lower --terms, measure at more speeds, or give --regularisation above 0"),
         FitError::Collision { .. } => Failure::failed(error.to_string()).with_help(
-            "leave out the speeds at which the bodies are not linear, or try --model ting",
+            "leave out the speeds at which the bodies are not linear, or give slower --times",
         ),
         FitError::NotConverged { .. } => {
             Failure::failed(error.to_string()).with_help("lower --terms, or raise --regularisation")

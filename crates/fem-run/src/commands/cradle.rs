@@ -175,7 +175,7 @@ fn read(path: &std::path::Path, arguments: &Arguments) -> Result<Vec<(Trial, Str
             let name = &table.header()[column];
             if !name.ends_with("_deg") && !name.ends_with("rad") {
                 return Err(table
-                    .fault(1, format!("the column {name} does not name its unit"))
+                    .fault(table.header_line(), format!("the column {name} does not name its unit"))
                     .with_help(format!("call it {name}_deg or {name}_rad")));
             }
             let uncertainty = uncertainty.map(|column| table.number(row, column, [0; 3]));

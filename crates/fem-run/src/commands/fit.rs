@@ -10,8 +10,8 @@ use crate::arguments::{CaseArguments, stem_of};
 use crate::failure::Failure;
 use crate::reduced::{
     ChosenLaw, Data, Fitted, LawArguments, Output, OutputArguments, family_of, find_key, find_loss,
-    fit_numbers, fit_picture, fit_text, from_fit_error, histories_picture, parse_family,
-    parse_speed, parse_value, read_data, split,
+    fit_numbers, fit_picture, fit_text, from_fit_error, histories_picture, parse_confidence,
+    parse_family, parse_speed, parse_value, read_data, split,
 };
 use crate::standard_output;
 
@@ -49,7 +49,8 @@ pub struct Arguments {
     #[arg(long)]
     contact_time: bool,
     /// Level of the confidence intervals
-    #[arg(long, value_name = "P", default_value_t = 0.95)]
+    #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
+        value_parser = parse_confidence)]
     confidence: f64,
     /// Speed of the histories that are drawn [default: the middle of the data]
     #[arg(long, value_name = "SPEED", value_parser = parse_speed)]

@@ -7,6 +7,7 @@ use fem_fit::Point;
 
 use super::table::CsvTable;
 use crate::failure::Failure;
+use crate::sweep::COLUMNS;
 
 /// The data of a file.
 #[derive(Debug)]
@@ -17,8 +18,35 @@ pub struct Data {
     pub points: Vec<Point>,
     /// The row of the file that each point is from, counted from 0.
     pub rows: Vec<usize>,
+    /// The line of the file that each point is from.
+    pub lines: Vec<u64>,
     /// Rows of members that failed.
     pub n_left_out: usize,
+    /// Columns that nobody reads.
+    pub unread: Vec<String>,
+}
+
+impl Data {
+    /// What was not looked at.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.n_left_out > 0 {
+            warnings.push(format!("{} rows without a result were left out", self.n_left_out));
+        }
+        if !self.unread.is_empty() {
+            warnings.push(format!("columns that are not read: {}", self.unread.join(", ")));
+        }
+        warnings
+    }
+}
+
+/// Columns beyond the usual that a reader takes, and that may differ from row to row.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OtherColumns<'a> {
+    /// Which they are.
+    pub columns: &'a [usize],
+    /// How they may be called.
+    pub names: &'a [&'a str],
 }
 
 const SPEEDS: [&str; 6] =
@@ -27,8 +55,25 @@ const RESTITUTIONS: [&str; 3] = ["restitution", "coefficient_of_restitution", "e
 const UNCERTAINTIES: [&str; 5] =
     ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
 const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
+/// Names that need not be there, of which a near miss is no other name.
+const OPTIONAL: [&str; 5] =
+    ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
+/// What `cradle` and this reader's users write beside what is read.
+const WRITTEN: [&str; 9] = [
+    "speed_uncertainty",
+    "first_after",
+    "second_after",
+    "alpha",
+    "beta",
+    "fitted_restitution",
+    "residual",
+    "fitted_contact_time",
+    "member",
+];
 const SPEED: [i32; 3] = [1, 0, -1];
 const TIME: [i32; 3] = [0, 0, 1];
+/// Uncertainties above it tell nothing of a number between 0 and 1.
+pub const LARGEST_UNCERTAINTY: f64 = 1.0;
 /// Restitutions above it are no scatter of a measurement.
 const LARGEST: f64 = 1.2;
 
@@ -44,16 +89,24 @@ struct Columns {
     complete: Option<usize>,
 }
 
+impl Columns {
+    fn read(&self) -> Vec<usize> {
+        let optional = [self.uncertainty, self.contact_time, self.complete];
+        let required = self.speeds.iter().copied().chain([self.restitution]);
+        required.chain(optional.into_iter().flatten()).collect()
+    }
+}
+
 /// Reads a file; contact times only if they are wanted. The scene has the speed of a body that a
 /// sweep does not vary.
 ///
 /// # Errors
 /// What is wrong, with file and line.
 pub fn read_data(path: &Path, scene: &Scene, with_contact_time: bool) -> Result<Data, Failure> {
-    points_of(&CsvTable::read(path)?, scene, with_contact_time, &[])
+    points_of(&CsvTable::read(path)?, scene, with_contact_time, OtherColumns::default())
 }
 
-/// As [`read_data`], of a table in which other columns of a sweep may vary.
+/// As [`read_data`], of a table with other columns.
 ///
 /// # Errors
 /// As [`read_data`].
@@ -61,10 +114,19 @@ pub fn points_of(
     table: &CsvTable,
     scene: &Scene,
     with_contact_time: bool,
-    may_vary: &[usize],
+    others: OtherColumns<'_>,
 ) -> Result<Data, Failure> {
-    let columns = columns(table, scene, with_contact_time, may_vary)?;
-    let (mut points, mut rows) = (Vec::new(), Vec::new());
+    let columns = columns(table, scene, with_contact_time, others.columns)?;
+    let unread = table.unread(
+        &[&columns.read()[..], others.columns].concat(),
+        &[&OPTIONAL[..], others.names].concat(),
+        |name| {
+            // A sweep's keys have points in their names; they are the same in all rows here.
+            name.contains('.')
+                || [COLUMNS, &WRITTEN, &CONTACT_TIMES].iter().any(|known| known.contains(&name))
+        },
+    )?;
+    let (mut points, mut rows, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     let mut n_left_out = 0;
     for row in 0..table.n_rows() {
         let is_failed = columns.complete.is_some_and(|column| table.text(row, column) == "false");
@@ -76,6 +138,7 @@ pub fn points_of(
         }
         points.push(point(table, &columns, row)?);
         rows.push(row);
+        lines.push(table.line(row));
     }
     if points.is_empty() {
         return Err(Failure::bad_input(format!("{}: no row has a restitution", table.name())));
@@ -86,7 +149,7 @@ pub fn points_of(
             format!("{}: {with} of {} rows have an uncertainty", table.name(), points.len());
         return Err(Failure::bad_input(message).with_help("give one in every row, or in none"));
     }
-    Ok(Data { name: table.name().to_string(), points, rows, n_left_out })
+    Ok(Data { name: table.name().to_string(), points, rows, lines, n_left_out, unread })
 }
 
 fn columns(
@@ -160,10 +223,18 @@ fn point(table: &CsvTable, columns: &Columns, row: usize) -> Result<Point, Failu
             value => Ok(value.map(|cell| cell.value)),
         }
     };
+    let restitution_uncertainty = optional(columns.uncertainty, [0; 3])?;
+    if let Some(uncertainty) = restitution_uncertainty.filter(|u| *u > LARGEST_UNCERTAINTY) {
+        let header = columns.uncertainty.map_or("", |column| &table.header()[column]);
+        return Err(table.fault(line, format!("{header} is {uncertainty:?}")).with_help(
+            "the uncertainty of a restitution is at most 1; name the column \
+             restitution_uncertainty_percent for per cents",
+        ));
+    }
     Ok(Point {
         speed,
         restitution,
-        restitution_uncertainty: optional(columns.uncertainty, [0; 3])?,
+        restitution_uncertainty,
         contact_time: optional(columns.contact_time, TIME)?,
     })
 }

@@ -26,10 +26,7 @@ impl Fitted<'_> {
     /// What a reader should know before trusting the numbers.
     fn warnings(&self) -> Vec<String> {
         let (fit, problem) = (self.fit, self.problem);
-        let mut warnings = Vec::new();
-        if self.data.n_left_out > 0 {
-            warnings.push(format!("{} rows without a result were left out", self.data.n_left_out));
-        }
+        let mut warnings = self.data.warnings();
         for estimate in fit.estimates.iter().filter(|estimate| estimate.is_at_bound) {
             warnings.push(format!("{} is at its bound: the best value lies beyond", estimate.key));
         }

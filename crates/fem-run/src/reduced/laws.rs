@@ -112,6 +112,15 @@ pub fn parse_value(parameter: &Parameter, text: &str, option: &str) -> Result<f6
     Ok(value)
 }
 
+/// A level of confidence.
+///
+/// # Errors
+/// None, in words.
+pub fn parse_confidence(text: &str) -> Result<f64, String> {
+    let level = text.parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
+    level.ok_or_else(|| "it must be between 0 and 1, such as 0.95 for 95 %".to_string())
+}
+
 /// A speed, m/s.
 ///
 /// # Errors

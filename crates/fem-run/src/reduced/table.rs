@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use fem_case::parse_quantity;
+use fem_case::{nearest, parse_quantity};
 
 use crate::failure::Failure;
 use crate::standard_output::one_line;
@@ -15,6 +15,7 @@ use crate::standard_output::one_line;
 pub struct CsvTable {
     name: String,
     header: Vec<String>,
+    header_line: u64,
     rows: Vec<(u64, Vec<String>)>,
 }
 
@@ -45,6 +46,15 @@ const ENDINGS: [(&str, f64, [i32; 3]); 14] = [
     ("_m", 1.0, [1, 0, 0]),
 ];
 
+/// Similarity of names above which one is the other misspelt: `diameter1`, `uncertanty` are, and
+/// `contact_radius` for `contact_time` is not.
+const MISSPELT: f64 = 0.9;
+
+/// A name without the ending of its unit.
+fn bare(header: &str) -> &str {
+    ENDINGS.iter().find_map(|(ending, ..)| header.strip_suffix(ending)).unwrap_or(header)
+}
+
 impl CsvTable {
     /// Reads a file.
     ///
@@ -62,6 +72,8 @@ impl CsvTable {
             .trim(csv::Trim::All)
             .from_reader(text.as_bytes());
         let header = reader.headers().map_err(|error| cannot(&error))?;
+        let is_header = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
+        let header_line = text.lines().position(is_header).map_or(1, |above| above as u64 + 1);
         let header: Vec<String> =
             header.iter().map(|name| name.trim_start_matches('\u{feff}').to_lowercase()).collect();
         let mut rows = Vec::new();
@@ -77,7 +89,7 @@ impl CsvTable {
         if rows.is_empty() {
             return Err(Failure::bad_input(format!("{name}: there is no row below the header")));
         }
-        Ok(Self { name, header, rows })
+        Ok(Self { name, header, header_line, rows })
     }
 
     /// The file's name, to show.
@@ -110,7 +122,10 @@ impl CsvTable {
             (Some(first), Some(second)) => {
                 let (first, second) = (&self.header[first], &self.header[second]);
                 Err(self
-                    .fault(1, format!("the columns {first} and {second} mean the same"))
+                    .fault(
+                        self.header_line,
+                        format!("the columns {first} and {second} mean the same"),
+                    )
                     .with_help("keep one of the two"))
             }
             _ => Ok(first),
@@ -124,14 +139,56 @@ impl CsvTable {
     pub fn require(&self, names: &[&str], example: &str) -> Result<usize, Failure> {
         self.find(names)?.ok_or_else(|| {
             let found = one_line(&self.header.join(", "));
-            self.fault(1, format!("there is no column {}; found are {found}", names[0]))
-                .with_help(format!("name a column {example}"))
+            self.fault(
+                self.header_line,
+                format!("there is no column {}; found are {found}", names[0]),
+            )
+            .with_help(format!("name a column {example}"))
         })
+    }
+
+    /// Names of the columns that are neither read nor known otherwise.
+    ///
+    /// # Errors
+    /// One whose name is nearly that of a column that would be read.
+    pub fn unread(
+        &self,
+        read: &[usize],
+        optional: &[&str],
+        is_known: impl Fn(&str) -> bool,
+    ) -> Result<Vec<String>, Failure> {
+        let mut unread = Vec::new();
+        for (column, header) in self.header.iter().enumerate() {
+            let bare = bare(header);
+            if read.contains(&column) || is_known(header) || is_known(bare) {
+                continue;
+            }
+            // `contact_time_spread` and `mass_uncertainty` are names of their own.
+            let is_own = |near: &str| {
+                bare.starts_with(&format!("{near}_")) || bare.ends_with(&format!("_{near}"))
+            };
+            if let Some(near) = nearest(bare, optional, MISSPELT).filter(|near| !is_own(near)) {
+                return Err(self
+                    .fault(self.header_line, format!("unknown column {}", one_line(header)))
+                    .with_help(format!(
+                        "did you mean `{near}`? columns that may be given are {}; rename one that \
+                         is not to be read",
+                        optional.join(", ")
+                    )));
+            }
+            unread.push(one_line(header));
+        }
+        Ok(unread)
     }
 
     /// A cell as it is.
     pub fn text(&self, row: usize, column: usize) -> &str {
         self.rows[row].1.get(column).map_or("", String::as_str)
+    }
+
+    /// The line of the header.
+    pub fn header_line(&self) -> u64 {
+        self.header_line
     }
 
     /// The line of a row.

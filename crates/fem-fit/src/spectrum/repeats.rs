@@ -1,0 +1,67 @@
+//! The scatter of measurements that repeat the same collision: what no model can explain.
+//!
+//! The pure error of Box & Draper, *Empirical Model-Building and Response Surfaces*, ch. 3: the sum
+//! of squares about the means of repeats, over the number of measurements less that of collisions.
+
+/// Fewer degrees of freedom than this do not tell a misfit from luck.
+const FEWEST: usize = 3;
+
+/// How repeats scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PureError {
+    /// Standard deviation of one measurement.
+    pub error: f64,
+    /// Measurements less collisions, at least 1.
+    pub degrees_of_freedom: usize,
+}
+
+impl PureError {
+    /// Of measurements and the collision that each is of; `None` if none is repeated.
+    pub(super) fn of(measured: &[f64], collisions: &[usize]) -> Option<Self> {
+        let degrees_of_freedom = measured.len().checked_sub(n_distinct(collisions))?;
+        let mean = |collision: usize| {
+            let own = collisions.iter().zip(measured).filter(|(own, _)| **own == collision);
+            let (n, sum) = own.fold((0, 0.0), |(n, sum), (_, value)| (n + 1, sum + value));
+            sum / f64::from(n)
+        };
+        let both = measured.iter().zip(collisions);
+        let sum: f64 = both.map(|(value, collision)| (value - mean(*collision)).powi(2)).sum();
+        let error = (sum / degrees_of_freedom as f64).sqrt();
+        (degrees_of_freedom > 0).then_some(Self { error, degrees_of_freedom })
+    }
+
+    /// What a fit leaves beyond the repeats' scatter, over that scatter; `None` if too few repeats
+    /// tell it. The fit's sum of squares, and how many collisions it has more than free weights.
+    pub(super) fn misfit(&self, sum: f64, freedom: usize) -> Option<f64> {
+        let own = self.error.powi(2) * self.degrees_of_freedom as f64;
+        let lack = ((sum - own).max(0.0) / freedom.max(1) as f64).sqrt();
+        (self.degrees_of_freedom >= FEWEST && self.error > 0.0).then(|| lack / self.error)
+    }
+}
+
+/// How many collisions there are.
+pub(super) fn n_distinct(collisions: &[usize]) -> usize {
+    let mut known = collisions.to_vec();
+    known.sort_unstable();
+    known.dedup();
+    known.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repeats_scatter_about_their_own_means() {
+        let measured = [0.90, 0.92, 0.70, 0.50];
+        assert_eq!(PureError::of(&measured, &[0, 1, 2, 3]), None);
+        let found = PureError::of(&measured, &[0, 0, 1, 2]).unwrap();
+        // ±0.01 about the mean, one degree of freedom.
+        assert!((found.error - 0.02f64 / 2f64.sqrt()).abs() < 1e-15);
+        assert_eq!(found.degrees_of_freedom, 1);
+        assert_eq!(found.misfit(1.0, 2), None);
+        let many = PureError { error: 0.1, degrees_of_freedom: 4 };
+        // A sum of 0.04 is the repeats' own; as much again over one is twice the error.
+        assert!((many.misfit(0.08, 1).unwrap() - 2.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,57 @@
+//! Faults of data that reach the model as overrides of the case, and what of the case is left out.
+
+use fem_case::{Case, CaseError};
+
+use super::experiment::{ModelName, STEPS};
+use super::pairs::Measured;
+use crate::engineering::show;
+use crate::failure::Failure;
+
+/// What of the case's own model a calibration does not look at.
+pub fn unused_model(case: &Case, chosen: ModelName) -> Option<String> {
+    let model = case.scene.model.path();
+    let is_own = chosen == ModelName::Condensed && model == "model.condensed";
+    let what = match is_own {
+        true => "model.condensed.steps",
+        false => model.as_str(),
+    };
+    case.gives(what).then(|| match is_own {
+        true => format!("{what} is not looked at: calibrate takes {STEPS}"),
+        false => format!("{what} is not looked at: --model chooses, here {}", chosen.word()),
+    })
+}
+
+/// A fault of what the data say (`own`, as overrides) and no option does, with its line.
+pub(super) fn blame(
+    error: CaseError,
+    own: &[String],
+    measured: &Measured,
+    point: usize,
+) -> Failure {
+    let key = |set: &String| set.split_once('=').map(|(key, _)| format!("--set {key}="));
+    let is_own = |key: String| error.source_name().starts_with(&key);
+    if !own.iter().filter_map(key).any(is_own) {
+        return error.into();
+    }
+    let failure = measured.fault(point, error.message());
+    match error.help() {
+        Some(help) => failure.with_help(help),
+        None => failure,
+    }
+}
+
+/// A mesh whose elements the speeds make too small.
+pub(super) fn no_mesh(error: &CaseError, size: f64, (slowest, fastest): (f64, f64)) -> Failure {
+    Failure::bad_input(format!(
+        "no mesh for all speeds from {} to {}: elements of {} are needed for the smallest contact, \
+         {}",
+        show(slowest, "m/s"),
+        show(fastest, "m/s"),
+        show(size, "m"),
+        error.message()
+    ))
+    .with_help(
+        "split the data by speed, give mesh.contact_element_size, or use --model ting, which has \
+         no mesh",
+    )
+}
