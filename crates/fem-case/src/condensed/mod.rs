@@ -2,19 +2,14 @@
 //! materials of the explicit model, milliseconds instead of seconds.
 
 mod cache;
+mod collide;
 mod effects;
 mod outcome;
 
 use std::sync::Arc;
-use std::time::Instant;
 
-use fem_condensed::{
-    BodyInput, CollideSettings, Collision, CondensedError, CondensedPair, ContactModel, Ending,
-    Frame, Glance, PairSettings,
-};
-use fem_explicit::{Monitor, Progress};
-use fem_field::Snapshot;
-use fem_material::{Material, PronySeries};
+use fem_condensed::{BodyInput, CondensedPair, ContactModel, PairSettings};
+use fem_material::Material;
 use fem_mesh::SphereMesh;
 
 use crate::case::Case;
@@ -24,7 +19,6 @@ use crate::estimate::Estimate;
 use crate::meshes::{MeshSource, mesh_error, mesh_sources};
 use crate::model::Model;
 use crate::model_tables::{CondensedTable, ModelTable};
-use crate::outcome::{Outcome, Timing};
 use crate::plan::Plan;
 use crate::quantity::Quantity;
 use crate::schema::CaseFile;
@@ -40,8 +34,6 @@ const CANDIDATES_OVER_REFINED: f64 = 1.125;
 /// And at least so much over the contact radius that Hertz expects, and so many elements.
 const CANDIDATES_OVER_CONTACT: f64 = 1.3;
 const CANDIDATE_ELEMENTS: f64 = 3.0;
-/// A run gives up after so many elastic contact times.
-const GIVE_UP_AFTER: f64 = 50.0;
 /// Bytes an element takes: factor, assembly, a share of fields.
 const BYTES_PER_ELEMENT: u64 = 8_000;
 
@@ -130,72 +122,6 @@ impl Condensed {
         Ok(resolve(case, &Plan::of(case)?))
     }
 
-    /// Computes the collision; `halt` says why if it cannot.
-    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Outcome {
-        let settings = CollideSettings {
-            n_steps: self.options.steps,
-            history: true,
-            give_up_after: GIVE_UP_AFTER,
-        };
-        let frame = self.frame();
-        let mut watch = |glance: Glance| {
-            monitor.report(Progress {
-                time: frame.first_touch() + glance.time,
-                step: glance.step as u64,
-                fraction: glance.fraction,
-                contact_force: glance.contact_force,
-            })
-        };
-        let relaxations = relaxations(&self.case);
-        let speed = frame.approach_speed();
-        match collide(&mut self.pair, speed, relaxations, &settings, &mut watch) {
-            Ok((collision, timing)) => self.finish(&collision, timing),
-            Err(error) => self.stopped(error),
-        }
-    }
-
-    fn finish(&self, collision: &Collision, timing: Timing) -> Outcome {
-        match self.snapshots(collision) {
-            Ok((snapshots, missing)) => self.outcome(collision, timing, snapshots, missing),
-            Err(error) => Outcome {
-                halt: Some(error.into()),
-                ..self.outcome(collision, timing, Vec::new(), Vec::new())
-            },
-        }
-    }
-
-    /// The same bodies at another speed, m/s, with other relaxations, lower body first: the factors
-    /// are kept.
-    ///
-    /// # Errors
-    /// As [`CondensedPair::collide`].
-    pub fn collide_with(
-        &mut self,
-        speed: f64,
-        relaxations: [Option<&PronySeries>; 2],
-        n_steps: usize,
-    ) -> Result<Collision, CondensedError> {
-        let settings = CollideSettings { n_steps, history: false, give_up_after: GIVE_UP_AFTER };
-        let (collision, _) = collide(&mut self.pair, speed, relaxations, &settings, &mut |_| true)?;
-        match collision.ending {
-            Ending::Stopped(error) => Err(error),
-            _ => Ok(collision),
-        }
-    }
-
-    fn snapshots(
-        &self,
-        collision: &Collision,
-    ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
-        let relaxations = relaxations(&self.case);
-        self.pair.snapshots(&self.frame(), relaxations, collision, &self.plan.snapshots)
-    }
-
-    fn frame(&self) -> Frame {
-        let velocities = self.case.scene.bodies.each_ref().map(|body| body.velocity);
-        Frame { velocities, gap: self.plan.gap }
-    }
-
     /// Elements of both bodies.
     pub fn n_elements(&self) -> usize {
         self.meshes().iter().flatten().map(|mesh| mesh.quads().len()).sum()
@@ -210,51 +136,11 @@ impl Condensed {
     }
 }
 
-/// Condenses further out as long as the contact reaches the end.
-fn collide(
-    pair: &mut Arc<CondensedPair>,
-    speed: f64,
-    relaxations: [Option<&PronySeries>; 2],
-    settings: &CollideSettings,
-    watch: &mut dyn FnMut(Glance) -> bool,
-) -> Result<(Collision, Timing), CondensedError> {
-    let start = Instant::now();
-    loop {
-        let prepared = pair.prepare(speed, relaxations);
-        let setup = start.elapsed();
-        let run = prepared.and_then(|()| pair.follow(speed, relaxations, settings, watch));
-        let radius = match &run {
-            Err(CondensedError::ContactBeyondCandidates { radius })
-            | Ok(Collision {
-                ending: Ending::Stopped(CondensedError::ContactBeyondCandidates { radius }),
-                ..
-            }) => *radius,
-            _ => {
-                let collision = start.elapsed() - setup;
-                return run.map(|run| (run, Timing { setup, collision }));
-            }
-        };
-        match (pair.enlarge(CANDIDATE_GROWTH * radius), run) {
-            (Ok(larger), _) => *pair = Arc::new(larger),
-            (Err(error), Ok(mut so_far)) => {
-                let collision = start.elapsed() - setup;
-                so_far.ending = Ending::Stopped(error);
-                return Ok((so_far, Timing { setup, collision }));
-            }
-            (Err(error), Err(_)) => return Err(error),
-        }
-    }
-}
-
 fn options(case: &Case) -> Options {
     match case.scene.model {
         Model::Condensed(options) => options,
         _ => Options::default(),
     }
-}
-
-fn relaxations(case: &Case) -> [Option<&PronySeries>; 2] {
-    case.scene.bodies.each_ref().map(|body| body.material()?.relaxation())
 }
 
 /// Bodies without their relaxations, which only the collision reads.
