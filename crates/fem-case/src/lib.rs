@@ -77,7 +77,7 @@ mod units;
 mod validate;
 
 pub use case::Case;
-pub use condensed::{Condensed, Options as CondensedOptions, PairCache};
+pub use condensed::{Condensed, Options as CondensedOptions, PairCache, QUASI_STATIC_LIMIT};
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;

@@ -12,6 +12,10 @@ use fem_laws::LawError;
 use crate::problem::Problem;
 use crate::scene::Body;
 
+/// What is said of a restitution of 0.
+pub(crate) const STAY_TOGETHER: &str =
+    "the bodies stay together: nothing drives them apart, and the contact has no end";
+
 /// A collision as far as it got. SI.
 #[derive(Clone, Debug)]
 pub struct Outcome {

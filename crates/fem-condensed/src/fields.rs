@@ -7,7 +7,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use faer::Mat;
+use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
+use faer::{Mat, Par};
 use fem_field::{BodyFields, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
@@ -265,13 +266,8 @@ fn columns<'a>(values: impl Iterator<Item = &'a [f64]>) -> Mat<f64> {
 
 /// Lᵀ x = z for each column, z zero beyond its end.
 fn transposed_solve(lower: &Mat<f64>, z: &Mat<f64>) -> Mat<f64> {
-    let n = lower.nrows();
-    let mut x = Mat::zeros(n, z.ncols());
-    for j in 0..z.ncols() {
-        for i in (0..z.nrows()).rev() {
-            let sum: f64 = (i + 1..n).map(|k| lower[(k, i)] * x[(k, j)]).sum();
-            x[(i, j)] = (z[(i, j)] - sum) / lower[(i, i)];
-        }
-    }
+    let mut x = Mat::zeros(lower.nrows(), z.ncols());
+    x.subrows_mut(0, z.nrows()).copy_from(z);
+    solve_upper_triangular_in_place(lower.transpose(), x.as_mut(), Par::Seq);
     x
 }

@@ -41,7 +41,6 @@ pub(crate) fn choose(
     first_touch: f64,
 ) -> (Vec<(Instant, Option<Label>)>, Vec<String>) {
     let mut missing = Vec::new();
-    let steps = 0..trace.len();
     let last = trace.iter().rposition(|step| step.is_closed).unwrap_or(0);
     let end = trace.len().saturating_sub(1);
     let since_touch = |time: f64| {
@@ -56,8 +55,9 @@ pub(crate) fn choose(
     };
     let chosen = match request {
         SnapshotRequest::Labels(labels) => {
-            let top =
-                steps.max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach)).unwrap_or(0);
+            let top = (0..trace.len())
+                .max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach))
+                .unwrap_or(0);
             let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
             let wanted = Label::ALL.iter().filter(|label| labels.contains(label));
             let mut chosen = Vec::new();

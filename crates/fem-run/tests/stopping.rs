@@ -60,18 +60,27 @@ mod signals {
         kill(Pid::from_raw(child.id() as i32), signal).unwrap();
     }
 
+    /// The summary of a run that a signal ended as an interrupt should.
+    fn interrupted(
+        place: &Place,
+        (mut child, mut stderr): (Child, BufReader<impl Read>),
+        signal: Signal,
+    ) -> serde_json::Value {
+        send(&child, signal);
+        let mut message = String::new();
+        stderr.read_to_string(&mut message).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
+        assert!(message.contains("interrupted at"), "{message}");
+        let summary = place.json("runs/case/summary.json");
+        assert_eq!(summary["complete"], false);
+        summary
+    }
+
     #[test]
     fn an_interrupted_run_keeps_what_it_has() {
         for signal in [Signal::SIGINT, Signal::SIGTERM] {
             let place = Place::new();
-            let (mut child, mut stderr) = start(&place, &[]);
-            send(&child, signal);
-            let mut message = String::new();
-            stderr.read_to_string(&mut message).unwrap();
-            assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
-            assert!(message.contains("interrupted at"), "{message}");
-            let summary = place.json("runs/case/summary.json");
-            assert_eq!(summary["complete"], false);
+            let summary = interrupted(&place, start(&place, &[]), signal);
             assert!(summary["stopped_because"].as_str().unwrap().contains("interrupted"));
             let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
             assert!(history.lines().count() >= 2, "{history}");
@@ -84,14 +93,8 @@ mod signals {
         let place = Place::new();
         let slow = ["case.toml", "--set", "model.condensed={steps=100000, vibration_modes=30}"];
         let fine = ["--set", "mesh.contact_element_size=20e-6"];
-        let (mut child, mut stderr) = start_with(&place, &[&slow[..], &fine].concat());
-        send(&child, Signal::SIGINT);
-        let mut message = String::new();
-        stderr.read_to_string(&mut message).unwrap();
-        assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
-        assert!(message.contains("interrupted at"), "{message}");
-        let summary = place.json("runs/case/summary.json");
-        assert_eq!(summary["complete"], false);
+        let started = start_with(&place, &[&slow[..], &fine].concat());
+        let summary = interrupted(&place, started, Signal::SIGINT);
         assert!(summary["bodies"][0]["mass_kg"].as_f64().unwrap() > 0.0);
     }
 

@@ -5,27 +5,18 @@ use fem_condensed::CondensedPair;
 use super::Options;
 use crate::case::Case;
 use crate::effects::{Effect, MACH_LIMIT, finite_strain, percent, relaxation, scene_effects};
+use crate::estimate::Estimate;
 use crate::plan::Plan;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
 /// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
-const QUASI_STATIC_LIMIT: f64 = 5e-3;
+pub const QUASI_STATIC_LIMIT: f64 = 5e-3;
 /// Modes that bring it back.
 const ENOUGH_MODES: usize = 12;
 
-pub(super) fn decide(
-    case: &Case,
-    plan: &Plan,
-    pair: &CondensedPair,
-    options: Options,
-) -> (Vec<Effect>, Vec<String>) {
-    let (scene, estimate) = (&case.scene, &plan.estimate);
-    // The plan warns of the scene first, for the explicit model, and then of the mesh.
-    let n_scene = scene_effects(scene, estimate).1.len();
-    let mut warnings: Vec<String> = plan.warnings.iter().skip(n_scene).cloned().collect();
-    let relaxing = relaxation(scene, estimate);
-    let (strain, strain_warning) = finite_strain(estimate);
-    warnings.extend(strain_warning);
+/// What the model lacks at this speed: inertia without modes of vibration, shocks with them.
+pub(super) fn speed_warnings(estimate: &Estimate, options: Options) -> Vec<String> {
+    let mut warnings = Vec::new();
     if estimate.mach > QUASI_STATIC_LIMIT && options.vibration_modes < ENOUGH_MODES {
         warnings.push(format!(
             "the approach speed is {} of the shear wave speed; above {} the inertia of the bodies \
@@ -42,14 +33,37 @@ pub(super) fn decide(
             percent(MACH_LIMIT),
         ));
     }
-    let resolved = pair.frequencies().map(<[f64]>::len);
-    let spheres = scene.bodies.iter().zip(resolved).filter(|(body, _)| body.diameter().is_some());
-    for (body, resolved) in spheres {
-        if resolved < options.vibration_modes {
+    warnings
+}
+
+pub(super) fn decide(
+    case: &Case,
+    plan: &Plan,
+    pair: &CondensedPair,
+    options: Options,
+) -> (Vec<Effect>, Vec<String>) {
+    let (scene, estimate) = (&case.scene, &plan.estimate);
+    // The plan warns of the scene first, for the explicit model, and then of the mesh.
+    let n_scene = scene_effects(scene, estimate).1.len();
+    let mut warnings: Vec<String> = plan.warnings.iter().skip(n_scene).cloned().collect();
+    let relaxing = relaxation(scene, estimate);
+    let (strain, strain_warning) = finite_strain(estimate);
+    warnings.extend(strain_warning);
+    warnings.extend(speed_warnings(estimate, options));
+    let n_modes = pair.frequencies().map(<[f64]>::len);
+    let spheres: Vec<(&str, usize)> = scene
+        .bodies
+        .iter()
+        .zip(n_modes)
+        .filter(|(body, _)| body.diameter().is_some())
+        .map(|(body, n_modes)| (body.name.as_str(), n_modes))
+        .collect();
+    for (name, n_modes) in &spheres {
+        if *n_modes < options.vibration_modes {
             warnings.push(format!(
-                "the mesh of {} resolves {resolved} of the {} modes of vibration asked for, the \
+                "the mesh of {name} resolves {n_modes} of the {} modes of vibration asked for, the \
                  others are left out: use a smaller mesh.contact_element_size for more",
-                body.name, options.vibration_modes
+                options.vibration_modes
             ));
         }
     }
@@ -69,14 +83,8 @@ pub(super) fn decide(
     let vibration = match options.vibration_modes {
         0 => format!("quasi-static: approach speed / shear wave speed = {:.1e}", estimate.mach),
         _ => {
-            let counts: Vec<String> = pair
-                .frequencies()
-                .iter()
-                .zip(&scene.bodies)
-                .filter(|(_, body)| body.diameter().is_some())
-                .map(|(frequencies, body)| format!("{} modes of {}", frequencies.len(), body.name))
-                .collect();
-            counts.join(", ")
+            let counts = spheres.iter().map(|(name, n_modes)| format!("{n_modes} modes of {name}"));
+            counts.collect::<Vec<_>>().join(", ")
         }
     };
     let search = format!(

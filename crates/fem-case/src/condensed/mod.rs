@@ -26,6 +26,7 @@ use crate::schema::CaseFile;
 use cache::PairKey;
 
 pub use cache::PairCache;
+pub use effects::QUASI_STATIC_LIMIT;
 
 /// Growth of the condensed region when the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 2.0;
@@ -102,6 +103,11 @@ impl Condensed {
     /// What closed forms say.
     pub fn estimate(&self) -> &Estimate {
         &self.plan.estimate
+    }
+
+    /// Those of the warnings that the speed causes.
+    pub fn speed_warnings(&self) -> Vec<String> {
+        effects::speed_warnings(&self.plan.estimate, self.options)
     }
 
     /// The keys of the model with their defaults.

@@ -4,7 +4,7 @@ use fem_condensed::{Collision, CondensedError, Ending, Row};
 use fem_field::Snapshot;
 
 use super::Condensed;
-use crate::outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
+use crate::outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, STAY_TOGETHER, Timing};
 use crate::reduced::relative::Relative;
 
 /// Contact problems that are no discs, as a share of the steps, that are worth a word.
@@ -33,11 +33,7 @@ impl Condensed {
         let (halt, is_parted) = match &collision.ending {
             Ending::Parted => (None, true),
             Ending::Together => {
-                warnings.push(
-                    "the bodies stay together: nothing drives them apart, and the contact has no \
-                     end"
-                    .to_string(),
-                );
+                warnings.push(STAY_TOGETHER.to_string());
                 (None, false)
             }
             Ending::Stopped(error) => (Some(Halt::Condensed(error.clone())), false),

@@ -4,7 +4,7 @@ use fem_laws::{Impact, ImpactInstant, ImpactPath};
 
 use super::Reduced;
 use super::relative::Relative;
-use crate::outcome::{BodyOutcome, Outcome, OutcomeRow};
+use crate::outcome::{BodyOutcome, Outcome, OutcomeRow, STAY_TOGETHER};
 
 /// Rows of the history over the contact.
 const N_ROWS: u32 = 1000;
@@ -24,10 +24,7 @@ impl Reduced {
         let drift = |instant: &ImpactInstant| relative.momentum_drift(instant.approach_rate);
         let mut warnings = Vec::new();
         if impact.contact_time.is_none() {
-            warnings.push(
-                "the bodies stay together: nothing drives them apart, and the contact has no end"
-                    .to_string(),
-            );
+            warnings.push(STAY_TOGETHER.to_string());
         }
         Outcome {
             restitution: Some(impact.restitution),
