@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use fem_condensed::CondensedError;
 use fem_explicit::{Collision, Stop};
-use fem_field::Snapshot;
+use fem_collision::Snapshot;
 use fem_laws::LawError;
 
 use crate::problem::Problem;

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, Par};
-use fem_field::{BodyFields, Snapshot, SnapshotRequest};
+use fem_collision::{BodyFields, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::CondensedError;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fem_field::{Label, SnapshotRequest};
+use fem_collision::{Label, SnapshotRequest};
 
 /// What is remembered of every step.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@ mod common;
 
 use common::{GLASS, Scene, glass, material};
 use fem_condensed::{CollideSettings, CondensedPair, ContactModel, Frame, PairSettings};
-use fem_field::{Label, SnapshotRequest, StressField};
+use fem_collision::{Label, SnapshotRequest, StressField};
 use fem_material::ActsOn::{self, All, Shear};
 use fem_material::Material;
 

@@ -1,6 +1,6 @@
 //! One body as the solver sees it: constant over a run.
 
-use fem_field::{BodyFields, StressField};
+use fem_collision::{BodyFields, StressField};
 use fem_material::{ActsOn, Material, RelaxationStep};
 use fem_mesh::SphereMesh;
 

@@ -1,6 +1,6 @@
 //! A run from first touch to separation.
 
-use fem_field::{Snapshot, SnapshotRequest};
+use fem_collision::{Snapshot, SnapshotRequest};
 
 use crate::error::Stop;
 use crate::history::{History, HistoryRow, RowKind};

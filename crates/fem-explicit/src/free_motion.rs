@@ -13,7 +13,7 @@ use crate::model::check_step_factor;
 use crate::state::BodyState;
 use crate::step::{advance_body, update_internal_forces};
 use crate::time_step::NodalBound;
-use fem_field::{BodyFields, StressField};
+use fem_collision::{BodyFields, StressField};
 
 /// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
 ///

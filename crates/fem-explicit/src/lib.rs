@@ -40,7 +40,7 @@ mod time_step;
 pub use body::{Body, BodyInput};
 pub use collision::{Collision, Monitor, Progress, RunSettings, collide};
 pub use error::{ModelError, Stop};
-pub use fem_field::{BodyFields, Label, Snapshot, SnapshotRequest, StressField, invariants};
+pub use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest, StressField, invariants};
 pub use free_motion::FreeMotion;
 pub use history::HistoryRow;
 pub use model::{Model, Settings};

@@ -6,7 +6,7 @@
 //! Snapshots spread evenly over the contact need its length; states are kept at
 //! an even spacing that doubles whenever there are too many.
 
-use fem_field::{Label, Snapshot, SnapshotRequest};
+use fem_collision::{Label, Snapshot, SnapshotRequest};
 
 use crate::model::Model;
 use crate::snapshot::{in_free_flight, take};

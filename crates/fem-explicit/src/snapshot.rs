@@ -1,6 +1,6 @@
 //! Snapshots of the explicit model's state.
 
-use fem_field::{BodyFields, Label, Snapshot, SnapshotRequest};
+use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest};
 
 use crate::model::Model;
 use crate::nodes::advance_motion;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem_case::{Outcome, Simulation};
-use fem_field::{Label, Snapshot, SnapshotRequest, StressRecovery, invariants};
+use fem_collision::{Label, Snapshot, SnapshotRequest, StressRecovery, invariants};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};

@@ -7,7 +7,7 @@ use fem_condensed::{
     CollideSettings, Collision, CondensedError, CondensedPair, Ending, Frame, Glance,
 };
 use fem_explicit::{Monitor, Progress};
-use fem_field::Snapshot;
+use fem_collision::Snapshot;
 use fem_material::PronySeries;
 
 use super::{CANDIDATE_GROWTH, Condensed};

@@ -1,7 +1,7 @@
 //! From a condensed collision to what is asked of every model.
 
 use fem_condensed::{Collision, CondensedError, Ending, Row};
-use fem_field::Snapshot;
+use fem_collision::Snapshot;
 
 use super::Condensed;
 use crate::outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, STAY_TOGETHER, Timing};

@@ -1,7 +1,9 @@
 //! Fields of both bodies at an instant.
 
+use serde::{Deserialize, Serialize};
+
 /// The named instants of a collision.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Label {
     /// Approach at half its maximum, going in.
     MidCompression,
@@ -30,7 +32,7 @@ impl Label {
 }
 
 /// Which snapshots a run keeps.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SnapshotRequest {
     /// At named instants.
     Labels(Vec<Label>),
@@ -40,8 +42,15 @@ pub enum SnapshotRequest {
     Times(Vec<f64>),
 }
 
+impl SnapshotRequest {
+    /// None at all.
+    pub fn none() -> Self {
+        Self::Labels(Vec::new())
+    }
+}
+
 /// Nodal fields of one body; empty for a wall.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BodyFields {
     /// Total displacement (r, y), m.
     pub displacement: Vec<[f64; 2]>,
@@ -53,7 +62,7 @@ pub struct BodyFields {
 }
 
 /// Both bodies at an instant.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Which instant, for named ones.
     pub label: Option<Label>,

@@ -1,0 +1,136 @@
+//! The accounts of the energy ledger, and what is in them.
+//!
+//! ```math
+//! \text{residual} = \sum \text{held} + \sum \text{lost} - E_0 - \sum \text{given}
+//! ```
+//!
+//! An account is one variant here and one line in [`LINES`]; what fills it is the part of a model that
+//! knows the energy. An account that nobody fills is absent: blank in a history, null in a summary.
+
+use serde::{Deserialize, Serialize};
+
+/// A place where the energy of a collision can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Account {
+    /// Motion of the bodies, walls not counted.
+    Kinetic,
+    /// Deformation of the bodies, or the spring of a contact law.
+    Strain,
+    /// Springs of a penalty contact.
+    Contact,
+    /// Relaxation of the bodies, or the dashpot of a contact law.
+    ViscousDissipation,
+    /// Work of a moving wall.
+    WallWork,
+}
+
+/// On which side of the balance an account stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The bodies have it and can give it back.
+    Held,
+    /// It has left them for good.
+    Lost,
+    /// It has come to them from outside.
+    Given,
+}
+
+/// Each account, its name in files, its side; in the order in which a balance adds them up.
+const LINES: [(Account, &str, Side); 5] = [
+    (Account::Kinetic, "kinetic", Side::Held),
+    (Account::Strain, "strain", Side::Held),
+    (Account::Contact, "contact", Side::Held),
+    (Account::ViscousDissipation, "viscous_dissipation", Side::Lost),
+    (Account::WallWork, "wall_work", Side::Given),
+];
+
+impl Account {
+    /// All of them, in the order of a balance.
+    pub fn all() -> impl Iterator<Item = Self> {
+        LINES.iter().map(|(account, ..)| *account)
+    }
+
+    /// Its name in files, without the unit.
+    pub fn name(self) -> &'static str {
+        LINES[self as usize].1
+    }
+
+    /// Its side of the balance.
+    pub fn side(self) -> Side {
+        LINES[self as usize].2
+    }
+}
+
+/// What is in each account, J; or the power that goes into each, W.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Book([Option<f64>; LINES.len()]);
+
+impl Book {
+    /// Nothing in any account.
+    pub const EMPTY: Self = Self([None; LINES.len()]);
+
+    /// Puts energy (J) into an account beside what is there.
+    pub fn add(&mut self, account: Account, energy: f64) {
+        let entry = &mut self.0[account as usize];
+        *entry = Some(entry.map_or(energy, |there| there + energy));
+    }
+
+    /// The same book with this energy (J) in an account beside what is there.
+    #[must_use]
+    pub fn with(mut self, account: Account, energy: f64) -> Self {
+        self.add(account, energy);
+        self
+    }
+
+    /// What is in an account; `None` of one that nobody fills.
+    pub fn get(&self, account: Account) -> Option<f64> {
+        self.0[account as usize]
+    }
+
+    /// The accounts that are filled, and what is in them, in the order of a balance.
+    pub fn entries(&self) -> impl Iterator<Item = (Account, f64)> {
+        Account::all().zip(self.0).filter_map(|(account, energy)| Some((account, energy?)))
+    }
+
+    /// What does not add up, J: held and lost less what was there at the start (J) and what was given
+    /// since.
+    pub fn residual(&self, initial: f64) -> f64 {
+        let on = |side: Side| {
+            let own = self.entries().filter(move |(account, _)| account.side() == side);
+            own.map(|(_, energy)| energy)
+        };
+        let total = on(Side::Held).chain(on(Side::Lost)).fold(0.0, |sum, energy| sum + energy);
+        on(Side::Given).fold(total - initial, |left, energy| left - energy)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `name` and `side` index the table by the variant.
+    #[test]
+    fn lines_are_in_the_order_of_the_variants() {
+        for (k, (account, ..)) in LINES.iter().enumerate() {
+            assert_eq!(*account as usize, k);
+        }
+    }
+
+    #[test]
+    fn the_residual_is_what_held_lost_and_given_leave() {
+        let mut book = Book::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
+        assert_eq!(book.residual(2.5), 0.0);
+        book.add(Account::ViscousDissipation, 0.25);
+        book.add(Account::Kinetic, -0.5);
+        assert_eq!(book.residual(2.5), -0.25);
+        assert_eq!(book.get(Account::Kinetic), Some(2.5));
+        assert_eq!(book.get(Account::Strain), None);
+        assert_eq!(book.entries().count(), 3);
+    }
+
+    #[test]
+    fn what_is_no_number_stays_in_the_residual() {
+        let book = Book::EMPTY.with(Account::Kinetic, 1.0).with(Account::Strain, f64::NAN);
+        assert!(book.residual(1.0).is_nan());
+    }
+}

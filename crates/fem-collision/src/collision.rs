@@ -1,0 +1,126 @@
+//! What comes out of a collision, the same for every model.
+
+use crate::ending::Ending;
+use crate::row::Row;
+use crate::snapshot::Snapshot;
+use crate::stop::Stop;
+
+/// What is said of a restitution of 0.
+pub const STAY_TOGETHER: &str =
+    "the bodies stay together: nothing drives them apart, and the contact has no end";
+
+/// A collision as far as it got. `None`: the model knows it not, or it has no value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Collision {
+    /// How it ended.
+    pub ending: Ending,
+    /// Relative velocity after over before, 1 when elastic; 0 for bodies that stay together.
+    pub restitution: Option<f64>,
+    /// First to last instant with a contact force, openings in between included, s.
+    pub contact_time: Option<f64>,
+    /// First instant with a contact force since the start of the case, s.
+    pub first_contact: Option<f64>,
+    /// Last instant with a contact force so far, s.
+    pub last_contact: Option<f64>,
+    /// Number of separate contacts.
+    pub contact_episodes: u64,
+    /// Largest contact force, N.
+    pub peak_force: Option<f64>,
+    /// Largest approach, m.
+    pub max_approach: Option<f64>,
+    /// Largest contact radius, m.
+    pub max_contact_radius: Option<f64>,
+    /// Largest contact pressure on the axis, Pa.
+    pub peak_pressure: Option<f64>,
+    /// Kinetic energy at the start, walls not counted, J.
+    pub initial_energy: Option<f64>,
+    /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre.
+    pub residual_relative: Option<f64>,
+    /// Worst drift of momentum over Σ m|v| at the start.
+    pub momentum_residual_relative: Option<f64>,
+    /// Lower and upper body.
+    pub bodies: [BodyResult; 2],
+    /// Of a model that steps in time with a fixed step, s.
+    pub time_step: Option<f64>,
+    /// Steps done by such a model.
+    pub steps: Option<u64>,
+    /// Elements times steps, of a model that computes each element at each step.
+    pub element_updates: Option<u64>,
+    /// Instants over contact and separation.
+    pub history: Vec<Row>,
+    /// Fields of finite elements, in the order of time.
+    pub snapshots: Vec<Snapshot>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// One body after a collision.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyResult {
+    /// Elements of its mesh.
+    pub elements: Option<usize>,
+    /// Nodes of its mesh.
+    pub nodes: Option<usize>,
+    /// kg; a wall has none.
+    pub mass: Option<f64>,
+    /// Added by mass scaling, kg.
+    pub added_mass: Option<f64>,
+    /// Along +y, m/s.
+    pub velocity_after: Option<f64>,
+    /// Energy left in its vibrations, J.
+    pub vibration_energy: Option<f64>,
+}
+
+impl Collision {
+    /// Nothing, and why.
+    pub fn stopped(stop: Stop) -> Self {
+        Self {
+            ending: Ending::Stopped(stop),
+            restitution: None,
+            contact_time: None,
+            first_contact: None,
+            last_contact: None,
+            contact_episodes: 0,
+            peak_force: None,
+            max_approach: None,
+            max_contact_radius: None,
+            peak_pressure: None,
+            initial_energy: None,
+            residual_relative: None,
+            momentum_residual_relative: None,
+            bodies: [BodyResult::default(); 2],
+            time_step: None,
+            steps: None,
+            element_updates: None,
+            history: Vec::new(),
+            snapshots: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Why it did not end by itself.
+    pub fn stop(&self) -> Option<&Stop> {
+        match &self.ending {
+            Ending::Stopped(stop) => Some(stop),
+            Ending::Parted | Ending::Together => None,
+        }
+    }
+
+    /// Whether it ended by itself.
+    pub fn is_complete(&self) -> bool {
+        self.stop().is_none()
+    }
+
+    /// Whether the caller ended it.
+    pub fn is_interrupted(&self) -> bool {
+        matches!(self.stop(), Some(Stop::Interrupted { .. }))
+    }
+
+    /// Whether the contact outgrew the region in which it is looked for, and how large that is, m.
+    pub fn outgrown_radius(&self) -> Option<f64> {
+        match self.stop() {
+            Some(Stop::ContactBeyondCandidates { radius, .. }) => Some(*radius),
+            _ => None,
+        }
+    }
+}

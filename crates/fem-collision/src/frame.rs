@@ -1,0 +1,105 @@
+//! From the relative motion to the two bodies: the mass centre moves on, and
+//!
+//! ```math
+//! v_1 = v_1(0) - \frac{m^*}{m_1}\,(v - \dot\delta), \qquad
+//! v_2 = v_2(0) + \frac{m^*}{m_2}\,(v - \dot\delta).
+//! ```
+//!
+//! A wall has an infinite mass, keeps its velocity, and takes the momentum m*(v − δ̇).
+
+use crate::approach::Approach;
+
+/// The frame of the common mass centre of two bodies along +y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// How they meet.
+    pub approach: Approach,
+    /// kg; a wall has none.
+    pub masses: [Option<f64>; 2],
+    /// m₁m₂/(m₁+m₂), kg.
+    pub reduced_mass: f64,
+}
+
+impl Frame {
+    /// v, m/s.
+    pub fn speed(&self) -> f64 {
+        self.approach.speed()
+    }
+
+    /// m*(v − δ̇), N s, that the first body has given to the second.
+    fn impulse(&self, rate: f64) -> f64 {
+        self.reduced_mass * (self.speed() - rate)
+    }
+
+    /// Velocities of both bodies (m/s) at a rate of the approach, m/s.
+    pub fn velocities(&self, rate: f64) -> [f64; 2] {
+        let before = self.approach.velocities;
+        let change = |side: usize| self.masses[side].map_or(0.0, |m| self.impulse(rate) / m);
+        [before[0] - change(0), before[1] + change(1)]
+    }
+
+    /// Kinetic energy of the spheres (J) at a rate of the approach, m/s.
+    pub fn kinetic(&self, rate: f64) -> f64 {
+        let bodies = self.masses.into_iter().zip(self.velocities(rate));
+        bodies.filter_map(|(mass, velocity)| Some(0.5 * mass? * velocity * velocity)).sum()
+    }
+
+    /// Kinetic energy of the relative motion at the start, J.
+    pub fn initial(&self) -> f64 {
+        0.5 * self.reduced_mass * self.speed() * self.speed()
+    }
+
+    /// ½m*(δ̇² − v²), J: the change of the kinetic energy less a wall's work, without the
+    /// cancellation that unequal masses would bring.
+    pub fn gained(&self, rate: f64) -> f64 {
+        0.5 * self.reduced_mass * (rate - self.speed()) * (rate + self.speed())
+    }
+
+    /// Work that a moving wall has done, J.
+    pub fn wall_work(&self, rate: f64) -> f64 {
+        let velocities = self.approach.velocities;
+        let wall = |side: usize| self.masses[side].is_none().then_some(velocities[side]);
+        self.impulse(rate) * (wall(0).unwrap_or(0.0) - wall(1).unwrap_or(0.0))
+    }
+
+    /// Drift of the momentum, a wall's share counted, over Σ m|v| at the start.
+    pub fn momentum_drift(&self, rate: f64) -> f64 {
+        let (before, after) = (self.approach.velocities, self.velocities(rate));
+        let gained = |side: usize, sign: f64| match self.masses[side] {
+            Some(mass) => mass * (after[side] - before[side]),
+            None => sign * self.impulse(rate),
+        };
+        let bodies = self.masses.into_iter().zip(before);
+        let scale: f64 = bodies.map(|(mass, v)| mass.unwrap_or(0.0) * v.abs()).sum();
+        // A sphere at rest that a wall strikes has no momentum at the start.
+        let scale = if scale > 0.0 { scale } else { self.reduced_mass * self.speed() };
+        ((gained(0, -1.0) + gained(1, 1.0)) / scale).abs()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two spheres that part at half the speed, by hand: momentum 2·3 + 1·0 is kept.
+    #[test]
+    fn momentum_is_kept_and_the_rate_is_the_difference() {
+        let approach = Approach { velocities: [3.0, 0.0], gap: 0.0 };
+        let frame = Frame { approach, masses: [Some(2.0), Some(1.0)], reduced_mass: 2.0 / 3.0 };
+        let [lower, upper] = frame.velocities(-1.5);
+        assert!((lower - upper + 1.5).abs() < 1e-15);
+        assert!((2.0 * lower + upper - 6.0).abs() < 1e-14);
+        assert!(frame.momentum_drift(-1.5) < 1e-15);
+        assert!((frame.kinetic(-1.5) - frame.kinetic(3.0) - frame.gained(-1.5)).abs() < 1e-14);
+    }
+
+    /// A wall keeps its velocity; what it gives is force times way.
+    #[test]
+    fn a_wall_that_moves_does_work() {
+        let approach = Approach { velocities: [2.0, 0.0], gap: 0.0 };
+        let frame = Frame { approach, masses: [None, Some(1.0)], reduced_mass: 1.0 };
+        assert_eq!(frame.velocities(-2.0), [2.0, 4.0]);
+        assert_eq!(frame.wall_work(-2.0), 8.0);
+        assert_eq!(frame.kinetic(-2.0), 8.0);
+    }
+}

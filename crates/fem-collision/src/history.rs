@@ -1,0 +1,200 @@
+//! Rows of a history, thinned as they come.
+
+use serde::{Deserialize, Serialize};
+
+use crate::row::Row;
+
+/// Why a row is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowKind {
+    /// It was due.
+    Regular,
+    /// The beginning or end of a contact, or the end of the run.
+    Landmark,
+    /// The last contact so far: one like others once another has come.
+    LastContact,
+}
+
+/// Rows at an even stride that adapts to the length of the contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    rows: Vec<Row>,
+    /// Landmarks and the last contact so far, which thinning leaves.
+    essential: Vec<bool>,
+    /// Where the row of the last contact so far is.
+    last_contact: Option<usize>,
+    stride: u64,
+    max_rows: usize,
+    /// Of a run that offers a row every step: the last one, if it was not due, and whether the
+    /// contact was closed.
+    skipped: Option<Row>,
+    was_closed: Option<bool>,
+}
+
+impl History {
+    /// For about `n_rows` rows over `expected_steps` steps; at most four times as many.
+    pub fn new(n_rows: usize, expected_steps: f64) -> Self {
+        let stride = (expected_steps / n_rows.max(1) as f64).floor().max(1.0) as u64;
+        let max_rows = 4 * n_rows.max(16);
+        Self {
+            rows: Vec::with_capacity(max_rows + 1),
+            essential: Vec::with_capacity(max_rows + 1),
+            last_contact: None,
+            stride,
+            max_rows,
+            skipped: None,
+            was_closed: None,
+        }
+    }
+
+    /// Whether a row is due at this step.
+    pub fn is_due(&self, step: u64) -> bool {
+        step.is_multiple_of(self.stride)
+    }
+
+    /// Adds a row; beyond the capacity every second one is dropped and the stride doubled.
+    pub fn push(&mut self, row: Row, kind: RowKind) {
+        if kind == RowKind::LastContact {
+            // Another contact has come since: the earlier row is one like others.
+            if let Some(earlier) = self.last_contact.replace(self.rows.len()) {
+                self.essential[earlier] = false;
+            }
+        }
+        self.rows.push(row);
+        self.essential.push(kind != RowKind::Regular);
+        if self.rows.len() > self.max_rows {
+            self.thin();
+        }
+    }
+
+    /// Takes the row of every step of a run that has one anyway: keeps those that are due, and both
+    /// sides of every change between open and closed.
+    pub fn follow(&mut self, step: u64, is_closed: bool, row: Row) {
+        let changes = self.was_closed.replace(is_closed) != Some(is_closed);
+        if changes {
+            if let Some(before) = self.skipped.take() {
+                self.push(before, RowKind::Landmark);
+            } else if let Some(before) = self.essential.last_mut() {
+                *before = true;
+            }
+            self.push(row, RowKind::Landmark);
+        } else if self.is_due(step) {
+            self.skipped = None;
+            self.push(row, RowKind::Regular);
+        } else {
+            self.skipped = Some(row);
+        }
+    }
+
+    fn thin(&mut self) {
+        let mut kept = 0;
+        for k in 0..self.rows.len() {
+            if self.essential[k] || k % 2 == 0 {
+                self.rows[kept] = self.rows[k];
+                self.essential[kept] = self.essential[k];
+                if self.last_contact == Some(k) {
+                    self.last_contact = Some(kept);
+                }
+                kept += 1;
+            }
+        }
+        self.rows.truncate(kept);
+        self.essential.truncate(kept);
+        self.stride *= 2;
+    }
+
+    /// The rows so far, in the order of time.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The rows, in the order of time; of a run that offered every step the last one among them.
+    pub fn into_rows(mut self) -> Vec<Row> {
+        self.rows.extend(self.skipped.take());
+        self.rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::account::Book;
+
+    fn row(step: u64) -> Row {
+        Row {
+            time: step as f64,
+            contact_force: 0.0,
+            contact_radius: None,
+            approach: 0.0,
+            centre_pressure: None,
+            velocity: [0.0; 2],
+            energies: Book::EMPTY,
+            residual: None,
+            vibration: [0.0; 2],
+        }
+    }
+
+    /// Runs so many steps with first and last contact at these; the steps of the rows.
+    fn run(history: &mut History, n_steps: u64, landmarks: [u64; 2]) -> Vec<u64> {
+        for step in 0..=n_steps {
+            let kind = match step {
+                _ if step == landmarks[0] => RowKind::Landmark,
+                // A contact that ends now and then before it ends for good.
+                _ if step == landmarks[1] || step % 1000 == 999 => RowKind::LastContact,
+                _ => RowKind::Regular,
+            };
+            if kind != RowKind::Regular || history.is_due(step) {
+                history.push(row(step), kind);
+            }
+        }
+        history.rows().iter().map(|row| row.time as u64).collect()
+    }
+
+    #[test]
+    fn rows_come_at_the_stride_of_the_estimate() {
+        let mut history = History::new(100, 1000.0);
+        let steps = run(&mut history, 1000, [3, 907]);
+        let expected: Vec<u64> =
+            (0..=1000).filter(|s| s % 10 == 0 || [3, 907, 999].contains(s)).collect();
+        assert_eq!(steps, expected);
+        // Fewer steps than rows: every step.
+        assert_eq!(run(&mut History::new(1000, 50.0), 50, [0, 50]).len(), 51);
+        assert_eq!(run(&mut History::new(0, 0.0), 5, [0, 5]).len(), 6);
+    }
+
+    #[test]
+    fn a_long_run_is_thinned_and_keeps_what_is_essential() {
+        for n_rows in [16, 100] {
+            for n_steps in [1_000, 100_000, 345_678] {
+                let mut history = History::new(n_rows, n_rows as f64);
+                let capacity = history.rows.capacity();
+                let essential = [37, n_steps - 5];
+                let steps = run(&mut history, n_steps, essential);
+                assert!(steps.len() <= 4 * n_rows && steps.len() > n_rows, "{}", steps.len());
+                assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
+                assert!(essential.iter().all(|step| steps.contains(step)));
+                // Even to a factor of 2, away from the essential rows.
+                let stride = history.stride;
+                assert!(steps.windows(2).all(|pair| pair[1] - pair[0] <= 2 * stride), "{steps:?}");
+                assert_eq!(history.rows.capacity(), capacity, "a row was allocated");
+            }
+        }
+    }
+
+    /// A run that offers every step keeps a few thousand rows, both sides of every change of contact,
+    /// and its last step.
+    #[test]
+    fn a_run_that_is_followed_keeps_both_sides_of_a_change() {
+        let (last, closed) = (100_003, 777..90_001);
+        let mut history = History::new(1000, 5000.0);
+        for step in 0..=last {
+            history.follow(step, closed.contains(&step), row(step));
+        }
+        let rows = history.into_rows();
+        assert!(rows.len() > 2000 && rows.len() <= 4001, "{}", rows.len());
+        assert!(rows.windows(2).all(|two| two[0].time < two[1].time));
+        for step in [0, 776, 777, 90_000, 90_001, last] {
+            assert!(rows.iter().any(|row| row.time == step as f64), "{step}");
+        }
+    }
+}

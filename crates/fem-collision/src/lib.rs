@@ -1,0 +1,50 @@
+//! What a collision is asked for and what comes out of it, whichever model computes it.
+//!
+//! ```text
+//! asked for                       while it runs                  what comes out
+//! BodyInput  what a body is       Monitor  looks on, stops it    Collision  the whole
+//! Approach   how they meet        History  thins rows            Row        an instant
+//! Expectation  what to expect     Losses   powers to energies    Ending     how it ended
+//! Want       rows, snapshots                                     Snapshot   fields at an instant
+//! ```
+//!
+//! * [`Account`] names a place of energy and [`Book`] holds what is in each; every model, part of a
+//!   step, column of a history and key of a summary means the same by them.
+//! * [`Frame`] leads from the relative motion of two bodies to each of them.
+//! * [`StressField`] is the stress recovered from a body's fields, [`StressRecovery`] the same for
+//!   many fields of one mesh.
+//!
+//! SI throughout; the axis is y, forces and approach are positive in compression, stress in tension.
+
+mod account;
+mod approach;
+mod body_input;
+mod collision;
+mod ending;
+mod frame;
+mod history;
+mod instants;
+mod losses;
+mod monitor;
+mod patches;
+mod row;
+mod snapshot;
+mod stop;
+mod stress;
+mod want;
+
+pub use account::{Account, Book, Side};
+pub use approach::Approach;
+pub use body_input::BodyInput;
+pub use collision::{BodyResult, Collision, STAY_TOGETHER};
+pub use ending::Ending;
+pub use frame::Frame;
+pub use history::{History, RowKind};
+pub use instants::{did_not_occur, evenly, fewer_than_asked};
+pub use losses::Losses;
+pub use monitor::{Monitor, Phase, Progress};
+pub use row::Row;
+pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
+pub use stop::Stop;
+pub use stress::{StressField, StressRecovery, invariants};
+pub use want::{Expectation, Want};

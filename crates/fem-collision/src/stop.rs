@@ -1,0 +1,86 @@
+//! Why a run ends before the bodies have parted.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Why a run ended early. Times are those of the case, s.
+#[derive(Clone, Debug, PartialEq, Error, Serialize, Deserialize)]
+pub enum Stop {
+    /// The caller asked for it.
+    #[error("interrupted at {time:.4e} s (step {step})")]
+    Interrupted {
+        /// s.
+        time: f64,
+        /// Step number.
+        step: u64,
+    },
+    /// The contact grew out of the part of the boundary in which it is looked for.
+    #[error(
+        "at {time:.4e} s (step {step}) the contact reached the radius {radius:.4e} m, \
+         the end of the region in which it is looked for"
+    )]
+    ContactBeyondCandidates {
+        /// s.
+        time: f64,
+        /// Step number.
+        step: u64,
+        /// Candidate radius, m.
+        radius: f64,
+    },
+    /// Even the whole near hemisphere is too small for the contact.
+    #[error(
+        "the contact reached {ratio:.2} of the smaller radius: the bodies are not linear there; \
+         lower the speed"
+    )]
+    ContactTooLarge {
+        /// Contact radius over the smaller sphere's.
+        ratio: f64,
+    },
+    /// The energy is not finite or has grown.
+    #[error(
+        "at {time:.4e} s (step {step}) the energy is {ratio:.4} times the initial: \
+         the time integration is unstable"
+    )]
+    EnergyGrowth {
+        /// s.
+        time: f64,
+        /// Step number.
+        step: u64,
+        /// Total energy over initial energy.
+        ratio: f64,
+    },
+    /// Energy came from nowhere or went there.
+    #[error("at {time:.4e} s the energy does not add up by {relative:.1e} of the initial")]
+    EnergyImbalance {
+        /// s.
+        time: f64,
+        /// Imbalance over the initial energy.
+        relative: f64,
+    },
+    /// The bodies stayed together too long.
+    #[error("at {time:.4e} s (step {step}) the bodies have not separated")]
+    NoSeparation {
+        /// s.
+        time: f64,
+        /// Step number.
+        step: u64,
+    },
+    /// The contact problem of a step has no solution within reach.
+    #[error("at {time:.4e} s no contact state without tension and overlap was found")]
+    NoContactState {
+        /// s.
+        time: f64,
+    },
+    /// What the model is made of cannot be made for this collision.
+    #[error("{0}")]
+    NotMade(String),
+    /// The motion of one degree of freedom creeps on and does not end.
+    #[error("{0}")]
+    NotFinished(String),
+    /// The collision lies outside of what the model describes.
+    #[error("{0}")]
+    OutsideValidity(String),
+    /// A result leaves the range of numbers.
+    #[error("{0}")]
+    OutOfRange(String),
+}
