@@ -1,8 +1,7 @@
 //! A run from first touch to separation, as a stepper: whoever owns it decides when to go on.
 
 use fem_collision::{
-    BodyResult, Collision, Ending, Expectation, Monitor, Phase, Progress, Row, RowKind,
-    Stop, Want,
+    BodyResult, Collision, Ending, Expectation, Monitor, Phase, Progress, Row, RowKind, Stop, Want,
 };
 
 use crate::contact_log::FLIGHT_AFTER;
@@ -253,6 +252,7 @@ impl<'a> Run<'a> {
             time_step: Some(self.model.time_step()),
             steps: Some(state.step),
             element_updates: Some(state.step * self.model.n_elements() as u64),
+            repeated_contact_solutions: None,
             history: history.into_rows(),
             snapshots,
             warnings,
