@@ -79,13 +79,13 @@ mod units;
 mod validate;
 
 pub use case::Case;
-pub use condensed::{Condensed, Options as CondensedOptions, PairCache, QUASI_STATIC_LIMIT};
+pub use condensed::{Condensed, PairCache, QUASI_STATIC_LIMIT};
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;
 pub use explain::nearest;
 pub use meshes::build_meshes;
-pub use model::{Dashpot, Dissipation, Law, Model};
+pub use model::{CondensedOptions, Dashpot, Dissipation, Law, Model};
 pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
 pub use plan::Plan;
 pub use problem::{Cost, Problem};
