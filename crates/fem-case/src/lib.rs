@@ -49,15 +49,18 @@
 //! ```
 
 mod available;
+mod body_tables;
 mod case;
 mod condensed;
 mod document;
 mod effects;
+mod empty_table;
 mod error;
 mod estimate;
 mod explain;
 mod key_path;
 mod keyword;
+mod material_tables;
 mod meshes;
 mod model;
 mod model_tables;

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::empty_table::EmptyTable;
 use crate::keyword::keywords;
 use crate::quantity::{Count, Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
 #[cfg(test)]
 use crate::quantity::{Kind, QuantityKind};
-use crate::schema::EmptyTable;
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
