@@ -54,6 +54,39 @@ pub struct CaseFile {
     pub limits: Option<LimitsTable>,
 }
 
+/// A case made in code. Everything else is a field: `file.title = Some("…".into())`.
+///
+/// ```
+/// use fem_case::CaseFile;
+/// use fem_case::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};
+///
+/// let glass = MaterialTable::from_youngs_modulus_poissons_ratio("2390 kg/m^3", "63 GPa", 0.244)
+///     .relaxing(ActsOn::All, [TermTable::with_decay_rate(1.0, "2708 1/s")]);
+/// let striker = BodyTable::sphere("striker", "22.2 mm", "glass").approaching("0.5 m/s");
+/// let target = BodyTable::sphere("target", "15.9 mm", "glass");
+/// let file = CaseFile::of_bodies(striker, target)
+///     .with_material("glass", glass)
+///     .with_model(ModelTable::ting());
+/// # assert!(file.to_toml().unwrap().contains("decay_rate = 2708.0"));
+/// ```
+impl CaseFile {
+    /// Two bodies, the first below the second; materials are still to come.
+    pub fn of_bodies(first: BodyTable, second: BodyTable) -> Self {
+        Self { body: vec![first, second], ..Self::default() }
+    }
+
+    /// The same with `[material.NAME]`, in place of one of that name.
+    pub fn with_material(mut self, name: impl Into<String>, material: MaterialTable) -> Self {
+        self.material.insert(name.into(), material);
+        self
+    }
+
+    /// The same, computed by this model.
+    pub fn with_model(self, model: impl Into<ModelTable>) -> Self {
+        Self { model: Some(model.into()), ..self }
+    }
+}
+
 /// `[start]`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [start]")]
