@@ -1,8 +1,9 @@
 //! Which models and numerical effects this version has. The schema knows the names of more: a
 //! case that asks for one of those is told so, rather than that the key is unknown.
 
-use crate::document::{Document, join};
+use crate::document::Document;
 use crate::error::CaseError;
+use crate::key_path::join;
 use crate::schema::{EffectsTable, Switch};
 
 /// Names of models that `[model]` knows and this version has not: to build one, take its name out

@@ -8,10 +8,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::{DeTable, DeValue};
 
 use crate::error::CaseError;
+use crate::key_path::{join, quote_key};
 use crate::overrides::{self, Assignment};
+use crate::toml_text::first_line;
 
 /// One text, and where it begins on the common line of offsets.
 #[derive(Clone, Debug)]
@@ -182,45 +184,4 @@ impl Document {
         deepest(&|position| position.value == *span)
             .or_else(|| deepest(&|position| position.key == *span))
     }
-}
-
-/// `path.key`; just the key at the root.
-pub(crate) fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
-}
-
-/// A key as one part of a dotted path: bare if TOML allows that, quoted if not.
-pub(crate) fn quote_key(key: &str) -> String {
-    if !key.is_empty() && key.chars().all(overrides::is_bare) {
-        key.to_string()
-    } else {
-        format!("{key:?}")
-    }
-}
-
-/// The same value with all of its spans moved by `start`.
-pub(crate) fn shift(value: Spanned<DeValue<'_>>, start: usize) -> Spanned<DeValue<'_>> {
-    let span = value.span();
-    let value = match value.into_inner() {
-        DeValue::Array(array) => {
-            let items = array.into_iter().map(|item| shift(item, start));
-            DeValue::Array(items.collect::<DeArray<'_>>())
-        }
-        DeValue::Table(table) => {
-            let mut moved = DeTable::new();
-            for (key, value) in table {
-                let span = key.span();
-                let key = Spanned::new(span.start + start..span.end + start, key.into_inner());
-                moved.insert(key, shift(value, start));
-            }
-            DeValue::Table(moved)
-        }
-        scalar => scalar,
-    };
-    Spanned::new(span.start + start..span.end + start, value)
-}
-
-/// The parser's messages may go on with a list of what it expected.
-pub(crate) fn first_line(message: &str) -> String {
-    message.lines().next().unwrap_or("not TOML").to_string()
 }

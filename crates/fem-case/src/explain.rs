@@ -2,8 +2,9 @@
 
 use toml::de::Error;
 
-use crate::document::{Document, first_line};
+use crate::document::Document;
 use crate::error::CaseError;
+use crate::toml_text::first_line;
 
 /// Required keys, as a user may write them.
 const EXAMPLES: &[(&str, &str)] = &[

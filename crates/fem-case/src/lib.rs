@@ -49,14 +49,18 @@
 //! ```
 
 mod available;
+mod body_tables;
 mod case;
 mod condensed;
 mod document;
 mod effects;
+mod empty_table;
 mod error;
 mod estimate;
 mod explain;
+mod key_path;
 mod keyword;
+mod material_tables;
 mod meshes;
 mod model;
 mod model_tables;
@@ -72,18 +76,19 @@ mod simulation;
 mod sweep;
 mod sweep_axes;
 mod sweep_file;
+mod toml_text;
 mod unit_table;
 mod units;
 mod validate;
 
 pub use case::Case;
-pub use condensed::{Condensed, Options as CondensedOptions, PairCache, QUASI_STATIC_LIMIT};
+pub use condensed::{Condensed, PairCache, QUASI_STATIC_LIMIT};
 pub use effects::Effect;
 pub use error::CaseError;
 pub use estimate::Estimate;
 pub use explain::nearest;
 pub use meshes::build_meshes;
-pub use model::{Dashpot, Dissipation, Law, Model};
+pub use model::{CondensedOptions, Dashpot, Dissipation, Law, Model};
 pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
 pub use plan::Plan;
 pub use problem::{Cost, Problem};

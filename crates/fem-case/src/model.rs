@@ -2,8 +2,6 @@
 
 use fem_laws::{EndRule, Family};
 
-use crate::condensed::Options;
-
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -12,7 +10,7 @@ pub enum Model {
     #[default]
     Fem,
     /// Linear finite elements condensed to their contact nodes.
-    Condensed(Options),
+    Condensed(CondensedOptions),
     /// Elastic half-spaces.
     Hertz {
         /// Whether the spheres' finite size adds to the approach.
@@ -54,6 +52,23 @@ impl Model {
             Model::Law { law, .. } => format!("model.law.{}", law.name()),
             _ => format!("model.{}", self.name()),
         }
+    }
+}
+
+/// The keys of `model.condensed`, resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CondensedOptions {
+    /// Modes of free vibration of each body.
+    pub vibration_modes: usize,
+    /// Steps over the elastic contact time.
+    pub steps: usize,
+    /// Whether overlap is resisted by the explicit model's springs.
+    pub penalty_springs: bool,
+}
+
+impl Default for CondensedOptions {
+    fn default() -> Self {
+        Self { vibration_modes: 0, steps: 1000, penalty_springs: false }
     }
 }
 

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::empty_table::EmptyTable;
 use crate::keyword::keywords;
 use crate::quantity::{Count, Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
 #[cfg(test)]
 use crate::quantity::{Kind, QuantityKind};
-use crate::schema::EmptyTable;
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -30,6 +30,70 @@ pub struct ModelTable {
     /// The cheapest that serves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub auto: Option<toml::Table>,
+}
+
+/// Models with their defaults. A table with keys becomes a model by `into()`.
+///
+/// ```
+/// use fem_case::schema::{CondensedTable, KuwabaraKonoTable, ModelTable};
+///
+/// let quasi_static = ModelTable::condensed();
+/// let vibrating: ModelTable =
+///     CondensedTable { vibration_modes: Some(12.into()), ..Default::default() }.into();
+/// let law =
+///     ModelTable::law(KuwabaraKonoTable { a: Some("1 us".into()), ..Default::default() });
+/// # assert!(quasi_static.condensed.is_some() && vibrating.condensed.is_some());
+/// # assert_eq!(law.law.unwrap().given(), ["kuwabara_kono"]);
+/// ```
+impl ModelTable {
+    /// Explicit finite elements.
+    pub fn fem() -> Self {
+        Self { fem: Some(EmptyTable {}), ..Self::default() }
+    }
+
+    /// Linear bodies condensed to their contact nodes.
+    pub fn condensed() -> Self {
+        CondensedTable::default().into()
+    }
+
+    /// Quasi-static viscoelastic half-space.
+    pub fn ting() -> Self {
+        TingTable::default().into()
+    }
+
+    /// Quasi-static elastic half-space.
+    pub fn hertz() -> Self {
+        HertzTable::default().into()
+    }
+
+    /// A contact law of one degree of freedom, by its table.
+    pub fn law(law: impl Into<LawTable>) -> Self {
+        law.into().into()
+    }
+}
+
+impl From<CondensedTable> for ModelTable {
+    fn from(table: CondensedTable) -> Self {
+        Self { condensed: Some(table), ..Self::default() }
+    }
+}
+
+impl From<TingTable> for ModelTable {
+    fn from(table: TingTable) -> Self {
+        Self { ting: Some(table), ..Self::default() }
+    }
+}
+
+impl From<HertzTable> for ModelTable {
+    fn from(table: HertzTable) -> Self {
+        Self { hertz: Some(table), ..Self::default() }
+    }
+}
+
+impl From<LawTable> for ModelTable {
+    fn from(table: LawTable) -> Self {
+        Self { law: Some(table), ..Self::default() }
+    }
 }
 
 /// `condensed = { … }`.
@@ -102,6 +166,12 @@ macro_rules! law_tables {
                 /// Accuracy of restitution, time and force, 1e-10 to 1e-2.
                 #[serde(skip_serializing_if = "Option::is_none")]
                 pub tolerance: Option<Quantity<Number>>,
+            }
+
+            impl From<$table> for LawTable {
+                fn from(table: $table) -> Self {
+                    Self { $law: Some(table), ..Self::default() }
+                }
             }
         )+
 

@@ -4,11 +4,10 @@ use fem_laws::{EndRule, LawImpact, Ting};
 
 use super::{Allowed, Check, NOT_NEGATIVE, POSITIVE, allowed};
 use crate::available::UNAVAILABLE_MODELS;
-use crate::condensed::Options;
-use crate::document::join;
 use crate::error::CaseError;
 use crate::explain::listed;
-use crate::model::{Dashpot, Dissipation, Law, Model};
+use crate::key_path::join;
+use crate::model::{CondensedOptions, Dashpot, Dissipation, Law, Model};
 use crate::model_tables::{CondensedTable, End, LawTable, ModelTable};
 use crate::quantity::{Count, Number, Quantity, QuantityKind};
 
@@ -66,8 +65,8 @@ impl Check<'_> {
             let count = self.optional(&path, value.as_ref(), allowed)?;
             Ok::<_, CaseError>(count.map(|count| count as usize))
         };
-        let default = Options::default();
-        Ok(Model::Condensed(Options {
+        let default = CondensedOptions::default();
+        Ok(Model::Condensed(CondensedOptions {
             vibration_modes: count("vibration_modes", vibration_modes, MODES)?
                 .unwrap_or(default.vibration_modes),
             steps: count("steps", steps, STEPS)?.unwrap_or(default.steps),

@@ -1,9 +1,9 @@
 //! The instants at which fields are written.
 
 use super::{Allowed, Check, NOT_NEGATIVE, allowed};
-use crate::document::join;
 use crate::error::CaseError;
 use crate::explain::near;
+use crate::key_path::join;
 use crate::quantity::{Count, Quantity};
 use crate::scene::Snapshots;
 use crate::schema::{SnapshotLabel, SnapshotsValue};

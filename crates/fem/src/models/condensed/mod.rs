@@ -17,7 +17,7 @@ use crate::effects::Effect;
 use crate::error::CaseError;
 use crate::estimate::Estimate;
 use crate::meshes::{MeshSource, mesh_error, mesh_sources};
-use crate::model::Model;
+use crate::model::{CondensedOptions as Options, Model};
 use crate::model_tables::{CondensedTable, ModelTable};
 use crate::plan::Plan;
 use crate::quantity::Quantity;
@@ -52,23 +52,6 @@ pub struct Condensed {
     /// The bodies.
     pub pair: Arc<CondensedPair>,
     options: Options,
-}
-
-/// The keys of `model.condensed`, resolved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
-    /// Modes of free vibration of each body.
-    pub vibration_modes: usize,
-    /// Steps over the elastic contact time.
-    pub steps: usize,
-    /// Whether overlap is resisted by the explicit model's springs.
-    pub penalty_springs: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { vibration_modes: 0, steps: 1000, penalty_springs: false }
-    }
 }
 
 impl Condensed {
