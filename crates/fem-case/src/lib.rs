@@ -48,31 +48,21 @@
 //! # Ok::<(), fem_case::CaseError>(())
 //! ```
 
-mod available;
 mod body_tables;
 mod case;
-mod condensed;
 mod document;
-mod effects;
 mod empty_table;
 mod error;
-mod estimate;
 mod explain;
 mod key_path;
 mod keyword;
 mod material_tables;
-mod meshes;
 mod model;
 mod model_tables;
-mod outcome;
 mod overrides;
-mod plan;
-mod problem;
 mod quantity;
-mod reduced;
 mod scene;
 pub mod schema;
-mod simulation;
 mod sweep;
 mod sweep_axes;
 mod sweep_file;
@@ -82,24 +72,15 @@ mod units;
 mod validate;
 
 pub use case::Case;
-pub use condensed::{Condensed, PairCache, QUASI_STATIC_LIMIT};
-pub use effects::Effect;
 pub use error::CaseError;
-pub use estimate::Estimate;
 pub use explain::nearest;
-pub use meshes::build_meshes;
-pub use model::{CondensedOptions, Dashpot, Dissipation, Law, Model};
-pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
-pub use plan::Plan;
-pub use problem::{Cost, Problem};
+pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 pub use quantity::{
     Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind,
     Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use reduced::{Reduced, ting_impact};
 pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
-pub use simulation::Simulation;
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};
 pub use sweep_file::{Combine, Keep, PlotTable};

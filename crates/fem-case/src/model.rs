@@ -5,7 +5,7 @@ use fem_laws::{EndRule, Family};
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub enum Model {
+pub enum ModelChoice {
     /// Explicit finite elements.
     #[default]
     Fem,
@@ -34,22 +34,22 @@ pub enum Model {
     },
 }
 
-impl Model {
+impl ModelChoice {
     /// Its key under `[model]`.
     pub fn name(&self) -> &'static str {
         match self {
-            Model::Fem => "fem",
-            Model::Condensed(_) => "condensed",
-            Model::Hertz { .. } => "hertz",
-            Model::Ting { .. } => "ting",
-            Model::Law { .. } => "law",
+            ModelChoice::Fem => "fem",
+            ModelChoice::Condensed(_) => "condensed",
+            ModelChoice::Hertz { .. } => "hertz",
+            ModelChoice::Ting { .. } => "ting",
+            ModelChoice::Law { .. } => "law",
         }
     }
 
     /// The dotted key of its table.
     pub fn path(&self) -> String {
         match self {
-            Model::Law { law, .. } => format!("model.law.{}", law.name()),
+            ModelChoice::Law { law, .. } => format!("model.law.{}", law.name()),
             _ => format!("model.{}", self.name()),
         }
     }

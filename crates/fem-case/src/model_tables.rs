@@ -218,7 +218,8 @@ macro_rules! law_tables {
             }
 
             /// The same with `end` and `tolerance` in the law's own table.
-            pub(crate) fn filled(mut self, end: End, tolerance: f64) -> Self {
+            #[must_use]
+            pub fn filled(mut self, end: End, tolerance: f64) -> Self {
                 (self.end, self.tolerance) = (None, None);
                 $(if let Some(table) = &mut self.$law {
                     table.end = Some(end);

@@ -1,7 +1,7 @@
 //! Two bodies condensed to their contact, ready for any number of collisions.
 
 use faer::Mat;
-use fem_collision::{Approach, BodyInput, Frame, Stop};
+use fem_collision::{Approach, BodyInput, BodyResult, Frame, Stop};
 use fem_contact::{ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
@@ -130,6 +130,20 @@ impl CondensedPair {
     pub fn frame(&self, speed: f64) -> Frame {
         let masses = self.sides.each_ref().map(|side| side.as_ref().map(|s| s.body.mass));
         Frame { approach: Approach::at(speed), masses, reduced_mass: self.reduced_mass }
+    }
+
+    /// What is known of the bodies before they collide.
+    pub fn bodies_before(&self, frame: &Frame) -> [BodyResult; 2] {
+        [0, 1].map(|side: usize| {
+            let mesh = self.inputs[side].mesh();
+            BodyResult {
+                elements: Some(mesh.map_or(0, |mesh| mesh.quads().len())),
+                nodes: Some(mesh.map_or(0, |mesh| mesh.nodes().len())),
+                mass: frame.masses[side],
+                added_mass: mesh.map(|_| 0.0),
+                ..BodyResult::default()
+            }
+        })
     }
 
     /// Lumped masses of a body's nodes, kg; none for a wall.

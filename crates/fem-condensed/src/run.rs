@@ -1,7 +1,7 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Account, BodyResult, Book, Collision, Ending, Frame, History, Losses, Monitor, Progress, Row,
+    Account, Book, Collision, Ending, Frame, History, Losses, Monitor, Progress, Row,
     STAY_TOGETHER, Stop, Want,
 };
 
@@ -286,20 +286,14 @@ impl<'a> Run<'a> {
             Ending::Stopped(_) => None,
         };
         let velocity_after = restitution.map(|e| frame.velocities(-e * frame.speed()));
-        let bodies = [0, 1].map(|side: usize| {
-            let mesh = self.pair.inputs()[side].mesh();
-            BodyResult {
-                elements: Some(mesh.map_or(0, |mesh| mesh.quads().len())),
-                nodes: Some(mesh.map_or(0, |mesh| mesh.nodes().len())),
-                mass: frame.masses[side],
-                added_mass: mesh.map(|_| 0.0),
-                velocity_after: velocity_after.map(|both| both[side]),
-                // Half of a vibration's energy is kinetic, on the mean.
-                vibration_energy: mesh
-                    .filter(|_| is_parted)
-                    .map(|_| 2.0 * self.vibration_after[side] / self.n_after.max(1) as f64),
-            }
-        });
+        let mut bodies = self.pair.bodies_before(frame);
+        for (side, body) in bodies.iter_mut().enumerate() {
+            body.velocity_after = velocity_after.map(|both| both[side]);
+            // Half of a vibration's energy is kinetic, on the mean.
+            let mean = 2.0 * self.vibration_after[side] / self.n_after.max(1) as f64;
+            let is_sphere = self.pair.inputs()[side].mesh().is_some();
+            body.vibration_energy = (is_sphere && is_parted).then_some(mean);
+        }
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
         let mut history = self.history.map(History::into_rows).unwrap_or_default();

@@ -1,11 +1,11 @@
 //! What closed forms say about a scene before anything is computed.
 
+use fem_case::{Body, Scene, Shape};
+use fem_collision::Expectation;
 use fem_laws::{HertzImpact, LawError, Pair, Partner};
 use fem_material::ElasticModuli;
 
-use crate::case::Case;
-use crate::error::CaseError;
-use crate::scene::{Body, Scene, Shape};
+use crate::refusal::Refusal;
 
 /// Least share of a modulus that the estimate counts with: a body that relaxes
 /// within the contact is stopped by its first, stiff response.
@@ -34,12 +34,20 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Of a case, faults with their place.
-    pub(crate) fn checked(case: &Case) -> Result<Self, CaseError> {
-        Self::of(&case.scene).map_err(|error| {
-            case.error_at("body", format!("the collision cannot be estimated: {error}"))
+    /// Of a scene that a model is made for.
+    ///
+    /// # Errors
+    /// As [`Estimate::of`], as a fault of the scene.
+    pub fn checked(scene: &Scene) -> Result<Self, Refusal> {
+        Self::of(scene).map_err(|error| {
+            Refusal::new("body", format!("the collision cannot be estimated: {error}"))
                 .with_help("check sizes, densities, moduli and speeds, and their units")
         })
+    }
+
+    /// What a run is told to expect.
+    pub fn expectation(&self) -> Expectation {
+        Expectation { contact_time: self.contact_time, approach: self.approach }
     }
 
     /// Of a scene.

@@ -2,14 +2,12 @@
 
 use std::path::Path;
 
+use fem_case::{Scene, Shape};
 use fem_mesh::{HalfDisc, MeshError, Side, SphereMesh};
-use fem_vtk::read_quad_mesh;
 
-use crate::case::Case;
-use crate::error::CaseError;
+use crate::limits::check_size;
 use crate::plan::Plan;
-use crate::problem::check_size;
-use crate::scene::Shape;
+use crate::refusal::Refusal;
 
 /// What a mesh is made from; equal ones make equal meshes.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,11 +46,11 @@ impl MeshSource {
 /// The meshes of both bodies in their places; a wall has none.
 ///
 /// # Errors
-/// As [`Problem::new`](crate::Problem::new).
-pub fn build_meshes(case: &Case, plan: &Plan) -> Result<[Option<SphereMesh>; 2], CaseError> {
+/// Meshes that cannot be made or read, or are too large.
+pub fn build_meshes(scene: &Scene, plan: &Plan) -> Result<[Option<SphereMesh>; 2], Refusal> {
     let mut meshes = [None, None];
-    for (k, source) in mesh_sources(case, plan)?.iter().enumerate() {
-        let build = |source: &MeshSource| source.build(k).map_err(|e| mesh_error(case, &e));
+    for (k, source) in mesh_sources(scene, plan)?.iter().enumerate() {
+        let build = |source: &MeshSource| source.build(k).map_err(|error| mesh_refusal(&error));
         meshes[k] = source.as_ref().map(build).transpose()?;
     }
     Ok(meshes)
@@ -62,13 +60,13 @@ pub fn build_meshes(case: &Case, plan: &Plan) -> Result<[Option<SphereMesh>; 2],
 ///
 /// # Errors
 /// Meshes that cannot be made or read, or are too large.
-pub(crate) fn mesh_sources(case: &Case, plan: &Plan) -> Result<[Option<MeshSource>; 2], CaseError> {
-    check_size(case, plan)?;
+pub(crate) fn mesh_sources(scene: &Scene, plan: &Plan) -> Result<[Option<MeshSource>; 2], Refusal> {
+    check_size(scene, plan)?;
     let mut sources = [None, None];
-    for (k, body) in case.scene.bodies.iter().enumerate() {
+    for (k, body) in scene.bodies.iter().enumerate() {
         if let Shape::Sphere { diameter, mesh, .. } = &body.shape {
             sources[k] = Some(match mesh {
-                Some(path) => MeshSource::File(import(case, k, *diameter, path)?),
+                Some(path) => MeshSource::File(import(k, *diameter, path)?),
                 None => MeshSource::HalfDisc(half_disc(plan, *diameter)),
             });
         }
@@ -85,32 +83,42 @@ pub(crate) fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
     }
 }
 
-fn import(case: &Case, k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, CaseError> {
-    let fault = |found: String| {
-        case.error_at(&format!("body.{k}.sphere.mesh"), format!("mesh {}: {found}", path.display()))
-            .with_help(
-                "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
-                 r >= 0 of the sphere with its contact pole at the origin; \
-                 `fem-run mesh CASE` writes such files",
-            )
-    };
-    let mesh = read_quad_mesh(path).map_err(|error| fault(error.to_string()))?;
-    if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
-        return Err(fault(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
-    }
-    let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
-    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| fault(error.to_string()))
+fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Refusal> {
+    read_sphere(diameter, path).map_err(|found| {
+        let message = format!("mesh {}: {found}", path.display());
+        Refusal::new(format!("body.{k}.sphere.mesh"), message).with_help(
+            "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
+             r >= 0 of the sphere with its contact pole at the origin; \
+             `fem-run mesh CASE` writes such files",
+        )
+    })
 }
 
-pub(crate) fn mesh_error(case: &Case, error: &MeshError) -> CaseError {
+#[cfg(feature = "files")]
+fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
+    let mesh = fem_vtk::read_quad_mesh(path).map_err(|error| error.to_string())?;
+    if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
+        return Err(format!("a point lies at z = {} m, off the plane z = 0", point[2]));
+    }
+    let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
+    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| error.to_string())
+}
+
+#[cfg(not(feature = "files"))]
+fn read_sphere(_: f64, _: &Path) -> Result<SphereMesh, String> {
+    Err("no files are read here".to_string())
+}
+
+/// The key that is to blame for a mesh that cannot be made.
+pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
     let key = match error {
         MeshError::RefinedRadius { .. } => "mesh.refined_radius",
         MeshError::Growth(_) => "mesh.growth",
         _ => "mesh.contact_element_size",
     };
-    let fault = case.error_at(key, error.to_string());
+    let refusal = Refusal::new(key, error.to_string());
     match error {
-        MeshError::TooLarge(_) => fault.with_help("use a larger contact_element_size"),
-        _ => fault,
+        MeshError::TooLarge(_) => refusal.with_help("use a larger contact_element_size"),
+        _ => refusal,
     }
 }

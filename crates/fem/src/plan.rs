@@ -1,17 +1,14 @@
-//! The plan: every number that the case leaves open, and which effects are on.
+//! The plan of finite elements: every number that the case leaves open.
 
-use fem_explicit::{Label, SnapshotRequest};
-
-use crate::case::Case;
-use crate::effects::{Effect, scene_effects};
-use crate::error::CaseError;
-use crate::estimate::Estimate;
-use crate::scene::{Body, Shape, Snapshots};
-use crate::schema::{
+use fem_case::schema::{
     ContactTable, EffectsTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable,
     SnapshotsValue, StartTable, Switch, TimeTable,
 };
-use crate::{CaseFile, Quantity};
+use fem_case::{Body, CaseFile, Quantity, Scene, Shape, Snapshots};
+use fem_collision::{Label, SnapshotRequest, Want};
+
+use crate::estimate::Estimate;
+use crate::refusal::Refusal;
 
 /// Elements across the contact radius: within 0.1 % in contact time, 0.3 % in
 /// force and 2 % in pressure of the limit.
@@ -26,9 +23,6 @@ const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 const PENALTY_OVER_MODULUS: f64 = 20.0;
 const STEP_FACTOR: f64 = 0.9;
 const MASS_SCALING: f64 = 2e-4;
-const HISTORY_ROWS: usize = 1000;
-/// A run gives up after so many expected contact times.
-const GIVE_UP_AFTER: f64 = 50.0;
 /// Default limits of `[limits]`.
 const MAX_ELEMENTS: u64 = 2_000_000;
 const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
@@ -61,30 +55,23 @@ pub struct Plan {
     pub mass_scaling: f64,
     /// Snapshots to keep.
     pub snapshots: SnapshotRequest,
-    /// Rows of the history over the expected contact.
-    pub history_rows: usize,
-    /// The run gives up this long after first touch, s.
-    pub max_time: f64,
     /// Refusal limits.
     pub max_elements: u64,
     /// Elements times steps.
     pub max_element_updates: u64,
     /// Bytes.
     pub max_memory: u64,
-    /// Which effects are on, and why.
-    pub effects: Vec<Effect>,
-    /// What the user should know before the run.
+    /// Keys of the case that the plan does not read.
     pub warnings: Vec<String>,
 }
 
 impl Plan {
-    /// Decides on a case.
+    /// Decides on a scene.
     ///
     /// # Errors
     /// A scene whose closed-form estimates are not finite.
-    pub fn of(case: &Case) -> Result<Self, CaseError> {
-        let scene = &case.scene;
-        let estimate = Estimate::checked(case)?;
+    pub fn of(scene: &Scene) -> Result<Self, Refusal> {
+        let estimate = Estimate::checked(scene)?;
         // Half of the radius is as far as the fine block of a half disc reaches.
         let half_radius = 0.5 * estimate.smallest_radius;
         let contact_radius = estimate.contact_radius.min(half_radius);
@@ -98,15 +85,17 @@ impl Plan {
         let candidate_radius =
             (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size);
         let penalty_factor = scene.penalty_factor.unwrap_or(1.0);
-        let (effects, mut warnings) = scene_effects(scene, &estimate);
         let made_here = |body: &Body| matches!(body.shape, Shape::Sphere { mesh: None, .. });
         let makes_meshes = scene.bodies.iter().any(made_here);
-        let given = ["contact_element_size", "refined_radius", "growth"]
-            .into_iter()
-            .find(|key| !makes_meshes && case.gives(&format!("mesh.{key}")));
-        if let Some(key) = given {
-            warnings.push(format!("mesh.{key} has no effect: the meshes are read from files"));
-        }
+        let given = [
+            ("contact_element_size", scene.mesh.contact_element_size),
+            ("refined_radius", scene.mesh.refined_radius),
+            ("growth", scene.mesh.growth),
+        ];
+        let unread = given.into_iter().find(|(_, value)| !makes_meshes && value.is_some());
+        let warning =
+            |key: &str| format!("mesh.{key} has no effect: the meshes are read from files");
+        let warnings = unread.map(|(key, _)| warning(key)).into_iter().collect();
         let limits = scene.limits;
         Ok(Self {
             gap: scene.gap.unwrap_or(0.0),
@@ -122,20 +111,21 @@ impl Plan {
             step_factor: scene.step_factor.unwrap_or(STEP_FACTOR),
             mass_scaling: scene.mass_scaling.unwrap_or(MASS_SCALING),
             snapshots: request(scene.snapshots.as_ref()),
-            history_rows: HISTORY_ROWS,
-            max_time: GIVE_UP_AFTER * estimate.contact_time,
             max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),
             max_memory: limits.memory.unwrap_or(MAX_MEMORY),
-            effects,
             warnings,
             estimate,
         })
     }
 
-    /// The case with every default filled in; it runs again to the same bits.
-    pub fn resolve(&self, case: &Case) -> CaseFile {
-        let mut file = case.file.clone();
+    /// What a run is asked for.
+    pub fn want(&self) -> Want {
+        Want { snapshots: self.snapshots.clone(), ..Want::history() }
+    }
+
+    /// The case as written with every default filled in; it runs again to the same bits.
+    pub fn resolve(&self, mut file: CaseFile) -> CaseFile {
         file.start = Some(StartTable { gap: Some(Quantity::from_si(self.gap)) });
         file.mesh = self.makes_meshes.then(|| MeshTable {
             contact_element_size: Some(Quantity::from_si(self.contact_element_size)),

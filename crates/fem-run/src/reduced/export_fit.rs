@@ -1,6 +1,7 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
-use fem_case::{Body, Case, Reduced};
+use fem::Reduced;
+use fem_case::{Body, Case};
 use fem_fit::dem::{Dashpot, Elastic, Export, Sphere};
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::{EndRule, Family, HertzImpact, Pair};

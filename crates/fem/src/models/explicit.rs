@@ -1,156 +1,175 @@
-//! A case that is ready to run with finite elements.
+//! Explicit finite elements.
 
-use fem_explicit::{
-    BodyInput, Collision, Model, ModelError, Monitor, RunSettings, Settings, Stop, collide,
-    n_states,
+use fem_case::{Body, CaseFile, Scene, Shape};
+use fem_collision::{Approach, BodyInput, Collision, Monitor, Stop, Want};
+use fem_explicit::{Model as Bodies, Settings, collide};
+use fem_mesh::SphereMesh;
+
+use super::region::until_it_fits;
+use crate::approach::{approach_of, scene_at};
+use crate::effects::{
+    Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
+    MassScaling, MirrorSymmetry, Verdict, Viscoelasticity, decide,
 };
-use fem_mesh::Quality;
-
-use crate::case::Case;
-use crate::effects::{Effect, model_effects};
-use crate::error::CaseError;
-use crate::meshes::{build_meshes, half_disc, mesh_error};
+use crate::estimate::Estimate;
+use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
+use crate::meshes::build_meshes;
+use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::Plan;
-use crate::scene::{Body, Shape};
+use crate::refusal::Refusal;
 
-/// Bytes an element of the built-in mesh takes: element blocks, some one node's
-/// worth of vectors, and the ladder of states kept for snapshots.
-const BYTES_PER_ELEMENT: u64 = 1_600;
-/// Bytes a Prony term takes an element.
-const BYTES_PER_BRANCH: u64 = 40;
-/// Bytes a state kept for a snapshot takes an element: displacement, velocity,
-/// effective displacement.
-const BYTES_PER_STATE: u64 = 48;
 /// Growth of the searched region when the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 1.5;
 
-/// What a run will cost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cost {
-    /// Elements of both bodies.
-    pub elements: u64,
-    /// Nodes of both bodies.
-    pub nodes: u64,
-    /// Steps until separation.
-    pub steps: u64,
-    /// Elements times steps.
-    pub element_updates: u64,
-    /// Bytes.
-    pub memory: u64,
+/// Explicit finite elements, `[model] fem = {}`.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitMethod;
+
+/// The method.
+pub const EXPLICIT: ExplicitMethod = ExplicitMethod;
+
+impl Method for ExplicitMethod {
+    fn name(&self) -> &'static str {
+        "fem"
+    }
+
+    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        Ok(Box::new(Explicit::new(scene)?))
+    }
+
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+        match Explicit::new(scene)?.setup.cost {
+            Cost::Steps { element_updates, .. } => Ok(element_updates),
+            _ => Ok(0),
+        }
+    }
+
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+        Ok(Plan::of(scene)?.resolve(file))
+    }
 }
 
-/// A case with its meshes and its model, ready to run.
+/// A scene with meshes, masses and a time step.
 #[derive(Clone, Debug)]
-pub struct Problem {
-    /// The case.
-    pub case: Case,
-    /// What was decided.
+pub struct Explicit {
+    /// What was decided on mesh, contact and time step.
     pub plan: Plan,
-    /// Quality of each sphere's mesh.
-    pub quality: [Option<Quality>; 2],
-    /// The model.
-    pub model: Model,
-    /// What the run will cost.
-    pub cost: Cost,
+    /// Bodies and contact.
+    pub bodies: Bodies,
+    setup: Setup,
+    scene: Scene,
     /// Kept for a model with a larger searched region.
     inputs: [BodyInput; 2],
 }
 
-impl Problem {
-    /// Decides, meshes, and builds the model.
+impl Explicit {
+    /// Decides, meshes, and builds the bodies.
     ///
     /// # Errors
-    /// What the plan refuses; meshes that cannot be made or read; more elements,
-    /// steps or memory than the limits allow.
-    pub fn new(case: Case) -> Result<Self, CaseError> {
-        let plan = Plan::of(&case)?;
-        Self::with_plan(case, plan)
+    /// What the plan refuses; meshes that cannot be made or read; more elements, steps or memory
+    /// than the limits allow.
+    pub fn new(scene: &Scene) -> Result<Self, Refusal> {
+        Self::with_plan(scene, Plan::of(scene)?)
     }
 
-    /// Meshes and builds the model of a plan that may have been changed.
+    /// Meshes and builds the bodies of a plan that may have been changed.
     ///
     /// # Errors
-    /// As [`Problem::new`].
-    pub fn with_plan(case: Case, plan: Plan) -> Result<Self, CaseError> {
-        if case.scene.model != crate::Model::Fem {
-            let message = format!("model `{}` has no finite elements", case.scene.model.name());
-            return Err(case.error_at(&case.scene.model.path(), message));
-        }
-        let meshes = build_meshes(&case, &plan)?;
-        let quality = meshes.each_ref().map(|mesh| mesh.as_ref().map(Quality::of));
-        let mut bodies = case.scene.bodies.iter().zip(meshes);
-        let mut input = || match bodies.next() {
-            Some((Body { shape: Shape::Sphere { material, .. }, velocity, .. }, Some(mesh))) => {
-                BodyInput::Deformable { mesh, material: material.clone(), velocity: *velocity }
-            }
-            Some((body, _)) => BodyInput::Wall { velocity: body.velocity },
-            None => BodyInput::Wall { velocity: 0.0 },
+    /// As [`Explicit::new`].
+    pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
+        let meshes = build_meshes(scene, &plan)?;
+        let inputs = inputs(scene, meshes);
+        let approach = approach_of(scene);
+        let bodies = Bodies::new(inputs.clone(), approach, &settings(&plan))
+            .map_err(|error| Refusal::new("body", error.to_string()))?;
+        let cost = cost(scene, &bodies, &plan)?;
+        let (effects, mut warnings) = effects(scene, &plan.estimate, &bodies)?;
+        warnings.extend(plan.warnings.iter().cloned());
+        let setup = Setup {
+            description: "model fem, explicit finite elements".to_string(),
+            approach,
+            want: plan.want(),
+            estimate: plan.estimate,
+            effects,
+            warnings,
+            cost,
+            elements: Some(ElementSetup {
+                plan: plan.clone(),
+                has_springs: true,
+                finer_steps: "lower time.step_factor",
+            }),
         };
-        let inputs = [input(), input()];
-        let model =
-            Model::new(inputs.clone(), &settings(&plan)).map_err(|e| model_error(&case, &e))?;
-        let cost = cost(&model, &plan);
-        check_elements(&case, &plan, cost.elements)?;
-        check_memory(&case, &plan, cost.elements, cost.memory)?;
-        if cost.element_updates > plan.max_element_updates {
-            return Err(case
-                .error_at(
-                    blamed(&case, "limits.element_updates"),
-                    format!(
-                        "the run would take {} steps of {} elements, {:.1e} element updates",
-                        cost.steps, cost.elements, cost.element_updates as f64
-                    ),
-                )
-                .with_help(format!(
-                    "at most {:.1e} are allowed; use a larger contact_element_size or more \
-                     time.mass_scaling, or raise limits.element_updates",
-                    plan.max_element_updates as f64
-                )));
+        Ok(Self { plan, bodies, setup, scene: scene.clone(), inputs })
+    }
+
+    /// Makes the bodies meet in another way.
+    ///
+    /// # Errors
+    /// Bodies that do not approach, speeds without a finite estimate.
+    fn meet(&mut self, approach: &Approach) -> Result<(), Stop> {
+        if self.bodies.approach() == approach {
+            return Ok(());
         }
-        Ok(Self { case, plan, quality, model, cost, inputs })
+        let not_made = |error: &dyn std::fmt::Display| Stop::NotMade(error.to_string());
+        let scene = scene_at(&self.scene, approach);
+        let estimate = Estimate::of(&scene).map_err(|error| not_made(&error))?;
+        let bodies = Bodies::new(self.inputs.clone(), *approach, &settings(&self.plan))
+            .map_err(|error| not_made(&error))?;
+        (self.plan.estimate, self.bodies, self.scene) = (estimate, bodies, scene);
+        Ok(())
     }
 
-    /// All effects, the plan's and the model's.
-    pub fn effects(&self) -> Vec<Effect> {
-        let mut effects = self.plan.effects.clone();
-        effects.extend(model_effects(&self.model, &self.case.scene.bodies));
-        effects
-    }
-
-    /// Runs until the bodies have separated. Should the contact outgrow the
-    /// searched region, the run starts again with a larger one.
-    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Collision {
-        loop {
-            let collision = collide(&self.model, &self.run_settings(), monitor);
-            match collision.stopped {
-                Some(Stop::ContactBeyondCandidates { .. }) if self.enlarge_candidates() => {}
-                _ => return collision,
-            }
-        }
-    }
-
-    fn run_settings(&self) -> RunSettings {
-        RunSettings {
-            expected_contact_time: self.plan.estimate.contact_time,
-            expected_approach: self.plan.estimate.approach,
-            history_rows: self.plan.history_rows,
-            snapshots: self.plan.snapshots.clone(),
-            max_time: self.plan.max_time,
-        }
-    }
-
-    /// Whether the searched region could be made larger.
-    fn enlarge_candidates(&mut self) -> bool {
-        let before = self.model.interface().candidate_radius();
+    /// A larger searched region, if there is one.
+    fn enlarge(&mut self) -> Result<(), Refusal> {
+        let before = self.bodies.interface().candidate_radius();
         self.plan.candidate_radius = CANDIDATE_GROWTH * before;
-        match Model::new(self.inputs.clone(), &settings(&self.plan)) {
-            Ok(model) if model.interface().candidate_radius() > before => {
-                self.model = model;
-                true
-            }
-            _ => false,
+        let approach = *self.bodies.approach();
+        let nothing_larger =
+            || Refusal::new("body", "the searched region is as large as it can be");
+        let bodies = Bodies::new(self.inputs.clone(), approach, &settings(&self.plan))
+            .map_err(|_| nothing_larger())?;
+        if bodies.interface().candidate_radius() <= before {
+            return Err(nothing_larger());
         }
+        self.bodies = bodies;
+        (self.setup.effects, _) = effects(&self.scene, &self.plan.estimate, &self.bodies)?;
+        Ok(())
     }
+}
+
+impl Model for Explicit {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn collide(
+        &mut self,
+        approach: &Approach,
+        want: &Want,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
+        if let Err(stop) = self.meet(approach) {
+            return Collision::stopped(stop);
+        }
+        let run = |model: &Self| {
+            collide(&model.bodies, model.plan.estimate.expectation(), want, &mut *monitor)
+        };
+        until_it_fits(self, run, |model, _| model.enlarge().map_err(|_| None))
+    }
+
+    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
+        self.bodies.bodies().each_ref().map(|body| body.mesh())
+    }
+}
+
+fn inputs(scene: &Scene, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
+    let mut meshes = meshes.into_iter();
+    scene.bodies.each_ref().map(|body| match (&body.shape, meshes.next().flatten()) {
+        (Shape::Sphere { material, .. }, Some(mesh)) => {
+            BodyInput::Sphere { mesh, material: material.clone() }
+        }
+        _ => BodyInput::Wall,
+    })
 }
 
 fn settings(plan: &Plan) -> Settings {
@@ -159,91 +178,74 @@ fn settings(plan: &Plan) -> Settings {
         candidate_radius: plan.candidate_radius,
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
-        gap: plan.gap,
     }
 }
 
-/// Refuses meshes that are too large before they are made.
-pub(crate) fn check_size(case: &Case, plan: &Plan) -> Result<(), CaseError> {
-    let mut elements = 0;
-    let mut memory = 0;
-    for body in &case.scene.bodies {
-        if let Shape::Sphere { diameter, mesh: None, material } = &body.shape {
-            let n = half_disc(plan, *diameter)
-                .n_elements()
-                .map_err(|error| mesh_error(case, &error))? as u64;
-            let branches = material.relaxation().map_or(0, |series| series.terms().len()) as u64;
-            elements += n;
-            memory += n * (BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH);
-        }
-    }
-    check_elements(case, plan, elements)?;
-    check_memory(case, plan, elements, state_memory(plan, elements).saturating_add(memory))
-}
-
-fn state_memory(plan: &Plan, elements: u64) -> u64 {
-    (elements * BYTES_PER_STATE).saturating_mul(n_states(&plan.snapshots) as u64)
-}
-
-fn check_elements(case: &Case, plan: &Plan, elements: u64) -> Result<(), CaseError> {
-    if elements <= plan.max_elements {
-        return Ok(());
-    }
-    let key = blamed(case, "limits.elements");
-    let found = format!(
-        "the meshes would have {elements} elements, {:.3e} m long at the contact",
-        plan.contact_element_size
-    );
-    Err(case.error_at(key, found).with_help(format!(
-        "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
-        plan.max_elements
-    )))
-}
-
-fn check_memory(case: &Case, plan: &Plan, elements: u64, memory: u64) -> Result<(), CaseError> {
-    if memory <= plan.max_memory {
-        return Ok(());
-    }
-    let states = state_memory(plan, elements);
-    let (key, remedy) = if states > memory / 2 {
-        ("output.snapshots", "ask for fewer output.snapshots")
-    } else {
-        (blamed(case, "limits.memory"), "use a larger mesh.contact_element_size")
-    };
-    let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
-    let found = format!(
-        "the run would take about {} of memory, {} of it for snapshots",
-        megabytes(memory),
-        megabytes(states)
-    );
-    Err(case.error_at(key, found).with_help(format!(
-        "at most {} are allowed; {remedy} or raise limits.memory",
-        megabytes(plan.max_memory)
-    )))
-}
-
-/// The element size if the case gives it, else the limit if that is given.
-fn blamed<'a>(case: &Case, limit: &'a str) -> &'a str {
-    let size = "mesh.contact_element_size";
-    if !case.gives(size) && case.gives(limit) { limit } else { size }
-}
-
-fn model_error(case: &Case, error: &ModelError) -> CaseError {
-    case.error_at("body", error.to_string())
-}
-
-fn cost(model: &Model, plan: &Plan) -> Cost {
+/// What a run takes, within the limits.
+fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
     let elements = model.n_elements() as u64;
     let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
     let branches: u64 =
         model.bodies().iter().map(|body| body.n_elements() as u64 * body.n_branches() as u64).sum();
     let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
-    Cost {
+    let element_updates = (steps * elements as f64) as u64;
+    let memory = explicit_memory(plan, elements, branches);
+    check_elements(scene, plan, elements)?;
+    check_memory(scene, plan, elements, memory)?;
+    check_updates(scene, plan, steps as u64, elements, element_updates)?;
+    Ok(Cost::Steps {
         elements,
         nodes,
         steps: steps as u64,
-        element_updates: (steps * elements as f64) as u64,
-        memory: state_memory(plan, elements)
-            .saturating_add(elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH),
+        element_updates,
+        memory,
+        time_step: model.time_step(),
+        plain_time_step: model.plain_time_step(),
+    })
+}
+
+/// What explicit elements have of each effect.
+fn effects(
+    scene: &Scene,
+    estimate: &Estimate,
+    model: &Bodies,
+) -> Result<(Vec<Verdict>, Vec<String>), Refusal> {
+    let hourglass = "elements with one mean stress need the stiffness of their bending modes";
+    let interface = model.interface();
+    let search = format!(
+        "{} integration points within {:.4e} m of the axis; free flight is not stepped",
+        interface.n_points(),
+        interface.candidate_radius()
+    );
+    let (adds_mass, scaling) = mass_scaling(model, &scene.bodies);
+    let answers: Vec<(&'static dyn Effect, Answer)> = vec![
+        (&Viscoelasticity, Answer::Computes { idle: "no history is kept" }),
+        (&FiniteStrain, Answer::Lacks),
+        (&MirrorSymmetry, Answer::Lacks),
+        (&HourglassControl, Answer::Is(true, hourglass.to_string())),
+        (&BulkViscosity, Answer::Lacks),
+        (&Gravity, Answer::Lacks),
+        (&ContactSearch, Answer::Is(true, search)),
+        (&MassScaling, Answer::Is(adds_mass, scaling)),
+    ];
+    let decisions = decide(scene, estimate, answers)?;
+    Ok((decisions.verdicts, decisions.warnings))
+}
+
+/// Whether mass is added, and to whom.
+fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> (bool, String) {
+    let ratio = model.time_step() / model.plain_time_step();
+    let added: Vec<String> = model
+        .bodies()
+        .iter()
+        .zip(bodies)
+        .filter(|(body, _)| body.added_mass() > 0.0)
+        .map(|(body, named)| {
+            format!("{:.1e} of the mass of {}", body.added_mass() / body.mass(), named.name)
+        })
+        .collect();
+    match added.is_empty() {
+        true => (false, "no mass is added".to_string()),
+        false => (true, format!("adds {} for a {ratio:.1} times longer step", added.join(" and "))),
     }
 }

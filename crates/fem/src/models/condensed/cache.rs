@@ -18,7 +18,7 @@ const NUMBERS_PER_EQUATION: usize = 32;
 
 /// What a pair is made from; equal ones make equal pairs.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct PairKey {
+pub(crate) struct PairKey {
     /// Mesh and material, without its relaxation; none for a wall.
     pub bodies: [Option<(MeshSource, Material)>; 2],
     /// How it is condensed.
@@ -69,7 +69,7 @@ impl PairCache {
     ///
     /// # Errors
     /// Those of `make`.
-    pub(super) fn pair<E>(
+    pub(crate) fn pair<E>(
         &self,
         key: PairKey,
         make: impl FnOnce(&PairKey) -> Result<CondensedPair, E>,

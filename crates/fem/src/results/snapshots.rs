@@ -2,18 +2,19 @@
 
 use std::path::Path;
 
-use fem_case::{Outcome, Simulation};
-use fem_collision::{Label, Snapshot, SnapshotRequest, StressRecovery, invariants};
+use fem_collision::{Collision, Label, Snapshot, SnapshotRequest, StressRecovery, invariants};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};
+
+use crate::simulation::Simulation;
 
 /// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
 const STRESSES: [&str; 6] =
     ["sigma_yy", "sigma_rr", "sigma_tt", "sigma_ry", "pressure", "von_mises"];
 
 /// What is drawn of a collision.
-pub struct Drawing<'a> {
+struct Drawing<'a> {
     meshes: [Option<&'a SphereMesh>; 2],
     materials: [Option<&'a Material>; 2],
     /// m.
@@ -24,23 +25,15 @@ pub struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    /// Of finite elements; other models have no fields.
-    pub fn of(simulation: &'a Simulation, outcome: &'a Outcome) -> Option<Self> {
-        let (meshes, plan) = match simulation {
-            Simulation::Fem(problem) => {
-                (problem.model.bodies().each_ref().map(|body| body.mesh()), &problem.plan)
-            }
-            Simulation::Condensed(condensed) => (condensed.meshes(), &condensed.plan),
-            Simulation::Reduced(_) => return None,
-        };
-        Some(Self {
-            meshes,
-            materials: simulation.case().scene.bodies.each_ref().map(|body| body.material()),
-            gap: plan.gap,
-            request: &plan.snapshots,
-            snapshots: &outcome.snapshots,
-            is_complete: outcome.halt.is_none(),
-        })
+    fn of(simulation: &'a Simulation, collision: &'a Collision) -> Self {
+        Self {
+            meshes: simulation.model.meshes(),
+            materials: simulation.case.scene.bodies.each_ref().map(|body| body.material()),
+            gap: simulation.setup().approach.gap,
+            request: &simulation.want.snapshots,
+            snapshots: &collision.snapshots,
+            is_complete: collision.is_complete(),
+        }
     }
 
     /// Bodies with a mesh, and which side they are on.
@@ -69,7 +62,7 @@ struct Scene<'a> {
 /// Six arrays of one value a cell or point.
 type GridStress = [Vec<f64>; 6];
 
-/// Writes all snapshots and their collection into `folder`.
+/// Writes all snapshots of a collision and their collection into `folder`.
 ///
 /// Returns the names of the files, and warnings about snapshots that are left out.
 ///
@@ -78,8 +71,10 @@ type GridStress = [Vec<f64>; 6];
 pub fn write_snapshots(
     folder: &Path,
     stem: &str,
-    drawing: &Drawing<'_>,
+    simulation: &Simulation,
+    collision: &Collision,
 ) -> Result<(Vec<String>, Vec<String>), fem_vtk::Error> {
+    let drawing = &Drawing::of(simulation, collision);
     if drawing.snapshots.is_empty() {
         return Ok((Vec::new(), Vec::new()));
     }

@@ -1,9 +1,8 @@
 //! From what a case says of a law to the numbers of its family: one arm a law.
 
+use fem_case::{Dashpot, Dissipation, Law};
 use fem_laws::{EndRule, LawError, Pair, PairRelaxation, laws};
 use fem_material::Material;
-
-use crate::model::{Dashpot, Dissipation, Law};
 
 /// What a law is made for.
 pub(super) struct Setting<'a> {
@@ -17,22 +16,22 @@ pub(super) struct Setting<'a> {
 }
 
 /// What cannot be made.
-pub(super) enum Refusal {
+pub(super) enum Unmade {
     /// By the law itself.
     Law(LawError),
     /// By what it would be made from; and what to do.
     Source(&'static str, &'static str),
 }
 
-impl From<LawError> for Refusal {
+impl From<LawError> for Unmade {
     fn from(error: LawError) -> Self {
-        Refusal::Law(error)
+        Unmade::Law(error)
     }
 }
 
 impl Setting<'_> {
     /// The numbers of the law's family, and the pair that it belongs to.
-    pub fn numbers(&self, law: &Law) -> Result<(Vec<f64>, Pair), Refusal> {
+    pub fn numbers(&self, law: &Law) -> Result<(Vec<f64>, Pair), Unmade> {
         let pair = &self.pair;
         let numbers = match *law {
             Law::Linear { stiffness, damping } => vec![stiffness, damping],
@@ -69,7 +68,7 @@ impl Setting<'_> {
                 vec![self.schwager_poeschel(shear, bulk)?]
             }
             Law::SchwagerPoeschel(Dissipation::Relaxation) => {
-                return Err(Refusal::Source("schwager_poeschel has no slow limit", "give a"));
+                return Err(Unmade::Source("schwager_poeschel has no slow limit", "give a"));
             }
             Law::MorgadoOppenheim { eta_1, eta_2 } => vec![eta_1, eta_2],
             Law::BordbarHyppanen { dissipation_time, damping_exponent } => {
@@ -80,26 +79,26 @@ impl Setting<'_> {
     }
 
     /// Kelvin's solid as the slow limit of the materials: relaxed moduli and the first moment.
-    fn slow_limit(&self) -> Result<(Vec<f64>, Pair), Refusal> {
+    fn slow_limit(&self) -> Result<(Vec<f64>, Pair), Unmade> {
         const GIVE: &str = "give a, or eta_1 and eta_2";
         if self.relaxation.terms().is_empty() {
             let message = "no material relaxes, so nothing gives kuwabara_kono its dissipation";
-            return Err(Refusal::Source(message, GIVE));
+            return Err(Unmade::Source(message, GIVE));
         }
         let Some(time) = self.relaxation.dissipation_time() else {
             let message = "a material flows (its weights sum to 1), so it has no slow limit with a \
                            lasting stiffness";
-            return Err(Refusal::Source(message, GIVE));
+            return Err(Unmade::Source(message, GIVE));
         };
         Ok((vec![time], self.pair.softened(self.relaxation.equilibrium_weight())?))
     }
 
     /// A of the viscosities of one material.
-    fn schwager_poeschel(&self, shear: f64, bulk: f64) -> Result<f64, Refusal> {
+    fn schwager_poeschel(&self, shear: f64, bulk: f64) -> Result<f64, Unmade> {
         let mut moduli = self.materials.iter().flatten().map(|material| material.instantaneous());
         let Some(first) = moduli.next() else { return Err(LawError::TwoWalls.into()) };
         if moduli.any(|other| other != first) {
-            return Err(Refusal::Source(
+            return Err(Unmade::Source(
                 "the viscosities of schwager_poeschel are those of one material, and the bodies' \
                  differ",
                 "give a, or take kuwabara_kono",

@@ -2,8 +2,12 @@
 
 use std::f64::consts::PI;
 
-use fem_case::{Halt, Outcome, Plan, Simulation};
+use fem_collision::Collision;
 use fem_mesh::SphereMesh;
+
+use crate::method::ElementSetup;
+use crate::plan::Plan;
+use crate::simulation::Simulation;
 
 /// Fewer elements across the contact radius cost more than about 1 % of the force.
 const FEWEST_ELEMENTS: f64 = 4.0;
@@ -25,8 +29,8 @@ const LARGEST_OUTGROWTH: f64 = 1.05;
 const LARGEST_EXCESS: f64 = 1e-5;
 
 /// Warnings about a collision of finite elements; a reduced model has no such errors.
-pub fn assess(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
-    let Some(run) = Run::of(simulation, outcome) else { return Vec::new() };
+pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
+    let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
     let warnings = [
         run.incomplete(),
         run.energy_residual(),
@@ -44,7 +48,7 @@ pub fn assess(simulation: &Simulation, outcome: &Outcome) -> Vec<String> {
 /// A run of finite elements.
 struct Run<'a> {
     simulation: &'a Simulation,
-    outcome: &'a Outcome,
+    collision: &'a Collision,
     plan: &'a Plan,
     meshes: [Option<&'a SphereMesh>; 2],
     /// Whether springs keep the surfaces apart.
@@ -54,33 +58,21 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn of(simulation: &'a Simulation, outcome: &'a Outcome) -> Option<Self> {
-        let (plan, meshes, has_springs, finer_steps) = match simulation {
-            Simulation::Fem(problem) => {
-                let meshes = problem.model.bodies().each_ref().map(|body| body.mesh());
-                (&problem.plan, meshes, true, "lower time.step_factor")
-            }
-            Simulation::Condensed(condensed) => {
-                let has_springs = condensed.options().penalty_springs;
-                let finer_steps = "raise model.condensed.steps";
-                (&condensed.plan, condensed.meshes(), has_springs, finer_steps)
-            }
-            Simulation::Reduced(_) => return None,
-        };
-        Some(Self { simulation, outcome, plan, meshes, has_springs, finer_steps })
+    fn of(simulation: &'a Simulation, collision: &'a Collision) -> Option<Self> {
+        let ElementSetup { plan, has_springs, finer_steps } =
+            simulation.setup().elements.as_ref()?;
+        let meshes = simulation.model.meshes();
+        let (has_springs, finer_steps) = (*has_springs, *finer_steps);
+        Some(Self { simulation, collision, plan, meshes, has_springs, finer_steps })
     }
 
     fn incomplete(&self) -> Option<String> {
-        match self.outcome.halt.as_ref()? {
-            Halt::Fem(stop) => {
-                Some(format!("the run is not complete: {stop}; maxima are those so far"))
-            }
-            halt => Some(format!("the run is not complete: {halt}")),
-        }
+        let stop = self.collision.stop()?;
+        Some(format!("the run is not complete: {stop}; maxima are those so far"))
     }
 
     fn energy_residual(&self) -> Option<String> {
-        let residual = self.outcome.residual_relative?;
+        let residual = self.collision.residual_relative?;
         // A residual that is no number is above every limit.
         let is_sound = residual <= LARGEST_RESIDUAL;
         (!is_sound).then(|| {
@@ -93,7 +85,7 @@ impl<'a> Run<'a> {
     }
 
     fn restitution(&self) -> Option<String> {
-        let restitution = self.outcome.restitution?;
+        let restitution = self.collision.restitution?;
         (restitution > 1.0 + LARGEST_EXCESS).then(|| {
             format!("the restitution {restitution:.6} is above 1: the numerical error is visible")
         })
@@ -110,8 +102,8 @@ impl<'a> Run<'a> {
     }
 
     fn resolution(&self) -> Option<String> {
-        let n_elements = self.outcome.max_contact_radius? / self.contact_edge()?;
-        let is_enough = n_elements >= FEWEST_ELEMENTS || self.outcome.halt.is_some();
+        let n_elements = self.collision.max_contact_radius? / self.contact_edge()?;
+        let is_enough = n_elements >= FEWEST_ELEMENTS || !self.collision.is_complete();
         (!is_enough).then(|| {
             format!(
                 "the contact radius spans {n_elements:.1} elements; below {FEWEST_ELEMENTS}, use \
@@ -122,7 +114,7 @@ impl<'a> Run<'a> {
 
     /// Whether the contact stayed in the block of fine elements.
     fn refinement(&self) -> Option<String> {
-        let (radius, fine) = (self.outcome.max_contact_radius?, self.plan.refined_radius);
+        let (radius, fine) = (self.collision.max_contact_radius?, self.plan.refined_radius);
         (self.plan.makes_meshes && radius > LARGEST_OUTGROWTH * fine).then(|| {
             format!(
                 "the contact grew to {radius:.2e} m, beyond the block of fine elements \
@@ -135,10 +127,10 @@ impl<'a> Run<'a> {
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty
     /// stiffness per area.
     fn penetration(&self) -> Option<String> {
-        let radius = self.outcome.max_contact_radius.filter(|_| self.has_springs)?;
-        let mean_pressure = self.outcome.peak_force? / (PI * radius * radius);
+        let radius = self.collision.max_contact_radius.filter(|_| self.has_springs)?;
+        let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
         let stiffness = self.plan.contact_stiffness / self.contact_edge()?;
-        let share = mean_pressure / stiffness / self.outcome.max_approach?;
+        let share = mean_pressure / stiffness / self.collision.max_approach?;
         (share > LARGEST_PENETRATION).then(|| {
             format!(
                 "the surfaces overlap by about {:.1} % of the approach; above {} %, use a larger \
@@ -152,7 +144,7 @@ impl<'a> Run<'a> {
     fn vibration(&self) -> Option<String> {
         let hertz = &self.plan.estimate.hertz;
         let initial = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
-        let left = self.outcome.bodies.iter().filter_map(|body| body.vibration_energy);
+        let left = self.collision.bodies.iter().filter_map(|body| body.vibration_energy);
         let share = left.sum::<f64>() / initial;
         (share > LARGEST_VIBRATION).then(|| {
             format!(
@@ -165,13 +157,13 @@ impl<'a> Run<'a> {
 
     /// Scatter of the contact force from row to row, over its peak.
     fn noise(&self) -> Option<String> {
-        let forces = self.outcome.history.iter().map(|row| row.contact_force);
+        let forces = self.collision.history.iter().map(|row| row.contact_force);
         let rows: Vec<f64> = forces.filter(|force| *force > 0.0).collect();
         // A smooth pulse bends by some 1e-5 over three of a thousand rows; the middle of three
         // numbers with independent scatter s is off the mean of the others by s √(3/2).
         let bends = rows.windows(3).map(|f| (f[1] - 0.5 * (f[0] + f[2])).powi(2));
         let mean = bends.sum::<f64>() / rows.len().max(1) as f64;
-        let scatter = (mean / 1.5).sqrt() / self.outcome.peak_force?;
+        let scatter = (mean / 1.5).sqrt() / self.collision.peak_force?;
         (rows.len() > 100 && scatter > LARGEST_NOISE).then(|| {
             format!(
                 "the contact force scatters by {:.1} % of its peak; above {} %, peaks are too \
@@ -186,7 +178,7 @@ impl<'a> Run<'a> {
     /// The plan warns of what it expects; this is what came.
     fn strain(&self) -> Option<String> {
         let radius = self.plan.estimate.hertz.pair().effective_radius();
-        let strain = self.outcome.max_contact_radius? / radius;
+        let strain = self.collision.max_contact_radius? / radius;
         let is_news = self.plan.estimate.strain <= LARGEST_STRAIN;
         (is_news && strain > LARGEST_STRAIN).then(|| {
             format!(
@@ -199,7 +191,7 @@ impl<'a> Run<'a> {
     }
 
     fn added_mass(&self) -> impl Iterator<Item = String> {
-        let bodies = self.outcome.bodies.iter().zip(&self.simulation.case().scene.bodies);
+        let bodies = self.collision.bodies.iter().zip(&self.simulation.case.scene.bodies);
         bodies.filter_map(|(body, named)| {
             let share = body.added_mass? / body.mass?;
             (share > LARGEST_ADDED_MASS).then(|| {
