@@ -67,6 +67,7 @@ mod model_tables;
 mod outcome;
 mod overrides;
 mod plan;
+mod positions;
 mod problem;
 mod quantity;
 mod reduced;
