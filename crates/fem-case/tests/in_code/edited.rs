@@ -79,6 +79,17 @@ fn what_an_edit_leaves_alone_keeps_its_line() {
 }
 
 #[test]
+fn a_list_that_becomes_a_number_has_no_elements() {
+    let case = parsed(&[]);
+    let edited = case.edited(|file| {
+        file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::Count(3.0));
+    });
+    let edited = edited.unwrap();
+    assert!(case.gives("output.snapshots.1") && !edited.gives("output.snapshots.1"));
+    assert_eq!(edited.error_at("output.snapshots.1", "here").source_name(), "output.snapshots.1");
+}
+
+#[test]
 fn of_keys_that_contradict_each_other_the_edit_is_to_blame() {
     let blamed = |case: &Case, change: Change| case.edited(change).unwrap_err();
     let case = parsed(&["model.law.tsuji.alpha=0.1", "body.1.approach_speed=0"]);
