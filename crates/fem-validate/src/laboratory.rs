@@ -49,15 +49,15 @@ impl<'a> Laboratory<'a> {
         table.try_into().map_err(|error| StudyError::parameters(format!("[parameters]: {error}")))
     }
 
-    /// A case of the claim by the name of its `[run.NAME]`, with overrides after its own.
+    /// A case of the claim by the name of its `[run.NAME]`.
     ///
     /// # Errors
     /// No such run; what is wrong with the case.
-    pub fn case(&self, run: &str, overrides: &[String]) -> Result<Case, StudyError> {
+    pub fn case(&self, run: &str) -> Result<Case, StudyError> {
         let file = self.claim.runs.get(run).ok_or_else(|| {
             StudyError::parameters(format!("the claim has no [run.{run}], which the study needs"))
         })?;
-        Ok(self.claim.load_case(file, overrides)?)
+        Ok(self.claim.load_case(file)?)
     }
 
     /// Runs a case of the explicit model, or takes the result of an earlier run of it.

@@ -23,7 +23,7 @@ struct Parameters {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {

@@ -10,6 +10,7 @@
 
 use std::sync::Arc;
 
+use fem_case::schema::{CondensedTable, ContactTable, SnapshotsValue, TimeTable};
 use fem_case::{Outcome, OutcomeRow, Plan};
 use serde::Deserialize;
 
@@ -23,10 +24,11 @@ use crate::run::Simulated;
 struct Parameters {
     /// Elements across Hertz' contact radius.
     elements_per_contact_radius: f64,
-    /// Overrides of all cases.
-    set: Vec<String>,
-    /// Override that makes the model condensed.
-    condensed: String,
+    /// `[contact]` and `[time]` of all cases.
+    contact: ContactTable,
+    time: TimeTable,
+    /// Keys of the condensed model.
+    condensed: CondensedTable,
 }
 
 /// Name and value.
@@ -46,13 +48,18 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
     let mut cases = Vec::new();
     for name in &names {
-        let mut overrides = parameters.set.clone();
-        let radius = Plan::of(&laboratory.case(name, &overrides)?)?.estimate.contact_radius;
-        let size = radius / parameters.elements_per_contact_radius;
-        overrides.push(format!("mesh.contact_element_size={size:?}"));
-        cases.push(laboratory.case(name, &overrides)?);
-        overrides.push(parameters.condensed.clone());
-        cases.push(laboratory.case(name, &overrides)?);
+        let case = laboratory.case(name)?;
+        let size =
+            Plan::of(&case)?.estimate.contact_radius / parameters.elements_per_contact_radius;
+        let explicit = case.edited(|file| {
+            file.contact = Some(parameters.contact.clone());
+            file.time = Some(parameters.time.clone());
+            file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::none());
+            file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
+        })?;
+        cases.push(explicit.clone());
+        let condensed = parameters.condensed.clone().into();
+        cases.push(explicit.edited(|file| file.model = Some(condensed))?);
     }
     let runs = laboratory.simulate_all(cases)?;
     let pairs: Vec<_> = runs.chunks_exact(2).map(|two| (&two[0], &two[1])).collect();

@@ -37,8 +37,12 @@ const QUANTITIES: [Quantity; 5] = [
 /// Runs the case `base` at each element size.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { contact_element_sizes: sizes } = laboratory.parameters()?;
-    let case =
-        |size: &f64| laboratory.case("base", &[format!("mesh.contact_element_size={size:?}")]);
+    let base = laboratory.case("base")?;
+    let case = |size: &f64| {
+        base.edited(|file| {
+            file.mesh.get_or_insert_default().contact_element_size = Some((*size).into());
+        })
+    };
     let runs = laboratory.run_all(sizes.iter().map(case).collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     let mut chart = Chart::new(

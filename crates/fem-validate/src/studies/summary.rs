@@ -8,7 +8,7 @@ use crate::run::Simulated;
 /// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.simulate_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {

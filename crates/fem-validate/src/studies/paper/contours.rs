@@ -30,7 +30,7 @@ struct Parameters {
 /// Runs `[run.elastic]`, whose snapshots are the four named instants.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let run = laboratory.run_all(vec![laboratory.case("elastic", &[])?])?.remove(0);
+    let run = laboratory.run_all(vec![laboratory.case("elastic")?])?.remove(0);
     let instants = Label::ALL.map(|label| {
         let found = run.collision.snapshots.iter().find(|snapshot| snapshot.label == Some(label));
         found.map(|snapshot| Instant::of(&run, label, snapshot))

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use fem_case::schema::SphereTable;
 use fem_case::{Case, Plan};
 use fem_figure::{Axis, Chart, Curve, GREY, tick};
 use fem_laws::{LawImpact, Pair, laws};
@@ -72,10 +73,14 @@ impl Pairing {
 /// Runs `[run.glass]` for all distinct pairings and speeds, and one pairing swapped.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let case = |[first, second]: [f64; 2], speed: f64| {
-        let diameters = [(0, first), (1, second)];
-        let set = diameters.map(|(body, d)| format!("body.{body}.sphere.diameter={d:?}"));
-        case_at(laboratory, "glass", speed, parameters.elements_per_contact_radius, &set)
+    let glass = laboratory.case("glass")?;
+    let case = |diameters: [f64; 2], speed: f64| {
+        let sized = glass.edited(|file| {
+            for (body, diameter) in file.body.iter_mut().zip(diameters) {
+                body.sphere = Some(SphereTable::new(diameter));
+            }
+        })?;
+        case_at(&sized, speed, parameters.elements_per_contact_radius)
     };
     let fitted = pair_of(&case(parameters.fit.diameters, parameters.fit.speed)?)?;
     let n = parameters.damping_exponent;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use fem_case::schema::TermTable;
 use fem_case::{Case, Plan, ting_impact};
 use fem_figure::{Axis, Chart, Curve, GREY};
 use serde::Deserialize;
@@ -11,6 +12,7 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::run::Run;
+use crate::studies::relaxing::with_term;
 
 /// The two readings: run, label.
 const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic bulk")];
@@ -32,7 +34,7 @@ struct Parameters {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     let mut rows = Vec::new();
@@ -66,8 +68,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     ];
     findings.tabulate("Restitution at 0.5 m/s; the paper prints 0.92", header, rows);
     for (name, _) in READINGS {
+        let case = laboratory.case(name)?;
         let rate = falls_through(parameters.published, (100.0, 1e5), |rate| {
-            restitution_by_ting(laboratory, name, rate, false)
+            restitution_by_ting(&case, rate, false)
         })?;
         findings.measure(format!("{name}.rate_of_published"), rate);
     }
@@ -97,18 +100,8 @@ fn decay_rate(run: &Run) -> Option<f64> {
     Some(material.relaxation()?.terms().first()?.relaxation_time.recip())
 }
 
-fn with_rate(laboratory: &Laboratory, run: &str, rate: f64) -> Result<Case, StudyError> {
-    let terms = format!("[{{weight=1.0, decay_rate={rate:?}}}]");
-    laboratory.case(run, &[format!("material.glass.relaxation.terms={terms}")])
-}
-
-fn restitution_by_ting(
-    laboratory: &Laboratory,
-    run: &str,
-    rate: f64,
-    finite_size: bool,
-) -> Result<f64, StudyError> {
-    let case = with_rate(laboratory, run, rate)?;
+fn restitution_by_ting(case: &Case, rate: f64, finite_size: bool) -> Result<f64, StudyError> {
+    let case = with_term(case, "glass", TermTable::with_decay_rate(1.0, rate))?;
     let hertz = Plan::of(&case)?.estimate.hertz;
     Ok(ting_impact(&case.scene, hertz.pair(), finite_size)?.restitution)
 }
@@ -124,9 +117,8 @@ fn draw(
     let mut chart =
         Chart::new(Axis::new("decay rate β [1/s]").logarithmic(), Axis::new("restitution"));
     for (k, (name, label)) in READINGS.into_iter().enumerate() {
-        let point = |rate: f64| {
-            restitution_by_ting(laboratory, name, rate, true).map(|value| (rate, value))
-        };
+        let case = laboratory.case(name)?;
+        let point = |rate: f64| restitution_by_ting(&case, rate, true).map(|value| (rate, value));
         let curve = rates().map(point).collect::<Result<_, _>>()?;
         chart = chart.with(Curve::line(format!("Ting, {label}"), curve).like_curve(k));
         let same = runs.iter().filter(|run| reading(run).contains(label));

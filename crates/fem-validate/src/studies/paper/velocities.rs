@@ -25,7 +25,7 @@ const MAIN: &str = "elastic";
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut findings = Findings::new();
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     for (name, run) in names.iter().zip(&runs) {
         for (quantity, value) in quantities(&Simulated::from(&**run)) {

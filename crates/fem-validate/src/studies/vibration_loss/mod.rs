@@ -31,7 +31,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let sums = names
         .par_iter()
         .map(|name| {
-            let run = laboratory.run(laboratory.case(name, &[])?)?;
+            let run = laboratory.run(laboratory.case(name)?)?;
             let modes =
                 laboratory.work(|| Ok((modes_of(&run, parameters.highest_frequency), 0)))?;
             Ok((run, modes))
