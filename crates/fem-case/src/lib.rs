@@ -60,6 +60,7 @@ mod material_tables;
 mod model;
 mod model_tables;
 mod overrides;
+mod positions;
 mod quantity;
 mod scene;
 pub mod schema;

@@ -164,6 +164,23 @@ keywords! {
     }
 }
 
+impl SnapshotsValue {
+    /// None.
+    pub fn none() -> Self {
+        Self::List(Vec::new())
+    }
+
+    /// The instants with these names.
+    pub fn labels(labels: impl IntoIterator<Item = SnapshotLabel>) -> Self {
+        Self::List(labels.into_iter().map(|label| label.word().into()).collect())
+    }
+
+    /// These times.
+    pub fn times<T: Into<Quantity<Time>>>(times: impl IntoIterator<Item = T>) -> Self {
+        Self::List(times.into_iter().map(T::into).collect())
+    }
+}
+
 impl Serialize for SnapshotsValue {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {

@@ -4,7 +4,7 @@ use fem_case::schema::{
     ContactTable, EffectsTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable,
     SnapshotsValue, StartTable, Switch, TimeTable,
 };
-use fem_case::{Body, CaseFile, Quantity, Scene, Shape, Snapshots};
+use fem_case::{Body, Case, CaseError, CaseFile, Quantity, Scene, Shape, Snapshots};
 use fem_collision::{Label, SnapshotRequest, Want};
 
 use crate::estimate::Estimate;
@@ -117,6 +117,14 @@ impl Plan {
             warnings,
             estimate,
         })
+    }
+
+    /// Decides on the scene of a case, faults with their place.
+    ///
+    /// # Errors
+    /// As [`Plan::of`].
+    pub fn of_case(case: &Case) -> Result<Self, CaseError> {
+        Self::of(&case.scene).map_err(|refusal| refusal.in_case(case))
     }
 
     /// What a run is asked for.

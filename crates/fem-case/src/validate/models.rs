@@ -218,7 +218,7 @@ impl Keys<'_> {
         if by_outcome && (keys.k.is_some() || keys.c.is_some()) {
             let at = |key| join(self.path, key);
             let error = self.check.conflict(
-                &at("e"),
+                &at(if keys.e.is_some() { "e" } else { "contact_time" }),
                 &[&at("contact_time"), &at("e"), &at("k"), &at("c")],
                 "linear mixes its coefficients with what is to come out",
             );

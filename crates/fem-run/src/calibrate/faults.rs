@@ -1,4 +1,4 @@
-//! Faults of data that reach the model as overrides of the case, and what of the case is left out.
+//! Faults of data that reach the model as edits of the case, and what of the case is left out.
 
 use fem_case::{Case, CaseError};
 
@@ -21,16 +21,11 @@ pub fn unused_model(case: &Case, chosen: ModelName) -> Option<String> {
     })
 }
 
-/// A fault of what the data say (`own`, as overrides) and no option does, with its line.
-pub(super) fn blame(
-    error: CaseError,
-    own: &[String],
-    measured: &Measured,
-    point: usize,
-) -> Failure {
-    let key = |set: &String| set.split_once('=').map(|(key, _)| format!("--set {key}="));
-    let is_own = |key: String| error.source_name().starts_with(&key);
-    if !own.iter().filter_map(key).any(is_own) {
+/// A fault of a case that was edited to the sizes and speeds of a point: with the point's line
+/// where it is of a body and stands neither in the case file nor in an option.
+pub(super) fn blame(error: CaseError, measured: &Measured, point: usize) -> Failure {
+    let is_of_body = error.key().is_some_and(|key| key.starts_with("body"));
+    if error.line().is_some() || !is_of_body {
         return error.into();
     }
     let failure = measured.fault(point, error.message());

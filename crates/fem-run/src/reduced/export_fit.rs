@@ -60,7 +60,7 @@ impl Curve {
             })
         };
         let points: Vec<Point> = speeds.iter().map(point).collect::<Result<_, FitError>>()?;
-        Self::of(&reduced.case.scene.pair()?, points)
+        Self::of(&reduced.scene().pair()?, points)
     }
 
     /// From, to, and the largest error of a law's e: the longest run of neighbouring speeds at which

@@ -95,6 +95,11 @@ impl Reduced {
         Ok(Self { setup, scene: scene.clone(), motion, pair })
     }
 
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
     /// Stiffness and dashpot of a law.
     pub fn law(&self) -> Option<&ContactLaw> {
         self.motion.law()
