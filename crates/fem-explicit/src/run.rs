@@ -1,8 +1,7 @@
 //! A run from first touch to separation, as a stepper: whoever owns it decides when to go on.
 
 use fem_collision::{
-    BodyResult, Collision, Ending, Expectation, Monitor, Phase, Progress, Row, RowKind,
-    Stop, Want,
+    BodyResult, Collision, Ending, Expectation, Monitor, Phase, Progress, Row, RowKind, Stop, Want,
 };
 
 use crate::contact_log::FLIGHT_AFTER;
