@@ -22,6 +22,8 @@ pub struct Pair {
     pub element_size: f64,
     pub step_factor: f64,
     pub relaxation: Option<ActsOn>,
+    /// Prony terms of a relaxing pair: weight, relaxation time.
+    pub terms: &'static [(f64, f64)],
     /// Units of length, time and mass in m, s and kg.
     pub units: [f64; 3],
     pub candidate_radius: f64,
@@ -39,6 +41,7 @@ impl Default for Pair {
             element_size: 45e-6,
             step_factor: 0.9,
             relaxation: None,
+            terms: &[(1.0, 1.0 / 2708.0)],
             units: [1.0; 3],
             candidate_radius: 0.35e-3,
             history_rows: 1000,
@@ -55,8 +58,11 @@ impl Pair {
         let moduli =
             ElasticModuli::from_youngs_modulus_poissons_ratio(63e9 * pressure, 0.244).unwrap();
         let relaxation = self.relaxation.map(|acts_on| {
-            let term = PronyTerm { weight: 1.0, relaxation_time: time / 2708.0 };
-            PronySeries::new(vec![term], acts_on).unwrap()
+            let term = |&(weight, relaxation_time): &(f64, f64)| PronyTerm {
+                weight,
+                relaxation_time: relaxation_time * time,
+            };
+            PronySeries::new(self.terms.iter().map(term).collect(), acts_on).unwrap()
         });
         Material::new(2390.0 * mass / length.powi(3), moduli, relaxation).unwrap()
     }
