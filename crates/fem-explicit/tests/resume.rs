@@ -187,7 +187,8 @@ impl Monitor for StopAt {
     }
 }
 
-/// Rows as the whole run has them; that of the stop is the last.
+/// Rows and snapshots as the whole run has them; the row of the stop is the last. The contact opens
+/// for a moment at its beginning, which is not the last contact of a run that is left later.
 #[test]
 fn an_interrupted_run_is_the_beginning_of_the_whole() {
     for snapshots in requests() {
@@ -201,5 +202,14 @@ fn an_interrupted_run_is_the_beginning_of_the_whole() {
         assert!(stop.time >= rows.last().unwrap().time);
         assert_eq!(rows, &whole.history[..rows.len()]);
         assert!(rows.len() > whole.history.len() / 3);
+        let times: Vec<_> = run.snapshots.iter().map(|snapshot| snapshot.time).collect();
+        if matches!(pair.snapshots, SnapshotRequest::Count(_)) {
+            // Evenly over the contact as far as it went.
+            assert_eq!(times.len(), 5);
+            assert!(times[4] > 0.45 * whole.last_contact.unwrap(), "{times:?}");
+        } else {
+            assert!(run.snapshots.iter().all(|snapshot| whole.snapshots.contains(snapshot)));
+            assert_eq!((times.len(), run.warnings.len()), (2, 2));
+        }
     }
 }
