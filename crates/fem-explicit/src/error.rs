@@ -24,7 +24,8 @@ pub enum ModelError {
     NotApproaching(f64),
     /// A run is to go on from the memory of another.
     #[error(
-        "the memory is of a run of another model: its sizes, time step or region of contact differ"
+        "the memory is of a run of another model: its sizes, approach, time step or region of contact \
+         differ"
     )]
     MemoryOfAnother,
 }

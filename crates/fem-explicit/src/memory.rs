@@ -1,6 +1,6 @@
 //! All that a run knows beside its model: what a restart needs, and nothing else.
 
-use fem_collision::{Expectation, History, Want};
+use fem_collision::{Approach, Expectation, History, Want};
 use serde::{Deserialize, Serialize};
 
 use crate::contact_log::ContactLog;
@@ -21,7 +21,9 @@ pub struct Memory {
     pub(crate) expected: Expectation,
     /// The run gives up this long after first touch, s.
     pub(crate) max_time: f64,
-    /// Of the model that it belongs to, s.
+    /// Of the model that it belongs to, as are the next.
+    approach: Approach,
+    /// s.
     time_step: f64,
     /// Radius out to which that looks for contact, m.
     candidate_radius: f64,
@@ -39,6 +41,7 @@ impl Memory {
             recorder: Recorder::new(&want.snapshots, model, expected),
             expected,
             max_time: want.give_up_after * expected.contact_time,
+            approach: *model.approach(),
             time_step: model.time_step(),
             candidate_radius: model.interface().candidate_radius(),
         }
@@ -59,10 +62,11 @@ impl Memory {
         self.candidate_radius
     }
 
-    /// Whether it can be of a run of this model: fields of its sizes, its time step, its region of
-    /// contact.
+    /// Whether it can be of a run of this model: fields of its sizes, its approach, its time step, its
+    /// region of contact. Moduli and relaxation times it does not know.
     pub(crate) fn fits(&self, model: &Model) -> bool {
-        self.time_step.to_bits() == model.time_step().to_bits()
+        self.approach == *model.approach()
+            && self.time_step.to_bits() == model.time_step().to_bits()
             && self.candidate_radius.to_bits() == model.interface().candidate_radius().to_bits()
             && self.state.bodies.iter().zip(model.bodies()).all(|(state, body)| state.fits(body))
     }

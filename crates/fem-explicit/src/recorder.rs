@@ -90,8 +90,12 @@ impl Recorder {
             SnapshotRequest::Count(_) => true,
             SnapshotRequest::Times(_) => false,
         };
+        if now.is_closed {
+            // In contact again: what was kept is not the last contact.
+            self.pool.extend(self.last_contact.take());
+        }
         if now.is_last_contact && wants_last {
-            self.last_contact = Some(copy(self.last_contact.take(), Some(Label::LastContact)));
+            self.last_contact = Some(copy(self.pool.pop(), Some(Label::LastContact)));
         }
         match &self.request {
             SnapshotRequest::Labels(labels) => match self.max_approach {

@@ -108,7 +108,7 @@ impl<'a> Run<'a> {
     /// Goes on from a memory of a run of the same model.
     ///
     /// # Errors
-    /// A memory of another model: other sizes, time step or region of contact.
+    /// A memory of another model: other sizes, approach, time step or region of contact.
     pub fn resume(model: &'a Model, memory: Memory) -> Result<Self, ModelError> {
         if !memory.fits(model) {
             return Err(ModelError::MemoryOfAnother);
