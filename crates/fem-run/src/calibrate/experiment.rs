@@ -181,7 +181,7 @@ impl Experiment {
                     let condensed = Condensed::new(case, &PairCache::default());
                     let condensed = condensed.map_err(|error| match is_given {
                         true => error.into(),
-                        false => no_mesh(&error, size, (slowest, fastest)),
+                        false => no_mesh(error, size, (slowest, fastest)),
                     })?;
                     Evaluator::Condensed(Box::new(Mutex::new(condensed)))
                 }
