@@ -5,6 +5,8 @@
 //!                   merged     CaseFile  units, limits,
 //!                   tree with  as        names
 //!                   positions  written
+//!                              or made
+//!                              in code
 //! ```
 //!
 //! [`Simulation::new`] builds the [`Model`] that the case asks for, and [`Simulation::run`] computes
@@ -14,7 +16,8 @@
 //! [`Condensed`]. The models of one degree of freedom are a [`Reduced`].
 //!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
-//! is allowed. [`Case::load`] does all of it:
+//! is allowed. [`Case::load`] does all of it; [`Case::of`] takes a [`CaseFile`] made in code and
+//! [`Case::edited`] changes a case, where the key stands in place of file and line:
 //!
 //! ```
 //! # use std::path::Path;

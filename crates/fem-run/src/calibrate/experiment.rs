@@ -184,7 +184,7 @@ impl Experiment {
                         .map_err(|refusal| refusal.in_case(&case));
                     let condensed = condensed.map_err(|error| match is_given {
                         true => error.into(),
-                        false => no_mesh(&error, size, (slowest, fastest)),
+                        false => no_mesh(error, size, (slowest, fastest)),
                     })?;
                     Evaluator::Condensed(Box::new(Mutex::new(condensed)))
                 }

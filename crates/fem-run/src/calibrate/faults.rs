@@ -35,8 +35,12 @@ pub(super) fn blame(error: CaseError, measured: &Measured, point: usize) -> Fail
     }
 }
 
-/// A mesh whose elements the speeds make too small.
-pub(super) fn no_mesh(error: &CaseError, size: f64, (slowest, fastest): (f64, f64)) -> Failure {
+/// A mesh whose elements the speeds make too small; what else is wrong with a mesh is the case's.
+pub(super) fn no_mesh(error: CaseError, size: f64, (slowest, fastest): (f64, f64)) -> Failure {
+    let of_size = ["mesh.contact_element_size", "limits.memory", "output.snapshots"];
+    if !error.key().is_some_and(|key| of_size.contains(&key)) {
+        return error.into();
+    }
     Failure::bad_input(format!(
         "no mesh for all speeds from {} to {}: elements of {} are needed for the smallest contact, \
          {}",
