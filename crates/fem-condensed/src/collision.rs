@@ -87,7 +87,8 @@ impl CondensedPair {
             monitor.enter(Phase::Fields);
             match self.snapshots(frame, relaxations, time_step, &finished.trace, &want.snapshots) {
                 Ok((snapshots, missing)) => {
-                    (collision.snapshots, collision.warnings) = (snapshots, missing);
+                    collision.snapshots = snapshots;
+                    collision.warnings.splice(0..0, missing);
                 }
                 Err(error) => collision.ending = Ending::Stopped(error.into()),
             }

@@ -108,12 +108,7 @@ impl Condensed {
             estimate: plan.estimate,
             effects,
             warnings,
-            cost: Cost::Factors {
-                elements: n_elements(&pair),
-                contact_points: pair.n_points() as u64,
-                steps: options.steps as u64,
-                factor_bytes: pair.factor_bytes() as u64,
-            },
+            cost: cost_of(&pair, options.steps),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
                 finer_steps: "raise model.condensed.steps",
@@ -162,7 +157,7 @@ impl Condensed {
         want: &Want,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        let (scene, pair) = (&self.scene, &mut self.pair);
+        let (scene, pair, cost) = (&self.scene, &mut self.pair, &mut self.setup.cost);
         let collide = |pair: &Arc<CondensedPair>| {
             let frame = frame_of(scene, approach, pair.reduced_mass());
             match pair.collide(&frame, relaxations, n_steps, want, &mut *monitor) {
@@ -177,6 +172,7 @@ impl Condensed {
         until_it_fits(pair, collide, |pair, radius| {
             let larger = pair.enlarge(CANDIDATE_GROWTH * radius);
             *pair = Arc::new(larger.map_err(|error| Some(stop_of(error, approach)))?);
+            *cost = cost_of(pair, n_steps);
             Ok(())
         })
     }
@@ -220,9 +216,14 @@ fn options(scene: &Scene) -> CondensedOptions {
     }
 }
 
-fn n_elements(pair: &CondensedPair) -> u64 {
+fn cost_of(pair: &CondensedPair, n_steps: usize) -> Cost {
     let meshes = pair.inputs().iter().filter_map(BodyInput::mesh);
-    meshes.map(|mesh| mesh.quads().len() as u64).sum()
+    Cost::Factors {
+        elements: meshes.map(|mesh| mesh.quads().len() as u64).sum(),
+        contact_points: pair.n_points() as u64,
+        steps: n_steps as u64,
+        factor_bytes: pair.factor_bytes() as u64,
+    }
 }
 
 /// Bodies without their relaxations, which only the collision reads.
