@@ -1,9 +1,11 @@
-//! `[model] condensed`: its keys, its results in the outcome that all models share, pairs that
+//! `[model] condensed`: its keys, its results in the collision that all models share, pairs that
 //! cases share.
 
 use std::path::Path;
 
-use fem_case::{Case, CondensedOptions, Model, Outcome, PairCache, Simulation};
+use fem::{Condensed, Model, PairCache, Shared, Simulation};
+use fem_case::{Case, CondensedOptions, ModelChoice};
+use fem_collision::{Account, Collision};
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
 
@@ -16,7 +18,7 @@ fn simulation(overrides: &[&str]) -> Simulation {
     Simulation::new(parse(overrides).unwrap()).unwrap()
 }
 
-fn run(overrides: &[&str]) -> Outcome {
+fn run(overrides: &[&str]) -> Collision {
     simulation(overrides).run(&mut ())
 }
 
@@ -25,10 +27,10 @@ const CONDENSED: &str = "model.condensed={}";
 #[test]
 fn keys_are_read_and_checked() {
     let model = |value: &str| parse(&[value]).map(|case| case.scene.model);
-    assert_eq!(model(CONDENSED).unwrap(), Model::Condensed(CondensedOptions::default()));
+    assert_eq!(model(CONDENSED).unwrap(), ModelChoice::Condensed(CondensedOptions::default()));
     let all = "model.condensed={vibration_modes=12, steps=200, penalty_springs=true}";
     let expected = CondensedOptions { vibration_modes: 12, steps: 200, penalty_springs: true };
-    assert_eq!(model(all).unwrap(), Model::Condensed(expected));
+    assert_eq!(model(all).unwrap(), ModelChoice::Condensed(expected));
     for (value, message) in [
         ("model.condensed.vibration_modes=-1", "vibration_modes is -1"),
         ("model.condensed.vibration_modes=1.5", "vibration_modes is 1.5"),
@@ -50,7 +52,7 @@ fn results_are_those_of_the_explicit_model() {
         let fem = run(&overrides);
         let overrides: Vec<&str> = overrides.into_iter().chain([CONDENSED]).collect();
         let condensed = run(&overrides);
-        assert_eq!(condensed.halt, None);
+        assert!(condensed.is_complete());
         let close = |a: Option<f64>, b: Option<f64>, relative: f64| {
             let error = a.unwrap() / b.unwrap() - 1.0;
             assert!(error.abs() < relative, "{a:?} {b:?} {error:e}");
@@ -67,8 +69,8 @@ fn results_are_those_of_the_explicit_model() {
             close(a.mass, b.mass, 1e-9);
             assert!((a.velocity_after.unwrap() - b.velocity_after.unwrap()).abs() < 1e-3);
         }
-        let labels = |outcome: &Outcome| -> Vec<_> {
-            outcome.snapshots.iter().map(|snapshot| snapshot.label).collect()
+        let labels = |collision: &Collision| -> Vec<_> {
+            collision.snapshots.iter().map(|snapshot| snapshot.label).collect()
         };
         assert_eq!(labels(&condensed), labels(&fem));
         for (a, b) in condensed.snapshots.iter().zip(&fem.snapshots) {
@@ -97,7 +99,9 @@ fn a_wall_at_rest_and_a_moving_one() {
     assert_eq!(floor.bodies[1].velocity_after, Some(-0.4));
     let last = floor.history.last().unwrap();
     // Kinetic energy and the work of the wall, against the loss in the frame of the wall.
-    assert!(last.wall_work > 0.0 && floor.residual_relative.unwrap() < 1e-5);
+    assert!(
+        last.energy(Account::WallWork).unwrap() > 0.0 && floor.residual_relative.unwrap() < 1e-5
+    );
 }
 
 #[test]
@@ -118,25 +122,27 @@ fn a_resolved_case_computes_the_same() {
 #[test]
 fn cases_share_a_pair() {
     let mesh = ["mesh.contact_element_size='50 um'", "mesh.refined_radius='0.4 mm'", CONDENSED];
-    let cache = PairCache::default();
-    let pair_of = |extra: &str| {
+    let shared = Shared::default();
+    let cache = &shared.pairs;
+    let condensed_of = |extra: &str| {
         let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
-        let mut simulation = Simulation::with_cache(parse(&overrides).unwrap(), &cache).unwrap();
-        let shared = simulation.run(&mut ());
-        assert_eq!(shared.history, run(&overrides).history);
-        let Simulation::Condensed(condensed) = simulation else { panic!() };
-        condensed.pair.clone()
+        let case = parse(&overrides).unwrap();
+        let mut condensed = Condensed::new(&case.scene, &shared).unwrap();
+        let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
+        let collision = condensed.collide(&approach, &want, &mut ());
+        assert_eq!(collision.history, run(&overrides).history);
+        condensed
     };
-    let first = pair_of("body.0.approach_speed=0.5");
+    let first = condensed_of("body.0.approach_speed=0.5");
     for extra in [
         "body.0.approach_speed=0.2",
         "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, decay_rate=1e4}]}",
     ] {
-        assert!(std::sync::Arc::ptr_eq(&first, &pair_of(extra)), "{extra}");
+        assert!(std::ptr::eq(first.pair(), condensed_of(extra).pair()), "{extra}");
     }
     assert_eq!(cache.n_made(), 1);
     // Another density is another pair.
-    assert!(!std::sync::Arc::ptr_eq(&first, &pair_of("material.glass.density=2000")));
+    assert!(!std::ptr::eq(first.pair(), condensed_of("material.glass.density=2000").pair()));
     assert_eq!(cache.n_made(), 2);
     // So are other elements, bodies, sides, and another way of condensing.
     let others = [
@@ -148,7 +154,7 @@ fn cases_share_a_pair() {
         "model.condensed.vibration_modes=1",
     ];
     for (k, extra) in others.into_iter().enumerate() {
-        pair_of(extra);
+        condensed_of(extra);
         assert_eq!(cache.n_made(), 3 + k, "{extra}");
     }
 }
@@ -170,51 +176,51 @@ fn nine_pairings(speed_is_slow: bool) -> Vec<Case> {
     (0..18).map(index).map(|(speed, pairing)| case(speed, pairing)).collect()
 }
 
-fn restitution(case: Case, cache: &PairCache) -> f64 {
-    Simulation::with_cache(case, cache).unwrap().run(&mut ()).restitution.unwrap()
+fn restitution(case: Case, shared: &Shared) -> f64 {
+    Simulation::sharing(case, shared).unwrap().run(&mut ()).restitution.unwrap()
 }
 
 /// A pairing is factored once, whatever the order, and the order changes no bit.
 #[test]
 fn nine_pairings_take_nine_factors_in_any_order() {
-    let run = |speed_is_slow: bool, cache: &PairCache| -> Vec<f64> {
-        nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, cache)).collect()
+    let run = |speed_is_slow: bool, shared: &Shared| -> Vec<f64> {
+        nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, shared)).collect()
     };
-    let [slow, fast, tight] =
-        [PairCache::default(), PairCache::default(), PairCache::with_max_bytes(1)];
+    let [slow, fast] = [Shared::default(), Shared::default()];
+    let tight = Shared { pairs: PairCache::with_max_bytes(1) };
     let (by_speed, by_pairing) = (run(true, &slow), run(false, &fast));
-    assert_eq!((slow.n_made(), fast.n_made()), (9, 9));
-    assert_eq!(slow.n_kept(), 9);
+    assert_eq!((slow.pairs.n_made(), fast.pairs.n_made()), (9, 9));
+    assert_eq!(slow.pairs.n_kept(), 9);
     let reordered: Vec<f64> = (0..18).map(|k| by_pairing[2 * (k % 9) + k / 9]).collect();
     assert_eq!(by_speed, reordered);
     // A cache with room for nothing keeps the last pair, and gives the same.
     assert_eq!(run(false, &tight), by_pairing);
-    assert_eq!((tight.n_made(), tight.n_kept()), (9, 1));
+    assert_eq!((tight.pairs.n_made(), tight.pairs.n_kept()), (9, 1));
     assert_eq!(run(true, &tight), by_speed);
-    assert_eq!(tight.n_made(), 9 + 18);
+    assert_eq!(tight.pairs.n_made(), 9 + 18);
 }
 
 /// Threads that want the same pair wait for the one that makes it.
 #[test]
 fn threads_do_not_factor_a_pair_twice() {
-    let cache = PairCache::default();
+    let shared = Shared::default();
     let barrier = std::sync::Barrier::new(4);
     std::thread::scope(|scope| {
         for _ in 0..4 {
             scope.spawn(|| {
                 let case = parse(&COARSE).unwrap();
                 barrier.wait();
-                Simulation::with_cache(case, &cache).unwrap();
+                Simulation::sharing(case, &shared).unwrap();
             });
         }
     });
-    assert_eq!(cache.n_made(), 1);
+    assert_eq!(shared.pairs.n_made(), 1);
 }
 
 /// A contact beyond the condensed region enlarges the pair of that case alone.
 #[test]
 fn an_enlarged_pair_is_not_put_back() {
-    let cache = PairCache::default();
+    let shared = Shared::default();
     let soft = |weight: f64| {
         let terms = format!(
             "material.glass.relaxation={{acts_on='all', terms=[{{weight={weight}, \
@@ -224,17 +230,17 @@ fn an_enlarged_pair_is_not_put_back() {
         parse(&[&COARSE[1..], &fine].concat()).unwrap()
     };
     let condensed = |case: Case| {
-        let mut simulation = Simulation::with_cache(case, &cache).unwrap();
-        simulation.run(&mut ());
-        let Simulation::Condensed(condensed) = simulation else { panic!() };
-        condensed.pair.candidate_radius()
+        let mut condensed = Condensed::new(&case.scene, &shared).unwrap();
+        let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
+        condensed.collide(&approach, &want, &mut ());
+        condensed.pair().candidate_radius()
     };
     let small = condensed(soft(0.0));
     // It sinks in so much deeper that the region does not reach.
     let large = condensed(soft(0.95));
     assert!(large > small, "{large} {small}");
     assert_eq!(condensed(soft(0.0)), small);
-    assert_eq!(cache.n_made(), 1);
+    assert_eq!(shared.pairs.n_made(), 1);
 }
 
 /// Without snapshots all else keeps its bits.
@@ -258,10 +264,10 @@ fn snapshots_are_skipped_on_demand() {
 #[test]
 fn limits_are_told() {
     let warned = |overrides: &[&str], words: &str| {
-        let warnings = simulation(overrides).warnings().join("\n");
+        let warnings = simulation(overrides).setup().warnings.join("\n");
         assert!(warnings.contains(words), "{warnings}");
     };
-    assert!(simulation(&[CONDENSED]).warnings().is_empty());
+    assert!(simulation(&[CONDENSED]).setup().warnings.is_empty());
     warned(&[CONDENSED, "time.step_factor=0.5"], "time.step_factor has no effect");
     warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use fem_case::{Case, CaseError, Dashpot, Dissipation, Law, Model, Outcome, Problem, Simulation};
+use fem::{Explicit, Simulation};
+use fem_case::{Case, CaseError, Dashpot, Dissipation, Law, ModelChoice};
+use fem_collision::{Account, Collision};
 use fem_laws::EndRule;
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
@@ -12,13 +14,13 @@ fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
     Case::parse("glass.toml", text, Path::new("."), &overrides)
 }
 
-fn model(value: &str) -> Model {
+fn model(value: &str) -> ModelChoice {
     parse(&format!("{GLASS}\n[model]\n{value}\n"), &[]).unwrap().scene.model
 }
 
 fn law(value: &str) -> Law {
     match model(&format!("law = {{ {value} }}")) {
-        Model::Law { law, .. } => law,
+        ModelChoice::Law { law, .. } => law,
         other => panic!("{other:?}"),
     }
 }
@@ -37,23 +39,24 @@ fn fault(marked: &str, message: &str, help: &str) {
     assert_eq!(error.line(), Some(text.lines().count()), "{error}");
 }
 
-fn run(overrides: &[&str]) -> Outcome {
+fn run(overrides: &[&str]) -> Collision {
     Simulation::new(parse(GLASS, overrides).unwrap()).unwrap().run(&mut ())
 }
 
 #[test]
 fn every_model_and_law_is_read() {
-    assert_eq!(model("fem = {}"), Model::Fem);
-    assert_eq!(model("hertz = {}"), Model::Hertz { finite_size: false });
-    let ting = Model::Ting { finite_size: true, tolerance: 1e-6 };
+    assert_eq!(model("fem = {}"), ModelChoice::Fem);
+    assert_eq!(model("hertz = {}"), ModelChoice::Hertz { finite_size: false });
+    let ting = ModelChoice::Ting { finite_size: true, tolerance: 1e-6 };
     assert_eq!(model("ting = { finite_size = true, tolerance = 1e-6 }"), ting);
-    let expected = Model::Law {
+    let expected = ModelChoice::Law {
         law: Law::KuwabaraKono(Dissipation::Time(1e-6)),
         end_rule: EndRule::ZeroForce,
         tolerance: 1e-8,
     };
     assert_eq!(model("law = { kuwabara_kono = { a = \"1 us\" } }"), expected);
-    let expected = Model::Law { law: Law::Hertz, end_rule: EndRule::ZeroOverlap, tolerance: 1e-5 };
+    let expected =
+        ModelChoice::Law { law: Law::Hertz, end_rule: EndRule::ZeroOverlap, tolerance: 1e-5 };
     let inner = "law = { hertz = { end = \"zero_overlap\", tolerance = 1e-5 } }";
     let outer = "law = { hertz = {}, end = \"zero_overlap\", tolerance = 1e-5 }";
     assert_eq!([model(inner), model(outer)], [expected.clone(), expected]);
@@ -139,23 +142,26 @@ fn an_override_of_another_model_takes_the_place_of_the_first() {
     let with_model = format!("{GLASS}\n[model.law.kuwabara_kono]\na = 1e-6\n");
     for text in [GLASS, &with_model] {
         let chosen = |overrides: &[&str]| parse(text, overrides).unwrap().scene.model;
-        assert!(matches!(chosen(&["model.ting={}"]), Model::Ting { .. }));
+        assert!(matches!(chosen(&["model.ting={}"]), ModelChoice::Ting { .. }));
         assert!(matches!(
             chosen(&["model.ting.finite_size=true"]),
-            Model::Ting { finite_size: true, .. }
+            ModelChoice::Ting { finite_size: true, .. }
         ));
-        assert_eq!(chosen(&["model.ting={}", "model.fem={}"]), Model::Fem);
-        assert_eq!(chosen(&["model={hertz={}}"]), Model::Hertz { finite_size: false });
+        assert_eq!(chosen(&["model.ting={}", "model.fem={}"]), ModelChoice::Fem);
+        assert_eq!(chosen(&["model={hertz={}}"]), ModelChoice::Hertz { finite_size: false });
         let tsuji = chosen(&["model.law.tsuji.e=0.9", "model.law.end='zero_overlap'"]);
         assert!(
-            matches!(&tsuji, Model::Law { law: Law::Tsuji(_), end_rule: EndRule::ZeroOverlap, .. }),
+            matches!(
+                &tsuji,
+                ModelChoice::Law { law: Law::Tsuji(_), end_rule: EndRule::ZeroOverlap, .. }
+            ),
             "{tsuji:?}"
         );
     }
     let kept = parse(&with_model, &["model.law.kuwabara_kono.tolerance=1e-4"]).unwrap();
     assert!(matches!(
         kept.scene.model,
-        Model::Law { law: Law::KuwabaraKono(Dissipation::Time(_)), tolerance: 1e-4, .. }
+        ModelChoice::Law { law: Law::KuwabaraKono(Dissipation::Time(_)), tolerance: 1e-4, .. }
     ));
 }
 
@@ -182,8 +188,10 @@ fn a_resolved_case_computes_the_same() {
 
 #[test]
 fn finite_elements_are_for_the_model_fem() {
-    let error = Problem::new(parse(GLASS, &["model.ting={}"]).unwrap()).unwrap_err();
-    assert!(error.message().contains("no finite elements"), "{error}");
+    let scene = parse(GLASS, &["model.ting={}"]).unwrap().scene;
+    let refusal = Explicit::new(&scene).unwrap_err();
+    assert_eq!(refusal.key, "model.ting");
+    assert!(refusal.message.contains("no finite elements"), "{refusal}");
 }
 
 #[test]
@@ -192,10 +200,10 @@ fn the_slow_limit_of_the_materials() {
     let slow = "material.glass.relaxation.terms=[{weight=0.1, relaxation_time='0.1 us'}]";
     let kelvin = run(&[slow, "model.law.kuwabara_kono={}"]);
     let ting = run(&[slow, "model.ting={}"]);
-    let loss = |outcome: &Outcome| 1.0 - outcome.restitution.unwrap();
+    let loss = |collision: &Collision| 1.0 - collision.restitution.unwrap();
     // Next order: τ/T.
     assert!((loss(&kelvin) / loss(&ting) - 1.0).abs() < 5e-3);
-    let times = [&kelvin, &ting].map(|outcome| outcome.contact_time.unwrap());
+    let times = [&kelvin, &ting].map(|collision| collision.contact_time.unwrap());
     assert!((times[0] / times[1] - 1.0).abs() < 1e-4, "{times:?}");
     // From viscosities as from the series: G∞ = 0.9 G, so η = ΣG_k τ_k of relaxed moduli.
     let viscosities = [
@@ -222,23 +230,26 @@ fn energies_velocities_and_walls() {
     ];
     for model in ["model.ting={}", "model.hertz={}", "model.law.kuwabara_kono.a=2e-6"] {
         for frame in frames {
-            let outcome = run(&[&[model][..], frame].concat());
-            let e = outcome.restitution.unwrap();
-            let after = outcome.bodies.map(|body| body.velocity_after.unwrap());
+            let collision = run(&[&[model][..], frame].concat());
+            let e = collision.restitution.unwrap();
+            let after = collision.bodies.map(|body| body.velocity_after.unwrap());
             assert!((after[1] - after[0] - 0.5 * e).abs() < 1e-12, "{frame:?}");
-            let last = *outcome.history.last().unwrap();
+            let last = *collision.history.last().unwrap();
             assert!((last.velocity[0] - after[0]).abs() < 1e-12);
-            assert!(outcome.residual_relative.unwrap() < 1e-8, "{model} {frame:?}");
-            assert!(outcome.momentum_residual_relative.unwrap() < 1e-12);
-            let lost = last.viscous_dissipation.unwrap() + last.strain.unwrap_or_default();
-            let balance = last.kinetic + lost - outcome.initial_energy.unwrap() - last.wall_work;
-            let scale = outcome.initial_energy.unwrap() + last.wall_work.abs();
+            assert!(collision.residual_relative.unwrap() < 1e-8, "{model} {frame:?}");
+            assert!(collision.momentum_residual_relative.unwrap() < 1e-12);
+            let energy = |account| last.energy(account).unwrap_or_default();
+            let lost = energy(Account::ViscousDissipation) + energy(Account::Strain);
+            let work = energy(Account::WallWork);
+            let balance =
+                energy(Account::Kinetic) + lost - collision.initial_energy.unwrap() - work;
+            let scale = collision.initial_energy.unwrap() + work.abs();
             assert!(balance.abs() < 1e-8 * scale, "{model} {frame:?}: {balance:e}");
             // About a thousand rows over the contact, both ends among them.
-            let contact_time = outcome.contact_time.unwrap();
+            let contact_time = collision.contact_time.unwrap();
             let is_contact = |time: f64| time <= contact_time * (1.0 + 1e-12);
-            assert_eq!(outcome.history.iter().filter(|row| is_contact(row.time)).count(), 1001);
-            assert!(outcome.history.iter().any(|row| row.time == contact_time));
+            assert_eq!(collision.history.iter().filter(|row| is_contact(row.time)).count(), 1001);
+            assert!(collision.history.iter().any(|row| row.time == contact_time));
         }
     }
 }
@@ -254,7 +265,8 @@ fn bodies_may_change_places() {
         assert_eq!(there.restitution, back.restitution, "{model}");
         assert_eq!(there.contact_time, back.contact_time, "{model}");
         assert_eq!(there.peak_force, back.peak_force, "{model}");
-        let after = |outcome: &Outcome| outcome.bodies.map(|body| body.velocity_after.unwrap());
+        let after =
+            |collision: &Collision| collision.bodies.map(|body| body.velocity_after.unwrap());
         assert_eq!(after(&there)[0], -after(&back)[1]);
     }
 }
@@ -263,7 +275,7 @@ fn bodies_may_change_places() {
 fn what_the_model_leaves_out_is_said() {
     let said = |overrides: &[&str]| {
         let simulation = Simulation::new(parse(GLASS, overrides).unwrap()).unwrap();
-        (simulation.effects(), simulation.warnings().join("\n"))
+        (simulation.setup().effects.clone(), simulation.setup().warnings.join("\n"))
     };
     for model in ["model.hertz={}", "model.law.falcon.c=300"] {
         let (effects, warnings) = said(&[model]);
@@ -286,9 +298,9 @@ fn a_creep_without_end_is_a_reason() {
         "model.law.tsuji={alpha=1e4, end='zero_overlap'}",
         "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}",
     ] {
-        let outcome = run(&[model]);
-        assert_eq!((outcome.restitution, outcome.history.len()), (None, 0));
-        assert!(outcome.halt.unwrap().to_string().contains("no end of contact"));
+        let collision = run(&[model]);
+        assert_eq!((collision.restitution, collision.history.len()), (None, 0));
+        assert!(collision.stop().unwrap().to_string().contains("no end of contact"));
     }
 }
 
@@ -311,14 +323,15 @@ fn extremes_give_numbers_or_a_reason() {
                 let diameter = format!("body.0.sphere.diameter={diameter}");
                 let case = parse(GLASS, &[model, &speed, &diameter]).unwrap();
                 let Ok(mut simulation) = Simulation::new(case) else { continue };
-                let outcome = simulation.run(&mut ());
-                let Some(restitution) = outcome.restitution else {
-                    assert!(outcome.halt.is_some(), "{model} {speed} {diameter}");
+                let collision = simulation.run(&mut ());
+                let Some(restitution) = collision.restitution else {
+                    assert!(!collision.is_complete(), "{model} {speed} {diameter}");
                     continue;
                 };
                 assert!((0.0..=1.0 + 1e-7).contains(&restitution), "{model}: {restitution}");
-                for row in &outcome.history {
-                    let numbers = [row.time, row.contact_force, row.approach, row.kinetic];
+                for row in &collision.history {
+                    let kinetic = row.energy(Account::Kinetic).unwrap();
+                    let numbers = [row.time, row.contact_force, row.approach, kinetic];
                     assert!(numbers.iter().all(|x| x.is_finite()), "{model} {speed}: {row:?}");
                 }
             }

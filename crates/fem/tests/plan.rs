@@ -1,9 +1,10 @@
-//! The plan and the problem: defaults, limits, effects, imported meshes.
+//! The plan and the model made of it: defaults, limits, effects, imported meshes.
 
 use std::path::Path;
 
+use fem::{Explicit, Model, Plan, Setup, Simulation};
 use fem_case::schema::LawTable;
-use fem_case::{Case, CaseError, Plan, Problem, Simulation};
+use fem_case::{Case, CaseError};
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
 
@@ -13,12 +14,12 @@ fn case(overrides: &[&str]) -> Case {
 }
 
 fn refusal(overrides: &[&str]) -> CaseError {
-    Problem::new(case(overrides)).expect_err("the problem must be refused")
+    Simulation::new(case(overrides)).expect_err("the case must be refused")
 }
 
 #[test]
 fn defaults_follow_from_hertz() {
-    let plan = Plan::of(&case(&[])).unwrap();
+    let plan = Plan::of_case(&case(&[])).unwrap();
     // Printed digits of the closed form for this pair at 0.5 m/s.
     assert!((plan.estimate.hertz.contact_time() * 1e6 - 63.235).abs() < 5e-4);
     assert!((plan.contact_element_size * 8.0 * 1e3 - 0.22307).abs() < 5e-6);
@@ -31,7 +32,8 @@ fn defaults_follow_from_hertz() {
 fn relaxation_widens_the_expected_contact() {
     let text = include_str!("../../../cases/glass_0.5ms.toml");
     let relaxing = Case::parse("glass.toml", text, Path::new("."), &[]).unwrap();
-    let (relaxing, elastic) = (Plan::of(&relaxing).unwrap(), Plan::of(&case(&[])).unwrap());
+    let [relaxing, elastic] =
+        [relaxing, case(&[])].map(|case| Simulation::new(case).unwrap().setup().clone());
     assert!(relaxing.estimate.contact_radius > elastic.estimate.contact_radius);
     // 1 − exp(−2708/s · 64 µs) = 16 %.
     assert!((relaxing.estimate.relaxed - 0.16).abs() < 0.005);
@@ -41,14 +43,14 @@ fn relaxation_widens_the_expected_contact() {
 
 #[test]
 fn the_resolved_case_makes_the_same_problem() {
-    let problem = Problem::new(case(&["mesh.contact_element_size='60 um'"])).unwrap();
-    let text = problem.plan.resolve(&problem.case).to_toml().unwrap();
+    let first = case(&["mesh.contact_element_size='60 um'"]);
+    let text = Simulation::resolve(&first).unwrap().to_toml().unwrap();
     let again = Case::parse("resolved.toml", &text, Path::new("."), &[]).unwrap();
-    let again = Problem::new(again).unwrap();
-    assert_eq!(again.plan.candidate_radius, problem.plan.candidate_radius);
-    assert_eq!(again.plan.contact_stiffness, problem.plan.contact_stiffness);
-    assert_eq!(again.model.time_step(), problem.model.time_step());
-    assert_eq!(again.plan.resolve(&again.case).to_toml().unwrap(), text);
+    assert_eq!(Simulation::resolve(&again).unwrap().to_toml().unwrap(), text);
+    let [first, again] = [first, again].map(|case| Explicit::new(&case.scene).unwrap());
+    assert_eq!(again.plan.candidate_radius, first.plan.candidate_radius);
+    assert_eq!(again.plan.contact_stiffness, first.plan.contact_stiffness);
+    assert_eq!(again.bodies.time_step(), first.bodies.time_step());
 }
 
 #[test]
@@ -85,11 +87,13 @@ fn elements_and_blocks_that_do_not_fit_are_refused() {
 
 #[test]
 fn scenes_beyond_the_model_are_warned_about() {
-    let plan = Plan::of(&case(&["body.0.approach_speed=20"])).unwrap();
-    assert!(plan.warnings.iter().any(|w| w.contains("small-strain")), "{:?}", plan.warnings);
-    let plan = Plan::of(&case(&["body.0.approach_speed=100"])).unwrap();
-    assert!(plan.warnings.iter().any(|w| w.contains("shear wave speed")), "{:?}", plan.warnings);
-    assert!(Plan::of(&case(&[])).unwrap().warnings.is_empty());
+    let warnings =
+        |overrides: &[&str]| Simulation::new(case(overrides)).unwrap().setup().warnings.join("\n");
+    let fast = warnings(&["body.0.approach_speed=20"]);
+    assert!(fast.contains("small-strain"), "{fast}");
+    let faster = warnings(&["body.0.approach_speed=100"]);
+    assert!(faster.contains("shear wave speed"), "{faster}");
+    assert_eq!(warnings(&[]), "");
 }
 
 #[test]
@@ -99,7 +103,7 @@ fn extreme_scenes_plan_or_are_refused() {
             let speed = format!("body.0.approach_speed={speed}");
             let diameter = format!("body.0.sphere.diameter={diameter}");
             // Either a plan with finite numbers or an error; never a panic.
-            if let Ok(plan) = Plan::of(&case(&[&speed, &diameter])) {
+            if let Ok(plan) = Plan::of_case(&case(&[&speed, &diameter])) {
                 assert!(plan.contact_element_size > 0.0 && plan.contact_element_size.is_finite());
                 assert!(plan.candidate_radius > 0.0 && plan.candidate_radius.is_finite());
             }
@@ -118,13 +122,14 @@ fn a_mesh_that_is_not_there_points_at_its_key() {
 #[test]
 fn a_contact_that_outgrows_the_searched_region_is_run_again() {
     let case = case(&["mesh.contact_element_size='60 um'"]);
-    let mut plan = Plan::of(&case).unwrap();
+    let mut plan = Plan::of_case(&case).unwrap();
     // Half of the largest contact radius, 0.223 mm.
     plan.candidate_radius = 0.11e-3;
-    let mut problem = Problem::with_plan(case, plan).unwrap();
-    let collision = problem.run(&mut ());
-    assert_eq!(collision.stopped, None);
-    assert!(problem.model.interface().candidate_radius() > 0.223e-3);
+    let mut explicit = Explicit::with_plan(&case.scene, plan).unwrap();
+    let Setup { approach, want, .. } = explicit.setup().clone();
+    let collision = explicit.collide(&approach, &want, &mut ());
+    assert!(collision.is_complete());
+    assert!(explicit.bodies.interface().candidate_radius() > 0.223e-3);
     assert!((collision.restitution.unwrap() - 1.0).abs() < 1e-3);
 }
 
@@ -138,7 +143,7 @@ fn the_case_reference_is_true() {
     for example in examples {
         let case = Case::parse("cases.md", example, Path::new("."), &[]);
         let case = case.unwrap_or_else(|error| panic!("{error}"));
-        Simulation::resolve(case).unwrap_or_else(|error| panic!("{error}"));
+        Simulation::resolve(&case).unwrap_or_else(|error| panic!("{error}"));
     }
     for law in LawTable::NAMES {
         assert!(reference.contains(&format!("| `{law}` |")), "{law}");

@@ -129,7 +129,7 @@ const FAULTS: &[(Change, &str, &str)] = &[
         "output.snapshots",
         "snapshots is 1.5",
     ),
-    // Models and effects.
+    // Models.
     (|file| file.model = Some(ModelTable::default()), "model", "names no model"),
     (
         |file| file.model.get_or_insert_default().ting = Some(TingTable::default()),
@@ -178,11 +178,6 @@ const FAULTS: &[(Change, &str, &str)] = &[
         },
         "model.condensed.steps",
         "does not begin with a number",
-    ),
-    (
-        |file| file.effects.get_or_insert_default().bulk_viscosity = Some(Switch::On),
-        "effects.bulk_viscosity",
-        "not available",
     ),
 ];
 

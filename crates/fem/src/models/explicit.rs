@@ -1,6 +1,6 @@
 //! Explicit finite elements.
 
-use fem_case::{Body, CaseFile, Scene, Shape};
+use fem_case::{Body, CaseFile, ModelChoice, Scene, Shape};
 use fem_collision::{Approach, BodyInput, Collision, Monitor, Stop, Want};
 use fem_explicit::{Model as Bodies, Settings, collide};
 use fem_mesh::SphereMesh;
@@ -77,6 +77,10 @@ impl Explicit {
     /// # Errors
     /// As [`Explicit::new`].
     pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
+        if scene.model != ModelChoice::Fem {
+            let message = format!("model `{}` has no finite elements", scene.model.name());
+            return Err(Refusal::new(scene.model.path(), message));
+        }
         let meshes = build_meshes(scene, &plan)?;
         let inputs = inputs(scene, meshes);
         let approach = approach_of(scene);

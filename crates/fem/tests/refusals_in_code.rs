@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use fem::Simulation;
 use fem_case::schema::MeshTable;
-use fem_case::{Case, CaseError, CaseFile, Simulation};
+use fem_case::{Case, CaseError, CaseFile};
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
 
