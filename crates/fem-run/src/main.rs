@@ -10,6 +10,12 @@
 //! stdout carries the result, stderr everything else. The exit status is 0 (done), 1 (the run
 //! failed), 2 (bad input, nothing written) or 130 (interrupted).
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "the command has the clock, the terminal and the exit status"
+)]
+
 mod arguments;
 mod calibrate;
 mod commands;
