@@ -1,14 +1,14 @@
-//! Reading a case: text and overrides to a scene, and back to text.
+//! A case, read from text and overrides or made in code, to a scene, and back to text.
 
 use std::fs;
 use std::io::{ErrorKind, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
 use crate::document::{Document, Insertions};
 use crate::error::CaseError;
-use crate::explain::explain;
+use crate::explain::{explain, listed};
 use crate::quantity::Quantity;
 use crate::scene::{Scene, Shape};
 use crate::schema::{CaseFile, is_list};
@@ -26,6 +26,15 @@ pub struct Case {
     /// The same in SI units, validated.
     pub scene: Scene,
     document: Document,
+    defaults: Defaults,
+}
+
+/// What stands in for what a case leaves out.
+#[derive(Clone, Debug)]
+struct Defaults {
+    title: String,
+    /// Where relative mesh files are looked for; absolute.
+    folder: PathBuf,
 }
 
 impl Case {
@@ -57,6 +66,76 @@ impl Case {
         Case::build(name, &stem, text, folder, overrides, None)
     }
 
+    /// A case made in code, validated as a text is.
+    ///
+    /// Its faults name the key: there is no line to point at. Its title is the names of its bodies
+    /// unless it has one; mesh files are looked for in the current folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it.
+    ///
+    /// ```
+    /// use fem_case::schema::{BodyTable, MaterialTable};
+    /// use fem_case::{Case, CaseFile};
+    ///
+    /// let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
+    /// let pair = |diameter: f64| {
+    ///     let floor = BodyTable::wall("floor");
+    ///     let ball = BodyTable::sphere("ball", diameter, "ice").approaching("10 cm/s");
+    ///     CaseFile::of_bodies(floor, ball).with_material("ice", ice.clone())
+    /// };
+    /// assert_eq!(Case::of(pair(0.02))?.scene.approach_speed(), 0.1);
+    ///
+    /// let error = Case::of(pair(0.0)).unwrap_err();
+    /// assert_eq!(error.key(), Some("body.1.sphere.diameter"));
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "body.1.sphere.diameter: diameter is 0.0 m\n  help: diameter must be greater than 0"
+    /// );
+    /// # Ok::<(), fem_case::CaseError>(())
+    /// ```
+    pub fn of(file: CaseFile) -> Result<Case, CaseError> {
+        let document = Document::of_code(&file.tree()?);
+        let names: Vec<&str> = file.body.iter().map(|body| body.name.as_str()).collect();
+        let defaults = Defaults { title: listed(&names), folder: absolute(Path::new(".")) };
+        Case::validated(document, file, defaults)
+    }
+
+    /// The same case with some keys changed, validated anew.
+    ///
+    /// The change sees [`Case::file`]. Faults of what it changed name the key, those of all else
+    /// still point at their line. A key that it sets to the value it had is not changed.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the case that it makes.
+    ///
+    /// ```
+    /// # use std::path::Path;
+    /// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
+    /// # [[body]]
+    /// # name = 'floor'
+    /// # wall = {}
+    /// # [[body]]
+    /// # name = 'ball'
+    /// # sphere.diameter = 0.02
+    /// # material = 'ice'
+    /// # approach_speed = 0.1";
+    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
+    /// let fine = case.edited(|file| {
+    ///     file.body[1].approach_speed = Some("1 m/s".into());
+    ///     file.mesh.get_or_insert_default().contact_element_size = Some(14e-6.into());
+    /// })?;
+    /// assert_eq!(fine.scene.approach_speed(), 1.0);
+    /// assert!(fine.gives("mesh.contact_element_size"));
+    /// # Ok::<(), fem_case::CaseError>(())
+    /// ```
+    pub fn edited(&self, change: impl FnOnce(&mut CaseFile)) -> Result<Case, CaseError> {
+        let mut file = self.file.clone();
+        change(&mut file);
+        let document = self.document.edited(&self.file.tree()?, &file.tree()?);
+        Case::validated(document, file, self.defaults.clone())
+    }
+
     pub(crate) fn build(
         name: &str,
         stem: &str,
@@ -66,23 +145,32 @@ impl Case {
         insertions: Option<Insertions<'_, '_>>,
     ) -> Result<Case, CaseError> {
         let (document, tree) = Document::parse(name, text, overrides, insertions)?;
-        let mut file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
+        let file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {
             let error = document.error_at(path, format!("{path} is an array"));
             return Err(error.with_help("it wants a table, { … }"));
         }
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf());
-        let scene = validate(&document, &file, stem, &folder)?;
+        let defaults = Defaults { title: stem.to_string(), folder: absolute(folder) };
+        Case::validated(document, file, defaults)
+    }
+
+    /// The one way from what is written to a scene.
+    fn validated(
+        document: Document,
+        mut file: CaseFile,
+        defaults: Defaults,
+    ) -> Result<Case, CaseError> {
+        let scene = validate(&document, &file, &defaults.title, &defaults.folder)?;
         fill_in(&mut file, &scene);
-        Ok(Case { file, scene, document })
+        Ok(Case { file, scene, document, defaults })
     }
 
     /// An error about the key at a dotted path (`mesh.contact_element_size`, `body.0.sphere`).
     ///
     /// It points at the key's value, in the file or in an override; if the case does not give
-    /// the key, at the nearest table around it.
+    /// the key, at the nearest table around it. Where code gave that, it names the key.
     pub fn error_at(&self, path: &str, message: impl Into<String>) -> CaseError {
         self.document.error_at(path, message)
     }
@@ -101,16 +189,25 @@ impl CaseFile {
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
+
+    /// Its keys and values.
+    fn tree(&self) -> Result<toml::Table, CaseError> {
+        toml::Table::try_from(self).map_err(|error| CaseError::new("the case", error.to_string()))
+    }
 }
 
-/// The defaults that do not depend on physics.
+fn absolute(folder: &Path) -> PathBuf {
+    std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf())
+}
+
+/// The defaults that do not depend on physics. A path that is not Unicode stays as written.
 fn fill_in(file: &mut CaseFile, scene: &Scene) {
     file.title = Some(scene.title.clone());
     for (table, body) in file.body.iter_mut().zip(&scene.bodies) {
         if let (Some(sphere), Shape::Sphere { mesh: Some(mesh), .. }) =
             (&mut table.sphere, &body.shape)
         {
-            sphere.mesh = Some(mesh.to_string_lossy().to_string());
+            sphere.mesh = mesh.to_str().map(str::to_string).or(sphere.mesh.take());
         }
         table.approach_speed.get_or_insert(Quantity::from_si(0.0));
     }

@@ -1,17 +1,19 @@
 //! A case's texts (the file and its overrides) merged into one tree that knows where each key
-//! and value came from.
+//! and value came from. A case that is made in code has no text, one that is edited in code has
+//! keys that stand in none.
 //!
 //! All texts share one line of byte offsets: the file begins at 0, each override one byte after
 //! the end of the text before it. A span in the merged tree thus names its text as well.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
-use toml::Spanned;
-use toml::de::{DeArray, DeTable, DeValue};
+use toml::de::DeTable;
+use toml::{Spanned, Table};
 
 use crate::error::CaseError;
 use crate::overrides::{self, Assignment};
+use crate::positions::{Position, Positions};
+use crate::toml_text::first_line;
 
 /// One text, and where it begins on the common line of offsets.
 #[derive(Clone, Debug)]
@@ -21,13 +23,6 @@ struct Source {
     start: usize,
 }
 
-/// Where a key and its value stand on the common line of offsets.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Position {
-    key: Range<usize>,
-    value: Range<usize>,
-}
-
 /// Values of another file that go into the tree; their spans count from its beginning.
 pub(crate) struct Insertions<'s, 't> {
     pub(crate) name: &'s str,
@@ -35,12 +30,11 @@ pub(crate) struct Insertions<'s, 't> {
     pub(crate) assignments: Vec<Assignment<'t>>,
 }
 
-/// The texts of a case and the positions of its keys, by dotted path (`body.0.sphere.diameter`).
+/// The texts of a case, none if it is made in code, and the positions of its keys.
 #[derive(Clone, Debug)]
 pub(crate) struct Document {
     sources: Vec<Source>,
-    positions: BTreeMap<String, Position>,
-    arrays: Vec<String>,
+    positions: Positions,
 }
 
 impl Document {
@@ -54,8 +48,7 @@ impl Document {
         insertions: Option<Insertions<'_, 't>>,
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
         let file = Source { name: name.to_string(), text: text.to_string(), start: 0 };
-        let mut document =
-            Document { sources: vec![file], positions: BTreeMap::new(), arrays: Vec::new() };
+        let mut document = Document { sources: vec![file], positions: Positions::default() };
         let mut tree = DeTable::parse(text).map_err(|error| {
             document
                 .error_in(0, error.span().unwrap_or(0..0), first_line(error.message()))
@@ -89,65 +82,52 @@ impl Document {
                 })?;
             }
         }
-        for (key, value) in tree.get_ref() {
-            document.record(quote_key(key.get_ref()), key.span(), value);
-        }
+        document.positions = Positions::of_text(tree.get_ref());
         Ok((document, tree))
     }
 
-    fn record(&mut self, path: String, key: Range<usize>, value: &Spanned<DeValue<'_>>) {
-        match value.get_ref() {
-            DeValue::Table(table) => {
-                for (key, value) in table {
-                    self.record(join(&path, &quote_key(key.get_ref())), key.span(), value);
-                }
-            }
-            DeValue::Array(array) => {
-                self.arrays.push(path.clone());
-                for (index, value) in array.iter().enumerate() {
-                    self.record(join(&path, &index.to_string()), value.span(), value);
-                }
-            }
-            _ => {}
-        }
-        self.positions.insert(path, Position { key, value: value.span() });
+    /// Of a case that is made in code.
+    pub(crate) fn of_code(tree: &Table) -> Document {
+        Document { sources: Vec::new(), positions: Positions::of_code(tree) }
+    }
+
+    /// After an edit in code that made `before` into `after`.
+    pub(crate) fn edited(&self, before: &Table, after: &Table) -> Document {
+        let positions = self.positions.edited(before, after);
+        Document { sources: self.sources.clone(), positions }
     }
 
     /// Whether the case gives a value at this path.
     pub(crate) fn has(&self, path: &str) -> bool {
-        self.positions.contains_key(path)
+        self.positions.get(path).is_some()
     }
 
-    /// The paths of all arrays.
+    /// The paths of all arrays in the texts.
     pub(crate) fn arrays(&self) -> &[String] {
-        &self.arrays
+        self.positions.arrays()
     }
 
     /// Which of several keys that contradict each other is to blame: the first of those that the
-    /// last override among them gave, or else `default`.
+    /// last edit or else the last override among them gave, or else `default`.
     pub(crate) fn blamed<'p>(&self, default: &'p str, others: &[&'p str]) -> &'p str {
-        let source_of = |path: &str| {
-            let position = self.positions.get(path);
-            position.map_or(0, |position| self.source_at(position.value.start))
+        let turn_of = |path: &str| match self.positions.get(path) {
+            Some(Position::Text { value, .. }) => self.source_at(value.start),
+            Some(Position::Code { edit }) => self.sources.len() + edit,
+            None => 0,
         };
         let later = |best: &'p str, other: &&'p str| {
-            if source_of(other) > source_of(best) { other } else { best }
+            if turn_of(other) > turn_of(best) { other } else { best }
         };
         others.iter().fold(default, later)
     }
 
     /// An error that points at the value of the key at `path`, or, if it is absent, at the
-    /// nearest table around it.
+    /// nearest table around it; named by the key where that stands in no text.
     pub(crate) fn error_at(&self, path: &str, message: impl Into<String>) -> CaseError {
-        let mut path = path;
-        loop {
-            if let Some(position) = self.positions.get(path) {
-                return self.error_on(position.value.clone(), message);
-            }
-            match path.rfind('.') {
-                Some(dot) => path = &path[..dot],
-                None => return self.error_in(0, 0..0, message),
-            }
+        match self.positions.nearest(path) {
+            Some(Position::Text { value, .. }) => self.error_on(value.clone(), message).about(path),
+            None if !self.sources.is_empty() => self.error_in(0, 0..0, message).about(path),
+            _ => CaseError::new(path, message).about(path),
         }
     }
 
@@ -175,52 +155,6 @@ impl Document {
 
     /// The path whose value or else key has this span; the deepest if several have.
     pub(crate) fn path_of(&self, span: &Range<usize>) -> Option<&str> {
-        let deepest = |is_match: &dyn Fn(&Position) -> bool| {
-            let found = self.positions.iter().filter(|(_, position)| is_match(position));
-            found.map(|(path, _)| path.as_str()).max_by_key(|path| path.matches('.').count())
-        };
-        deepest(&|position| position.value == *span)
-            .or_else(|| deepest(&|position| position.key == *span))
+        self.positions.path_of(span)
     }
-}
-
-/// `path.key`; just the key at the root.
-pub(crate) fn join(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
-}
-
-/// A key as one part of a dotted path: bare if TOML allows that, quoted if not.
-pub(crate) fn quote_key(key: &str) -> String {
-    if !key.is_empty() && key.chars().all(overrides::is_bare) {
-        key.to_string()
-    } else {
-        format!("{key:?}")
-    }
-}
-
-/// The same value with all of its spans moved by `start`.
-pub(crate) fn shift(value: Spanned<DeValue<'_>>, start: usize) -> Spanned<DeValue<'_>> {
-    let span = value.span();
-    let value = match value.into_inner() {
-        DeValue::Array(array) => {
-            let items = array.into_iter().map(|item| shift(item, start));
-            DeValue::Array(items.collect::<DeArray<'_>>())
-        }
-        DeValue::Table(table) => {
-            let mut moved = DeTable::new();
-            for (key, value) in table {
-                let span = key.span();
-                let key = Spanned::new(span.start + start..span.end + start, key.into_inner());
-                moved.insert(key, shift(value, start));
-            }
-            DeValue::Table(moved)
-        }
-        scalar => scalar,
-    };
-    Spanned::new(span.start + start..span.end + start, value)
-}
-
-/// The parser's messages may go on with a list of what it expected.
-pub(crate) fn first_line(message: &str) -> String {
-    message.lines().next().unwrap_or("not TOML").to_string()
 }

@@ -3,16 +3,18 @@
 use std::fmt;
 use std::ops::Range;
 
-/// Something wrong with a case file or with an override of it.
+/// Something wrong with a case file, with an override of it, or with a case made in code.
 ///
 /// It displays as a block of plain text: position and message, the line with the culprit
-/// underlined, and help. The parts are there for a prettier rendering.
+/// underlined, and help. The parts are there for a prettier rendering. What code gave has no line:
+/// the key stands in its place.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.block())]
 pub struct CaseError {
     source_name: String,
     message: String,
     help: Option<String>,
+    key: Option<String>,
     place: Option<Box<Place>>,
 }
 
@@ -31,6 +33,7 @@ impl CaseError {
             source_name: source_name.into(),
             message: message.into(),
             help: None,
+            key: None,
             place: None,
         }
     }
@@ -38,6 +41,12 @@ impl CaseError {
     /// Adds what is allowed, or what to do.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
+        self
+    }
+
+    /// Says which key it is about, as a dotted path.
+    pub(crate) fn about(mut self, key: &str) -> Self {
+        self.key = Some(key.to_string());
         self
     }
 
@@ -64,9 +73,16 @@ impl CaseError {
         self
     }
 
-    /// The file as it was named, or the override: `--set body.0.approach_speed=…`.
+    /// The file as it was named, or the override, `--set body.0.approach_speed=…`, or the key that
+    /// code gave, `body.0.approach_speed`.
     pub fn source_name(&self) -> &str {
         &self.source_name
+    }
+
+    /// The dotted path of the key that it is about, given or missing; none of a fault of the text
+    /// as such.
+    pub fn key(&self) -> Option<&str> {
+        self.key.as_deref()
     }
 
     /// What was found.

@@ -2,8 +2,9 @@
 
 use toml::de::Error;
 
-use crate::document::{Document, first_line};
+use crate::document::Document;
 use crate::error::CaseError;
+use crate::toml_text::first_line;
 
 /// Required keys, as a user may write them.
 const EXAMPLES: &[(&str, &str)] = &[
@@ -24,7 +25,10 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     let message = error.message();
     let span = error.span().unwrap_or(0..0);
     let path = document.path_of(&span).unwrap_or("");
-    let at = |message: String| document.error_on(span.clone(), message);
+    let at = |message: String| match path {
+        "" => document.error_on(span.clone(), message),
+        path => document.error_on(span.clone(), message).about(path),
+    };
     let in_table = |path: &str| {
         if path.is_empty() { String::new() } else { format!(" in {path}") }
     };

@@ -1,20 +1,21 @@
-//! Case files: TOML with units to a validated, resolved case, a plan, and a problem ready to run.
+//! Case files: TOML with units to a validated scene, and back.
 //!
 //! ```text
 //! text, overrides ─ document ─ schema ─ validate ─ Scene
 //!                   merged     CaseFile  units, limits,
 //!                   tree with  as        names
 //!                   positions  written
+//!                              or made
+//!                              in code
 //! ```
 //!
-//! [`Simulation::new`] builds the [`Model`] that the case asks for, and [`Simulation::run`] computes
-//! the collision to an [`Outcome`], the same for every model. Finite elements are a [`Problem`]:
-//! [`Plan::of`] fills in what the case leaves open from closed forms and says which effects are on,
-//! [`Problem::new`] makes meshes and model; the same linear bodies condensed to their contact are a
-//! [`Condensed`]. The models of one degree of freedom are a [`Reduced`].
+//! This is the language of cases and no more: what a scene costs, which effects it calls for and how
+//! it collides is for crates above. Text and code ([`Case::of`], [`Case::edited`]) are validated by
+//! the same path.
 //!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
-//! is allowed. [`Case::load`] does all of it:
+//! is allowed. [`Case::load`] does all of it; [`Case::of`] takes a [`CaseFile`] made in code and
+//! [`Case::edited`] changes a case, where the key stands in place of file and line:
 //!
 //! ```
 //! # use std::path::Path;
@@ -48,53 +49,40 @@
 //! # Ok::<(), fem_case::CaseError>(())
 //! ```
 
-mod available;
+mod body_tables;
 mod case;
-mod condensed;
 mod document;
-mod effects;
+mod empty_table;
 mod error;
-mod estimate;
 mod explain;
+mod key_path;
 mod keyword;
-mod meshes;
+mod material_tables;
 mod model;
 mod model_tables;
-mod outcome;
 mod overrides;
-mod plan;
-mod problem;
+mod positions;
 mod quantity;
-mod reduced;
 mod scene;
 pub mod schema;
-mod simulation;
 mod sweep;
 mod sweep_axes;
 mod sweep_file;
+mod toml_text;
 mod unit_table;
 mod units;
 mod validate;
 
 pub use case::Case;
-pub use condensed::{Condensed, Options as CondensedOptions, PairCache, QUASI_STATIC_LIMIT};
-pub use effects::Effect;
 pub use error::CaseError;
-pub use estimate::Estimate;
 pub use explain::nearest;
-pub use meshes::build_meshes;
-pub use model::{Dashpot, Dissipation, Law, Model};
-pub use outcome::{BodyOutcome, Halt, Outcome, OutcomeRow, Timing};
-pub use plan::Plan;
-pub use problem::{Cost, Problem};
+pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 pub use quantity::{
     Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind,
     Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use reduced::{Reduced, ting_impact};
 pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
-pub use simulation::Simulation;
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};
 pub use sweep_file::{Combine, Keep, PlotTable};

@@ -2,17 +2,15 @@
 
 use fem_laws::{EndRule, Family};
 
-use crate::condensed::Options;
-
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
-pub enum Model {
+pub enum ModelChoice {
     /// Explicit finite elements.
     #[default]
     Fem,
     /// Linear finite elements condensed to their contact nodes.
-    Condensed(Options),
+    Condensed(CondensedOptions),
     /// Elastic half-spaces.
     Hertz {
         /// Whether the spheres' finite size adds to the approach.
@@ -36,24 +34,41 @@ pub enum Model {
     },
 }
 
-impl Model {
+impl ModelChoice {
     /// Its key under `[model]`.
     pub fn name(&self) -> &'static str {
         match self {
-            Model::Fem => "fem",
-            Model::Condensed(_) => "condensed",
-            Model::Hertz { .. } => "hertz",
-            Model::Ting { .. } => "ting",
-            Model::Law { .. } => "law",
+            ModelChoice::Fem => "fem",
+            ModelChoice::Condensed(_) => "condensed",
+            ModelChoice::Hertz { .. } => "hertz",
+            ModelChoice::Ting { .. } => "ting",
+            ModelChoice::Law { .. } => "law",
         }
     }
 
     /// The dotted key of its table.
     pub fn path(&self) -> String {
         match self {
-            Model::Law { law, .. } => format!("model.law.{}", law.name()),
+            ModelChoice::Law { law, .. } => format!("model.law.{}", law.name()),
             _ => format!("model.{}", self.name()),
         }
+    }
+}
+
+/// The keys of `model.condensed`, resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CondensedOptions {
+    /// Modes of free vibration of each body.
+    pub vibration_modes: usize,
+    /// Steps over the elastic contact time.
+    pub steps: usize,
+    /// Whether overlap is resisted by the explicit model's springs.
+    pub penalty_springs: bool,
+}
+
+impl Default for CondensedOptions {
+    fn default() -> Self {
+        Self { vibration_modes: 0, steps: 1000, penalty_springs: false }
     }
 }
 

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::empty_table::EmptyTable;
 use crate::keyword::keywords;
 use crate::quantity::{Count, Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
 #[cfg(test)]
 use crate::quantity::{Kind, QuantityKind};
-use crate::schema::EmptyTable;
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -30,6 +30,70 @@ pub struct ModelTable {
     /// The cheapest that serves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub auto: Option<toml::Table>,
+}
+
+/// Models with their defaults. A table with keys becomes a model by `into()`.
+///
+/// ```
+/// use fem_case::schema::{CondensedTable, KuwabaraKonoTable, ModelTable};
+///
+/// let quasi_static = ModelTable::condensed();
+/// let vibrating: ModelTable =
+///     CondensedTable { vibration_modes: Some(12.into()), ..Default::default() }.into();
+/// let law =
+///     ModelTable::law(KuwabaraKonoTable { a: Some("1 us".into()), ..Default::default() });
+/// # assert!(quasi_static.condensed.is_some() && vibrating.condensed.is_some());
+/// # assert_eq!(law.law.unwrap().given(), ["kuwabara_kono"]);
+/// ```
+impl ModelTable {
+    /// Explicit finite elements.
+    pub fn fem() -> Self {
+        Self { fem: Some(EmptyTable {}), ..Self::default() }
+    }
+
+    /// Linear bodies condensed to their contact nodes.
+    pub fn condensed() -> Self {
+        CondensedTable::default().into()
+    }
+
+    /// Quasi-static viscoelastic half-space.
+    pub fn ting() -> Self {
+        TingTable::default().into()
+    }
+
+    /// Quasi-static elastic half-space.
+    pub fn hertz() -> Self {
+        HertzTable::default().into()
+    }
+
+    /// A contact law of one degree of freedom, by its table.
+    pub fn law(law: impl Into<LawTable>) -> Self {
+        law.into().into()
+    }
+}
+
+impl From<CondensedTable> for ModelTable {
+    fn from(table: CondensedTable) -> Self {
+        Self { condensed: Some(table), ..Self::default() }
+    }
+}
+
+impl From<TingTable> for ModelTable {
+    fn from(table: TingTable) -> Self {
+        Self { ting: Some(table), ..Self::default() }
+    }
+}
+
+impl From<HertzTable> for ModelTable {
+    fn from(table: HertzTable) -> Self {
+        Self { hertz: Some(table), ..Self::default() }
+    }
+}
+
+impl From<LawTable> for ModelTable {
+    fn from(table: LawTable) -> Self {
+        Self { law: Some(table), ..Self::default() }
+    }
 }
 
 /// `condensed = { … }`.
@@ -103,6 +167,12 @@ macro_rules! law_tables {
                 #[serde(skip_serializing_if = "Option::is_none")]
                 pub tolerance: Option<Quantity<Number>>,
             }
+
+            impl From<$table> for LawTable {
+                fn from(table: $table) -> Self {
+                    Self { $law: Some(table), ..Self::default() }
+                }
+            }
         )+
 
         /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand beside it.
@@ -148,7 +218,8 @@ macro_rules! law_tables {
             }
 
             /// The same with `end` and `tolerance` in the law's own table.
-            pub(crate) fn filled(mut self, end: End, tolerance: f64) -> Self {
+            #[must_use]
+            pub fn filled(mut self, end: End, tolerance: f64) -> Self {
                 (self.end, self.tolerance) = (None, None);
                 $(if let Some(table) = &mut self.$law {
                     table.end = Some(end);

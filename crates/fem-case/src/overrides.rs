@@ -11,8 +11,9 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
-use crate::document::{first_line, shift};
+use crate::key_path::is_bare;
 use crate::model_tables::exclude_each_other;
+use crate::toml_text::{first_line, shift};
 
 /// Deeper than any key of a case; keeps recursion over the tree shallow.
 const DEEPEST_PATH: usize = 32;
@@ -42,10 +43,6 @@ impl Assignment<'_> {
             value: shift(self.value, start),
         }
     }
-}
-
-pub(crate) fn is_bare(c: char) -> bool {
-    c.is_ascii_alphanumeric() || c == '_' || c == '-'
 }
 
 /// The key of an override, for naming it; all of the text if there is no `=` after a key.

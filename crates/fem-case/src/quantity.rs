@@ -120,6 +120,14 @@ enum Written {
 
 /// A quantity of kind `K` as a case file holds it. It is converted by [`Quantity::si`] and
 /// serializes as a bare SI number (or as its text if that has no SI value).
+///
+/// ```
+/// use fem_case::{Count, Length, Quantity};
+///
+/// assert_eq!(Quantity::<Length>::from("22.2 mm").si(), Ok(0.0222));
+/// assert_eq!(Quantity::<Length>::from(0.0222).si(), Ok(0.0222));
+/// assert_eq!(Quantity::<Count>::from(12).si(), Ok(12.0));
+/// ```
 #[derive(Clone, PartialEq)]
 pub struct Quantity<K> {
     written: Written,
@@ -132,8 +140,9 @@ impl<K: QuantityKind> Quantity<K> {
         Quantity { written: Written::Si(value), kind: PhantomData }
     }
 
-    /// From a text, as a case file may hold it.
-    pub(crate) fn from_text(text: &str) -> Self {
+    /// From a number with its unit, as a case file may hold it; nothing is checked before
+    /// [`Quantity::si`].
+    pub fn from_text(text: &str) -> Self {
         Quantity { written: Written::Text(text.to_string()), kind: PhantomData }
     }
 
@@ -196,6 +205,27 @@ impl<K: QuantityKind> Quantity<K> {
                 (format!("{self} is not {name} for {key}: {error}"), bare)
             }
         }
+    }
+}
+
+/// A value in SI units: `0.0222`.
+impl<K: QuantityKind> From<f64> for Quantity<K> {
+    fn from(value: f64) -> Self {
+        Self::from_si(value)
+    }
+}
+
+/// A number with its unit: `"22.2 mm"`.
+impl<K: QuantityKind> From<&str> for Quantity<K> {
+    fn from(text: &str) -> Self {
+        Self::from_text(text)
+    }
+}
+
+/// A whole number: `12`.
+impl From<u32> for Quantity<Count> {
+    fn from(count: u32) -> Self {
+        Self::from_si(f64::from(count))
     }
 }
 

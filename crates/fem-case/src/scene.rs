@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use fem_laws::{FiniteSize, LawError, Pair, Partner};
 use fem_material::Material;
 
-use crate::model::Model;
+use crate::model::ModelChoice;
 use crate::schema::{EffectsTable, SnapshotLabel};
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.
@@ -30,7 +30,7 @@ pub struct Scene {
     /// Which instants are drawn.
     pub snapshots: Option<Snapshots>,
     /// Which model computes the collision.
-    pub model: Model,
+    pub model: ModelChoice,
     /// Effects that the case forces on or off.
     pub effects: EffectsTable,
     /// What is too dear to start.

@@ -8,10 +8,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::keyword::keywords;
+use crate::quantity::{Bytes, Count, Length, Number, Quantity, QuantityKind, Time};
+
+pub use crate::body_tables::*;
+pub use crate::empty_table::EmptyTable;
+pub use crate::material_tables::*;
 pub use crate::model_tables::*;
-use crate::quantity::{
-    Bytes, Count, Density, Length, Number, Quantity, QuantityKind, Rate, Speed, Stress, Time,
-};
 
 /// A whole case file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -52,101 +54,38 @@ pub struct CaseFile {
     pub limits: Option<LimitsTable>,
 }
 
-/// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "a table such as [material.glass]")]
-pub struct MaterialTable {
-    /// Mass per volume, > 0.
-    pub density: Quantity<Density>,
-    /// Young's modulus E, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub youngs_modulus: Option<Quantity<Stress>>,
-    /// Shear modulus G, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shear_modulus: Option<Quantity<Stress>>,
-    /// Bulk modulus K, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bulk_modulus: Option<Quantity<Stress>>,
-    /// Poisson's ratio ν, between −1 and 1/2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poissons_ratio: Option<Quantity<Number>>,
-    /// Absent: elastic.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub relaxation: Option<RelaxationTable>,
-}
+/// A case made in code. Everything else is a field: `file.title = Some("…".into())`.
+///
+/// ```
+/// use fem_case::CaseFile;
+/// use fem_case::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};
+///
+/// let glass = MaterialTable::from_youngs_modulus_poissons_ratio("2390 kg/m^3", "63 GPa", 0.244)
+///     .relaxing(ActsOn::All, [TermTable::with_decay_rate(1.0, "2708 1/s")]);
+/// let striker = BodyTable::sphere("striker", "22.2 mm", "glass").approaching("0.5 m/s");
+/// let target = BodyTable::sphere("target", "15.9 mm", "glass");
+/// let file = CaseFile::of_bodies(striker, target)
+///     .with_material("glass", glass)
+///     .with_model(ModelTable::ting());
+/// # assert!(file.to_toml().unwrap().contains("decay_rate = 2708.0"));
+/// ```
+impl CaseFile {
+    /// Two bodies, the first below the second; materials are still to come.
+    pub fn of_bodies(first: BodyTable, second: BodyTable) -> Self {
+        Self { body: vec![first, second], ..Self::default() }
+    }
 
-/// `[material.NAME.relaxation]`: a Prony series.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
-pub struct RelaxationTable {
-    /// Which moduli relax.
-    pub acts_on: ActsOn,
-    /// One table a Prony term.
-    pub terms: Vec<TermTable>,
-}
+    /// The same with `[material.NAME]`, in place of one of that name.
+    pub fn with_material(mut self, name: impl Into<String>, material: MaterialTable) -> Self {
+        self.material.insert(name.into(), material);
+        self
+    }
 
-keywords! {
-    /// Which moduli relax.
-    ActsOn {
-        /// Shear and bulk modulus alike: Poisson's ratio stays constant.
-        All = "all",
-        /// The shear modulus; the bulk modulus stays elastic.
-        Shear = "shear",
+    /// The same, computed by this model.
+    pub fn with_model(self, model: impl Into<ModelTable>) -> Self {
+        Self { model: Some(model.into()), ..self }
     }
 }
-
-/// A Prony term: its weight and exactly one of decay rate and relaxation time.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(
-    deny_unknown_fields,
-    expecting = "a table such as { weight = 1.0, decay_rate = \"2708 1/s\" }"
-)]
-pub struct TermTable {
-    /// G_k/G_0, > 0; all weights together at most 1.
-    pub weight: Quantity<Number>,
-    /// 1/τ_k, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decay_rate: Option<Quantity<Rate>>,
-    /// τ_k, > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub relaxation_time: Option<Quantity<Time>>,
-}
-
-/// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "a table [[body]]")]
-pub struct BodyTable {
-    /// Letters, digits, `_` and `-`; unique.
-    pub name: String,
-    /// The name of a `[material.NAME]`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub material: Option<String>,
-    /// Toward the other body; 0 if absent, negative if it recedes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub approach_speed: Option<Quantity<Speed>>,
-    /// A solid sphere.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sphere: Option<SphereTable>,
-    /// A rigid plane of infinite mass.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wall: Option<EmptyTable>,
-}
-
-/// `sphere = { … }`.
-#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
-pub struct SphereTable {
-    /// > 0.
-    pub diameter: Quantity<Length>,
-    /// A mesh file instead of the built-in mesh; relative to the case file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh: Option<String>,
-}
-
-/// A table without keys: its presence is the choice.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "an empty table, {}")]
-pub struct EmptyTable {}
 
 /// `[start]`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -222,6 +161,23 @@ keywords! {
         MidSeparation = "mid-separation",
         /// The last step with a contact force.
         LastContact = "last-contact",
+    }
+}
+
+impl SnapshotsValue {
+    /// None.
+    pub fn none() -> Self {
+        Self::List(Vec::new())
+    }
+
+    /// The instants with these names.
+    pub fn labels(labels: impl IntoIterator<Item = SnapshotLabel>) -> Self {
+        Self::List(labels.into_iter().map(|label| label.word().into()).collect())
+    }
+
+    /// These times.
+    pub fn times<T: Into<Quantity<Time>>>(times: impl IntoIterator<Item = T>) -> Self {
+        Self::List(times.into_iter().map(T::into).collect())
     }
 }
 

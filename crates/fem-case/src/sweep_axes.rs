@@ -8,9 +8,11 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::document::{Document, quote_key};
+use crate::document::Document;
 use crate::error::CaseError;
+use crate::key_path::quote_key;
 use crate::overrides::{Assignment, parse_path};
+use crate::toml_text::shift;
 
 /// A varied key and its values.
 #[derive(Clone, Debug)]
@@ -42,7 +44,7 @@ impl Axis {
     pub(crate) fn assignment<'t>(&self, element: usize, text: &'t str) -> Option<Assignment<'t>> {
         let span = self.elements[element].span.clone();
         let value = DeValue::parse(&text[span.clone()]).ok()?;
-        let value = crate::document::shift(value, span.start);
+        let value = shift(value, span.start);
         Some(Assignment { path: self.path.clone(), value })
     }
 

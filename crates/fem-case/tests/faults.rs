@@ -433,7 +433,7 @@ fn snapshots() {
 }
 
 #[test]
-fn models_and_effects() {
+fn models() {
     fault(
         "fem = {}",
         "auto = «{}»",
@@ -442,7 +442,6 @@ fn models_and_effects() {
     );
     fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "exactly one");
     fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
-    fault("\"off\"", "«\"on\"»", "effect `bulk_viscosity` is not available", "\"off\"");
 }
 
 #[test]

@@ -46,6 +46,8 @@ pub struct Collision {
     pub steps: Option<u64>,
     /// Elements times steps, of a model that computes each element at each step.
     pub element_updates: Option<u64>,
+    /// Steps whose contact problem took more than one solution, of a model that solves one a step.
+    pub repeated_contact_solutions: Option<u64>,
     /// Instants over contact and separation.
     pub history: Vec<Row>,
     /// Fields of finite elements, in the order of time.
@@ -92,6 +94,7 @@ impl Collision {
             time_step: None,
             steps: None,
             element_updates: None,
+            repeated_contact_solutions: None,
             history: Vec::new(),
             snapshots: Vec::new(),
             warnings: Vec::new(),

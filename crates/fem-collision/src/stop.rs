@@ -84,3 +84,24 @@ pub enum Stop {
     #[error("{0}")]
     OutOfRange(String),
 }
+
+impl Stop {
+    /// The same so much later, s: of a run that counts its time from another instant.
+    #[must_use]
+    pub fn later_by(mut self, delay: f64) -> Self {
+        match &mut self {
+            Self::Interrupted { time, .. }
+            | Self::ContactBeyondCandidates { time, .. }
+            | Self::EnergyGrowth { time, .. }
+            | Self::EnergyImbalance { time, .. }
+            | Self::NoSeparation { time, .. }
+            | Self::NoContactState { time } => *time += delay,
+            Self::ContactTooLarge { .. }
+            | Self::NotMade(_)
+            | Self::NotFinished(_)
+            | Self::OutsideValidity(_)
+            | Self::OutOfRange(_) => {}
+        }
+        self
+    }
+}

@@ -1,5 +1,6 @@
 //! Why a pair cannot be condensed, or its collision not be computed.
 
+use fem_collision::Stop;
 use fem_contact::ContactError;
 use thiserror::Error;
 
@@ -31,7 +32,7 @@ pub enum CondensedError {
     /// There is no memory for a factor.
     #[error("there is not enough memory for the factor of a body's stiffness matrix")]
     OutOfMemory,
-    /// The contact grew out of the nodes that were condensed.
+    /// The contact grew out of the nodes that were condensed already without relaxation.
     #[error(
         "the contact reached the radius {radius:.4e} m, the end of the region that was condensed"
     )]
@@ -39,43 +40,7 @@ pub enum CondensedError {
         /// Candidate radius, m.
         radius: f64,
     },
-    /// Even the whole near hemisphere is too small for the contact.
-    #[error(
-        "the contact reached {ratio:.2} of the smaller radius: the bodies are not linear there; \
-         lower the speed"
-    )]
-    ContactTooLarge {
-        /// Contact radius over the smaller sphere's.
-        ratio: f64,
-    },
-    /// The bodies stayed together too long.
-    #[error("at {time:.4e} s ({steps} steps) the bodies have not separated")]
-    NoSeparation {
-        /// Time since first touch, s.
-        time: f64,
-        /// Steps done.
-        steps: usize,
-    },
-    /// The contact problem of a step has no solution within reach.
-    #[error("at {time:.4e} s no contact state without tension and overlap was found")]
-    NoContactState {
-        /// Time since first touch, s.
-        time: f64,
-    },
-    /// Energy came from nowhere.
-    #[error("at {time:.4e} s the energy does not add up by {relative:.1e} of the initial")]
-    EnergyImbalance {
-        /// Time since first touch, s.
-        time: f64,
-        /// Imbalance over the initial energy.
-        relative: f64,
-    },
-    /// Whoever looked on stopped it.
-    #[error("interrupted at {time:.4e} s, step {steps}")]
-    Interrupted {
-        /// Time since first touch, s.
-        time: f64,
-        /// Steps done.
-        steps: usize,
-    },
+    /// A collision ended before its end.
+    #[error(transparent)]
+    Stopped(#[from] Stop),
 }

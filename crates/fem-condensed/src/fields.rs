@@ -9,13 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, Par};
-use fem_collision::{BodyFields, Snapshot, SnapshotRequest};
+use fem_collision::{BodyFields, Frame, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::CondensedError;
-use crate::collision::Collision;
-use crate::frame::Frame;
-use crate::instants::{Instant, choose};
+use crate::instants::{Instant, Trace, choose};
 use crate::motion::{Motion, SideState};
 use crate::pair::CondensedPair;
 use crate::side::PairSide;
@@ -42,28 +40,34 @@ struct State {
     sides: [Coordinates; 2],
 }
 
+/// The steps of a run.
+#[derive(Debug, Clone, Copy)]
+struct Steps {
+    /// s.
+    time_step: f64,
+    last: usize,
+}
+
 impl CondensedPair {
-    /// The snapshots of a collision in the order of time, and what could not be had. `collision`
-    /// is what [`CondensedPair::collide`] gave for the same speed and relaxations.
+    /// The snapshots of a collision in the order of time, and what could not be had. `trace` is what
+    /// a run with this time step (s), speed and relaxations left of every step.
     ///
     /// # Errors
     /// As [`CondensedPair::collide`].
-    pub fn snapshots(
+    pub(crate) fn snapshots(
         &self,
         frame: &Frame,
         relaxations: [Option<&PronySeries>; 2],
-        collision: &Collision,
+        time_step: f64,
+        trace: &[Trace],
         request: &SnapshotRequest,
     ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
-        if *request == SnapshotRequest::Labels(Vec::new()) {
-            return Ok((Vec::new(), Vec::new()));
-        }
-        let (chosen, missing) =
-            choose(&collision.trace, collision.time_step, request, frame.first_touch());
+        let approach = &frame.approach;
+        let (chosen, missing) = choose(trace, time_step, request, approach.first_touch());
         let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
-        let states = self.states(frame.approach_speed(), relaxations, collision, &instants)?;
-        let time =
-            |instant: Instant| frame.first_touch() + instant.position() * collision.time_step;
+        let steps = Steps { time_step, last: trace.len() - 1 };
+        let states = self.states(frame.speed(), relaxations, steps, &instants)?;
+        let time = |instant: Instant| approach.first_touch() + instant.position() * time_step;
         let mut snapshots: Vec<Snapshot> = chosen
             .iter()
             .zip(&states)
@@ -80,9 +84,9 @@ impl CondensedPair {
                 .iter()
                 .zip(&states)
                 .flat_map(|(&instant, [now, rates])| {
-                    let approach = now.approach + frame.gap;
-                    let centre = frame.centres(self.masses(), approach, time(instant))[s];
-                    let velocity = frame.centres(self.masses(), rates.approach, 1.0)[s];
+                    let approach = now.approach + frame.approach.gap;
+                    let centre = frame.approach.centres(self.masses(), approach, time(instant))[s];
+                    let velocity = frame.approach.centres(self.masses(), rates.approach, 1.0)[s];
                     let effective = now.sides[s].effective();
                     [
                         Some((now.sides[s].clone(), centre)),
@@ -91,7 +95,7 @@ impl CondensedPair {
                     ]
                 })
                 .collect();
-            let shear_blocks = self.shear_blocks(relaxations[s], frame.approach_speed())?;
+            let shear_blocks = self.shear_blocks(relaxations[s], frame.speed())?;
             let mut fields = Vec::with_capacity(wanted.len());
             for some in wanted.chunks(FIELDS_AT_ONCE) {
                 fields.extend(self.fields(side, relaxations[s], shear_blocks, some)?);
@@ -111,17 +115,16 @@ impl CondensedPair {
         &self,
         speed: f64,
         relaxations: [Option<&PronySeries>; 2],
-        collision: &Collision,
+        steps: Steps,
         instants: &[Instant],
     ) -> Result<Vec<[State; 2]>, CondensedError> {
         let around = |instant: Instant| match instant.part {
-            0.0 => [instant.step.saturating_sub(1), (instant.step + 1).min(collision.steps)],
+            0.0 => [instant.step.saturating_sub(1), (instant.step + 1).min(steps.last)],
             _ => [instant.step, instant.step + 1],
         };
         let needed: BTreeSet<usize> =
             instants.iter().flat_map(|&i| [around(i)[0], i.step, around(i)[1]]).collect();
-        let mut motion =
-            Motion::new(self, speed, relaxations, collision.time_step, self.points.len())?;
+        let mut motion = Motion::new(self, speed, relaxations, steps.time_step, self.points.len())?;
         let mut kept: BTreeMap<usize, (State, f64)> = BTreeMap::new();
         for step in needed {
             while motion.step < step {
@@ -132,7 +135,7 @@ impl CondensedPair {
         let states = instants.iter().map(|&instant| {
             let [before, after] = around(instant);
             let ((a, rate_a), (b, rate_b)) = (&kept[&before], &kept[&after]);
-            let width = (after - before) as f64 * collision.time_step;
+            let width = (after - before) as f64 * steps.time_step;
             let mut rates = a.combine(b, [-1.0 / width, 1.0 / width]);
             if instant.part == 0.0 {
                 let (now, rate) = &kept[&instant.step];
@@ -166,7 +169,7 @@ impl CondensedPair {
         let body = &side.body;
         let all = || wanted.iter().flatten();
         let springs = columns(all().map(|(coordinates, _)| coordinates.springs.as_slice()));
-        let relaxation = active(relaxation);
+        let relaxation = relaxation.filter(|series| series.relaxes());
         let mut fields = match relaxation.map(PronySeries::acts_on) {
             Some(ActsOn::Shear) => side.shear(shear_blocks)?.springs.fields(&springs),
             acts_on => {
@@ -229,11 +232,6 @@ impl Coordinates {
             ..Self::default()
         })
     }
-}
-
-/// A relaxation that does something.
-pub(crate) fn active(series: Option<&PronySeries>) -> Option<&PronySeries> {
-    series.filter(|series| series.terms().iter().any(|term| term.weight > 0.0))
 }
 
 fn coordinates(side: &PairSide, state: &SideState, forces: &[f64]) -> Coordinates {

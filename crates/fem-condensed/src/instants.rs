@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fem_collision::{Label, SnapshotRequest};
+use fem_collision::{Label, SnapshotRequest, did_not_occur, evenly, fewer_than_asked};
 
 /// What is remembered of every step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,27 +70,18 @@ pub(crate) fn choose(
                 };
                 match found {
                     Some(instant) => chosen.push((instant, Some(*label))),
-                    None => missing.push(format!(
-                        "the instant \"{}\" did not occur; its snapshot is left out",
-                        label.name()
-                    )),
+                    None => missing.push(did_not_occur(*label)),
                 }
             }
             chosen
         }
         SnapshotRequest::Count(n) => {
             let end = last as f64 * time_step;
-            let time = |k: usize| match n {
-                1 => 0.5 * end,
-                _ => end * k as f64 / (*n - 1) as f64,
-            };
             if *n <= last + 1 {
-                (0..*n).map(|k| (since_touch(time(k)), None)).collect()
+                let times = evenly(*n, 0.0, end).into_iter();
+                times.map(|time| (since_touch(time), None)).collect()
             } else {
-                missing.push(format!(
-                    "{n} snapshots were asked for; the contact has steps for {}",
-                    last + 1
-                ));
+                missing.push(fewer_than_asked(*n, last + 1, "steps"));
                 (0..=last).map(|step| (Instant::at(step), None)).collect()
             }
         }

@@ -10,12 +10,12 @@
 //! springs and the masses of vibration modes ([`Chain`]); one contact problem with a constant
 //! matrix is solved a step.
 
+use fem_collision::Stop;
 use fem_material::{ActsOn, PronySeries};
 
 use crate::CondensedError;
 use crate::chain::{BETA, Chain, Memory};
 use crate::disc::{Disc, DiscSolver};
-use crate::fields::active;
 use crate::pair::CondensedPair;
 use crate::side::PairSide;
 
@@ -112,7 +112,7 @@ impl<'a> Motion<'a> {
     ///
     /// # Errors
     /// No contact state; a contact that reaches the last point.
-    pub fn advance(&mut self) -> Result<(), CondensedError> {
+    pub fn advance(&mut self) -> Result<(), Stop> {
         let dt = self.time_step;
         let predicted = self.approach + dt * self.rate + (0.5 - BETA) * dt * dt * self.acceleration;
         for (overlap, point) in self.overlap.iter_mut().zip(&self.pair.points) {
@@ -126,10 +126,11 @@ impl<'a> Motion<'a> {
         self.contact = self
             .solver
             .solve(&self.overlap, &mut self.forces)
-            .map_err(|_| CondensedError::NoContactState { time: (self.step + 1) as f64 * dt })?;
+            .map_err(|_| Stop::NoContactState { time: (self.step + 1) as f64 * dt })?;
         if self.contact.n_closed == self.forces.len() {
             let radius = self.pair.points[self.forces.len() - 1].radius;
-            return Err(CondensedError::ContactBeyondCandidates { radius });
+            let (time, step) = (self.time(), self.step as u64);
+            return Err(Stop::ContactBeyondCandidates { time, step, radius });
         }
         for state in &mut self.sides {
             for chain in state.chains_mut() {
@@ -194,7 +195,7 @@ impl SideState {
         time_step: f64,
         n_points: usize,
     ) -> Result<Self, CondensedError> {
-        let series = active(series);
+        let series = series.filter(|series| series.relaxes());
         let rows = |matrix: &faer::Mat<f64>| matrix.as_ref().subrows(0, n_points).to_owned();
         let springs = match series {
             None => None,

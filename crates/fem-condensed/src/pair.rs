@@ -1,14 +1,14 @@
 //! Two bodies condensed to their contact, ready for any number of collisions.
 
 use faer::Mat;
+use fem_collision::{Approach, BodyInput, BodyResult, Frame, Stop};
 use fem_contact::{ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::CondensedError;
 use crate::curve::{ElasticCurve, ElasticImpact};
-use crate::fields::active;
 use crate::points::Points;
-use crate::settings::{BodyInput, PairSettings};
+use crate::settings::PairSettings;
 use crate::side::{PairSide, PressureNode, pressure_nodes};
 
 /// A shear modulus that falls below this share within the elastic contact time is strongly relaxed:
@@ -48,10 +48,9 @@ impl CondensedPair {
             let (name, allowed) = ("number of shear blocks", "at least 1");
             return Err(CondensedError::Setting { name, value: 0.0, allowed });
         }
-        let surfaces = inputs.each_ref().map(|input| match input {
-            BodyInput::Sphere { mesh, .. } => Surface::of_sphere(mesh),
-            BodyInput::Wall => Surface::wall(),
-        });
+        let surfaces = inputs
+            .each_ref()
+            .map(|input| input.mesh().map_or_else(Surface::wall, Surface::of_sphere));
         let Points { points, nodal_side, feet } = Points::new(&surfaces, &settings)?;
         let mut sides = [None, None];
         for (side, (input, feet)) in inputs.iter().zip(feet).enumerate() {
@@ -102,7 +101,7 @@ impl CondensedPair {
             Ok(enlarged)
         } else {
             let ratio = self.candidate_radius() / self.smallest_radius();
-            Err(CondensedError::ContactTooLarge { ratio })
+            Err(Stop::ContactTooLarge { ratio }.into())
         }
     }
 
@@ -125,6 +124,26 @@ impl CondensedPair {
     /// Masses, kg; infinite for a wall.
     pub fn masses(&self) -> [f64; 2] {
         self.sides.each_ref().map(|side| side.as_ref().map_or(f64::INFINITY, |s| s.body.mass))
+    }
+
+    /// The lower body strikes the upper one at rest at this speed, m/s.
+    pub fn frame(&self, speed: f64) -> Frame {
+        let masses = self.sides.each_ref().map(|side| side.as_ref().map(|s| s.body.mass));
+        Frame { approach: Approach::at(speed), masses, reduced_mass: self.reduced_mass }
+    }
+
+    /// What is known of the bodies before they collide.
+    pub fn bodies_before(&self, frame: &Frame) -> [BodyResult; 2] {
+        [0, 1].map(|side: usize| {
+            let mesh = self.inputs[side].mesh();
+            BodyResult {
+                elements: Some(mesh.map_or(0, |mesh| mesh.quads().len())),
+                nodes: Some(mesh.map_or(0, |mesh| mesh.nodes().len())),
+                mass: frame.masses[side],
+                added_mass: mesh.map(|_| 0.0),
+                ..BodyResult::default()
+            }
+        })
     }
 
     /// Lumped masses of a body's nodes, kg; none for a wall.
@@ -167,10 +186,7 @@ impl CondensedPair {
 
     /// The relaxations of the bodies' own materials.
     pub fn relaxations(&self) -> [Option<&PronySeries>; 2] {
-        self.inputs.each_ref().map(|input| match input {
-            BodyInput::Sphere { material, .. } => material.relaxation(),
-            BodyInput::Wall => None,
-        })
+        self.inputs.each_ref().map(|input| input.material()?.relaxation())
     }
 
     /// Makes what the first collision at this speed (m/s) with these relaxations would make: the
@@ -184,7 +200,8 @@ impl CondensedPair {
         relaxations: [Option<&PronySeries>; 2],
     ) -> Result<(), CondensedError> {
         for (side, series) in self.sides.iter().zip(relaxations) {
-            let relaxes_in_shear = active(series).is_some_and(|s| s.acts_on() == ActsOn::Shear);
+            let relaxes_in_shear =
+                series.is_some_and(|s| s.relaxes() && s.acts_on() == ActsOn::Shear);
             if let Some(side) = side.as_ref().filter(|_| relaxes_in_shear) {
                 side.shear(self.shear_blocks(series, speed)?)?;
             }
@@ -199,7 +216,7 @@ impl CondensedPair {
         speed: f64,
     ) -> Result<usize, CondensedError> {
         let usual = self.settings.shear_blocks;
-        let Some(series) = active(series) else { return Ok(usual) };
+        let Some(series) = series.filter(|series| series.relaxes()) else { return Ok(usual) };
         let left = series.relaxation(self.elastic_impact(speed)?.contact_time);
         Ok(if left < STRONG_RELAXATION { usual.max(STRONG_BLOCKS) } else { usual })
     }

@@ -1,21 +1,4 @@
-//! What a pair is condensed from, and how.
-
-use fem_material::Material;
-use fem_mesh::SphereMesh;
-
-/// What a body is.
-#[derive(Debug, Clone, PartialEq)]
-pub enum BodyInput {
-    /// A meshed sphere.
-    Sphere {
-        /// Its mesh, on its side of the plane y = 0.
-        mesh: SphereMesh,
-        /// Its material; a relaxation in it is what [`crate::CondensedPair::relaxations`] gives.
-        material: Material,
-    },
-    /// A rigid plane of infinite mass.
-    Wall,
-}
+//! How a pair is condensed.
 
 /// How the surfaces resist overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]

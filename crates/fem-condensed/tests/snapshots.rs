@@ -3,13 +3,26 @@
 mod common;
 
 use common::{GLASS, Scene, glass, material};
-use fem_condensed::{CollideSettings, CondensedPair, ContactModel, Frame, PairSettings};
-use fem_collision::{Label, SnapshotRequest, StressField};
+use fem_collision::{
+    Approach, BodyInput, Collision, Expectation, Frame, Label, SnapshotRequest, StressField, Want,
+};
+use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{self, All, Shear};
 use fem_material::Material;
 
 fn relaxing(acts_on: ActsOn) -> Material {
     material(GLASS, acts_on, &[(1.0, 2708.0)])
+}
+
+/// A collision with the relaxations of the bodies' own materials and these snapshots.
+fn drawn(
+    pair: &CondensedPair,
+    frame: Frame,
+    snapshots: SnapshotRequest,
+    n_steps: usize,
+) -> Collision {
+    let want = Want { snapshots, ..Want::quantities() };
+    pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap()
 }
 
 /// Everything that the snapshots say about the bodies as a whole, for every kind of body.
@@ -25,18 +38,17 @@ fn snapshots_are_the_motion() {
         let scene = Scene::paper(lower, upper);
         let settings = PairSettings { vibration_modes, ..scene.settings() };
         let pair = CondensedPair::new(scene.inputs(8.0), settings).unwrap();
-        let run = common::collide(&pair, 0.5, &CollideSettings::default());
-        let frame = Frame { velocities: [0.7, 0.2], gap: 1e-6 };
-        let request = SnapshotRequest::Labels(Label::ALL.to_vec());
-        let (snapshots, missing) =
-            pair.snapshots(&frame, pair.relaxations(), &run, &request).unwrap();
+        let approach = Approach { velocities: [0.7, 0.2], gap: 1e-6 };
+        let frame = Frame { approach, ..pair.frame(0.5) };
+        let run = drawn(&pair, frame, SnapshotRequest::Labels(Label::ALL.to_vec()), 200);
+        let (snapshots, missing) = (&run.snapshots, &run.warnings);
         assert!(missing.is_empty() && snapshots.len() == 4, "{missing:?}");
         assert!(snapshots.windows(2).all(|two| two[0].time < two[1].time));
         let momentum = {
             let [lower, upper] = pair.masses();
             lower * 0.7 + upper * 0.2
         };
-        for snapshot in &snapshots {
+        for snapshot in snapshots {
             let mut total = 0.0;
             let mut centres = [0.0; 2];
             for (side, fields) in snapshot.bodies.iter().enumerate() {
@@ -51,31 +63,37 @@ fn snapshots_are_the_motion() {
             assert!((total / momentum - 1.0).abs() < 1e-9);
             assert!((centres[0] - centres[1] - 1e-6 - snapshot.approach).abs() < 1e-15);
         }
-        let half = 0.5 * run.max_approach;
+        let half = 0.5 * run.max_approach.unwrap();
         assert!((snapshots[0].approach / half - 1.0).abs() < 0.02);
-        assert!((snapshots[1].approach / run.max_approach - 1.0).abs() < 1e-3);
+        assert!((snapshots[1].approach / run.max_approach.unwrap() - 1.0).abs() < 1e-3);
         assert!((snapshots[2].approach / half - 1.0).abs() < 0.02);
         assert!(
-            (snapshots[3].time - frame.first_touch() - run.contact_time).abs() <= run.time_step
+            (snapshots[3].time - approach.first_touch() - run.contact_time.unwrap()).abs()
+                <= run.time_step.unwrap()
         );
 
         // Under the contact the stress is Hertz'.
         let maximum = &snapshots[1];
         for (side, input) in pair.inputs().iter().enumerate() {
-            let fem_condensed::BodyInput::Sphere { mesh, material } = input else { continue };
+            let BodyInput::Sphere { mesh, material } = input else { continue };
             let stress = StressField::of(mesh, material, &maximum.bodies[side]);
             let depth = |node: u32| mesh.nodes()[node as usize][1].abs();
-            for &node in
-                mesh.axis().iter().filter(|&&node| depth(node) < 3.0 * run.max_contact_radius)
+            for &node in mesh
+                .axis()
+                .iter()
+                .filter(|&&node| depth(node) < 3.0 * run.max_contact_radius.unwrap())
             {
                 let hertz = fem_laws::HertzPressure {
-                    contact_radius: run.max_contact_radius,
-                    peak_pressure: run.peak_pressure,
+                    contact_radius: run.max_contact_radius.unwrap(),
+                    peak_pressure: run.peak_pressure.unwrap(),
                 };
                 let expected = hertz.axis_stress(depth(node), 0.244).axial;
                 let found = stress.points[node as usize][1];
                 // Recovered from elements of an eighth of the radius; 4 % at the surface.
-                assert!((found - expected).abs() < 0.05 * run.peak_pressure, "{found} {expected}");
+                assert!(
+                    (found - expected).abs() < 0.05 * run.peak_pressure.unwrap(),
+                    "{found} {expected}"
+                );
             }
         }
     }
@@ -87,14 +105,16 @@ fn counts_and_times() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(6.0);
     let run = scene.collide(&pair);
-    let frame = Frame { velocities: [0.5, 0.0], gap: 0.0 };
-    let with = |request| pair.snapshots(&frame, [None; 2], &run, &request).unwrap();
+    let with = |request| {
+        let run = drawn(&pair, pair.frame(0.5), request, 200);
+        (run.snapshots, run.warnings)
+    };
     let (five, missing) = with(SnapshotRequest::Count(5));
     assert!(five.len() == 5 && missing.is_empty());
     for (k, snapshot) in five.iter().enumerate() {
-        let time = run.contact_time * k as f64 / 4.0;
+        let time = run.contact_time.unwrap() * k as f64 / 4.0;
         // The contact ends within a step of its last.
-        assert!((snapshot.time - time).abs() <= 1.01 * run.time_step);
+        assert!((snapshot.time - time).abs() <= 1.01 * run.time_step.unwrap());
     }
     let (many, missing) = with(SnapshotRequest::Count(10_000));
     assert!(many.len() < 300 && missing.len() == 1);
@@ -109,56 +129,49 @@ fn fields_are_the_explicit_ones() {
     let scene = Scene::paper(relaxing(Shear), relaxing(All));
     let stiffness = 5.0 * scene.pair().contact_modulus();
     let hertz = scene.hertz();
-    let bodies = [0, 1].map(|side: usize| fem_explicit::BodyInput::Deformable {
-        mesh: scene.mesh(side, 5.0).unwrap(),
-        material: scene.bodies[side].clone().unwrap().1,
-        velocity: [0.5, 0.0][side],
-    });
+    let bodies = scene.inputs(5.0);
     let settings = fem_explicit::Settings {
         contact_stiffness: stiffness,
         candidate_radius: 1.5 * hertz.max_contact_radius(),
         step_factor: 0.9,
         mass_scaling: 3e-5,
-        gap: 0.0,
     };
-    let model = fem_explicit::Model::new(bodies, &settings).unwrap();
+    let model = fem_explicit::Model::new(bodies, Approach::at(0.5), &settings).unwrap();
     let request = SnapshotRequest::Labels(vec![Label::Maximum]);
-    let settings = fem_explicit::RunSettings {
-        expected_contact_time: hertz.contact_time(),
-        expected_approach: hertz.max_approach(),
-        history_rows: 100,
-        snapshots: request.clone(),
-        max_time: 1e-3,
-    };
-    let reference = fem_explicit::collide(&model, &settings, &mut ());
+    let expected =
+        Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
+    let want = Want { history_rows: 100, snapshots: request.clone(), give_up_after: 20.0 };
+    let reference = fem_explicit::collide(&model, expected, &want, &mut ());
     let settings = PairSettings {
         contact: ContactModel::Springs(stiffness),
         vibration_modes: 12,
         ..scene.settings()
     };
     let pair = CondensedPair::new(scene.inputs(5.0), settings).unwrap();
-    let run = common::collide(&pair, 0.5, &CollideSettings { n_steps: 1000, ..Default::default() });
-    let frame = Frame { velocities: [0.5, 0.0], gap: 0.0 };
-    let (snapshots, _) = pair.snapshots(&frame, pair.relaxations(), &run, &request).unwrap();
+    let run = drawn(&pair, pair.frame(0.5), request, 1000);
     for side in 0..2 {
-        let (found, expected) = (&snapshots[0].bodies[side], &reference.snapshots[0].bodies[side]);
+        let (found, expected) =
+            (&run.snapshots[0].bodies[side], &reference.snapshots[0].bodies[side]);
         let distance = |a: &[[f64; 2]], b: &[[f64; 2]]| {
             let pairs = a.as_flattened().iter().zip(b.as_flattened());
             pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
         };
         // Against the approach. The instants differ by up to a step of either model, 4e-8 s, in
         // which the bodies move by 1e-8 m: 1e-3 of the approach.
-        assert!(distance(&found.displacement, &expected.displacement) < 3e-3 * run.max_approach);
+        assert!(
+            distance(&found.displacement, &expected.displacement)
+                < 3e-3 * run.max_approach.unwrap()
+        );
         // The effective displacements differ by a rigid motion that no stress sees.
         let stress = |fields| {
             let input = &pair.inputs()[side];
-            let fem_condensed::BodyInput::Sphere { mesh, material } = input else { panic!() };
+            let BodyInput::Sphere { mesh, material } = input else { panic!() };
             StressField::of(mesh, material, fields).cells
         };
         let (found, expected) = (stress(found), stress(expected));
         let pairs = found.as_flattened().iter().zip(expected.as_flattened());
         let worst = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // The explicit contact force is noisy by some parts in a thousand.
-        assert!(worst < 1e-2 * run.peak_pressure, "{worst:e}");
+        assert!(worst < 1e-2 * run.peak_pressure.unwrap(), "{worst:e}");
     }
 }

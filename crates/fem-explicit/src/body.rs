@@ -7,25 +7,6 @@ use fem_mesh::SphereMesh;
 use crate::block::Blocks;
 use crate::kernel::{Field, Moduli, strain_energy};
 
-/// What a body is made of and how it moves at first.
-#[derive(Debug, Clone, PartialEq)]
-pub enum BodyInput {
-    /// A meshed sphere.
-    Deformable {
-        /// Its mesh, on its side of the plane y = 0.
-        mesh: SphereMesh,
-        /// Its material.
-        material: Material,
-        /// Initial velocity along +y, m/s.
-        velocity: f64,
-    },
-    /// A rigid plane of infinite mass that keeps its velocity.
-    Wall {
-        /// Velocity along +y, m/s.
-        velocity: f64,
-    },
-}
-
 /// One Prony term at the run's time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Branch {

@@ -12,15 +12,16 @@
 //! add up is the residual, which can fail. Dissipated power is integrated by the
 //! trapezoidal rule over the rows of the history.
 
+use fem_collision::{Account, Book, Losses, Row};
 use fem_contact::ContactForces;
+use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
-use crate::history::HistoryRow;
 use crate::model::Model;
 use crate::state::{BodyState, Scratch, State};
 
 /// Running sums and worst imbalances.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Ledger {
     /// Kinetic energy at the start, walls not counted, J.
     pub initial: f64,
@@ -35,8 +36,9 @@ pub(crate) struct Ledger {
     momentum_scale: f64,
     /// ∫ F dt up to t_n − Δt/2, N s.
     impulse: f64,
-    dissipated: f64,
-    last_power: Option<(f64, f64)>,
+    losses: Losses,
+    /// Time of the last row, s.
+    last_time: f64,
 }
 
 /// Kinetic energies and centre of one body.
@@ -54,17 +56,17 @@ impl Ledger {
         let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
         let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
         // A wall can bring all of the motion to a body at rest.
-        let momentum_of_approach = sum(&Body::total_mass) * model.approach_speed();
+        let momentum_of_approach = sum(&Body::total_mass) * model.approach().speed();
         Self {
             initial: sum(&|body| 0.5 * body.total_mass() * body.velocity.powi(2)),
-            initial_relative: 0.5 * model.approach_speed().powi(2) / inverse_mass,
+            initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
             worst_momentum: 0.0,
             initial_momentum: sum(&|body| body.total_mass() * body.velocity),
             momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
             impulse: 0.0,
-            dissipated: 0.0,
-            last_power: None,
+            losses: Losses::default(),
+            last_time: model.approach().first_touch(),
         }
     }
 
@@ -80,7 +82,7 @@ impl Ledger {
         state: &State,
         scratch: &Scratch,
         contact: &ContactForces,
-    ) -> HistoryRow {
+    ) -> Row {
         let bodies = model.bodies();
         let [lower, upper] = [0, 1].map(|side: usize| {
             balance_body(
@@ -96,32 +98,33 @@ impl Ledger {
             strain += stored;
             power += dissipated;
         }
-        if let Some((time, last)) = self.last_power {
-            self.dissipated += 0.5 * (last + power) * (state.time - time);
-        }
-        self.last_power = Some((state.time, power));
+        self.losses.advance(
+            state.time - self.last_time,
+            Book::EMPTY.with(Account::ViscousDissipation, power),
+        );
+        self.last_time = state.time;
 
-        let kinetic = lower.kinetic + upper.kinetic;
-        let total = kinetic + strain + contact.energy + self.dissipated;
-        let wall_work = self.wall_work(model, contact.force);
-        let residual = total - self.initial - wall_work;
+        let energies = self
+            .losses
+            .energies()
+            .with(Account::Kinetic, lower.kinetic + upper.kinetic)
+            .with(Account::Strain, strain)
+            .with(Account::Contact, contact.energy)
+            .with(Account::WallWork, self.wall_work(model, contact.force));
+        let residual = energies.residual(self.initial);
         self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
         self.balance_momentum(model, state);
 
         let u = [state.bodies[0].u.as_slice(), state.bodies[1].u.as_slice()];
-        HistoryRow {
+        Row {
             time: state.time,
             contact_force: contact.force,
-            contact_radius: model.interface().contact_radius(u),
-            approach: lower.displacement - upper.displacement - model.gap(),
-            centre_pressure: model.interface().centre_pressure(u),
+            contact_radius: Some(model.interface().contact_radius(u)),
+            approach: lower.displacement - upper.displacement - model.approach().gap,
+            centre_pressure: Some(model.interface().centre_pressure(u)),
             velocity: [lower.velocity, upper.velocity],
-            kinetic,
-            strain,
-            contact: contact.energy,
-            viscous_dissipation: self.dissipated,
-            wall_work,
-            residual,
+            energies,
+            residual: Some(residual),
             vibration: [lower.vibration, upper.vibration],
         }
     }

@@ -12,22 +12,23 @@
 //! Viscoelastic bodies keep one nodal vector a Prony term.
 //!
 //! [`collide`] runs a [`Model`] from first touch until the bodies have separated
-//! and returns a [`Collision`]: history with energy ledger, snapshots, and the
-//! quantities of the collision. [`StressField`] recovers stresses from a
-//! snapshot. [`FreeMotion`] is one body without contact.
+//! and returns a [`Collision`](fem_collision::Collision): history with energy
+//! ledger, snapshots, and the quantities of the collision. [`FreeMotion`] is one
+//! body without contact.
 
 mod block;
 mod body;
-mod collision;
+mod contact_log;
 mod error;
 mod free_motion;
-mod history;
 mod kernel;
 mod lanes;
 mod ledger;
+mod memory;
 mod model;
 mod nodes;
 mod recorder;
+mod run;
 mod snapshot;
 mod state;
 mod step;
@@ -37,11 +38,10 @@ mod test_support;
 mod tests;
 mod time_step;
 
-pub use body::{Body, BodyInput};
-pub use collision::{Collision, Monitor, Progress, RunSettings, collide};
-pub use error::{ModelError, Stop};
-pub use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest, StressField, invariants};
+pub use body::Body;
+pub use error::ModelError;
 pub use free_motion::FreeMotion;
-pub use history::HistoryRow;
+pub use memory::Memory;
 pub use model::{Model, Settings};
+pub use run::{Run, Status, collide};
 pub use snapshot::n_states;

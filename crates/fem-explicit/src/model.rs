@@ -1,8 +1,9 @@
 //! The whole problem, constant over a run.
 
+use fem_collision::{Approach, BodyInput};
 use fem_contact::{ContactInterface, Surface};
 
-use crate::body::{Body, BodyInput};
+use crate::body::Body;
 use crate::error::ModelError;
 use crate::time_step::NodalBound;
 
@@ -17,8 +18,6 @@ pub struct Settings {
     pub step_factor: f64,
     /// Largest added mass as a fraction of a body's mass, in [0, 1).
     pub mass_scaling: f64,
-    /// Distance of the surfaces at time 0, m.
-    pub gap: f64,
 }
 
 /// Two bodies, their contact and the time step. The first body lies below.
@@ -28,8 +27,7 @@ pub struct Model {
     interface: ContactInterface,
     time_step: f64,
     plain_time_step: f64,
-    gap: f64,
-    first_touch: f64,
+    approach: Approach,
 }
 
 impl Model {
@@ -37,31 +35,33 @@ impl Model {
     ///
     /// # Errors
     /// Settings out of range, two walls, bodies that do not approach.
-    pub fn new(inputs: [BodyInput; 2], settings: &Settings) -> Result<Self, ModelError> {
-        check(settings)?;
-        let velocities = inputs.each_ref().map(BodyInput::velocity);
-        let approach_speed = velocities[0] - velocities[1];
+    pub fn new(
+        inputs: [BodyInput; 2],
+        approach: Approach,
+        settings: &Settings,
+    ) -> Result<Self, ModelError> {
+        check(settings, approach.gap)?;
+        let approach_speed = approach.speed();
         if !(approach_speed > 0.0 && approach_speed.is_finite()) {
             return Err(ModelError::NotApproaching(approach_speed));
         }
-        let [lower, upper] = inputs.each_ref().map(|input| match input {
-            BodyInput::Deformable { mesh, .. } => Surface::of_sphere(mesh),
-            BodyInput::Wall { .. } => Surface::wall(),
-        });
+        let [lower, upper] = inputs
+            .each_ref()
+            .map(|input| input.mesh().map_or_else(Surface::wall, Surface::of_sphere));
         let interface = ContactInterface::new(
             lower,
             upper,
             settings.contact_stiffness,
-            settings.gap,
+            approach.gap,
             settings.candidate_radius,
         )?;
         let bounds: [Option<NodalBound>; 2] = std::array::from_fn(|side| match &inputs[side] {
-            BodyInput::Deformable { mesh, material, .. } => {
+            BodyInput::Sphere { mesh, material } => {
                 let mut bound = NodalBound::of_sphere(mesh, material);
                 interface.add_stiffness_bound(side, &mut bound.stiffness);
                 Some(bound)
             }
-            BodyInput::Wall { .. } => None,
+            BodyInput::Wall => None,
         });
         let smallest = |step: &dyn Fn(&NodalBound) -> f64| {
             bounds.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
@@ -70,21 +70,19 @@ impl Model {
         let critical = smallest(&|bound| bound.scaled_time_step(settings.mass_scaling));
         let time_step = settings.step_factor * critical;
         let mut parts = inputs.into_iter().zip(bounds);
-        let mut body = || match parts.next() {
-            Some((BodyInput::Deformable { mesh, material, velocity }, Some(bound))) => {
+        let bodies = approach.velocities.map(|velocity| match parts.next() {
+            Some((BodyInput::Sphere { mesh, material }, Some(bound))) => {
                 let (nodal_mass, added_mass) = bound.scale_mass(critical);
                 Body::deformable(mesh, &material, velocity, nodal_mass, added_mass, time_step)
             }
-            Some((input, _)) => Body::wall(input.velocity()),
-            None => Body::wall(0.0),
-        };
+            _ => Body::wall(velocity),
+        });
         Ok(Self {
-            bodies: [body(), body()],
+            bodies,
             interface,
             time_step,
             plain_time_step: settings.step_factor * plain,
-            gap: settings.gap,
-            first_touch: settings.gap / approach_speed,
+            approach,
         })
     }
 
@@ -108,19 +106,9 @@ impl Model {
         self.plain_time_step
     }
 
-    /// Distance of the surfaces at time 0, m.
-    pub fn gap(&self) -> f64 {
-        self.gap
-    }
-
-    /// Time at which the surfaces touch, s: free flight is not stepped.
-    pub fn first_touch(&self) -> f64 {
-        self.first_touch
-    }
-
-    /// Relative velocity of approach at the start, m/s.
-    pub fn approach_speed(&self) -> f64 {
-        self.bodies[0].velocity - self.bodies[1].velocity
+    /// How the bodies meet. Free flight before first touch is not stepped.
+    pub fn approach(&self) -> &Approach {
+        &self.approach
     }
 
     /// Number of elements of both bodies.
@@ -129,16 +117,8 @@ impl Model {
     }
 }
 
-impl BodyInput {
-    fn velocity(&self) -> f64 {
-        match self {
-            Self::Deformable { velocity, .. } | Self::Wall { velocity } => *velocity,
-        }
-    }
-}
-
-fn check(settings: &Settings) -> Result<(), ModelError> {
-    let &Settings { step_factor, mass_scaling, gap, .. } = settings;
+fn check(settings: &Settings, gap: f64) -> Result<(), ModelError> {
+    let &Settings { step_factor, mass_scaling, .. } = settings;
     let setting = |name, value, allowed| Err(ModelError::Setting { name, value, allowed });
     check_step_factor(step_factor)?;
     if !(0.0..1.0).contains(&mass_scaling) {

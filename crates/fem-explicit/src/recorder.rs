@@ -6,10 +6,13 @@
 //! Snapshots spread evenly over the contact need its length; states are kept at
 //! an even spacing that doubles whenever there are too many.
 
-use fem_collision::{Label, Snapshot, SnapshotRequest};
+use fem_collision::{
+    Expectation, Label, Snapshot, SnapshotRequest, did_not_occur, evenly, fewer_than_asked,
+};
+use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
-use crate::snapshot::{in_free_flight, take};
+use crate::snapshot::{in_free_flight, n_kept, take};
 use crate::state::{Scratch, State};
 
 /// Growth of the approach from rung to rung: the nearest to half of the maximum
@@ -17,12 +20,6 @@ use crate::state::{Scratch, State};
 const RUNG_RATIO: f64 = 1.03;
 /// Share of the expected approach at which the ladder begins.
 const LADDER_START: f64 = 0.02;
-
-/// States kept at most for so many snapshots evenly over the contact: two to
-/// four for each, and enough to find the middle of a few.
-pub(crate) fn n_kept(n_snapshots: usize) -> usize {
-    n_snapshots.max(16).saturating_mul(4)
-}
 
 /// What the recorder is told of a step.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +35,7 @@ pub(crate) struct Instant {
 }
 
 /// Keeps what the request asks for.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Recorder {
     request: SnapshotRequest,
     expected_approach: f64,
@@ -55,26 +52,21 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    pub fn new(
-        request: &SnapshotRequest,
-        model: &Model,
-        expected_approach: f64,
-        expected_contact_time: f64,
-    ) -> Self {
+    pub fn new(request: &SnapshotRequest, model: &Model, expected: Expectation) -> Self {
         let mut request = request.clone();
         let mut kept = Vec::new();
         if let SnapshotRequest::Times(times) = &mut request {
             times.sort_by(f64::total_cmp);
-            let in_flight = times.iter().take_while(|&&time| time < model.first_touch());
+            let in_flight = times.iter().take_while(|&&time| time < model.approach().first_touch());
             kept.extend(in_flight.map(|&time| in_free_flight(model, time)));
         }
         let spacing = match request {
-            SnapshotRequest::Count(n) => 2.0 * expected_contact_time / n_kept(n) as f64,
+            SnapshotRequest::Count(n) => 2.0 * expected.contact_time / n_kept(n) as f64,
             _ => 0.0,
         };
         Self {
             request,
-            expected_approach,
+            expected_approach: expected.approach,
             next_time: kept.len(),
             kept,
             pool: Vec::new(),
@@ -98,8 +90,12 @@ impl Recorder {
             SnapshotRequest::Count(_) => true,
             SnapshotRequest::Times(_) => false,
         };
+        if now.is_closed {
+            // In contact again: what was kept is not the last contact.
+            self.pool.extend(self.last_contact.take());
+        }
         if now.is_last_contact && wants_last {
-            self.last_contact = Some(copy(self.last_contact.take(), Some(Label::LastContact)));
+            self.last_contact = Some(copy(self.pool.pop(), Some(Label::LastContact)));
         }
         match &self.request {
             SnapshotRequest::Labels(labels) => match self.max_approach {
@@ -193,21 +189,15 @@ impl Recorder {
                     }
                     match snapshot {
                         Some(snapshot) => found.push(snapshot),
-                        None => missing.push(format!(
-                            "the instant \"{}\" did not occur; its snapshot is left out",
-                            label.name()
-                        )),
+                        None => missing.push(did_not_occur(label)),
                     }
                 }
                 found
             }
             SnapshotRequest::Count(n) => {
-                let found = evenly(self.kept, self.last_contact, n);
+                let found = nearest_to_even(self.kept, self.last_contact, n);
                 if found.len() < n {
-                    missing.push(format!(
-                        "{n} snapshots were asked for; the contact has states for {}",
-                        found.len()
-                    ));
+                    missing.push(fewer_than_asked(n, found.len(), "states"));
                 }
                 found
             }
@@ -225,7 +215,7 @@ impl Recorder {
 }
 
 /// The `n` states nearest to an even spacing between the first and the last.
-fn evenly(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) -> Vec<Snapshot> {
+fn nearest_to_even(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) -> Vec<Snapshot> {
     if let Some(last) = last {
         kept.retain(|snapshot| snapshot.time < last.time);
         kept.push(Snapshot { label: None, ..last });
@@ -234,12 +224,8 @@ fn evenly(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) -> Vec<Snap
         return kept;
     };
     let (start, length) = (first.time, end.time - first.time);
-    let wanted: Vec<f64> = match n {
-        1 => vec![start + 0.5 * length],
-        _ => (0..n).map(|k| start + length * k as f64 / (n - 1) as f64).collect(),
-    };
-    let mut chosen: Vec<usize> = wanted
-        .iter()
+    let mut chosen: Vec<usize> = evenly(n, start, length)
+        .into_iter()
         .filter_map(|time| {
             (0..kept.len()).min_by(|&a, &b| {
                 (kept[a].time - time).abs().total_cmp(&(kept[b].time - time).abs())

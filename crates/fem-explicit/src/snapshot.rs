@@ -4,7 +4,6 @@ use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest};
 
 use crate::model::Model;
 use crate::nodes::advance_motion;
-use crate::recorder::n_kept;
 use crate::state::{Scratch, State};
 
 /// States that a run keeps in memory for a request, beyond the ladder for the labels.
@@ -14,6 +13,12 @@ pub fn n_states(request: &SnapshotRequest) -> usize {
         SnapshotRequest::Count(n) => n_kept(*n),
         SnapshotRequest::Times(times) => times.len(),
     }
+}
+
+/// States kept at most for so many snapshots evenly over the contact: two to
+/// four for each, and enough to find the middle of a few.
+pub(crate) fn n_kept(n_snapshots: usize) -> usize {
+    n_snapshots.max(16).saturating_mul(4)
 }
 
 /// Overwrites a snapshot with the state at t_n, whose forces are in
@@ -63,6 +68,6 @@ pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
             effective: vec![displacement; relaxing],
         }
     });
-    let approach = model.approach_speed() * time - model.gap();
+    let approach = model.approach().speed() * time - model.approach().gap;
     Snapshot { label: None, time, approach, bodies }
 }

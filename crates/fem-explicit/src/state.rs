@@ -1,10 +1,12 @@
 //! What changes in a run.
 
+use serde::{Deserialize, Serialize};
+
 use crate::body::Body;
 use crate::model::Model;
 
 /// State of a body at time t_n; velocities belong to t_n − Δt/2.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BodyState {
     /// Displacement, m.
     pub u: Vec<[f64; 2]>,
@@ -16,8 +18,8 @@ pub(crate) struct BodyState {
     pub q: Vec<Vec<[f64; 2]>>,
 }
 
-/// State of both bodies: the whole restart.
-#[derive(Debug, Clone, PartialEq)]
+/// State of both bodies.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct State {
     /// Steps done.
     pub step: u64,
@@ -36,7 +38,7 @@ pub(crate) struct Scratch {
 impl State {
     /// The bodies at first touch, undeformed.
     pub fn at_first_touch(model: &Model) -> Self {
-        let time = model.first_touch();
+        let time = model.approach().first_touch();
         let bodies = model.bodies().each_ref().map(|body| BodyState::in_flight(body, time));
         Self { step: 0, time, bodies }
     }
@@ -54,6 +56,17 @@ impl BodyState {
         let mut state = Self { u, v, w, q: vec![vec![[0.0; 2]; n]; n_branches] };
         state.update_effective(body);
         state
+    }
+}
+
+impl BodyState {
+    /// Whether its fields are of the body's sizes.
+    pub fn fits(&self, body: &Body) -> bool {
+        let (n, n_branches) = (body.nodal_mass.len(), body.n_branches());
+        let n_effective = if n_branches > 0 { n } else { 0 };
+        [self.u.len(), self.v.len(), self.w.len()] == [n, n, n_effective]
+            && self.q.len() == n_branches
+            && self.q.iter().all(|q| q.len() == n)
     }
 }
 

@@ -33,7 +33,7 @@ pub(crate) fn advance(model: &Model, state: &mut State, scratch: &Scratch) {
         );
     }
     state.step += 1;
-    state.time = model.first_touch() + state.step as f64 * model.time_step();
+    state.time = model.approach().first_touch() + state.step as f64 * model.time_step();
 }
 
 /// Whether the next configuration is in contact; reads the forces of the

@@ -1,14 +1,15 @@
 //! What the unit tests share.
 
+use fem_collision::{Approach, BodyInput};
 use fem_element::{QuadGeometry, mean_gradient};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 use nalgebra::{DMatrix, DVector};
 
+use crate::Body;
 use crate::kernel::{Field, Moduli};
 use crate::model::{Model, Settings};
 use crate::state::State;
-use crate::{Body, BodyInput};
 
 /// ν = 0.244 in units of density, shear modulus and so of the shear wave's speed.
 pub(crate) fn unit_glass() -> Material {
@@ -45,14 +46,8 @@ pub(crate) fn sphere(size: f64, refined_radius: f64, side: Side) -> SphereMesh {
 }
 
 /// Settings with a far-away contact and no mass scaling.
-pub(crate) fn settings(gap: f64) -> Settings {
-    Settings {
-        contact_stiffness: 1.0,
-        candidate_radius: 0.3,
-        step_factor: 0.9,
-        mass_scaling: 0.0,
-        gap,
-    }
+pub(crate) fn settings() -> Settings {
+    Settings { contact_stiffness: 1.0, candidate_radius: 0.3, step_factor: 0.9, mass_scaling: 0.0 }
 }
 
 /// A sphere alone and at rest: a wall far below never meets it.
@@ -61,9 +56,10 @@ pub(crate) fn free_sphere(
     material: Material,
     step_factor: f64,
 ) -> (Model, State) {
-    let sphere = BodyInput::Deformable { mesh, material, velocity: 0.0 };
-    let settings = Settings { step_factor, ..settings(1e3) };
-    let model = Model::new([BodyInput::Wall { velocity: 1.0 }, sphere], &settings).unwrap();
+    let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
+    let approach = Approach { velocities: [1.0, 0.0], gap: 1e3 };
+    let settings = Settings { step_factor, ..settings() };
+    let model = Model::new(bodies, approach, &settings).unwrap();
     let mut state = State::at_first_touch(&model);
     state.bodies[0].u.fill([0.0; 2]);
     state.bodies[0].v.fill([0.0; 2]);

@@ -6,7 +6,8 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use common::Pair;
-use fem_explicit::{Label, SnapshotRequest, collide};
+use fem_collision::{Label, SnapshotRequest};
+use fem_explicit::collide;
 use fem_material::ActsOn;
 
 thread_local! {
@@ -31,10 +32,10 @@ static ALLOCATOR: Counting = Counting;
 
 /// Allocations and steps of a run.
 fn count(pair: &Pair) -> (usize, u64) {
-    let (model, settings) = (pair.model(), pair.run_settings());
+    let (model, want) = (pair.model(), pair.want());
     let before = COUNT.get();
-    let run = collide(&model, &settings, &mut ());
-    (COUNT.get() - before, run.steps)
+    let run = collide(&model, pair.expected(), &want, &mut ());
+    (COUNT.get() - before, run.steps.unwrap())
 }
 
 #[test]

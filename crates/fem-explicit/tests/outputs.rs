@@ -2,12 +2,13 @@
 
 mod common;
 
-use common::{HERTZ_TIME, Pair, contact_time};
-use fem_contact::ContactError;
-use fem_explicit::{
-    Collision, Label, Model, ModelError, Monitor, Progress, Settings, SnapshotRequest, Stop,
-    collide,
+use common::{HERTZ_TIME, Pair, quantities};
+use fem_collision::{
+    Account, Approach, BodyInput, Collision, Ending, Label, Monitor, Progress, Row,
+    SnapshotRequest, Stop,
 };
+use fem_contact::ContactError;
+use fem_explicit::{Model, ModelError, Settings, collide};
 use fem_material::ActsOn;
 
 fn coarse() -> Pair {
@@ -16,7 +17,7 @@ fn coarse() -> Pair {
 
 fn assert_times_increase(run: &Collision) {
     let pairs = run.history.windows(2);
-    assert!(pairs.clone().all(|pair| pair[0].time < pair[1].time), "{:?}", run.stopped);
+    assert!(pairs.clone().all(|pair| pair[0].time < pair[1].time), "{:?}", run.ending);
 }
 
 #[test]
@@ -34,13 +35,16 @@ fn history_has_a_thousand_rows_with_first_and_last_contact() {
     // A row belongs to one instant: its energies add up, its approach is that of its velocities.
     let peak = run.history.iter().max_by(|a, b| a.approach.total_cmp(&b.approach)).unwrap();
     assert!((peak.velocity[0] - peak.velocity[1]).abs() < 0.005 * 0.5, "{peak:?}");
-    assert!((peak.contact_force / run.peak_force - 1.0).abs() < 0.01);
+    let found = quantities(&run);
+    assert!((peak.contact_force / found.peak_force - 1.0).abs() < 0.01);
     // The row of the end: after a fifth of the contact time without force.
     let end = run.history.last().unwrap();
-    assert!((end.time - last) / contact_time(&run) >= 0.2);
-    assert!((end.time - last) / contact_time(&run) < 0.21);
-    assert_eq!([end.contact_force, end.contact, end.contact_radius, end.centre_pressure], [0.0; 4]);
-    assert_eq!(end.velocity, run.velocity_after);
+    assert!((end.time - last) / found.contact_time >= 0.2);
+    assert!((end.time - last) / found.contact_time < 0.21);
+    assert_eq!(end.contact_force, 0.0);
+    assert_eq!([end.contact_radius, end.centre_pressure], [Some(0.0); 2]);
+    assert_eq!(end.energy(Account::Contact), Some(0.0));
+    assert_eq!(end.velocity, found.velocity_after);
 }
 
 #[test]
@@ -59,15 +63,16 @@ fn labelled_snapshots_are_the_named_instants() {
         let pair = Pair { snapshots, relaxation, ..Pair::default() };
         let model = pair.model();
         let run = pair.run_model(&model);
+        let found = quantities(&run);
         let labels: Vec<_> = run.snapshots.iter().map(|s| s.label.unwrap()).collect();
         assert_eq!(labels, Label::ALL);
         let [compression, maximum, separation, last] = &run.snapshots[..] else { panic!() };
         for half in [compression, separation] {
             // The promise; 1.5 % is the ladder's, a step's 0.03 %.
-            assert!((half.approach / (0.5 * run.max_approach) - 1.0).abs() < 0.02);
+            assert!((half.approach / (0.5 * found.max_approach) - 1.0).abs() < 0.02);
         }
         // A step beside the maximum is quadratically near it.
-        assert!((maximum.approach / run.max_approach - 1.0).abs() < 1e-6);
+        assert!((maximum.approach / found.max_approach - 1.0).abs() < 1e-6);
         assert!(compression.time < maximum.time && maximum.time < separation.time);
         assert_eq!(Some(last.time), run.last_contact);
         // Approach and fields belong together: the far poles move with the mass centres to 0.7 %
@@ -80,10 +85,10 @@ fn labelled_snapshots_are_the_named_instants() {
             assert!(((lower - upper) / snapshot.approach - 1.0).abs() < 0.01);
         }
         // Under the centre the stress carries the contact pressure, whose nodal values read 3 % low.
-        let at_maximum = |row: &&fem_explicit::HistoryRow| row.time >= maximum.time;
-        let pressure = run.history.iter().find(at_maximum).unwrap().centre_pressure;
+        let at_maximum = |row: &&Row| row.time >= maximum.time;
+        let pressure = run.history.iter().find(at_maximum).unwrap().centre_pressure.unwrap();
         // Hertz' −p₀ and −p₀(1 + 2ν)/2 for an elastic body, p₀ ∝ F^(1/3).
-        let hertz = 1.0268e9 * (run.peak_force / 107.02).cbrt();
+        let hertz = 1.0268e9 * (found.peak_force / 107.02).cbrt();
         for side in 0..2 {
             let body = &model.bodies()[side];
             let stress = body.stress(&maximum.bodies[side]);
@@ -107,7 +112,7 @@ fn count_gives_evenly_spaced_states() {
     assert_eq!(Some(run.snapshots[0].time), run.first_contact);
     assert_eq!(Some(run.snapshots[5].time), run.last_contact);
     for (k, snapshot) in run.snapshots.iter().enumerate() {
-        let even = run.first_contact.unwrap() + contact_time(&run) * k as f64 / 5.0;
+        let even = run.first_contact.unwrap() + run.contact_time.unwrap() * k as f64 / 5.0;
         // States are kept at a 24th of the expected contact time.
         assert!((snapshot.time - even).abs() < 0.51 * HERTZ_TIME / 24.0, "{k}");
     }
@@ -157,14 +162,15 @@ fn an_interrupted_run_returns_what_it_has() {
         for n_reports in [1, 25] {
             let pair = Pair { history_rows, ..coarse() };
             let mut stopper = Stopper { left: n_reports, seen: Vec::new() };
-            let run = collide(&pair.model(), &pair.run_settings(), &mut stopper);
-            let Some(Stop::Interrupted { time, step }) = run.stopped else { panic!("{run:?}") };
+            let run = collide(&pair.model(), pair.expected(), &pair.want(), &mut stopper);
+            let Some(&Stop::Interrupted { time, step }) = run.stop() else { panic!("{run:?}") };
             assert_eq!(stopper.seen.len(), n_reports);
             let last = stopper.seen.last().unwrap();
             assert_eq!((last.time, last.step), (time, step));
-            assert_eq!(run.steps, step);
-            assert_eq!(run.restitution, None);
-            assert_eq!(run.vibration_energy, None);
+            assert_eq!(run.steps, Some(step));
+            assert_eq!([run.restitution, run.contact_time], [None; 2]);
+            assert!(run.bodies.iter().all(|body| body.vibration_energy.is_none()));
+            assert!(run.bodies.iter().all(|body| body.velocity_after.is_none()));
             assert_times_increase(&run);
             assert_eq!(run.history.last().unwrap().time, time);
             assert!(stopper.seen.windows(2).all(|pair| pair[0].fraction < pair[1].fraction));
@@ -189,14 +195,15 @@ fn an_interrupted_run_returns_what_it_has() {
 fn a_finished_run_reports_its_progress() {
     let pair = coarse();
     let mut watcher = Stopper { left: usize::MAX, seen: Vec::new() };
-    let run = collide(&pair.model(), &pair.run_settings(), &mut watcher);
-    assert_eq!(run.stopped, None);
+    let run = collide(&pair.model(), pair.expected(), &pair.want(), &mut watcher);
+    assert_eq!(run.ending, Ending::Parted);
+    let found = quantities(&run);
     // Every 64 steps.
-    assert_eq!(watcher.seen.len() as u64, run.steps / 64 + 1);
+    assert_eq!(watcher.seen.len() as u64, found.steps / 64 + 1);
     assert!(watcher.seen.windows(2).all(|pair| pair[0].fraction <= pair[1].fraction));
     assert!(watcher.seen[0].fraction == 0.0 && watcher.seen.last().unwrap().fraction > 0.97);
-    assert!(watcher.seen.iter().any(|progress| progress.contact_force > 0.5 * run.peak_force));
-    assert_eq!(run.element_updates, run.steps * pair.model().n_elements() as u64);
+    assert!(watcher.seen.iter().any(|progress| progress.contact_force > 0.5 * found.peak_force));
+    assert_eq!(run.element_updates, Some(found.steps * pair.model().n_elements() as u64));
 }
 
 #[test]
@@ -205,17 +212,19 @@ fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
         let pair = Pair { candidate_radius: 0.1e-3, history_rows, ..coarse() };
         let model = pair.model();
         let run = pair.run_model(&model);
-        let Some(Stop::ContactBeyondCandidates { time, radius, .. }) = run.stopped else {
-            panic!("{:?}", run.stopped)
+        let Some(&Stop::ContactBeyondCandidates { time, radius, .. }) = run.stop() else {
+            panic!("{:?}", run.ending)
         };
+        assert_eq!(run.outgrown_radius(), Some(radius));
         assert_eq!(radius, model.interface().candidate_radius());
         assert_times_increase(&run);
         let last = run.history.last().unwrap();
         assert_eq!(last.time, time);
-        assert!(last.contact_radius > 0.0 && last.contact_radius <= radius);
+        let reached = last.contact_radius.unwrap();
+        assert!(reached > 0.0 && reached <= radius);
         assert_eq!(run.restitution, None);
         // Labels that had not come yet are missed.
-        assert!(run.stopped.unwrap().to_string().contains("the end of the region"));
+        assert!(run.stop().unwrap().to_string().contains("the end of the region"));
     }
 }
 
@@ -223,7 +232,7 @@ fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
 fn a_run_that_does_not_separate_gives_up() {
     let pair = Pair { max_time: 30e-6, ..coarse() };
     let run = pair.run();
-    let Some(Stop::NoSeparation { time, .. }) = run.stopped else { panic!("{:?}", run.stopped) };
+    let Some(&Stop::NoSeparation { time, .. }) = run.stop() else { panic!("{:?}", run.ending) };
     assert!(time > 30e-6 && time < 31e-6, "{time}");
     assert_times_increase(&run);
 }
@@ -231,9 +240,15 @@ fn a_run_that_does_not_separate_gives_up() {
 #[test]
 fn settings_out_of_range_are_refused() {
     let pair = coarse();
-    let model = |settings: &Settings| Model::new([pair.sphere(0), pair.sphere(1)], settings);
-    let good = pair.settings();
-    assert!(model(&good).is_ok());
+    let model = |approach: Approach, settings: &Settings| {
+        Model::new([pair.sphere(0), pair.sphere(1)], approach, settings)
+    };
+    let (approach, good) = (pair.approach(), pair.settings());
+    assert!(model(approach, &good).is_ok());
+    let refuses = |refused: Result<Model, ModelError>, name: &str| match refused {
+        Err(ModelError::Setting { name: found, .. }) => assert_eq!(found, name),
+        other => panic!("{name}: {:?}", other.err()),
+    };
     for (settings, name) in [
         (Settings { step_factor: 0.0, ..good }, "step factor"),
         (Settings { step_factor: 1.01, ..good }, "step factor"),
@@ -241,21 +256,18 @@ fn settings_out_of_range_are_refused() {
         (Settings { mass_scaling: -0.1, ..good }, "mass scaling"),
         (Settings { mass_scaling: 1.0, ..good }, "mass scaling"),
         (Settings { mass_scaling: f64::NAN, ..good }, "mass scaling"),
-        (Settings { gap: -1e-9, ..good }, "gap"),
-        (Settings { gap: f64::INFINITY, ..good }, "gap"),
     ] {
-        match model(&settings) {
-            Err(ModelError::Setting { name: found, .. }) => assert_eq!(found, name),
-            other => panic!("{name}: {:?}", other.err()),
-        }
+        refuses(model(approach, &settings), name);
     }
-    let refused = model(&Settings { contact_stiffness: 0.0, ..good }).unwrap_err();
+    for gap in [-1e-9, f64::INFINITY] {
+        refuses(model(Approach { gap, ..approach }, &good), "gap");
+    }
+    let refused = model(approach, &Settings { contact_stiffness: 0.0, ..good }).unwrap_err();
     assert!(matches!(refused, ModelError::Contact(ContactError::NotPositive { .. })));
     for velocities in [[0.0, 0.0], [-0.5, 0.0], [f64::NAN, 0.0], [f64::INFINITY, 0.0]] {
-        let pair = Pair { velocities, ..coarse() };
-        let refused = Model::new([pair.sphere(0), pair.sphere(1)], &good).unwrap_err();
+        let refused = model(Approach { velocities, ..approach }, &good).unwrap_err();
         assert!(matches!(refused, ModelError::NotApproaching(_)), "{refused:?}");
     }
-    let walls = Model::new([pair.wall(0), pair.wall(1)], &good).unwrap_err();
+    let walls = Model::new([BodyInput::Wall, BodyInput::Wall], approach, &good).unwrap_err();
     assert_eq!(walls, ModelError::Contact(ContactError::TwoWalls));
 }

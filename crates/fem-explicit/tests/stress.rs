@@ -1,6 +1,7 @@
 //! Stress recovery from displacements.
 
-use fem_explicit::{Body, BodyFields, BodyInput, Model, Settings, StressField, invariants};
+use fem_collision::{Approach, BodyFields, BodyInput, StressField, invariants};
+use fem_explicit::{Body, Model, Settings};
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side};
 
@@ -12,19 +13,17 @@ fn moduli() -> ElasticModuli {
 fn model(n: f64) -> Model {
     let disc =
         HalfDisc { radius: 1.0, contact_element_size: 1.0 / n, refined_radius: 0.5, growth: None };
-    let sphere = BodyInput::Deformable {
+    let sphere = BodyInput::Sphere {
         mesh: disc.build().unwrap().on_side(Side::Above),
         material: Material::new(1.0, moduli(), None).unwrap(),
-        velocity: 0.0,
     };
     let settings = Settings {
         contact_stiffness: 1.0,
         candidate_radius: 0.3,
         step_factor: 0.9,
         mass_scaling: 0.0,
-        gap: 0.0,
     };
-    Model::new([BodyInput::Wall { velocity: 1.0 }, sphere], &settings).unwrap()
+    Model::new([BodyInput::Wall, sphere], Approach::at(1.0), &settings).unwrap()
 }
 
 fn stress_of(body: &Body, displacement: impl Fn([f64; 2]) -> [f64; 2]) -> StressField {

@@ -1,5 +1,11 @@
 //! A collision between its instants, and the energies along it.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "what was measured, for who asks for a test's output"
+)]
+
 use fem_laws::laws::{self, ContactLaw};
 use fem_laws::{
     FiniteSize, HertzImpact, Impact, ImpactPath, LawImpact, Pair, PairRelaxation, Partner, Ting,

@@ -1,5 +1,11 @@
 //! Kelvin's solid as the slow limit of a relaxing one, and its dissipation time.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "what was measured, for who asks for a test's output"
+)]
+
 use fem_laws::laws::{corrected_dissipation_time, kuwabara_kono, tsuji, zhang_whiten_coefficient};
 use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};

@@ -1,33 +1,34 @@
 //! The `fem-run` command: how do two viscoelastic spheres collide?
 //!
 //! ```text
-//! arguments ─ commands/run ─ fem-case ─ result folder ─ fem-case ─ history, snapshots, ─ report
-//!             one file a     Problem    claimed         run        summary                stdout
-//!             subcommand     (exit 2)   (exit 2)        (1, 130)   files, renamed
-//!                                                                  into place
+//! arguments ─ commands/run ─ fem ──────── result folder ─ fem ────── history, snapshots, ─ report
+//!             one file a     Simulation   claimed         run        summary                stdout
+//!             subcommand     (exit 2)     (exit 2)        (1, 130)   files, renamed
+//!                                                                    into place
 //! ```
 //!
 //! stdout carries the result, stderr everything else. The exit status is 0 (done), 1 (the run
 //! failed), 2 (bad input, nothing written) or 130 (interrupted).
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "the command has the clock, the terminal and the exit status"
+)]
+
 mod arguments;
-mod assess;
 mod calibrate;
 mod commands;
 mod failure;
-mod history_file;
 mod interrupt;
 mod occupant;
 mod peak_memory;
 mod progress;
 mod reduced;
-mod remedy;
 mod report;
 mod result_folder;
-mod snapshot_files;
 mod standard_output;
-mod summarise;
-mod summary;
+mod stopwatch;
 mod sweep;
 mod tables;
 mod validation;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use crate::summary::{PROGRAM, SUMMARY_FILE};
+use fem::results::{PROGRAM, SUMMARY_FILE};
 
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.
 const MARK_FILES: [&str; 5] =

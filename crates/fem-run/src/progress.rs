@@ -3,7 +3,7 @@
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
-use fem_explicit::{Monitor, Progress};
+use fem_collision::{Monitor, Progress};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 use crate::engineering::show;

@@ -4,12 +4,12 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_case::Effect;
+use fem::effects::Verdict;
+use fem::results::{BodySummary, Quantities, Summary};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::engineering::{Unit, show};
 use crate::standard_output::one_line;
-use crate::summary::{BodySummary, Quantities, Summary};
 use crate::tables::table;
 
 /// Shown for a number that there is not.
@@ -136,8 +136,8 @@ fn price(summary: &Summary) -> String {
 }
 
 /// On or off, and why.
-pub fn effects(effects: &[Effect]) -> String {
-    let row = |effect: &Effect| {
+pub fn effects(effects: &[Verdict]) -> String {
+    let row = |effect: &Verdict| {
         let switch = if effect.active { "on" } else { "off" };
         [switch.to_string(), effect.name.to_string(), effect.reason.clone()]
     };

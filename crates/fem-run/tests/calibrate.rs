@@ -312,3 +312,17 @@ fn speeds_too_far_apart_for_one_mesh_are_told_what_to_do() {
     }
     assert!(!ran.stderr.contains("--set"), "{}", ran.stderr);
 }
+
+#[test]
+fn a_mesh_that_the_case_spoils_is_the_cases_fault() {
+    let place = Place::with(GLASS);
+    place.write("e.csv", "diameter_1_mm,speed_m_s,e\n10,0.2,0.9\n");
+    for (set, at) in [
+        ("mesh.refined_radius=0.02", "--set mesh.refined_radius=…:1:21: "),
+        ("body.0.sphere.mesh='no.vtu'", "--set body.0.sphere.mesh=…:1:20: "),
+    ] {
+        let ran = place.run(&["calibrate", "case.toml", "--data", "e.csv", "--set", set]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.starts_with(&format!("error: {at}")), "{}", ran.stderr);
+    }
+}

@@ -82,13 +82,12 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// A case of the claim, with overrides after its own.
+    /// A case of the claim.
     ///
     /// # Errors
     /// What is wrong with the case.
-    pub(crate) fn load_case(&self, run: &RunFile, overrides: &[String]) -> Result<Case, CaseError> {
-        let overrides: Vec<String> = run.set.iter().chain(overrides).cloned().collect();
-        Case::load(&tidy(&self.folder.join(&run.case)), &overrides)
+    pub(crate) fn load_case(&self, run: &RunFile) -> Result<Case, CaseError> {
+        Case::load(&tidy(&self.folder.join(&run.case)), &run.set)
     }
 }
 
@@ -240,7 +239,7 @@ fn read(name: String, folder: PathBuf) -> Result<Claim, ClaimError> {
         study,
     };
     for run in claim.runs.values() {
-        claim.load_case(run, &[])?;
+        claim.load_case(run)?;
     }
     Ok(claim)
 }

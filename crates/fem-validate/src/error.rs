@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use fem_case::{CaseError, Halt};
+use fem_case::CaseError;
+use fem_collision::Stop;
 use fem_explicit::ModelError;
 use fem_laws::LawError;
 use fem_material::MaterialError;
@@ -51,12 +52,12 @@ pub enum StudyError {
     #[error("{0}")]
     Case(#[from] CaseError),
     /// A run that did not end by itself.
-    #[error("{title}: {halt}")]
+    #[error("{title}: {stop}")]
     Stopped {
         /// Of the case.
         title: String,
         /// Why.
-        halt: Halt,
+        stop: Stop,
     },
     /// The user wants to stop.
     #[error("interrupted")]

@@ -2,15 +2,17 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use fem_case::{Case, CaseFile, Halt, Model, Problem, Simulation};
-use fem_explicit::{Monitor, Progress, Stop};
+use fem::{Explicit, Model, Simulation};
+use fem_case::{Case, CaseFile, ModelChoice};
+use fem_collision::{Collision, Monitor, Progress};
+use fem_laws::HertzImpact;
 use rayon::prelude::*;
 use serde::de::DeserializeOwned;
 
 use crate::claim::Claim;
 use crate::error::StudyError;
 use crate::price::Price;
-use crate::run::{Run, Simulated};
+use crate::run::{ExplicitRun, Run};
 use crate::shelf::Shelf;
 
 /// Looks on while claims are evaluated, from several threads.
@@ -49,15 +51,15 @@ impl<'a> Laboratory<'a> {
         table.try_into().map_err(|error| StudyError::parameters(format!("[parameters]: {error}")))
     }
 
-    /// A case of the claim by the name of its `[run.NAME]`, with overrides after its own.
+    /// A case of the claim by the name of its `[run.NAME]`.
     ///
     /// # Errors
     /// No such run; what is wrong with the case.
-    pub fn case(&self, run: &str, overrides: &[String]) -> Result<Case, StudyError> {
+    pub fn case(&self, run: &str) -> Result<Case, StudyError> {
         let file = self.claim.runs.get(run).ok_or_else(|| {
             StudyError::parameters(format!("the claim has no [run.{run}], which the study needs"))
         })?;
-        Ok(self.claim.load_case(file, overrides)?)
+        Ok(self.claim.load_case(file)?)
     }
 
     /// Runs a case of the explicit model, or takes the result of an earlier run of it.
@@ -65,16 +67,17 @@ impl<'a> Laboratory<'a> {
     /// # Errors
     /// A case that cannot be prepared or has another model, a run that does not end by itself, an
     /// interrupt.
-    pub fn run(&self, case: Case) -> Result<Arc<Run>, StudyError> {
+    pub fn run(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
-        let problem = Problem::new(case)?;
-        let slot = self.shelf.explicit.slot(key(problem.plan.resolve(&problem.case))?);
-        let result = slot.get_or_init(|| self.collide(problem)).clone();
-        if let Ok(run) = &result {
-            self.pay(run.collision.element_updates, run.seconds);
+        if case.scene.model != ModelChoice::Fem {
+            let message = format!("model `{}` has no explicit elements", case.scene.model.name());
+            return Err(case.error_at(&case.scene.model.path(), message).into());
         }
+        let slot = self.shelf.explicit.slot(key(Simulation::resolve(&case)?)?);
+        let result = slot.get_or_init(|| self.run_explicit(case)).clone();
+        self.pay_for(result.as_ref().map(|run| &run.run));
         result
     }
 
@@ -82,7 +85,7 @@ impl<'a> Laboratory<'a> {
     ///
     /// # Errors
     /// As [`Laboratory::run`], of the first case that has one.
-    pub fn run_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Run>>, StudyError> {
+    pub fn run_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<ExplicitRun>>, StudyError> {
         cases.into_par_iter().map(|case| self.run(case)).collect()
     }
 
@@ -90,18 +93,16 @@ impl<'a> Laboratory<'a> {
     ///
     /// # Errors
     /// As [`Laboratory::run`], but for the model.
-    pub fn simulate(&self, case: Case) -> Result<Arc<Simulated>, StudyError> {
-        if case.scene.model == Model::Fem {
-            return self.run(case).map(|run| Arc::new(Simulated::from(&*run)));
+    pub fn simulate(&self, case: Case) -> Result<Arc<Run>, StudyError> {
+        if case.scene.model == ModelChoice::Fem {
+            return self.run(case).map(|run| Arc::new(run.run.clone()));
         }
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
-        let slot = self.shelf.others.slot(key(Simulation::resolve(case.clone())?)?);
-        let result = slot.get_or_init(|| self.simulate_other(case)).clone();
-        if let Ok(run) = &result {
-            self.pay(run.outcome.element_updates.unwrap_or(0), run.seconds);
-        }
+        let slot = self.shelf.others.slot(key(Simulation::resolve(&case)?)?);
+        let result = slot.get_or_init(|| self.run_other(case)).clone();
+        self.pay_for(result.as_deref());
         result
     }
 
@@ -109,7 +110,7 @@ impl<'a> Laboratory<'a> {
     ///
     /// # Errors
     /// As [`Laboratory::simulate`], of the first case that has one.
-    pub fn simulate_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Simulated>>, StudyError> {
+    pub fn simulate_all(&self, cases: Vec<Case>) -> Result<Vec<Arc<Run>>, StudyError> {
         cases.into_par_iter().map(|case| self.simulate(case)).collect()
     }
 
@@ -135,6 +136,12 @@ impl<'a> Laboratory<'a> {
         *self.price.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    fn pay_for<E>(&self, run: Result<&Run, E>) {
+        if let Ok(run) = run {
+            self.pay(run.collision.element_updates.unwrap_or(0), run.seconds);
+        }
+    }
+
     fn pay(&self, element_updates: u64, seconds: f64) {
         let mut price = self.price.lock().unwrap_or_else(PoisonError::into_inner);
         price.runs += 1;
@@ -142,40 +149,42 @@ impl<'a> Laboratory<'a> {
         price.seconds += seconds;
     }
 
-    fn collide(&self, mut problem: Problem) -> Result<Arc<Run>, StudyError> {
-        let started = self.observer.clock();
-        let collision = problem.run(&mut Listener(self.observer));
-        let seconds = self.observer.clock() - started;
-        let title = problem.case.scene.title.clone();
-        match (&collision.stopped, collision.restitution) {
-            (Some(Stop::Interrupted { .. }), _) => Err(StudyError::Interrupted),
-            (Some(stop), _) => Err(StudyError::Stopped { title, halt: Halt::Fem(stop.clone()) }),
-            (None, None) => Err(no_restitution(&title)),
-            (None, Some(restitution)) => {
-                let contact_time =
-                    collision.last_contact.zip(collision.first_contact).map_or(0.0, |(b, a)| b - a);
-                let run = Run { problem, collision, restitution, contact_time, seconds };
-                Ok(Arc::new(run))
-            }
-        }
+    fn run_explicit(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
+        let mut explicit = Explicit::new(&case.scene).map_err(|refusal| refusal.in_case(&case))?;
+        let (approach, want) = (explicit.setup().approach, explicit.setup().want.clone());
+        let hertz = explicit.plan.estimate.hertz;
+        let collide = |listener: &mut dyn Monitor| explicit.collide(&approach, &want, listener);
+        let run = self.collide(case, hertz, collide)?;
+        Ok(Arc::new(ExplicitRun { explicit, run }))
     }
 
     /// A condensed pair that the shelf has is not made again.
-    fn simulate_other(&self, case: Case) -> Result<Arc<Simulated>, StudyError> {
+    fn run_other(&self, case: Case) -> Result<Arc<Run>, StudyError> {
+        let mut simulation = Simulation::sharing(case, &self.shelf.shared)?;
+        let (case, hertz) = (simulation.case.clone(), simulation.setup().estimate.hertz);
+        self.collide(case, hertz, |listener| simulation.run(listener)).map(Arc::new)
+    }
+
+    fn collide(
+        &self,
+        case: Case,
+        hertz: HertzImpact,
+        collide: impl FnOnce(&mut dyn Monitor) -> Collision,
+    ) -> Result<Run, StudyError> {
         let started = self.observer.clock();
-        let mut simulation = Simulation::with_cache(case, &self.shelf.pairs)?;
-        let outcome = simulation.run(&mut Listener(self.observer));
+        let collision = collide(&mut Listener(self.observer));
         let seconds = self.observer.clock() - started;
-        let (case, hertz) = (simulation.case().clone(), *simulation.hertz());
-        let title = case.scene.title.clone();
-        if outcome.is_interrupted() {
+        if collision.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
-        if let Some(halt) = outcome.halt {
-            return Err(StudyError::Stopped { title, halt });
+        let title = || case.scene.title.clone();
+        if let Some(stop) = collision.stop() {
+            return Err(StudyError::Stopped { title: title(), stop: stop.clone() });
         }
-        let restitution = outcome.restitution.ok_or_else(|| no_restitution(&title))?;
-        Ok(Arc::new(Simulated { case, hertz, outcome, restitution, seconds }))
+        let restitution = collision
+            .restitution
+            .ok_or_else(|| StudyError::parameters(format!("{}: no restitution", title())))?;
+        Ok(Run { case, hertz, collision, restitution, seconds })
     }
 }
 
@@ -183,10 +192,6 @@ impl<'a> Laboratory<'a> {
 fn key(mut resolved: CaseFile) -> Result<String, StudyError> {
     resolved.title = None;
     resolved.to_toml().map_err(|error| StudyError::parameters(error.to_string()))
-}
-
-fn no_restitution(title: &str) -> StudyError {
-    StudyError::parameters(format!("{title}: no restitution"))
 }
 
 /// Passes an interrupt on to a run.

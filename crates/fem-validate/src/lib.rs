@@ -36,6 +36,6 @@ pub use laboratory::{Laboratory, Observer};
 pub use markdown::{markdown, pictures};
 pub use page::page;
 pub use price::Price;
-pub use run::{Run, Simulated};
+pub use run::{ExplicitRun, Run};
 pub use shelf::Shelf;
 pub use studies::study_names;

@@ -1,71 +1,94 @@
 //! Cases that were run.
 
-use fem_case::{Case, Outcome, Problem};
-use fem_explicit::Collision;
+use std::ops::Deref;
+
+use fem::Explicit;
+use fem_case::Case;
+use fem_collision::Collision;
 use fem_laws::HertzImpact;
 
-/// An explicit case and what came out of it; the run ended by itself.
-#[derive(Debug)]
-pub struct Run {
-    /// Case, plan, meshes and model.
-    pub problem: Problem,
-    /// The result.
-    pub collision: Collision,
-    /// The restitution.
-    pub restitution: f64,
-    /// First to last contact, s.
-    pub contact_time: f64,
-    /// What the run took, s.
-    pub seconds: f64,
-}
-
-impl Run {
-    /// Centre pressure over Hertz' at this run's own peak force: free of the error in force.
-    pub fn pressure_over_hertz_at_force(&self) -> f64 {
-        let hertz = self.problem.plan.estimate.hertz;
-        over_hertz_at_force(&hertz, self.collision.peak_force, self.collision.peak_pressure)
-    }
-}
-
 /// A case of any model and what came out of it; the run ended by itself.
-#[derive(Debug)]
-pub struct Simulated {
+#[derive(Clone, Debug)]
+pub struct Run {
     /// The case.
     pub case: Case,
     /// Hertz with instantaneous moduli.
     pub hertz: HertzImpact,
-    /// What every model gives.
-    pub outcome: Outcome,
+    /// The result.
+    pub collision: Collision,
     /// The restitution.
     pub restitution: f64,
     /// What the run took, s.
     pub seconds: f64,
 }
 
-impl Simulated {
-    /// Centre pressure over Hertz' at this run's own peak force; NaN of a model without pressures.
+/// Numbers that a model may not know are NaN where it does not.
+impl Run {
+    /// First to last contact, s.
+    pub fn contact_time(&self) -> f64 {
+        known(self.collision.contact_time)
+    }
+
+    /// N.
+    pub fn peak_force(&self) -> f64 {
+        known(self.collision.peak_force)
+    }
+
+    /// m.
+    pub fn max_approach(&self) -> f64 {
+        known(self.collision.max_approach)
+    }
+
+    /// m.
+    pub fn max_contact_radius(&self) -> f64 {
+        known(self.collision.max_contact_radius)
+    }
+
+    /// Pa.
+    pub fn peak_pressure(&self) -> f64 {
+        known(self.collision.peak_pressure)
+    }
+
+    /// Worst imbalance of energy over the energy of approach.
+    pub fn energy_residual(&self) -> f64 {
+        known(self.collision.residual_relative)
+    }
+
+    /// Worst drift of momentum over Σ m|v|.
+    pub fn momentum_residual(&self) -> f64 {
+        known(self.collision.momentum_residual_relative)
+    }
+
+    /// Of both bodies along +y, m/s.
+    pub fn velocity_after(&self) -> [f64; 2] {
+        self.collision.bodies.each_ref().map(|body| known(body.velocity_after))
+    }
+
+    /// Centre pressure over that of Hertz at this run's own peak force, p0 ∝ F^(1/3): free of the
+    /// error in force.
     pub fn pressure_over_hertz_at_force(&self) -> f64 {
-        let Outcome { peak_force, peak_pressure, .. } = self.outcome;
-        peak_force
-            .zip(peak_pressure)
-            .map_or(f64::NAN, |(force, pressure)| over_hertz_at_force(&self.hertz, force, pressure))
+        let over = self.peak_force() / self.hertz.peak_force();
+        self.peak_pressure() / (self.hertz.peak_pressure() * over.cbrt())
     }
 }
 
-impl From<&Run> for Simulated {
-    fn from(run: &Run) -> Self {
-        Self {
-            case: run.problem.case.clone(),
-            hertz: run.problem.plan.estimate.hertz,
-            outcome: Outcome::of_fem(&run.problem, run.collision.clone()),
-            restitution: run.restitution,
-            seconds: run.seconds,
-        }
-    }
+fn known(value: Option<f64>) -> f64 {
+    value.unwrap_or(f64::NAN)
 }
 
-/// A centre pressure (Pa) over that of Hertz at a peak force (N), p0 ∝ F^(1/3).
-fn over_hertz_at_force(hertz: &HertzImpact, peak_force: f64, peak_pressure: f64) -> f64 {
-    let at_force = hertz.peak_pressure() * (peak_force / hertz.peak_force()).cbrt();
-    peak_pressure / at_force
+/// A run of the explicit model, with its meshes and contact.
+#[derive(Debug)]
+pub struct ExplicitRun {
+    /// Plan, meshes and bodies.
+    pub explicit: Explicit,
+    /// What every model gives.
+    pub run: Run,
+}
+
+impl Deref for ExplicitRun {
+    type Target = Run;
+
+    fn deref(&self) -> &Run {
+        &self.run
+    }
 }

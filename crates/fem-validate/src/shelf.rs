@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use fem_case::PairCache;
+use fem::Shared;
 
 use crate::error::StudyError;
-use crate::run::{Run, Simulated};
+use crate::run::{ExplicitRun, Run};
 
 /// A run that is there, is being made, or failed.
 pub(crate) type Slot<T> = Arc<OnceLock<Result<Arc<T>, StudyError>>>;
@@ -32,9 +32,9 @@ impl<T> Default for Slots<T> {
 #[derive(Debug, Default)]
 pub struct Shelf {
     /// Of the explicit model.
-    pub(crate) explicit: Slots<Run>,
+    pub(crate) explicit: Slots<ExplicitRun>,
     /// Of all other models.
-    pub(crate) others: Slots<Simulated>,
-    /// Condensed pairs, which runs at several speeds or relaxations share.
-    pub(crate) pairs: PairCache,
+    pub(crate) others: Slots<Run>,
+    /// What runs at several speeds or relaxations share.
+    pub(crate) shared: Shared,
 }

@@ -3,6 +3,12 @@
 //! `write_reference FILE.vtu FILE.json [inline | appended | raw]`; then
 //! `.ci/check_vtk.py reference FILE.vtu FILE.json`.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_macros,
+    reason = "an example says what it is called with"
+)]
+
 use std::process::ExitCode;
 
 use fem_vtk::{Encoding, VtuWriter};

@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use fem_material::Material;
 
 use super::{ANY, Check, NOT_NEGATIVE, POSITIVE};
-use crate::document::{join, quote_key};
 use crate::error::CaseError;
 use crate::explain::{listed, near};
-use crate::overrides::is_bare;
+use crate::key_path::{is_bare, join, quote_key};
 use crate::scene::{Body, Shape};
 use crate::schema::{BodyTable, CaseFile};
 

@@ -3,8 +3,8 @@
 use fem_material::{ElasticModuli, Material, MaterialError, ModuliInput, PronySeries, PronyTerm};
 
 use super::{ANY, Check, POSITIVE};
-use crate::document::join;
 use crate::error::CaseError;
+use crate::key_path::join;
 use crate::schema::{ActsOn, MaterialTable, RelaxationTable};
 
 impl Check<'_> {

@@ -8,7 +8,6 @@ mod snapshots;
 
 use std::path::Path;
 
-use crate::available;
 use crate::document::Document;
 use crate::error::CaseError;
 use crate::quantity::{Quantity, QuantityKind};
@@ -85,7 +84,7 @@ pub(crate) fn validate(
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
         model: check.model(file.model.as_ref())?,
-        effects: available::effects(document, file.effects.as_ref())?,
+        effects: file.effects.unwrap_or_default(),
         limits: Limits {
             elements: count("limits.elements", limits.elements.as_ref())?,
             element_updates: count("limits.element_updates", limits.element_updates.as_ref())?,

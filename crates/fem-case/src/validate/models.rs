@@ -3,15 +3,15 @@
 use fem_laws::{EndRule, LawImpact, Ting};
 
 use super::{Allowed, Check, NOT_NEGATIVE, POSITIVE, allowed};
-use crate::available::UNAVAILABLE_MODELS;
-use crate::condensed::Options;
-use crate::document::join;
 use crate::error::CaseError;
 use crate::explain::listed;
-use crate::model::{Dashpot, Dissipation, Law, Model};
+use crate::key_path::join;
+use crate::model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 use crate::model_tables::{CondensedTable, End, LawTable, ModelTable};
 use crate::quantity::{Count, Number, Quantity, QuantityKind};
 
+/// A model whose name `[model]` knows and that cannot be had yet.
+const UNAVAILABLE: &str = "auto";
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
 const MODES: Allowed =
@@ -22,8 +22,8 @@ const LIKE_POISSON: Allowed = allowed("between -1 and 1", |x| x > -1.0 && x < 1.
 
 impl Check<'_> {
     /// The model that `[model]` chooses; absent, explicit finite elements.
-    pub(super) fn model(&self, table: Option<&ModelTable>) -> Result<Model, CaseError> {
-        let Some(table) = table else { return Ok(Model::default()) };
+    pub(super) fn model(&self, table: Option<&ModelTable>) -> Result<ModelChoice, CaseError> {
+        let Some(table) = table else { return Ok(ModelChoice::default()) };
         let ModelTable { fem, condensed, ting, hertz, law, auto } = table;
         let given = [
             ("fem", fem.is_some()),
@@ -35,7 +35,7 @@ impl Check<'_> {
         ];
         let given: Vec<_> = given.into_iter().filter(|(_, is)| *is).map(|(name, _)| name).collect();
         let name = self.exactly_one("model", &given, "model", "fem = {}, or leave [model] out")?;
-        if UNAVAILABLE_MODELS.contains(&name) {
+        if name == UNAVAILABLE {
             let message = format!("model `{name}` is not available in this version");
             let error = self.error(&join("model", name), message);
             return Err(error.with_help("the models here are fem, condensed, ting, hertz and law"));
@@ -45,29 +45,29 @@ impl Check<'_> {
         }
         if let Some(ting) = ting {
             let tolerance = self.tolerance("model.ting.tolerance", ting.tolerance.as_ref())?;
-            return Ok(Model::Ting {
+            return Ok(ModelChoice::Ting {
                 finite_size: ting.finite_size.unwrap_or_default(),
                 tolerance: tolerance.unwrap_or(Ting::DEFAULT_TOLERANCE),
             });
         }
         match (hertz, law) {
             (Some(hertz), _) => {
-                Ok(Model::Hertz { finite_size: hertz.finite_size.unwrap_or_default() })
+                Ok(ModelChoice::Hertz { finite_size: hertz.finite_size.unwrap_or_default() })
             }
             (_, Some(law)) => self.law_model(law),
-            _ => Ok(Model::Fem),
+            _ => Ok(ModelChoice::Fem),
         }
     }
 
-    fn condensed_model(&self, table: &CondensedTable) -> Result<Model, CaseError> {
+    fn condensed_model(&self, table: &CondensedTable) -> Result<ModelChoice, CaseError> {
         let CondensedTable { vibration_modes, steps, penalty_springs } = table;
         let count = |key: &str, value: &Option<Quantity<Count>>, allowed| {
             let path = join("model.condensed", key);
             let count = self.optional(&path, value.as_ref(), allowed)?;
             Ok::<_, CaseError>(count.map(|count| count as usize))
         };
-        let default = Options::default();
-        Ok(Model::Condensed(Options {
+        let default = CondensedOptions::default();
+        Ok(ModelChoice::Condensed(CondensedOptions {
             vibration_modes: count("vibration_modes", vibration_modes, MODES)?
                 .unwrap_or(default.vibration_modes),
             steps: count("steps", steps, STEPS)?.unwrap_or(default.steps),
@@ -107,7 +107,7 @@ impl Check<'_> {
         self.optional(path, given, TOLERANCE)
     }
 
-    fn law_model(&self, table: &LawTable) -> Result<Model, CaseError> {
+    fn law_model(&self, table: &LawTable) -> Result<ModelChoice, CaseError> {
         let example = "law = { kuwabara_kono = { a = \"1e-6 s\" } }";
         let name = self.exactly_one("model.law", &table.given(), "law", example)?;
         let path = join("model.law", name);
@@ -137,7 +137,7 @@ impl Check<'_> {
             return Err(error.with_help("leave end out; the same law with another end is tsuji"));
         }
         let tolerance = inner.or(outer).unwrap_or(LawImpact::DEFAULT_TOLERANCE);
-        Ok(Model::Law { law, end_rule, tolerance })
+        Ok(ModelChoice::Law { law, end_rule, tolerance })
     }
 }
 
@@ -218,7 +218,7 @@ impl Keys<'_> {
         if by_outcome && (keys.k.is_some() || keys.c.is_some()) {
             let at = |key| join(self.path, key);
             let error = self.check.conflict(
-                &at("e"),
+                &at(if keys.e.is_some() { "e" } else { "contact_time" }),
                 &[&at("contact_time"), &at("e"), &at("k"), &at("c")],
                 "linear mixes its coefficients with what is to come out",
             );

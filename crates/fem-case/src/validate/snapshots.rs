@@ -1,9 +1,9 @@
 //! The instants at which fields are written.
 
 use super::{Allowed, Check, NOT_NEGATIVE, allowed};
-use crate::document::join;
 use crate::error::CaseError;
 use crate::explain::near;
+use crate::key_path::join;
 use crate::quantity::{Count, Quantity};
 use crate::scene::Snapshots;
 use crate::schema::{SnapshotLabel, SnapshotsValue};
@@ -38,12 +38,17 @@ impl Check<'_> {
                 }
                 _ => times.push(self.number(&path, item, NOT_NEGATIVE)?),
             }
+            let at = |index: usize| join("output.snapshots", &index.to_string());
             if !labels.is_empty() && !times.is_empty() {
-                let error = self.error(&path, "snapshots mixes labels and times");
+                let others: Vec<String> = (0..index).map(at).collect();
+                let others: Vec<&str> = others.iter().map(String::as_str).collect();
+                let error = self.conflict(&path, &others, "snapshots mixes labels and times");
                 return Err(error.with_help(help()));
             }
-            if labels.split_last().is_some_and(|(last, before)| before.contains(last)) {
-                let error = self.error(&path, format!("snapshot {item} is listed twice"));
+            let first = labels.iter().position(|label| labels.last() == Some(label));
+            if let Some(first) = first.filter(|first| first + 1 < labels.len()) {
+                let message = format!("snapshot {item} is listed twice");
+                let error = self.conflict(&path, &[&at(first)], message);
                 return Err(error.with_help("leave one out"));
             }
         }

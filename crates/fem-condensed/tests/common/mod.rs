@@ -2,7 +2,8 @@
 
 #![allow(dead_code)]
 
-use fem_condensed::{BodyInput, CollideSettings, Collision, CondensedPair, PairSettings};
+use fem_collision::{BodyInput, Collision};
+use fem_condensed::{CondensedPair, PairSettings};
 use fem_laws::{FiniteSize, HertzImpact, Impact, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -100,13 +101,18 @@ impl Scene {
     }
 
     pub fn collide(&self, pair: &CondensedPair) -> Collision {
-        collide(pair, self.speed, &CollideSettings::default())
+        collide(pair, self.speed)
     }
 }
 
 /// A collision with the relaxations of the bodies' own materials.
-pub fn collide(pair: &CondensedPair, speed: f64, settings: &CollideSettings) -> Collision {
-    pair.collide(speed, pair.relaxations(), settings).unwrap()
+pub fn collide(pair: &CondensedPair, speed: f64) -> Collision {
+    collide_in(pair, speed, CondensedPair::N_STEPS)
+}
+
+/// The same in so many steps.
+pub fn collide_in(pair: &CondensedPair, speed: f64, n_steps: usize) -> Collision {
+    pair.impact(speed, pair.relaxations(), n_steps).unwrap()
 }
 
 pub fn assert_close(what: &str, found: f64, expected: f64, relative: f64) {

@@ -2,18 +2,22 @@
 
 use std::f64::consts::PI;
 
+use fem_collision::{Approach, BodyInput};
 use fem_mesh::Side;
 
 use super::*;
-use crate::BodyInput;
 use crate::test_support::{settings, unit_glass, unit_sphere};
 
 const CONTACT_TIME: f64 = 2.0;
 
 fn model() -> Model {
     let mesh = unit_sphere(4.0, Side::Above);
-    let sphere = BodyInput::Deformable { mesh, material: unit_glass(), velocity: 0.0 };
-    Model::new([BodyInput::Wall { velocity: 1.0 }, sphere], &settings(0.5)).unwrap()
+    let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material: unit_glass() }];
+    Model::new(bodies, Approach { velocities: [1.0, 0.0], gap: 0.5 }, &settings()).unwrap()
+}
+
+fn expectation(approach: f64, contact_time: f64) -> Expectation {
+    Expectation { contact_time, approach }
 }
 
 /// A contact from first touch, approach `peak` sin(πt/T), in so many steps; the recorder at its
@@ -25,13 +29,13 @@ fn record(
     expected: f64,
     n_steps: usize,
 ) -> (Recorder, usize) {
-    let mut recorder = Recorder::new(request, model, expected, CONTACT_TIME);
+    let mut recorder = Recorder::new(request, model, expectation(expected, CONTACT_TIME));
     let mut state = State::at_first_touch(model);
     let scratch = Scratch::new(model);
     let mut most = 0;
     for step in 0..=n_steps {
         let share = step as f64 / n_steps as f64;
-        state.time = model.first_touch() + CONTACT_TIME * share;
+        state.time = model.approach().first_touch() + CONTACT_TIME * share;
         let now = Instant {
             approach: peak * (PI * share).sin(),
             approach_rate: peak * (PI * (share - 0.5 / n_steps as f64)).cos(),
@@ -71,7 +75,8 @@ fn ladder_finds_half_of_any_maximum() {
 fn labels_that_do_not_occur_are_named() {
     let model = model();
     let request = SnapshotRequest::Labels(Label::ALL.to_vec());
-    let (snapshots, missing) = Recorder::new(&request, &model, 1.0, CONTACT_TIME).finish();
+    let expected = expectation(1.0, CONTACT_TIME);
+    let (snapshots, missing) = Recorder::new(&request, &model, expected).finish();
     assert!(snapshots.is_empty());
     assert_eq!(missing.len(), 4);
     for (message, label) in missing.iter().zip(Label::ALL) {
@@ -109,7 +114,8 @@ fn count_spreads_states_evenly_over_the_contact() {
             assert!(missing.is_empty());
             assert_eq!(snapshots.len(), n, "of {n_steps} steps");
             let step = CONTACT_TIME / n_steps as f64;
-            let (start, length) = (model.first_touch() + step, CONTACT_TIME - 2.0 * step);
+            let (start, length) =
+                (model.approach().first_touch() + step, CONTACT_TIME - 2.0 * step);
             for (k, snapshot) in snapshots.iter().enumerate() {
                 let share = if n == 1 { 0.5 } else { k as f64 / (n - 1) as f64 };
                 // States are kept at a quarter of the spacing, or every step.
@@ -124,11 +130,12 @@ fn count_spreads_states_evenly_over_the_contact() {
 #[test]
 fn count_keeps_its_budget_when_the_contact_lasts_longer() {
     let model = model();
-    let mut recorder = Recorder::new(&SnapshotRequest::Count(5), &model, 1.0, CONTACT_TIME / 50.0);
+    let expected = expectation(1.0, CONTACT_TIME / 50.0);
+    let mut recorder = Recorder::new(&SnapshotRequest::Count(5), &model, expected);
     let mut state = State::at_first_touch(&model);
     let scratch = Scratch::new(&model);
     for step in 0..=5000 {
-        state.time = model.first_touch() + CONTACT_TIME * f64::from(step) / 5000.0;
+        state.time = model.approach().first_touch() + CONTACT_TIME * f64::from(step) / 5000.0;
         let now = Instant {
             approach: 1.0,
             approach_rate: 1.0,
@@ -141,7 +148,7 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
         assert!(recorder.kept.len() + recorder.pool.len() <= n_kept(5) + 1);
     }
     let (snapshots, _) = recorder.finish();
-    let times: Vec<_> = snapshots.iter().map(|s| s.time - model.first_touch()).collect();
+    let times: Vec<_> = snapshots.iter().map(|s| s.time - model.approach().first_touch()).collect();
     assert_eq!(times.len(), 5);
     for (k, time) in times.iter().enumerate() {
         // States are kept at a spacing of between a twentieth and a fortieth of the contact.
@@ -152,7 +159,7 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
 #[test]
 fn times_are_met_to_half_a_step() {
     let model = model();
-    let touch = model.first_touch();
+    let touch = model.approach().first_touch();
     let asked = vec![touch + 1.5, 0.3 * touch, touch + 0.2, touch + 100.0, 0.0, touch];
     let (recorder, _) = record(&SnapshotRequest::Times(asked), &model, 1.0, 1.0, 400);
     let (snapshots, missing) = recorder.finish();

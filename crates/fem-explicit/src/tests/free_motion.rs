@@ -1,8 +1,8 @@
 //! Motion without contact: rigid flight, and what leapfrog conserves.
 
+use fem_collision::{Approach, BodyInput};
 use fem_mesh::Side;
 
-use crate::BodyInput;
 use crate::kernel::{strain_energy, subtract_internal_forces};
 use crate::model::Model;
 use crate::nodes::advance_motion;
@@ -12,13 +12,10 @@ use crate::test_support::{free_sphere, ragged, settings, unit_glass, unit_sphere
 
 #[test]
 fn rigid_flight_strains_nothing() {
-    let sphere = |side, velocity| BodyInput::Deformable {
-        mesh: unit_sphere(8.0, side),
-        material: unit_glass(),
-        velocity,
-    };
-    let inputs = [sphere(Side::Below, 0.3), sphere(Side::Above, -0.7)];
-    let model = Model::new(inputs, &settings(1e3)).unwrap();
+    let bodies = [Side::Below, Side::Above]
+        .map(|side| BodyInput::Sphere { mesh: unit_sphere(8.0, side), material: unit_glass() });
+    let approach = Approach { velocities: [0.3, -0.7], gap: 1e3 };
+    let model = Model::new(bodies, approach, &settings()).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.
     for body in &mut state.bodies {

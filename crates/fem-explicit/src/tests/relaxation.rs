@@ -1,9 +1,9 @@
 //! Prony branches through the whole step.
 
+use fem_collision::BodyFields;
 use fem_material::{ActsOn, ElasticModuli, Material};
 use fem_mesh::Side;
 
-use crate::BodyFields;
 use crate::body::Body;
 use crate::kernel::Moduli;
 use crate::state::{BodyState, Scratch, State};

@@ -1,8 +1,10 @@
 //! Critical time step, lumped mass and mass scaling.
 
+use fem_collision::{Approach, BodyInput};
 use fem_mesh::{HalfDisc, Side, SphereMesh, sphere_volume};
 use nalgebra::DMatrix;
 
+use crate::body::Body;
 use crate::model::{Model, Settings};
 use crate::state::{Scratch, State};
 use crate::step::update_forces;
@@ -10,17 +12,16 @@ use crate::test_support::{
     assembled, largest_eigenvalue, moduli, ragged, settings, sphere, unit_glass, unit_sphere,
 };
 use crate::time_step::NodalBound;
-use crate::{Body, BodyInput};
 
-fn glass_sphere(mesh: SphereMesh, velocity: f64) -> BodyInput {
-    BodyInput::Deformable { mesh, material: unit_glass(), velocity }
+fn glass_sphere(mesh: SphereMesh) -> BodyInput {
+    BodyInput::Sphere { mesh, material: unit_glass() }
 }
 
 /// Spheres with two elements a block's side, so that few elements reach any size.
 fn pair(sizes: [f64; 2], settings: &Settings) -> Model {
     let lower = sphere(sizes[0], 2.0 * sizes[0], Side::Below);
     let upper = sphere(sizes[1], 2.0 * sizes[1], Side::Above);
-    Model::new([glass_sphere(lower, 1.0), glass_sphere(upper, 0.0)], settings).unwrap()
+    Model::new([lower, upper].map(glass_sphere), Approach::at(1.0), settings).unwrap()
 }
 
 /// −∂f/∂u of bodies and contact at a state, from the step's own forces, which are linear while no
@@ -74,7 +75,7 @@ fn critical_time_step_with_closed_contact_is_safe() {
     for stiffness in [1.0, 10.0, 100.0] {
         for sizes in [[0.25, 0.25], [0.25, 0.125], [0.25, 0.05]] {
             let settings =
-                Settings { contact_stiffness: stiffness, step_factor: 1.0, ..settings(0.0) };
+                Settings { contact_stiffness: stiffness, step_factor: 1.0, ..settings() };
             let model = pair(sizes, &settings);
             let bodies = model.bodies();
             let both = [&bodies[0], &bodies[1]];
@@ -147,13 +148,13 @@ fn no_mass_scaling_is_no_mass_scaling() {
     let (masses, added) = bound.clone().scale_mass(plain);
     // The node that decides may be filled up by a rounding.
     assert!(added <= 1e-15 * masses.iter().sum::<f64>());
-    let model = pair([0.25, 0.125], &settings(0.0));
+    let model = pair([0.25, 0.125], &settings());
     assert_eq!(model.time_step(), model.plain_time_step());
 }
 
 #[test]
 fn model_scales_both_bodies_to_the_common_step() {
-    let scaling = Settings { mass_scaling: 1e-2, ..settings(0.0) };
+    let scaling = Settings { mass_scaling: 1e-2, ..settings() };
     let model = pair([0.25, 0.1], &scaling);
     assert!(model.time_step() > model.plain_time_step());
     let [lower, upper] = model.bodies();

@@ -2,7 +2,8 @@
 
 #![allow(dead_code, reason = "each test file uses its share")]
 
-use fem_explicit::{BodyInput, Collision, Model, RunSettings, Settings, SnapshotRequest, collide};
+use fem_collision::{Approach, BodyInput, Collision, Expectation, SnapshotRequest, Want};
+use fem_explicit::{Model, Settings, collide};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side};
 
@@ -21,6 +22,8 @@ pub struct Pair {
     pub element_size: f64,
     pub step_factor: f64,
     pub relaxation: Option<ActsOn>,
+    /// Prony terms of a relaxing pair: weight, relaxation time.
+    pub terms: &'static [(f64, f64)],
     /// Units of length, time and mass in m, s and kg.
     pub units: [f64; 3],
     pub candidate_radius: f64,
@@ -38,6 +41,7 @@ impl Default for Pair {
             element_size: 45e-6,
             step_factor: 0.9,
             relaxation: None,
+            terms: &[(1.0, 1.0 / 2708.0)],
             units: [1.0; 3],
             candidate_radius: 0.35e-3,
             history_rows: 1000,
@@ -54,14 +58,17 @@ impl Pair {
         let moduli =
             ElasticModuli::from_youngs_modulus_poissons_ratio(63e9 * pressure, 0.244).unwrap();
         let relaxation = self.relaxation.map(|acts_on| {
-            let term = PronyTerm { weight: 1.0, relaxation_time: time / 2708.0 };
-            PronySeries::new(vec![term], acts_on).unwrap()
+            let term = |&(weight, relaxation_time): &(f64, f64)| PronyTerm {
+                weight,
+                relaxation_time: relaxation_time * time,
+            };
+            PronySeries::new(self.terms.iter().map(term).collect(), acts_on).unwrap()
         });
         Material::new(2390.0 * mass / length.powi(3), moduli, relaxation).unwrap()
     }
 
     pub fn sphere(&self, body: usize) -> BodyInput {
-        let [length, time, _] = self.units;
+        let [length, ..] = self.units;
         let disc = HalfDisc {
             radius: self.radii[body] * length,
             contact_element_size: self.element_size * length,
@@ -69,16 +76,15 @@ impl Pair {
             growth: None,
         };
         let side = if body == 0 { Side::Below } else { Side::Above };
-        BodyInput::Deformable {
-            mesh: disc.build().unwrap().on_side(side),
-            material: self.material(),
-            velocity: self.velocities[body] * length / time,
-        }
+        BodyInput::Sphere { mesh: disc.build().unwrap().on_side(side), material: self.material() }
     }
 
-    pub fn wall(&self, body: usize) -> BodyInput {
+    pub fn approach(&self) -> Approach {
         let [length, time, _] = self.units;
-        BodyInput::Wall { velocity: self.velocities[body] * length / time }
+        Approach {
+            velocities: self.velocities.map(|velocity| velocity * length / time),
+            gap: self.gap * length,
+        }
     }
 
     pub fn settings(&self) -> Settings {
@@ -88,22 +94,27 @@ impl Pair {
             candidate_radius: self.candidate_radius * length,
             step_factor: self.step_factor,
             mass_scaling: 2e-4,
-            gap: self.gap * length,
         }
     }
 
     pub fn model(&self) -> Model {
-        Model::new([self.sphere(0), self.sphere(1)], &self.settings()).unwrap()
+        self.model_of([self.sphere(0), self.sphere(1)])
     }
 
-    pub fn run_settings(&self) -> RunSettings {
+    pub fn model_of(&self, bodies: [BodyInput; 2]) -> Model {
+        Model::new(bodies, self.approach(), &self.settings()).unwrap()
+    }
+
+    pub fn expected(&self) -> Expectation {
         let [length, time, _] = self.units;
-        RunSettings {
-            expected_contact_time: HERTZ_TIME * time,
-            expected_approach: HERTZ_APPROACH * length,
+        Expectation { contact_time: HERTZ_TIME * time, approach: HERTZ_APPROACH * length }
+    }
+
+    pub fn want(&self) -> Want {
+        Want {
             history_rows: self.history_rows,
             snapshots: self.snapshots.clone(),
-            max_time: self.max_time * time,
+            give_up_after: self.max_time / HERTZ_TIME,
         }
     }
 
@@ -112,11 +123,35 @@ impl Pair {
     }
 
     pub fn run_model(&self, model: &Model) -> Collision {
-        collide(model, &self.run_settings(), &mut ())
+        collide(model, self.expected(), &self.want(), &mut ())
     }
 }
 
-/// First to last contact, s.
-pub fn contact_time(collision: &Collision) -> f64 {
-    collision.last_contact.unwrap() - collision.first_contact.unwrap()
+/// The quantities of a run that has ended, which are all there.
+pub struct Quantities {
+    pub restitution: f64,
+    pub contact_time: f64,
+    pub peak_force: f64,
+    pub max_approach: f64,
+    pub max_contact_radius: f64,
+    pub peak_pressure: f64,
+    pub residual: f64,
+    pub momentum_residual: f64,
+    pub velocity_after: [f64; 2],
+    pub steps: u64,
+}
+
+pub fn quantities(run: &Collision) -> Quantities {
+    Quantities {
+        restitution: run.restitution.unwrap(),
+        contact_time: run.contact_time.unwrap(),
+        peak_force: run.peak_force.unwrap(),
+        max_approach: run.max_approach.unwrap(),
+        max_contact_radius: run.max_contact_radius.unwrap(),
+        peak_pressure: run.peak_pressure.unwrap(),
+        residual: run.residual_relative.unwrap(),
+        momentum_residual: run.momentum_residual_relative.unwrap(),
+        velocity_after: run.bodies.map(|body| body.velocity_after.unwrap()),
+        steps: run.steps.unwrap(),
+    }
 }

@@ -6,8 +6,10 @@
 
 use std::sync::Mutex;
 
-use fem_case::{Case, Condensed, PairCache, QUASI_STATIC_LIMIT};
-use fem_condensed::CondensedError;
+use fem::effects::QUASI_STATIC_LIMIT;
+use fem::{Condensed, Model, Shared};
+use fem_case::Case;
+use fem_collision::Stop;
 use fem_fit::FitError;
 use fem_laws::{FiniteSize, HertzImpact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::{ActsOn, Material, PronySeries, PronyTerm};
@@ -16,7 +18,6 @@ use rayon::prelude::*;
 use super::ends;
 use super::faults::{blame, no_mesh};
 use super::pairs::{Bodies, Measured};
-use crate::arguments::CaseArguments;
 use crate::engineering::show;
 use crate::failure::Failure;
 
@@ -121,12 +122,12 @@ enum Evaluator {
 }
 
 impl Experiment {
-    /// Loads the case with the bodies of the data, at its speeds, and makes its model.
+    /// Gives the case the bodies of the data and its speeds, and makes its model.
     ///
     /// # Errors
     /// A case that cannot be, a mesh or a factor that cannot be made.
     pub fn new(
-        input: &CaseArguments,
+        case: &Case,
         measured: &Measured,
         bodies: &Bodies,
         target: &Target,
@@ -134,25 +135,24 @@ impl Experiment {
     ) -> Result<Self, Failure> {
         let speeds: Vec<f64> =
             bodies.points.iter().map(|point| measured.data.points[*point].speed).collect();
-        let given = [input.set.clone(), bodies.overrides()].concat();
         let first = bodies.points[0];
-        let base = Case::load(&input.case, &given)
-            .map_err(|error| blame(error, &bodies.overrides(), measured, first))?;
+        let base = case
+            .edited(|file| bodies.resize(file))
+            .map_err(|error| blame(error, measured, first))?;
         let moving = usize::from(base.scene.bodies[0].diameter().is_none());
         let place = |speed: f64| {
             let is_it = |k: &usize| measured.data.points[*k].speed == speed;
             bodies.points.iter().copied().find(is_it).unwrap_or(first)
         };
-        let at = |speed: f64, more: &[String]| {
-            let speeds = [
-                format!("body.{moving}.approach_speed={speed:?}"),
-                format!("body.{}.approach_speed=0.0", 1 - moving),
-            ];
-            let case = Case::load(&input.case, &[&given[..], &speeds, more].concat());
-            case.map_err(|error| {
-                let own = [&bodies.overrides()[..], &speeds].concat();
-                blame(error, &own, measured, place(speed))
-            })
+        let at = |speed: f64, element_size: Option<f64>| {
+            let case = base.edited(|file| {
+                file.body[moving].approach_speed = Some(speed.into());
+                file.body[1 - moving].approach_speed = Some(0.0.into());
+                if let Some(size) = element_size {
+                    file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
+                }
+            });
+            case.map_err(|error| blame(error, measured, place(speed)))
         };
         let bad = |error: LawError| Failure::bad_input(error.to_string());
         let pair = base.scene.pair().map_err(bad)?;
@@ -178,14 +178,13 @@ impl Experiment {
                     let size = (large.max_contact_radius() / ELEMENTS_ACROSS.0)
                         .min(small.max_contact_radius() / ELEMENTS_ACROSS.1)
                         .min(smallest_radius / ACROSS_SPHERE);
-                    let mesh = format!("mesh.contact_element_size={size:?}");
                     let is_given = base.gives("mesh.contact_element_size");
-                    let case =
-                        at(fastest, if is_given { &[] } else { std::slice::from_ref(&mesh) })?;
-                    let condensed = Condensed::new(case, &PairCache::default());
+                    let case = at(fastest, (!is_given).then_some(size))?;
+                    let condensed = Condensed::new(&case.scene, &Shared::default())
+                        .map_err(|refusal| refusal.in_case(&case));
                     let condensed = condensed.map_err(|error| match is_given {
                         true => error.into(),
-                        false => no_mesh(&error, size, (slowest, fastest)),
+                        false => no_mesh(error, size, (slowest, fastest)),
                     })?;
                     Evaluator::Condensed(Box::new(Mutex::new(condensed)))
                 }
@@ -205,13 +204,15 @@ impl Experiment {
         let mut is_too_fast = true;
         if let Evaluator::Condensed(condensed) = &experiment.model {
             let condensed = lock(condensed);
-            let size = condensed.plan.contact_element_size;
+            let plan = condensed.setup().elements.as_ref().map(|elements| &elements.plan);
+            let size = plan.map_or(f64::NAN, |plan| plan.contact_element_size);
             let across = (small.max_contact_radius() / size, large.max_contact_radius() / size);
             experiment.elements_across = Some(across);
             // Their remedy is a model that calibrates nothing: the doubt below takes their place.
             let told = condensed.speed_warnings();
             is_too_fast = !told.is_empty();
-            let others = condensed.warnings.iter().filter(|warning| !told.contains(warning));
+            let warnings = condensed.setup().warnings.iter();
+            let others = warnings.filter(|warning| !told.contains(warning));
             experiment.warnings = others.cloned().collect();
         }
         let materials = experiment.materials.iter().flatten();
@@ -264,10 +265,9 @@ impl Experiment {
         match &self.model {
             Evaluator::Condensed(condensed) => {
                 let relaxations = [relaxation(0), relaxation(1)];
-                match lock(condensed).collide_with(speed, relaxations, STEPS) {
-                    Ok(collision) => Ok(collision.restitution),
-                    Err(CondensedError::NoSeparation { .. }) => Ok(0.0),
-                    Err(error) => Err(failed(&error)),
+                match lock(condensed).restitution(speed, relaxations, STEPS) {
+                    Err(Stop::NoSeparation { .. }) => Ok(0.0),
+                    result => result.map_err(|stop| failed(&stop)),
                 }
             }
             Evaluator::Ting(pair) => {

@@ -1,4 +1,4 @@
-//! Faults of data that reach the model as overrides of the case, and what of the case is left out.
+//! Faults of data that reach the model as edits of the case, and what of the case is left out.
 
 use fem_case::{Case, CaseError};
 
@@ -21,16 +21,11 @@ pub fn unused_model(case: &Case, chosen: ModelName) -> Option<String> {
     })
 }
 
-/// A fault of what the data say (`own`, as overrides) and no option does, with its line.
-pub(super) fn blame(
-    error: CaseError,
-    own: &[String],
-    measured: &Measured,
-    point: usize,
-) -> Failure {
-    let key = |set: &String| set.split_once('=').map(|(key, _)| format!("--set {key}="));
-    let is_own = |key: String| error.source_name().starts_with(&key);
-    if !own.iter().filter_map(key).any(is_own) {
+/// A fault of a case that was edited to the sizes and speeds of a point: with the point's line
+/// where it is of a body and stands neither in the case file nor in an option.
+pub(super) fn blame(error: CaseError, measured: &Measured, point: usize) -> Failure {
+    let is_of_body = error.key().is_some_and(|key| key.starts_with("body"));
+    if error.line().is_some() || !is_of_body {
         return error.into();
     }
     let failure = measured.fault(point, error.message());
@@ -40,8 +35,12 @@ pub(super) fn blame(
     }
 }
 
-/// A mesh whose elements the speeds make too small.
-pub(super) fn no_mesh(error: &CaseError, size: f64, (slowest, fastest): (f64, f64)) -> Failure {
+/// A mesh whose elements the speeds make too small; what else is wrong with a mesh is the case's.
+pub(super) fn no_mesh(error: CaseError, size: f64, (slowest, fastest): (f64, f64)) -> Failure {
+    let of_size = ["mesh.contact_element_size", "limits.memory", "output.snapshots"];
+    if !error.key().is_some_and(|key| of_size.contains(&key)) {
+        return error.into();
+    }
     Failure::bad_input(format!(
         "no mesh for all speeds from {} to {}: elements of {} are needed for the smallest contact, \
          {}",

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem_case::Case;
+use fem_case::{Case, CaseFile};
 
 use crate::failure::Failure;
 use crate::reduced::{CsvTable, Data, OtherColumns, points_of};
@@ -32,11 +32,13 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// What the case must be told.
-    pub fn overrides(&self) -> Vec<String> {
-        let given = self.diameters.iter().enumerate();
-        let given = given.filter_map(|(body, diameter)| Some((body, (*diameter)?)));
-        given.map(|(body, diameter)| format!("body.{body}.sphere.diameter={diameter:?}")).collect()
+    /// Gives the spheres of a case the diameters of the file.
+    pub fn resize(&self, file: &mut CaseFile) {
+        for (body, diameter) in file.body.iter_mut().zip(self.diameters) {
+            if let (Some(sphere), Some(diameter)) = (&mut body.sphere, diameter) {
+                sphere.diameter = diameter.into();
+            }
+        }
     }
 }
 

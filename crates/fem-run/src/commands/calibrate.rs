@@ -92,9 +92,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let free = "the weights".to_string();
         return Err(refused(FitError::TooFewData { n_values, n_free, free }));
     }
-    let experiments = measured.bodies.par_iter().map(|bodies| {
-        Experiment::new(&arguments.input, &measured, bodies, &target, arguments.model)
-    });
+    let experiments = measured
+        .bodies
+        .par_iter()
+        .map(|bodies| Experiment::new(&case, &measured, bodies, &target, arguments.model));
     let experiments: Vec<Experiment> = experiments.collect::<Result<_, _>>()?;
     let contacts = ends(experiments.iter().flat_map(|experiment| &experiment.contact_times));
     let window = arguments.times.unwrap_or((contacts.0 / REACH, contacts.1 * REACH));

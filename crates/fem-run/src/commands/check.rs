@@ -1,7 +1,8 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
 use comfy_table::CellAlignment::Left;
-use fem_case::{Case, Condensed, Problem, Reduced, Simulation};
+use fem::{Cost, ForceLaw, Simulation};
+use fem_case::Case;
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::CaseArguments;
@@ -41,7 +42,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 /// What to expect of a run.
 fn expect(simulation: &Simulation) -> String {
-    let hertz = simulation.hertz();
+    let setup = simulation.setup();
+    let hertz = &setup.estimate.hertz;
     let closed_form = pairs([
         ("contact time", show(hertz.contact_time(), "s")),
         ("peak force", show(hertz.peak_force(), "N")),
@@ -49,61 +51,51 @@ fn expect(simulation: &Simulation) -> String {
         ("largest contact radius", show(hertz.max_contact_radius(), "m")),
         ("peak pressure", show(hertz.peak_pressure(), "Pa")),
     ]);
-    let model = match simulation {
-        Simulation::Fem(problem) => elements(problem),
-        Simulation::Condensed(condensed) => contact_nodes(condensed),
-        Simulation::Reduced(reduced) => one_degree_of_freedom(reduced),
+    let costs = costs(&setup.cost);
+    let model = match &setup.cost {
+        Cost::Steps { .. } | Cost::Factors { .. } => {
+            let meshes = mesh_table(&simulation.case.scene, simulation.model.meshes());
+            format!("Mesh\n{meshes}\nCost\n{costs}")
+        }
+        Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
     format!(
         "{model}\nHertz, instantaneous moduli\n{closed_form}\nEffects\n{}\n{}",
-        report::effects(&simulation.effects()),
-        report::warnings(simulation.warnings()),
+        report::effects(&setup.effects),
+        report::warnings(&setup.warnings),
     )
 }
 
-/// Mesh and cost of finite elements.
-fn elements(problem: &Problem) -> String {
-    let (cost, model) = (&problem.cost, &problem.model);
-    let longer = model.time_step() / model.plain_time_step();
-    let costs = pairs([
-        (
-            "time step",
-            format!(
-                "{} ({longer:.2} times that without mass scaling)",
-                show(model.time_step(), "s")
-            ),
-        ),
-        ("steps", format!("about {}", HumanCount(cost.steps))),
-        ("element updates", format!("about {:.1e}", cost.element_updates as f64)),
-        ("memory", format!("about {}", DecimalBytes(cost.memory))),
-    ]);
-    let meshes = model.bodies().each_ref().map(|body| body.mesh());
-    format!("Mesh\n{}\nCost\n{costs}", mesh_table(&problem.case.scene, meshes))
-}
-
-/// Mesh and cost of condensed bodies.
-fn contact_nodes(condensed: &Condensed) -> String {
-    let pair = &condensed.pair;
-    let costs = pairs([
-        ("contact points", format!("{} condensed", pair.n_points())),
-        ("steps", format!("about {}", HumanCount(condensed.options().steps as u64))),
-        ("factors", DecimalBytes(pair.factor_bytes() as u64).to_string()),
-    ]);
-    format!("Mesh\n{}\nCost\n{costs}", mesh_table(&condensed.case.scene, condensed.meshes()))
+fn costs(cost: &Cost) -> String {
+    match *cost {
+        Cost::Steps { steps, element_updates, memory, time_step, plain_time_step, .. } => {
+            let longer = time_step / plain_time_step;
+            let step = show(time_step, "s");
+            pairs([
+                ("time step", format!("{step} ({longer:.2} times that without mass scaling)")),
+                ("steps", format!("about {}", HumanCount(steps))),
+                ("element updates", format!("about {:.1e}", element_updates as f64)),
+                ("memory", format!("about {}", DecimalBytes(memory))),
+            ])
+        }
+        Cost::Factors { contact_points, steps, factor_bytes, .. } => pairs([
+            ("contact points", format!("{contact_points} condensed")),
+            ("steps", format!("about {}", HumanCount(steps))),
+            ("factors", DecimalBytes(factor_bytes).to_string()),
+        ]),
+        Cost::Little { .. } => String::new(),
+    }
 }
 
 /// Model and cost of a reduced one.
-fn one_degree_of_freedom(reduced: &Reduced) -> String {
-    let force = reduced.law().map(|law| {
+fn one_degree_of_freedom(description: &str, force: Option<&ForceLaw>) -> String {
+    let force = force.map(|law| {
         format!(
             "F = K x^{} + C x^{} dx/dt, K = {:.5e} and C = {:.5e} SI",
-            law.elastic_exponent(),
-            law.damping_exponent(),
-            law.stiffness(),
-            law.damping()
+            law.elastic_exponent, law.damping_exponent, law.stiffness, law.damping
         )
     });
-    let mut rows = vec![["computes", reduced.describe().as_str()].map(String::from)];
+    let mut rows = vec![["computes", description].map(String::from)];
     rows.extend(force.map(|force| ["force".to_string(), force]));
     rows.push(["cost", "milliseconds"].map(String::from));
     format!("Model\n{}", table(&[Left, Left], rows))

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_case::{Case, Model, Reduced};
+use fem::Reduced;
+use fem_case::{Case, ModelChoice};
 use fem_figure::{Axis, COLOURS, Chart, Curve as Line, Mark};
 use fem_fit::dem::{Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets};
 use fem_fit::{FitError, Point};
@@ -112,7 +113,8 @@ fn curve(arguments: &Arguments, case: &Case) -> Result<Curve, Failure> {
 /// The case's own model; Ting's in place of one with elements.
 fn reduced(case: &Case) -> Result<Reduced, Failure> {
     let mut case = case.clone();
-    if !matches!(case.scene.model, Model::Hertz { .. } | Model::Ting { .. } | Model::Law { .. }) {
+    let is_reduced = !matches!(case.scene.model, ModelChoice::Fem | ModelChoice::Condensed(_));
+    if !is_reduced {
         model_of(&case, Family::Ting, EndRule::ZeroForce).map_err(|error| {
             from_fit_error(error).with_help(
                 "give a material a [material.NAME.relaxation] table, a law in [model], or \
@@ -120,9 +122,9 @@ fn reduced(case: &Case) -> Result<Reduced, Failure> {
             )
         })?;
         let tolerance = Ting::DEFAULT_TOLERANCE;
-        case.scene.model = Model::Ting { finite_size: false, tolerance };
+        case.scene.model = ModelChoice::Ting { finite_size: false, tolerance };
     }
-    Ok(Reduced::new(case)?)
+    Ok(Reduced::new(&case.scene).map_err(|refusal| refusal.in_case(&case))?)
 }
 
 fn parse_speeds(text: &str) -> Result<(f64, f64), String> {

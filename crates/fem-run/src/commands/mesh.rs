@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fem_case::{Case, Plan, build_meshes};
+use fem::{Plan, build_meshes};
+use fem_case::Case;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuFile, VtuWriter};
 
@@ -35,7 +36,8 @@ pub struct Arguments {
 /// Writes meshes and prints their quality.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let meshes = build_meshes(&case, &Plan::of(&case)?)?;
+    let meshes = build_meshes(&case.scene, &Plan::of_case(&case)?)
+        .map_err(|refusal| refusal.in_case(&case))?;
     let default = || Path::new("meshes").join(arguments.input.stem());
     let out = arguments.out.clone().unwrap_or_else(default);
     let bodies = case.scene.bodies.iter().zip(&meshes);

@@ -1,26 +1,25 @@
 //! `fem-run CASE.toml`: computes a collision and writes its result folder.
 
-use std::io::{Write, stderr};
+use std::fs::File;
+use std::io::{BufWriter, Write, stderr};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fem_case::{Case, Halt, Keep, Outcome, Simulation};
+use fem::results::{HISTORY_FILE, SUMMARY_FILE, Summary, history_csv, write_snapshots};
+use fem::{Cost, Simulation, assess, remedy_of};
+use fem_case::{Case, Keep};
+use fem_collision::{Collision, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::CaseArguments;
-use crate::assess::assess;
 use crate::failure::Failure;
-use crate::history_file::{HISTORY_FILE, write_history};
 use crate::interrupt::Interrupt;
 use crate::progress::Watch;
-use crate::remedy::remedy_of;
 use crate::report::report;
 use crate::result_folder::ResultFolder;
-use crate::snapshot_files::{Drawing, write_snapshots};
 use crate::standard_output;
-use crate::summarise::{Clock, summarise};
-use crate::summary::{SUMMARY_FILE, Summary};
+use crate::stopwatch::Stopwatch;
 
 /// How to run a case.
 #[derive(clap::Args, Debug)]
@@ -51,17 +50,18 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     }
 
     let mut watch = Watch::new(interrupt, options.quiet);
-    let (outcome, clock) = Clock::run(started, &mut simulation, &mut watch);
+    let (collision, stopwatch) = Stopwatch::run(started, &mut simulation, &mut watch);
     watch.finish();
 
-    let summary = write_result(folder.path(), &stem, &simulation, &outcome, clock, Keep::All)?;
+    let summary =
+        write_result(folder.path(), &stem, &simulation, &collision, &stopwatch, Keep::All)?;
     let place = folder.publish()?;
     if !options.quiet {
         standard_output::print(&report(&summary, &place))?;
     }
-    match &outcome.halt {
+    match collision.stop() {
         None => Ok(()),
-        Some(halt) => Err(stopped(halt, &summary, &place)),
+        Some(stop) => Err(stopped(stop, &summary, &place)),
     }
 }
 
@@ -78,23 +78,19 @@ fn announce(simulation: &Simulation, case: &Path, out: &Path) {
 
 /// The model and what it costs.
 fn price(simulation: &Simulation) -> String {
-    match simulation {
-        Simulation::Fem(problem) => {
-            let cost = &problem.cost;
-            format!(
-                "{} elements, about {} steps, about {}",
-                HumanCount(cost.elements),
-                HumanCount(cost.steps),
-                DecimalBytes(cost.memory)
-            )
-        }
-        Simulation::Condensed(condensed) => format!(
-            "{} elements condensed to {} contact points, factors of {}",
-            HumanCount(condensed.n_elements() as u64),
-            condensed.pair.n_points(),
-            DecimalBytes(condensed.pair.factor_bytes() as u64)
+    match simulation.setup().cost {
+        Cost::Steps { elements, steps, memory, .. } => format!(
+            "{} elements, about {} steps, about {}",
+            HumanCount(elements),
+            HumanCount(steps),
+            DecimalBytes(memory)
         ),
-        Simulation::Reduced(reduced) => format!("{}, milliseconds", reduced.describe()),
+        Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
+            "{} elements condensed to {contact_points} contact points, factors of {}",
+            HumanCount(elements),
+            DecimalBytes(factor_bytes)
+        ),
+        Cost::Little { .. } => format!("{}, milliseconds", simulation.setup().description),
     }
 }
 
@@ -103,8 +99,8 @@ pub fn write_result(
     folder: &Path,
     stem: &str,
     simulation: &Simulation,
-    outcome: &Outcome,
-    clock: Clock,
+    collision: &Collision,
+    stopwatch: &Stopwatch,
     keep: Keep,
 ) -> Result<Summary, Failure> {
     let fault = |error: &dyn std::error::Error| {
@@ -115,36 +111,35 @@ pub fn write_result(
     let mut files = vec![SUMMARY_FILE.to_string()];
     let mut left_out = Vec::new();
     if keep == Keep::All {
-        write_history(folder, simulation.case(), &outcome.history)
+        let file = File::create(folder.join(HISTORY_FILE)).map_err(|error| fault(&error))?;
+        history_csv(BufWriter::new(file), &simulation.case.scene, &collision.history)
             .map_err(|error| fault(&error))?;
         files.push(HISTORY_FILE.to_string());
-    }
-    let mut warnings = simulation.warnings().to_vec();
-    if let Some(drawing) = Drawing::of(simulation, outcome).filter(|_| keep == Keep::All) {
         let (vtk_files, missing) =
-            write_snapshots(folder, stem, &drawing).map_err(|error| fault(&error))?;
+            write_snapshots(folder, stem, simulation, collision).map_err(|error| fault(&error))?;
         files.extend(vtk_files);
         left_out = missing;
     }
-    warnings.extend(assess(simulation, outcome));
-    warnings.extend(outcome.warnings.iter().cloned());
+    let mut warnings = simulation.setup().warnings.clone();
+    warnings.extend(assess(simulation, collision));
+    warnings.extend(collision.warnings.iter().cloned());
     warnings.extend(left_out);
-    let summary = summarise(simulation, outcome, clock, warnings, files);
+    let summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
     let mut text = serde_json::to_string_pretty(&summary).map_err(|error| fault(&error))?;
     text.push('\n');
     std::fs::write(folder.join(SUMMARY_FILE), text).map_err(|error| fault(&error))?;
     Ok(summary)
 }
 
-fn stopped(halt: &Halt, summary: &Summary, place: &Path) -> Failure {
+fn stopped(stop: &Stop, summary: &Summary, place: &Path) -> Failure {
     let kept = format!(
         "what was computed so far is in {}, marked incomplete",
         standard_output::one_line(&place.display().to_string())
     );
-    let Some(remedy) = remedy_of(halt) else {
-        return Failure::interrupted(halt.to_string()).with_help(kept);
+    let Some(remedy) = remedy_of(stop) else {
+        return Failure::interrupted(stop.to_string()).with_help(kept);
     };
     let between: Vec<&str> = summary.bodies.iter().map(|body| body.name.as_str()).collect();
-    Failure::failed(format!("the run of {} failed: {halt}", between.join(" and ")))
+    Failure::failed(format!("the run of {} failed: {stop}", between.join(" and ")))
         .with_help(format!("likely cause: {}\nremedy: {}\n{kept}", remedy.cause, remedy.remedy))
 }

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem_case::{PairCache, Simulation, Sweep};
+use fem::results::PROGRAM;
+use fem::{Shared, Simulation};
+use fem_case::Sweep;
 use serde_json::{Value, json};
 
 use crate::arguments::stem_of;
@@ -15,7 +17,6 @@ use crate::engineering::show;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output::{self, one_line};
-use crate::summary::PROGRAM;
 use crate::sweep::{Choice, Job, Member, Row, SweepFolder, collect, members, run_members};
 use crate::tables::table;
 
@@ -96,7 +97,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         folder: &folder,
         threads: arguments.threads,
         quiet: arguments.quiet,
-        pairs: PairCache::default(),
+        shared: Shared::default(),
         interrupt: interrupt.clone(),
     };
     let ran = run_members(&job, &todo);
@@ -121,7 +122,7 @@ fn find_todo<'m>(
         if !known.insert(&member.identity) || folder.has(&member.identity, sweep.keep) {
             continue;
         }
-        todo.push((sweep.build(member.index, Simulation::price)?, member));
+        todo.push((sweep.build(member.index, |case| Simulation::price(&case))?, member));
     }
     todo.sort_by_key(|(updates, member)| (std::cmp::Reverse(*updates), member.index));
     Ok(todo.into_iter().map(|(_, member)| member).collect())

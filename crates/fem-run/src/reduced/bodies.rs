@@ -1,7 +1,8 @@
 //! From a case to a law of its bodies: which one, with which numbers, from the options and from
 //! `[model]`.
 
-use fem_case::{Case, Reduced};
+use fem::Reduced;
+use fem_case::{Case, ModelChoice};
 use fem_fit::{FitError, Model};
 use fem_laws::{EndRule, Family};
 
@@ -18,7 +19,7 @@ pub fn model_of(case: &Case, family: Family, end_rule: EndRule) -> Result<Model,
     let materials = case.scene.bodies.each_ref().map(|body| body.material().cloned());
     let model = Model::new(&pair, materials, family, end_rule)?;
     Ok(match &case.scene.model {
-        fem_case::Model::Ting { finite_size: true, .. } => {
+        ModelChoice::Ting { finite_size: true, .. } => {
             model.with_finite_size(case.scene.finite_size()?)
         }
         _ => model,
@@ -28,8 +29,8 @@ pub fn model_of(case: &Case, family: Family, end_rule: EndRule) -> Result<Model,
 /// The law that `[model]` names, if it names one.
 pub fn family_of(case: &Case) -> Option<Family> {
     match &case.scene.model {
-        fem_case::Model::Ting { .. } => Some(Family::Ting),
-        fem_case::Model::Law { law, .. } => Some(law.family()),
+        ModelChoice::Ting { .. } => Some(Family::Ting),
+        ModelChoice::Law { law, .. } => Some(law.family()),
         _ => None,
     }
 }
@@ -57,10 +58,10 @@ impl LawArguments {
     pub fn choose(&self, case: &Case, family: Family) -> Result<ChosenLaw, Failure> {
         let mut given = vec![Given::Nowhere; family.parameters().len()];
         let mut end_rule = family.end_rule().unwrap_or(EndRule::ZeroForce);
-        if let fem_case::Model::Law { law, end_rule: own, .. } = &case.scene.model
+        if let ModelChoice::Law { law, end_rule: own, .. } = &case.scene.model
             && law.family() == family
         {
-            let reduced = Reduced::new(case.clone())?;
+            let reduced = Reduced::new(&case.scene).map_err(|refusal| refusal.in_case(case))?;
             let numbers = reduced.law_numbers().unwrap_or_default();
             given = numbers.iter().copied().map(Given::Case).collect();
             end_rule = *own;

@@ -1,6 +1,7 @@
 //! From e(v) and T(v) to the laws that DEM codes have, and where each is good.
 
-use fem_case::{Body, Case, Reduced};
+use fem::Reduced;
+use fem_case::{Body, Case};
 use fem_fit::dem::{Dashpot, Elastic, Export, Sphere};
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::{EndRule, Family, HertzImpact, Pair};
@@ -59,7 +60,7 @@ impl Curve {
             })
         };
         let points: Vec<Point> = speeds.iter().map(point).collect::<Result<_, FitError>>()?;
-        Self::of(&reduced.case.scene.pair()?, points)
+        Self::of(&reduced.scene().pair()?, points)
     }
 
     /// From, to, and the largest error of a law's e: the longest run of neighbouring speeds at which

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::failure::Failure;
 use crate::result_folder::ResultFolder;
 use crate::standard_output::one_line;
-use crate::summary::PROGRAM;
+use fem::results::PROGRAM;
 
 /// Where results go.
 #[derive(clap::Args, Clone, Debug)]

@@ -4,7 +4,7 @@
 use std::io::{IsTerminal, Write, stderr};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use fem_explicit::{Monitor, Progress};
+use fem_collision::{Monitor, Progress};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::interrupt::Interrupt;

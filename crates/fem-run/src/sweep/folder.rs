@@ -5,14 +5,13 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use fem::results::{HISTORY_FILE, PROGRAM, SUMMARY_FILE};
 use fem_case::Keep;
 use serde_json::Value;
 
 use crate::failure::Failure;
-use crate::history_file::HISTORY_FILE;
 use crate::occupant::missing_parents;
 use crate::standard_output::one_line;
-use crate::summary::{PROGRAM, SUMMARY_FILE};
 
 /// What the sweep is: its keys and the members' values and folders.
 pub const MARK_FILE: &str = "sweep.json";

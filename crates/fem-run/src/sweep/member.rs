@@ -1,6 +1,7 @@
 //! A member of a sweep and what it is known by.
 
-use fem_case::{Case, CaseError, CaseFile, Shape, Simulation, Sweep};
+use fem::Simulation;
+use fem_case::{Case, CaseError, CaseFile, Shape, Sweep};
 use sha2::{Digest, Sha256};
 
 /// Bytes of the digest that go into a name: two of a million members share one by a chance of
@@ -26,7 +27,7 @@ pub fn members(sweep: &Sweep) -> Result<Vec<Member>, CaseError> {
     let member = |index| {
         let resolve = |case: Case| {
             let meshes = mesh_files(&case)?;
-            Ok((Simulation::resolve(case)?, meshes))
+            Ok((Simulation::resolve(&case)?, meshes))
         };
         let (case, meshes) = sweep.build(index, resolve)?;
         let identity = identity(&case, &meshes);

@@ -4,7 +4,9 @@ use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
-use fem_case::{Keep, PairCache, Simulation, Sweep};
+use fem::results::Summary;
+use fem::{Shared, Simulation};
+use fem_case::{Keep, Sweep};
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 
@@ -16,8 +18,7 @@ use crate::engineering::show;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_folder::ResultFolder;
-use crate::summarise::Clock;
-use crate::summary::Summary;
+use crate::stopwatch::Stopwatch;
 
 /// What members are run with.
 pub struct Job<'a> {
@@ -29,8 +30,8 @@ pub struct Job<'a> {
     pub threads: Option<NonZeroUsize>,
     /// Show no progress.
     pub quiet: bool,
-    /// Condensed bodies that members share.
-    pub pairs: PairCache,
+    /// What members share.
+    pub shared: Shared,
     /// Whether the user wants the sweep to end.
     pub interrupt: Interrupt,
 }
@@ -73,19 +74,20 @@ fn run_member(job: &Job<'_>, board: &Board, member: &Member) -> Result<(), Failu
     }
     let started = Instant::now();
     let mut simulation =
-        sweep.build(member.index, |case| Simulation::with_cache(case, &job.pairs))?;
+        sweep.build(member.index, |case| Simulation::sharing(case, &job.shared))?;
     if sweep.keep == Keep::Summary {
         simulation.skip_snapshots();
     }
     let mut watch = MemberWatch::new(board);
-    let (outcome, clock) = Clock::run(started, &mut simulation, &mut watch);
-    if outcome.is_interrupted() {
+    let (collision, stopwatch) = Stopwatch::run(started, &mut simulation, &mut watch);
+    if collision.is_interrupted() {
         return Ok(());
     }
     let stem = &member.identity;
     let place = ResultFolder::claim(&folder.member(stem), &longest_name(stem))
         .map_err(|failure| Failure::failed(format!("{name}: {failure}")))?;
-    let summary = write_result(place.path(), stem, &simulation, &outcome, clock, sweep.keep)?;
+    let summary =
+        write_result(place.path(), stem, &simulation, &collision, &stopwatch, sweep.keep)?;
     place.publish()?;
     watch.finish();
     board.finish_member(&format!("{name}: {}", in_a_few_words(&summary)));

@@ -7,7 +7,7 @@ use fem_validate::{ClaimResult, page};
 use serde_json::json;
 
 use crate::failure::Failure;
-use crate::summary::{PROGRAM, SUMMARY_FILE};
+use fem::results::{PROGRAM, SUMMARY_FILE};
 
 /// The page.
 pub const PAGE_FILE: &str = "index.html";

@@ -3,7 +3,7 @@
 //! `energy` and `momentum`, the worst imbalance of any run at any instant (over the energy of
 //! approach, over Σ m|v|), and `NAME.energy`, `NAME.momentum` of each run.
 
-use fem_explicit::HistoryRow;
+use fem_collision::{Account, Row};
 use fem_figure::{Axis, Chart, Curve, GREY, Mark};
 use serde::Deserialize;
 
@@ -23,15 +23,14 @@ struct Parameters {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {
-        let collision = &run.collision;
-        findings.measure(format!("{name}.energy"), collision.residual_relative);
-        findings.measure(format!("{name}.momentum"), collision.momentum_residual_relative);
-        findings.measure_worst("energy", collision.residual_relative);
-        findings.measure_worst("momentum", collision.momentum_residual_relative);
+        findings.measure(format!("{name}.energy"), run.energy_residual());
+        findings.measure(format!("{name}.momentum"), run.momentum_residual());
+        findings.measure_worst("energy", run.energy_residual());
+        findings.measure_worst("momentum", run.momentum_residual());
     }
     let drawn = names.iter().zip(&runs).filter(|(name, _)| parameters.drawn.contains(name));
     let charts: Vec<Chart> = drawn.map(|(name, run)| energies(run, name)).collect();
@@ -39,13 +38,12 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
                    strain and contact energy and what was dissipated, less the work of a moving wall.";
     findings.draw("energies", caption, &charts);
     let rows = names.iter().zip(&runs).map(|(name, run)| {
-        let collision = &run.collision;
         [
             name.replace('_', " "),
-            run.problem.case.scene.title.clone(),
+            run.case.scene.title.clone(),
             format!("{:.4}", run.restitution),
-            format!("{:.1e}", collision.residual_relative),
-            format!("{:.1e}", collision.momentum_residual_relative),
+            format!("{:.1e}", run.energy_residual()),
+            format!("{:.1e}", run.momentum_residual()),
         ]
     });
     let header = ["run", "case", "restitution", "energy", "momentum"];
@@ -55,25 +53,28 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 
 /// Energies of one run over that of approach, ½ m* v².
 fn energies(run: &Run, name: &str) -> Chart {
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     let scale = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
     let start = run.collision.first_contact.unwrap_or(f64::NAN);
-    let curve = |label: &str, mark: Mark, value: fn(&HistoryRow) -> f64| {
-        let point = |row: &HistoryRow| ((row.time - start) / run.contact_time, value(row) / scale);
+    let curve = |label: &str, mark: Mark, value: fn(&Row) -> f64| {
+        let point = |row: &Row| ((row.time - start) / run.contact_time(), value(row) / scale);
         Curve::new(label, mark, run.collision.history.iter().map(point).collect())
     };
-    let account = |row: &HistoryRow| {
-        row.kinetic + row.strain + row.contact + row.viscous_dissipation - row.wall_work
-    };
+    let account = |row: &Row| row.energies.residual(0.0);
     Chart::new(
         Axis::new("time/contact time").from_to(0.0, 1.2),
         Axis::new("energy/energy of approach"),
     )
     .titled(name.replace('_', " "))
-    .with(curve("kinetic", Mark::Line, |row| row.kinetic))
-    .with(curve("strain", Mark::Line, |row| row.strain))
-    .with(curve("contact springs", Mark::Line, |row| row.contact))
-    .with(curve("dissipated", Mark::Line, |row| row.viscous_dissipation))
-    .with(curve("work of a wall", Mark::Line, |row| row.wall_work))
+    .with(curve("kinetic", Mark::Line, |row| energy(row, Account::Kinetic)))
+    .with(curve("strain", Mark::Line, |row| energy(row, Account::Strain)))
+    .with(curve("contact springs", Mark::Line, |row| energy(row, Account::Contact)))
+    .with(curve("dissipated", Mark::Line, |row| energy(row, Account::ViscousDissipation)))
+    .with(curve("work of a wall", Mark::Line, |row| energy(row, Account::WallWork)))
     .with(curve("account", Mark::Dashed, account).coloured(GREY))
+}
+
+/// J; 0 where nothing fills the account.
+fn energy(row: &Row, account: Account) -> f64 {
+    row.energy(account).unwrap_or(0.0)
 }

@@ -10,34 +10,37 @@
 
 use std::sync::Arc;
 
-use fem_case::{Outcome, OutcomeRow, Plan};
+use fem::Plan;
+use fem_case::schema::{CondensedTable, ContactTable, SnapshotsValue, TimeTable};
+use fem_collision::{Collision, Row};
 use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::run::Simulated;
+use crate::run::Run;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
     /// Elements across Hertz' contact radius.
     elements_per_contact_radius: f64,
-    /// Overrides of all cases.
-    set: Vec<String>,
-    /// Override that makes the model condensed.
-    condensed: String,
+    /// `[contact]` and `[time]` of all cases.
+    contact: ContactTable,
+    time: TimeTable,
+    /// Keys of the condensed model.
+    condensed: CondensedTable,
 }
 
 /// Name and value.
-type Quantity = (&'static str, fn(&Simulated) -> f64);
+type Quantity = (&'static str, fn(&Run) -> f64);
 
 const RELATIVE: [Quantity; 5] = [
     ("pulse_width", pulse_width),
-    ("max_approach", |run| known(run.outcome.max_approach)),
-    ("max_contact_radius", |run| known(run.outcome.max_contact_radius)),
-    ("peak_force", |run| known(run.outcome.peak_force)),
-    ("peak_pressure", |run| known(run.outcome.peak_pressure)),
+    ("max_approach", |run| run.max_approach()),
+    ("max_contact_radius", |run| run.max_contact_radius()),
+    ("peak_force", |run| run.peak_force()),
+    ("peak_pressure", |run| run.peak_pressure()),
 ];
 
 /// Runs every case of the claim with both models.
@@ -46,13 +49,18 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
     let mut cases = Vec::new();
     for name in &names {
-        let mut overrides = parameters.set.clone();
-        let radius = Plan::of(&laboratory.case(name, &overrides)?)?.estimate.contact_radius;
-        let size = radius / parameters.elements_per_contact_radius;
-        overrides.push(format!("mesh.contact_element_size={size:?}"));
-        cases.push(laboratory.case(name, &overrides)?);
-        overrides.push(parameters.condensed.clone());
-        cases.push(laboratory.case(name, &overrides)?);
+        let case = laboratory.case(name)?;
+        let size =
+            Plan::of_case(&case)?.estimate.contact_radius / parameters.elements_per_contact_radius;
+        let explicit = case.edited(|file| {
+            file.contact = Some(parameters.contact.clone());
+            file.time = Some(parameters.time.clone());
+            file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::none());
+            file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
+        })?;
+        cases.push(explicit.clone());
+        let condensed = parameters.condensed.clone().into();
+        cases.push(explicit.edited(|file| file.model = Some(condensed))?);
     }
     let runs = laboratory.simulate_all(cases)?;
     let pairs: Vec<_> = runs.chunks_exact(2).map(|two| (&two[0], &two[1])).collect();
@@ -71,32 +79,24 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-fn known(value: Option<f64>) -> f64 {
-    value.unwrap_or(f64::NAN)
-}
-
 /// s; NaN if the approach rate does not pass both instants.
-fn pulse_width(run: &Simulated) -> f64 {
+fn pulse_width(run: &Run) -> f64 {
     let speed = run.hertz.approach_speed();
-    let passes = |rate: f64| passes(&run.outcome, rate);
+    let passes = |rate: f64| passes(&run.collision, rate);
     passes(-0.5 * run.restitution * speed) - passes(0.5 * speed)
 }
 
 /// When the approach rate falls through a value (m/s), s.
-fn passes(outcome: &Outcome, value: f64) -> f64 {
-    let rate = |row: &OutcomeRow| row.velocity[0] - row.velocity[1];
-    let is_around = |two: &&[OutcomeRow]| rate(&two[0]) > value && rate(&two[1]) <= value;
-    outcome.history.windows(2).find(is_around).map_or(f64::NAN, |two| {
+fn passes(collision: &Collision, value: f64) -> f64 {
+    let rate = |row: &Row| row.velocity[0] - row.velocity[1];
+    let is_around = |two: &&[Row]| rate(&two[0]) > value && rate(&two[1]) <= value;
+    collision.history.windows(2).find(is_around).map_or(f64::NAN, |two| {
         let part = (rate(&two[0]) - value) / (rate(&two[0]) - rate(&two[1]));
         two[0].time + part * (two[1].time - two[0].time)
     })
 }
 
-fn tabulate(
-    findings: &mut Findings,
-    names: &[&String],
-    pairs: &[(&Arc<Simulated>, &Arc<Simulated>)],
-) {
+fn tabulate(findings: &mut Findings, names: &[&String], pairs: &[(&Arc<Run>, &Arc<Run>)]) {
     let rows = names.iter().zip(pairs).map(|(name, (explicit, condensed))| {
         let differences =
             RELATIVE.map(|(_, value)| format!("{:.1e}", value(condensed) / value(explicit) - 1.0));

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use fem_explicit::{Collision, Label};
+use fem_collision::Label;
 use fem_figure::{Axis, Chart, Curve, engineering::show};
 use serde::Deserialize;
 
@@ -14,7 +14,7 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::power_law::PowerLaw;
-use crate::run::Run;
+use crate::run::{ExplicitRun, Run};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,17 +28,21 @@ type Quantity = (&'static str, &'static str, &'static str, fn(&Run) -> f64);
 
 const QUANTITIES: [Quantity; 5] = [
     ("restitution", "e", "", |run| run.restitution),
-    ("contact_time", "T", "s", |run| run.contact_time),
-    ("peak_force", "F", "N", |run| run.collision.peak_force),
+    ("contact_time", "T", "s", |run| run.contact_time()),
+    ("peak_force", "F", "N", |run| run.peak_force()),
     ("contact_radius", "a", "m", equivalent_radius),
-    ("peak_pressure", "p0", "Pa", |run| run.collision.peak_pressure),
+    ("peak_pressure", "p0", "Pa", |run| run.peak_pressure()),
 ];
 
 /// Runs the case `base` at each element size.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { contact_element_sizes: sizes } = laboratory.parameters()?;
-    let case =
-        |size: &f64| laboratory.case("base", &[format!("mesh.contact_element_size={size:?}")]);
+    let base = laboratory.case("base")?;
+    let case = |size: &f64| {
+        base.edited(|file| {
+            file.mesh.get_or_insert_default().contact_element_size = Some((*size).into());
+        })
+    };
     let runs = laboratory.run_all(sizes.iter().map(case).collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     let mut chart = Chart::new(
@@ -58,8 +62,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let points = levels.iter().map(|(h, q)| (1e6 * h, (q / fit.limit - 1.0).abs()));
         chart = chart.with(Curve::points_on_line(symbol, points.collect()));
     }
-    let worst = |run: &Run| run.collision.residual_relative;
-    findings.measure("energy_residual", runs.iter().map(|run| worst(run)).fold(0.0, f64::max));
+    let residuals = runs.iter().map(|run| run.energy_residual());
+    findings.measure("energy_residual", residuals.fold(0.0, f64::max));
     if let Some(finest) = runs.last() {
         findings.measure("profile_radius", profile_radius(finest));
     }
@@ -75,13 +79,21 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-fn tabulate(findings: &mut Findings, sizes: &[f64], runs: &[Arc<Run>]) {
+fn tabulate(findings: &mut Findings, sizes: &[f64], runs: &[Arc<ExplicitRun>]) {
     let rows = sizes.iter().zip(runs).map(|(size, run)| {
         let [e, t, f, a, p] = QUANTITIES.map(|(.., unit, value)| {
             let value = value(run);
             if unit.is_empty() { format!("{value:.6}") } else { show(value, unit) }
         });
-        [show(*size, "m"), e, t, f, a, p, format!("{:.1e}", run.collision.element_updates as f64)]
+        [
+            show(*size, "m"),
+            e,
+            t,
+            f,
+            a,
+            p,
+            format!("{:.1e}", run.collision.element_updates.unwrap_or(0) as f64),
+        ]
     });
     let header = ["element size", "e", "T", "F", "a", "p0", "element updates"];
     findings.tabulate("The levels.", header, rows);
@@ -90,19 +102,18 @@ fn tabulate(findings: &mut Findings, sizes: &[f64], runs: &[Arc<Run>]) {
 /// Radius of Hertz' pressure with the run's peak force and centre pressure, p0 = 3F/(2πa²), m. It
 /// does not depend on where points happen to lie at the edge of the contact.
 fn equivalent_radius(run: &Run) -> f64 {
-    let Collision { peak_force, peak_pressure, .. } = &run.collision;
-    (1.5 * peak_force / (std::f64::consts::PI * peak_pressure)).sqrt()
+    (1.5 * run.peak_force() / (std::f64::consts::PI * run.peak_pressure())).sqrt()
 }
 
 /// Contact radius at maximum compression, m, as the root of p² = α − β r² fitted to the nodal
 /// pressures, whose area an r weighs: free of where a node happens to lie at the edge. NaN without
 /// a snapshot of the maximum.
-fn profile_radius(run: &Run) -> f64 {
+fn profile_radius(run: &ExplicitRun) -> f64 {
     let snapshots = &run.collision.snapshots;
     let Some(snapshot) = snapshots.iter().find(|s| s.label == Some(Label::Maximum)) else {
         return f64::NAN;
     };
-    let interface = run.problem.model.interface();
+    let interface = run.explicit.bodies.interface();
     let u = snapshot.bodies.each_ref().map(|body| body.displacement.as_slice());
     let edge = interface.contact_radius(u);
     let mut sums = [0.0; 5];

@@ -9,8 +9,9 @@
 //! without energy.
 
 use faer::{Mat, Side as Triangle};
+use fem_collision::{Approach, BodyInput};
 use fem_element::{QuadGeometry, mean_gradient};
-use fem_explicit::{Body, BodyInput, FreeMotion, Model, Settings};
+use fem_explicit::{Body, FreeMotion, Model, Settings};
 use fem_figure::{Axis, Chart, Curve, GREY};
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
@@ -126,8 +127,7 @@ impl Pair<'_> {
     fn model(&self) -> Result<Model, StudyError> {
         let body = |k: usize, side: Side| {
             let (mesh, material) = (sphere(self.sizes[k], side)?, self.material.clone());
-            let velocity = if k == 0 { 1.0 } else { 0.0 };
-            Ok::<_, StudyError>(BodyInput::Deformable { mesh, material, velocity })
+            Ok::<_, StudyError>(BodyInput::Sphere { mesh, material })
         };
         let contact_modulus = 0.5 * self.material.instantaneous().plane_strain_modulus();
         let settings = Settings {
@@ -135,9 +135,9 @@ impl Pair<'_> {
             candidate_radius: BLOCK * self.sizes[0].max(self.sizes[1]),
             step_factor: 1.0,
             mass_scaling: self.scaling,
-            gap: 0.0,
         };
-        Ok(Model::new([body(0, Side::Below)?, body(1, Side::Above)?], &settings)?)
+        let bodies = [body(0, Side::Below)?, body(1, Side::Above)?];
+        Ok(Model::new(bodies, Approach::at(1.0), &settings)?)
     }
 
     /// The ratio with all candidates closed, and with springs so many times as stiff.

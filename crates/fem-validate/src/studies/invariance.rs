@@ -15,7 +15,7 @@ const REFERENCE: &str = "plain";
 /// Runs all cases.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     let Some(plain) = names.iter().position(|name| *name == REFERENCE) else {
         return Err(StudyError::parameters(format!("the claim has no [run.{REFERENCE}]")));
@@ -31,14 +31,14 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 
 /// Results without unit.
 fn results(run: &Run) -> [f64; 6] {
-    let (collision, hertz) = (&run.collision, run.problem.plan.estimate.hertz);
-    let [lower, upper] = collision.velocity_after;
+    let hertz = &run.hertz;
+    let [lower, upper] = run.velocity_after();
     [
         run.restitution,
-        run.contact_time / hertz.contact_time(),
-        collision.peak_force / hertz.peak_force(),
-        collision.max_approach / hertz.max_approach(),
-        collision.max_contact_radius / hertz.max_contact_radius(),
+        run.contact_time() / hertz.contact_time(),
+        run.peak_force() / hertz.peak_force(),
+        run.max_approach() / hertz.max_approach(),
+        run.max_contact_radius() / hertz.max_contact_radius(),
         (upper - lower) / hertz.approach_speed(),
     ]
 }
@@ -48,7 +48,7 @@ fn results(run: &Run) -> [f64; 6] {
 fn forces(run: &Run) -> Vec<f64> {
     let last = run.collision.last_contact.unwrap_or(f64::NAN);
     let rows = run.collision.history.iter().take_while(|row| row.time <= last);
-    rows.map(|row| row.contact_force / run.collision.peak_force).collect()
+    rows.map(|row| row.contact_force / run.peak_force()).collect()
 }
 
 /// NaN if the histories have not the same rows.

@@ -8,6 +8,7 @@ mod critical_step;
 mod hertz_field;
 mod invariance;
 mod paper;
+mod relaxing;
 mod summary;
 mod uniform_stress;
 mod vibration;

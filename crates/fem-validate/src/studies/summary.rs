@@ -3,12 +3,12 @@
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::run::Simulated;
+use crate::run::Run;
 
 /// Runs every case of the claim.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.simulate_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     for (name, run) in names.iter().zip(&runs) {
@@ -20,12 +20,12 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 }
 
 /// The quantities of a run by name, SI; NaN where the model has none.
-pub(crate) fn quantities(run: &Simulated) -> impl Iterator<Item = (&'static str, f64)> {
-    let (outcome, hertz) = (&run.outcome, &run.hertz);
+pub(crate) fn quantities(run: &Run) -> impl Iterator<Item = (&'static str, f64)> {
+    let (collision, hertz) = (&run.collision, &run.hertz);
     let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
-    let vibration = outcome.bodies.iter().filter_map(|body| body.vibration_energy);
+    let vibration = collision.bodies.iter().filter_map(|body| body.vibration_energy);
     let vibration = known(vibration.reduce(|lower, upper| lower + upper));
-    let (contact_time, peak_force) = (known(outcome.contact_time), known(outcome.peak_force));
+    let (contact_time, peak_force) = (known(collision.contact_time), known(collision.peak_force));
     [
         ("restitution", run.restitution),
         ("loss", 1.0 - run.restitution),
@@ -33,13 +33,13 @@ pub(crate) fn quantities(run: &Simulated) -> impl Iterator<Item = (&'static str,
         ("contact_time_over_hertz", contact_time / hertz.contact_time()),
         ("peak_force", peak_force),
         ("peak_force_over_hertz", peak_force / hertz.peak_force()),
-        ("max_approach", known(outcome.max_approach)),
-        ("max_contact_radius", known(outcome.max_contact_radius)),
-        ("peak_pressure", known(outcome.peak_pressure)),
+        ("max_approach", known(collision.max_approach)),
+        ("max_contact_radius", known(collision.max_contact_radius)),
+        ("peak_pressure", known(collision.peak_pressure)),
         ("pressure_over_hertz_at_force", run.pressure_over_hertz_at_force()),
-        ("energy_residual", known(outcome.residual_relative)),
-        ("momentum_residual", known(outcome.momentum_residual_relative)),
-        ("vibration_energy_share", vibration / known(outcome.initial_energy)),
+        ("energy_residual", known(collision.residual_relative)),
+        ("momentum_residual", known(collision.momentum_residual_relative)),
+        ("vibration_energy_share", vibration / known(collision.initial_energy)),
     ]
     .into_iter()
 }

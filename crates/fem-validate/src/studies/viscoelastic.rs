@@ -7,7 +7,9 @@
 
 use std::sync::Arc;
 
-use fem_case::ting_impact;
+use fem::{Plan, ting_impact};
+use fem_case::Case;
+use fem_case::schema::{ActsOn, RelaxationTable, SnapshotsValue, TermTable};
 use fem_figure::{Axis, Chart, Curve};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -15,7 +17,8 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::run::Simulated;
+use crate::run::Run;
+use crate::studies::relaxing::with_relaxation;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,8 +31,8 @@ struct Parameters {
     speeds: Vec<f64>,
     /// A series of several terms: (weight, decay rate times Hertz' contact time).
     series: Vec<(f64, f64)>,
-    /// Key of the relaxation table.
-    relaxation: String,
+    /// The material that relaxes.
+    material: String,
     /// Decay rate times contact time of the single term where it is not varied.
     rate: f64,
     /// Default element size over element size.
@@ -39,15 +42,15 @@ struct Parameters {
 /// A member of the study.
 struct Member {
     group: &'static str,
-    acts_on: &'static str,
+    acts_on: ActsOn,
     x: f64,
-    overrides: Vec<String>,
+    case: Case,
 }
 
 /// Finite elements, Ting on half-spaces, Ting with finite spheres.
 struct Outcome {
     member: Member,
-    run: Arc<Simulated>,
+    run: Arc<Run>,
     half_space: f64,
     finite: f64,
 }
@@ -62,9 +65,9 @@ const GROUPS: [(&str, &str); 4] = [
 /// Runs all members.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let base = fem_case::Plan::of(&laboratory.case("base", &[])?)?;
-    let time = base.estimate.hertz.contact_time();
-    let members = members(&parameters, time);
+    let base = laboratory.case("base")?;
+    let time = Plan::of_case(&base)?.estimate.hertz.contact_time();
+    let members = members(&parameters, &base, time)?;
     let outcomes: Vec<Outcome> = members
         .into_par_iter()
         .map(|member| measure(laboratory, member, parameters.refinement))
@@ -83,35 +86,35 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-fn members(parameters: &Parameters, time: f64) -> Vec<Member> {
-    let Parameters { rates, equilibrium, speeds, series, relaxation, rate, .. } = parameters;
-    let term = |(weight, rate): &(f64, f64)| {
-        format!("{{ weight = {weight:?}, decay_rate = {:?} }}", rate / time)
-    };
+fn members(parameters: &Parameters, base: &Case, time: f64) -> Result<Vec<Member>, StudyError> {
+    let Parameters { rates, equilibrium, speeds, series, material, rate, .. } = parameters;
+    let term = |(weight, rate): &(f64, f64)| TermTable::with_decay_rate(*weight, rate / time);
     let mut members = Vec::new();
-    for acts_on in ["all", "shear"] {
+    for acts_on in [ActsOn::All, ActsOn::Shear] {
         let mut add = |group, x, terms: &[(f64, f64)], speed: Option<f64>| {
-            let terms: Vec<String> = terms.iter().map(term).collect();
-            let mut overrides = vec![
-                format!("{relaxation}.acts_on={acts_on:?}"),
-                format!("{relaxation}.terms=[{}]", terms.join(", ")),
-                "output.snapshots=[]".to_string(),
-            ];
-            overrides.extend(speed.map(|speed| format!("body.0.approach_speed={speed:?}")));
-            members.push(Member { group, acts_on, x, overrides });
+            let terms = terms.iter().map(term).collect();
+            let case = with_relaxation(base, material, RelaxationTable { acts_on, terms })?;
+            let case = case.edited(|file| {
+                file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::none());
+                if let Some(speed) = speed {
+                    file.body[0].approach_speed = Some(speed.into());
+                }
+            })?;
+            members.push(Member { group, acts_on, x, case });
+            Ok::<_, StudyError>(())
         };
         for &x in rates {
-            add("rate", x, &[(1.0, x)], None);
+            add("rate", x, &[(1.0, x)], None)?;
         }
         for &x in equilibrium {
-            add("equilibrium", x, &[(1.0 - x, *rate)], None);
+            add("equilibrium", x, &[(1.0 - x, *rate)], None)?;
         }
         for &x in speeds {
-            add("speed", x, &[(1.0, *rate)], Some(x));
+            add("speed", x, &[(1.0, *rate)], Some(x))?;
         }
-        add("series", 0.0, series, None);
+        add("series", 0.0, series, None)?;
     }
-    members
+    Ok(members)
 }
 
 fn measure(
@@ -119,19 +122,22 @@ fn measure(
     member: Member,
     refinement: f64,
 ) -> Result<Outcome, StudyError> {
-    let mut overrides = member.overrides.clone();
-    let plan = fem_case::Plan::of(&laboratory.case("base", &overrides)?)?;
-    let size = plan.contact_element_size / refinement;
-    overrides.push(format!("mesh.contact_element_size={size:?}"));
-    let run = laboratory.simulate(laboratory.case("base", &overrides)?)?;
+    let size = Plan::of_case(&member.case)?.contact_element_size / refinement;
+    let fine = member.case.edited(|file| {
+        file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
+    })?;
+    let run = laboratory.simulate(fine)?;
     let (scene, pair) = (&run.case.scene, run.hertz.pair());
     let half_space = ting_impact(scene, pair, false)?.restitution;
     let finite = ting_impact(scene, pair, true)?.restitution;
     Ok(Outcome { member, half_space, finite, run })
 }
 
-fn words(acts_on: &str) -> &'static str {
-    if acts_on == "all" { "constant ν" } else { "bulk elastic" }
+fn words(acts_on: ActsOn) -> &'static str {
+    match acts_on {
+        ActsOn::All => "constant ν",
+        ActsOn::Shear => "bulk elastic",
+    }
 }
 
 fn draw(findings: &mut Findings, outcomes: &[Outcome]) {
@@ -144,7 +150,7 @@ fn draw(findings: &mut Findings, outcomes: &[Outcome]) {
             };
             let mut restitution = Chart::new(axis(), Axis::new("restitution e"));
             let mut difference = Chart::new(axis(), Axis::new("1000 (e − Ting's)"));
-            for (k, acts_on) in ["all", "shear"].into_iter().enumerate() {
+            for (k, acts_on) in [ActsOn::All, ActsOn::Shear].into_iter().enumerate() {
                 let points = |value: fn(&Outcome) -> f64| -> Vec<(f64, f64)> {
                     let is_of =
                         |o: &&Outcome| o.member.group == *group && o.member.acts_on == acts_on;

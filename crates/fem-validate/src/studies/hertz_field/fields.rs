@@ -2,13 +2,13 @@
 //! and pressure p₀ at the same force.
 
 use fem_case::Shape;
-use fem_explicit::{Label, Snapshot};
+use fem_collision::{Label, Snapshot};
 use fem_laws::HertzPressure;
 use fem_mesh::segment_measures;
 
 use super::closed_form::{Profile, closed_form, shear_below};
 use crate::error::StudyError;
-use crate::run::Run;
+use crate::run::ExplicitRun;
 
 /// A value at a place, and the share of the place in an integral.
 #[derive(Clone, Copy)]
@@ -35,13 +35,13 @@ pub struct Fields {
 
 impl Fields {
     /// Out to the given depth and distance over a.
-    pub fn of(run: &Run, depth: f64, distance: f64) -> Result<Self, StudyError> {
+    pub fn of(run: &ExplicitRun, depth: f64, distance: f64) -> Result<Self, StudyError> {
         let missing = || StudyError::parameters("the run has no snapshot of its largest approach");
         let is_maximum = |snapshot: &&Snapshot| snapshot.label == Some(Label::Maximum);
         let snapshot = run.collision.snapshots.iter().find(is_maximum).ok_or_else(missing)?;
-        let bodies = run.problem.model.bodies();
+        let bodies = run.explicit.bodies.bodies();
         let side = usize::from(bodies[0].mesh().is_none());
-        let shape = &run.problem.case.scene.bodies[side].shape;
+        let shape = &run.case.scene.bodies[side].shape;
         let (Some(mesh), Shape::Sphere { material, .. }) = (bodies[side].mesh(), shape) else {
             return Err(StudyError::parameters("the case has no sphere"));
         };
@@ -77,7 +77,7 @@ impl Fields {
             .collect();
         Ok(Self {
             inner_shear,
-            size: hertz.contact_radius / run.problem.plan.estimate.smallest_radius,
+            size: hertz.contact_radius / run.explicit.plan.estimate.smallest_radius,
             poissons_ratio,
             profiles: Profile::ALL.map(|profile| match profile {
                 Profile::Pressure => pressure(run, &u, hertz),
@@ -100,26 +100,26 @@ impl Fields {
 }
 
 /// Of both bodies, m; a wall has moved as its one node.
-fn displacements(run: &Run, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
-    std::array::from_fn(|side| match run.problem.model.bodies()[side].mesh() {
+fn displacements(run: &ExplicitRun, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
+    std::array::from_fn(|side| match run.explicit.bodies.bodies()[side].mesh() {
         Some(_) => snapshot.bodies[side].displacement.clone(),
-        None => vec![[0.0, run.problem.case.scene.bodies[side].velocity * snapshot.time]],
+        None => vec![[0.0, run.case.scene.bodies[side].velocity * snapshot.time]],
     })
 }
 
 /// a and p₀ of the contact force: a³ = 3FR*/4E*, p₀ = 3F/2πa².
-fn hertz_at_force(run: &Run, u: &[Vec<[f64; 2]>; 2]) -> HertzPressure {
+fn hertz_at_force(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2]) -> HertzPressure {
     let mut forces = u.each_ref().map(|u| vec![[0.0; 2]; u.len()]);
     let [lower, upper] = &mut forces;
-    let force = run.problem.model.interface().add_forces([&u[0], &u[1]], [lower, upper]).force;
-    let hertz = run.problem.plan.estimate.hertz;
+    let force = run.explicit.bodies.interface().add_forces([&u[0], &u[1]], [lower, upper]).force;
+    let hertz = run.hertz;
     let approach = (force / hertz.stiffness()).powf(2.0 / 3.0);
     hertz.pressure(approach)
 }
 
 /// Contact pressure at the nodes of the first sphere, out to a tenth beyond the contact.
-fn pressure(run: &Run, u: &[Vec<[f64; 2]>; 2], hertz: HertzPressure) -> Vec<Sample> {
-    let pressure = run.problem.model.interface().nodal_pressure([&u[0], &u[1]]);
+fn pressure(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2], hertz: HertzPressure) -> Vec<Sample> {
+    let pressure = run.explicit.bodies.interface().nodal_pressure([&u[0], &u[1]]);
     let (places, values): (Vec<f64>, Vec<f64>) = pressure
         .map(|(r, p)| (r / hertz.contact_radius, p / hertz.peak_pressure))
         .take_while(|(place, _)| *place < 1.1)

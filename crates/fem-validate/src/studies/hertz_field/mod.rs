@@ -9,6 +9,9 @@
 mod closed_form;
 mod fields;
 
+use fem::Plan;
+use fem_case::SnapshotLabel;
+use fem_case::schema::SnapshotsValue;
 use fem_figure::{Axis, Chart, Curve, GREY};
 use serde::Deserialize;
 
@@ -38,11 +41,14 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     if parameters.elements.len() < 2 {
         return Err(StudyError::parameters("an order needs at least two numbers of elements"));
     }
-    let hertz = laboratory.case("contact", &[])?;
-    let radius = fem_case::Plan::of(&hertz)?.estimate.hertz.max_contact_radius();
+    let hertz = laboratory.case("contact")?;
+    let radius = Plan::of_case(&hertz)?.estimate.hertz.max_contact_radius();
     let case = |n: &f64| {
-        let size = format!("mesh.contact_element_size='{:e} m'", radius / n);
-        laboratory.case("contact", &[size, "output.snapshots=['maximum']".into()])
+        hertz.edited(|file| {
+            file.mesh.get_or_insert_default().contact_element_size = Some((radius / n).into());
+            file.output.get_or_insert_default().snapshots =
+                Some(SnapshotsValue::labels([SnapshotLabel::Maximum]));
+        })
     };
     let cases = parameters.elements.iter().map(case).collect::<Result<_, _>>()?;
     let runs = laboratory.run_all(cases)?;

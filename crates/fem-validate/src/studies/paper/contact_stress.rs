@@ -1,5 +1,6 @@
 //! Fig. 13: σ_yy in the middle of the contact against time, for several speeds.
 
+use fem_collision::Row;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::{Speeds, exponent};
@@ -16,8 +17,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut peaks = Vec::new();
     let mut chart = Chart::new(Axis::new("time [µs]"), Axis::new("σ_yy [GPa]"));
     for (k, run) in runs.iter().enumerate() {
-        let hertz = run.problem.plan.estimate.hertz;
-        let (speed, peak) = (hertz.approach_speed(), run.collision.peak_pressure);
+        let hertz = run.hertz;
+        let (speed, peak) = (hertz.approach_speed(), run.peak_pressure());
         findings.measure(format!("stress.{speed}"), -peak);
         findings.measure_worst("worst_peak", (peak / hertz.peak_pressure() - 1.0).abs());
         findings.measure_worst("worst_at_force", (run.pressure_over_hertz_at_force() - 1.0).abs());
@@ -25,7 +26,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         peaks.push((speed, peak));
         let end = run.collision.last_contact.unwrap_or(f64::INFINITY);
         let rows = run.collision.history.iter().filter(|row| row.time <= end);
-        let ours = rows.map(|row| (1e6 * row.time, -1e-9 * row.centre_pressure)).collect();
+        let ours = rows.map(|row| (1e6 * row.time, -1e-9 * pressure(row))).collect();
         chart = chart.with(Curve::line(format!("{speed} m/s"), ours).like_curve(k));
         let times = (0..=120).map(|n| hertz.contact_time() * f64::from(n) / 120.0);
         let by_hertz = times.map(|t| (1e6 * t, -1e-9 * pressure_by_hertz(run, t))).collect();
@@ -41,8 +42,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         &[chart],
     );
     let row = |run: &Run| {
-        let hertz = run.problem.plan.estimate.hertz;
-        let peak = run.collision.peak_pressure;
+        let hertz = run.hertz;
+        let peak = run.peak_pressure();
         [
             format!("{}", hertz.approach_speed()),
             format!("{:.4}", -1e-9 * peak),
@@ -58,18 +59,21 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
+/// Pressure on the axis, Pa.
+fn pressure(row: &Row) -> f64 {
+    row.centre_pressure.unwrap_or(f64::NAN)
+}
+
 fn pressure_by_hertz(run: &Run, time: f64) -> f64 {
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     hertz.pressure(hertz.at(time).approach).peak_pressure
 }
 
 /// Root mean square of the difference from Hertz over the contact, of the peak.
 fn history_difference(run: &Run) -> f64 {
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     let rows = run.collision.history.iter().filter(|row| row.time <= hertz.contact_time());
-    let square = |row: &fem_explicit::HistoryRow| {
-        (row.centre_pressure - pressure_by_hertz(run, row.time)).powi(2)
-    };
+    let square = |row: &Row| (pressure(row) - pressure_by_hertz(run, row.time)).powi(2);
     let (sum, n) = rows.fold((0.0, 0.0), |(sum, n), row| (sum + square(row), n + 1.0));
     (sum / n).sqrt() / hertz.peak_pressure()
 }

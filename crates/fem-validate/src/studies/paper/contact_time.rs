@@ -1,6 +1,6 @@
 //! Fig. 12: contact time against speed, beside Hertz and Hertz with finite spheres.
 
-use fem_case::ting_impact;
+use fem::ting_impact;
 use fem_figure::{Axis, Chart, Curve};
 
 use super::{Speeds, exponent};
@@ -21,11 +21,11 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let speeds: Speeds = laboratory.parameters()?;
     let mut points = Vec::new();
     for run in speeds.run_elastic(laboratory)? {
-        let hertz = run.problem.plan.estimate.hertz;
-        let finite = ting_impact(&run.problem.case.scene, hertz.pair(), true)?;
+        let hertz = run.hertz;
+        let finite = ting_impact(&run.case.scene, hertz.pair(), true)?;
         points.push(Point {
             speed: hertz.approach_speed(),
-            ours: run.contact_time,
+            ours: run.contact_time(),
             hertz: hertz.contact_time(),
             finite: finite.contact_time.unwrap_or(f64::NAN),
         });

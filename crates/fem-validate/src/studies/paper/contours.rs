@@ -1,6 +1,6 @@
 //! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
 
-use fem_explicit::{Label, Snapshot};
+use fem_collision::{Label, Snapshot};
 use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
 use fem_figure::engineering::Unit;
 use serde::Deserialize;
@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::{Figure, Findings};
 use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::run::ExplicitRun;
 
 /// σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
 const AXIAL: usize = 1;
@@ -30,7 +30,7 @@ struct Parameters {
 /// Runs `[run.elastic]`, whose snapshots are the four named instants.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let run = laboratory.run_all(vec![laboratory.case("elastic", &[])?])?.remove(0);
+    let run = laboratory.run_all(vec![laboratory.case("elastic")?])?.remove(0);
     let instants = Label::ALL.map(|label| {
         let found = run.collision.snapshots.iter().find(|snapshot| snapshot.label == Some(label));
         found.map(|snapshot| Instant::of(&run, label, snapshot))
@@ -54,8 +54,8 @@ struct Instant {
 }
 
 impl Instant {
-    fn of(run: &Run, label: Label, snapshot: &Snapshot) -> Self {
-        let bodies = run.problem.model.bodies();
+    fn of(run: &ExplicitRun, label: Label, snapshot: &Snapshot) -> Self {
+        let bodies = run.explicit.bodies.bodies();
         let mut halves: [Section; 2] = Default::default();
         let mut poles = [f64::NAN; 2];
         for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {
@@ -97,10 +97,10 @@ impl Instant {
     }
 }
 
-fn measure(run: &Run, instants: &[Instant], findings: &mut Findings) {
-    let hertz = run.problem.plan.estimate.hertz;
+fn measure(run: &ExplicitRun, instants: &[Instant], findings: &mut Findings) {
+    let hertz = run.hertz;
     let peak = GIGA * hertz.peak_pressure();
-    let at_force = peak * (run.collision.peak_force / hertz.peak_force()).cbrt();
+    let at_force = peak * (run.peak_force() / hertz.peak_force()).cbrt();
     for instant in instants {
         let name = instant.label.name().replace('-', "_");
         let (smallest, largest) = instant.range();

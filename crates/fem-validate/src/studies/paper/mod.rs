@@ -10,12 +10,13 @@ pub(super) mod velocities;
 
 use std::sync::Arc;
 
-use fem_case::{Case, Plan};
+use fem::Plan;
+use fem_case::Case;
 use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::run::ExplicitRun;
 
 /// Parameters of a study over speeds.
 #[derive(Deserialize)]
@@ -28,27 +29,22 @@ struct Speeds {
 
 impl Speeds {
     /// Runs `[run.elastic]` at each.
-    fn run_elastic(&self, laboratory: &Laboratory) -> Result<Vec<Arc<Run>>, StudyError> {
+    fn run_elastic(&self, laboratory: &Laboratory) -> Result<Vec<Arc<ExplicitRun>>, StudyError> {
         let elements = self.elements_per_contact_radius;
-        let case = |speed: &f64| case_at(laboratory, "elastic", *speed, elements, &[]);
+        let elastic = laboratory.case("elastic")?;
+        let case = |speed: &f64| case_at(&elastic, *speed, elements);
         laboratory.run_all(self.speeds.iter().map(case).collect::<Result<_, _>>()?)
     }
 }
 
-/// The case of `[run.NAME]` at an approach speed (m/s), with further overrides, and so many
-/// elements across its largest contact radius.
-fn case_at(
-    laboratory: &Laboratory,
-    run: &str,
-    speed: f64,
-    elements: f64,
-    more: &[String],
-) -> Result<Case, StudyError> {
-    let mut overrides = more.to_vec();
-    overrides.push(format!("body.0.approach_speed={speed:?}"));
-    let radius = Plan::of(&laboratory.case(run, &overrides)?)?.estimate.contact_radius;
-    overrides.push(format!("mesh.contact_element_size={:?}", radius / elements));
-    laboratory.case(run, &overrides)
+/// The case at an approach speed (m/s) of its first body, with so many elements across its largest
+/// contact radius.
+fn case_at(case: &Case, speed: f64, elements: f64) -> Result<Case, StudyError> {
+    let case = case.edited(|file| file.body[0].approach_speed = Some(speed.into()))?;
+    let size = Plan::of_case(&case)?.estimate.contact_radius / elements;
+    Ok(case.edited(|file| {
+        file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
+    })?)
 }
 
 /// The exponent p of the least-squares fit y ∝ xᵖ; NaN if a number is not positive.

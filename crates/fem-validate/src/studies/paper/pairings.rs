@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use fem_case::{Case, Plan};
+use fem::Plan;
+use fem_case::Case;
+use fem_case::schema::SphereTable;
 use fem_figure::{Axis, Chart, Curve, GREY, tick};
 use fem_laws::{LawImpact, Pair, laws};
 use serde::Deserialize;
@@ -12,7 +14,7 @@ use super::{case_at, exponent, falls_through};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::run::ExplicitRun;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -72,10 +74,14 @@ impl Pairing {
 /// Runs `[run.glass]` for all distinct pairings and speeds, and one pairing swapped.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let case = |[first, second]: [f64; 2], speed: f64| {
-        let diameters = [(0, first), (1, second)];
-        let set = diameters.map(|(body, d)| format!("body.{body}.sphere.diameter={d:?}"));
-        case_at(laboratory, "glass", speed, parameters.elements_per_contact_radius, &set)
+    let glass = laboratory.case("glass")?;
+    let case = |diameters: [f64; 2], speed: f64| {
+        let sized = glass.edited(|file| {
+            for (body, diameter) in file.body.iter_mut().zip(diameters) {
+                body.sphere = Some(SphereTable::new(diameter));
+            }
+        })?;
+        case_at(&sized, speed, parameters.elements_per_contact_radius)
     };
     let fitted = pair_of(&case(parameters.fit.diameters, parameters.fit.speed)?)?;
     let n = parameters.damping_exponent;
@@ -101,8 +107,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let swapped = runs.pop().map_or(f64::NAN, |run| run.restitution);
     let mut pairings = Vec::new();
     for (diameters, runs) in kinds.iter().zip(runs.chunks(parameters.speeds.len())) {
-        let point = |run: &Arc<Run>| {
-            let hertz = run.problem.plan.estimate.hertz;
+        let point = |run: &Arc<ExplicitRun>| {
+            let hertz = run.hertz;
             let speed = hertz.approach_speed();
             Ok((speed, run.restitution, by_law(hertz.pair(), dissipation_time, speed)?))
         };
@@ -117,7 +123,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 }
 
 fn pair_of(case: &Case) -> Result<Pair, StudyError> {
-    Ok(*Plan::of(case)?.estimate.hertz.pair())
+    Ok(*Plan::of_case(case)?.estimate.hertz.pair())
 }
 
 fn measure(parameters: &Parameters, pairings: &[Pairing], swapped: f64, findings: &mut Findings) {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use fem_case::{Case, Plan, ting_impact};
+use fem::{Plan, ting_impact};
+use fem_case::Case;
+use fem_case::schema::TermTable;
 use fem_figure::{Axis, Chart, Curve, GREY};
 use serde::Deserialize;
 
@@ -10,7 +12,8 @@ use super::falls_through;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::run::Run;
+use crate::run::{ExplicitRun, Run};
+use crate::studies::relaxing::with_term;
 
 /// The two readings: run, label.
 const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic bulk")];
@@ -32,13 +35,13 @@ struct Parameters {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     let mut findings = Findings::new();
     let mut rows = Vec::new();
     for (name, run) in names.iter().zip(&runs) {
-        let scene = &run.problem.case.scene;
-        let pair = run.problem.plan.estimate.hertz.pair();
+        let scene = &run.case.scene;
+        let pair = run.hertz.pair();
         let half_space = ting_impact(scene, pair, false)?.restitution;
         let finite = ting_impact(scene, pair, true)?.restitution;
         let with_loss = run.restitution * parameters.published_elastic;
@@ -66,8 +69,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     ];
     findings.tabulate("Restitution at 0.5 m/s; the paper prints 0.92", header, rows);
     for (name, _) in READINGS {
+        let case = laboratory.case(name)?;
         let rate = falls_through(parameters.published, (100.0, 1e5), |rate| {
-            restitution_by_ting(laboratory, name, rate, false)
+            restitution_by_ting(&case, rate, false)
         })?;
         findings.measure(format!("{name}.rate_of_published"), rate);
     }
@@ -78,7 +82,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 /// What relaxes, in words.
 fn reading(run: &Run) -> String {
     use fem_case::schema::ActsOn;
-    let relaxation = run.problem.case.file.material.values().find_map(|m| m.relaxation.as_ref());
+    let relaxation = run.case.file.material.values().find_map(|m| m.relaxation.as_ref());
     match relaxation.map(|relaxation| relaxation.acts_on) {
         None => "nothing",
         Some(ActsOn::All) => "shear and bulk (constant ν)",
@@ -93,30 +97,20 @@ fn rate(run: &Run) -> String {
 }
 
 fn decay_rate(run: &Run) -> Option<f64> {
-    let material = run.problem.case.scene.bodies[0].material()?;
+    let material = run.case.scene.bodies[0].material()?;
     Some(material.relaxation()?.terms().first()?.relaxation_time.recip())
 }
 
-fn with_rate(laboratory: &Laboratory, run: &str, rate: f64) -> Result<Case, StudyError> {
-    let terms = format!("[{{weight=1.0, decay_rate={rate:?}}}]");
-    laboratory.case(run, &[format!("material.glass.relaxation.terms={terms}")])
-}
-
-fn restitution_by_ting(
-    laboratory: &Laboratory,
-    run: &str,
-    rate: f64,
-    finite_size: bool,
-) -> Result<f64, StudyError> {
-    let case = with_rate(laboratory, run, rate)?;
-    let hertz = Plan::of(&case)?.estimate.hertz;
+fn restitution_by_ting(case: &Case, rate: f64, finite_size: bool) -> Result<f64, StudyError> {
+    let case = with_term(case, "glass", TermTable::with_decay_rate(1.0, rate))?;
+    let hertz = Plan::of_case(&case)?.estimate.hertz;
     Ok(ting_impact(&case.scene, hertz.pair(), finite_size)?.restitution)
 }
 
 fn draw(
     laboratory: &Laboratory,
     parameters: &Parameters,
-    runs: &[Arc<Run>],
+    runs: &[Arc<ExplicitRun>],
     findings: &mut Findings,
 ) -> Result<(), StudyError> {
     let [from, to] = parameters.rates;
@@ -124,9 +118,8 @@ fn draw(
     let mut chart =
         Chart::new(Axis::new("decay rate β [1/s]").logarithmic(), Axis::new("restitution"));
     for (k, (name, label)) in READINGS.into_iter().enumerate() {
-        let point = |rate: f64| {
-            restitution_by_ting(laboratory, name, rate, true).map(|value| (rate, value))
-        };
+        let case = laboratory.case(name)?;
+        let point = |rate: f64| restitution_by_ting(&case, rate, true).map(|value| (rate, value));
         let curve = rates().map(point).collect::<Result<_, _>>()?;
         chart = chart.with(Curve::line(format!("Ting, {label}"), curve).like_curve(k));
         let same = runs.iter().filter(|run| reading(run).contains(label));

@@ -3,7 +3,9 @@
 //! The dashpot and the series spring stay the same, the spring beside the dashpot grows: from
 //! Maxwell's fluid, which the paper's finite elements use, to stiffer and stiffer solids.
 
-use fem_case::{Case, Plan, ting_impact};
+use fem::{Plan, ting_impact};
+use fem_case::Case;
+use fem_case::schema::TermTable;
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::{ActsOn, PronySeries};
 use serde::Deserialize;
@@ -11,6 +13,7 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
+use crate::studies::relaxing::with_term;
 
 /// Steps of the integration of springs and dashpot, over three relaxation times.
 const N_STEPS: u32 = 600;
@@ -35,19 +38,19 @@ impl Parameters {
             .map_err(|error| StudyError::parameters(error.to_string()))
     }
 
-    /// The case of `[run.glass]` with the solid as its Prony term.
-    fn case(&self, laboratory: &Laboratory, ratio: f64) -> Result<Case, StudyError> {
+    /// The case with the solid as its Prony term.
+    fn case(&self, glass: &Case, ratio: f64) -> Result<Case, StudyError> {
         let term = self.series(ratio)?.terms()[0];
-        let (weight, time) = (term.weight, term.relaxation_time);
-        let terms = format!("[{{weight={weight:?}, relaxation_time={time:?}}}]");
-        laboratory.case("glass", &[format!("material.glass.relaxation.terms={terms}")])
+        let term = TermTable::with_relaxation_time(term.weight, term.relaxation_time);
+        with_term(glass, "glass", term)
     }
 }
 
 /// Runs `[run.glass]` with each solid.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let case = |ratio: &f64| parameters.case(laboratory, *ratio);
+    let glass = laboratory.case("glass")?;
+    let case = |ratio: &f64| parameters.case(&glass, *ratio);
     let cases = parameters.ratios.iter().map(case).collect::<Result<_, _>>()?;
     let runs = laboratory.run_all(cases)?;
     let mut findings = Findings::new();
@@ -56,8 +59,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     for (k, (ratio, run)) in parameters.ratios.iter().zip(&runs).enumerate() {
         let series = parameters.series(*ratio)?;
         let term = series.terms()[0];
-        let pair = run.problem.plan.estimate.hertz.pair();
-        let expected = ting_impact(&run.problem.case.scene, pair, true)?.restitution;
+        let pair = run.hertz.pair();
+        let expected = ting_impact(&run.case.scene, pair, true)?.restitution;
         findings.measure(format!("weight.{ratio}"), term.weight);
         findings.measure(format!("restitution.{ratio}"), run.restitution);
         findings.measure_worst("worst_over_ting", (run.restitution - expected).abs());
@@ -80,8 +83,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     }
     let by_ting = |k: u32| {
         let ratio = parameters.largest_ratio * f64::from(k) / 24.0;
-        let case = parameters.case(laboratory, ratio)?;
-        let hertz = Plan::of(&case)?.estimate.hertz;
+        let case = parameters.case(&glass, ratio)?;
+        let hertz = Plan::of_case(&case)?.estimate.hertz;
         Ok((ratio, ting_impact(&case.scene, hertz.pair(), true)?.restitution))
     };
     let curve = (0..=24).map(by_ting).collect::<Result<_, StudyError>>()?;

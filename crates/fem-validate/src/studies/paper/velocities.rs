@@ -15,7 +15,7 @@ use fem_figure::{Axis, Chart, Curve, GREY};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::run::{Run, Simulated};
+use crate::run::{ExplicitRun, Run};
 use crate::studies::summary::quantities;
 
 /// The run that is drawn.
@@ -25,16 +25,16 @@ const MAIN: &str = "elastic";
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut findings = Findings::new();
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
-    let cases = names.iter().map(|name| laboratory.case(name, &[]));
+    let cases = names.iter().map(|name| laboratory.case(name));
     let runs = laboratory.run_all(cases.collect::<Result<_, _>>()?)?;
     for (name, run) in names.iter().zip(&runs) {
-        for (quantity, value) in quantities(&Simulated::from(&**run)) {
+        for (quantity, value) in quantities(run) {
             findings.measure(format!("{name}.{quantity}"), value);
         }
     }
     let main = names.iter().position(|name| *name == MAIN).map(|k| &runs[k]);
     let run = main.ok_or_else(|| StudyError::parameters(format!("no [run.{MAIN}]")))?;
-    let rigid = RigidPair::of(&run.problem.case.scene);
+    let rigid = RigidPair::of(&run.case.scene);
     measure(run, &rigid, &mut findings);
     draw(run, &rigid, &mut findings);
     compare(run, &rigid, &mut findings);
@@ -71,15 +71,14 @@ impl RigidPair {
 }
 
 fn measure(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
-    let collision = &run.collision;
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     let after = rigid.after();
     for (k, name) in ["striker", "target"].into_iter().enumerate() {
-        let velocity = collision.velocity_after[k];
+        let velocity = run.velocity_after()[k];
         findings.measure(format!("{name}_after"), velocity);
         findings.measure(format!("{name}_after_over_rigid"), velocity / after[k]);
     }
-    for row in &collision.history {
+    for row in &run.collision.history {
         let expected = rigid.velocities(hertz.at(row.time).approach_rate);
         for (velocity, expected) in row.velocity.iter().zip(expected) {
             let difference = (velocity - expected).abs() / hertz.approach_speed();
@@ -87,13 +86,13 @@ fn measure(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
         }
     }
     // The circle in which the undeformed spheres would cut each other.
-    let overlap = (2.0 * collision.max_approach * hertz.pair().effective_radius()).sqrt();
+    let overlap = (2.0 * run.max_approach() * hertz.pair().effective_radius()).sqrt();
     findings.measure("overlap_radius", overlap);
 }
 
-fn draw(run: &Arc<Run>, rigid: &RigidPair, findings: &mut Findings) {
+fn draw(run: &Arc<ExplicitRun>, rigid: &RigidPair, findings: &mut Findings) {
     let history = &run.collision.history;
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     let end = history.last().map_or(0.0, |row| row.time);
     let times = || (0..=160).map(move |k| end * f64::from(k) / 160.0);
     let micro = |time: f64| 1e6 * time;
@@ -123,10 +122,9 @@ fn draw(run: &Arc<Run>, rigid: &RigidPair, findings: &mut Findings) {
 }
 
 fn compare(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
-    let collision = &run.collision;
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     let [striker, target] = rigid.after();
-    let after = collision.velocity_after;
+    let after = run.velocity_after();
     let row = |name: &str, paper: &str, ours: String, theory: String| {
         [name.to_string(), paper.to_string(), ours, theory]
     };
@@ -138,7 +136,7 @@ fn compare(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
             row(
                 "contact time",
                 "64.23 µs",
-                show(run.contact_time, "s"),
+                show(run.contact_time(), "s"),
                 show(hertz.contact_time(), "s"),
             ),
             row("striker after", "", show(after[0], "m/s"), show(striker, "m/s")),
@@ -146,7 +144,7 @@ fn compare(run: &Run, rigid: &RigidPair, findings: &mut Findings) {
             row(
                 "contact radius",
                 "0.31 mm",
-                show(collision.max_contact_radius, "m"),
+                show(run.max_contact_radius(), "m"),
                 show(hertz.max_contact_radius(), "m"),
             ),
         ],

@@ -31,7 +31,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let sums = names
         .par_iter()
         .map(|name| {
-            let run = laboratory.run(laboratory.case(name, &[])?)?;
+            let run = laboratory.run(laboratory.case(name)?)?;
             let modes =
                 laboratory.work(|| Ok((modes_of(&run, parameters.highest_frequency), 0)))?;
             Ok((run, modes))
@@ -50,7 +50,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         findings.measure(format!("{name}.loss"), loss);
         findings.measure(format!("{name}.modes"), sum);
         findings.measure(format!("{name}.ratio"), loss / sum);
-        let speed = run.problem.model.approach_speed();
+        let speed = run.hertz.approach_speed();
         let label = format!("{speed} m/s");
         let end = parameters.highest_frequency;
         chart = chart
@@ -83,9 +83,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 
 /// Modes of both spheres, by rising frequency.
 fn modes_of(run: &Run, highest_frequency: f64) -> Vec<Excited> {
-    let pulse = Pulse::new(&run.problem.plan.estimate.hertz);
+    let pulse = Pulse::new(&run.hertz);
     let mut modes = Vec::new();
-    for body in &run.problem.case.scene.bodies {
+    for body in &run.case.scene.bodies {
         if let Shape::Sphere { diameter, material, .. } = &body.shape {
             modes.extend(excite(material, 0.5 * diameter, &pulse, highest_frequency));
         }
@@ -96,7 +96,7 @@ fn modes_of(run: &Run, highest_frequency: f64) -> Vec<Excited> {
 
 /// ½ m* v², J.
 fn energy_of_approach(run: &Run) -> f64 {
-    let hertz = run.problem.plan.estimate.hertz;
+    let hertz = run.hertz;
     0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2)
 }
 

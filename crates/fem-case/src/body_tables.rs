@@ -1,0 +1,77 @@
+//! `[[body]]` as written.
+
+use serde::{Deserialize, Serialize};
+
+use crate::empty_table::EmptyTable;
+use crate::quantity::{Length, Quantity, Speed};
+
+/// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table [[body]]")]
+pub struct BodyTable {
+    /// Letters, digits, `_` and `-`; unique.
+    pub name: String,
+    /// The name of a `[material.NAME]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Toward the other body; 0 if absent, negative if it recedes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub approach_speed: Option<Quantity<Speed>>,
+    /// A solid sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sphere: Option<SphereTable>,
+    /// A rigid plane of infinite mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wall: Option<EmptyTable>,
+}
+
+impl BodyTable {
+    /// A solid sphere at rest, made of `[material.NAME]`.
+    pub fn sphere(
+        name: impl Into<String>,
+        diameter: impl Into<Quantity<Length>>,
+        material: impl Into<String>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            material: Some(material.into()),
+            approach_speed: None,
+            sphere: Some(SphereTable::new(diameter)),
+            wall: None,
+        }
+    }
+
+    /// A rigid plane at rest.
+    pub fn wall(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            material: None,
+            approach_speed: None,
+            sphere: None,
+            wall: Some(EmptyTable {}),
+        }
+    }
+
+    /// The same, moving toward the other body.
+    pub fn approaching(self, speed: impl Into<Quantity<Speed>>) -> Self {
+        Self { approach_speed: Some(speed.into()), ..self }
+    }
+}
+
+/// `sphere = { … }`.
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
+pub struct SphereTable {
+    /// > 0.
+    pub diameter: Quantity<Length>,
+    /// A mesh file instead of the built-in mesh; relative to the case file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<String>,
+}
+
+impl SphereTable {
+    /// With the built-in mesh.
+    pub fn new(diameter: impl Into<Quantity<Length>>) -> Self {
+        Self { diameter: diameter.into(), mesh: None }
+    }
+}

@@ -1,0 +1,123 @@
+//! One case as text and in code, and ways to change it.
+
+use std::path::Path;
+
+use fem_case::schema::*;
+use fem_case::{Case, CaseFile, Quantity};
+
+pub const TEXT: &str = r#"title = "a pair"
+
+[material.glass]
+density = "2390 kg/m^3"
+youngs_modulus = "63 GPa"
+poissons_ratio = 0.244
+
+[material.glass.relaxation]
+acts_on = "all"
+terms = [{ weight = 0.5, decay_rate = "2708 1/s" }, { weight = 0.25, relaxation_time = 1e-3 }]
+
+[[body]]
+name = "striker"
+sphere = { diameter = "22.2 mm" }
+material = "glass"
+approach_speed = "0.5 m/s"
+
+[[body]]
+name = "target"
+sphere = { diameter = "15.9 mm" }
+material = "glass"
+
+[start]
+gap = "1 um"
+
+[mesh]
+contact_element_size = "14 um"
+refined_radius = "0.3 mm"
+growth = 1.1
+
+[contact]
+penalty_factor = 1.0
+
+[time]
+step_factor = 0.9
+mass_scaling = 2e-4
+
+[output]
+snapshots = ["mid-compression", "maximum"]
+
+[model]
+fem = {}
+
+[effects]
+bulk_viscosity = "off"
+
+[limits]
+elements = 200000
+element_updates = 1e12
+memory = "8 GB"
+"#;
+
+/// The text with overrides.
+pub fn parsed(overrides: &[&str]) -> Case {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse("pair.toml", TEXT, Path::new("."), &overrides).unwrap()
+}
+
+/// The case of [`TEXT`].
+pub fn made() -> CaseFile {
+    let glass = MaterialTable::from_youngs_modulus_poissons_ratio("2390 kg/m^3", "63 GPa", 0.244)
+        .relaxing(
+            ActsOn::All,
+            [
+                TermTable::with_decay_rate(0.5, "2708 1/s"),
+                TermTable::with_relaxation_time(0.25, 1e-3),
+            ],
+        );
+    let striker = BodyTable::sphere("striker", "22.2 mm", "glass").approaching("0.5 m/s");
+    let target = BodyTable::sphere("target", 0.0159, "glass");
+    let labels = ["mid-compression", "maximum"].map(Quantity::from).to_vec();
+    CaseFile {
+        title: Some("a pair".into()),
+        start: Some(StartTable { gap: Some("1 um".into()) }),
+        mesh: Some(MeshTable {
+            contact_element_size: Some(14e-6.into()),
+            refined_radius: Some("0.3 mm".into()),
+            growth: Some(1.1.into()),
+        }),
+        contact: Some(ContactTable { penalty_factor: Some(1.0.into()) }),
+        time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),
+        output: Some(OutputTable { snapshots: Some(SnapshotsValue::List(labels)) }),
+        effects: Some(EffectsTable { bulk_viscosity: Some(Switch::Off), ..Default::default() }),
+        limits: Some(LimitsTable {
+            elements: Some(200_000.into()),
+            element_updates: Some(1e12.into()),
+            memory: Some("8 GB".into()),
+        }),
+        ..CaseFile::of_bodies(striker, target)
+            .with_material("glass", glass)
+            .with_model(ModelTable::fem())
+    }
+}
+
+pub type Change = fn(&mut CaseFile);
+
+pub fn mesh(file: &mut CaseFile) -> &mut MeshTable {
+    file.mesh.get_or_insert_default()
+}
+
+pub fn glass(file: &mut CaseFile) -> &mut MaterialTable {
+    file.material.get_mut("glass").unwrap()
+}
+
+pub fn relaxation(file: &mut CaseFile) -> &mut RelaxationTable {
+    glass(file).relaxation.as_mut().unwrap()
+}
+
+pub fn sphere(file: &mut CaseFile) -> &mut SphereTable {
+    file.body[0].sphere.as_mut().unwrap()
+}
+
+pub fn snapshots(file: &mut CaseFile, list: &[&str]) {
+    let list = list.iter().map(|text| Quantity::from(*text)).collect();
+    file.output.get_or_insert_default().snapshots = Some(SnapshotsValue::List(list));
+}

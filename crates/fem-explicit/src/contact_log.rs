@@ -1,0 +1,78 @@
+//! What a run remembers of the contact so far.
+
+use fem_contact::ContactForces;
+use serde::{Deserialize, Serialize};
+
+use crate::model::Model;
+
+/// The run goes on for this share of the contact time after the last contact.
+pub(crate) const FLIGHT_AFTER: f64 = 0.2;
+
+/// Relative motion of the mass centres, first and last contact, and the extremes on the way.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ContactLog {
+    /// Integrated from the contact force, m.
+    pub approach: f64,
+    /// Its rate over the last half step, m/s.
+    pub approach_rate: f64,
+    /// Time of the first step with a contact force, s.
+    pub first_contact: Option<f64>,
+    /// Time of the last such step so far, s.
+    pub last_contact: Option<f64>,
+    /// Number of separate contacts.
+    pub episodes: u64,
+    /// Contact force of the last step, N.
+    pub force: f64,
+    /// Largest contact force, N.
+    pub peak_force: f64,
+    /// Largest approach, m.
+    pub max_approach: f64,
+    was_closed: bool,
+}
+
+impl ContactLog {
+    /// At first touch.
+    pub fn new(model: &Model) -> Self {
+        Self {
+            approach: 0.0,
+            approach_rate: model.approach().speed(),
+            first_contact: None,
+            last_contact: None,
+            episodes: 0,
+            force: 0.0,
+            peak_force: 0.0,
+            max_approach: 0.0,
+            was_closed: false,
+        }
+    }
+
+    /// Notes the contact of the configuration at a time, s.
+    pub fn observe(&mut self, time: f64, contact: &ContactForces) {
+        let is_closed = contact.n_closed > 0;
+        self.force = contact.force;
+        if is_closed {
+            self.first_contact.get_or_insert(time);
+            self.last_contact = Some(time);
+            self.episodes += u64::from(!self.was_closed);
+            self.peak_force = self.peak_force.max(contact.force);
+        }
+        self.was_closed = is_closed;
+        self.max_approach = self.max_approach.max(self.approach);
+    }
+
+    /// Relative motion of the mass centres over a step under its force.
+    pub fn advance(&mut self, model: &Model) {
+        let time_step = model.time_step();
+        let inverse_mass: f64 = model.bodies().iter().map(|body| body.total_mass().recip()).sum();
+        self.approach_rate -= time_step * self.force * inverse_mass;
+        self.approach += time_step * self.approach_rate;
+    }
+
+    /// Whether at this time (s) the contact is over for good and has been so for a while.
+    pub fn has_separated(&self, time: f64) -> bool {
+        let (Some(first), Some(last)) = (self.first_contact, self.last_contact) else {
+            return false;
+        };
+        !self.was_closed && self.approach_rate < 0.0 && time - last >= FLIGHT_AFTER * (last - first)
+    }
+}

@@ -1,0 +1,73 @@
+//! All that a run knows beside its model: what a restart needs, and nothing else.
+
+use fem_collision::{Approach, Expectation, History, Want};
+use serde::{Deserialize, Serialize};
+
+use crate::contact_log::ContactLog;
+use crate::ledger::Ledger;
+use crate::model::Model;
+use crate::recorder::Recorder;
+use crate::state::State;
+
+/// The memory of a run between two steps. A run that is resumed from it goes on to the same bits.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    pub(crate) state: State,
+    pub(crate) log: ContactLog,
+    pub(crate) ledger: Ledger,
+    pub(crate) history: History,
+    pub(crate) recorder: Recorder,
+    /// What closed forms expect.
+    pub(crate) expected: Expectation,
+    /// The run gives up this long after first touch, s.
+    pub(crate) max_time: f64,
+    /// Of the model that it belongs to, as are the next.
+    approach: Approach,
+    /// s.
+    time_step: f64,
+    /// Radius out to which that looks for contact, m.
+    candidate_radius: f64,
+}
+
+impl Memory {
+    /// Of a run that has not begun.
+    pub(crate) fn new(model: &Model, expected: Expectation, want: &Want) -> Self {
+        let expected_steps = expected.contact_time / model.time_step();
+        Self {
+            state: State::at_first_touch(model),
+            log: ContactLog::new(model),
+            ledger: Ledger::new(model),
+            history: History::new(want.history_rows, expected_steps),
+            recorder: Recorder::new(&want.snapshots, model, expected),
+            expected,
+            max_time: want.give_up_after * expected.contact_time,
+            approach: *model.approach(),
+            time_step: model.time_step(),
+            candidate_radius: model.interface().candidate_radius(),
+        }
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.state.step
+    }
+
+    /// Time since the start of the case, s.
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// Radius out to which the run looks for contact, m: its model must have the same.
+    pub fn candidate_radius(&self) -> f64 {
+        self.candidate_radius
+    }
+
+    /// Whether it can be of a run of this model: fields of its sizes, its approach, its time step, its
+    /// region of contact. Moduli and relaxation times it does not know.
+    pub(crate) fn fits(&self, model: &Model) -> bool {
+        self.approach == *model.approach()
+            && self.time_step.to_bits() == model.time_step().to_bits()
+            && self.candidate_radius.to_bits() == model.interface().candidate_radius().to_bits()
+            && self.state.bodies.iter().zip(model.bodies()).all(|(state, body)| state.fits(body))
+    }
+}

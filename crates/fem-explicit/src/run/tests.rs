@@ -1,0 +1,124 @@
+//! Runs that are disturbed from inside.
+
+use fem_collision::{Approach, BodyInput, Label, SnapshotRequest};
+use fem_mesh::Side;
+
+use super::*;
+use crate::Settings;
+use crate::state::State;
+use crate::test_support::{settings, sphere, unit_glass};
+
+/// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
+fn model() -> Model {
+    let bodies = [Side::Below, Side::Above]
+        .map(|side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() });
+    let settings = Settings { contact_stiffness: 5.0, ..settings() };
+    Model::new(bodies, Approach::at(0.01), &settings).unwrap()
+}
+
+const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
+
+fn want(snapshots: SnapshotRequest) -> Want {
+    Want { history_rows: 100, snapshots, give_up_after: 100.0 / EXPECTED.contact_time }
+}
+
+/// Multiplies the velocities of the lower body between two steps.
+fn disturbed(factor: f64) -> Collision {
+    let model = model();
+    let mut run = Run::new(&model, EXPECTED, &want(SnapshotRequest::none()));
+    assert_eq!(run.advance(128), Ok(Status::UnderWay));
+    for v in run.memory.state.bodies[0].v.as_flattened_mut() {
+        *v *= factor;
+    }
+    let stopped = run.advance(u64::MAX).err();
+    run.finish(stopped)
+}
+
+#[test]
+fn energy_out_of_nowhere_stops_the_run() {
+    let run = disturbed(1.1);
+    let Some(&Stop::EnergyGrowth { ratio, time, .. }) = run.stop() else { panic!("{run:?}") };
+    // 1.1² of the kinetic energy, in the frame of the mass centres twice as much.
+    assert!(ratio > 1.05 && ratio < 1.5, "{ratio}");
+    assert!(run.history.iter().all(|row| row.time < time));
+    assert!(run.residual_relative.unwrap() > 0.05, "the residual must fail");
+    assert_eq!(run.restitution, None);
+}
+
+#[test]
+fn numbers_that_are_not_finite_stop_the_run() {
+    for factor in [f64::NAN, f64::INFINITY] {
+        let run = disturbed(factor);
+        assert!(matches!(run.stop(), Some(Stop::EnergyGrowth { .. })), "{:?}", run.ending);
+        let is_sound = |row: &Row| row.residual.unwrap().is_finite();
+        assert!(run.history.iter().all(is_sound), "a bad row is kept");
+        assert!(!run.residual_relative.unwrap().is_finite());
+    }
+}
+
+/// A pause changes nothing; so the two tests above fail for what they do.
+#[test]
+fn an_undisturbed_run_ends() {
+    let run = disturbed(1.0);
+    assert_eq!(run.ending, Ending::Parted);
+    assert!(run.restitution.unwrap() > 0.98, "{:?}", run.restitution);
+}
+
+/// Velocities of a snapshot belong to its time, not half a step before, as the history's do.
+#[test]
+fn snapshots_and_rows_belong_to_the_same_instant() {
+    let model = model();
+    let snapshots = SnapshotRequest::Labels(vec![Label::LastContact]);
+    let run = collide(&model, EXPECTED, &want(snapshots), &mut ());
+    let [snapshot] = &run.snapshots[..] else { panic!("{:?}", run.warnings) };
+    let row = run.history.iter().find(|row| row.time == snapshot.time).unwrap();
+    let mut approach = 0.0;
+    for (side, body) in model.bodies().iter().enumerate() {
+        let fields = &snapshot.bodies[side];
+        // Rounding of a sum over the nodes; half a step of the last force is 1e-5 of the velocity.
+        assert!((body.centre(&fields.velocity) / row.velocity[side] - 1.0).abs() < 1e-12);
+        approach += if side == 0 { 1.0 } else { -1.0 } * body.centre(&fields.displacement);
+    }
+    assert!((approach - row.approach).abs() < 1e-14, "{approach} {row:?}");
+    // The approach that steers the recorder is integrated from the contact force alone.
+    assert!((snapshot.approach - row.approach).abs() < 1e-13);
+}
+
+/// Where, in an offset of the upper body, a contact opens; found by bisection.
+fn threshold(mut is_closed: impl FnMut(f64) -> bool) -> f64 {
+    let (mut closed, mut open) = (0.0, 0.1);
+    assert!(is_closed(closed) && !is_closed(open));
+    while open - closed > 1e-15 {
+        let middle = 0.5 * (closed + open);
+        if is_closed(middle) { closed = middle } else { open = middle }
+    }
+    closed
+}
+
+#[test]
+fn the_next_contact_is_foreseen() {
+    let model = model();
+    let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
+    for _ in 0..200 {
+        update_forces(&model, &state, &mut scratch);
+        advance(&model, &mut state, &scratch);
+    }
+    update_forces(&model, &state, &mut scratch);
+    let lifted = |offset: f64| {
+        let mut state = state.clone();
+        state.bodies[1].u.iter_mut().for_each(|u| u[1] += offset);
+        state
+    };
+    let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch));
+    let found = threshold(|offset| {
+        let mut next = lifted(offset);
+        advance(&model, &mut next, &scratch);
+        update_forces(&model, &next, &mut scratch.clone()).n_closed > 0
+    });
+    let now = threshold(|offset| {
+        update_forces(&model, &lifted(offset), &mut scratch.clone()).n_closed > 0
+    });
+    // Rounding; a step moves the threshold by orders more.
+    assert!((foreseen - found).abs() < 1e-14, "{foreseen:e} {found:e}");
+    assert!((foreseen - now).abs() > 1e-6, "{foreseen:e} {now:e}");
+}

@@ -1,0 +1,13 @@
+//! The dashpot of a contact law.
+
+use super::Effect;
+
+/// The dashpot of a contact law.
+#[derive(Clone, Copy, Debug)]
+pub struct DashpotEffect;
+
+impl Effect for DashpotEffect {
+    fn name(&self) -> &'static str {
+        "dashpot"
+    }
+}

@@ -1,0 +1,20 @@
+//! Weight of the bodies.
+
+use fem_case::Scene;
+
+use super::{Effect, Need};
+use crate::estimate::Estimate;
+
+/// Weight of the bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct Gravity;
+
+impl Effect for Gravity {
+    fn name(&self) -> &'static str {
+        "gravity"
+    }
+
+    fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {
+        Some(Need { number: "the case has none".to_string(), ..Need::default() })
+    }
+}

@@ -1,0 +1,13 @@
+//! Elements with one mean stress need a stiffness of their own against the modes that this does not see.
+
+use super::Effect;
+
+/// Stiffness of the modes that a mean stress does not see.
+#[derive(Clone, Copy, Debug)]
+pub struct HourglassControl;
+
+impl Effect for HourglassControl {
+    fn name(&self) -> &'static str {
+        "hourglass control"
+    }
+}

@@ -1,0 +1,107 @@
+//! What closed forms say about a scene before anything is computed.
+
+use fem_case::{Body, Scene, Shape};
+use fem_collision::Expectation;
+use fem_laws::{HertzImpact, LawError, Pair, Partner};
+use fem_material::ElasticModuli;
+
+use crate::refusal::Refusal;
+
+/// Least share of a modulus that the estimate counts with: a body that relaxes
+/// within the contact is stopped by its first, stiff response.
+const LEAST_MODULUS: f64 = 0.05;
+
+/// Closed-form estimates of a collision, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Hertz with instantaneous moduli.
+    pub hertz: HertzImpact,
+    /// Contact time with the moduli relaxed to the middle of the contact, s.
+    pub contact_time: f64,
+    /// Largest approach, likewise, m.
+    pub approach: f64,
+    /// Largest contact radius, likewise, m.
+    pub contact_radius: f64,
+    /// Smallest radius of a sphere of the scene, m.
+    pub smallest_radius: f64,
+    /// Largest contact radius over effective radius: the size of the strain.
+    pub strain: f64,
+    /// Approach speed over the slowest shear wave speed.
+    pub mach: f64,
+    /// Σ g (1 − exp(−T/τ)) of the body that relaxes most: the share of its
+    /// modulus that is lost over the contact.
+    pub relaxed: f64,
+}
+
+impl Estimate {
+    /// Of a scene that a model is made for.
+    ///
+    /// # Errors
+    /// As [`Estimate::of`], as a fault of the scene.
+    pub fn checked(scene: &Scene) -> Result<Self, Refusal> {
+        Self::of(scene).map_err(|error| {
+            Refusal::new("body", format!("the collision cannot be estimated: {error}"))
+                .with_help("check sizes, densities, moduli and speeds, and their units")
+        })
+    }
+
+    /// What a run is told to expect.
+    pub fn expectation(&self) -> Expectation {
+        Expectation { contact_time: self.contact_time, approach: self.approach }
+    }
+
+    /// Of a scene.
+    ///
+    /// # Errors
+    /// Numbers so extreme that Hertz' values leave the range of f64.
+    pub fn of(scene: &Scene) -> Result<Self, LawError> {
+        let speed = scene.approach_speed();
+        let hertz = HertzImpact::new(&pair(scene, 0.0)?, speed)?;
+        let mut relaxed_impact = hertz;
+        // The contact time hardly depends on the moduli; a few passes settle it.
+        for _ in 0..8 {
+            let half = 0.5 * relaxed_impact.contact_time();
+            match pair(scene, half).and_then(|pair| HertzImpact::new(&pair, speed)) {
+                Ok(next) => relaxed_impact = next,
+                Err(_) => break,
+            }
+        }
+        let spheres = || scene.bodies.iter().filter_map(Body::diameter);
+        let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
+        let contact_radius = relaxed_impact.max_contact_radius();
+        let materials = || scene.bodies.iter().filter_map(Body::material);
+        let slowest = materials().map(|m| m.shear_wave_speed()).fold(f64::INFINITY, f64::min);
+        let contact_time = relaxed_impact.contact_time();
+        let relaxed = materials()
+            .filter_map(|material| material.relaxation())
+            .map(|series| 1.0 - series.relaxation(contact_time))
+            .fold(0.0, f64::max);
+        Ok(Self {
+            hertz,
+            contact_time,
+            approach: relaxed_impact.max_approach(),
+            contact_radius,
+            smallest_radius,
+            strain: contact_radius / hertz.pair().effective_radius(),
+            mach: speed / slowest,
+            relaxed,
+        })
+    }
+}
+
+/// The pair with moduli as they are `time` after a sudden load.
+fn pair(scene: &Scene, time: f64) -> Result<Pair, LawError> {
+    let [first, second] = scene.bodies.each_ref().map(|body| match &body.shape {
+        Shape::Sphere { diameter, material, .. } => {
+            let mass = fem_laws::sphere_mass(*diameter, material.density());
+            let now = material.instantaneous();
+            let bulk = material.bulk_modulus_at(time).max(LEAST_MODULUS * now.bulk_modulus());
+            let shear = material.shear_modulus_at(time).max(LEAST_MODULUS * now.shear_modulus());
+            let modulus = ElasticModuli::from_bulk_shear(bulk, shear)
+                .map_or(0.0, |moduli| moduli.plane_strain_modulus());
+            Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus: modulus }
+        }
+        Shape::Wall => Partner::Wall,
+    });
+    Pair::new(first, second)
+}

@@ -1,0 +1,39 @@
+//! The front door of fem-run: a case, the model that computes it, and what comes out of it.
+//!
+//! ```text
+//! fem_case::Case ─ Scene ─ Method ─ Model ───────────────────── Collision
+//!  text or code     SI     one file  Setup: estimate, plan,      rows, snapshots,
+//!                          a method  effects, cost, warnings     quantities, ending
+//! ```
+//!
+//! [`Simulation`] joins a case and its model. A method refuses a scene with a [`Refusal`] that names
+//! a key; the case knows where that stands. [`effects`] says which effects a scene calls for and what
+//! follows from what a model has of them.
+
+mod approach;
+mod assess;
+pub mod effects;
+mod estimate;
+mod limits;
+mod meshes;
+mod method;
+mod models;
+mod plan;
+mod refusal;
+mod remedy;
+pub mod results;
+mod simulation;
+
+pub use approach::{approach_of, scene_at};
+pub use assess::assess;
+pub use estimate::Estimate;
+pub use meshes::build_meshes;
+pub use method::{Cost, ElementSetup, ForceLaw, METHODS, Method, Model, Setup, Shared, method_of};
+pub use models::{
+    CONDENSED, Condensed, CondensedMethod, EXPLICIT, Explicit, ExplicitMethod, HERTZ, HertzMethod,
+    LAW, LawMethod, PairCache, Reduced, TING, TingMethod, ting_impact,
+};
+pub use plan::Plan;
+pub use refusal::Refusal;
+pub use remedy::{Remedy, remedy_of};
+pub use simulation::Simulation;

@@ -1,0 +1,128 @@
+//! `[limits]`: a run that needs more is refused before it starts.
+
+use fem_case::{Scene, Shape};
+use fem_explicit::n_states;
+
+use crate::meshes::{half_disc, mesh_refusal};
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// Bytes an element of the built-in mesh takes: element blocks, some one node's
+/// worth of vectors, and the ladder of states kept for snapshots.
+const BYTES_PER_ELEMENT: u64 = 1_600;
+/// Bytes a Prony term takes an element.
+const BYTES_PER_BRANCH: u64 = 40;
+/// Bytes a state kept for a snapshot takes an element: displacement, velocity,
+/// effective displacement.
+const BYTES_PER_STATE: u64 = 48;
+
+/// Bytes of a run of explicit finite elements; `branches` is the sum over the elements of the Prony
+/// terms that each has.
+pub(crate) fn explicit_memory(plan: &Plan, elements: u64, branches: u64) -> u64 {
+    let fields = elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH;
+    state_memory(plan, elements).saturating_add(fields)
+}
+
+/// Refuses meshes that are too large before they are made.
+///
+/// # Errors
+/// More elements or memory than the limits allow; a mesh that cannot be made.
+pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
+    let (mut elements, mut branches) = (0, 0);
+    for body in &scene.bodies {
+        if let Shape::Sphere { diameter, mesh: None, material } = &body.shape {
+            let n = half_disc(plan, *diameter).n_elements().map_err(|e| mesh_refusal(&e))? as u64;
+            elements += n;
+            branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;
+        }
+    }
+    check_elements(scene, plan, elements)?;
+    check_memory(scene, plan, elements, explicit_memory(plan, elements, branches))
+}
+
+fn state_memory(plan: &Plan, elements: u64) -> u64 {
+    (elements * BYTES_PER_STATE).saturating_mul(n_states(&plan.snapshots) as u64)
+}
+
+/// Refuses more elements than the limit.
+///
+/// # Errors
+/// Blames the element size, or the limit.
+pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Result<(), Refusal> {
+    if elements <= plan.max_elements {
+        return Ok(());
+    }
+    let key = blamed(scene, "limits.elements", scene.limits.elements);
+    let found = format!(
+        "the meshes would have {elements} elements, {:.3e} m long at the contact",
+        plan.contact_element_size
+    );
+    Err(Refusal::new(key, found).with_help(format!(
+        "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
+        plan.max_elements
+    )))
+}
+
+/// Refuses more memory (bytes) than the limit.
+///
+/// # Errors
+/// Blames the snapshots, the element size, or the limit.
+pub(crate) fn check_memory(
+    scene: &Scene,
+    plan: &Plan,
+    elements: u64,
+    memory: u64,
+) -> Result<(), Refusal> {
+    if memory <= plan.max_memory {
+        return Ok(());
+    }
+    let states = state_memory(plan, elements);
+    let (key, remedy) = if states > memory / 2 {
+        ("output.snapshots", "ask for fewer output.snapshots")
+    } else {
+        let key = blamed(scene, "limits.memory", scene.limits.memory);
+        (key, "use a larger mesh.contact_element_size")
+    };
+    let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
+    let found = format!(
+        "the run would take about {} of memory, {} of it for snapshots",
+        megabytes(memory),
+        megabytes(states)
+    );
+    Err(Refusal::new(key, found).with_help(format!(
+        "at most {} are allowed; {remedy} or raise limits.memory",
+        megabytes(plan.max_memory)
+    )))
+}
+
+/// Refuses more element updates than the limit.
+///
+/// # Errors
+/// Blames the element size, or the limit.
+pub(crate) fn check_updates(
+    scene: &Scene,
+    plan: &Plan,
+    steps: u64,
+    elements: u64,
+    element_updates: u64,
+) -> Result<(), Refusal> {
+    if element_updates <= plan.max_element_updates {
+        return Ok(());
+    }
+    let key = blamed(scene, "limits.element_updates", scene.limits.element_updates);
+    let found = format!(
+        "the run would take {steps} steps of {elements} elements, {:.1e} element updates",
+        element_updates as f64
+    );
+    Err(Refusal::new(key, found).with_help(format!(
+        "at most {:.1e} are allowed; use a larger contact_element_size or more \
+         time.mass_scaling, or raise limits.element_updates",
+        plan.max_element_updates as f64
+    )))
+}
+
+/// The element size if the case gives it, else the limit if that is given.
+fn blamed(scene: &Scene, limit: &'static str, given: Option<u64>) -> &'static str {
+    let has_size = scene.mesh.contact_element_size.is_some();
+    if !has_size && given.is_some() { limit } else { "mesh.contact_element_size" }
+}

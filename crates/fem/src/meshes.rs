@@ -1,0 +1,124 @@
+//! The meshes of a case: half discs made here, or files.
+
+use std::path::Path;
+
+use fem_case::{Scene, Shape};
+use fem_mesh::{HalfDisc, MeshError, Side, SphereMesh};
+
+use crate::limits::check_size;
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// What a mesh is made from; equal ones make equal meshes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum MeshSource {
+    /// Made here.
+    HalfDisc(HalfDisc),
+    /// Read from a file.
+    File(SphereMesh),
+}
+
+impl MeshSource {
+    /// How many elements the mesh has, without making it.
+    ///
+    /// # Errors
+    /// As [`HalfDisc::n_elements`].
+    pub fn n_elements(&self) -> Result<usize, MeshError> {
+        match self {
+            Self::HalfDisc(half_disc) => half_disc.n_elements(),
+            Self::File(mesh) => Ok(mesh.quads().len()),
+        }
+    }
+
+    /// The mesh of the lower body, 0, or the upper one.
+    ///
+    /// # Errors
+    /// As [`HalfDisc::build`].
+    pub fn build(&self, body: usize) -> Result<SphereMesh, MeshError> {
+        let mesh = match self {
+            Self::HalfDisc(half_disc) => half_disc.build()?,
+            Self::File(mesh) => mesh.clone(),
+        };
+        Ok(mesh.on_side(if body == 0 { Side::Below } else { Side::Above }))
+    }
+}
+
+/// The meshes of both bodies in their places; a wall has none.
+///
+/// # Errors
+/// Meshes that cannot be made or read, or are too large.
+pub fn build_meshes(scene: &Scene, plan: &Plan) -> Result<[Option<SphereMesh>; 2], Refusal> {
+    let mut meshes = [None, None];
+    for (k, source) in mesh_sources(scene, plan)?.iter().enumerate() {
+        let build = |source: &MeshSource| source.build(k).map_err(|error| mesh_refusal(&error));
+        meshes[k] = source.as_ref().map(build).transpose()?;
+    }
+    Ok(meshes)
+}
+
+/// What the meshes of both bodies are made from; a wall has none. Files are read.
+///
+/// # Errors
+/// Meshes that cannot be made or read, or are too large.
+pub(crate) fn mesh_sources(scene: &Scene, plan: &Plan) -> Result<[Option<MeshSource>; 2], Refusal> {
+    check_size(scene, plan)?;
+    let mut sources = [None, None];
+    for (k, body) in scene.bodies.iter().enumerate() {
+        if let Shape::Sphere { diameter, mesh, .. } = &body.shape {
+            sources[k] = Some(match mesh {
+                Some(path) => MeshSource::File(import(k, *diameter, path)?),
+                None => MeshSource::HalfDisc(half_disc(plan, *diameter)),
+            });
+        }
+    }
+    Ok(sources)
+}
+
+pub(crate) fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
+    HalfDisc {
+        radius: 0.5 * diameter,
+        contact_element_size: plan.contact_element_size,
+        refined_radius: plan.refined_radius,
+        growth: plan.growth,
+    }
+}
+
+fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Refusal> {
+    read_sphere(diameter, path).map_err(|found| {
+        let message = format!("mesh {}: {found}", path.display());
+        Refusal::new(format!("body.{k}.sphere.mesh"), message).with_help(
+            "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
+             r >= 0 of the sphere with its contact pole at the origin; \
+             `fem-run mesh CASE` writes such files",
+        )
+    })
+}
+
+#[cfg(feature = "files")]
+fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
+    let mesh = fem_vtk::read_quad_mesh(path).map_err(|error| error.to_string())?;
+    if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
+        return Err(format!("a point lies at z = {} m, off the plane z = 0", point[2]));
+    }
+    let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
+    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| error.to_string())
+}
+
+#[cfg(not(feature = "files"))]
+fn read_sphere(_: f64, _: &Path) -> Result<SphereMesh, String> {
+    Err("no files are read here".to_string())
+}
+
+/// The key that is to blame for a mesh that cannot be made.
+pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
+    let key = match error {
+        MeshError::RefinedRadius { .. } => "mesh.refined_radius",
+        MeshError::Growth(_) => "mesh.growth",
+        _ => "mesh.contact_element_size",
+    };
+    let refusal = Refusal::new(key, error.to_string());
+    match error {
+        MeshError::TooLarge(_) => refusal.with_help("use a larger contact_element_size"),
+        _ => refusal,
+    }
+}

@@ -1,0 +1,162 @@
+//! What a way to compute collisions is to the rest of the house, and what it makes of a scene.
+//!
+//! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. There
+//! is one file a method in `models/`; [`METHODS`] lists them from the cheapest to the dearest.
+
+use std::fmt;
+
+use fem_case::{CaseFile, ModelChoice, Scene};
+use fem_collision::{Approach, Collision, Monitor, Want};
+use fem_mesh::SphereMesh;
+
+use crate::effects::Verdict;
+use crate::estimate::Estimate;
+use crate::models::{CONDENSED, EXPLICIT, HERTZ, LAW, PairCache, TING};
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// A way to compute collisions.
+pub trait Method: Sync {
+    /// Its key under `[model]`.
+    fn name(&self) -> &'static str;
+
+    /// Makes the model of a scene.
+    ///
+    /// # Errors
+    /// A scene that the method cannot compute, or not within the scene's limits.
+    fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal>;
+
+    /// Element updates to come, what runs are ordered by, of a scene that could run: nothing dear is
+    /// made, and what takes milliseconds counts as nothing.
+    ///
+    /// # Errors
+    /// As [`Method::build`], but for what only the making shows.
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal>;
+
+    /// The case as written with the method's defaults filled in, which makes the same model; what
+    /// the method does not read stays as it is.
+    ///
+    /// # Errors
+    /// As [`Method::price`].
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal>;
+}
+
+/// All methods, from the cheapest to the dearest.
+pub const METHODS: [&dyn Method; 5] = [&HERTZ, &LAW, &TING, &CONDENSED, &EXPLICIT];
+
+/// The method that a scene chooses.
+pub fn method_of(scene: &Scene) -> &'static dyn Method {
+    match scene.model {
+        ModelChoice::Hertz { .. } => &HERTZ,
+        ModelChoice::Law { .. } => &LAW,
+        ModelChoice::Ting { .. } => &TING,
+        ModelChoice::Condensed(_) => &CONDENSED,
+        _ => &EXPLICIT,
+    }
+}
+
+/// What the models of several scenes share.
+#[derive(Debug, Default)]
+pub struct Shared {
+    /// Condensed pairs of bodies.
+    pub pairs: PairCache,
+}
+
+/// A scene ready to be computed.
+pub trait Model: fmt::Debug + Send {
+    /// What was decided.
+    fn setup(&self) -> &Setup;
+
+    /// Computes a collision of the scene's bodies, as far as it gets. A model may enlarge the region
+    /// in which it looks for contact, and says so in its setup.
+    fn collide(&mut self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor)
+    -> Collision;
+
+    /// The meshes; a wall has none, nor has a model without elements.
+    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
+        [None, None]
+    }
+}
+
+/// What was decided on a scene before its collision is computed.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// In a few words: what computes the collision.
+    pub description: String,
+    /// How the scene's bodies meet.
+    pub approach: Approach,
+    /// What a run of the scene is asked for.
+    pub want: Want,
+    /// What closed forms say.
+    pub estimate: Estimate,
+    /// Which effects are on, and why.
+    pub effects: Vec<Verdict>,
+    /// What the user should know before the run.
+    pub warnings: Vec<String>,
+    /// What the run will take.
+    pub cost: Cost,
+    /// Of a model with meshes.
+    pub elements: Option<ElementSetup>,
+}
+
+/// What was decided on finite elements.
+#[derive(Clone, Debug)]
+pub struct ElementSetup {
+    /// Mesh, contact and time step.
+    pub plan: Plan,
+    /// Whether springs keep the surfaces apart.
+    pub has_springs: bool,
+    /// What makes the time step smaller.
+    pub finer_steps: &'static str,
+}
+
+/// What a run will take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cost {
+    /// Every element is computed at every step.
+    Steps {
+        /// Elements of both bodies.
+        elements: u64,
+        /// Nodes of both bodies.
+        nodes: u64,
+        /// Until separation.
+        steps: u64,
+        /// Elements times steps.
+        element_updates: u64,
+        /// Bytes.
+        memory: u64,
+        /// s.
+        time_step: f64,
+        /// What it would be without mass scaling, s.
+        plain_time_step: f64,
+    },
+    /// The bodies are factored once.
+    Factors {
+        /// Elements of both bodies.
+        elements: u64,
+        /// Points that can touch.
+        contact_points: u64,
+        /// Over the elastic contact time.
+        steps: u64,
+        /// Bytes of the factors.
+        factor_bytes: u64,
+    },
+    /// Milliseconds, without any mesh.
+    Little {
+        /// The force law, if it is one of the overlap and its rate.
+        force: Option<ForceLaw>,
+    },
+}
+
+/// F = K ξ^γ + C ξⁿ ξ̇, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceLaw {
+    /// K.
+    pub stiffness: f64,
+    /// γ.
+    pub elastic_exponent: f64,
+    /// C.
+    pub damping: f64,
+    /// n.
+    pub damping_exponent: f64,
+}

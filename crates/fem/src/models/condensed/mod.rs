@@ -1,0 +1,285 @@
+//! Linear finite elements that are condensed to their contact nodes: the meshes and the materials of
+//! the explicit model, milliseconds instead of seconds.
+
+mod cache;
+mod effects;
+
+use std::sync::Arc;
+
+use fem_case::schema::{CondensedTable, ModelTable};
+use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
+use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, Stop, Want};
+use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
+use fem_material::{Material, PronySeries};
+use fem_mesh::SphereMesh;
+
+use super::region::until_it_fits;
+use crate::approach::{approach_of, frame_of};
+use crate::effects::Vibration;
+use crate::meshes::{MeshSource, mesh_refusal, mesh_sources};
+use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+use cache::PairKey;
+
+pub use cache::PairCache;
+
+/// Growth of the condensed region when the contact leaves it.
+const CANDIDATE_GROWTH: f64 = 2.0;
+/// Half-width of the condensed region over that of the fine block.
+const CANDIDATES_OVER_REFINED: f64 = 1.125;
+/// And at least so much over the contact radius that Hertz expects, and so many elements.
+const CANDIDATES_OVER_CONTACT: f64 = 1.3;
+const CANDIDATE_ELEMENTS: f64 = 3.0;
+/// Bytes an element takes: factor, assembly, a share of fields.
+const BYTES_PER_ELEMENT: u64 = 8_000;
+
+/// Linear finite elements condensed to their contact, `[model] condensed = {}`.
+#[derive(Clone, Copy, Debug)]
+pub struct CondensedMethod;
+
+/// The method.
+pub const CONDENSED: CondensedMethod = CondensedMethod;
+
+impl Method for CondensedMethod {
+    fn name(&self) -> &'static str {
+        "condensed"
+    }
+
+    fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        Ok(Box::new(Condensed::new(scene, shared)?))
+    }
+
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+        let plan = Plan::of(scene)?;
+        check_memory(&plan, &mesh_sources(scene, &plan)?).map(|()| 0)
+    }
+
+    /// Tables that the model does not read stay as they are.
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+        let options = options(scene);
+        let (time, contact) = (file.time.clone(), file.contact.clone());
+        let mut file = Plan::of(scene)?.resolve(file);
+        file.time = time;
+        if !options.penalty_springs {
+            file.contact = contact;
+        }
+        let table = CondensedTable {
+            vibration_modes: Some(Quantity::from_si(options.vibration_modes as f64)),
+            steps: Some(Quantity::from_si(options.steps as f64)),
+            penalty_springs: Some(options.penalty_springs),
+        };
+        file.model = Some(ModelTable { condensed: Some(table), ..ModelTable::default() });
+        Ok(file)
+    }
+}
+
+/// A scene with condensed bodies, ready to run.
+#[derive(Clone, Debug)]
+pub struct Condensed {
+    setup: Setup,
+    scene: Scene,
+    pair: Arc<CondensedPair>,
+    options: CondensedOptions,
+}
+
+impl Condensed {
+    /// Meshes and condenses, or takes the same pair from those that are shared without making a mesh.
+    ///
+    /// # Errors
+    /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
+    /// limits allow; a stiffness that cannot be factored.
+    pub fn new(scene: &Scene, shared: &Shared) -> Result<Self, Refusal> {
+        let options = options(scene);
+        let plan = Plan::of(scene)?;
+        let sources = mesh_sources(scene, &plan)?;
+        check_memory(&plan, &sources)?;
+        let key = PairKey { bodies: bodies(scene, sources), settings: settings(&plan, options) };
+        let pair = shared.pairs.pair(key, |key| {
+            CondensedPair::new(inputs(key)?, key.settings)
+                .map_err(|error| Refusal::new(scene.model.path(), error.to_string()))
+        })?;
+        let (effects, warnings) = effects::decide(scene, &plan, &pair, options)?;
+        let setup = Setup {
+            description: "model condensed, finite elements condensed to their contact".to_string(),
+            approach: approach_of(scene),
+            want: plan.want(),
+            estimate: plan.estimate,
+            effects,
+            warnings,
+            cost: cost_of(&pair, options.steps),
+            elements: Some(ElementSetup {
+                has_springs: options.penalty_springs,
+                finer_steps: "raise model.condensed.steps",
+                plan,
+            }),
+        };
+        Ok(Self { setup, scene: scene.clone(), pair, options })
+    }
+
+    /// Those of the warnings that the speed causes.
+    pub fn speed_warnings(&self) -> Vec<String> {
+        Vibration::warnings_of_modes(&self.setup.estimate, self.options.vibration_modes)
+    }
+
+    /// The bodies.
+    pub fn pair(&self) -> &CondensedPair {
+        &self.pair
+    }
+
+    /// The restitution of the same bodies at another speed, m/s, with other relaxations, lower body
+    /// first: the factors are kept.
+    ///
+    /// # Errors
+    /// What stops the collision before its end.
+    pub fn restitution(
+        &mut self,
+        speed: f64,
+        relaxations: [Option<&PronySeries>; 2],
+        n_steps: usize,
+    ) -> Result<f64, Stop> {
+        let want = Want::quantities();
+        let approach = Approach::at(speed);
+        let collision = self.follow(&approach, relaxations, n_steps, &want, &mut ());
+        match (collision.ending, collision.restitution) {
+            (Ending::Stopped(stop), _) => Err(stop),
+            (_, restitution) => Ok(restitution.unwrap_or_default()),
+        }
+    }
+
+    /// Condenses further out as long as the contact reaches the end.
+    fn follow(
+        &mut self,
+        approach: &Approach,
+        relaxations: [Option<&PronySeries>; 2],
+        n_steps: usize,
+        want: &Want,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
+        let (scene, pair, cost) = (&self.scene, &mut self.pair, &mut self.setup.cost);
+        let collide = |pair: &Arc<CondensedPair>| {
+            let frame = frame_of(scene, approach, pair.reduced_mass());
+            match pair.collide(&frame, relaxations, n_steps, want, &mut *monitor) {
+                Ok(collision) => collision,
+                Err(error) => Collision {
+                    initial_energy: Some(frame.kinetic(frame.speed())),
+                    bodies: pair.bodies_before(&frame),
+                    ..Collision::stopped(stop_of(error, approach))
+                },
+            }
+        };
+        until_it_fits(pair, collide, |pair, radius| {
+            let larger = pair.enlarge(CANDIDATE_GROWTH * radius);
+            *pair = Arc::new(larger.map_err(|error| Some(stop_of(error, approach)))?);
+            *cost = cost_of(pair, n_steps);
+            Ok(())
+        })
+    }
+}
+
+impl Model for Condensed {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn collide(
+        &mut self,
+        approach: &Approach,
+        want: &Want,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
+        let scene = self.scene.clone();
+        let relaxations = scene.bodies.each_ref().map(|body| body.material()?.relaxation());
+        self.follow(approach, relaxations, self.options.steps, want, monitor)
+    }
+
+    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
+        self.pair.inputs().each_ref().map(BodyInput::mesh)
+    }
+}
+
+/// Why a collision could not begin, as the stop of one: at first touch.
+fn stop_of(error: CondensedError, approach: &Approach) -> Stop {
+    match error {
+        CondensedError::ContactBeyondCandidates { radius } => {
+            Stop::ContactBeyondCandidates { time: approach.first_touch(), step: 0, radius }
+        }
+        error => error.into(),
+    }
+}
+
+fn options(scene: &Scene) -> CondensedOptions {
+    match scene.model {
+        ModelChoice::Condensed(options) => options,
+        _ => CondensedOptions::default(),
+    }
+}
+
+fn cost_of(pair: &CondensedPair, n_steps: usize) -> Cost {
+    let meshes = pair.inputs().iter().filter_map(BodyInput::mesh);
+    Cost::Factors {
+        elements: meshes.map(|mesh| mesh.quads().len() as u64).sum(),
+        contact_points: pair.n_points() as u64,
+        steps: n_steps as u64,
+        factor_bytes: pair.factor_bytes() as u64,
+    }
+}
+
+/// Bodies without their relaxations, which only the collision reads.
+fn bodies(scene: &Scene, sources: [Option<MeshSource>; 2]) -> [Option<(MeshSource, Material)>; 2] {
+    let mut sources = sources.into_iter();
+    scene.bodies.each_ref().map(|body| {
+        let source = sources.next().flatten()?;
+        Some((source, body.material()?.without_relaxation()))
+    })
+}
+
+fn inputs(key: &PairKey) -> Result<[BodyInput; 2], Refusal> {
+    let input = |k: usize| match &key.bodies[k] {
+        Some((source, material)) => {
+            let mesh = source.build(k).map_err(|error| mesh_refusal(&error))?;
+            Ok(BodyInput::Sphere { mesh, material: material.clone() })
+        }
+        None => Ok(BodyInput::Wall),
+    };
+    Ok([input(0)?, input(1)?])
+}
+
+/// The condensed region goes by the fine block, so that all speeds that share a mesh share a
+/// factor; a contact that is expected further out doubles it.
+fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
+    let needed = (CANDIDATES_OVER_CONTACT * plan.estimate.hertz.max_contact_radius())
+        .max(CANDIDATE_ELEMENTS * plan.contact_element_size);
+    let mut candidate_radius = CANDIDATES_OVER_REFINED * plan.refined_radius;
+    while candidate_radius < needed {
+        candidate_radius *= CANDIDATE_GROWTH;
+    }
+    let contact = if options.penalty_springs {
+        ContactModel::Springs(plan.contact_stiffness)
+    } else {
+        ContactModel::Exact
+    };
+    PairSettings {
+        contact,
+        vibration_modes: options.vibration_modes,
+        ..PairSettings::new(candidate_radius)
+    }
+}
+
+fn check_memory(plan: &Plan, sources: &[Option<MeshSource>; 2]) -> Result<(), Refusal> {
+    let mut elements = 0;
+    for source in sources.iter().flatten() {
+        elements += source.n_elements().map_err(|error| mesh_refusal(&error))?;
+    }
+    let bytes = BYTES_PER_ELEMENT.saturating_mul(elements as u64);
+    if bytes <= plan.max_memory {
+        return Ok(());
+    }
+    let message = format!("the factors would take about {:.1e} bytes", bytes as f64);
+    Err(Refusal::new("limits.memory", message).with_help(format!(
+        "at most {:.1e} are allowed; use a larger mesh.contact_element_size, or raise \
+         limits.memory",
+        plan.max_memory as f64
+    )))
+}

@@ -1,0 +1,72 @@
+//! Hertz' closed form for elastic half-spaces; with the spheres' finite size, Ting's model of elastic
+//! bodies.
+
+use fem_case::schema::{HertzTable, ModelTable};
+use fem_case::{CaseFile, ModelChoice, Scene};
+use fem_laws::{HertzImpact, Impact, LawError, Ting};
+
+use super::reduced::{Motion, Reduced, resolve_start};
+use super::ting;
+use crate::estimate::Estimate;
+use crate::method::{Method, Model, Shared};
+use crate::refusal::Refusal;
+
+/// Hertz, `[model] hertz = {}`.
+#[derive(Clone, Copy, Debug)]
+pub struct HertzMethod;
+
+/// The method.
+pub const HERTZ: HertzMethod = HertzMethod;
+
+impl Method for HertzMethod {
+    fn name(&self) -> &'static str {
+        "hertz"
+    }
+
+    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        Ok(Box::new(Reduced::new(scene)?))
+    }
+
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+        Reduced::new(scene).map(|_| 0)
+    }
+
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+        let ModelChoice::Hertz { finite_size } = scene.model else { return Ok(file) };
+        let mut file = resolve_start(scene, file);
+        let table = HertzTable { finite_size: Some(finite_size) };
+        file.model = Some(ModelTable { hertz: Some(table), ..ModelTable::default() });
+        Ok(file)
+    }
+}
+
+#[derive(Debug)]
+struct ClosedForm(HertzImpact);
+
+impl Motion for ClosedForm {
+    fn impact(&self, speed: f64) -> Result<Impact, LawError> {
+        Ok(HertzImpact::new(self.0.pair(), speed)?.impact())
+    }
+}
+
+/// Builds the model of a scene.
+///
+/// # Errors
+/// As [`Reduced::new`].
+pub(super) fn build(
+    scene: &Scene,
+    estimate: Estimate,
+    finite_size: bool,
+) -> Result<Reduced, Refusal> {
+    // Elastic bodies under Ting are Hertz', and Ting knows their size.
+    let motion: Box<dyn Motion> = match finite_size {
+        false => Box::new(ClosedForm(estimate.hertz)),
+        true => ting::motion(scene, &estimate, false, true, Ting::DEFAULT_TOLERANCE)?,
+    };
+    let description = match finite_size {
+        false => "model hertz, a closed form",
+        true => "model hertz, one degree of freedom",
+    };
+    let pair = *estimate.hertz.pair();
+    Reduced::of(scene, estimate, description.to_string(), motion, pair)
+}

@@ -1,0 +1,125 @@
+//! Contact laws: a spring and a dashpot of the overlap, integrated.
+
+use fem_case::schema::{End, LawTable, ModelTable};
+use fem_case::{CaseFile, Law, ModelChoice, Quantity, Scene};
+use fem_laws::laws::ContactLaw;
+use fem_laws::{EndRule, Impact, LawError, LawImpact, Pair, PairRelaxation};
+
+use super::law_numbers::{Setting, Unmade};
+use super::reduced::{Motion, Reduced, refused, resolve_start};
+use crate::estimate::Estimate;
+use crate::method::{Method, Model, Shared};
+use crate::refusal::Refusal;
+
+/// A contact law, `[model] law = { NAME = { … } }`.
+#[derive(Clone, Copy, Debug)]
+pub struct LawMethod;
+
+/// The method.
+pub const LAW: LawMethod = LawMethod;
+
+impl Method for LawMethod {
+    fn name(&self) -> &'static str {
+        "law"
+    }
+
+    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        Ok(Box::new(Reduced::new(scene)?))
+    }
+
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+        Reduced::new(scene).map(|_| 0)
+    }
+
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+        let ModelChoice::Law { end_rule, tolerance, .. } = scene.model else { return Ok(file) };
+        Reduced::new(scene)?;
+        let mut file = resolve_start(scene, file);
+        let given = file.model.take().unwrap_or_default();
+        let end = match end_rule {
+            EndRule::ZeroForce => End::ZeroForce,
+            EndRule::ZeroOverlap => End::ZeroOverlap,
+        };
+        let law = given.law.unwrap_or_default().filled(end, tolerance);
+        let law = Some(with_speed(law, scene.approach_speed()));
+        file.model = Some(ModelTable { law, ..ModelTable::default() });
+        Ok(file)
+    }
+}
+
+/// The speed (m/s) at which Hunt and Crossley's restitution is wanted, if left to the case.
+fn with_speed(mut law: LawTable, speed: f64) -> LawTable {
+    if let Some(keys) = &mut law.hunt_crossley {
+        keys.v.get_or_insert(Quantity::from_si(speed));
+    }
+    law
+}
+
+/// A law, its numbers, and its integration.
+#[derive(Debug)]
+struct LawMotion {
+    impact: LawImpact,
+    law: ContactLaw,
+    numbers: Vec<f64>,
+}
+
+impl Motion for LawMotion {
+    fn impact(&self, speed: f64) -> Result<Impact, LawError> {
+        self.impact.impact(speed)
+    }
+
+    fn law(&self) -> Option<&ContactLaw> {
+        Some(&self.law)
+    }
+
+    fn law_numbers(&self) -> Option<&[f64]> {
+        Some(&self.numbers)
+    }
+}
+
+/// Builds the model of a scene.
+///
+/// # Errors
+/// As [`Reduced::new`].
+pub(super) fn build(
+    scene: &Scene,
+    estimate: Estimate,
+    law: &Law,
+    end_rule: EndRule,
+    tolerance: f64,
+) -> Result<Reduced, Refusal> {
+    let refuse = |error: LawError| refused(scene, &error);
+    let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;
+    let Some(made) = law.family().law(&pair, &numbers) else {
+        let message = format!("{} is no law of the overlap", law.name());
+        return Err(Refusal::new(scene.model.path(), message));
+    };
+    let description = format!("model law {}, one degree of freedom", law.name());
+    let law = made.map_err(refuse)?;
+    let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
+    let impact = impact.with_tolerance(tolerance).map_err(refuse)?;
+    let motion = Box::new(LawMotion { impact, law, numbers });
+    Reduced::of(scene, estimate, description, motion, pair)
+}
+
+fn law_numbers(
+    scene: &Scene,
+    estimate: &Estimate,
+    law: &Law,
+    end_rule: EndRule,
+) -> Result<(Vec<f64>, Pair), Refusal> {
+    let materials = scene.bodies.each_ref().map(|body| body.material());
+    let relaxation =
+        PairRelaxation::new(materials[0], materials[1]).map_err(|error| refused(scene, &error))?;
+    let setting = Setting {
+        pair: *estimate.hertz.pair(),
+        speed: estimate.hertz.approach_speed(),
+        materials,
+        relaxation: &relaxation,
+        end_rule,
+    };
+    setting.numbers(law).map_err(|unmade| match unmade {
+        Unmade::Law(error) => refused(scene, &error),
+        Unmade::Source(message, help) => Refusal::new(scene.model.path(), message).with_help(help),
+    })
+}

@@ -1,0 +1,114 @@
+//! From a relative motion to what is asked of every model.
+
+use fem_collision::{
+    Account, BodyResult, Book, Collision, Ending, Frame, Row, STAY_TOGETHER, Want,
+};
+use fem_laws::laws::ContactLaw;
+use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
+
+/// The history goes on after the contact for this part of its rows.
+const ROWS_PER_ROW_AFTER: usize = 5;
+/// Hertz' exponent: what has it has Hertz' contact radius.
+const HERTZ_EXPONENT: f64 = 1.5;
+
+/// The collision of both bodies of a frame.
+pub(super) fn of_impact(
+    impact: &Impact,
+    frame: &Frame,
+    pair: &Pair,
+    law: Option<&ContactLaw>,
+    want: &Want,
+) -> Collision {
+    let has_radius = law.is_none_or(|law| law.elastic_exponent() == HERTZ_EXPONENT);
+    let rows = Rows { frame, has_radius };
+    let after = frame.velocities(-impact.restitution * frame.speed());
+    let instants = || impact.history.iter();
+    let residual = |instant| rows.row(instant).residual.map_or(0.0, f64::abs);
+    let drift = |instant: &ImpactInstant| frame.momentum_drift(instant.approach_rate);
+    let is_together = impact.contact_time.is_none();
+    let first_touch = frame.approach.first_touch();
+    Collision {
+        ending: if is_together { Ending::Together } else { Ending::Parted },
+        restitution: Some(impact.restitution),
+        contact_time: impact.contact_time,
+        first_contact: Some(first_touch),
+        last_contact: impact.contact_time.map(|time| first_touch + time),
+        contact_episodes: 1,
+        peak_force: Some(impact.peak_force),
+        max_approach: Some(impact.max_approach),
+        max_contact_radius: has_radius.then_some(impact.max_contact_radius),
+        peak_pressure: impact.peak_pressure,
+        initial_energy: Some(frame.kinetic(frame.speed())),
+        residual_relative: Some(instants().map(residual).fold(0.0, worse) / frame.initial()),
+        momentum_residual_relative: Some(instants().map(drift).fold(0.0, worse)),
+        bodies: [0, 1].map(|side: usize| BodyResult {
+            mass: frame.masses[side],
+            velocity_after: Some(after[side]),
+            ..BodyResult::default()
+        }),
+        time_step: None,
+        steps: None,
+        element_updates: None,
+        repeated_contact_solutions: None,
+        history: rows.of(impact, pair, law, want.history_rows),
+        snapshots: Vec::new(),
+        warnings: is_together.then(|| STAY_TOGETHER.to_string()).into_iter().collect(),
+    }
+}
+
+/// Makes rows of instants.
+struct Rows<'a> {
+    frame: &'a Frame,
+    has_radius: bool,
+}
+
+impl Rows<'_> {
+    /// `n` rows at equal times over the contact and a fifth of it after; a contact without an end
+    /// has none after.
+    fn of(&self, impact: &Impact, pair: &Pair, law: Option<&ContactLaw>, n: usize) -> Vec<Row> {
+        let Some(last) = impact.history.last().filter(|_| n > 0) else { return Vec::new() };
+        let path = ImpactPath::new(impact, pair, law);
+        let after = if impact.contact_time.is_some() { n / ROWS_PER_ROW_AFTER } else { 0 };
+        (0..=n + after)
+            // The last contact instant comes exactly.
+            .map(|k| if k == n { last.time } else { last.time * (k as f64 / n as f64) })
+            .filter_map(|time| Some(self.row(&path.at(time)?)))
+            .collect()
+    }
+
+    fn row(&self, instant: &ImpactInstant) -> Row {
+        let (frame, rate) = (self.frame, instant.approach_rate);
+        let accounted = match (instant.strain_energy, instant.dissipated) {
+            (Some(strain), Some(dissipated)) => strain + dissipated,
+            _ => instant.work,
+        };
+        let known = [
+            (Account::Strain, instant.strain_energy),
+            (Account::ViscousDissipation, instant.dissipated),
+        ];
+        let mut energies = Book::EMPTY
+            .with(Account::Kinetic, frame.kinetic(rate))
+            .with(Account::WallWork, frame.wall_work(rate));
+        for (account, energy) in known {
+            if let Some(energy) = energy {
+                energies.add(account, energy);
+            }
+        }
+        Row {
+            time: frame.approach.first_touch() + instant.time,
+            contact_force: instant.force,
+            contact_radius: self.has_radius.then_some(instant.contact_radius),
+            approach: instant.approach,
+            centre_pressure: instant.centre_pressure,
+            velocity: frame.velocities(rate),
+            energies,
+            residual: Some(frame.gained(rate) + accounted),
+            vibration: [0.0; 2],
+        }
+    }
+}
+
+/// The larger of two; NaN wins, so that it cannot pass unseen.
+fn worse(so_far: f64, value: f64) -> f64 {
+    if so_far.is_nan() || value <= so_far { so_far } else { value }
+}

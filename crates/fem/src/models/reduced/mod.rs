@@ -1,0 +1,158 @@
+//! Models of one degree of freedom, the approach of the mass centres. What is asked of all models comes
+//! from the relative motion and the conservation of momentum.
+
+mod collision;
+mod effects;
+
+use std::fmt;
+
+use fem_case::{CaseFile, ModelChoice, Quantity};
+use fem_case::{Scene, schema::StartTable};
+use fem_collision::{Approach, Collision, Monitor, Stop, Want};
+use fem_laws::laws::ContactLaw;
+use fem_laws::{Impact, LawError, Pair};
+
+use super::{hertz, law, ting};
+use crate::approach::{approach_of, frame_of};
+use crate::estimate::Estimate;
+use crate::method::{Cost, ForceLaw, Model, Setup};
+use crate::refusal::Refusal;
+
+/// What computes a relative motion.
+pub(super) trait Motion: fmt::Debug + Send + Sync {
+    /// The relative motion at an approach speed, m/s.
+    fn impact(&self, speed: f64) -> Result<Impact, LawError>;
+
+    /// Stiffness and dashpot of a law of the overlap.
+    fn law(&self) -> Option<&ContactLaw> {
+        None
+    }
+
+    /// The law's numbers, SI, in the order of its family's parameters.
+    fn law_numbers(&self) -> Option<&[f64]> {
+        None
+    }
+}
+
+/// A scene with a reduced model, ready to run.
+#[derive(Debug)]
+pub struct Reduced {
+    setup: Setup,
+    scene: Scene,
+    motion: Box<dyn Motion>,
+    /// Of the motion: with relaxed moduli if the law is a slow limit.
+    pair: Pair,
+}
+
+impl Reduced {
+    /// Builds the reduced model that a scene asks for.
+    ///
+    /// # Errors
+    /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
+    /// contact too large for the finite-size correction; a law that cannot be made of this pair.
+    pub fn new(scene: &Scene) -> Result<Self, Refusal> {
+        let estimate = Estimate::checked(scene)?;
+        match &scene.model {
+            ModelChoice::Hertz { finite_size } => hertz::build(scene, estimate, *finite_size),
+            ModelChoice::Ting { finite_size, tolerance } => {
+                ting::build(scene, estimate, *finite_size, *tolerance)
+            }
+            ModelChoice::Law { law, end_rule, tolerance } => {
+                law::build(scene, estimate, law, *end_rule, *tolerance)
+            }
+            _ => Err(Refusal::new("model", "finite elements are no reduced model")),
+        }
+    }
+
+    /// A motion of a pair; `description` says in a few words what is integrated.
+    ///
+    /// # Errors
+    /// An effect that the case forces on and a reduced model lacks.
+    pub(super) fn of(
+        scene: &Scene,
+        estimate: Estimate,
+        description: String,
+        motion: Box<dyn Motion>,
+        pair: Pair,
+    ) -> Result<Self, Refusal> {
+        let (effects, warnings) = effects::decide(scene, &estimate, motion.law())?;
+        let force = motion.law().map(|law| ForceLaw {
+            stiffness: law.stiffness(),
+            elastic_exponent: law.elastic_exponent(),
+            damping: law.damping(),
+            damping_exponent: law.damping_exponent(),
+        });
+        let setup = Setup {
+            description,
+            approach: approach_of(scene),
+            want: Want::history(),
+            estimate,
+            effects,
+            warnings,
+            cost: Cost::Little { force },
+            elements: None,
+        };
+        Ok(Self { setup, scene: scene.clone(), motion, pair })
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Stiffness and dashpot of a law.
+    pub fn law(&self) -> Option<&ContactLaw> {
+        self.motion.law()
+    }
+
+    /// The law's numbers, SI, in the order of its family's parameters.
+    pub fn law_numbers(&self) -> Option<&[f64]> {
+        self.motion.law_numbers()
+    }
+
+    /// The relative motion at an approach speed, m/s, the law's numbers those of the case.
+    ///
+    /// # Errors
+    /// Those of the model.
+    pub fn impact(&self, speed: f64) -> Result<Impact, LawError> {
+        self.motion.impact(speed)
+    }
+}
+
+impl Model for Reduced {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Closed forms and short integrations: nobody needs to look on.
+    fn collide(&mut self, approach: &Approach, want: &Want, _: &mut dyn Monitor) -> Collision {
+        match self.impact(approach.speed()) {
+            Ok(impact) => {
+                let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
+                collision::of_impact(&impact, &frame, &self.pair, self.law(), want)
+            }
+            Err(error) => Collision::stopped(stop_of(&error)),
+        }
+    }
+}
+
+fn stop_of(error: &LawError) -> Stop {
+    let message = error.to_string();
+    match error {
+        LawError::NotFinished { .. } => Stop::NotFinished(message),
+        LawError::OutsideValidity { .. } => Stop::OutsideValidity(message),
+        _ => Stop::OutOfRange(message),
+    }
+}
+
+/// What a law of the scene refuses.
+pub(super) fn refused(scene: &Scene, error: &LawError) -> Refusal {
+    Refusal::new(scene.model.path(), error.to_string())
+}
+
+/// The start that all reduced models fill in; what they do not read stays as it is.
+pub(super) fn resolve_start(scene: &Scene, mut file: CaseFile) -> CaseFile {
+    let gap = scene.gap.unwrap_or_default();
+    file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });
+    file
+}

@@ -1,0 +1,118 @@
+//! Ting's quasi-static viscoelastic half-spaces, with the spheres' finite size if asked for.
+
+use fem_case::schema::{ModelTable, TingTable};
+use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
+use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
+use fem_material::Material;
+
+use super::reduced::{Motion, Reduced, refused, resolve_start};
+use crate::estimate::Estimate;
+use crate::method::{Method, Model, Shared};
+use crate::refusal::Refusal;
+
+/// Ting, `[model] ting = {}`.
+#[derive(Clone, Copy, Debug)]
+pub struct TingMethod;
+
+/// The method.
+pub const TING: TingMethod = TingMethod;
+
+impl Method for TingMethod {
+    fn name(&self) -> &'static str {
+        "ting"
+    }
+
+    fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        Ok(Box::new(Reduced::new(scene)?))
+    }
+
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+        Reduced::new(scene).map(|_| 0)
+    }
+
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+        let ModelChoice::Ting { finite_size, tolerance } = scene.model else { return Ok(file) };
+        let mut file = resolve_start(scene, file);
+        let table = TingTable {
+            finite_size: Some(finite_size),
+            tolerance: Some(Quantity::from_si(tolerance)),
+        };
+        file.model = Some(ModelTable { ting: Some(table), ..ModelTable::default() });
+        Ok(file)
+    }
+}
+
+impl Motion for Ting {
+    fn impact(&self, speed: f64) -> Result<Impact, LawError> {
+        Ting::impact(self, speed)
+    }
+}
+
+/// Builds the model of a scene.
+///
+/// # Errors
+/// As [`Reduced::new`].
+pub(super) fn build(
+    scene: &Scene,
+    estimate: Estimate,
+    finite_size: bool,
+    tolerance: f64,
+) -> Result<Reduced, Refusal> {
+    let motion = motion(scene, &estimate, true, finite_size, tolerance)?;
+    let description = "model ting, one degree of freedom".to_string();
+    let pair = *estimate.hertz.pair();
+    Reduced::of(scene, estimate, description, motion, pair)
+}
+
+/// Ting's model of a scene, of the materials or of elastic ones with the same instantaneous moduli.
+///
+/// # Errors
+/// A contact too large for the correction of the spheres' size; numbers that the law refuses.
+pub(super) fn motion(
+    scene: &Scene,
+    estimate: &Estimate,
+    relaxes: bool,
+    finite_size: bool,
+    tolerance: f64,
+) -> Result<Box<dyn Motion>, Refusal> {
+    let refuse = |error: LawError| refused(scene, &error);
+    let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
+    if let Some(size) = &size {
+        size.check(estimate.hertz.max_contact_radius()).map_err(|error| {
+            Refusal::new(format!("{}.finite_size", scene.model.path()), error.to_string())
+                .with_help("write finite_size = false, or use model fem")
+        })?;
+    }
+    let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(refuse)?;
+    Ok(Box::new(ting.with_tolerance(tolerance).map_err(refuse)?))
+}
+
+/// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
+/// however large the contact.
+///
+/// # Errors
+/// Numbers that the law refuses.
+pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impact, LawError> {
+    let size = finite_size.then(|| scene.finite_size()).transpose()?;
+    ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
+}
+
+fn ting_of(
+    scene: &Scene,
+    pair: &Pair,
+    relaxes: bool,
+    size: Option<FiniteSize>,
+) -> Result<Ting, LawError> {
+    let [first, second] = scene.bodies.each_ref().map(Body::material);
+    let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
+    let relaxation = if relaxes {
+        PairRelaxation::new(first, second)?
+    } else {
+        PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())?
+    };
+    let ting = Ting::new(pair, relaxation);
+    Ok(match size {
+        Some(size) => ting.with_finite_size(size),
+        None => ting,
+    })
+}

@@ -1,0 +1,58 @@
+//! Why a run stops early, and what helps.
+
+use fem_collision::Stop;
+
+/// Likely cause and remedy of a stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Remedy {
+    /// What most often lies behind it.
+    pub cause: &'static str,
+    /// What to change.
+    pub remedy: &'static str,
+}
+
+/// Likely cause and remedy; none for a run that the user stopped.
+pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
+    let (cause, remedy) = match stop {
+        Stop::Interrupted { .. } => return None,
+        Stop::EnergyGrowth { .. } => (
+            "the contact opens and closes faster than the time step resolves, or an imported \
+             mesh has elements that are far too distorted",
+            "set time.step_factor = 0.5 and time.mass_scaling = 0; if it stays, lower \
+             contact.penalty_factor, and send us the case: the step is meant to be stable",
+        ),
+        Stop::ContactBeyondCandidates { .. } | Stop::ContactTooLarge { .. } => (
+            "the contact is as wide as the smaller sphere, where small strain says nothing: the \
+             impact is too fast or the material too soft",
+            "lower body.N.approach_speed, or check the moduli and their units",
+        ),
+        Stop::NoSeparation { .. } => (
+            "the material has relaxed so far that nothing is left to push the bodies apart, or a \
+             moving wall keeps pushing",
+            "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
+             their units: the weights' sum below 1 leaves a lasting stiffness",
+        ),
+        Stop::EnergyImbalance { .. } => (
+            "modes of vibration that the mesh does not resolve, or steps that are too long for them",
+            "lower model.condensed.vibration_modes, or raise model.condensed.steps",
+        ),
+        Stop::NoContactState { .. } | Stop::NotMade(_) => (
+            "an imported mesh has elements that are far too distorted, or Poisson's ratio is \
+             within rounding of its limits",
+            "leave sphere.mesh out, or use model fem",
+        ),
+        Stop::NotFinished(_) => (
+            "the damping is so strong that the bodies creep back for ever",
+            "lower the damping, or end the contact earlier with end = \"zero_force\"",
+        ),
+        Stop::OutsideValidity(_) => (
+            "the contact is too wide for the first-order correction of the spheres' size",
+            "write finite_size = false, or use model fem",
+        ),
+        Stop::OutOfRange(_) => (
+            "the case is so extreme that a result leaves the range of numbers",
+            "check the model's parameters, sizes, densities and speeds, and their units",
+        ),
+    };
+    Some(Remedy { cause, remedy })
+}

@@ -1,0 +1,16 @@
+//! What is kept of a collision: names, order and units of a summary's keys, of a history's columns
+//! and of a snapshot's arrays.
+
+#[cfg(feature = "files")]
+mod history;
+#[cfg(feature = "files")]
+mod snapshots;
+mod summarise;
+mod summary;
+
+#[cfg(feature = "files")]
+pub use history::{HISTORY_FILE, history_csv};
+#[cfg(feature = "files")]
+pub use snapshots::write_snapshots;
+pub use summarise::Spent;
+pub use summary::{BodySummary, CostSummary, Energy, PROGRAM, Quantities, SUMMARY_FILE, Summary};

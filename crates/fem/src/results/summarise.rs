@@ -1,0 +1,154 @@
+//! From a collision to its summary.
+
+use fem_collision::{Account, Collision};
+use fem_laws::HertzImpact;
+
+use super::summary::{BodySummary, CostSummary, Energy, PROGRAM, Quantities, Summary};
+use crate::method::Cost;
+use crate::simulation::Simulation;
+
+/// What a run took; whoever ran it has the clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spent {
+    /// All of it, s.
+    pub wall: f64,
+    /// Until the collision could begin, s.
+    pub setup: f64,
+    /// The collision alone, s.
+    pub solve: f64,
+    /// Threads that the run used.
+    pub threads: usize,
+    /// Of the process, bytes.
+    pub peak_memory: Option<u64>,
+}
+
+impl Summary {
+    /// Sums up a collision. `warnings` and `files` are those so far; numbers that are not finite
+    /// become `None` and another warning.
+    pub fn of(
+        simulation: &Simulation,
+        collision: &Collision,
+        spent: Spent,
+        warnings: Vec<String>,
+        files: Vec<String>,
+    ) -> Self {
+        let mut numbers = Numbers { warnings };
+        let setup = simulation.setup();
+        let updates = collision.element_updates.filter(|updates| *updates > 0);
+        Self {
+            collision: quantities(collision, &mut numbers),
+            contact_episodes: collision.contact_episodes,
+            hertz: hertz(&setup.estimate.hertz, &mut numbers),
+            energy: energy(collision, &mut numbers),
+            momentum_residual_relative: numbers
+                .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
+            bodies: [0, 1].map(|side| body(simulation, collision, side, &mut numbers)).to_vec(),
+            time_step_s: numbers.finite_if_any("time_step_s", collision.time_step),
+            steps: collision.steps,
+            element_updates: collision.element_updates,
+            cost: CostSummary {
+                wall_s: spent.wall,
+                setup_s: spent.setup,
+                solve_s: spent.solve,
+                ns_per_element_update: updates.map(|updates| 1e9 * spent.solve / updates as f64),
+                threads: spent.threads,
+                peak_memory_bytes: spent.peak_memory,
+                factor_bytes: match setup.cost {
+                    Cost::Factors { factor_bytes, .. } => Some(factor_bytes),
+                    _ => None,
+                },
+            },
+            effects: setup.effects.clone(),
+            complete: collision.is_complete(),
+            stopped_because: collision.stop().map(ToString::to_string),
+            program: PROGRAM,
+            version: env!("CARGO_PKG_VERSION"),
+            files,
+            case: simulation.resolved().clone(),
+            warnings: numbers.warnings,
+        }
+    }
+}
+
+/// Keeps numbers that are not finite out of the summary.
+struct Numbers {
+    warnings: Vec<String>,
+}
+
+impl Numbers {
+    fn finite(&mut self, key: &str, value: f64) -> Option<f64> {
+        if !value.is_finite() {
+            self.warnings.push(format!("{key} is {value}, no number; it is left out"));
+        }
+        value.is_finite().then_some(value)
+    }
+
+    fn finite_if_any(&mut self, key: &str, value: Option<f64>) -> Option<f64> {
+        value.and_then(|value| self.finite(key, value))
+    }
+}
+
+fn quantities(collision: &Collision, numbers: &mut Numbers) -> Quantities {
+    let mut number = |key: &str, value: Option<f64>| numbers.finite_if_any(key, value);
+    Quantities {
+        restitution: number("restitution", collision.restitution),
+        contact_time_s: number("contact_time_s", collision.contact_time),
+        peak_force_n: number("peak_force_n", collision.peak_force),
+        max_approach_m: number("max_approach_m", collision.max_approach),
+        max_contact_radius_m: number("max_contact_radius_m", collision.max_contact_radius),
+        peak_pressure_pa: number("peak_pressure_pa", collision.peak_pressure),
+    }
+}
+
+fn hertz(impact: &HertzImpact, numbers: &mut Numbers) -> Quantities {
+    Quantities {
+        restitution: Some(impact.restitution()),
+        contact_time_s: numbers.finite("hertz.contact_time_s", impact.contact_time()),
+        peak_force_n: numbers.finite("hertz.peak_force_n", impact.peak_force()),
+        max_approach_m: numbers.finite("hertz.max_approach_m", impact.max_approach()),
+        max_contact_radius_m: numbers
+            .finite("hertz.max_contact_radius_m", impact.max_contact_radius()),
+        peak_pressure_pa: numbers.finite("hertz.peak_pressure_pa", impact.peak_pressure()),
+    }
+}
+
+fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
+    let last = collision.history.last();
+    let in_account = |account| last.and_then(|row| row.energy(account));
+    let mut at_end = |key: &str, value: Option<f64>| numbers.finite_if_any(key, value);
+    Energy {
+        initial_j: at_end("energy.initial_j", collision.initial_energy),
+        kinetic_j: at_end("energy.kinetic_j", in_account(Account::Kinetic)),
+        strain_j: at_end("energy.strain_j", in_account(Account::Strain)),
+        contact_j: at_end("energy.contact_j", in_account(Account::Contact)),
+        viscous_dissipation_j: at_end(
+            "energy.viscous_dissipation_j",
+            in_account(Account::ViscousDissipation),
+        ),
+        wall_work_j: at_end("energy.wall_work_j", in_account(Account::WallWork)),
+        residual_j: at_end("energy.residual_j", last.and_then(|row| row.residual)),
+        residual_relative: at_end("energy.residual_relative", collision.residual_relative),
+    }
+}
+
+fn body(
+    simulation: &Simulation,
+    collision: &Collision,
+    side: usize,
+    numbers: &mut Numbers,
+) -> BodySummary {
+    let (named, body) = (&simulation.case.scene.bodies[side], &collision.bodies[side]);
+    let mut number = |key: &str, value: Option<f64>| {
+        numbers.finite_if_any(&format!("{key} of {}", named.name), value)
+    };
+    BodySummary {
+        name: named.name.clone(),
+        elements: body.elements,
+        nodes: body.nodes,
+        mass_kg: number("mass_kg", body.mass),
+        added_mass_kg: number("added_mass_kg", body.added_mass),
+        velocity_before_m_s: number("velocity_before_m_s", Some(named.velocity)),
+        velocity_after_m_s: number("velocity_after_m_s", body.velocity_after),
+        vibration_energy_j: number("vibration_energy_j", body.vibration_energy),
+    }
+}

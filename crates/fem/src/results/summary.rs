@@ -1,0 +1,131 @@
+//! `summary.json`: names, order and units of its keys.
+
+use fem_case::CaseFile;
+use serde::Serialize;
+
+use crate::effects::Verdict;
+
+/// The name of the file.
+pub const SUMMARY_FILE: &str = "summary.json";
+/// The value of `program`, by which a result folder is known.
+pub const PROGRAM: &str = "fem-run";
+
+/// What a run found. SI; `None` is written as `null`: it has no meaning, or no value.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// What the collision is known by.
+    #[serde(flatten)]
+    pub collision: Quantities,
+    /// Closed contacts, openings in between not counted.
+    pub contact_episodes: u64,
+    /// The same quantities from Hertz with instantaneous moduli.
+    pub hertz: Quantities,
+    /// The ledger at the end of the run.
+    pub energy: Energy,
+    /// Worst drift over Σ m|v| at the start.
+    pub momentum_residual_relative: Option<f64>,
+    /// Lower and upper body.
+    pub bodies: Vec<BodySummary>,
+    /// Of a model with a fixed step.
+    pub time_step_s: Option<f64>,
+    /// Steps done by such a model.
+    pub steps: Option<u64>,
+    /// Elements times steps.
+    pub element_updates: Option<u64>,
+    /// What the run took.
+    pub cost: CostSummary,
+    /// Which effects were on, and why.
+    pub effects: Vec<Verdict>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Whether the run ended by itself.
+    pub complete: bool,
+    /// Why not.
+    pub stopped_because: Option<String>,
+    /// By which a result folder is known.
+    pub program: &'static str,
+    /// Of the program.
+    pub version: &'static str,
+    /// Names of the files that the program wrote into the folder.
+    pub files: Vec<String>,
+    /// The resolved case.
+    pub case: CaseFile,
+}
+
+/// What a collision is known by.
+#[derive(Clone, Debug, Serialize)]
+pub struct Quantities {
+    /// Relative velocity after over before.
+    pub restitution: Option<f64>,
+    /// First to last contact.
+    pub contact_time_s: Option<f64>,
+    /// Largest contact force.
+    pub peak_force_n: Option<f64>,
+    /// Largest approach of the mass centres.
+    pub max_approach_m: Option<f64>,
+    /// Where the pressure falls to zero, at its largest.
+    pub max_contact_radius_m: Option<f64>,
+    /// Largest pressure on the axis.
+    pub peak_pressure_pa: Option<f64>,
+}
+
+/// The ledger at the end of the run.
+#[derive(Clone, Debug, Serialize)]
+pub struct Energy {
+    /// At the start, walls not counted.
+    pub initial_j: Option<f64>,
+    /// Of the bodies.
+    pub kinetic_j: Option<f64>,
+    /// Held by the bodies or the law.
+    pub strain_j: Option<f64>,
+    /// Held by penalty springs.
+    pub contact_j: Option<f64>,
+    /// Lost in the bodies or the law.
+    pub viscous_dissipation_j: Option<f64>,
+    /// Work that a moving wall has done.
+    pub wall_work_j: Option<f64>,
+    /// What does not add up.
+    pub residual_j: Option<f64>,
+    /// Worst imbalance over the run / initial kinetic energy in the centre-of-mass frame.
+    pub residual_relative: Option<f64>,
+}
+
+/// One body; a wall has no mass and no vibration, a reduced model no elements.
+#[derive(Clone, Debug, Serialize)]
+pub struct BodySummary {
+    /// As the case names it.
+    pub name: String,
+    /// Of its mesh.
+    pub elements: Option<usize>,
+    /// Of its mesh.
+    pub nodes: Option<usize>,
+    /// Without what scaling adds.
+    pub mass_kg: Option<f64>,
+    /// By mass scaling.
+    pub added_mass_kg: Option<f64>,
+    /// Along +y.
+    pub velocity_before_m_s: Option<f64>,
+    /// Along +y.
+    pub velocity_after_m_s: Option<f64>,
+    /// Left in it.
+    pub vibration_energy_j: Option<f64>,
+}
+
+/// What the run took.
+#[derive(Clone, Debug, Serialize)]
+pub struct CostSummary {
+    /// The process up to now.
+    pub wall_s: f64,
+    /// Until the collision could begin: case, meshes, factors.
+    pub setup_s: f64,
+    /// The collision alone.
+    pub solve_s: f64,
+    /// Of the collision alone.
+    pub ns_per_element_update: Option<f64>,
+    /// That the run used.
+    pub threads: usize,
+    /// Of the process.
+    pub peak_memory_bytes: Option<u64>,
+    /// Of condensed bodies.
+    pub factor_bytes: Option<u64>,
+}

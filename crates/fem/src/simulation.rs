@@ -1,0 +1,82 @@
+//! A case with the model that computes it, whichever that is.
+
+use fem_case::{Case, CaseError, CaseFile};
+use fem_collision::{Collision, Monitor, SnapshotRequest, Want};
+
+use crate::method::{Method, Model, Setup, Shared, method_of};
+
+/// A case that is ready to run.
+#[derive(Debug)]
+pub struct Simulation {
+    /// The case.
+    pub case: Case,
+    /// What computes it.
+    pub model: Box<dyn Model>,
+    /// What the run is asked for.
+    pub want: Want,
+    resolved: CaseFile,
+}
+
+impl Simulation {
+    /// Builds the model that the case asks for.
+    ///
+    /// # Errors
+    /// What the model refuses, at its place in the case.
+    pub fn new(case: Case) -> Result<Self, CaseError> {
+        Self::sharing(case, &Shared::default())
+    }
+
+    /// The same; what other cases have made already is taken from `shared`.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
+        let method = method_of(&case.scene);
+        let model = method.build(&case.scene, shared).map_err(|refusal| refusal.in_case(&case))?;
+        let resolved = resolve(method, &case)?;
+        let want = model.setup().want.clone();
+        Ok(Self { case, model, want, resolved })
+    }
+
+    /// The case with every default filled in, without the cost of building its model.
+    ///
+    /// # Errors
+    /// What the method refuses before it makes anything.
+    pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
+        resolve(method_of(&case.scene), case)
+    }
+
+    /// Element updates to come; see [`Method::price`].
+    ///
+    /// # Errors
+    /// As [`Method::price`].
+    pub fn price(case: &Case) -> Result<u64, CaseError> {
+        method_of(&case.scene).price(&case.scene).map_err(|refusal| refusal.in_case(case))
+    }
+
+    /// What was decided.
+    pub fn setup(&self) -> &Setup {
+        self.model.setup()
+    }
+
+    /// The case with every default filled in: it runs again to the same bits.
+    pub fn resolved(&self) -> &CaseFile {
+        &self.resolved
+    }
+
+    /// Makes the run compute no fields to draw, nor warn of those that could not be had. All else
+    /// keeps its bits, the resolved case too.
+    pub fn skip_snapshots(&mut self) {
+        self.want.snapshots = SnapshotRequest::none();
+    }
+
+    /// Computes the collision.
+    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Collision {
+        let approach = self.model.setup().approach;
+        self.model.collide(&approach, &self.want, monitor)
+    }
+}
+
+fn resolve(method: &dyn Method, case: &Case) -> Result<CaseFile, CaseError> {
+    method.resolve(&case.scene, case.file.clone()).map_err(|refusal| refusal.in_case(case))
+}

@@ -1,0 +1,129 @@
+//! What the shipped cases must give at default settings, against numbers that this program did
+//! not make: the source paper (Bordbar & Hyppänen 2007), Hertz, and quasi-static finite elements
+//! and Ting's theory with the same material (a converged small-strain solution: T = 62.818 µs,
+//! F = 107.99 N; e = 0.92763 at constant Poisson's ratio and 0.94811 with elastic bulk modulus).
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use fem::{Plan, Simulation};
+use fem_case::Case;
+use fem_collision::Collision;
+use fem_laws::HertzImpact;
+
+struct Run {
+    collision: Collision,
+    hertz: HertzImpact,
+    element: f64,
+}
+
+impl Run {
+    fn of(case: &str) -> Self {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(case);
+        let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let Plan { estimate, contact_element_size, .. } = Plan::of_case(&case).unwrap();
+        let mut simulation = Simulation::new(case).unwrap_or_else(|error| panic!("{error}"));
+        let collision = simulation.run(&mut ());
+        assert!(collision.is_complete());
+        let (hertz, element) = (estimate.hertz, contact_element_size);
+        let run = Self { collision, hertz, element };
+        run.assert_balanced();
+        run
+    }
+
+    fn contact_time(&self) -> f64 {
+        self.collision.contact_time.unwrap()
+    }
+
+    fn restitution(&self) -> f64 {
+        self.collision.restitution.unwrap()
+    }
+
+    /// Every run keeps energy and momentum.
+    fn assert_balanced(&self) {
+        // Trapezoidal dissipation over a thousand rows and a penalty that opens and closes; the
+        // contract asks 1e-3, measured is 3e-7.
+        assert!(self.collision.residual_relative.unwrap() < 1e-5);
+        // Internal forces cancel in each element, contact forces in each point: rounding only.
+        assert!(self.collision.momentum_residual_relative.unwrap() < 1e-12);
+    }
+}
+
+fn elastic() -> &'static Run {
+    static RUN: OnceLock<Run> = OnceLock::new();
+    RUN.get_or_init(|| Run::of("glass_0.5ms_elastic.toml"))
+}
+
+fn constant_poissons_ratio() -> &'static Run {
+    static RUN: OnceLock<Run> = OnceLock::new();
+    RUN.get_or_init(|| Run::of("glass_0.5ms.toml"))
+}
+
+fn assert_near(value: f64, reference: f64, relative: f64) {
+    let difference = value / reference - 1.0;
+    assert!(difference.abs() <= relative, "{value:e} is off {reference:e} by {difference:.2e}");
+}
+
+#[test]
+fn paper_elastic_restitution() {
+    // The paper prints 0.994, which is its own numerical loss; nature's is 2e-6.
+    let e = elastic().restitution();
+    assert!((0.994..=1.0 + 1e-5).contains(&e), "{e}");
+    assert!(1.0 - e < 1e-4, "{e}");
+}
+
+#[test]
+fn paper_viscoelastic_restitution() {
+    // The paper prints 0.92 from finite elements and 0.925 from the experiment.
+    let e = constant_poissons_ratio().restitution();
+    assert!((e - 0.92).abs() < 0.012, "{e}");
+}
+
+#[test]
+fn paper_contact_time_is_near_hertz() {
+    // The paper's own finite elements are 1.6 % off, by the compliance of their penalty.
+    assert_near(elastic().contact_time(), elastic().hertz.contact_time(), 0.015);
+}
+
+#[test]
+fn elastic_pair_against_converged_finite_elements() {
+    let run = elastic();
+    // Asked is 1 %; the default mesh is within 0.1 %.
+    assert_near(run.contact_time(), 62.818e-6, 2e-3);
+    assert_near(run.collision.peak_force.unwrap(), 107.99, 5e-3);
+    assert_near(run.collision.max_approach.unwrap(), 10.681e-6, 2e-3);
+    // Hertz' values at nearly the same force; the axis is fitted from an eighth of a radius on.
+    assert_near(run.collision.peak_pressure.unwrap(), 1.027e9, 0.02);
+    assert!((run.collision.max_contact_radius.unwrap() - 0.223e-3).abs() < run.element);
+}
+
+#[test]
+fn viscoelastic_pair_against_converged_finite_elements() {
+    let e = constant_poissons_ratio().restitution();
+    assert!((e - 0.92763).abs() < 1e-3, "{e}");
+    let e = Run::of("glass_0.5ms_elastic_bulk.toml").restitution();
+    assert!((e - 0.94811).abs() < 1e-3, "{e}");
+}
+
+#[test]
+fn sphere_on_wall_against_hertz() {
+    let run = Run::of("glass_on_wall.toml");
+    assert!(1.0 - run.restitution() < 1e-3 && run.restitution() <= 1.0 + 1e-5);
+    // To first order in a/R a sphere on a plane is 0.9 % faster and 1.2 % harder than Hertz'
+    // half-space; the mesh adds up to 0.5 %.
+    assert_near(run.contact_time(), (1.0 - 0.009) * run.hertz.contact_time(), 0.004);
+    assert_near(run.collision.peak_force.unwrap(), (1.0 + 0.012) * run.hertz.peak_force(), 0.006);
+}
+
+#[test]
+fn papers_mesh_runs_from_its_files() {
+    let run = Run::of("glass_0.5ms_14um.toml");
+    assert_near(run.contact_time(), 62.818e-6, 2e-3);
+    assert_near(run.collision.peak_force.unwrap(), 107.99, 5e-3);
+}
+
+#[test]
+fn the_work_of_the_default_case_does_not_grow_unseen() {
+    // 2,620 elements and about 13,700 steps: a third more is a decision, not an accident.
+    assert!(constant_poissons_ratio().collision.element_updates.unwrap() < 48_000_000);
+}
