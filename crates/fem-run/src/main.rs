@@ -19,6 +19,7 @@
 mod arguments;
 mod calibrate;
 mod commands;
+mod data_file;
 mod failure;
 mod interrupt;
 mod occupant;

@@ -15,6 +15,7 @@ mod assess;
 pub mod effects;
 mod estimate;
 mod limits;
+pub mod measured;
 mod meshes;
 mod method;
 mod models;

@@ -22,7 +22,6 @@ mod runner;
 mod table_file;
 
 pub use collect::{Row, collect};
-pub use columns::COLUMNS;
 pub use folder::SweepFolder;
 pub use member::{Member, members};
 pub use picture_data::Choice;
