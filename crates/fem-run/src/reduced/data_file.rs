@@ -7,7 +7,7 @@ use fem_fit::Point;
 
 use super::table::CsvTable;
 use crate::failure::Failure;
-use crate::sweep::COLUMNS;
+use fem::sweep::COLUMNS;
 
 /// The data of a file.
 #[derive(Debug)]
