@@ -24,6 +24,7 @@ mod refusal;
 mod remedy;
 pub mod results;
 mod simulation;
+pub mod sweep;
 
 pub use approach::{approach_of, scene_at};
 pub use assess::assess;
@@ -38,3 +39,6 @@ pub use plan::Plan;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};
 pub use simulation::Simulation;
+pub use sweep::sweep;
+
+pub use fem_case::{Case, CaseError, CaseFile, schema};

@@ -6,40 +6,7 @@ use super::data_error::DataError;
 use super::restitution_columns::{CONTACT_TIMES, Columns, Wanted};
 use super::restitutions::Restitutions;
 use super::table::Table;
-
-/// Names and order of the columns; `hertz_` and `energy_` are the summary's objects of that name.
-/// What the run took (`cost`) differs from run to run and stays in the member's summary.
-const COLUMNS: &[&str] = &[
-    "restitution",
-    "contact_time_s",
-    "peak_force_n",
-    "max_approach_m",
-    "max_contact_radius_m",
-    "peak_pressure_pa",
-    "contact_episodes",
-    "hertz_restitution",
-    "hertz_contact_time_s",
-    "hertz_peak_force_n",
-    "hertz_max_approach_m",
-    "hertz_max_contact_radius_m",
-    "hertz_peak_pressure_pa",
-    "energy_initial_j",
-    "energy_kinetic_j",
-    "energy_strain_j",
-    "energy_contact_j",
-    "energy_viscous_dissipation_j",
-    "energy_wall_work_j",
-    "energy_residual_j",
-    "energy_residual_relative",
-    "momentum_residual_relative",
-    "elements",
-    "time_step_s",
-    "steps",
-    "element_updates",
-    "complete",
-    "stopped_because",
-    "warnings",
-];
+use crate::sweep::COLUMNS;
 
 /// Names that need not be there, of which a near miss is no other name.
 const OPTIONAL: [&str; 5] =
