@@ -14,6 +14,7 @@ mod approach;
 mod assess;
 pub mod effects;
 mod estimate;
+pub mod laws;
 mod limits;
 pub mod measured;
 mod meshes;

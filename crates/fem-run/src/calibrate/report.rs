@@ -6,8 +6,7 @@ use fem_fit::spectrum::Range;
 use super::verdict::measured_exponent;
 use super::{Calibrated, ModelName};
 use crate::engineering::show;
-use crate::reduced::show_value;
-use crate::tables::table;
+use crate::tables::{show_value, table};
 
 /// For stdout.
 pub fn calibration_text(found: &Calibrated<'_>) -> String {

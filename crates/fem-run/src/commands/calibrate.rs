@@ -16,7 +16,8 @@ use crate::calibrate::{
 };
 use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{Output, OutputArguments, from_fit_error, parse_confidence};
+use crate::law_arguments::parse_confidence;
+use crate::output::{Output, OutputArguments};
 use crate::standard_output;
 
 /// Find a Prony series that makes measured restitutions, and what they leave open
@@ -131,7 +132,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write("relaxation.toml", relaxation_table(&found))?;
     write_residuals(&mut output, &found)?;
     output.write("calibrate.svg", picture)?;
-    let place = output.publish(calibration_numbers(&found))?;
+    let place = output.publish(&calibration_numbers(&found))?;
     if arguments.output.quiet {
         return Ok(());
     }
@@ -235,6 +236,6 @@ fn refused(error: FitError) -> Failure {
         FitError::NotConverged { .. } => {
             Failure::failed(error.to_string()).with_help("lower --terms, or raise --regularisation")
         }
-        error => from_fit_error(error),
+        error => error.into(),
     }
 }
