@@ -12,6 +12,7 @@
 
 mod approach;
 mod assess;
+pub mod calibrate;
 pub mod effects;
 mod estimate;
 pub mod laws;
