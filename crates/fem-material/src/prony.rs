@@ -118,6 +118,11 @@ impl PronySeries {
         self.equilibrium_weight
     }
 
+    /// Whether any term has a weight: a series without one is an elastic material.
+    pub fn relaxes(&self) -> bool {
+        self.terms.iter().any(|term| term.weight > 0.0)
+    }
+
     /// The Maxwell elements, in the order given.
     pub fn terms(&self) -> &[PronyTerm] {
         &self.terms
