@@ -36,7 +36,7 @@ mod validation;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fem_figure::engineering;
+use fem_case::engineering;
 
 fn main() -> ExitCode {
     let started = Instant::now();

@@ -6,8 +6,9 @@
 
 use std::sync::Arc;
 
+use fem_case::engineering::show;
 use fem_collision::Label;
-use fem_figure::{Axis, Chart, Curve, engineering::show};
+use fem_figure::{Axis, Chart, Curve};
 use serde::Deserialize;
 
 use crate::error::StudyError;
