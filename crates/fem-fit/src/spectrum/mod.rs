@@ -32,7 +32,7 @@ pub use repeats::PureError;
 pub use resolution::{Combination, Resolution};
 pub use speed_exponent::{SpeedExponent, SpeedPoint, speed_exponent};
 
-use crate::FitError;
+use crate::error::FitError;
 
 /// Restitutions of all data for given weights.
 pub type Restitutions<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, FitError> + 'a;

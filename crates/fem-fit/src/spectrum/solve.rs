@@ -10,7 +10,7 @@ use super::ranges::{Seeker, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
 use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
-use crate::FitError;
+use crate::error::FitError;
 
 /// Step of the differences: weights are of order 1, collisions smooth to 1e-7.
 const STEP: f64 = 1e-3;
