@@ -21,7 +21,6 @@ mod markdown;
 mod order;
 mod page;
 mod position;
-mod power_law;
 mod price;
 mod run;
 mod shelf;

@@ -10,6 +10,7 @@
 //! a key; the case knows where that stands. [`effects`] says which effects a scene calls for and what
 //! follows from what a model has of them.
 
+pub mod accuracy;
 mod approach;
 mod assess;
 pub mod effects;

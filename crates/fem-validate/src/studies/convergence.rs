@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use fem::accuracy::PowerLaw;
 use fem_case::engineering::show;
 use fem_collision::Label;
 use fem_figure::{Axis, Chart, Curve};
@@ -14,7 +15,6 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::power_law::PowerLaw;
 use crate::run::{ExplicitRun, Run};
 
 #[derive(Deserialize)]
