@@ -18,6 +18,7 @@
 
 mod arguments;
 mod calibrate;
+mod case_arguments;
 mod commands;
 mod failure;
 mod interrupt;
@@ -40,7 +41,7 @@ use fem_case::engineering;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    match commands::execute(arguments::parse(), started) {
+    match arguments::parse().execute(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();
