@@ -18,6 +18,7 @@
 
 mod arguments;
 mod calibrate;
+mod case_arguments;
 mod commands;
 mod failure;
 mod interrupt;
@@ -36,11 +37,11 @@ mod validation;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fem_figure::engineering;
+use fem_case::engineering;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    match commands::execute(arguments::parse(), started) {
+    match arguments::parse().execute(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();

@@ -10,14 +10,17 @@
 //! a key; the case knows where that stands. [`effects`] says which effects a scene calls for and what
 //! follows from what a model has of them.
 
+pub mod accuracy;
 mod approach;
 mod assess;
 pub mod effects;
 mod estimate;
 mod limits;
+mod mesh_source;
 mod meshes;
 mod method;
 mod models;
+mod pair_cache;
 mod plan;
 mod refusal;
 mod remedy;
@@ -28,11 +31,12 @@ pub use approach::{approach_of, scene_at};
 pub use assess::assess;
 pub use estimate::Estimate;
 pub use meshes::build_meshes;
-pub use method::{Cost, ElementSetup, ForceLaw, METHODS, Method, Model, Setup, Shared, method_of};
+pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
     CONDENSED, Condensed, CondensedMethod, EXPLICIT, Explicit, ExplicitMethod, HERTZ, HertzMethod,
-    LAW, LawMethod, PairCache, Reduced, TING, TingMethod, ting_impact,
+    LAW, LawMethod, METHODS, Reduced, TING, TingMethod, method_of, ting_impact,
 };
+pub use pair_cache::PairCache;
 pub use plan::Plan;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};

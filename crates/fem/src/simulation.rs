@@ -3,7 +3,8 @@
 use fem_case::{Case, CaseError, CaseFile};
 use fem_collision::{Collision, Monitor, SnapshotRequest, Want};
 
-use crate::method::{Method, Model, Setup, Shared, method_of};
+use crate::method::{Method, Model, Setup, Shared};
+use crate::models::method_of;
 
 /// A case that is ready to run.
 #[derive(Debug)]

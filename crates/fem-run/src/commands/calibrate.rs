@@ -8,12 +8,12 @@ use fem_fit::spectrum::{SpectrumProblem, root_mean_square};
 use fem_material::{ActsOn, PronyTerm};
 use rayon::prelude::*;
 
-use crate::arguments::{CaseArguments, stem_of};
 use crate::calibrate::{
     Calibrated, Experiment, Maxwell, Measured, ModelName, Target, calibration_numbers,
     calibration_picture, calibration_text, ends, read_measured, relaxation_table, terms,
     unused_model, warnings,
 };
+use crate::case_arguments::{CaseArguments, stem_of};
 use crate::failure::Failure;
 use crate::reduced::{
     LARGEST_UNCERTAINTY, Output, OutputArguments, from_fit_error, parse_confidence,

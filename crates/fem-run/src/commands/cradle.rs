@@ -7,7 +7,7 @@ use fem_figure::{Axis, Chart, Curve};
 use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial};
 use serde_json::json;
 
-use crate::arguments::stem_of;
+use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::reduced::{CsvTable, Kind, OutputArguments, from_fit_error, parse_measured};
 use crate::standard_output;

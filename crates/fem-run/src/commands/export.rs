@@ -11,7 +11,7 @@ use fem_fit::{FitError, Point};
 use fem_laws::{EndRule, Family, Ting};
 use serde_json::{Value, json};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::engineering::{Unit, show};
 use crate::failure::Failure;
 use crate::reduced::{

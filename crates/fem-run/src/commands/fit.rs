@@ -6,7 +6,7 @@ use fem_case::Case;
 use fem_fit::{Fit, Free, Model, Problem};
 use fem_laws::{Family, Role};
 
-use crate::arguments::{CaseArguments, stem_of};
+use crate::case_arguments::{CaseArguments, stem_of};
 use crate::failure::Failure;
 use crate::reduced::{
     ChosenLaw, Data, Fitted, LawArguments, Output, OutputArguments, family_of, find_key, find_loss,

@@ -12,7 +12,7 @@ use fem_case::{Case, Keep};
 use fem_collision::{Collision, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::Watch;

@@ -12,7 +12,7 @@ use fem::{Shared, Simulation};
 use fem_case::Sweep;
 use serde_json::{Value, json};
 
-use crate::arguments::stem_of;
+use crate::case_arguments::stem_of;
 use crate::engineering::show;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;

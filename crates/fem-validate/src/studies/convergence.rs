@@ -6,14 +6,15 @@
 
 use std::sync::Arc;
 
+use fem::accuracy::PowerLaw;
+use fem_case::engineering::show;
 use fem_collision::Label;
-use fem_figure::{Axis, Chart, Curve, engineering::show};
+use fem_figure::{Axis, Chart, Curve};
 use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::power_law::PowerLaw;
 use crate::run::{ExplicitRun, Run};
 
 #[derive(Deserialize)]
