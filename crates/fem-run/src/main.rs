@@ -20,6 +20,7 @@ mod arguments;
 mod calibrate;
 mod case_arguments;
 mod commands;
+mod data_file;
 mod failure;
 mod interrupt;
 mod occupant;

@@ -16,6 +16,7 @@ mod assess;
 pub mod effects;
 mod estimate;
 mod limits;
+pub mod measured;
 mod mesh_source;
 mod meshes;
 mod method;
@@ -26,6 +27,7 @@ mod refusal;
 mod remedy;
 pub mod results;
 mod simulation;
+pub mod sweep;
 
 pub use approach::{approach_of, scene_at};
 pub use assess::assess;
@@ -41,3 +43,6 @@ pub use plan::Plan;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};
 pub use simulation::Simulation;
+pub use sweep::sweep;
+
+pub use fem_case::{Case, CaseError, CaseFile, schema};

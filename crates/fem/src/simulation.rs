@@ -1,7 +1,7 @@
 //! A case with the model that computes it, whichever that is.
 
 use fem_case::{Case, CaseError, CaseFile};
-use fem_collision::{Collision, Monitor, SnapshotRequest, Want};
+use fem_collision::{Collision, Monitor, Phase, SnapshotRequest, Want};
 
 use crate::method::{Method, Model, Setup, Shared};
 use crate::models::method_of;
@@ -73,6 +73,7 @@ impl Simulation {
 
     /// Computes the collision.
     pub fn run(&mut self, monitor: &mut dyn Monitor) -> Collision {
+        monitor.enter(Phase::Collision);
         let approach = self.model.setup().approach;
         self.model.collide(&approach, &self.want, monitor)
     }

@@ -1,0 +1,67 @@
+//! Members that are made in code: a case, values, and what each of them changes.
+
+use fem_case::{Case, CaseError, CaseFile};
+
+use super::members::Members;
+
+/// A case with one value after the other put in.
+///
+/// ```
+/// use fem::schema::{BodyTable, MaterialTable, ModelTable};
+/// use fem::sweep::{Members, Variations};
+/// use fem::{Case, CaseFile};
+///
+/// let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
+/// let ball = BodyTable::sphere("ball", "2 cm", "ice");
+/// let file = CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("ice", ice);
+/// # let file = file.with_model(ModelTable::hertz());
+/// # let file = CaseFile { body: vec![file.body[0].clone(), file.body[1].clone().approaching(1.0)], ..file };
+/// let case = Case::of(file)?;
+///
+/// // Two keys, all with all; the last runs fastest.
+/// let diameters = ["1 cm", "2 cm"];
+/// let values: Vec<(&str, f64)> =
+///     diameters.into_iter().flat_map(|diameter| [0.1, 1.0].map(|speed| (diameter, speed))).collect();
+/// let members = Variations::of(&case, values, |file, (diameter, speed)| {
+///     file.body[1] = BodyTable::sphere("ball", diameter, "ice").approaching(speed);
+/// });
+/// assert_eq!(members.n_members(), 4);
+/// assert_eq!(members.case(2)?.scene.approach_speed(), 0.1);
+/// # Ok::<(), fem::CaseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Variations<'c, V, F> {
+    case: &'c Case,
+    values: Vec<V>,
+    edit: F,
+}
+
+impl<'c, V: Clone, F: Fn(&mut CaseFile, V)> Variations<'c, V, F> {
+    /// The members in which `edit` has put a value into the case, one a value, in their order.
+    pub fn of(case: &'c Case, values: impl IntoIterator<Item = V>, edit: F) -> Self {
+        Self { case, values: values.into_iter().collect(), edit }
+    }
+
+    /// The value of each member.
+    pub fn values(&self) -> &[V] {
+        &self.values
+    }
+}
+
+impl<V, F> Members for Variations<'_, V, F>
+where
+    V: Clone + Sync,
+    F: Fn(&mut CaseFile, V) + Sync,
+{
+    fn n_members(&self) -> usize {
+        self.values.len()
+    }
+
+    fn build<T>(
+        &self,
+        index: usize,
+        make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> Result<T, CaseError> {
+        make(self.case.edited(|file| (self.edit)(file, self.values[index].clone()))?)
+    }
+}
