@@ -27,6 +27,7 @@ mod refusal;
 mod remedy;
 pub mod results;
 mod simulation;
+mod stress;
 pub mod sweep;
 
 pub use approach::{approach_of, scene_at};
@@ -42,7 +43,13 @@ pub use pair_cache::PairCache;
 pub use plan::Plan;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};
-pub use simulation::Simulation;
+pub use results::Summary;
+pub use simulation::{Simulation, collide};
+pub use stress::BodyStress;
 pub use sweep::sweep;
 
 pub use fem_case::{Case, CaseError, CaseFile, schema};
+pub use fem_collision::{
+    Account, Approach, Collision, Ending, Label, Monitor, Progress, Row, Snapshot, Stop,
+    StressField, Want, invariants,
+};
