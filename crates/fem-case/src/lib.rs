@@ -1,4 +1,4 @@
-//! Case files: TOML with units to a validated, resolved case, a plan, and a problem ready to run.
+//! Case files: TOML with units to a validated scene, and back.
 //!
 //! ```text
 //! text, overrides ─ document ─ schema ─ validate ─ Scene
@@ -9,11 +9,9 @@
 //!                              in code
 //! ```
 //!
-//! [`Simulation::new`] builds the [`Model`] that the case asks for, and [`Simulation::run`] computes
-//! the collision to an [`Outcome`], the same for every model. Finite elements are a [`Problem`]:
-//! [`Plan::of`] fills in what the case leaves open from closed forms and says which effects are on,
-//! [`Problem::new`] makes meshes and model; the same linear bodies condensed to their contact are a
-//! [`Condensed`]. The models of one degree of freedom are a [`Reduced`].
+//! This is the language of cases and no more: what a scene costs, which effects it calls for and how
+//! it collides is for crates above. Text and code ([`Case::of`], [`Case::edited`]) are validated by
+//! the same path.
 //!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
 //! is allowed. [`Case::load`] does all of it; [`Case::of`] takes a [`CaseFile`] made in code and

@@ -157,6 +157,7 @@ fn start_long(place: &Place, out: &str) -> Child {
     let arguments = [&["sweep", "sweep.toml", "--threads", "1", "--out", out][..], &FINE].concat();
     let mut command = place.command(&arguments);
     let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    #[allow(clippy::disallowed_methods, reason = "a test that waits for another process")]
     let began = Instant::now();
     while n_done(place, out) == 0 {
         assert!(began.elapsed() < Duration::from_secs(60));
