@@ -93,6 +93,24 @@ keywords! {
     }
 }
 
+impl From<fem_material::ActsOn> for ActsOn {
+    fn from(acts_on: fem_material::ActsOn) -> Self {
+        match acts_on {
+            fem_material::ActsOn::All => Self::All,
+            fem_material::ActsOn::Shear => Self::Shear,
+        }
+    }
+}
+
+impl From<ActsOn> for fem_material::ActsOn {
+    fn from(acts_on: ActsOn) -> Self {
+        match acts_on {
+            ActsOn::All => Self::All,
+            ActsOn::Shear => Self::Shear,
+        }
+    }
+}
+
 /// A Prony term: its weight and exactly one of decay rate and relaxation time.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(

@@ -1,5 +1,6 @@
 //! `[model]` as written: which model computes the collision, and its keys.
 
+use fem_laws::EndRule;
 use serde::{Deserialize, Serialize};
 
 use crate::empty_table::EmptyTable;
@@ -139,6 +140,24 @@ keywords! {
         ZeroForce = "zero_force",
         /// The overlap falls to zero; until then the dashpot may pull.
         ZeroOverlap = "zero_overlap",
+    }
+}
+
+impl From<EndRule> for End {
+    fn from(rule: EndRule) -> Self {
+        match rule {
+            EndRule::ZeroForce => Self::ZeroForce,
+            EndRule::ZeroOverlap => Self::ZeroOverlap,
+        }
+    }
+}
+
+impl From<End> for EndRule {
+    fn from(end: End) -> Self {
+        match end {
+            End::ZeroForce => Self::ZeroForce,
+            End::ZeroOverlap => Self::ZeroOverlap,
+        }
     }
 }
 

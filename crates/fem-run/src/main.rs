@@ -18,7 +18,9 @@
 
 mod arguments;
 mod calibrate;
+mod case_arguments;
 mod commands;
+mod data_file;
 mod failure;
 mod interrupt;
 mod occupant;
@@ -36,11 +38,11 @@ mod validation;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fem_figure::engineering;
+use fem_case::engineering;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    match commands::execute(arguments::parse(), started) {
+    match arguments::parse().execute(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();

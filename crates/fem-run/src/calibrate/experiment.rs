@@ -7,6 +7,7 @@
 use std::sync::Mutex;
 
 use fem::effects::QUASI_STATIC_LIMIT;
+use fem::measured::{MeasuredPair, MeasuredPairs};
 use fem::{Condensed, Model, Shared};
 use fem_case::Case;
 use fem_collision::Stop;
@@ -17,7 +18,6 @@ use rayon::prelude::*;
 
 use super::ends;
 use super::faults::{blame, no_mesh};
-use super::pairs::{Bodies, Measured};
 use crate::engineering::show;
 use crate::failure::Failure;
 
@@ -128,8 +128,8 @@ impl Experiment {
     /// A case that cannot be, a mesh or a factor that cannot be made.
     pub fn new(
         case: &Case,
-        measured: &Measured,
-        bodies: &Bodies,
+        measured: &MeasuredPairs,
+        bodies: &MeasuredPair,
         target: &Target,
         model: ModelName,
     ) -> Result<Self, Failure> {
@@ -191,7 +191,7 @@ impl Experiment {
                 ModelName::Ting => {
                     let size = base.scene.finite_size().map_err(bad)?;
                     size.check(large.max_contact_radius()).map_err(|error| {
-                        measured.fault(place(fastest), error).with_help(format!(
+                        Failure::from(measured.data.fault(place(fastest), error)).with_help(format!(
                             "{} is too fast for the sizes and the moduli: is the unit of the speeds \
                              right?",
                             show(fastest, "m/s")

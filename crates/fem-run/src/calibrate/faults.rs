@@ -1,9 +1,9 @@
 //! Faults of data that reach the model as edits of the case, and what of the case is left out.
 
+use fem::measured::MeasuredPairs;
 use fem_case::{Case, CaseError};
 
 use super::experiment::{ModelName, STEPS};
-use super::pairs::Measured;
 use crate::engineering::show;
 use crate::failure::Failure;
 
@@ -23,12 +23,12 @@ pub fn unused_model(case: &Case, chosen: ModelName) -> Option<String> {
 
 /// A fault of a case that was edited to the sizes and speeds of a point: with the point's line
 /// where it is of a body and stands neither in the case file nor in an option.
-pub(super) fn blame(error: CaseError, measured: &Measured, point: usize) -> Failure {
+pub(super) fn blame(error: CaseError, measured: &MeasuredPairs, point: usize) -> Failure {
     let is_of_body = error.key().is_some_and(|key| key.starts_with("body"));
     if error.line().is_some() || !is_of_body {
         return error.into();
     }
-    let failure = measured.fault(point, error.message());
+    let failure = Failure::from(measured.data.fault(point, error.message()));
     match error.help() {
         Some(help) => failure.with_help(help),
         None => failure,

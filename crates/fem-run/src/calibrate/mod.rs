@@ -6,13 +6,13 @@ mod experiment;
 mod faults;
 mod maxwell;
 mod numbers;
-mod pairs;
 mod picture;
 mod report;
 mod verdict;
 
 use std::path::Path;
 
+use fem::measured::MeasuredPairs;
 use fem_fit::spectrum::SpectrumFit;
 use fem_material::{ActsOn, PronyTerm};
 
@@ -20,7 +20,6 @@ pub use experiment::{Experiment, ModelName, Target};
 pub use faults::unused_model;
 pub use maxwell::Maxwell;
 pub use numbers::{calibration_numbers, relaxation_table};
-pub use pairs::{Measured, read_measured};
 pub use picture::calibration_picture;
 pub use report::calibration_text;
 pub use verdict::warnings;
@@ -28,7 +27,7 @@ pub use verdict::warnings;
 /// All that was found.
 pub struct Calibrated<'a> {
     pub case: &'a Path,
-    pub measured: &'a Measured,
+    pub measured: &'a MeasuredPairs,
     pub experiments: &'a [Experiment],
     pub target: &'a Target,
     pub model: ModelName,

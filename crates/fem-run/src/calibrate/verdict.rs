@@ -1,9 +1,9 @@
 //! What a reader should know before trusting a series.
 
+use fem::measured::MeasuredPairs;
 use fem_fit::spectrum::{SpectrumFit, SpeedExponent, SpeedPoint, speed_exponent};
 
 use super::experiment::Experiment;
-use super::pairs::Measured;
 
 /// Fewer elements across a contact radius than this do not follow it.
 const FEWEST_ELEMENTS: f64 = 3.0;
@@ -13,7 +13,7 @@ const LARGE_MISFIT: f64 = 2.0;
 const LARGE_ERROR: f64 = 0.02;
 
 /// 1 − e ∝ v^p of measured restitutions.
-pub fn measured_exponent(measured: &Measured) -> Option<SpeedExponent> {
+pub fn measured_exponent(measured: &MeasuredPairs) -> Option<SpeedExponent> {
     let point = |(k, point): (usize, &fem_fit::Point)| SpeedPoint {
         pair: measured.pair_of(k),
         speed: point.speed,
@@ -23,7 +23,11 @@ pub fn measured_exponent(measured: &Measured) -> Option<SpeedExponent> {
 }
 
 /// In the order of their weight.
-pub fn warnings(measured: &Measured, experiments: &[Experiment], fit: &SpectrumFit) -> Vec<String> {
+pub fn warnings(
+    measured: &MeasuredPairs,
+    experiments: &[Experiment],
+    fit: &SpectrumFit,
+) -> Vec<String> {
     let data = &measured.data;
     let is_given = data.points.iter().any(|point| point.restitution_uncertainty.is_some());
     // Pairs in the same unit are in doubt together.

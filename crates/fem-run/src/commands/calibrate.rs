@@ -2,22 +2,21 @@
 
 use std::path::PathBuf;
 
+use fem::measured::{MeasuredPairs, UncertaintyError};
 use fem_case::{Case, parse_quantity};
 use fem_fit::FitError;
 use fem_fit::spectrum::{SpectrumProblem, root_mean_square};
 use fem_material::{ActsOn, PronyTerm};
 use rayon::prelude::*;
 
-use crate::arguments::{CaseArguments, stem_of};
 use crate::calibrate::{
-    Calibrated, Experiment, Maxwell, Measured, ModelName, Target, calibration_numbers,
-    calibration_picture, calibration_text, ends, read_measured, relaxation_table, terms,
-    unused_model, warnings,
+    Calibrated, Experiment, Maxwell, ModelName, Target, calibration_numbers, calibration_picture,
+    calibration_text, ends, relaxation_table, terms, unused_model, warnings,
 };
+use crate::case_arguments::{CaseArguments, stem_of};
+use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{
-    LARGEST_UNCERTAINTY, Output, OutputArguments, from_fit_error, parse_confidence,
-};
+use crate::reduced::{Output, OutputArguments, from_fit_error, parse_confidence};
 use crate::standard_output;
 
 /// Find a Prony series that makes measured restitutions, and what they leave open
@@ -80,10 +79,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let acts_on = arguments.acts_on.as_deref();
     let acts_on = acts_on.map(|on| if on == "all" { ActsOn::All } else { ActsOn::Shear });
     let target = Target::of(&case, arguments.material.as_deref(), acts_on)?;
-    let mut measured = read_measured(&arguments.data, &case)?;
+    let mut measured = MeasuredPairs::read(&read_table(&arguments.data)?, &case.scene)?;
     fill_uncertainties(arguments, &mut measured)?;
-    let uncertainties: Option<Vec<f64>> =
-        measured.data.points.iter().map(|point| point.restitution_uncertainty).collect();
+    let uncertainties = measured.uncertainties();
     let regularisation = arguments
         .regularisation
         .unwrap_or_else(|| uncertainties.as_deref().map_or(REGULARISATION, root_mean_square));
@@ -93,7 +91,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(refused(FitError::TooFewData { n_values, n_free, free }));
     }
     let experiments = measured
-        .bodies
+        .pairs
         .par_iter()
         .map(|bodies| Experiment::new(&case, &measured, bodies, &target, arguments.model));
     let experiments: Vec<Experiment> = experiments.collect::<Result<_, _>>()?;
@@ -141,20 +139,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// `--uncertainty` for all rows of a file that has none.
-fn fill_uncertainties(arguments: &Arguments, measured: &mut Measured) -> Result<(), Failure> {
+fn fill_uncertainties(arguments: &Arguments, measured: &mut MeasuredPairs) -> Result<(), Failure> {
     let Some(uncertainty) = arguments.uncertainty else { return Ok(()) };
-    if !(uncertainty > 0.0 && uncertainty <= LARGEST_UNCERTAINTY) {
-        let message = format!("--uncertainty is {uncertainty:?}");
-        return Err(Failure::bad_input(message)
-            .with_help("it must be greater than 0 and at most 1: restitutions lie between"));
-    }
-    let points = &mut measured.data.points;
-    if points.iter().any(|point| point.restitution_uncertainty.is_some()) {
-        let message = format!("{} has uncertainties of its own", measured.data.name);
-        return Err(Failure::bad_input(message).with_help("leave --uncertainty out"));
-    }
-    points.iter_mut().for_each(|point| point.restitution_uncertainty = Some(uncertainty));
-    Ok(())
+    measured.data.set_uncertainty(uncertainty).map_err(|error| match error {
+        UncertaintyError::OutOfRange(found) => {
+            Failure::bad_input(format!("--uncertainty is {found:?}"))
+                .with_help("it must be greater than 0 and at most 1: restitutions lie between")
+        }
+        UncertaintyError::Known(_) => {
+            Failure::bad_input(error.to_string()).with_help("leave --uncertainty out")
+        }
+    })
 }
 
 /// Restitutions of all points in the order of the data, the pairs side by side.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::Reduced;
+use fem::measured::Restitutions;
 use fem_case::{Case, ModelChoice};
 use fem_figure::{Axis, COLOURS, Chart, Curve as Line, Mark};
 use fem_fit::dem::{Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets};
@@ -11,12 +12,12 @@ use fem_fit::{FitError, Point};
 use fem_laws::{EndRule, Family, Ting};
 use serde_json::{Value, json};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
+use crate::data_file::read_table;
 use crate::engineering::{Unit, show};
 use crate::failure::Failure;
 use crate::reduced::{
-    Curve, Drawn, OutputArguments, fit_export, from_fit_error, model_of, parse_speed, read_data,
-    spheres_of,
+    Curve, Drawn, OutputArguments, fit_export, from_fit_error, model_of, parse_speed, spheres_of,
 };
 use crate::standard_output;
 use crate::tables::table;
@@ -93,7 +94,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 fn curve(arguments: &Arguments, case: &Case) -> Result<Curve, Failure> {
     if let Some(path) = &arguments.data {
-        let data = read_data(path, &case.scene, true)?;
+        let data = Restitutions::read_with_contact_times(&read_table(path)?, &case.scene)?;
         if data.points.len() < 2 {
             return Err(Failure::bad_input(format!("{}: one speed only", data.name))
                 .with_help("a range of validity needs two speeds or more"));

@@ -2,16 +2,18 @@
 
 use std::path::PathBuf;
 
+use fem::measured::Restitutions;
 use fem_case::Case;
 use fem_fit::{Fit, Free, Model, Problem};
 use fem_laws::{Family, Role};
 
-use crate::arguments::{CaseArguments, stem_of};
+use crate::case_arguments::{CaseArguments, stem_of};
+use crate::data_file::read_table;
 use crate::failure::Failure;
 use crate::reduced::{
-    ChosenLaw, Data, Fitted, LawArguments, Output, OutputArguments, family_of, find_key, find_loss,
+    ChosenLaw, Fitted, LawArguments, Output, OutputArguments, family_of, find_key, find_loss,
     fit_numbers, fit_picture, fit_text, from_fit_error, histories_picture, parse_confidence,
-    parse_family, parse_speed, parse_value, read_data, split,
+    parse_family, parse_speed, parse_value, split,
 };
 use crate::standard_output;
 
@@ -67,7 +69,11 @@ const GRID_REACH: f64 = 2.5;
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let data = read_data(&arguments.data, &case.scene, arguments.contact_time)?;
+    let table = read_table(&arguments.data)?;
+    let data = match arguments.contact_time {
+        true => Restitutions::read_with_contact_times(&table, &case.scene)?,
+        false => Restitutions::read(&table, &case.scene)?,
+    };
     let family = arguments.law.or_else(|| family_of(&case)).ok_or_else(|| {
         Failure::bad_input("--law is missing, and the case's [model] names no law")
             .with_help("name one, such as --law bordbar_hyppanen; docs/fits.md lists them")
@@ -115,7 +121,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 fn problem<'a>(
     arguments: &Arguments,
     chosen: &'a ChosenLaw,
-    data: &'a Data,
+    data: &'a Restitutions,
 ) -> Result<Problem<'a>, Failure> {
     let model = &chosen.model;
     let family = model.family();
@@ -212,7 +218,7 @@ fn grid(free: &Free, fit: &Fit) -> Vec<f64> {
 fn compare<'a>(
     model: &'a Model,
     family: Family,
-    data: &Data,
+    data: &Restitutions,
     arguments: &Arguments,
 ) -> Result<(&'a Model, Fit), Failure> {
     let mut free = vec![loss_key(family)?];

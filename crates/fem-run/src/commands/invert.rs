@@ -5,7 +5,7 @@ use fem_case::Case;
 use fem_fit::{FitError, Inversion, Model, Problem, invert};
 use fem_laws::{Family, Role};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::engineering::show;
 use crate::failure::Failure;
 use crate::reduced::{

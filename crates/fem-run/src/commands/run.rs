@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fem::results::{HISTORY_FILE, SUMMARY_FILE, Summary, history_csv, write_snapshots};
-use fem::{Cost, Simulation, assess, remedy_of};
+use fem::{Cost, Simulation, remedy_of};
 use fem_case::{Case, Keep};
 use fem_collision::{Collision, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::Watch;
 use crate::report::report;
 use crate::result_folder::ResultFolder;
 use crate::standard_output;
-use crate::stopwatch::Stopwatch;
+use crate::stopwatch::{Stopwatch, Timed};
 
 /// How to run a case.
 #[derive(clap::Args, Debug)]
@@ -49,8 +49,9 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         announce(&simulation, &input.case, &out);
     }
 
-    let mut watch = Watch::new(interrupt, options.quiet);
-    let (collision, stopwatch) = Stopwatch::run(started, &mut simulation, &mut watch);
+    let mut watch = Timed::since(started, Watch::new(interrupt, options.quiet));
+    let collision = simulation.run(&mut watch);
+    let (stopwatch, watch) = watch.stop();
     watch.finish();
 
     let summary =
@@ -120,9 +121,7 @@ pub fn write_result(
         files.extend(vtk_files);
         left_out = missing;
     }
-    let mut warnings = simulation.setup().warnings.clone();
-    warnings.extend(assess(simulation, collision));
-    warnings.extend(collision.warnings.iter().cloned());
+    let mut warnings = simulation.warnings(collision);
     warnings.extend(left_out);
     let summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
     let mut text = serde_json::to_string_pretty(&summary).map_err(|error| fault(&error))?;

@@ -3,18 +3,18 @@
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::measured::Restitutions;
 use fem_fit::{Estimate, Fit, Model, Problem, Profile};
 use fem_laws::{EndRule, Family, Parameter};
 use serde_json::{Value, json};
 
-use super::data_file::Data;
 use crate::engineering::show;
 use crate::tables::table;
 
 /// All that was fitted.
 pub struct Fitted<'a> {
     pub case: &'a Path,
-    pub data: &'a Data,
+    pub data: &'a Restitutions,
     pub problem: &'a Problem<'a>,
     pub fit: &'a Fit,
     pub profile: Option<&'a Profile>,

@@ -1,11 +1,10 @@
 //! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside.
 
+use fem::sweep::{Member, Row, column_unit, column_words};
 use fem_case::Sweep;
 use fem_figure::{Axis, Chart, Curve as Line, GREY};
 
-use super::collect::Row;
-use super::member::Member;
-use super::picture_data::{Choice, Curve, axis_unit, column_unit, column_words, curves};
+use super::picture_data::{Choice, Curve, axis_unit, curves};
 use crate::engineering::Unit;
 
 /// Hertz in the legend.

@@ -1,20 +1,14 @@
 //! What the picture of a sweep shows: which columns against which key, and the curves.
 
+use fem::sweep::{COLUMNS, Member, Row};
 use fem_case::{CaseError, CaseFile, Combine, Sweep, parse_quantity};
 use serde_json::Value;
-
-use super::collect::Row;
-use super::columns::{COLUMNS, value_of};
-use super::member::Member;
 
 /// Panels unless the sweep file names others.
 const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
 /// Columns of text or of yes and no.
 const NOT_NUMBERS: [&str; 2] = ["complete", "stopped_because"];
-/// Endings of column names and their units.
-const ENDINGS: [(&str, &str); 6] =
-    [("_m_s", "m/s"), ("_pa", "Pa"), ("_n", "N"), ("_s", "s"), ("_m", "m"), ("_j", "J")];
 /// Exponents of metre, kilogram, second and byte, and their units.
 const DIMENSIONS: [([i32; 4], &str); 6] = [
     ([1, 0, 0, 0], "m"),
@@ -127,7 +121,7 @@ pub fn curves(
     let hertz_column = format!("hertz_{column}");
     let has_hertz = COLUMNS.contains(&hertz_column.as_str());
     let mut curves: Vec<Curve> = Vec::new();
-    for row in rows.iter().filter(|row| row.summary["complete"] == true) {
+    for row in rows.iter().filter(|row| row.is_complete()) {
         let label = label(sweep, row.index, choice, x);
         let known = curves.iter().position(|curve| curve.label == label);
         let place = known.unwrap_or_else(|| {
@@ -135,7 +129,7 @@ pub fn curves(
             curves.len() - 1
         });
         let Some(x) = number(sweep, x, &members[row.index].case) else { continue };
-        let y = |column: &str| value_of(&row.summary, column).as_f64();
+        let y = |column: &str| row.value(column).as_f64();
         curves[place].points.extend(y(column).map(|y| (x, y)));
         if has_hertz {
             curves[place].hertz.extend(y(&hertz_column).map(|y| (x, y)));
@@ -173,21 +167,6 @@ fn number(sweep: &Sweep, axis: usize, case: &CaseFile) -> Option<f64> {
         };
     }
     value.as_f64()
-}
-
-/// The SI unit of a column; empty if it has none.
-pub fn column_unit(column: &str) -> &'static str {
-    ending(column).map_or("", |(_, unit)| unit)
-}
-
-/// A column's name in words, without its unit.
-pub fn column_words(column: &str) -> String {
-    let bare = ending(column).map_or(column, |(ending, _)| &column[..column.len() - ending.len()]);
-    bare.replace('_', " ")
-}
-
-fn ending(column: &str) -> Option<(&'static str, &'static str)> {
-    ENDINGS.into_iter().find(|(ending, _)| column.ends_with(ending))
 }
 
 /// The SI unit of a varied key: that of its values, or that of the key if all are bare numbers.

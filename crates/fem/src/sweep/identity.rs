@@ -1,14 +1,16 @@
-//! A member of a sweep and what it is known by.
+//! What a member is known by: equal for members that compute the same.
 
-use fem::Simulation;
-use fem_case::{Case, CaseError, CaseFile, Shape, Sweep};
+use fem_case::{Case, CaseError, CaseFile, Shape};
 use sha2::{Digest, Sha256};
+
+use super::members::Members;
+use crate::simulation::Simulation;
 
 /// Bytes of the digest that go into a name: two of a million members share one by a chance of
 /// 1e-7.
 const IDENTITY_BYTES: usize = 8;
 
-/// A member of a sweep.
+/// A member of a sweep, resolved.
 #[derive(Clone, Debug)]
 pub struct Member {
     /// Its place in the sweep.
@@ -19,21 +21,25 @@ pub struct Member {
     pub case: CaseFile,
 }
 
-/// All members of a sweep, in order.
+impl Member {
+    /// The member of a sweep that is this case.
+    ///
+    /// # Errors
+    /// What the case's method refuses before it makes anything; a mesh file that cannot be read.
+    pub fn of(index: usize, case: &Case) -> Result<Self, CaseError> {
+        let meshes = mesh_files(case)?;
+        let resolved = Simulation::resolve(case)?;
+        Ok(Self { index, identity: identity(&resolved, &meshes), case: resolved })
+    }
+}
+
+/// All members, in order.
 ///
 /// # Errors
 /// The first member that is no valid case.
-pub fn members(sweep: &Sweep) -> Result<Vec<Member>, CaseError> {
-    let member = |index| {
-        let resolve = |case: Case| {
-            let meshes = mesh_files(&case)?;
-            Ok((Simulation::resolve(&case)?, meshes))
-        };
-        let (case, meshes) = sweep.build(index, resolve)?;
-        let identity = identity(&case, &meshes);
-        Ok(Member { index, identity, case })
-    };
-    (0..sweep.n_members()).map(member).collect()
+pub fn identify(members: &(impl Members + ?Sized)) -> Result<Vec<Member>, CaseError> {
+    let member = |index| members.build(index, |case| Member::of(index, &case));
+    (0..members.n_members()).map(member).collect()
 }
 
 /// The bytes of the mesh files of a case.
@@ -57,7 +63,7 @@ fn identity(case: &CaseFile, meshes: &[Vec<u8>]) -> String {
         digest.update(bytes);
     };
     add(env!("CARGO_PKG_VERSION").as_bytes());
-    // A case that was read has only finite numbers and text: it always serializes.
+    // A valid case has only finite numbers and text: it always serializes.
     add(&serde_json::to_vec(case).unwrap_or_default());
     meshes.iter().for_each(|mesh| add(mesh));
     digest.finalize().iter().take(IDENTITY_BYTES).map(|byte| format!("{byte:02x}")).collect()

@@ -1,4 +1,4 @@
-//! Numbers with an uncertainty on the command line: `20 cm ± 1 mm`, `30 +- 0.5 deg`, `13.7 g ± 1 %`.
+//! Numbers with their uncertainty as text: `20 cm ± 1 mm`, `30 +- 0.5 deg`, `13.7 g ± 1 %`.
 
 use std::f64::consts::PI;
 
@@ -8,10 +8,33 @@ use fem_fit::cradle::Measured;
 /// Kinds of quantity that a cradle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
+    /// In m.
     Length,
+    /// In kg.
     Mass,
+    /// In m/s².
     Acceleration,
+    /// In rad.
     Angle,
+}
+
+/// Why a text is no measured quantity.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NotMeasured {
+    /// No number of this kind.
+    #[error("{text:?} is not {}", kind.words())]
+    OtherKind {
+        /// As it was found.
+        text: String,
+        /// What it should be.
+        kind: Kind,
+    },
+    /// More than half a turn, if it is in radians.
+    #[error("{0:?} without a unit is in radians; write '{0} deg' for degrees")]
+    BareDegrees(String),
+    /// Less than nothing.
+    #[error("an uncertainty is at least 0")]
+    NegativeUncertainty,
 }
 
 impl Kind {
@@ -42,8 +65,16 @@ const ANGLES: [(&str, f64); 5] =
 /// A value with or without its uncertainty, SI.
 ///
 /// # Errors
-/// What it is not, in words.
-pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, String> {
+/// What it is not.
+///
+/// ```
+/// use fem::measured::{Kind, parse_measured};
+///
+/// let length = parse_measured(Kind::Length, "20 cm ± 1 mm")?;
+/// assert_eq!((length.value, length.uncertainty), (0.2, 0.001));
+/// # Ok::<(), fem::measured::NotMeasured>(())
+/// ```
+pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
     let signs = ["±", "+/-", "+-"];
     let sign = signs.iter().find_map(|sign| text.split_once(sign));
     let Some((value, uncertainty)) = sign else {
@@ -68,12 +99,12 @@ pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, String> {
         None => parse(kind, uncertainty)?,
     };
     if uncertainty < 0.0 {
-        return Err("an uncertainty is at least 0".to_string());
+        return Err(NotMeasured::NegativeUncertainty);
     }
     Ok(Measured { value, uncertainty })
 }
 
-fn parse(kind: Kind, text: &str) -> Result<f64, String> {
+fn parse(kind: Kind, text: &str) -> Result<f64, NotMeasured> {
     let text = text.trim();
     if kind == Kind::Angle
         && let Some((number, scale)) =
@@ -85,16 +116,14 @@ fn parse(kind: Kind, text: &str) -> Result<f64, String> {
     let (value, dimension) = parse_quantity(text).map_err(|_| wrong(kind, text))?;
     let is_angle = kind == Kind::Angle;
     if is_angle && value > PI {
-        return Err(format!(
-            "{text:?} without a unit is in radians; write '{text} deg' for degrees"
-        ));
+        return Err(NotMeasured::BareDegrees(text.to_string()));
     }
     let is_bare = dimension.0 == [0; 4] && !text.ends_with('%');
     if is_bare || dimension.0 == kind.dimension() { Ok(value) } else { Err(wrong(kind, text)) }
 }
 
-fn wrong(kind: Kind, text: &str) -> String {
-    format!("{text:?} is not {}", kind.words())
+fn wrong(kind: Kind, text: &str) -> NotMeasured {
+    NotMeasured::OtherKind { text: text.to_string(), kind }
 }
 
 #[cfg(test)]

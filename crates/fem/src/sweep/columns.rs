@@ -35,9 +35,12 @@ pub const COLUMNS: &[&str] = &[
     "stopped_because",
     "warnings",
 ];
+/// Endings of column names and their units.
+const ENDINGS: [(&str, &str); 6] =
+    [("_m_s", "m/s"), ("_pa", "Pa"), ("_n", "N"), ("_s", "s"), ("_m", "m"), ("_j", "J")];
 
 /// The value of a column in a summary; `null` if it has none.
-pub fn value_of(summary: &Value, column: &str) -> Value {
+pub(super) fn value_of(summary: &Value, column: &str) -> Value {
     let table =
         |name: &str| column.strip_prefix(name).map(|key| &summary[name.trim_end_matches('_')][key]);
     match column {
@@ -49,4 +52,19 @@ pub fn value_of(summary: &Value, column: &str) -> Value {
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
         _ => table("hertz_").or(table("energy_")).unwrap_or(&summary[column]).clone(),
     }
+}
+
+/// The SI unit of a column; empty if it has none.
+pub fn column_unit(column: &str) -> &'static str {
+    ending(column).map_or("", |(_, unit)| unit)
+}
+
+/// A column's name in words, without its unit.
+pub fn column_words(column: &str) -> String {
+    let bare = ending(column).map_or(column, |(ending, _)| &column[..column.len() - ending.len()]);
+    bare.replace('_', " ")
+}
+
+fn ending(column: &str) -> Option<(&'static str, &'static str)> {
+    ENDINGS.into_iter().find(|(ending, _)| column.ends_with(ending))
 }
