@@ -84,6 +84,20 @@ impl Body {
         }
     }
 
+    /// Adds the forces on its nodes beside stress and contact; their sum along +y, N.
+    pub(crate) fn add_node_forces(
+        &self,
+        motion: &Motion<'_>,
+        history: &[NodalField],
+        forces: &mut Field,
+    ) -> f64 {
+        let mut resultant = 0.0;
+        for force in &self.node_forces {
+            resultant += force.part.add_forces(motion, force.of(history), forces);
+        }
+        resultant
+    }
+
     /// Its mesh; a wall has none.
     pub fn mesh(&self) -> Option<&SphereMesh> {
         self.mesh.as_ref()

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use crate::body::Body;
 use crate::model::Model;
 use crate::part::{Motion, MotionMut, NodalField};
-use crate::step::add_node_forces;
 
 /// State of a body at time t_n.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -87,7 +86,7 @@ impl BodyState {
             return;
         }
         let mut forces = vec![[0.0; 2]; body.nodal_mass.len()];
-        add_node_forces(body, &self.motion(body, time), &self.history, &mut forces);
+        body.add_node_forces(&self.motion(body, time), &self.history, &mut forces);
         for ((v, force), inverse_mass) in
             self.velocity.iter_mut().zip(&forces).zip(&body.inverse_mass)
         {

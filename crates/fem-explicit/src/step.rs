@@ -15,7 +15,7 @@ pub(crate) fn update_forces(model: &Model, state: &State, scratch: &mut Scratch)
         let (body, motion) = (&model.bodies()[side], &motions[side]);
         let (history, forces) = (&state.bodies[side].history, &mut scratch.forces[side]);
         update_internal_forces(body, motion, history, forces);
-        scratch.resultants[side] = add_node_forces(body, motion, history, forces);
+        scratch.resultants[side] = body.add_node_forces(motion, history, forces);
     }
     let [lower, upper] = &mut scratch.forces;
     model.contact().add_forces(&motions, state.contact_history(model), [lower, upper])
@@ -64,20 +64,6 @@ pub(crate) fn update_internal_forces(
     if let Some(stress) = &body.stress {
         stress.part.subtract_forces(motion, stress.of(history), forces);
     }
-}
-
-/// Adds the forces on nodes beside stress and contact; their sum along +y, N.
-pub(crate) fn add_node_forces(
-    body: &Body,
-    motion: &Motion<'_>,
-    history: &[NodalField],
-    forces: &mut Field,
-) -> f64 {
-    let mut resultant = 0.0;
-    for force in &body.node_forces {
-        resultant += force.part.add_forces(motion, force.of(history), forces);
-    }
-    resultant
 }
 
 /// Moves the nodes of a body by a time step (s).
