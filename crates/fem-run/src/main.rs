@@ -28,6 +28,7 @@ mod peak_memory;
 mod progress;
 mod reduced;
 mod report;
+mod result_files;
 mod result_folder;
 mod standard_output;
 mod stopwatch;
