@@ -7,9 +7,9 @@
 use fem_collision::Account;
 use fem_element::{QuadGeometry, largest_eigenvalue, mean_gradient};
 
-use super::Stress;
 use super::block::Blocks;
 use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
+use super::port::Stress;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// The elements of a body and their moduli, which relaxing bodies start from.

@@ -16,9 +16,9 @@ use fem_element::QuadGeometry;
 use fem_material::{PronySeries, RelaxationStep};
 use multiversion::multiversion;
 
-use super::Stress;
 use super::elastic::Elastic;
 use super::kernel::{Moduli, strain_energy};
+use super::port::Stress;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// Which part of the stress relaxes.
