@@ -82,6 +82,12 @@ impl Book {
         self
     }
 
+    /// The same book with what is in another beside what is there.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        other.entries().fold(self, |book, (account, energy)| book.with(account, energy))
+    }
+
     /// What is in an account; `None` of one that nobody fills.
     pub fn get(&self, account: Account) -> Option<f64> {
         self.0[account as usize]

@@ -2,7 +2,7 @@
 
 use crate::ending::Ending;
 use crate::row::Row;
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Label, Snapshot};
 use crate::stop::Stop;
 
 /// What is said of a restitution of 0.
@@ -117,6 +117,11 @@ impl Collision {
     /// Whether the caller ended it.
     pub fn is_interrupted(&self) -> bool {
         matches!(self.stop(), Some(Stop::Interrupted { .. }))
+    }
+
+    /// The fields at a named instant, if they were asked for and it came.
+    pub fn snapshot(&self, label: Label) -> Option<&Snapshot> {
+        self.snapshots.iter().find(|snapshot| snapshot.label == Some(label))
     }
 
     /// Whether the contact outgrew the region in which it is looked for, and how large that is, m.

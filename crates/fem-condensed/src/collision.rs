@@ -3,7 +3,7 @@
 use fem_collision::{Collision, Ending, Frame, Monitor, Phase, SnapshotRequest, Stop, Want};
 use fem_material::PronySeries;
 
-use crate::CondensedError;
+use crate::error::CondensedError;
 use crate::motion::Motion;
 use crate::pair::CondensedPair;
 use crate::run::Run;

@@ -5,8 +5,8 @@ use fem_collision::{Approach, BodyInput, BodyResult, Frame, Stop};
 use fem_contact::{ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
-use crate::CondensedError;
 use crate::curve::{ElasticCurve, ElasticImpact};
+use crate::error::CondensedError;
 use crate::points::Points;
 use crate::settings::PairSettings;
 use crate::side::{PairSide, PressureNode, pressure_nodes};

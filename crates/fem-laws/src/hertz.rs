@@ -22,7 +22,8 @@ use std::f64::consts::PI;
 use statrs::function::gamma::gamma;
 
 use crate::error::{LawError, positive};
-use crate::{HertzPressure, Pair};
+use crate::hertz_pressure::HertzPressure;
+use crate::pair::Pair;
 
 /// One collision, from first touch to separation.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,7 +14,8 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use statrs::function::beta::beta_reg;
 
-use crate::{HertzImpact, Impact, ImpactInstant};
+use crate::hertz::HertzImpact;
+use crate::impact::{Impact, ImpactInstant};
 
 /// State of a collision at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]

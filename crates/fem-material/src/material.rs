@@ -9,9 +9,9 @@
 //! K(t) and G(t) by the elastic identities: what a test of any length t would read off the two
 //! relaxation functions, not the viscoelastic Poisson's ratio of a creep or relaxation test.
 
-use crate::elastic::{poissons_ratio, youngs_modulus};
+use crate::elastic::{ElasticModuli, poissons_ratio, youngs_modulus};
 use crate::error::{MaterialError, positive};
-use crate::{ActsOn, ElasticModuli, PronySeries};
+use crate::prony::{ActsOn, PronySeries};
 
 /// A checked isotropic linear material, elastic or viscoelastic.
 #[derive(Debug, Clone, PartialEq)]

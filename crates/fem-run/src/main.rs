@@ -18,6 +18,7 @@
 
 mod arguments;
 mod calibrate;
+mod case_arguments;
 mod commands;
 mod data_file;
 mod failure;
@@ -30,6 +31,7 @@ mod output;
 mod peak_memory;
 mod progress;
 mod report;
+mod result_files;
 mod result_folder;
 mod standard_output;
 mod stopwatch;
@@ -44,7 +46,7 @@ use fem_case::engineering;
 
 fn main() -> ExitCode {
     let started = Instant::now();
-    match commands::execute(arguments::parse(), started) {
+    match arguments::parse().execute(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();

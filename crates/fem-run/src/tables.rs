@@ -3,10 +3,9 @@
 use comfy_table::CellAlignment::{self, Left, Right};
 use comfy_table::{ContentArrangement, Row, Table};
 use fem_case::Scene;
+use fem_case::engineering::show;
 use fem_mesh::{Quality, SphereMesh};
 use indicatif::HumanCount;
-
-use crate::engineering::show;
 
 /// A table without lines, and the alignment of its columns; the last one wraps.
 pub fn table<R: Into<Row>>(

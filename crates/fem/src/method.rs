@@ -1,17 +1,17 @@
 //! What a way to compute collisions is to the rest of the house, and what it makes of a scene.
 //!
 //! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. There
-//! is one file a method in `models/`; [`METHODS`] lists them from the cheapest to the dearest.
+//! is one file a method in `models/`, where [`METHODS`](crate::METHODS) lists them.
 
 use std::fmt;
 
-use fem_case::{CaseFile, ModelChoice, Scene};
+use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, Want};
 use fem_mesh::SphereMesh;
 
 use crate::effects::Verdict;
 use crate::estimate::Estimate;
-use crate::models::{CONDENSED, EXPLICIT, HERTZ, LAW, PairCache, TING};
+use crate::pair_cache::PairCache;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
@@ -39,20 +39,6 @@ pub trait Method: Sync {
     /// # Errors
     /// As [`Method::price`].
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal>;
-}
-
-/// All methods, from the cheapest to the dearest.
-pub const METHODS: [&dyn Method; 5] = [&HERTZ, &LAW, &TING, &CONDENSED, &EXPLICIT];
-
-/// The method that a scene chooses.
-pub fn method_of(scene: &Scene) -> &'static dyn Method {
-    match scene.model {
-        ModelChoice::Hertz { .. } => &HERTZ,
-        ModelChoice::Law { .. } => &LAW,
-        ModelChoice::Ting { .. } => &TING,
-        ModelChoice::Condensed(_) => &CONDENSED,
-        _ => &EXPLICIT,
-    }
 }
 
 /// What the models of several scenes share.

@@ -9,9 +9,10 @@
 //! [`super::kuwabara_kono`]. Limits: the range of the fit; the dissipated share scales as
 //! v^((4n−1)/5), so a restitution that falls with speed needs n > 1/4.
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
+use crate::pair::Pair;
 
 /// Of a pair, A, s, and n.
 ///

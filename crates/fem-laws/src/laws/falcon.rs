@@ -5,9 +5,10 @@
 //! comes from an experiment. The restitution is independent of speed. Limits: those of an empirical
 //! law: the material and the sizes at which C was measured.
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::LawError;
+use crate::pair::Pair;
 
 /// Of a pair and C, N s/m^(5/4).
 ///

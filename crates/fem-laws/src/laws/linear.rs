@@ -18,10 +18,11 @@
 
 use std::f64::consts::PI;
 
-use super::{ContactLaw, power};
+use super::power::{ContactLaw, power};
 use crate::bisection::last_where;
+use crate::end_rule::EndRule;
 use crate::error::{LawError, positive, restitution as checked};
-use crate::{EndRule, Pair};
+use crate::pair::Pair;
 
 /// From K, N/m, and C, N s/m.
 ///

@@ -7,8 +7,8 @@ use fem::measured::{MeasuredPairs, UncertaintyError};
 use fem_case::schema::ActsOn;
 use fem_case::{Case, parse_quantity};
 
-use crate::arguments::{CaseArguments, stem_of};
 use crate::calibrate::{calibration_picture, calibration_text};
+use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::read_table;
 use crate::failure::Failure;
 use crate::law_arguments::parse_confidence;

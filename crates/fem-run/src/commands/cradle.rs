@@ -8,7 +8,7 @@ use fem_figure::{Axis, Chart, Curve};
 use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
 use serde_json::json;
 
-use crate::arguments::stem_of;
+use crate::case_arguments::stem_of;
 use crate::data_file::read_table;
 use crate::failure::Failure;
 use crate::output::OutputArguments;

@@ -11,7 +11,7 @@ use fem_fit::FitError;
 use fem_fit::dem::{Export, Snippet};
 use fem_laws::Family;
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::data_file::read_table;
 use crate::engineering::{Unit, show};
 use crate::failure::Failure;

@@ -8,7 +8,7 @@ use fem_case::Case;
 use fem_fit::{Free, Problem};
 use fem_laws::Family;
 
-use crate::arguments::{CaseArguments, stem_of};
+use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::read_table;
 use crate::failure::Failure;
 use crate::fit::{fit_picture, fit_text, histories_picture};

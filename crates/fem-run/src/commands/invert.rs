@@ -6,7 +6,7 @@ use fem_case::Case;
 use fem_fit::FitError;
 use fem_laws::Family;
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::engineering::show;
 use crate::failure::Failure;
 use crate::law_arguments::{LawArguments, find_key, parse_family, parse_speed};

@@ -10,10 +10,10 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::results::PROGRAM;
 use fem::sweep::{Member, Row, SWEEP_FILE, advice, identify, left_to_do};
 use fem_case::Sweep;
+use fem_case::engineering::show;
 use serde_json::{Value, json};
 
-use crate::arguments::stem_of;
-use crate::engineering::show;
+use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output::{self, one_line};

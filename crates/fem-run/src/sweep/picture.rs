@@ -2,10 +2,10 @@
 
 use fem::sweep::{Member, Row, column_unit, column_words};
 use fem_case::Sweep;
+use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve as Line, GREY};
 
 use super::picture_data::{Choice, Curve, axis_unit, curves};
-use crate::engineering::Unit;
 
 /// Hertz in the legend.
 const HERTZ: &str = "Hertz";

@@ -7,15 +7,15 @@ use std::time::Instant;
 use fem::results::Summary;
 use fem::sweep::{Member, Observer, Ran, Runner};
 use fem::{CaseError, Shared};
+use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
 use rayon::ThreadPoolBuilder;
 
 use super::board::{Board, MemberWatch};
 use super::folder::SweepFolder;
-use crate::commands::run::{longest_name, write_result};
-use crate::engineering::show;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::result_files::{longest_name, write_result};
 use crate::result_folder::ResultFolder;
 use crate::stopwatch::{Stopwatch, Timed};
 

@@ -1,18 +1,18 @@
 //! The shortest way to a sweep: a case, values, and what each of them changes.
 
 use fem_case::{Case, CaseError, CaseFile};
-use fem_collision::Collision;
 
 use super::order::dearest_first;
 use super::runner::Runner;
 use super::variations::Variations;
 use crate::method::Shared;
+use crate::results::Summary;
 
-/// The collisions of a case with one value after the other put in, in the order of the values.
+/// Summaries of a case with one value after the other put in, in the order of the values.
 ///
-/// They run on all threads of the current rayon pool, and equal bodies share their factors. Fields
-/// are not computed; what is kept of a thousand members can be less than a whole [`Collision`], and
-/// someone can look on: that is what [`Runner`] is for.
+/// The members run on all threads of the current rayon pool, and equal bodies share their factors.
+/// Fields are not computed. Who wants histories or fields, or to look on and end all of it, uses a
+/// [`Runner`].
 ///
 /// # Errors
 /// Of each value on its own: what it makes is no valid case, or is refused.
@@ -31,12 +31,12 @@ use crate::method::Shared;
 /// )?;
 ///
 /// let speeds = [0.25, 0.5, 1.0];
-/// let collisions = fem::sweep(&case, speeds, |file, speed| {
+/// let summaries = fem::sweep(&case, speeds, |file, speed| {
 ///     file.body[0].approach_speed = Some(speed.into());
 /// });
 /// let mut restitutions = Vec::new();
-/// for collision in collisions {
-///     restitutions.extend(collision?.restitution);
+/// for summary in summaries {
+///     restitutions.extend(summary?.collision.restitution);
 /// }
 /// // The faster, the shorter the contact, and the less of the stress relaxes in it.
 /// assert!(restitutions.len() == 3 && restitutions.is_sorted());
@@ -46,10 +46,10 @@ pub fn sweep<V: Clone + Sync>(
     case: &Case,
     values: impl IntoIterator<Item = V>,
     edit: impl Fn(&mut CaseFile, V) + Sync,
-) -> Vec<Result<Collision, CaseError>> {
+) -> Vec<Result<Summary, CaseError>> {
     let members = Variations::of(case, values, edit);
     let shared = Shared::default();
     let runner = Runner::new(&members, &shared).without_fields();
-    let kept = runner.run(&dearest_first(&members), &(), |ran| ran.collision);
-    kept.into_iter().map(|(_, collision)| collision).collect()
+    let kept = runner.run(&dearest_first(&members), &(), |ran| ran.summary());
+    kept.into_iter().map(|(_, summary)| summary).collect()
 }

@@ -23,8 +23,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         Self { members, shared, has_fields: true }
     }
 
-    /// The same without the fields that the members ask for, which take more time and memory than
-    /// all else of a condensed member.
+    /// The same without the fields that the members ask for; all else keeps its bits.
     #[must_use]
     pub fn without_fields(self) -> Self {
         Self { has_fields: false, ..self }
@@ -48,8 +47,8 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
     /// member on one.
     ///
     /// Returns what `keep` keeps of each and its place in the sweep, in the order of the sweep
-    /// whatever that of running; `observer` may leave members out. Whatever has no threads, as a
-    /// browser, runs one after the other.
+    /// whatever that of running; `observer` may leave members out. Where there are no threads, as in
+    /// a browser, one runs after the other.
     pub fn run<T: Send>(
         &self,
         order: &[usize],

@@ -7,26 +7,24 @@ use super::members::Members;
 /// A case with one value after the other put in.
 ///
 /// ```
-/// use fem::schema::{BodyTable, MaterialTable, ModelTable};
+/// use fem::schema::{BodyTable, MaterialTable};
 /// use fem::sweep::{Members, Variations};
 /// use fem::{Case, CaseFile};
 ///
 /// let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
-/// let ball = BodyTable::sphere("ball", "2 cm", "ice");
-/// let file = CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("ice", ice);
-/// # let file = file.with_model(ModelTable::hertz());
-/// # let file = CaseFile { body: vec![file.body[0].clone(), file.body[1].clone().approaching(1.0)], ..file };
-/// let case = Case::of(file)?;
+/// let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("1 m/s");
+/// let case =
+///     Case::of(CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("ice", ice))?;
 ///
 /// // Two keys, all with all; the last runs fastest.
-/// let diameters = ["1 cm", "2 cm"];
-/// let values: Vec<(&str, f64)> =
-///     diameters.into_iter().flat_map(|diameter| [0.1, 1.0].map(|speed| (diameter, speed))).collect();
-/// let members = Variations::of(&case, values, |file, (diameter, speed)| {
-///     file.body[1] = BodyTable::sphere("ball", diameter, "ice").approaching(speed);
+/// let values = [0.1, 1.0].into_iter().flat_map(|speed| [0.31, 0.33].map(|ratio| (speed, ratio)));
+/// let members = Variations::of(&case, values, |file, (speed, ratio)| {
+///     file.body[1].approach_speed = Some(speed.into());
+///     let ice = file.material.get_mut("ice").unwrap();
+///     ice.poissons_ratio = Some(ratio.into());
 /// });
 /// assert_eq!(members.n_members(), 4);
-/// assert_eq!(members.case(2)?.scene.approach_speed(), 0.1);
+/// assert_eq!(members.case(1)?.scene.approach_speed(), 0.1);
 /// # Ok::<(), fem::CaseError>(())
 /// ```
 #[derive(Clone, Debug)]

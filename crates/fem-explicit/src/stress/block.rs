@@ -3,7 +3,7 @@
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
-use crate::lanes::LANES;
+use super::lanes::LANES;
 
 /// One number of each element of a block.
 type Numbers = [f64; LANES];
@@ -36,16 +36,11 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Of a body without elements, such as a wall.
-    pub fn none() -> Self {
-        Self { blocks: Vec::new(), n_nodes: 0 }
-    }
-
-    /// Packs the elements of a mesh. Lane l takes the l-th stretch of the
+    /// Packs the integrated elements of a mesh. Lane l takes the l-th stretch of the
     /// elements, so that the lanes of a block share no node and their sums do
     /// not wait for each other. Empty lanes have no stiffness and point at
     /// node 0.
-    pub fn pack(mesh: &SphereMesh) -> Self {
+    pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry]) -> Self {
         let n_nodes = mesh.nodes().len();
         assert!(
             mesh.quads().iter().flatten().all(|&node| (node as usize) < n_nodes),
@@ -59,11 +54,10 @@ impl Blocks {
             hourglass: [[0.0; LANES]; 3],
             hourglass_stiffness: [[0.0; LANES]; 3],
         };
-        let n_elements = mesh.quads().len();
+        let n_elements = geometries.len();
         let n_blocks = n_elements.div_ceil(LANES);
         let mut blocks = vec![empty; n_blocks];
-        for element in 0..n_elements {
-            let geometry = QuadGeometry::new(&mesh.corners(element));
+        for (element, geometry) in geometries.iter().enumerate() {
             let scale = geometry.volume.sqrt();
             let (block, lane) = (&mut blocks[element % n_blocks], element / n_blocks);
             for a in 0..4 {

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use fem_condensed::{CondensedPair, PairSettings};
 use fem_material::Material;
 
-use crate::meshes::MeshSource;
+use crate::mesh_source::MeshSource;
 
 /// Bytes that all pairs of a cache may take.
 const MAX_BYTES: usize = 1_000_000_000;

@@ -35,6 +35,34 @@ pub(crate) trait Lanes:
     unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; LANES]);
 }
 
+/// A loop over elements that is written once for lanes of any kind.
+pub(crate) trait LaneKernel {
+    /// What the loop writes to.
+    type Output: ?Sized;
+
+    /// The loop. It and all that it calls must be `#[inline(always)]`, so that it is compiled for
+    /// the instruction set of its lanes. The output is a parameter of its own, which tells the
+    /// compiler that nothing of the kernel points there: as a field of the kernel it cost a tenth
+    /// of the time.
+    fn on<L: Lanes>(self, output: &mut Self::Output);
+}
+
+/// Runs a kernel on the widest lanes that the processor has.
+pub(crate) fn run_lanes<K: LaneKernel>(kernel: K, output: &mut K::Output) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx2")]
+        fn on_avx2<K: LaneKernel>(kernel: K, output: &mut K::Output) {
+            kernel.on::<Avx2>(output);
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has been asked.
+            return unsafe { on_avx2(kernel, output) };
+        }
+    }
+    kernel.on::<Plain>(output);
+}
+
 /// Lanes as an array, for any machine.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plain([f64; LANES]);

@@ -1,12 +1,10 @@
 //! The element loops, in which a run spends its time.
 
-use crate::block::{Block, Blocks};
-#[cfg(target_arch = "x86_64")]
-use crate::lanes::Avx2;
-use crate::lanes::{LANES, Lanes, Plain};
+use fem_material::ElasticModuli;
 
-/// A field of pairs (r, y), one a node.
-pub(crate) type Field = [[f64; 2]];
+use super::block::{Block, Blocks};
+use super::lanes::{LANES, LaneKernel, Lanes, run_lanes};
+use crate::part::Field;
 
 /// Bulk and shear modulus, Pa.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,20 +13,16 @@ pub(crate) struct Moduli {
     pub shear: f64,
 }
 
+impl Moduli {
+    /// Of an elastic material.
+    pub fn of(moduli: &ElasticModuli) -> Self {
+        Self { bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
+    }
+}
+
 /// Subtracts the internal forces (N) of one field from `f`.
 pub(crate) fn subtract_internal_forces(blocks: &Blocks, moduli: Moduli, w: &Field, f: &mut Field) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn avx2(blocks: &Blocks, moduli: Moduli, w: &Field, f: &mut Field) {
-            subtract_forces::<Avx2, false>(blocks, moduli, w, w, f);
-        }
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has been asked.
-            return unsafe { avx2(blocks, moduli, w, f) };
-        }
-    }
-    subtract_forces::<Plain, false>(blocks, moduli, w, w, f);
+    run_lanes(Forces::<false> { blocks, moduli, bulk_field: w, shear_field: w }, f);
 }
 
 /// Subtracts the internal forces (N) from `f`: bulk stress of `u`, deviatoric
@@ -40,34 +34,48 @@ pub(crate) fn subtract_split_internal_forces(
     w: &Field,
     f: &mut Field,
 ) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn avx2(blocks: &Blocks, moduli: Moduli, u: &Field, w: &Field, f: &mut Field) {
-            subtract_forces::<Avx2, true>(blocks, moduli, u, w, f);
-        }
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has been asked.
-            return unsafe { avx2(blocks, moduli, u, w, f) };
-        }
-    }
-    subtract_forces::<Plain, true>(blocks, moduli, u, w, f);
+    run_lanes(Forces::<true> { blocks, moduli, bulk_field: u, shear_field: w }, f);
 }
 
 /// Strain energy (J) of a field.
 pub(crate) fn strain_energy(blocks: &Blocks, moduli: Moduli, field: &Field) -> f64 {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx2")]
-        fn avx2(blocks: &Blocks, moduli: Moduli, field: &Field) -> f64 {
-            sum_energy::<Avx2>(blocks, moduli, field)
-        }
-        if std::arch::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has been asked.
-            return unsafe { avx2(blocks, moduli, field) };
-        }
+    let mut energy = 0.0;
+    run_lanes(Energy { blocks, moduli, field }, &mut energy);
+    energy
+}
+
+/// Internal forces; bulk and shear see fields of their own if `SPLIT`.
+struct Forces<'a, const SPLIT: bool> {
+    blocks: &'a Blocks,
+    moduli: Moduli,
+    bulk_field: &'a Field,
+    shear_field: &'a Field,
+}
+
+impl<const SPLIT: bool> LaneKernel for Forces<'_, SPLIT> {
+    type Output = Field;
+
+    #[inline(always)]
+    fn on<L: Lanes>(self, f: &mut Field) {
+        let Self { blocks, moduli, bulk_field, shear_field } = self;
+        subtract_forces::<L, SPLIT>(blocks, moduli, bulk_field, shear_field, f);
     }
-    sum_energy::<Plain>(blocks, moduli, field)
+}
+
+/// Strain energy.
+struct Energy<'a> {
+    blocks: &'a Blocks,
+    moduli: Moduli,
+    field: &'a Field,
+}
+
+impl LaneKernel for Energy<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn on<L: Lanes>(self, energy: &mut f64) {
+        *energy = sum_energy::<L>(self.blocks, self.moduli, self.field);
+    }
 }
 
 /// Displacements at the corners: radial at all four, and both relative to

@@ -3,11 +3,15 @@
 use fem_mesh::{Side, SphereMesh};
 
 use super::*;
-use crate::test_support::{assembled, moduli, ragged, unit_glass, unit_sphere, vector};
+use crate::test_support::{assembled, geometries, moduli, ragged, unit_glass, unit_sphere, vector};
 
 fn meshes() -> [SphereMesh; 2] {
     // 24 and 96 elements, and a number that leaves lanes empty.
     [unit_sphere(4.0, Side::Above), unit_sphere(8.0, Side::Below)]
+}
+
+fn pack(mesh: &SphereMesh) -> Blocks {
+    Blocks::pack(mesh, &geometries(mesh))
 }
 
 /// Largest difference over the largest number.
@@ -19,7 +23,7 @@ fn difference(a: &Field, b: &nalgebra::DVector<f64>) -> f64 {
 fn forces_are_those_of_the_assembled_matrices() {
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
-        let blocks = Blocks::pack(&mesh);
+        let blocks = pack(&mesh);
         let (u, w) = (ragged(&mesh, 0), ragged(&mesh, 1));
         let mut f = vec![[0.0; 2]; u.len()];
         subtract_internal_forces(&blocks, moduli, &u, &mut f);
@@ -38,7 +42,7 @@ fn forces_are_those_of_the_assembled_matrices() {
 fn energy_is_half_of_displacement_times_force() {
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
-        let blocks = Blocks::pack(&mesh);
+        let blocks = pack(&mesh);
         let u = ragged(&mesh, 3);
         let matrix = assembled(&mesh, moduli);
         let exact = 0.5 * vector(&u).dot(&(matrix * vector(&u)));
@@ -51,7 +55,7 @@ fn energy_is_half_of_displacement_times_force() {
 fn a_rigid_translation_gives_exactly_no_force() {
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
-        let blocks = Blocks::pack(&mesh);
+        let blocks = pack(&mesh);
         let u = vec![[0.0, 1.234_567e3]; mesh.nodes().len()];
         let mut f = vec![[0.0; 2]; u.len()];
         subtract_internal_forces(&blocks, moduli, &u, &mut f);
@@ -65,7 +69,7 @@ fn a_rigid_translation_gives_exactly_no_force() {
 fn internal_forces_balance() {
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
-        let blocks = Blocks::pack(&mesh);
+        let blocks = pack(&mesh);
         let mut f = vec![[0.0; 2]; mesh.nodes().len()];
         subtract_internal_forces(&blocks, moduli, &ragged(&mesh, 5), &mut f);
         let (sum, size) =
@@ -78,6 +82,7 @@ fn internal_forces_balance() {
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn plain_and_avx2_lanes_give_the_same_bits() {
+    use super::super::lanes::{Avx2, Plain};
     #[target_feature(enable = "avx2")]
     fn avx2<const SPLIT: bool>(
         blocks: &Blocks,
@@ -104,7 +109,7 @@ fn plain_and_avx2_lanes_give_the_same_bits() {
     }
     let moduli = moduli(&unit_glass());
     for mesh in meshes() {
-        let blocks = Blocks::pack(&mesh);
+        let blocks = pack(&mesh);
         let (u, w) = (ragged(&mesh, 0), ragged(&mesh, 1));
         let mut f = [vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]];
         let [f_plain, f_avx2] = &mut f;
@@ -124,7 +129,7 @@ fn plain_and_avx2_lanes_give_the_same_bits() {
 #[should_panic(expected = "field_lengths")]
 fn a_field_that_is_too_short_is_refused() {
     let mesh = unit_sphere(4.0, Side::Above);
-    let (blocks, n) = (Blocks::pack(&mesh), mesh.nodes().len());
+    let (blocks, n) = (pack(&mesh), mesh.nodes().len());
     let (u, mut f) = (vec![[0.0; 2]; n], vec![[0.0; 2]; n - 1]);
     subtract_internal_forces(&blocks, moduli(&unit_glass()), &u, &mut f);
 }
