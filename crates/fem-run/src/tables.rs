@@ -28,6 +28,19 @@ pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
     table(&[Left, Left], rows.map(|(name, value)| [name.to_string(), value]))
 }
 
+/// A parameter's value with its unit.
+pub fn show_value(value: f64, unit: &str) -> String {
+    let takes_prefix = ["s", "m/s"].contains(&unit);
+    if takes_prefix {
+        show(value, unit)
+    } else if (0.01..1e5).contains(&value.abs()) || value == 0.0 {
+        let digits = (3 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;
+        format!("{value:.digits$} {unit}").trim_end().to_string()
+    } else {
+        format!("{value:.4e} {unit}").trim_end().to_string()
+    }
+}
+
 /// Size and quality of each mesh; a wall has none.
 pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
     let header =

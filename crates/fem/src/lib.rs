@@ -13,8 +13,10 @@
 pub mod accuracy;
 mod approach;
 mod assess;
+pub mod calibrate;
 pub mod effects;
 mod estimate;
+pub mod laws;
 mod limits;
 pub mod measured;
 mod mesh_source;

@@ -11,7 +11,7 @@ use serde_json::json;
 use crate::case_arguments::stem_of;
 use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{OutputArguments, from_fit_error};
+use crate::output::OutputArguments;
 use crate::standard_output;
 use crate::tables::table;
 
@@ -82,7 +82,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         };
         let uncertain = |angle| with_default(angle, arguments);
         let trial = Trial { release: uncertain(alpha), rise: uncertain(beta) };
-        let swing = cradle.swing(&trial).map_err(from_fit_error)?;
+        let swing = cradle.swing(&trial)?;
         if arguments.output.quiet {
             return Ok(());
         }
@@ -116,7 +116,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("cradle.csv", &header, rows)?;
     output.write("cradle.svg", picture(&swings))?;
     let [first, second] = cradle.masses;
-    let place = output.publish(json!({
+    let place = output.publish(&json!({
         "data": path.display().to_string(),
         "trials": swings.len(),
         "length_m": cradle.length.value,

@@ -17,6 +17,7 @@ const MOST_STEPS_DOWN: usize = 4;
 const SAME: f64 = 1e-6;
 
 /// A single Maxwell term of weight 1 whose restitutions have the mean of the measured ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Maxwell {
     /// Its relaxation time, s.
     pub time: f64,
@@ -29,7 +30,9 @@ pub struct Maxwell {
 /// Which side of the search the time would be on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beyond {
+    /// More is lost than the fastest term that can be computed loses.
     Faster,
+    /// Less is lost than anybody sees.
     Slower,
 }
 
@@ -103,4 +106,34 @@ impl Maxwell {
 
 fn term(relaxation_time: f64) -> PronyTerm {
     PronyTerm { weight: 1.0, relaxation_time }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1 − e = 1/(1 + τ): for each mean one τ.
+    fn restitutions(terms: &[PronyTerm]) -> Result<Vec<f64>, FitError> {
+        let lost = 1.0 / (1.0 + terms[0].relaxation_time);
+        Ok(vec![1.0 - 1.5 * lost, 1.0 - 0.5 * lost])
+    }
+
+    #[test]
+    fn the_term_has_the_mean_and_the_ends_of_the_search_are_told() {
+        let found =
+            |wanted: [f64; 2]| Maxwell::of_mean(&restitutions, &wanted, (0.1, 0.1)).unwrap();
+        let one = found([0.7, 0.9]);
+        // Means within 1e-6 are the same, and dτ = (1 + τ)² de.
+        assert!((one.time - 4.0).abs() < 1e-4 && one.beyond.is_none(), "{one:?}");
+        assert!(one.rms < 1e-6);
+        assert_eq!(found([1.0, 1.0]).beyond, Some(Beyond::Slower));
+        assert_eq!(found([0.0, 0.0]).beyond, Some(Beyond::Faster));
+    }
+
+    #[test]
+    fn a_collision_that_fails_is_told() {
+        let failed = || FitError::Collision { reason: "none".to_string() };
+        let never = |_: &[PronyTerm]| Err(failed());
+        assert_eq!(Maxwell::of_mean(&never, &[0.9], (0.1, 0.1)), Err(failed()));
+    }
 }

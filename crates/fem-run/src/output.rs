@@ -1,8 +1,9 @@
-//! The folder of a fit, an export or a cradle: `<name>.json`, by which it is known, and files beside.
+//! The folder of a fit, a calibration, an export or a cradle: `<name>.json`, by which it is known, and files beside.
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::json;
 
 use crate::failure::Failure;
 use crate::result_folder::ResultFolder;
@@ -66,7 +67,7 @@ impl Output {
         &mut self,
         name: &str,
         header: &[&str],
-        rows: impl IntoIterator<Item = Vec<Option<f64>>>,
+        rows: impl IntoIterator<Item = impl AsRef<[Option<f64>]>>,
     ) -> Result<(), Failure> {
         let failed = |error: &dyn std::fmt::Display| {
             Failure::failed(format!("{name} cannot be written: {error}"))
@@ -74,7 +75,8 @@ impl Output {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(header).map_err(|error| failed(&error))?;
         for row in rows {
-            let cells = row.iter().map(|value| value.map_or(String::new(), |v| format!("{v:?}")));
+            let cells =
+                row.as_ref().iter().map(|value| value.map_or(String::new(), |v| format!("{v:?}")));
             writer.write_record(cells).map_err(|error| failed(&error))?;
         }
         let bytes = writer.into_inner().map_err(|error| failed(&error))?;
@@ -85,7 +87,10 @@ impl Output {
     ///
     /// # Errors
     /// The file system.
-    pub fn publish(mut self, mut numbers: Value) -> Result<String, Failure> {
+    pub fn publish(mut self, numbers: &impl Serialize) -> Result<String, Failure> {
+        let mut numbers = serde_json::to_value(numbers).map_err(|error| {
+            Failure::failed(format!("{} cannot be written: {error}", self.mark))
+        })?;
         let mark = self.mark.clone();
         let mut files = vec![mark.clone()];
         files.extend(self.files.iter().cloned());

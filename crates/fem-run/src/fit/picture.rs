@@ -1,12 +1,12 @@
 //! `fit.svg`: data, curves and profile; `histories.svg`: what the fitted law does in time.
 
+use fem::laws::LawFit;
 use fem_case::Scene;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawImpact, Role};
 
-use super::fit_report::Fitted;
 use crate::engineering::Unit;
 
 /// Points of a curve.
@@ -15,10 +15,9 @@ const N: usize = 80;
 const RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
 /// e(v), and the rms error over the profiled parameter.
-pub fn fit_picture(fitted: &Fitted<'_>) -> String {
+pub fn fit_picture(fitted: &LawFit<'_>) -> String {
     let points = fitted.problem.points;
-    let speeds = || points.iter().map(|point| point.speed);
-    let (low, high) = (speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max));
+    let (low, high) = fitted.data.speeds();
     let (low, high) = if low < high { (low, high) } else { (low / 2.0, high * 2.0) };
     let unit = Unit::fitting(high, "m/s");
     let curve = |model: &Model, fit: &Fit| -> Vec<(f64, f64)> {
@@ -38,7 +37,7 @@ pub fn fit_picture(fitted: &Fitted<'_>) -> String {
     };
     let speed_axis = Axis::new(format!("approach speed [{}]", unit.symbol())).logarithmic();
     let mut chart = Chart::new(speed_axis, Axis::new("restitution"))
-        .with(Curve::line(label(model, fitted.fit), curve(model, fitted.fit)).like_curve(0));
+        .with(Curve::line(label(model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
     for ((model, fit), colour) in fitted.compared.iter().zip(&COLOURS[2..]) {
         chart = chart.with(Curve::dashed(label(model, fit), curve(model, fit)).coloured(colour));
     }
@@ -46,7 +45,7 @@ pub fn fit_picture(fitted: &Fitted<'_>) -> String {
     let errors = points.iter().filter_map(|point| point.restitution_uncertainty).collect();
     let mut charts =
         vec![chart.with(Curve::points("data", data).with_errors(errors).like_curve(1))];
-    if let Some(profile) = fitted.profile {
+    if let Some(profile) = &fitted.profile {
         let parameter = fitted.problem.parameter(profile.index);
         let points = profile.points.iter().map(|point| (point.value, point.rms)).collect();
         let best = vec![(fitted.fit.values[profile.index], fitted.fit.rms)];
