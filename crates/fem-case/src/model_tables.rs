@@ -236,7 +236,7 @@ macro_rules! law_tables {
                 (None, None)
             }
 
-            /// The same with `end` and `tolerance` in the law's own table.
+            /// This law with `end` and `tolerance` in its own table.
             #[must_use]
             pub fn filled(mut self, end: End, tolerance: f64) -> Self {
                 (self.end, self.tolerance) = (None, None);

@@ -63,11 +63,11 @@ pub struct BodyResult {
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// kg; a wall has none.
+    /// Mass without what scaling adds, kg; a wall has none.
     pub mass: Option<f64>,
     /// Added by mass scaling, kg.
     pub added_mass: Option<f64>,
-    /// Along +y, m/s.
+    /// Velocity of the mass centre along +y, m/s.
     pub velocity_after: Option<f64>,
     /// Energy left in its vibrations, J.
     pub vibration_energy: Option<f64>,

@@ -139,7 +139,7 @@ impl CondensedPair {
 pub struct ContactState {
     /// Since first touch, s.
     pub time: f64,
-    /// m.
+    /// Approach of the mass centres, m.
     pub approach: f64,
     /// Forces at the points, from the axis outward, N.
     pub forces: Vec<f64>,

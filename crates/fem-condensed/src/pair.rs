@@ -90,7 +90,7 @@ impl CondensedPair {
         })
     }
 
-    /// The same pair condensed out to a larger radius, m.
+    /// This pair condensed out to a larger radius, m.
     ///
     /// # Errors
     /// As [`CondensedPair::new`]; a radius that the smaller body's near hemisphere does not have.

@@ -44,10 +44,12 @@ pub(crate) struct Ledger {
     last_time: f64,
 }
 
-/// Kinetic energies and centre of one body.
+/// Kinetic energies, momentum and centre of one body.
 struct BodyBalance {
     kinetic: f64,
     vibration: f64,
+    /// At t_n − Δt/2, N s.
+    momentum: f64,
     velocity: f64,
     displacement: f64,
 }
@@ -127,7 +129,7 @@ impl Ledger {
             .with(Account::WallWork, self.wall_work(model, contact.force));
         let residual = energies.residual(self.initial);
         self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
-        self.balance_momentum(model, state);
+        self.balance_momentum(model, lower.momentum + upper.momentum);
 
         let history = state.contact_history(model);
         Row {
@@ -154,16 +156,15 @@ impl Ledger {
         }
     }
 
-    fn balance_momentum(&mut self, model: &Model, state: &State) {
-        let mut momentum: f64 = 0.0;
-        let mut expected = self.given_momentum;
-        for (side, (body, state)) in model.bodies().iter().zip(&state.bodies).enumerate() {
-            momentum += body.sum_mass(&state.velocity);
-            if body.mesh().is_none() {
-                expected += if side == 0 { self.impulse } else { -self.impulse };
-            }
-        }
-        let drift = (momentum - expected) / self.momentum_scale;
+    /// Balances the momentum of the spheres at t_n − Δt/2, N s.
+    fn balance_momentum(&mut self, model: &Model, momentum: f64) {
+        let [lower, upper] = model.bodies();
+        let from_wall = match (lower.mesh(), upper.mesh()) {
+            (None, _) => self.impulse,
+            (_, None) => -self.impulse,
+            _ => 0.0,
+        };
+        let drift = (momentum - (self.given_momentum + from_wall)) / self.momentum_scale;
         self.worst_momentum = worst(self.worst_momentum, drift);
     }
 }
@@ -179,24 +180,35 @@ fn balance_body(
     state: &BodyState,
     forces: &[[f64; 2]],
 ) -> BodyBalance {
-    let displacement = body.centre(&state.displacement);
-    let before = body.centre(&state.velocity);
     if body.mesh().is_none() {
-        return BodyBalance { kinetic: 0.0, vibration: 0.0, velocity: before, displacement };
+        return BodyBalance {
+            kinetic: 0.0,
+            vibration: 0.0,
+            momentum: 0.0,
+            velocity: state.velocity[0][1],
+            displacement: state.displacement[0][1],
+        };
     }
+    // All sums in one pass: each waits for its own last term, not for the others.
+    let (mut first_moment, mut momentum) = (-0.0, -0.0);
     let (mut twice_kinetic, mut total_force) = (0.0, 0.0);
-    for ((mass, v), f) in body.nodal_mass.iter().zip(&state.velocity).zip(forces) {
+    let motion = state.displacement.iter().zip(&state.velocity);
+    for ((mass, (u, v)), f) in body.nodal_mass.iter().zip(motion).zip(forces) {
+        first_moment += mass * u[1];
+        momentum += mass * v[1];
         twice_kinetic +=
             mass * (v[0] * v[0] + v[1] * v[1]) + time_step * (v[0] * f[0] + v[1] * f[1]);
         total_force += f[1];
     }
     let mass = body.total_mass();
+    let before = momentum / mass;
     let after = before + time_step * total_force / mass;
     BodyBalance {
         kinetic: 0.5 * twice_kinetic,
         vibration: 0.5 * (twice_kinetic - mass * before * after),
+        momentum,
         velocity: 0.5 * (before + after),
-        displacement,
+        displacement: first_moment / mass,
     }
 }
 

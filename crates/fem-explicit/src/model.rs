@@ -62,10 +62,10 @@ impl Model {
         Self::with_parts(inputs, approach, settings, Parts::default())
     }
 
-    /// The same with parts of the caller's.
+    /// As [`Model::new`] does, with parts of the caller's beside or in place of the settings' own.
     ///
     /// # Errors
-    /// As above; forces on a wall.
+    /// As [`Model::new`]; forces on a wall.
     pub fn with_parts(
         inputs: [BodyInput; 2],
         approach: Approach,
@@ -120,7 +120,7 @@ impl Model {
         &self.bodies
     }
 
-    /// Their contact.
+    /// The contact of the two bodies.
     pub fn contact(&self) -> &dyn Contact {
         self.contact.as_ref()
     }

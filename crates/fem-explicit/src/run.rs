@@ -46,7 +46,7 @@ pub fn collide(
 /// Whether a run goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// It does.
+    /// The run goes on.
     UnderWay,
     /// The bodies have separated: nothing more is to be computed.
     Separated,
@@ -99,7 +99,7 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// At first touch.
+    /// A run at first touch.
     pub fn new(model: &'a Model, expected: Expectation, want: &Want) -> Self {
         let memory = Memory::new(model, expected, want);
         Self { model, memory, scratch: Scratch::new(model) }

@@ -38,9 +38,9 @@ impl Measured {
 /// The apparatus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cradle {
-    /// g, m/s².
+    /// Acceleration of gravity g, m/s².
     pub gravity: Measured,
-    /// l, m.
+    /// Length l from the pivot to the centre of a ball, m.
     pub length: Measured,
     /// m₁ and m₂, in any unit.
     pub masses: [Measured; 2],
@@ -49,22 +49,22 @@ pub struct Cradle {
 /// One release: α and β, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
-    /// α, 0 < α ≤ π/2.
+    /// Angle of release α, 0 < α ≤ π/2.
     pub release: Measured,
-    /// β, 0 ≤ β ≤ π/2.
+    /// Angle of rise β of the second ball, 0 ≤ β ≤ π/2.
     pub rise: Measured,
 }
 
 /// Velocities along the first ball's motion, and e.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
-    /// u, m/s.
+    /// Velocity u of the first ball before, m/s.
     pub before: Measured,
-    /// v₁, m/s.
+    /// Velocity v₁ of the first ball after, m/s.
     pub first_after: Measured,
-    /// v₂, m/s.
+    /// Velocity v₂ of the second ball after, m/s.
     pub second_after: Measured,
-    /// e.
+    /// Restitution e.
     pub restitution: Measured,
     /// Shares of the variance of e that come from α, β, m₁, m₂; 0 if there is none.
     pub shares: [f64; 4],

@@ -106,7 +106,7 @@ const A: Parameter = parameter("a", "s", [0, 0, 1], Role::Damping);
 const N: Parameter = number("n", Some(0.5), (0.0, 3.0));
 
 impl Family {
-    /// All of them.
+    /// All families, the laws of the overlap first.
     pub const ALL: [Self; 13] = [
         Self::Linear,
         Self::Power,

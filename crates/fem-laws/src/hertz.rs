@@ -57,12 +57,12 @@ impl HertzImpact {
         &self.pair
     }
 
-    /// v, m/s.
+    /// Approach speed v, m/s.
     pub fn approach_speed(&self) -> f64 {
         self.approach_speed
     }
 
-    /// K, N/m^(3/2).
+    /// Stiffness K of Hertz' spring, N/m^(3/2).
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
@@ -72,7 +72,7 @@ impl HertzImpact {
         1.0
     }
 
-    /// T, s.
+    /// Contact time T, s.
     pub fn contact_time(&self) -> f64 {
         contact_time_coefficient() * (self.max_approach / self.approach_speed)
     }
@@ -82,7 +82,7 @@ impl HertzImpact {
         self.force(self.max_approach)
     }
 
-    /// δ_max, m.
+    /// Largest approach δ_max, m.
     pub fn max_approach(&self) -> f64 {
         self.max_approach
     }

@@ -22,7 +22,7 @@ use crate::impact::{Impact, ImpactInstant};
 pub struct HertzInstant {
     /// δ, m; negative before first touch and after separation.
     pub approach: f64,
-    /// δ̇, m/s.
+    /// Rate of the approach δ̇, m/s.
     pub approach_rate: f64,
     /// Contact force, N.
     pub force: f64,

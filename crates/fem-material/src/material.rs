@@ -39,7 +39,7 @@ impl Material {
         Self { relaxation: None, ..self.clone() }
     }
 
-    /// ρ, kg/m³.
+    /// Density ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density
     }
@@ -92,12 +92,12 @@ impl Material {
         self.instantaneous.shear_modulus() * weight
     }
 
-    /// c_d, m/s.
+    /// Speed of dilatational waves c_d, m/s.
     pub fn dilatational_wave_speed(&self) -> f64 {
         (self.instantaneous.p_wave_modulus() / self.density).sqrt()
     }
 
-    /// c_s, m/s.
+    /// Speed of shear waves c_s, m/s.
     pub fn shear_wave_speed(&self) -> f64 {
         (self.instantaneous.shear_modulus() / self.density).sqrt()
     }

@@ -32,22 +32,22 @@ impl Run {
         known(self.collision.contact_time)
     }
 
-    /// N.
+    /// Largest contact force, N.
     pub fn peak_force(&self) -> f64 {
         known(self.collision.peak_force)
     }
 
-    /// m.
+    /// Largest approach, m.
     pub fn max_approach(&self) -> f64 {
         known(self.collision.max_approach)
     }
 
-    /// m.
+    /// Largest contact radius, m.
     pub fn max_contact_radius(&self) -> f64 {
         known(self.collision.max_contact_radius)
     }
 
-    /// Pa.
+    /// Largest pressure on the axis, Pa.
     pub fn peak_pressure(&self) -> f64 {
         known(self.collision.peak_pressure)
     }

@@ -109,9 +109,9 @@ pub enum Cost {
         steps: u64,
         /// Elements times steps.
         element_updates: u64,
-        /// Bytes.
+        /// Memory of the run, bytes.
         memory: u64,
-        /// s.
+        /// Time step, s.
         time_step: f64,
         /// What it would be without mass scaling, s.
         plain_time_step: f64,
@@ -137,12 +137,12 @@ pub enum Cost {
 /// F = K ξ^γ + C ξⁿ ξ̇, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLaw {
-    /// K.
+    /// Stiffness K.
     pub stiffness: f64,
-    /// γ.
+    /// Exponent γ of the spring.
     pub elastic_exponent: f64,
-    /// C.
+    /// Damping C.
     pub damping: f64,
-    /// n.
+    /// Exponent n of the dashpot.
     pub damping_exponent: f64,
 }

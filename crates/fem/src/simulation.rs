@@ -55,7 +55,8 @@ impl Simulation {
         Self::sharing(case, &Shared::default())
     }
 
-    /// The same; what other cases have made already is taken from `shared`.
+    /// Builds the model that the case asks for; what other cases have made already is taken from
+    /// `shared`.
     ///
     /// # Errors
     /// As [`Simulation::new`].

@@ -14,7 +14,7 @@ pub struct SpectrumFit {
     pub weights: Vec<f64>,
     /// e of the best series.
     pub restitutions: Vec<f64>,
-    /// √(Σ (e − ê)²/N).
+    /// Root mean square error, √(Σ (e − ê)²/N).
     pub rms: f64,
     /// Error of a restitution that the intervals assume: the rms uncertainty; without
     /// uncertainties the scatter, or [`MODEL_ERROR`] if that is larger.

@@ -20,7 +20,7 @@ pub struct Range {
     pub value: f64,
     /// Least value that the data allow.
     pub low: f64,
-    /// Largest.
+    /// Largest value.
     pub high: f64,
 }
 

@@ -7,7 +7,7 @@ use super::power::{ContactLaw, power};
 use crate::error::LawError;
 use crate::pair::Pair;
 
-/// Of a pair.
+/// Hertz' law of a pair.
 ///
 /// # Errors
 /// A stiffness outside the range of f64.

@@ -14,7 +14,7 @@ use super::power::{ContactLaw, power};
 use crate::error::{LawError, positive, restitution as checked};
 use crate::pair::Pair;
 
-/// Of a pair and the restitution, in (0, 1], wanted at an approach speed, m/s.
+/// The law of a pair and the restitution, in (0, 1], wanted at an approach speed, m/s.
 ///
 /// # Errors
 /// A restitution outside (0, 1], a speed that is not positive and finite.

@@ -29,7 +29,7 @@ use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
 use crate::pair::Pair;
 
-/// Of a pair and its dissipation time A, s.
+/// The law of a pair and its dissipation time A, s.
 ///
 /// # Errors
 /// A negative or not finite.

@@ -22,7 +22,7 @@ use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative, restitution as checked};
 use crate::pair::Pair;
 
-/// Of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
+/// The law of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
 ///
 /// # Errors
 /// α negative or not finite.

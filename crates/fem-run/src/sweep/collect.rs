@@ -32,7 +32,7 @@ pub fn collect(
         let keys = sweep.axes.iter().map(|axis| axis.key.as_str());
         sweep_csv(&mut text, keys, &rows).map_err(|error| fault(SWEEP_FILE, &error))?;
         folder.write(SWEEP_FILE, &text).map_err(|error| fault(SWEEP_FILE, &error))?;
-        match picture(sweep, members, &rows, choice) {
+        match picture(sweep, &rows, choice) {
             Some(svg) => folder
                 .write(PICTURE_FILE, svg.as_bytes())
                 .map_err(|error| fault(PICTURE_FILE, &error))?,

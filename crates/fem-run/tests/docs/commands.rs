@@ -1,5 +1,6 @@
 //! Commands that the pages show are understood by the program, and what they read is there.
 
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::pages::{Page, root};
@@ -7,6 +8,20 @@ use crate::shell::{Shown, commands, words};
 
 /// The folders of the repository that commands read.
 const FOLDERS: [&str; 5] = ["cases/", "validation/", "meshes/", ".ci/", "crates/"];
+
+/// The source of the example or test that a command of cargo names.
+fn target(command: &Shown) -> Option<PathBuf> {
+    let behind = |flag: &str| {
+        let place = command.words.iter().position(|word| word == flag)?;
+        command.words.get(place + 1)
+    };
+    let package = root().join("crates").join(behind("-p")?);
+    match (behind("--example"), behind("--test")) {
+        (Some(name), _) => Some(package.join(format!("examples/{name}.rs"))),
+        (_, Some(name)) => Some(package.join(format!("tests/{name}/main.rs"))),
+        _ => Some(package),
+    }
+}
 
 /// What is wrong with a command; help is printed only once all that stands before it was understood.
 fn fault(command: &Shown) -> Option<String> {
@@ -20,6 +35,9 @@ fn fault(command: &Shown) -> Option<String> {
     });
     if let Some(path) = missing {
         return Some(format!("{}: there is no {path}", command.place));
+    }
+    if let Some(target) = target(command).filter(|target| !target.exists()) {
+        return Some(format!("{}: there is no {}", command.place, target.display()));
     }
     let arguments = command.arguments()?;
     let mut program = Command::new(env!("CARGO_BIN_EXE_fem-run"));

@@ -59,7 +59,7 @@ impl Restitutions {
         Ok(read_rows(table, scene, Wanted::default())?.0)
     }
 
-    /// The same, and contact times if the table has them.
+    /// Restitutions, and contact times if the table has them.
     ///
     /// # Errors
     /// As [`Restitutions::read`].

@@ -27,7 +27,7 @@ const CANDIDATE_GROWTH: f64 = 1.5;
 #[derive(Clone, Copy, Debug)]
 pub struct ExplicitMethod;
 
-/// The method.
+/// Explicit finite elements, as a method.
 pub const EXPLICIT: ExplicitMethod = ExplicitMethod;
 
 impl Method for ExplicitMethod {

@@ -15,7 +15,7 @@ use crate::refusal::Refusal;
 #[derive(Clone, Copy, Debug)]
 pub struct HertzMethod;
 
-/// The method.
+/// Hertz' closed form, as a method.
 pub const HERTZ: HertzMethod = HertzMethod;
 
 impl Method for HertzMethod {

@@ -15,7 +15,7 @@ use crate::refusal::Refusal;
 #[derive(Clone, Copy, Debug)]
 pub struct LawMethod;
 
-/// The method.
+/// Contact laws, as a method.
 pub const LAW: LawMethod = LawMethod;
 
 impl Method for LawMethod {

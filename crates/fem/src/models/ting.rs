@@ -14,7 +14,7 @@ use crate::refusal::Refusal;
 #[derive(Clone, Copy, Debug)]
 pub struct TingMethod;
 
-/// The method.
+/// Ting's half-spaces, as a method.
 pub const TING: TingMethod = TingMethod;
 
 impl Method for TingMethod {

@@ -30,7 +30,7 @@ impl Row {
         Self { index: member.index, values, identity: member.identity.clone(), summary }
     }
 
-    /// The same, of a summary as it comes out of a run.
+    /// A row of a summary as it comes out of a run.
     pub fn of<V: ToString>(
         member: &Member,
         values: impl IntoIterator<Item = V>,

@@ -23,7 +23,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         Self { members, shared, has_fields: true }
     }
 
-    /// The same without the fields that the members ask for; all else keeps its bits.
+    /// This runner without the fields that the members ask for; all else keeps its bits.
     #[must_use]
     pub fn without_fields(self) -> Self {
         Self { has_fields: false, ..self }

@@ -36,7 +36,7 @@ const BYTES_PER_ELEMENT: u64 = 8_000;
 #[derive(Clone, Copy, Debug)]
 pub struct CondensedMethod;
 
-/// The method.
+/// Finite elements condensed to their contact nodes, as a method.
 pub const CONDENSED: CondensedMethod = CondensedMethod;
 
 impl Method for CondensedMethod {
