@@ -104,7 +104,6 @@ const HOUSE: [(&str, &str, &[&str]); 15] = [
             "fem-figure",
             "fem-fit",
             "fem-laws",
-            "fem-material",
             "fem-mesh",
             "fem-validate",
             "fem-vtk",

@@ -102,14 +102,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn settings(arguments: &Arguments) -> Settings {
-    let acts_on = arguments.acts_on.as_deref().and_then(ActsOn::from_word);
     Settings {
         model: match arguments.model {
             ModelName::Condensed => CalibrationModel::Condensed,
             ModelName::Ting => CalibrationModel::Ting,
         },
         material: arguments.material.clone(),
-        acts_on: acts_on.map(Into::into),
+        acts_on: arguments.acts_on.as_deref().and_then(ActsOn::from_word),
         n_terms: usize::from(arguments.terms),
         times: arguments.times,
         regularisation: arguments.regularisation,

@@ -35,3 +35,5 @@ pub use numbers::{
 pub use settings::{CalibrationModel, SettingNames, Settings};
 pub use speed_span::SpeedDoubt;
 pub use target::Target;
+
+pub use fem_fit::spectrum::SpectrumFit;

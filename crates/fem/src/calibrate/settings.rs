@@ -1,6 +1,6 @@
 //! What is asked of a calibration.
 
-use fem_material::ActsOn;
+use fem_case::schema::ActsOn;
 
 /// What is asked of a calibration; what is `None` follows from the data or the case.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! The material that is calibrated.
 
-use fem_case::Case;
+use fem_case::{Case, schema};
 use fem_material::{ActsOn, PronySeries};
 
 use super::fault::CalibrationFault;
@@ -25,7 +25,7 @@ impl Target {
     pub fn of(
         case: &Case,
         name: Option<&str>,
-        acts_on: Option<ActsOn>,
+        acts_on: Option<schema::ActsOn>,
     ) -> Result<Self, CalibrationFault> {
         let own = |side: usize| case.file.body.get(side).and_then(|body| body.material.as_deref());
         let own = [own(0), own(1)];
@@ -44,7 +44,8 @@ impl Target {
         let sides = own.map(|own| own == Some(material));
         let bodies = case.scene.bodies.iter().zip(sides).filter(|(_, is_it)| *is_it);
         let series = bodies.filter_map(|(body, _)| body.material()?.relaxation()).next();
-        let acts_on = acts_on.or(series.map(PronySeries::acts_on)).unwrap_or(ActsOn::All);
+        let acts_on =
+            acts_on.map(ActsOn::from).or(series.map(PronySeries::acts_on)).unwrap_or(ActsOn::All);
         Ok(Self { material: material.to_string(), acts_on, sides })
     }
 }
@@ -74,7 +75,7 @@ mod tests {
     #[test]
     fn of_two_one_is_named() {
         let case = case("glass", "ice");
-        let target = Target::of(&case, Some("ice"), Some(ActsOn::Shear)).unwrap();
+        let target = Target::of(&case, Some("ice"), Some(schema::ActsOn::Shear)).unwrap();
         assert_eq!((target.sides, target.acts_on), ([false, true], ActsOn::Shear));
         let materials = vec!["glass".to_string(), "ice".to_string()];
         let refused = Target::of(&case, None, None);

@@ -47,9 +47,8 @@ pub fn family_of(scene: &Scene) -> Option<Family> {
 /// # material = 'ice'
 /// # approach_speed = 0.1";
 /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-/// use fem::laws::{ChosenLaw, LawFit};
+/// use fem::laws::{ChosenLaw, Family, LawFit};
 /// use fem::measured::Restitutions;
-/// use fem_laws::Family;
 ///
 /// let ice = Restitutions::of("ice", &[(0.05, 0.7), (0.1, 0.62), (0.2, 0.55), (0.4, 0.45)]);
 /// let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[("n", 0.65)], None)?;

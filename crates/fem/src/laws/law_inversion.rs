@@ -42,8 +42,7 @@ impl LawInversion {
     /// # material = 'ice'
     /// # approach_speed = 0.1";
     /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem::laws::{ChosenLaw, LawInversion};
-    /// use fem_laws::Family;
+    /// use fem::laws::{ChosenLaw, Family, LawInversion};
     ///
     /// let law = ChosenLaw::of(&case, Family::Tsuji, &[], None)?;
     /// let found = LawInversion::of(&law, None, 0.1, 0.9)?;

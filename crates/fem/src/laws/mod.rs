@@ -29,3 +29,6 @@ pub use law_fault::LawFault;
 pub use law_fit::LawFit;
 pub use law_inversion::{LawInversion, needs_more};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
+
+pub use fem_fit::FitError;
+pub use fem_laws::{EndRule, Family};

@@ -99,8 +99,7 @@ pub fn loss_parameter(family: Family) -> Result<usize, ParameterError> {
 /// No number, another dimension, a value without a meaning.
 ///
 /// ```
-/// use fem::laws::parse_value;
-/// use fem_laws::Family;
+/// use fem::laws::{Family, parse_value};
 ///
 /// let dissipation_time = &Family::KuwabaraKono.parameters()[0];
 /// assert_eq!(parse_value(dissipation_time, "0.2 ms")?, 2e-4);

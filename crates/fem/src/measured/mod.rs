@@ -36,3 +36,5 @@ pub use quantity::{Kind, NotMeasured, parse_measured};
 pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError};
 #[cfg(feature = "csv")]
 pub use table::Table;
+
+pub use fem_fit::Point;
