@@ -52,7 +52,7 @@ impl BodyTable {
         }
     }
 
-    /// The same, moving toward the other body.
+    /// This body, moving toward the other one.
     pub fn approaching(self, speed: impl Into<Quantity<Speed>>) -> Self {
         Self { approach_speed: Some(speed.into()), ..self }
     }
@@ -62,7 +62,7 @@ impl BodyTable {
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
 pub struct SphereTable {
-    /// > 0.
+    /// Diameter, > 0.
     pub diameter: Quantity<Length>,
     /// A mesh file instead of the built-in mesh; relative to the case file.
     #[serde(skip_serializing_if = "Option::is_none")]

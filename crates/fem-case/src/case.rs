@@ -23,7 +23,7 @@ pub struct Case {
     /// The case as written, overrides in it; title, approach speeds and the full paths of mesh
     /// files are filled in. The plan fills in the rest and prints it as the resolved case.
     pub file: CaseFile,
-    /// The same in SI units, validated.
+    /// The case in SI units, validated.
     pub scene: Scene,
     document: Document,
     defaults: Defaults,

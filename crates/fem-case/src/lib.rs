@@ -53,6 +53,7 @@ mod body_tables;
 mod case;
 mod document;
 mod empty_table;
+pub mod engineering;
 mod error;
 mod explain;
 mod key_path;

@@ -23,7 +23,7 @@ pub struct MaterialTable {
     /// Poisson's ratio ν, between −1 and 1/2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<Quantity<Number>>,
-    /// Absent: elastic.
+    /// A Prony series; absent: elastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<RelaxationTable>,
 }
@@ -55,7 +55,7 @@ impl MaterialTable {
         }
     }
 
-    /// The same with a Prony series in place of its own; its moduli are the instantaneous ones.
+    /// This material with a Prony series in place of its own; the moduli are instantaneous.
     pub fn relaxing(self, acts_on: ActsOn, terms: impl IntoIterator<Item = TermTable>) -> Self {
         let terms = terms.into_iter().collect();
         Self { relaxation: Some(RelaxationTable { acts_on, terms }), ..self }
@@ -93,6 +93,24 @@ keywords! {
     }
 }
 
+impl From<fem_material::ActsOn> for ActsOn {
+    fn from(acts_on: fem_material::ActsOn) -> Self {
+        match acts_on {
+            fem_material::ActsOn::All => Self::All,
+            fem_material::ActsOn::Shear => Self::Shear,
+        }
+    }
+}
+
+impl From<ActsOn> for fem_material::ActsOn {
+    fn from(acts_on: ActsOn) -> Self {
+        match acts_on {
+            ActsOn::All => Self::All,
+            ActsOn::Shear => Self::Shear,
+        }
+    }
+}
+
 /// A Prony term: its weight and exactly one of decay rate and relaxation time.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(
@@ -102,10 +120,10 @@ keywords! {
 pub struct TermTable {
     /// G_k/G_0, > 0; all weights together at most 1.
     pub weight: Quantity<Number>,
-    /// 1/τ_k, > 0.
+    /// Decay rate 1/τ_k, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub decay_rate: Option<Quantity<Rate>>,
-    /// τ_k, > 0.
+    /// Relaxation time τ_k, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation_time: Option<Quantity<Time>>,
 }

@@ -77,70 +77,70 @@ impl Default for CondensedOptions {
 pub enum Law {
     /// Spring and dashpot.
     Linear {
-        /// K, N/m.
+        /// Stiffness K, N/m.
         stiffness: f64,
-        /// C, N s/m.
+        /// Damping C, N s/m.
         damping: f64,
     },
-    /// The same by what comes out.
+    /// Spring and dashpot by what is to come out.
     LinearFromRestitution {
-        /// e.
+        /// Restitution e.
         restitution: f64,
-        /// T, s.
+        /// Contact time T, s.
         contact_time: f64,
     },
     /// F = K ξ^γ + C ξⁿ ξ̇.
     Power {
-        /// K, N/m^γ.
+        /// Stiffness K, N/m^γ.
         stiffness: f64,
-        /// γ.
+        /// Exponent γ of the spring.
         elastic_exponent: f64,
-        /// C, N s/m^(n+1).
+        /// Damping C, N s/m^(n+1).
         damping: f64,
-        /// n.
+        /// Exponent n of the dashpot.
         damping_exponent: f64,
     },
-    /// Hertz.
+    /// Hertz' spring without damping.
     Hertz,
-    /// By A.
+    /// Kelvin's damping by the dissipation time A.
     KuwabaraKono(Dissipation),
-    /// By the restitution at a speed.
+    /// Damping in proportion to the spring, by the restitution at a speed.
     HuntCrossley {
-        /// e.
+        /// Restitution e.
         restitution: f64,
         /// m/s; the case's approach speed if none.
         speed: Option<f64>,
     },
-    /// By e or α.
+    /// Damping that makes restitution independent of speed, by e or α.
     Tsuji(Dashpot),
-    /// By e or α.
+    /// Tsuji's, ended at zero force, by e or α.
     ZhangWhiten(Dashpot),
-    /// By its dashpot.
+    /// Hertz' spring with the damping C ξ^(1/4) ξ̇.
     Falcon {
-        /// C, N s/m^(5/4).
+        /// Damping C, N s/m^(5/4).
         damping: f64,
     },
-    /// Spring and dashpot.
+    /// F = K ξ^(8/5) + C ξ^(4/5) ξ̇.
     MishraMurty {
-        /// K, N/m^(8/5).
+        /// Stiffness K, N/m^(8/5).
         stiffness: f64,
-        /// C, N s/m^(9/5).
+        /// Damping C, N s/m^(9/5).
         damping: f64,
     },
-    /// By C_n.
+    /// Kelvin's damping by the normal damping C_n.
     SchwagerPoeschel(Dissipation),
-    /// By viscoelastic coefficients.
+    /// Damping of the spring's own form, by viscoelastic coefficients.
     MorgadoOppenheim {
-        /// η₁, Pa s.
+        /// Coefficient η₁ in place of E, Pa s.
         eta_1: f64,
-        /// η₂.
+        /// Coefficient η₂ in place of ν.
         eta_2: f64,
     },
-    /// By A and n.
+    /// Hertz' spring with the damping 2 A E* R*^(1−n) ξⁿ ξ̇.
     BordbarHyppanen {
-        /// A, s.
+        /// Dissipation time A, s.
         dissipation_time: f64,
-        /// n.
+        /// Exponent n of the dashpot.
         damping_exponent: f64,
     },
 }
@@ -148,13 +148,13 @@ pub enum Law {
 /// Where a dissipation time comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dissipation {
-    /// Given, s.
+    /// The dissipation time A itself, s.
     Time(f64),
     /// From viscosities.
     Viscosities {
-        /// η₁, Pa s.
+        /// Viscosity η₁ in shear, Pa s.
         shear: f64,
-        /// η₂, Pa s.
+        /// Viscosity η₂ in compression, Pa s.
         bulk: f64,
     },
     /// From the relaxation of the materials.

@@ -1,5 +1,6 @@
 //! `[model]` as written: which model computes the collision, and its keys.
 
+use fem_laws::EndRule;
 use serde::{Deserialize, Serialize};
 
 use crate::empty_table::EmptyTable;
@@ -142,6 +143,24 @@ keywords! {
     }
 }
 
+impl From<EndRule> for End {
+    fn from(rule: EndRule) -> Self {
+        match rule {
+            EndRule::ZeroForce => Self::ZeroForce,
+            EndRule::ZeroOverlap => Self::ZeroOverlap,
+        }
+    }
+}
+
+impl From<End> for EndRule {
+    fn from(end: End) -> Self {
+        match end {
+            End::ZeroForce => Self::ZeroForce,
+            End::ZeroOverlap => Self::ZeroOverlap,
+        }
+    }
+}
+
 /// One table a law, `end` and `tolerance` in each, and the table `law` around them.
 macro_rules! law_tables {
     ($(
@@ -217,7 +236,7 @@ macro_rules! law_tables {
                 (None, None)
             }
 
-            /// The same with `end` and `tolerance` in the law's own table.
+            /// This law with `end` and `tolerance` in its own table.
             #[must_use]
             pub fn filled(mut self, end: End, tolerance: f64) -> Self {
                 (self.end, self.tolerance) = (None, None);

@@ -103,7 +103,7 @@ impl Body {
 pub enum Shape {
     /// A solid sphere.
     Sphere {
-        /// m, > 0.
+        /// Diameter, m, > 0.
         diameter: f64,
         /// A mesh file instead of the built-in mesh.
         mesh: Option<PathBuf>,
@@ -143,6 +143,6 @@ pub struct Limits {
     pub elements: Option<u64>,
     /// Elements times steps.
     pub element_updates: Option<u64>,
-    /// Bytes.
+    /// Memory of the run, bytes.
     pub memory: Option<u64>,
 }

@@ -75,13 +75,13 @@ impl CaseFile {
         Self { body: vec![first, second], ..Self::default() }
     }
 
-    /// The same with `[material.NAME]`, in place of one of that name.
+    /// This case with `[material.NAME]`, in place of one of that name.
     pub fn with_material(mut self, name: impl Into<String>, material: MaterialTable) -> Self {
         self.material.insert(name.into(), material);
         self
     }
 
-    /// The same, computed by this model.
+    /// This case, computed by this model.
     pub fn with_model(self, model: impl Into<ModelTable>) -> Self {
         Self { model: Some(model.into()), ..self }
     }
@@ -165,7 +165,7 @@ keywords! {
 }
 
 impl SnapshotsValue {
-    /// None.
+    /// No instant: nothing is drawn.
     pub fn none() -> Self {
         Self::List(Vec::new())
     }
@@ -175,7 +175,7 @@ impl SnapshotsValue {
         Self::List(labels.into_iter().map(|label| label.word().into()).collect())
     }
 
-    /// These times.
+    /// The instants at these times since the start of the case.
     pub fn times<T: Into<Quantity<Time>>>(times: impl IntoIterator<Item = T>) -> Self {
         Self::List(times.into_iter().map(T::into).collect())
     }

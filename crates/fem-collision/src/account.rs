@@ -75,11 +75,17 @@ impl Book {
         *entry = Some(entry.map_or(energy, |there| there + energy));
     }
 
-    /// The same book with this energy (J) in an account beside what is there.
+    /// This book with an energy (J) put into an account beside what is there.
     #[must_use]
     pub fn with(mut self, account: Account, energy: f64) -> Self {
         self.add(account, energy);
         self
+    }
+
+    /// This book with what is in another one beside what is there.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        other.entries().fold(self, |book, (account, energy)| book.with(account, energy))
     }
 
     /// What is in an account; `None` of one that nobody fills.

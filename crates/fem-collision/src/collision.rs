@@ -2,7 +2,7 @@
 
 use crate::ending::Ending;
 use crate::row::Row;
-use crate::snapshot::Snapshot;
+use crate::snapshot::{Label, Snapshot};
 use crate::stop::Stop;
 
 /// What is said of a restitution of 0.
@@ -63,11 +63,11 @@ pub struct BodyResult {
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// kg; a wall has none.
+    /// Mass without what scaling adds, kg; a wall has none.
     pub mass: Option<f64>,
     /// Added by mass scaling, kg.
     pub added_mass: Option<f64>,
-    /// Along +y, m/s.
+    /// Velocity of the mass centre along +y, m/s.
     pub velocity_after: Option<f64>,
     /// Energy left in its vibrations, J.
     pub vibration_energy: Option<f64>,
@@ -117,6 +117,11 @@ impl Collision {
     /// Whether the caller ended it.
     pub fn is_interrupted(&self) -> bool {
         matches!(self.stop(), Some(Stop::Interrupted { .. }))
+    }
+
+    /// The fields at a named instant, if they were asked for and it came.
+    pub fn snapshot(&self, label: Label) -> Option<&Snapshot> {
+        self.snapshots.iter().find(|snapshot| snapshot.label == Some(label))
     }
 
     /// Whether the contact outgrew the region in which it is looked for, and how large that is, m.

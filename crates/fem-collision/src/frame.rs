@@ -14,14 +14,14 @@ use crate::approach::Approach;
 pub struct Frame {
     /// How they meet.
     pub approach: Approach,
-    /// kg; a wall has none.
+    /// Masses of the lower and the upper body, kg; a wall has none.
     pub masses: [Option<f64>; 2],
     /// m₁m₂/(m₁+m₂), kg.
     pub reduced_mass: f64,
 }
 
 impl Frame {
-    /// v, m/s.
+    /// Relative speed of approach v, m/s.
     pub fn speed(&self) -> f64 {
         self.approach.speed()
     }

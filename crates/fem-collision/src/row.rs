@@ -9,17 +9,17 @@ use crate::account::{Account, Book};
 pub struct Row {
     /// Since the start of the case, s.
     pub time: f64,
-    /// ≥ 0, N.
+    /// Contact force, ≥ 0, N.
     pub contact_force: f64,
     /// Where the contact pressure falls to zero, m.
     pub contact_radius: Option<f64>,
     /// Decrease of the distance of the mass centres since first touch, m.
     pub approach: f64,
-    /// On the axis, Pa.
+    /// Contact pressure on the axis, Pa.
     pub centre_pressure: Option<f64>,
     /// Of the mass centres along +y, m/s.
     pub velocity: [f64; 2],
-    /// Energies, J.
+    /// What is in each account of energy, J.
     pub energies: Book,
     /// What the energies do not account for, J.
     pub residual: Option<f64>,

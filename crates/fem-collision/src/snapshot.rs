@@ -43,7 +43,7 @@ pub enum SnapshotRequest {
 }
 
 impl SnapshotRequest {
-    /// None at all.
+    /// No snapshot at all.
     pub fn none() -> Self {
         Self::Labels(Vec::new())
     }
@@ -68,7 +68,7 @@ pub struct Snapshot {
     pub label: Option<Label>,
     /// Time since the start of the case, s.
     pub time: f64,
-    /// Approach, m.
+    /// Approach of the mass centres, m.
     pub approach: f64,
     /// Lower and upper body.
     pub bodies: [BodyFields; 2],

@@ -9,9 +9,9 @@ pub enum Stop {
     /// The caller asked for it.
     #[error("interrupted at {time:.4e} s (step {step})")]
     Interrupted {
-        /// s.
+        /// Since the start of the case, s.
         time: f64,
-        /// Step number.
+        /// Number of the step.
         step: u64,
     },
     /// The contact grew out of the part of the boundary in which it is looked for.
@@ -20,9 +20,9 @@ pub enum Stop {
          the end of the region in which it is looked for"
     )]
     ContactBeyondCandidates {
-        /// s.
+        /// Since the start of the case, s.
         time: f64,
-        /// Step number.
+        /// Number of the step.
         step: u64,
         /// Candidate radius, m.
         radius: f64,
@@ -42,9 +42,9 @@ pub enum Stop {
          the time integration is unstable"
     )]
     EnergyGrowth {
-        /// s.
+        /// Since the start of the case, s.
         time: f64,
-        /// Step number.
+        /// Number of the step.
         step: u64,
         /// Total energy over initial energy.
         ratio: f64,
@@ -52,7 +52,7 @@ pub enum Stop {
     /// Energy came from nowhere or went there.
     #[error("at {time:.4e} s the energy does not add up by {relative:.1e} of the initial")]
     EnergyImbalance {
-        /// s.
+        /// Since the start of the case, s.
         time: f64,
         /// Imbalance over the initial energy.
         relative: f64,
@@ -60,15 +60,15 @@ pub enum Stop {
     /// The bodies stayed together too long.
     #[error("at {time:.4e} s (step {step}) the bodies have not separated")]
     NoSeparation {
-        /// s.
+        /// Since the start of the case, s.
         time: f64,
-        /// Step number.
+        /// Number of the step.
         step: u64,
     },
     /// The contact problem of a step has no solution within reach.
     #[error("at {time:.4e} s no contact state without tension and overlap was found")]
     NoContactState {
-        /// s.
+        /// Since the start of the case, s.
         time: f64,
     },
     /// What the model is made of cannot be made for this collision.
@@ -86,7 +86,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// The same so much later, s: of a run that counts its time from another instant.
+    /// This stop so much later, s: of a run that counts its time from another instant.
     #[must_use]
     pub fn later_by(mut self, delay: f64) -> Self {
         match &mut self {

@@ -39,7 +39,7 @@ impl Want {
 /// What to expect of a collision, from closed forms.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Expectation {
-    /// s.
+    /// First to last contact force, s.
     pub contact_time: f64,
     /// Largest approach, m.
     pub approach: f64,

@@ -20,9 +20,9 @@ use faer::{ColRef, Mat};
 use fem_material::Material;
 use fem_mesh::{Side, SphereMesh, lump_mass};
 
-use crate::CondensedError;
 use crate::assembly::Assembly;
 use crate::dense::{cholesky, invert_lower};
+use crate::error::CondensedError;
 use crate::factor::Factor;
 use crate::numbering::{FIXED, Numbering};
 

@@ -3,7 +3,7 @@
 use fem_collision::{Collision, Ending, Frame, Monitor, Phase, SnapshotRequest, Stop, Want};
 use fem_material::PronySeries;
 
-use crate::CondensedError;
+use crate::error::CondensedError;
 use crate::motion::Motion;
 use crate::pair::CondensedPair;
 use crate::run::Run;
@@ -139,7 +139,7 @@ impl CondensedPair {
 pub struct ContactState {
     /// Since first touch, s.
     pub time: f64,
-    /// m.
+    /// Approach of the mass centres, m.
     pub approach: f64,
     /// Forces at the points, from the axis outward, N.
     pub forces: Vec<f64>,

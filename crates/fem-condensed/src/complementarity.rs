@@ -8,10 +8,16 @@
 use faer::Mat;
 
 use crate::dense::cholesky;
-use crate::disc::{NoState, ROUNDING};
+
+/// Overlap or tension that is rounding, relative to the largest overlap or force.
+pub(crate) const ROUNDING: f64 = 1e-11;
 
 /// Rounds without progress before single pivots begin.
 const PATIENCE: usize = 8;
+
+/// No state without tension and overlap was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NoState;
 
 /// Forces p ≥ 0 (N) with E p − b ≥ 0 and no force on an open point. `forces` gives the first guess
 /// of the closed points.

@@ -27,11 +27,11 @@ pub(crate) struct ElasticCurve {
 /// An elastic, quasi-static collision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElasticImpact {
-    /// s.
+    /// Contact time, s.
     pub contact_time: f64,
-    /// m.
+    /// Largest approach, m.
     pub max_approach: f64,
-    /// N.
+    /// Largest force, N.
     pub peak_force: f64,
     /// Points in contact at the largest approach.
     pub n_closed: usize,

@@ -13,10 +13,7 @@
 
 use faer::Mat;
 
-use crate::complementarity;
-
-/// Overlap or tension that is rounding, relative to the largest overlap or force.
-pub(crate) const ROUNDING: f64 = 1e-11;
+use crate::complementarity::{self, NoState, ROUNDING};
 
 /// A contact problem with its factor, which grows with the contact.
 #[derive(Debug, Clone)]
@@ -40,10 +37,6 @@ pub(crate) struct Disc {
     /// Gap at the next point, m.
     pub gap: f64,
 }
-
-/// No state without tension and overlap was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct NoState;
 
 impl DiscSolver {
     /// Of a symmetric positive definite compliance, m/N.

@@ -16,7 +16,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::{Accum, Mat, MatMut, Par, Side, Spec, dyn_stack};
 
-use crate::CondensedError;
+use crate::error::CondensedError;
 
 /// Factor of a matrix that is given in the order of elimination.
 #[derive(Debug)]

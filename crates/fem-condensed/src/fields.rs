@@ -12,7 +12,7 @@ use faer::{Mat, Par};
 use fem_collision::{BodyFields, Frame, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
-use crate::CondensedError;
+use crate::error::CondensedError;
 use crate::instants::{Instant, Trace, choose};
 use crate::motion::{Motion, SideState};
 use crate::pair::CondensedPair;

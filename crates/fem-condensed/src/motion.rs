@@ -13,9 +13,9 @@
 use fem_collision::Stop;
 use fem_material::{ActsOn, PronySeries};
 
-use crate::CondensedError;
 use crate::chain::{BETA, Chain, Memory};
 use crate::disc::{Disc, DiscSolver};
+use crate::error::CondensedError;
 use crate::pair::CondensedPair;
 use crate::side::PairSide;
 

@@ -12,7 +12,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 use fem_mesh::SphereMesh;
 
-use crate::CondensedError;
+use crate::error::CondensedError;
 
 /// Marks a degree of freedom that does not move.
 pub(crate) const FIXED: u32 = u32::MAX;

@@ -5,8 +5,8 @@ use fem_collision::{Approach, BodyInput, BodyResult, Frame, Stop};
 use fem_contact::{ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
-use crate::CondensedError;
 use crate::curve::{ElasticCurve, ElasticImpact};
+use crate::error::CondensedError;
 use crate::points::Points;
 use crate::settings::PairSettings;
 use crate::side::{PairSide, PressureNode, pressure_nodes};
@@ -90,7 +90,7 @@ impl CondensedPair {
         })
     }
 
-    /// The same pair condensed out to a larger radius, m.
+    /// This pair condensed out to a larger radius, m.
     ///
     /// # Errors
     /// As [`CondensedPair::new`]; a radius that the smaller body's near hemisphere does not have.

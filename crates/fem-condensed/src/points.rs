@@ -3,7 +3,7 @@
 use faer::Mat;
 use fem_contact::{ContactInterface, ContactPoint, NodalContact, Surface};
 
-use crate::CondensedError;
+use crate::error::CondensedError;
 use crate::settings::{ContactModel, PairSettings};
 
 /// For each contact point the contact nodes that carry it, numbered outward, and their shares.

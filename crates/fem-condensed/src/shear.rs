@@ -21,9 +21,9 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 
-use crate::CondensedError;
 use crate::body::CondensedBody;
 use crate::dense::symmetric_eigen;
+use crate::error::CondensedError;
 
 /// Directions with less than this share of a block's energy are left out.
 const NEGLIGIBLE: f64 = 1e-10;

@@ -8,8 +8,8 @@ use fem_contact::ContactPoint;
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
-use crate::CondensedError;
 use crate::body::CondensedBody;
+use crate::error::CondensedError;
 use crate::points::{Feet, gather};
 use crate::shear::ShearSprings;
 use crate::vibration::Vibrations;

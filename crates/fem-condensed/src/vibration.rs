@@ -7,9 +7,9 @@
 
 use faer::Mat;
 
-use crate::CondensedError;
 use crate::body::CondensedBody;
 use crate::dense::symmetric_eigen;
+use crate::error::CondensedError;
 
 /// Lanczos vectors a mode: enough for the frequencies of the modes kept to settle to 1e-6.
 const VECTORS_PER_MODE: usize = 3;

@@ -1,7 +1,7 @@
 //! Contact forces of a configuration.
 
-use crate::ContactInterface;
-use crate::interface::Foot;
+use crate::interface::ContactInterface;
+use crate::surface::Foot;
 
 /// What the contact does in one configuration.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -2,16 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::{ContactError, Surface};
-
-/// One body's end of a contact point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot {
-    /// Nodes at the inner and the outer end of the segment.
-    pub nodes: [u32; 2],
-    /// Their shape functions at the point; they sum to 1.
-    pub shape: [f64; 2],
-}
+use crate::error::ContactError;
+use crate::surface::{Foot, Surface};
 
 /// A point at which the bodies can touch.
 #[derive(Debug, Clone, Copy, PartialEq)]

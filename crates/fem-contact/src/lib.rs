@@ -30,7 +30,7 @@ mod surface;
 
 pub use error::ContactError;
 pub use evaluate::ContactForces;
-pub use interface::{ContactInterface, ContactPoint, Foot};
+pub use interface::{ContactInterface, ContactPoint};
 pub use nodal::NodalContact;
 pub use pressure::centre_pressure;
-pub use surface::Surface;
+pub use surface::{Foot, Surface};

@@ -19,7 +19,9 @@ use std::f64::consts::PI;
 
 use fem_mesh::segment_measures;
 
-use crate::{ContactError, ContactPoint, Surface};
+use crate::error::ContactError;
+use crate::interface::ContactPoint;
+use crate::surface::Surface;
 
 /// Points at the nodes of one of two surfaces.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! Contact radius and pressure, recovered from a configuration.
 
-use crate::ContactInterface;
+use crate::interface::ContactInterface;
 
 /// Share of the contact radius over which the pressure on the axis is fitted.
 const FIT_RADIUS: f64 = 0.8;

@@ -2,7 +2,14 @@
 
 use fem_mesh::SphereMesh;
 
-use crate::interface::Foot;
+/// One body's end of a contact point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot {
+    /// Nodes at the inner and the outer end of the segment.
+    pub nodes: [u32; 2],
+    /// Their shape functions at the point; they sum to 1.
+    pub shape: [f64; 2],
+}
 
 /// The touching side of a body.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Full 2 × 2 integration with mean dilatation (B-bar, Hughes 1980).
 
-use crate::geometry::quadrature;
-use crate::{ElementMatrix, ElementStiffness, QuadGeometry};
+use crate::geometry::{QuadGeometry, QuadraturePoint, quadrature};
+use crate::stiffness::{ElementMatrix, ElementStiffness};
 
 /// Element matrices of the B-bar element: the dilatation is the element's mean,
 /// the deviatoric strain is integrated with 2 × 2 Gauss points.
@@ -24,7 +24,7 @@ pub fn b_bar(corners: &[[f64; 2]; 4]) -> ElementStiffness {
 }
 
 /// Strain at a point due to a unit displacement of degree of freedom i.
-fn unit_strain(p: &crate::geometry::QuadraturePoint, i: usize) -> [f64; 4] {
+fn unit_strain(p: &QuadraturePoint, i: usize) -> [f64; 4] {
     let a = i / 2;
     if i.is_multiple_of(2) {
         [p.gradient_r[a], 0.0, p.shape[a] / p.radius, p.gradient_y[a]]

@@ -1,6 +1,6 @@
 //! Largest eigenvalue of an element.
 
-use crate::ElementMatrix;
+use crate::stiffness::ElementMatrix;
 
 /// Largest λ of K x = λ M x with M the lumped corner masses (kg), in 1/s².
 ///

@@ -15,30 +15,10 @@ mod b_bar;
 mod eigenvalue;
 mod geometry;
 mod mean_gradient;
-
-use nalgebra::SMatrix;
+mod stiffness;
 
 pub use b_bar::b_bar;
 pub use eigenvalue::largest_eigenvalue;
 pub use geometry::QuadGeometry;
 pub use mean_gradient::mean_gradient;
-
-/// Matrix of an element, 8 × 8.
-pub type ElementMatrix = SMatrix<f64, 8, 8>;
-
-/// Stiffness of an element for unit moduli, in m: the stiffness is
-/// `bulk_modulus * bulk + shear_modulus * deviatoric`, in N/m.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ElementStiffness {
-    /// For unit bulk modulus.
-    pub bulk: ElementMatrix,
-    /// For unit shear modulus, hourglass stiffness included.
-    pub deviatoric: ElementMatrix,
-}
-
-impl ElementStiffness {
-    /// Stiffness for the given moduli (Pa), N/m.
-    pub fn combine(&self, bulk_modulus: f64, shear_modulus: f64) -> ElementMatrix {
-        self.bulk * bulk_modulus + self.deviatoric * shear_modulus
-    }
-}
+pub use stiffness::{ElementMatrix, ElementStiffness};

@@ -10,7 +10,8 @@
 
 use nalgebra::SVector;
 
-use crate::{ElementMatrix, ElementStiffness, QuadGeometry};
+use crate::geometry::QuadGeometry;
+use crate::stiffness::{ElementMatrix, ElementStiffness};
 
 impl QuadGeometry {
     /// Mean dilatation of unit displacements, 1/m.

@@ -1,40 +1,24 @@
 //! One body as the solver sees it: constant over a run.
 
+use std::sync::Arc;
+
 use fem_collision::{BodyFields, StressField};
-use fem_material::{ActsOn, Material, RelaxationStep};
+use fem_material::Material;
 use fem_mesh::SphereMesh;
 
-use crate::block::Blocks;
-use crate::kernel::{Field, Moduli, strain_energy};
+use crate::forces::NodeForce;
+use crate::lumped::LumpedSphere;
+use crate::part::{Accounts, Field, Motion, NodalField, Placed};
+use crate::stress::Stress;
 
-/// One Prony term at the run's time step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Branch {
-    pub weight: f64,
-    pub relaxation_time: f64,
-    /// Factor of the branch over a step.
-    pub decay: f64,
-    /// Share of a step's displacement increment.
-    pub gain: f64,
-}
-
-/// How a body's stress depends on its past. Linear viscoelasticity needs one
-/// nodal vector q a term: q̇ + q/τ = u̇, stepped exactly for constant rate. The
-/// deviatoric stress sees w = g∞ u + Σ g_k q_k; the bulk stress sees w too, or u.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Relaxation {
-    pub acts_on: ActsOn,
-    pub equilibrium_weight: f64,
-    pub branches: Vec<Branch>,
-}
-
-/// A body, constant over a run. A wall is a body of one node without elements
-/// and with infinite mass.
+/// A body, constant over a run. A wall is a body of one node without parts and with infinite mass.
 #[derive(Debug, Clone)]
 pub struct Body {
-    pub(crate) blocks: Blocks,
-    pub(crate) moduli: Moduli,
-    pub(crate) relaxation: Option<Relaxation>,
+    /// A wall has none.
+    pub(crate) stress: Option<Placed<dyn Stress>>,
+    pub(crate) node_forces: Vec<Placed<dyn NodeForce>>,
+    /// Fields of history of all its parts.
+    n_history: usize,
     /// Lumped masses, mass scaling included, kg.
     pub(crate) nodal_mass: Vec<f64>,
     /// Inverse masses of (r, y); 0 for what cannot move.
@@ -50,9 +34,9 @@ impl Body {
     /// A wall.
     pub(crate) fn wall(velocity: f64) -> Self {
         Self {
-            blocks: Blocks::none(),
-            moduli: Moduli { bulk: 0.0, shear: 0.0 },
-            relaxation: None,
+            stress: None,
+            node_forces: Vec::new(),
+            n_history: 0,
             nodal_mass: vec![0.0],
             inverse_mass: vec![[0.0; 2]],
             velocity,
@@ -65,53 +49,53 @@ impl Body {
 
     /// A sphere whose nodes carry `nodal_mass` (kg), `added_mass` of it by mass
     /// scaling, at the given time step (s).
-    pub(crate) fn deformable(
-        mesh: SphereMesh,
-        material: &Material,
+    pub(crate) fn of_sphere(
+        sphere: LumpedSphere,
         velocity: f64,
         nodal_mass: Vec<f64>,
         added_mass: f64,
         time_step: f64,
     ) -> Self {
+        let LumpedSphere { mesh, material, mut stress, node_forces, .. } = sphere;
         let mut inverse_mass: Vec<_> = nodal_mass.iter().map(|m| [m.recip(); 2]).collect();
         for &node in mesh.axis() {
             inverse_mass[node as usize][0] = 0.0;
         }
-        let moduli = Moduli {
-            bulk: material.instantaneous().bulk_modulus(),
-            shear: material.instantaneous().shear_modulus(),
+        let mut n_history = 0;
+        stress.set_time_step(time_step);
+        let stress = Some(Placed::behind(&mut n_history, Arc::from(stress)));
+        let place = |mut force: Box<dyn NodeForce>| {
+            force.set_time_step(time_step);
+            Placed::behind(&mut n_history, Arc::from(force))
         };
-        let relaxation = material.relaxation().map(|series| Relaxation {
-            acts_on: series.acts_on(),
-            equilibrium_weight: series.equilibrium_weight(),
-            branches: series
-                .terms()
-                .iter()
-                .filter(|term| term.weight > 0.0)
-                .map(|term| {
-                    let step = RelaxationStep::new(term.relaxation_time, time_step);
-                    Branch {
-                        weight: term.weight,
-                        relaxation_time: term.relaxation_time,
-                        decay: step.decay,
-                        gain: step.gain,
-                    }
-                })
-                .collect(),
-        });
+        let node_forces = node_forces.into_iter().map(place).collect();
         let mass = nodal_mass.iter().sum::<f64>() - added_mass;
         Self {
-            blocks: Blocks::pack(&mesh),
-            moduli,
-            relaxation: relaxation.filter(|r| !r.branches.is_empty()),
+            stress,
+            node_forces,
+            n_history,
             nodal_mass,
             inverse_mass,
             velocity,
             mesh: Some(mesh),
-            material: Some(material.clone()),
+            material: Some(material),
             mass,
             added_mass,
         }
+    }
+
+    /// Adds the forces on its nodes beside stress and contact; their sum along +y, N.
+    pub(crate) fn add_node_forces(
+        &self,
+        motion: &Motion<'_>,
+        history: &[NodalField],
+        forces: &mut Field,
+    ) -> f64 {
+        let mut resultant = 0.0;
+        for force in &self.node_forces {
+            resultant += force.part.add_forces(motion, force.of(history), forces);
+        }
+        resultant
     }
 
     /// Its mesh; a wall has none.
@@ -157,9 +141,10 @@ impl Body {
         self.mesh.as_ref().map_or(0, |mesh| mesh.nodes().len())
     }
 
-    /// Number of Prony branches whose history is kept.
-    pub fn n_branches(&self) -> usize {
-        self.relaxation.as_ref().map_or(0, |relaxation| relaxation.branches.len())
+    /// Number of nodal fields of history that its parts keep: none of an elastic body, one and one
+    /// for each Prony term of a relaxing body.
+    pub fn n_history(&self) -> usize {
+        self.n_history
     }
 
     /// Mass with mass scaling, kg.
@@ -180,33 +165,23 @@ impl Body {
         self.nodal_mass.iter().zip(field).map(|(m, x)| m * x[1]).sum()
     }
 
-    /// Strain energy (J) and dissipated power (W) of displacement `u` and branch
-    /// displacements `q`.
-    ///
-    /// A branch of weight g stores ½ q·gK q and dissipates q·gK q / τ; the rest
-    /// of the stiffness stores ½ u·K u.
-    pub(crate) fn stored_and_dissipated(&self, u: &Field, q: &[Vec<[f64; 2]>]) -> (f64, f64) {
-        let Some(relaxation) = &self.relaxation else {
-            return (strain_energy(&self.blocks, self.moduli, u), 0.0);
-        };
-        let Moduli { bulk, shear } = self.moduli;
-        let (relaxing_bulk, lasting_bulk) = match relaxation.acts_on {
-            ActsOn::All => (bulk, relaxation.equilibrium_weight * bulk),
-            ActsOn::Shear => (0.0, bulk),
-        };
-        let lasting = Moduli { bulk: lasting_bulk, shear: relaxation.equilibrium_weight * shear };
-        let mut stored = 0.0;
-        if lasting.bulk != 0.0 || lasting.shear != 0.0 {
-            stored += strain_energy(&self.blocks, lasting, u);
+    /// Which field of its history is the effective displacement of relaxing stress.
+    pub(crate) fn effective(&self) -> Option<usize> {
+        self.stress.as_ref().and_then(|stress| Some(stress.fields.start + stress.part.effective()?))
+    }
+
+    /// Adds what its parts store, give and dissipate.
+    pub(crate) fn add_energies(
+        &self,
+        motion: &Motion<'_>,
+        history: &[NodalField],
+        accounts: &mut Accounts,
+    ) {
+        if let Some(stress) = &self.stress {
+            stress.part.add_energies(motion, stress.of(history), accounts);
         }
-        let mut power = 0.0;
-        for (branch, q) in relaxation.branches.iter().zip(q) {
-            let moduli =
-                Moduli { bulk: branch.weight * relaxing_bulk, shear: branch.weight * shear };
-            let energy = strain_energy(&self.blocks, moduli, q);
-            stored += energy;
-            power += 2.0 * energy / branch.relaxation_time;
+        for force in &self.node_forces {
+            force.part.add_energies(motion, force.of(history), accounts);
         }
-        (stored, power)
     }
 }

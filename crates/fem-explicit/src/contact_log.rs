@@ -4,6 +4,7 @@ use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
+use crate::state::{Scratch, State};
 
 /// The run goes on for this share of the contact time after the last contact.
 pub(crate) const FLIGHT_AFTER: f64 = 0.2;
@@ -11,7 +12,7 @@ pub(crate) const FLIGHT_AFTER: f64 = 0.2;
 /// Relative motion of the mass centres, first and last contact, and the extremes on the way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ContactLog {
-    /// Integrated from the contact force, m.
+    /// Integrated from the forces, m.
     pub approach: f64,
     /// Its rate over the last half step, m/s.
     pub approach_rate: f64,
@@ -32,10 +33,19 @@ pub(crate) struct ContactLog {
 
 impl ContactLog {
     /// At first touch.
-    pub fn new(model: &Model) -> Self {
+    pub fn new(model: &Model, state: &State) -> Self {
+        let [lower, upper] = [0, 1].map(|side: usize| {
+            let body = &model.bodies()[side];
+            if body.node_forces.is_empty() {
+                body.velocity
+            } else {
+                // Half a step before first touch the forces had done less.
+                body.centre(&state.bodies[side].velocity)
+            }
+        });
         Self {
             approach: 0.0,
-            approach_rate: model.approach().speed(),
+            approach_rate: lower - upper,
             first_contact: None,
             last_contact: None,
             episodes: 0,
@@ -60,11 +70,16 @@ impl ContactLog {
         self.max_approach = self.max_approach.max(self.approach);
     }
 
-    /// Relative motion of the mass centres over a step under its force.
-    pub fn advance(&mut self, model: &Model) {
+    /// Relative motion of the mass centres over a step under its forces.
+    pub fn advance(&mut self, model: &Model, scratch: &Scratch) {
         let time_step = model.time_step();
-        let inverse_mass: f64 = model.bodies().iter().map(|body| body.total_mass().recip()).sum();
-        self.approach_rate -= time_step * self.force * inverse_mass;
+        self.approach_rate -= time_step * self.force * model.inverse_mass;
+        for (side, body) in model.bodies().iter().enumerate() {
+            if !body.node_forces.is_empty() {
+                let change = time_step * scratch.resultants[side] / body.total_mass();
+                self.approach_rate += if side == 0 { change } else { -change };
+            }
+        }
         self.approach += time_step * self.approach_rate;
     }
 

@@ -22,6 +22,9 @@ pub enum ModelError {
     /// The bodies do not approach each other.
     #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
     NotApproaching(f64),
+    /// A wall keeps its velocity, whatever acts on it.
+    #[error("a force acts on the nodes of a wall, which keeps its velocity")]
+    ForceOnWall,
     /// A run is to go on from the memory of another.
     #[error(
         "the memory is of a run of another model: its sizes, approach, time step or region of contact \

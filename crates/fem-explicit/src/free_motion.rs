@@ -3,17 +3,17 @@
 //! The body moves by the step of a collision, M ü = −f(u), central differences at a step that is
 //! stable for it alone, without mass scaling.
 
+use fem_collision::{BodyFields, Side, StressField};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
 use crate::body::Body;
 use crate::error::ModelError;
+use crate::lumped::LumpedSphere;
 use crate::model::check_step_factor;
-
+use crate::part::Accounts;
 use crate::state::BodyState;
-use crate::step::{advance_body, update_internal_forces};
-use crate::time_step::NodalBound;
-use fem_collision::{BodyFields, StressField};
+use crate::step::{advance_nodes, advance_parts, update_internal_forces};
 
 /// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
 ///
@@ -64,10 +64,11 @@ impl FreeMotion {
         step_factor: f64,
     ) -> Result<Self, ModelError> {
         check_step_factor(step_factor)?;
-        let bound = NodalBound::of_sphere(&mesh, material);
-        let time_step = step_factor * bound.critical_time_step();
-        let body = Body::deformable(mesh, material, 0.0, bound.mass, 0.0, time_step);
-        let state = BodyState::in_flight(&body, 0.0);
+        let sphere = LumpedSphere::new(mesh, material.clone(), Vec::new());
+        let time_step = step_factor * sphere.bound.critical_time_step();
+        let nodal_mass = sphere.bound.mass.clone();
+        let body = Body::of_sphere(sphere, 0.0, nodal_mass, 0.0, time_step);
+        let state = BodyState::in_flight(&body, 0, 0.0);
         let forces = vec![[0.0; 2]; body.n_nodes()];
         Ok(Self { body, time_step, n_steps: 0, state, forces })
     }
@@ -89,35 +90,41 @@ impl FreeMotion {
 
     /// Gives every node the velocity (r, y), m/s, of its place (r, y), m.
     pub fn set_velocity(&mut self, velocity: impl Fn([f64; 2]) -> [f64; 2]) {
-        self.state.v = self.at_nodes(velocity);
+        self.state.velocity = self.at_nodes(velocity);
     }
 
     /// Gives every node the displacement (r, y), m, of its place (r, y), m, in no time: nothing
     /// of it has relaxed.
     pub fn set_displacement(&mut self, displacement: impl Fn([f64; 2]) -> [f64; 2]) {
-        self.state.u = self.at_nodes(displacement);
-        for branch in &mut self.state.q {
-            branch.clone_from(&self.state.u);
+        self.state.displacement = self.at_nodes(displacement);
+        let BodyState { displacement, history, .. } = &mut self.state;
+        if let Some(stress) = &self.body.stress {
+            stress.part.start_deformed(displacement, stress.of_mut(history));
         }
-        self.state.update_effective(&self.body);
-        update_internal_forces(&self.body, &self.state, &mut self.forces);
+        self.update_forces();
     }
 
     /// Moves the body by a time step.
     pub fn step(&mut self) {
-        advance_body(&self.body, self.time_step, &mut self.state, &self.forces);
+        advance_nodes(&self.body, self.time_step, &mut self.state, &self.forces);
         self.n_steps += 1;
-        update_internal_forces(&self.body, &self.state, &mut self.forces);
+        advance_parts(&self.body, self.time(), &mut self.state);
+        self.update_forces();
+    }
+
+    fn update_forces(&mut self) {
+        let motion = self.state.motion(&self.body, self.time());
+        update_internal_forces(&self.body, &motion, &self.state.history, &mut self.forces);
     }
 
     /// Displacements (r, y) of the nodes, m.
     pub fn displacement(&self) -> &[[f64; 2]] {
-        &self.state.u
+        &self.state.displacement
     }
 
     /// Velocities (r, y) of the nodes half a step ago, m/s.
     pub fn velocity(&self) -> &[[f64; 2]] {
-        &self.state.v
+        &self.state.velocity
     }
 
     /// Forces (r, y) with which the deformed body pulls its nodes back, −f(u), N.
@@ -130,22 +137,26 @@ impl FreeMotion {
     pub fn energy(&self) -> f64 {
         let inverse_mass = self.body.inverse_mass.as_flattened();
         let forces = self.forces.as_flattened();
-        let twice_kinetic: f64 = (self.state.v.as_flattened().iter().enumerate())
+        let twice_kinetic: f64 = (self.state.velocity.as_flattened().iter().enumerate())
             .map(|(k, v)| {
                 let next = v + self.time_step * (inverse_mass[k] * forces[k]);
                 self.body.nodal_mass[k / 2] * v * next
             })
             .sum();
-        let (stored, _) = self.body.stored_and_dissipated(&self.state.u, &self.state.q);
-        0.5 * twice_kinetic + stored
+        let mut accounts = Accounts::default();
+        let motion = self.state.motion(&self.body, self.time());
+        self.body.add_energies(&motion, &self.state.history, &mut accounts);
+        let held = accounts.energies.entries().filter(|(account, _)| account.side() == Side::Held);
+        0.5 * twice_kinetic + held.map(|(_, energy)| energy).sum::<f64>()
     }
 
     /// Stress of the deformed body.
     pub fn stress(&self) -> StressField {
+        let effective = self.body.effective().map(|field| self.state.history[field].clone());
         let fields = BodyFields {
-            displacement: self.state.u.clone(),
+            displacement: self.state.displacement.clone(),
             velocity: Vec::new(),
-            effective: self.state.w.clone(),
+            effective: effective.unwrap_or_default(),
         };
         self.body.stress(&fields)
     }

@@ -7,17 +7,18 @@
 //! E_n = \tfrac12 v_{n-1/2} \cdot M v_{n+1/2} + \tfrac12 u_n \cdot K u_n ,
 //! ```
 //!
-//! so that is the form in which kinetic energy is reported. Strain energy,
-//! contact energy and dissipation are evaluated from the state; what does not
-//! add up is the residual, which can fail. Dissipated power is integrated by the
-//! trapezoidal rule over the rows of the history.
+//! so that is the form in which kinetic energy is reported. What the bodies store,
+//! are given and dissipate, their parts tell of the state; what does not add up is
+//! the residual, which can fail. Powers are integrated by the trapezoidal rule over
+//! the rows of the history.
 
-use fem_collision::{Account, Book, Losses, Row};
+use fem_collision::{Account, Losses, Row};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::model::Model;
+use crate::part::Accounts;
 use crate::state::{BodyState, Scratch, State};
 
 /// Running sums and worst imbalances.
@@ -32,7 +33,9 @@ pub(crate) struct Ledger {
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
-    initial_momentum: f64,
+    /// What the spheres have had at first and been given since by forces on their nodes, up to
+    /// t_n − Δt/2, N s.
+    given_momentum: f64,
     momentum_scale: f64,
     /// ∫ F dt up to t_n − Δt/2, N s.
     impulse: f64,
@@ -41,20 +44,33 @@ pub(crate) struct Ledger {
     last_time: f64,
 }
 
-/// Kinetic energies and centre of one body.
+/// Kinetic energies, momentum and centre of one body.
 struct BodyBalance {
     kinetic: f64,
     vibration: f64,
+    /// At t_n − Δt/2, N s.
+    momentum: f64,
     velocity: f64,
     displacement: f64,
 }
 
 impl Ledger {
-    pub fn new(model: &Model) -> Self {
+    /// At first touch.
+    pub fn new(model: &Model, state: &State) -> Self {
         let moving = || model.bodies().iter().filter(|body| body.mesh().is_some());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
         let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
         let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
+        let momentum_before = |(body, state): (&Body, &BodyState)| {
+            if body.node_forces.is_empty() {
+                body.total_mass() * body.velocity
+            } else {
+                // Half a step before first touch the forces had done less.
+                body.sum_mass(&state.velocity)
+            }
+        };
+        let states = model.bodies().iter().zip(&state.bodies);
+        let spheres = states.filter(|(body, _)| body.mesh().is_some());
         // A wall can bring all of the motion to a body at rest.
         let momentum_of_approach = sum(&Body::total_mass) * model.approach().speed();
         Self {
@@ -62,7 +78,7 @@ impl Ledger {
             initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
             worst_momentum: 0.0,
-            initial_momentum: sum(&|body| body.total_mass() * body.velocity),
+            given_momentum: spheres.map(momentum_before).sum(),
             momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
             impulse: 0.0,
             losses: Losses::default(),
@@ -70,9 +86,14 @@ impl Ledger {
         }
     }
 
-    /// Counts the impulse of the step from t_n to t_n+1.
-    pub fn count_step(&mut self, model: &Model, force: f64) {
+    /// Counts the impulses of the step from t_n to t_n+1, whose forces are in `scratch`.
+    pub fn count_step(&mut self, model: &Model, scratch: &Scratch, force: f64) {
         self.impulse += model.time_step() * force;
+        for (body, resultant) in model.bodies().iter().zip(scratch.resultants) {
+            if !body.node_forces.is_empty() {
+                self.given_momentum += model.time_step() * resultant;
+            }
+        }
     }
 
     /// Balances the state at t_n, whose forces are in `scratch`.
@@ -92,36 +113,31 @@ impl Ledger {
                 &scratch.forces[side],
             )
         });
-        let (mut strain, mut power) = (0.0, 0.0);
-        for (body, state) in bodies.iter().zip(&state.bodies) {
-            let (stored, dissipated) = body.stored_and_dissipated(&state.u, &state.q);
-            strain += stored;
-            power += dissipated;
+        let motions = state.motions(model);
+        let mut accounts = Accounts::default();
+        for (side, body) in bodies.iter().enumerate() {
+            body.add_energies(&motions[side], &state.bodies[side].history, &mut accounts);
         }
-        self.losses.advance(
-            state.time - self.last_time,
-            Book::EMPTY.with(Account::ViscousDissipation, power),
-        );
+        self.losses.advance(state.time - self.last_time, accounts.powers);
         self.last_time = state.time;
 
-        let energies = self
-            .losses
-            .energies()
+        let energies = accounts
+            .energies
+            .and(&self.losses.energies())
             .with(Account::Kinetic, lower.kinetic + upper.kinetic)
-            .with(Account::Strain, strain)
             .with(Account::Contact, contact.energy)
             .with(Account::WallWork, self.wall_work(model, contact.force));
         let residual = energies.residual(self.initial);
         self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
-        self.balance_momentum(model, state);
+        self.balance_momentum(model, lower.momentum + upper.momentum);
 
-        let u = [state.bodies[0].u.as_slice(), state.bodies[1].u.as_slice()];
+        let history = state.contact_history(model);
         Row {
             time: state.time,
             contact_force: contact.force,
-            contact_radius: Some(model.interface().contact_radius(u)),
+            contact_radius: Some(model.contact().contact_radius(&motions, history)),
             approach: lower.displacement - upper.displacement - model.approach().gap,
-            centre_pressure: Some(model.interface().centre_pressure(u)),
+            centre_pressure: Some(model.contact().centre_pressure(&motions, history)),
             velocity: [lower.velocity, upper.velocity],
             energies,
             residual: Some(residual),
@@ -140,16 +156,15 @@ impl Ledger {
         }
     }
 
-    fn balance_momentum(&mut self, model: &Model, state: &State) {
-        let mut momentum: f64 = 0.0;
-        let mut expected = self.initial_momentum;
-        for (side, (body, state)) in model.bodies().iter().zip(&state.bodies).enumerate() {
-            momentum += body.sum_mass(&state.v);
-            if body.mesh().is_none() {
-                expected += if side == 0 { self.impulse } else { -self.impulse };
-            }
-        }
-        let drift = (momentum - expected) / self.momentum_scale;
+    /// Balances the momentum of the spheres at t_n − Δt/2, N s.
+    fn balance_momentum(&mut self, model: &Model, momentum: f64) {
+        let [lower, upper] = model.bodies();
+        let from_wall = match (lower.mesh(), upper.mesh()) {
+            (None, _) => self.impulse,
+            (_, None) => -self.impulse,
+            _ => 0.0,
+        };
+        let drift = (momentum - (self.given_momentum + from_wall)) / self.momentum_scale;
         self.worst_momentum = worst(self.worst_momentum, drift);
     }
 }
@@ -165,24 +180,35 @@ fn balance_body(
     state: &BodyState,
     forces: &[[f64; 2]],
 ) -> BodyBalance {
-    let displacement = body.centre(&state.u);
-    let before = body.centre(&state.v);
     if body.mesh().is_none() {
-        return BodyBalance { kinetic: 0.0, vibration: 0.0, velocity: before, displacement };
+        return BodyBalance {
+            kinetic: 0.0,
+            vibration: 0.0,
+            momentum: 0.0,
+            velocity: state.velocity[0][1],
+            displacement: state.displacement[0][1],
+        };
     }
+    // All sums in one pass: each waits for its own last term, not for the others.
+    let (mut first_moment, mut momentum) = (-0.0, -0.0);
     let (mut twice_kinetic, mut total_force) = (0.0, 0.0);
-    for ((mass, v), f) in body.nodal_mass.iter().zip(&state.v).zip(forces) {
+    let motion = state.displacement.iter().zip(&state.velocity);
+    for ((mass, (u, v)), f) in body.nodal_mass.iter().zip(motion).zip(forces) {
+        first_moment += mass * u[1];
+        momentum += mass * v[1];
         twice_kinetic +=
             mass * (v[0] * v[0] + v[1] * v[1]) + time_step * (v[0] * f[0] + v[1] * f[1]);
         total_force += f[1];
     }
     let mass = body.total_mass();
+    let before = momentum / mass;
     let after = before + time_step * total_force / mass;
     BodyBalance {
         kinetic: 0.5 * twice_kinetic,
         vibration: 0.5 * (twice_kinetic - mass * before * after),
+        momentum,
         velocity: 0.5 * (before + after),
-        displacement,
+        displacement: first_moment / mass,
     }
 }
 

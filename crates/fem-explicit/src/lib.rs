@@ -1,37 +1,62 @@
 //! Explicit dynamics of two small-strain viscoelastic bodies in contact.
 //!
 //! ```math
-//! M \ddot u = -\int B^T (K_{bulk} + G\,dev)\, d V + f_{contact}
+//! M \ddot u = -\int B^T (K_{bulk} + G\,dev)\, d V + f_{nodes} + f_{contact}
 //! ```
 //!
-//! Strains of a glass collision are of the order of 1 %, so the bodies are
-//! linear: geometry is computed once, and a step touches only nodal vectors.
-//! Elements are axisymmetric quads with one mean stress and hourglass stiffness
-//! ([`fem_element`]), masses are lumped, time is stepped by central differences
-//! at a step that is proved stable for bodies and contact alike ([`Model`]).
-//! Viscoelastic bodies keep one nodal vector a Prony term.
+//! Strains of a glass collision are of the order of 1 %, so the bodies are linear: geometry is
+//! computed once, and a step touches only nodal vectors. Elements are axisymmetric quads with one
+//! mean stress and hourglass stiffness ([`fem_element`]), masses are lumped, time is stepped by
+//! central differences at a step that is proved stable for bodies and contact alike ([`Model`]).
 //!
-//! [`collide`] runs a [`Model`] from first touch until the bodies have separated
-//! and returns a [`Collision`](fem_collision::Collision): history with energy
-//! ledger, snapshots, and the quantities of the collision. [`FreeMotion`] is one
-//! body without contact.
+//! What acts on the nodes are parts behind three ports, chosen once, when the model is built:
+//!
+//! ```text
+//! a step                     Stress                NodeForce             Contact
+//!                            of each body          list of each body     of both bodies
+//!                            elastic               (empty)               penalty springs
+//!                            constant_poisson
+//!                            relaxing_shear
+//!
+//! update forces              subtract_forces       add_forces            add_forces
+//! observe: log, ledger,      add_energies          add_energies          contact_radius,
+//!   history, recorder        effective                                   centre_pressure,
+//!                                                                        is_closed_next
+//! advance: nodes (leapfrog)
+//!   what contact remembers                                               advance
+//!   what parts remember      advance               advance
+//!
+//! when the model is built    largest_eigenvalue    add_stiffness_bound   add_stiffness_bound
+//!                            set_time_step         set_time_step         set_time_step
+//! ```
+//!
+//! A part declares the nodal fields of history that it needs; the run keeps them beside displacement
+//! and velocity, in a [`Memory`] that is all of a restart. A part tells what it stores, gives and
+//! dissipates to [`Accounts`], which the ledger balances. What is off is absent: an elastic body has
+//! no history, an empty list costs nothing.
+//!
+//! [`collide`] runs a [`Model`] from first touch until the bodies have separated and returns a
+//! [`Collision`](fem_collision::Collision): history with energy ledger, snapshots, and the quantities
+//! of the collision; [`Run`] is the same in steps. [`FreeMotion`] is one body without contact.
 
-mod block;
 mod body;
+mod contact;
 mod contact_log;
 mod error;
+mod forces;
 mod free_motion;
-mod kernel;
-mod lanes;
 mod ledger;
+mod lumped;
 mod memory;
 mod model;
-mod nodes;
+mod motion;
+mod part;
 mod recorder;
 mod run;
 mod snapshot;
 mod state;
 mod step;
+mod stress;
 #[cfg(test)]
 mod test_support;
 #[cfg(test)]
@@ -39,9 +64,13 @@ mod tests;
 mod time_step;
 
 pub use body::Body;
+pub use contact::Contact;
 pub use error::ModelError;
+pub use forces::NodeForce;
 pub use free_motion::FreeMotion;
 pub use memory::Memory;
-pub use model::{Model, Settings};
+pub use model::{Model, Parts, Settings};
+pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, Status, collide};
 pub use snapshot::n_states;
+pub use stress::Stress;

@@ -33,17 +33,18 @@ impl Memory {
     /// Of a run that has not begun.
     pub(crate) fn new(model: &Model, expected: Expectation, want: &Want) -> Self {
         let expected_steps = expected.contact_time / model.time_step();
+        let state = State::at_first_touch(model);
         Self {
-            state: State::at_first_touch(model),
-            log: ContactLog::new(model),
-            ledger: Ledger::new(model),
+            log: ContactLog::new(model, &state),
+            ledger: Ledger::new(model, &state),
+            state,
             history: History::new(want.history_rows, expected_steps),
             recorder: Recorder::new(&want.snapshots, model, expected),
             expected,
             max_time: want.give_up_after * expected.contact_time,
             approach: *model.approach(),
             time_step: model.time_step(),
-            candidate_radius: model.interface().candidate_radius(),
+            candidate_radius: model.candidate_radius(),
         }
     }
 
@@ -62,12 +63,12 @@ impl Memory {
         self.candidate_radius
     }
 
-    /// Whether it can be of a run of this model: fields of its sizes, its approach, its time step, its
-    /// region of contact. Moduli and relaxation times it does not know.
+    /// Whether it can be of a run of this model: fields of its sizes, its approach, its time step,
+    /// its region of contact. Moduli and relaxation times it does not know.
     pub(crate) fn fits(&self, model: &Model) -> bool {
         self.approach == *model.approach()
             && self.time_step.to_bits() == model.time_step().to_bits()
-            && self.candidate_radius.to_bits() == model.interface().candidate_radius().to_bits()
-            && self.state.bodies.iter().zip(model.bodies()).all(|(state, body)| state.fits(body))
+            && self.candidate_radius.to_bits() == model.candidate_radius().to_bits()
+            && self.state.fits(model)
     }
 }

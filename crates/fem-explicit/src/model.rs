@@ -1,10 +1,16 @@
 //! The whole problem, constant over a run.
 
+use std::any::Any;
+use std::sync::Arc;
+
 use fem_collision::{Approach, BodyInput};
-use fem_contact::{ContactInterface, Surface};
+use fem_contact::{ContactError, ContactInterface, Surface};
 
 use crate::body::Body;
+use crate::contact::Contact;
 use crate::error::ModelError;
+use crate::forces::NodeForce;
+use crate::lumped::LumpedSphere;
 use crate::time_step::NodalBound;
 
 /// Numerical settings of a model.
@@ -20,14 +26,27 @@ pub struct Settings {
     pub mass_scaling: f64,
 }
 
+/// Parts of a model beyond what its bodies and settings ask for by themselves: none by default.
+///
+/// The stress of a body follows from its material, the contact from the settings.
+#[derive(Debug, Default)]
+pub struct Parts {
+    /// Forces on the nodes of the lower and of the upper body, in the order in which they add up.
+    pub node_forces: [Vec<Box<dyn NodeForce>>; 2],
+    /// Instead of the penalty contact.
+    pub contact: Option<Box<dyn Contact>>,
+}
+
 /// Two bodies, their contact and the time step. The first body lies below.
 #[derive(Debug, Clone)]
 pub struct Model {
     bodies: [Body; 2],
-    interface: ContactInterface,
+    contact: Arc<dyn Contact>,
     time_step: f64,
     plain_time_step: f64,
     approach: Approach,
+    /// Σ 1/m of both bodies with mass scaling, 1/kg.
+    pub(crate) inverse_mass: f64,
 }
 
 impl Model {
@@ -40,46 +59,56 @@ impl Model {
         approach: Approach,
         settings: &Settings,
     ) -> Result<Self, ModelError> {
+        Self::with_parts(inputs, approach, settings, Parts::default())
+    }
+
+    /// As [`Model::new`] does, with parts of the caller's beside or in place of the settings' own.
+    ///
+    /// # Errors
+    /// As [`Model::new`]; forces on a wall.
+    pub fn with_parts(
+        inputs: [BodyInput; 2],
+        approach: Approach,
+        settings: &Settings,
+        parts: Parts,
+    ) -> Result<Self, ModelError> {
         check(settings, approach.gap)?;
         let approach_speed = approach.speed();
         if !(approach_speed > 0.0 && approach_speed.is_finite()) {
             return Err(ModelError::NotApproaching(approach_speed));
         }
-        let [lower, upper] = inputs
-            .each_ref()
-            .map(|input| input.mesh().map_or_else(Surface::wall, Surface::of_sphere));
-        let interface = ContactInterface::new(
-            lower,
-            upper,
-            settings.contact_stiffness,
-            approach.gap,
-            settings.candidate_radius,
-        )?;
-        let bounds: [Option<NodalBound>; 2] = std::array::from_fn(|side| match &inputs[side] {
-            BodyInput::Sphere { mesh, material } => {
-                let mut bound = NodalBound::of_sphere(mesh, material);
-                interface.add_stiffness_bound(side, &mut bound.stiffness);
-                Some(bound)
+        let mut contact = match parts.contact {
+            Some(contact) => contact,
+            None => Box::new(penalty(&inputs, approach.gap, settings)?),
+        };
+        let [lower, upper] = inputs;
+        let [forces_on_lower, forces_on_upper] = parts.node_forces;
+        let mut spheres = [lump(lower, forces_on_lower)?, lump(upper, forces_on_upper)?];
+        for (side, sphere) in spheres.iter_mut().enumerate() {
+            if let Some(sphere) = sphere {
+                contact.add_stiffness_bound(side, &mut sphere.bound.stiffness);
             }
-            BodyInput::Wall => None,
-        });
+        }
         let smallest = |step: &dyn Fn(&NodalBound) -> f64| {
-            bounds.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
+            let steps = spheres.iter().flatten().map(|sphere| step(&sphere.bound));
+            steps.fold(f64::INFINITY, f64::min)
         };
         let plain = smallest(&NodalBound::critical_time_step);
         let critical = smallest(&|bound| bound.scaled_time_step(settings.mass_scaling));
         let time_step = settings.step_factor * critical;
-        let mut parts = inputs.into_iter().zip(bounds);
-        let bodies = approach.velocities.map(|velocity| match parts.next() {
-            Some((BodyInput::Sphere { mesh, material }, Some(bound))) => {
-                let (nodal_mass, added_mass) = bound.scale_mass(critical);
-                Body::deformable(mesh, &material, velocity, nodal_mass, added_mass, time_step)
+        contact.set_time_step(time_step);
+        let mut spheres = spheres.into_iter();
+        let bodies = approach.velocities.map(|velocity| match spheres.next().flatten() {
+            Some(sphere) => {
+                let (nodal_mass, added_mass) = sphere.bound.scale_mass(critical);
+                Body::of_sphere(sphere, velocity, nodal_mass, added_mass, time_step)
             }
-            _ => Body::wall(velocity),
+            None => Body::wall(velocity),
         });
         Ok(Self {
+            inverse_mass: bodies.iter().map(|body: &Body| body.total_mass().recip()).sum(),
             bodies,
-            interface,
+            contact: Arc::from(contact),
             time_step,
             plain_time_step: settings.step_factor * plain,
             approach,
@@ -91,9 +120,19 @@ impl Model {
         &self.bodies
     }
 
-    /// Their contact.
-    pub fn interface(&self) -> &ContactInterface {
-        &self.interface
+    /// The contact of the two bodies.
+    pub fn contact(&self) -> &dyn Contact {
+        self.contact.as_ref()
+    }
+
+    /// Their contact where it is the penalty interface.
+    pub fn interface(&self) -> Option<&ContactInterface> {
+        (self.contact() as &dyn Any).downcast_ref()
+    }
+
+    /// Radius out to which contact is looked for, m.
+    pub fn candidate_radius(&self) -> f64 {
+        self.contact.candidate_radius()
     }
 
     /// Time step, s.
@@ -114,6 +153,32 @@ impl Model {
     /// Number of elements of both bodies.
     pub fn n_elements(&self) -> usize {
         self.bodies.iter().map(Body::n_elements).sum()
+    }
+}
+
+/// The penalty contact that settings ask for.
+fn penalty(
+    inputs: &[BodyInput; 2],
+    gap: f64,
+    settings: &Settings,
+) -> Result<ContactInterface, ContactError> {
+    let [lower, upper] =
+        inputs.each_ref().map(|input| input.mesh().map_or_else(Surface::wall, Surface::of_sphere));
+    let &Settings { contact_stiffness, candidate_radius, .. } = settings;
+    ContactInterface::new(lower, upper, contact_stiffness, gap, candidate_radius)
+}
+
+/// A sphere with its parts and masses; `None` for a wall.
+fn lump(
+    input: BodyInput,
+    node_forces: Vec<Box<dyn NodeForce>>,
+) -> Result<Option<LumpedSphere>, ModelError> {
+    match input {
+        BodyInput::Sphere { mesh, material } => {
+            Ok(Some(LumpedSphere::new(mesh, material, node_forces)))
+        }
+        BodyInput::Wall if node_forces.is_empty() => Ok(None),
+        BodyInput::Wall => Err(ModelError::ForceOnWall),
     }
 }
 

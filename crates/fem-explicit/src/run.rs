@@ -46,7 +46,7 @@ pub fn collide(
 /// Whether a run goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// It does.
+    /// The run goes on.
     UnderWay,
     /// The bodies have separated: nothing more is to be computed.
     Separated,
@@ -99,7 +99,7 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// At first touch.
+    /// A run at first touch.
     pub fn new(model: &'a Model, expected: Expectation, want: &Want) -> Self {
         let memory = Memory::new(model, expected, want);
         Self { model, memory, scratch: Scratch::new(model) }
@@ -189,14 +189,14 @@ impl<'a> Run<'a> {
             // A run that blows up throws its nodes about: that is not a large contact.
             let row = ledger.balance(self.model, state, &self.scratch, &contact);
             check_energy(&row, ledger.initial_relative, step)?;
-            let radius = self.model.interface().candidate_radius();
+            let radius = self.model.candidate_radius();
             return Err(Stop::ContactBeyondCandidates { time, step, radius });
         }
         if time - self.model.approach().first_touch() > *max_time {
             return Err(Stop::NoSeparation { time, step });
         }
-        ledger.count_step(self.model, contact.force);
-        log.advance(self.model);
+        ledger.count_step(self.model, &self.scratch, contact.force);
+        log.advance(self.model, &self.scratch);
         advance(self.model, state, &self.scratch);
         Ok(Status::UnderWay)
     }

@@ -3,7 +3,7 @@
 use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest};
 
 use crate::model::Model;
-use crate::nodes::advance_motion;
+use crate::motion::advance_motion;
 use crate::state::{Scratch, State};
 
 /// States that a run keeps in memory for a request, beyond the ladder for the labels.
@@ -40,9 +40,12 @@ pub(crate) fn take(
             continue;
         }
         let state = &state.bodies[side];
-        fields.effective.clone_from(&state.w);
-        fields.velocity.clone_from(&state.v);
-        fields.displacement.clone_from(&state.u);
+        match body.effective() {
+            Some(field) => fields.effective.clone_from(&state.history[field]),
+            None => fields.effective.clear(),
+        }
+        fields.velocity.clone_from(&state.velocity);
+        fields.displacement.clone_from(&state.displacement);
         // Half a step brings the velocity to t_n; the displacement does not
         // move with it and is taken anew.
         advance_motion(
@@ -52,7 +55,7 @@ pub(crate) fn take(
             &mut fields.velocity,
             &mut fields.displacement,
         );
-        fields.displacement.copy_from_slice(&state.u);
+        fields.displacement.copy_from_slice(&state.displacement);
     }
 }
 
@@ -60,12 +63,12 @@ pub(crate) fn take(
 pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
     let bodies = model.bodies().each_ref().map(|body| {
         let n = body.n_nodes();
-        let relaxing = if body.n_branches() > 0 { n } else { 0 };
+        let n_effective = if body.effective().is_some() { n } else { 0 };
         let displacement = [0.0, body.velocity * time];
         BodyFields {
             displacement: vec![displacement; n],
             velocity: vec![[0.0, body.velocity]; n],
-            effective: vec![displacement; relaxing],
+            effective: vec![displacement; n_effective],
         }
     });
     let approach = model.approach().speed() * time - model.approach().gap;

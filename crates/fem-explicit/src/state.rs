@@ -4,18 +4,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::model::Model;
+use crate::part::{Motion, MotionMut, NodalField};
 
-/// State of a body at time t_n; velocities belong to t_n − Δt/2.
+/// State of a body at time t_n.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BodyState {
-    /// Displacement, m.
-    pub u: Vec<[f64; 2]>,
-    /// Velocity, m/s.
-    pub v: Vec<[f64; 2]>,
-    /// Effective displacement of a relaxing body, m; empty for an elastic one.
-    pub w: Vec<[f64; 2]>,
-    /// Elastic displacement of each Prony branch, m.
-    pub q: Vec<Vec<[f64; 2]>>,
+    /// m.
+    pub displacement: NodalField,
+    /// At t_n − Δt/2, m/s.
+    pub velocity: NodalField,
+    /// Fields of its parts, then those that the contact keeps of it.
+    pub history: Vec<NodalField>,
 }
 
 /// State of both bodies.
@@ -32,46 +31,103 @@ pub(crate) struct State {
 #[derive(Debug, Clone)]
 pub(crate) struct Scratch {
     /// Nodal forces of both bodies, N.
-    pub forces: [Vec<[f64; 2]>; 2],
+    pub forces: [NodalField; 2],
+    /// What the forces on nodes beside stress and contact add up to along +y, N.
+    pub resultants: [f64; 2],
 }
 
 impl State {
     /// The bodies at first touch, undeformed.
     pub fn at_first_touch(model: &Model) -> Self {
         let time = model.approach().first_touch();
-        let bodies = model.bodies().each_ref().map(|body| BodyState::in_flight(body, time));
+        let n_history = model.contact().n_history();
+        let bodies = model.bodies().each_ref().map(|body| {
+            let mut state = BodyState::in_flight(body, n_history, time);
+            state.go_back_half_a_step(body, time, model.time_step());
+            state
+        });
         Self { step: 0, time, bodies }
     }
-}
 
-impl BodyState {
-    /// Undeformed, after a time (s) of free flight.
-    pub fn in_flight(body: &Body, time: f64) -> Self {
-        let n = body.nodal_mass.len();
-        let u = vec![[0.0, body.velocity * time]; n];
-        let v = vec![[0.0, body.velocity]; n];
-        let n_branches = body.n_branches();
-        let w = if n_branches > 0 { vec![[0.0; 2]; n] } else { Vec::new() };
-        // Rigid motion strains nothing: the branches start at zero.
-        let mut state = Self { u, v, w, q: vec![vec![[0.0; 2]; n]; n_branches] };
-        state.update_effective(body);
-        state
+    /// Whether its fields are of the model's sizes.
+    pub fn fits(&self, model: &Model) -> bool {
+        let n_contact = model.contact().n_history();
+        self.bodies.iter().zip(model.bodies()).all(|(state, body)| state.fits(body, n_contact))
+    }
+
+    /// Both bodies as their parts see them.
+    pub fn motions<'a>(&'a self, model: &'a Model) -> [Motion<'a>; 2] {
+        [0, 1].map(|side: usize| self.bodies[side].motion(&model.bodies()[side], self.time))
+    }
+
+    /// The fields that the contact keeps of both bodies.
+    pub fn contact_history(&self, model: &Model) -> [&[NodalField]; 2] {
+        [0, 1].map(|side: usize| &self.bodies[side].history[model.bodies()[side].n_history()..])
     }
 }
 
 impl BodyState {
-    /// Whether its fields are of the body's sizes.
-    pub fn fits(&self, body: &Body) -> bool {
-        let (n, n_branches) = (body.nodal_mass.len(), body.n_branches());
-        let n_effective = if n_branches > 0 { n } else { 0 };
-        [self.u.len(), self.v.len(), self.w.len()] == [n, n, n_effective]
-            && self.q.len() == n_branches
-            && self.q.iter().all(|q| q.len() == n)
+    /// Undeformed, after a time (s) of free flight; the contact keeps `n_contact` fields of it.
+    pub fn in_flight(body: &Body, n_contact: usize, time: f64) -> Self {
+        let n = body.nodal_mass.len();
+        let displacement = vec![[0.0, body.velocity * time]; n];
+        let velocity = vec![[0.0, body.velocity]; n];
+        let n_history = body.n_history() + n_contact;
+        let mut history: Vec<_> = (0..n_history).map(|_| vec![[0.0; 2]; n]).collect();
+        if let Some(stress) = &body.stress {
+            stress.part.start_rigid(&displacement, stress.of_mut(&mut history));
+        }
+        Self { displacement, velocity, history }
+    }
+
+    /// Velocities are those of half a step before: takes back what the forces on nodes do in it.
+    fn go_back_half_a_step(&mut self, body: &Body, time: f64, time_step: f64) {
+        if body.node_forces.is_empty() {
+            return;
+        }
+        let mut forces = vec![[0.0; 2]; body.nodal_mass.len()];
+        body.add_node_forces(&self.motion(body, time), &self.history, &mut forces);
+        for ((v, force), inverse_mass) in
+            self.velocity.iter_mut().zip(&forces).zip(&body.inverse_mass)
+        {
+            for axis in 0..2 {
+                v[axis] -= 0.5 * time_step * (inverse_mass[axis] * force[axis]);
+            }
+        }
+    }
+
+    /// As the parts of its body see it at its time, s.
+    pub fn motion<'a>(&'a self, body: &'a Body, time: f64) -> Motion<'a> {
+        Motion {
+            time,
+            displacement: &self.displacement,
+            velocity: &self.velocity,
+            nodal_mass: &body.nodal_mass,
+        }
+    }
+
+    /// What the contact may change of it at the end of a step, its time in s.
+    pub fn split_contact<'a>(
+        &'a mut self,
+        body: &'a Body,
+        time: f64,
+    ) -> (MotionMut<'a>, &'a mut [NodalField]) {
+        let Self { displacement, velocity, history } = self;
+        let motion = MotionMut { time, displacement, velocity, nodal_mass: &body.nodal_mass };
+        (motion, &mut history[body.n_history()..])
+    }
+
+    fn fits(&self, body: &Body, n_contact: usize) -> bool {
+        let n = body.nodal_mass.len();
+        let fields = [&self.displacement, &self.velocity];
+        self.history.len() == body.n_history() + n_contact
+            && fields.into_iter().chain(&self.history).all(|field| field.len() == n)
     }
 }
 
 impl Scratch {
     pub fn new(model: &Model) -> Self {
-        Self { forces: model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]) }
+        let forces = model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]);
+        Self { forces, resultants: [0.0; 2] }
     }
 }

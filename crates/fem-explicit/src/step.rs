@@ -1,39 +1,38 @@
 //! The phases of a time step.
 
 use fem_contact::ContactForces;
-use fem_material::ActsOn;
 
 use crate::body::Body;
-use crate::kernel::{subtract_internal_forces, subtract_split_internal_forces};
 use crate::model::Model;
-use crate::nodes::{advance_branch, advance_motion, start_effective};
+use crate::motion::advance_motion;
+use crate::part::{Field, Motion, NodalField};
 use crate::state::{BodyState, Scratch, State};
 
-/// Forces of the present configuration: internal, then contact.
+/// Forces of the present configuration: of stress, on the nodes, of contact.
 pub(crate) fn update_forces(model: &Model, state: &State, scratch: &mut Scratch) -> ContactForces {
+    let motions = state.motions(model);
     for side in 0..2 {
-        update_internal_forces(
-            &model.bodies()[side],
-            &state.bodies[side],
-            &mut scratch.forces[side],
-        );
+        let (body, motion) = (&model.bodies()[side], &motions[side]);
+        let (history, forces) = (&state.bodies[side].history, &mut scratch.forces[side]);
+        update_internal_forces(body, motion, history, forces);
+        scratch.resultants[side] = body.add_node_forces(motion, history, forces);
     }
     let [lower, upper] = &mut scratch.forces;
-    model.interface().add_forces([&state.bodies[0].u, &state.bodies[1].u], [lower, upper])
+    model.contact().add_forces(&motions, state.contact_history(model), [lower, upper])
 }
 
-/// Moves both bodies to the next time.
+/// Takes both bodies to the next time: the nodes, then what contact, stress and forces remember.
 pub(crate) fn advance(model: &Model, state: &mut State, scratch: &Scratch) {
-    for side in 0..2 {
-        advance_body(
-            &model.bodies()[side],
-            model.time_step(),
-            &mut state.bodies[side],
-            &scratch.forces[side],
-        );
-    }
     state.step += 1;
     state.time = model.approach().first_touch() + state.step as f64 * model.time_step();
+    for side in 0..2 {
+        let (body, forces) = (&model.bodies()[side], &scratch.forces[side]);
+        advance_nodes(body, model.time_step(), &mut state.bodies[side], forces);
+    }
+    advance_contact(model, state);
+    for side in 0..2 {
+        advance_parts(&model.bodies()[side], state.time, &mut state.bodies[side]);
+    }
 }
 
 /// Whether the next configuration is in contact; reads the forces of the
@@ -41,60 +40,59 @@ pub(crate) fn advance(model: &Model, state: &mut State, scratch: &Scratch) {
 pub(crate) fn is_closed_next(model: &Model, state: &State, scratch: &Scratch) -> bool {
     let time_step = model.time_step();
     let next = |side: usize| {
-        let (body, forces) = (&model.bodies()[side], &scratch.forces[side]);
-        let BodyState { u, v, .. } = &state.bodies[side];
+        let (inverse_mass, forces) = (&model.bodies()[side].inverse_mass, &scratch.forces[side]);
+        let BodyState { displacement, velocity, .. } = &state.bodies[side];
         move |node: u32| {
             let k = node as usize;
-            let velocity = v[k][1] + time_step * (body.inverse_mass[k][1] * forces[k][1]);
-            u[k][1] + time_step * velocity
+            [0, 1].map(|axis: usize| {
+                let change = time_step * (inverse_mass[k][axis] * forces[k][axis]);
+                displacement[k][axis] + time_step * (velocity[k][axis] + change)
+            })
         }
     };
-    model.interface().is_closed([next(0), next(1)])
+    model.contact().is_closed_next([&next(0), &next(1)], state.contact_history(model))
 }
 
 /// Internal forces alone, by their sign on the nodes.
-pub(crate) fn update_internal_forces(body: &Body, state: &BodyState, forces: &mut [[f64; 2]]) {
-    forces.fill([0.0; 2]);
-    match &body.relaxation {
-        None => subtract_internal_forces(&body.blocks, body.moduli, &state.u, forces),
-        Some(relaxation) => match relaxation.acts_on {
-            ActsOn::All => subtract_internal_forces(&body.blocks, body.moduli, &state.w, forces),
-            ActsOn::Shear => subtract_split_internal_forces(
-                &body.blocks,
-                body.moduli,
-                &state.u,
-                &state.w,
-                forces,
-            ),
-        },
-    }
-}
-
-/// Moves one body to the next time.
-pub(crate) fn advance_body(
+pub(crate) fn update_internal_forces(
     body: &Body,
-    time_step: f64,
-    state: &mut BodyState,
-    forces: &[[f64; 2]],
+    motion: &Motion<'_>,
+    history: &[NodalField],
+    forces: &mut Field,
 ) {
-    advance_motion(time_step, &body.inverse_mass, forces, &mut state.v, &mut state.u);
-    if let Some(relaxation) = &body.relaxation {
-        start_effective(relaxation.equilibrium_weight, &state.u, &mut state.w);
-        for (branch, q) in relaxation.branches.iter().zip(&mut state.q) {
-            let gain = branch.gain * time_step;
-            advance_branch(branch.decay, gain, branch.weight, &state.v, q, &mut state.w);
-        }
+    forces.fill([0.0; 2]);
+    if let Some(stress) = &body.stress {
+        stress.part.subtract_forces(motion, stress.of(history), forces);
     }
 }
 
-impl BodyState {
-    /// w = g∞ u + Σ g_k q_k.
-    pub(crate) fn update_effective(&mut self, body: &Body) {
-        if let Some(relaxation) = &body.relaxation {
-            start_effective(relaxation.equilibrium_weight, &self.u, &mut self.w);
-            for (branch, q) in relaxation.branches.iter().zip(&mut self.q) {
-                advance_branch(1.0, 0.0, branch.weight, &self.v, q, &mut self.w);
-            }
-        }
+/// Moves the nodes of a body by a time step (s).
+pub(crate) fn advance_nodes(body: &Body, time_step: f64, state: &mut BodyState, forces: &Field) {
+    let BodyState { displacement, velocity, .. } = state;
+    advance_motion(time_step, &body.inverse_mass, forces, velocity, displacement);
+}
+
+/// What the contact remembers of a step that the nodes have done.
+fn advance_contact(model: &Model, state: &mut State) {
+    if model.contact().n_history() == 0 {
+        return;
+    }
+    let time = state.time;
+    let [lower, upper] = model.bodies();
+    let [state_of_lower, state_of_upper] = &mut state.bodies;
+    let (lower_motion, lower_history) = state_of_lower.split_contact(lower, time);
+    let (upper_motion, upper_history) = state_of_upper.split_contact(upper, time);
+    model.contact().advance([lower_motion, upper_motion], [lower_history, upper_history]);
+}
+
+/// What the parts of a body remember of a step that the nodes have done; the time (s) is its end.
+pub(crate) fn advance_parts(body: &Body, time: f64, state: &mut BodyState) {
+    let BodyState { displacement, velocity, history } = state;
+    let motion = Motion { time, displacement, velocity, nodal_mass: &body.nodal_mass };
+    if let Some(stress) = body.stress.as_ref().filter(|stress| stress.has_history()) {
+        stress.part.advance(&motion, stress.of_mut(history));
+    }
+    for force in body.node_forces.iter().filter(|force| force.has_history()) {
+        force.part.advance(&motion, force.of_mut(history));
     }
 }

@@ -6,10 +6,12 @@ use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 use nalgebra::{DMatrix, DVector};
 
-use crate::Body;
-use crate::kernel::{Field, Moduli};
+use crate::body::Body;
+use crate::lumped::LumpedSphere;
 use crate::model::{Model, Settings};
-use crate::state::State;
+use crate::part::{Accounts, Field};
+use crate::state::{BodyState, State};
+use crate::stress::Moduli;
 
 /// ν = 0.244 in units of density, shear modulus and so of the shear wave's speed.
 pub(crate) fn unit_glass() -> Material {
@@ -29,8 +31,7 @@ fn material(relaxation: Option<PronySeries>) -> Material {
 }
 
 pub(crate) fn moduli(material: &Material) -> Moduli {
-    let instantaneous = material.instantaneous();
-    Moduli { bulk: instantaneous.bulk_modulus(), shear: instantaneous.shear_modulus() }
+    Moduli::of(material.instantaneous())
 }
 
 /// Unit sphere with `n` elements over the radius, nearly uniform.
@@ -61,8 +62,8 @@ pub(crate) fn free_sphere(
     let settings = Settings { step_factor, ..settings() };
     let model = Model::new(bodies, approach, &settings).unwrap();
     let mut state = State::at_first_touch(&model);
-    state.bodies[0].u.fill([0.0; 2]);
-    state.bodies[0].v.fill([0.0; 2]);
+    state.bodies[0].displacement.fill([0.0; 2]);
+    state.bodies[0].velocity.fill([0.0; 2]);
     (model, state)
 }
 
@@ -80,6 +81,22 @@ pub(crate) fn ragged(mesh: &SphereMesh, seed: usize) -> Vec<[f64; 2]> {
         field[node as usize][0] = 0.0;
     }
     field
+}
+
+pub(crate) fn geometries(mesh: &SphereMesh) -> Vec<QuadGeometry> {
+    (0..mesh.quads().len()).map(|element| QuadGeometry::new(&mesh.corners(element))).collect()
+}
+
+/// Without forces on its nodes.
+pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> LumpedSphere {
+    LumpedSphere::new(mesh.clone(), material, Vec::new())
+}
+
+/// Energies and powers of the parts of a body.
+pub(crate) fn accounts(body: &Body, state: &BodyState) -> Accounts {
+    let mut accounts = Accounts::default();
+    body.add_energies(&state.motion(body, 0.0), &state.history, &mut accounts);
+    accounts
 }
 
 /// The assembled stiffness matrix, from the element matrices.

@@ -15,9 +15,10 @@
 //! stiffest and hold almost none of the mass, are filled up to that and the step
 //! is the longest for which the added mass stays within its budget.
 
-use fem_element::{QuadGeometry, largest_eigenvalue, mean_gradient};
-use fem_material::Material;
+use fem_element::QuadGeometry;
 use fem_mesh::{SphereMesh, lump_mass};
+
+use crate::stress::Stress;
 
 /// Masses of a body's nodes and a bound of the stiffness that pulls at them.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,25 +30,25 @@ pub(crate) struct NodalBound {
 }
 
 impl NodalBound {
-    /// Of a sphere without contact.
-    pub fn of_sphere(mesh: &SphereMesh, material: &Material) -> Self {
-        let moduli = material.instantaneous();
+    /// Of the elements of a sphere without contact, for a density (kg/m³) and a stress.
+    pub fn of_elements(
+        mesh: &SphereMesh,
+        geometries: &[QuadGeometry],
+        density: f64,
+        stress: &dyn Stress,
+    ) -> Self {
         let mut stiffness = vec![0.0; mesh.nodes().len()];
-        let mut nodal_volumes = Vec::with_capacity(mesh.quads().len());
-        for (element, quad) in mesh.quads().iter().enumerate() {
-            let corners = mesh.corners(element);
-            let geometry = QuadGeometry::new(&corners);
-            let matrix =
-                mean_gradient(&geometry).combine(moduli.bulk_modulus(), moduli.shear_modulus());
-            let masses = geometry.nodal_volumes.map(|volume| material.density() * volume);
-            let eigenvalue =
-                largest_eigenvalue(&matrix, &masses, corners.map(|corner| corner[0] == 0.0));
+        for (element, (quad, geometry)) in mesh.quads().iter().zip(geometries).enumerate() {
+            let masses = geometry.nodal_volumes.map(|volume| density * volume);
+            let on_axis = mesh.corners(element).map(|corner| corner[0] == 0.0);
+            let eigenvalue = stress.largest_eigenvalue(geometry, &masses, on_axis);
             for (&node, mass) in quad.iter().zip(masses) {
                 stiffness[node as usize] += eigenvalue * mass;
             }
-            nodal_volumes.push(geometry.nodal_volumes);
         }
-        Self { mass: lump_mass(mesh, material.density(), &nodal_volumes), stiffness }
+        let nodal_volumes: Vec<_> =
+            geometries.iter().map(|geometry| geometry.nodal_volumes).collect();
+        Self { mass: lump_mass(mesh, density, &nodal_volumes), stiffness }
     }
 
     /// Critical time step without mass scaling, s.
@@ -92,14 +93,14 @@ impl NodalBound {
 
     /// Fills the masses up for a critical time step (s). Returns the masses and
     /// what was added, kg.
-    pub fn scale_mass(self, time_step: f64) -> (Vec<f64>, f64) {
+    pub fn scale_mass(&self, time_step: f64) -> (Vec<f64>, f64) {
         let mut added = 0.0;
-        let filled = |(mass, stiffness): (f64, f64)| {
+        let filled = |(&mass, stiffness): (&f64, &f64)| {
             let needed = 0.25 * time_step * time_step * stiffness;
             added += (needed - mass).max(0.0);
             mass.max(needed)
         };
-        let masses = self.mass.into_iter().zip(self.stiffness).map(filled).collect();
+        let masses = self.mass.iter().zip(&self.stiffness).map(filled).collect();
         (masses, added)
     }
 }

@@ -216,7 +216,7 @@ fn a_contact_that_grows_out_of_the_candidates_stops_the_run() {
             panic!("{:?}", run.ending)
         };
         assert_eq!(run.outgrown_radius(), Some(radius));
-        assert_eq!(radius, model.interface().candidate_radius());
+        assert_eq!(radius, model.candidate_radius());
         assert_times_increase(&run);
         let last = run.history.last().unwrap();
         assert_eq!(last.time, time);

@@ -1,4 +1,4 @@
-//! Results as people read them: pictures as self-contained SVG, numbers with fitting units.
+//! Results as people read them: pictures as self-contained SVG.
 //!
 //! A [`Chart`] is drawn by [`kuva`]; what is said here is the house style: colours that
 //! colour-blind eyes tell apart, short tick labels, room around the data of logarithmic axes.
@@ -15,7 +15,6 @@
 
 mod chart;
 pub mod contour;
-pub mod engineering;
 mod grid;
 mod style;
 

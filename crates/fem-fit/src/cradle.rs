@@ -14,7 +14,7 @@
 //! first order (JCGM 100, eq. 10). l and g cancel in e. Limits: light, inextensible threads, no
 //! drag, small balls (r² ≪ l²: a solid ball on one thread swings slower by r²/(5l²)), no spin.
 
-use crate::FitError;
+use crate::error::FitError;
 
 /// Standard gravity, m/s² (CGPM 1901).
 pub const STANDARD_GRAVITY: f64 = 9.80665;
@@ -38,9 +38,9 @@ impl Measured {
 /// The apparatus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cradle {
-    /// g, m/s².
+    /// Acceleration of gravity g, m/s².
     pub gravity: Measured,
-    /// l, m.
+    /// Length l from the pivot to the centre of a ball, m.
     pub length: Measured,
     /// m₁ and m₂, in any unit.
     pub masses: [Measured; 2],
@@ -49,22 +49,22 @@ pub struct Cradle {
 /// One release: α and β, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
-    /// α, 0 < α ≤ π/2.
+    /// Angle of release α, 0 < α ≤ π/2.
     pub release: Measured,
-    /// β, 0 ≤ β ≤ π/2.
+    /// Angle of rise β of the second ball, 0 ≤ β ≤ π/2.
     pub rise: Measured,
 }
 
 /// Velocities along the first ball's motion, and e.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swing {
-    /// u, m/s.
+    /// Velocity u of the first ball before, m/s.
     pub before: Measured,
-    /// v₁, m/s.
+    /// Velocity v₁ of the first ball after, m/s.
     pub first_after: Measured,
-    /// v₂, m/s.
+    /// Velocity v₂ of the second ball after, m/s.
     pub second_after: Measured,
-    /// e.
+    /// Restitution e.
     pub restitution: Measured,
     /// Shares of the variance of e that come from α, β, m₁, m₂; 0 if there is none.
     pub shares: [f64; 4],
@@ -72,6 +72,14 @@ pub struct Swing {
 
 /// Threads pull only: beyond a right angle they are slack.
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
+
+/// Masses of solid balls of one density, which cancels, by their diameters: d³.
+pub fn masses_of_balls(diameters: [Measured; 2]) -> [Measured; 2] {
+    diameters.map(|Measured { value, uncertainty }| Measured {
+        value: value.powi(3),
+        uncertainty: 3.0 * value * value * uncertainty,
+    })
+}
 
 impl Cradle {
     /// What a trial shows.
@@ -124,6 +132,24 @@ impl Cradle {
         let ratio = self.masses[1].value / self.masses[0].value;
         let sine = 2.0 / (1.0 + ratio) * (0.5 * release).sin();
         (sine <= (0.5 * RIGHT_ANGLE).sin()).then(|| 2.0 * sine.asin())
+    }
+
+    /// What energy and momentum do not allow of a swing, in words.
+    pub fn doubt(&self, trial: &Trial, swing: &Swing) -> Option<String> {
+        let e = swing.restitution;
+        let by = |excess: f64| match e.uncertainty > 0.0 {
+            true => format!(" by {:.1} of its uncertainty", excess / e.uncertainty),
+            false => String::new(),
+        };
+        if e.value > 1.0 {
+            let highest = self.highest_rise(trial.release.value);
+            let highest = highest.map_or(String::new(), |highest| {
+                format!(": without loss the second ball rises to {:.2} deg", highest.to_degrees())
+            });
+            return Some(format!("restitution above 1{}{highest}", by(e.value - 1.0)));
+        }
+        let falls_short = || format!("restitution below 0{}: v2 is less than v1", by(-e.value));
+        (e.value < 0.0).then(falls_short)
     }
 
     fn check(&self, trial: &Trial) -> Result<(), FitError> {

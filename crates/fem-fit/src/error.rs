@@ -70,7 +70,7 @@ pub enum FitError {
         range: (f64, f64),
         /// Smallest restitution within.
         least: f64,
-        /// Largest.
+        /// Largest value that is allowed.
         most: f64,
     },
 

@@ -32,11 +32,11 @@ pub struct Fit {
     pub correlation: Vec<Vec<f64>>,
     /// Weighted residuals in the order of the data.
     pub residuals: Vec<f64>,
-    /// Σ r².
+    /// Sum of the squared residuals, Σ r².
     pub sum_of_squares: f64,
     /// √(Σ r²/N): of residuals without uncertainties, in units of e.
     pub rms: f64,
-    /// N − p.
+    /// Degrees of freedom, N − p.
     pub degrees_of_freedom: usize,
     /// How many standard errors the interval reaches; `None` without degrees of freedom.
     pub quantile: Option<f64>,

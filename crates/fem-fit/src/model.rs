@@ -7,7 +7,7 @@ use fem_laws::{
 };
 use fem_material::{Material, PronySeries, PronyTerm};
 
-use crate::FitError;
+use crate::error::FitError;
 
 /// Accuracy of a collision: differences over steps of 1e-4 in a parameter are good to 1e-5.
 const TOLERANCE: f64 = 1e-10;
@@ -25,7 +25,7 @@ pub struct Model {
 /// What a collision is compared by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
-    /// e.
+    /// Restitution e.
     pub restitution: f64,
     /// T, s; `None` if the bodies stay together.
     pub contact_time: Option<f64>,
@@ -53,7 +53,7 @@ impl Model {
         Ok(model)
     }
 
-    /// The same with the spheres' own compliance in series, which only [`Family::Ting`] looks at.
+    /// This model with the spheres' own compliance in series, which only [`Family::Ting`] looks at.
     pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
         Self { finite_size: Some(finite_size), ..self }
     }

@@ -11,7 +11,7 @@ use crate::model::Model;
 pub struct Point {
     /// Approach speed, m/s.
     pub speed: f64,
-    /// e.
+    /// Restitution e.
     pub restitution: f64,
     /// Its standard uncertainty.
     pub restitution_uncertainty: Option<f64>,

@@ -27,7 +27,7 @@ pub struct Profile {
 pub struct ProfilePoint {
     /// Of the parameter that is held, SI.
     pub value: f64,
-    /// √(Σ r²/N).
+    /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
     /// Of all parameters.
     pub values: Vec<f64>,

@@ -1,8 +1,11 @@
 //! Laws by name, with their parameters and how they are made of them: the one list that case files,
 //! fits and inverse problems read.
 
-use crate::laws::{self, ContactLaw};
-use crate::{EndRule, LawError, Pair};
+use crate::end_rule::EndRule;
+use crate::error::LawError;
+use crate::laws;
+use crate::laws::ContactLaw;
+use crate::pair::Pair;
 
 /// A law with parameters of its own. Values of parameters always come in the order of
 /// [`Family::parameters`].
@@ -103,7 +106,7 @@ const A: Parameter = parameter("a", "s", [0, 0, 1], Role::Damping);
 const N: Parameter = number("n", Some(0.5), (0.0, 3.0));
 
 impl Family {
-    /// All of them.
+    /// All families, the laws of the overlap first.
     pub const ALL: [Self; 13] = [
         Self::Linear,
         Self::Power,

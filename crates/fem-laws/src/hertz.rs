@@ -22,7 +22,8 @@ use std::f64::consts::PI;
 use statrs::function::gamma::gamma;
 
 use crate::error::{LawError, positive};
-use crate::{HertzPressure, Pair};
+use crate::hertz_pressure::HertzPressure;
+use crate::pair::Pair;
 
 /// One collision, from first touch to separation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,12 +57,12 @@ impl HertzImpact {
         &self.pair
     }
 
-    /// v, m/s.
+    /// Approach speed v, m/s.
     pub fn approach_speed(&self) -> f64 {
         self.approach_speed
     }
 
-    /// K, N/m^(3/2).
+    /// Stiffness K of Hertz' spring, N/m^(3/2).
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
@@ -71,7 +72,7 @@ impl HertzImpact {
         1.0
     }
 
-    /// T, s.
+    /// Contact time T, s.
     pub fn contact_time(&self) -> f64 {
         contact_time_coefficient() * (self.max_approach / self.approach_speed)
     }
@@ -81,7 +82,7 @@ impl HertzImpact {
         self.force(self.max_approach)
     }
 
-    /// δ_max, m.
+    /// Largest approach δ_max, m.
     pub fn max_approach(&self) -> f64 {
         self.max_approach
     }

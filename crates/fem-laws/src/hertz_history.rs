@@ -14,14 +14,15 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use statrs::function::beta::beta_reg;
 
-use crate::{HertzImpact, Impact, ImpactInstant};
+use crate::hertz::HertzImpact;
+use crate::impact::{Impact, ImpactInstant};
 
 /// State of a collision at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzInstant {
     /// δ, m; negative before first touch and after separation.
     pub approach: f64,
-    /// δ̇, m/s.
+    /// Rate of the approach δ̇, m/s.
     pub approach_rate: f64,
     /// Contact force, N.
     pub force: f64,

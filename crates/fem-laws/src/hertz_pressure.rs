@@ -18,18 +18,18 @@ use std::f64::consts::PI;
 /// A pressure distribution; both numbers are 0 for an open contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HertzPressure {
-    /// a, m.
+    /// Contact radius a, m.
     pub contact_radius: f64,
-    /// p₀, Pa.
+    /// Pressure on the axis p₀, Pa.
     pub peak_pressure: f64,
 }
 
 /// Principal stresses on the axis, Pa, tension positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AxisStress {
-    /// σ_yy.
+    /// Axial stress σ_yy.
     pub axial: f64,
-    /// σ_rr = σ_θθ.
+    /// Radial and hoop stress σ_rr = σ_θθ.
     pub radial: f64,
 }
 
@@ -51,7 +51,7 @@ impl HertzPressure {
         }
     }
 
-    /// F, N.
+    /// Contact force F, N.
     pub fn force(&self) -> f64 {
         2.0 / 3.0 * PI * self.contact_radius * self.contact_radius * self.peak_pressure
     }

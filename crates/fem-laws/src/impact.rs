@@ -25,13 +25,13 @@ pub struct Impact {
 pub struct ImpactInstant {
     /// After first touch, s.
     pub time: f64,
-    /// δ, m.
+    /// Approach δ, m.
     pub approach: f64,
-    /// δ̇, m/s.
+    /// Rate of the approach δ̇, m/s.
     pub approach_rate: f64,
     /// Contact force, N; positive in compression.
     pub force: f64,
-    /// a, m.
+    /// Contact radius a, m.
     pub contact_radius: f64,
     /// Pressure on the axis, Pa; `None` for a model without a pressure distribution.
     pub centre_pressure: Option<f64>,

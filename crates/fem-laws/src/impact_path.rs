@@ -6,8 +6,9 @@
 //! force, a² and p₀² of the other models, is cubic with the slopes of parabolas through three
 //! instants. After the last instant the bodies fly freely.
 
+use crate::impact::{Impact, ImpactInstant};
 use crate::laws::ContactLaw;
-use crate::{Impact, ImpactInstant, Pair};
+use crate::pair::Pair;
 
 /// A collision between its instants.
 #[derive(Debug, Clone, Copy)]

@@ -31,19 +31,11 @@ use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
 use crate::bisection::falling_zero;
+use crate::end_rule::EndRule;
 use crate::error::{LawError, positive, tolerance as checked_tolerance};
+use crate::impact::{Impact, ImpactInstant};
 use crate::laws::ContactLaw;
-use crate::{Impact, ImpactInstant, Pair};
-
-/// When a contact is over.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum EndRule {
-    /// The force falls to zero: the surfaces cannot pull (Schwager & Pöschel 2007).
-    #[default]
-    ZeroForce,
-    /// The overlap falls to zero; until then the dashpot may pull.
-    ZeroOverlap,
-}
+use crate::pair::Pair;
 
 /// A pair with a contact law.
 #[derive(Debug, Clone, Copy, PartialEq)]

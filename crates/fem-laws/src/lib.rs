@@ -36,8 +36,10 @@
 
 pub mod bisection;
 mod collocation;
+mod end_rule;
 mod error;
 mod family;
+mod finite_coefficient;
 mod finite_correction;
 mod finite_size;
 mod hertz;
@@ -55,6 +57,7 @@ mod ting;
 mod ting_record;
 mod ting_step;
 
+pub use end_rule::EndRule;
 pub use error::LawError;
 pub use family::{Family, Parameter, Role};
 pub use finite_size::FiniteSize;
@@ -63,7 +66,7 @@ pub use hertz_history::HertzInstant;
 pub use hertz_pressure::{AxisStress, HertzPressure};
 pub use impact::{Impact, ImpactInstant};
 pub use impact_path::ImpactPath;
-pub use law_impact::{EndRule, LawImpact};
+pub use law_impact::LawImpact;
 pub use pair::{Pair, Partner, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use ting::Ting;

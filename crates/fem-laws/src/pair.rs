@@ -19,11 +19,11 @@ use crate::error::{LawError, positive};
 pub enum Partner {
     /// An elastic sphere.
     Sphere {
-        /// R, m.
+        /// Radius R, m.
         radius: f64,
-        /// m, kg.
+        /// Mass m, kg.
         mass: f64,
-        /// E/(1−ν²), Pa.
+        /// Plane strain modulus E/(1−ν²), Pa.
         plane_strain_modulus: f64,
     },
     /// A rigid, immovable plane.
@@ -83,7 +83,7 @@ impl Pair {
         })
     }
 
-    /// The same pair with a share of its modulus, such as what relaxation leaves of it.
+    /// This pair with a share of its modulus, such as what relaxation leaves of it.
     ///
     /// # Errors
     /// A share that is not positive and finite.
@@ -92,17 +92,17 @@ impl Pair {
         Ok(Self { contact_modulus: positive("contact_modulus", contact_modulus)?, ..self })
     }
 
-    /// R*, m.
+    /// Effective radius R*, m.
     pub fn effective_radius(&self) -> f64 {
         self.effective_radius
     }
 
-    /// m*, kg.
+    /// Effective mass m*, kg.
     pub fn effective_mass(&self) -> f64 {
         self.effective_mass
     }
 
-    /// E*, Pa.
+    /// Contact modulus E*, Pa.
     pub fn contact_modulus(&self) -> f64 {
         self.contact_modulus
     }

@@ -40,9 +40,13 @@ use crate::bisection::last_where;
 use crate::collocation::{Interpolation, N, POINTS, evaluate};
 use crate::error::{LawError, tolerance as checked_tolerance};
 use crate::finite_correction::RelaxingCorrection;
+use crate::finite_size::FiniteSize;
+use crate::hertz::HertzImpact;
+use crate::impact::{Impact, ImpactInstant};
+use crate::pair::Pair;
+use crate::pair_relaxation::PairRelaxation;
 use crate::ting_record::{Contact, Element, Record, peak};
 use crate::ting_step::{Solved, State, Stepper};
-use crate::{FiniteSize, HertzImpact, Impact, ImpactInstant, Pair, PairRelaxation};
 
 /// Local error of the rate over the tolerance. A collision takes some tens of steps.
 const LOCAL_SHARE: f64 = 0.1;

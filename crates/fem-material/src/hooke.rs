@@ -10,7 +10,7 @@
 //! positive). Components are ordered rr, yy, θθ, ry; the shear strain is the engineering one,
 //! γ_ry = 2 e_ry. Limits: small strain.
 
-use crate::ElasticModuli;
+use crate::elastic::ElasticModuli;
 
 impl ElasticModuli {
     /// Stress `[rr, yy, tt, ry]`, Pa, of the strain `[e_rr, e_yy, e_tt, γ_ry]`.

@@ -9,9 +9,9 @@
 //! K(t) and G(t) by the elastic identities: what a test of any length t would read off the two
 //! relaxation functions, not the viscoelastic Poisson's ratio of a creep or relaxation test.
 
-use crate::elastic::{poissons_ratio, youngs_modulus};
+use crate::elastic::{ElasticModuli, poissons_ratio, youngs_modulus};
 use crate::error::{MaterialError, positive};
-use crate::{ActsOn, ElasticModuli, PronySeries};
+use crate::prony::{ActsOn, PronySeries};
 
 /// A checked isotropic linear material, elastic or viscoelastic.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +39,7 @@ impl Material {
         Self { relaxation: None, ..self.clone() }
     }
 
-    /// ρ, kg/m³.
+    /// Density ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density
     }
@@ -92,12 +92,12 @@ impl Material {
         self.instantaneous.shear_modulus() * weight
     }
 
-    /// c_d, m/s.
+    /// Speed of dilatational waves c_d, m/s.
     pub fn dilatational_wave_speed(&self) -> f64 {
         (self.instantaneous.p_wave_modulus() / self.density).sqrt()
     }
 
-    /// c_s, m/s.
+    /// Speed of shear waves c_s, m/s.
     pub fn shear_wave_speed(&self) -> f64 {
         (self.instantaneous.shear_modulus() / self.density).sqrt()
     }

@@ -15,7 +15,7 @@ use crate::error::{MaterialError, positive};
 pub struct PronyTerm {
     /// g_k = G_k/G_0, at least 0.
     pub weight: f64,
-    /// τ_k, s.
+    /// Relaxation time τ_k, s.
     pub relaxation_time: f64,
 }
 
@@ -113,7 +113,7 @@ impl PronySeries {
         relaxation_at(self.equilibrium_weight, &self.terms, time)
     }
 
-    /// g∞, in 0 ..= 1.
+    /// What does not relax, g∞, in 0 ..= 1.
     pub fn equilibrium_weight(&self) -> f64 {
         self.equilibrium_weight
     }

@@ -21,7 +21,8 @@
 //! Between the blocks the angular and (logarithmic) radial deviation of a
 //! block's outline from a circle fades as a power of the radius.
 
-use crate::{MeshError, SphereMesh};
+use crate::error::MeshError;
+use crate::sphere_mesh::SphereMesh;
 
 /// Parameters of the graded half disc; lengths in m.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use crate::{MeshError, Quality, SphereMesh};
+use crate::error::MeshError;
+use crate::quality::Quality;
+use crate::sphere_mesh::SphereMesh;
 
 /// How far a boundary node may lie off the true circle or the axis, as a
 /// fraction of the radius: files often store single precision.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::SphereMesh;
+use crate::sphere_mesh::SphereMesh;
 
 /// Shares of the two ends of a straight segment in the area that it sweeps
 /// about the axis, ∫ N 2π r ds with linear N, in m².

@@ -1,6 +1,6 @@
 //! Figures of merit of a mesh.
 
-use crate::SphereMesh;
+use crate::sphere_mesh::SphereMesh;
 
 /// Quality of a mesh, over all of its elements.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -70,7 +70,7 @@ impl SphereMesh {
         if self.nodes[far_pole][1] > 0.0 { Side::Above } else { Side::Below }
     }
 
-    /// The same body on the given side of the plane y = 0.
+    /// This body on the given side of the plane y = 0.
     pub fn on_side(mut self, side: Side) -> Self {
         if self.side() != side {
             for node in &mut self.nodes {

@@ -1,13 +1,13 @@
 //! The command line.
 
-use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, Parser};
 
-use crate::commands::{
-    calibrate, check, completions, cradle, export, fit, invert, mesh, run, sweep, validate,
-};
+use crate::case_arguments::CaseArguments;
+use crate::commands::{Command, run};
+use crate::failure::Failure;
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
 ///
@@ -68,49 +68,14 @@ pub fn parse() -> Arguments {
         .exit()
 }
 
-/// One variant and one file in `commands/` a job.
-#[derive(Debug, Subcommand)]
-pub enum Command {
-    Check(check::Arguments),
-    Mesh(mesh::Arguments),
-    Sweep(sweep::Arguments),
-    Validate(validate::Arguments),
-    Fit(fit::Arguments),
-    Calibrate(calibrate::Arguments),
-    Invert(invert::Arguments),
-    Export(export::Arguments),
-    Cradle(cradle::Arguments),
-    Completions(completions::Arguments),
-}
-
-/// A case file and what overrides it.
-#[derive(Args, Debug)]
-pub struct CaseArguments {
-    /// The case file, TOML
-    #[arg(value_name = "CASE")]
-    pub case: PathBuf,
-    /// Override a key of the case by its dotted path; may be repeated
-    ///
-    /// The value is TOML: --set mesh.contact_element_size=28e-6, --set
-    /// body.0.approach_speed='"1 m/s"' (arrays count from 0), --set model.ting={}, which takes the
-    /// place of another model. Overrides apply from left to right and can add keys and tables that
-    /// the file leaves out.
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-}
-
-impl CaseArguments {
-    /// The case file's name without its ending: what results are named after.
-    ///
-    /// ParaView's collections list relative file names with `/` between folders, so characters
-    /// that mean something in one are replaced.
-    pub fn stem(&self) -> String {
-        stem_of(&self.case)
+impl Arguments {
+    /// Does what is asked for; `started` is when the process began.
+    pub fn execute(self, started: Instant) -> Result<(), Failure> {
+        match (self.command, self.input) {
+            (Some(command), _) => command.execute(Self::command),
+            (None, Some(input)) => run::execute(&input, &self.options, started),
+            // clap prints its help when there are no arguments at all.
+            (None, None) => Ok(()),
+        }
     }
-}
-
-/// A file's name without its ending, fit to name results.
-pub fn stem_of(path: &Path) -> String {
-    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
-    stem.replace(|c: char| c.is_control() || c == ':' || c == '\\', "_")
 }

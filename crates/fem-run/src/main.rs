@@ -18,14 +18,20 @@
 
 mod arguments;
 mod calibrate;
+mod case_arguments;
 mod commands;
+mod data_file;
 mod failure;
+mod fit;
 mod interrupt;
+mod law_arguments;
+mod law_failures;
 mod occupant;
+mod output;
 mod peak_memory;
 mod progress;
-mod reduced;
 mod report;
+mod result_files;
 mod result_folder;
 mod standard_output;
 mod stopwatch;
@@ -36,11 +42,9 @@ mod validation;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fem_figure::engineering;
-
 fn main() -> ExitCode {
     let started = Instant::now();
-    match commands::execute(arguments::parse(), started) {
+    match arguments::parse().execute(started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             failure.print();

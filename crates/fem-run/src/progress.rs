@@ -3,10 +3,10 @@
 use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
+use fem_case::engineering::show;
 use fem_collision::{Monitor, Progress};
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
-use crate::engineering::show;
 use crate::interrupt::Interrupt;
 
 /// Plain lines come at each tenth of the run, ...

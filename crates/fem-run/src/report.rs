@@ -6,9 +6,9 @@ use std::path::Path;
 use comfy_table::CellAlignment::{Left, Right};
 use fem::effects::Verdict;
 use fem::results::{BodySummary, Quantities, Summary};
+use fem_case::engineering::{Unit, show};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::engineering::{Unit, show};
 use crate::standard_output::one_line;
 use crate::tables::table;
 

@@ -2,16 +2,15 @@
 
 use std::time::{Duration, Instant};
 
-use fem::Simulation;
 use fem::results::Spent;
-use fem_collision::{Collision, Monitor, Phase, Progress};
+use fem_collision::{Monitor, Phase, Progress};
 
 use crate::peak_memory::peak_memory;
 
 /// A single run uses one thread; several serve several runs.
 const THREADS: usize = 1;
 
-/// Reads the clock where a run enters a phase, for who looks on.
+/// What a run took.
 pub struct Stopwatch {
     /// Start of the process, or of this run in it.
     started: Instant,
@@ -19,18 +18,34 @@ pub struct Stopwatch {
     solve: Duration,
 }
 
-/// A monitor between a run and who looks on.
-struct Watched<'a> {
-    monitor: &'a mut dyn Monitor,
-    collision: Instant,
+/// A monitor that reads the clock where a run enters a phase, before another one that looks on.
+pub struct Timed<M> {
+    monitor: M,
+    started: Instant,
+    collision: Option<Instant>,
     fields: Option<Instant>,
 }
 
-impl Monitor for Watched<'_> {
+impl<M> Timed<M> {
+    /// Of a run that began at `started`.
+    pub fn since(started: Instant, monitor: M) -> Self {
+        Self { monitor, started, collision: None, fields: None }
+    }
+
+    /// The run has just ended; the other monitor is given back.
+    pub fn stop(self) -> (Stopwatch, M) {
+        let end = self.fields.unwrap_or_else(Instant::now);
+        let collision = self.collision.unwrap_or(end);
+        let (setup, solve) = (collision - self.started, end - collision);
+        (Stopwatch { started: self.started, setup, solve }, self.monitor)
+    }
+}
+
+impl<M: Monitor> Monitor for Timed<M> {
     fn enter(&mut self, phase: Phase) {
         let now = Instant::now();
         match phase {
-            Phase::Collision => (self.collision, self.fields) = (now, None),
+            Phase::Collision => (self.collision, self.fields) = (Some(now), None),
             Phase::Fields => self.fields = Some(now),
         }
         self.monitor.enter(phase);
@@ -42,19 +57,6 @@ impl Monitor for Watched<'_> {
 }
 
 impl Stopwatch {
-    /// Runs a model that has just been built.
-    pub fn run(
-        started: Instant,
-        simulation: &mut Simulation,
-        monitor: &mut dyn Monitor,
-    ) -> (Collision, Self) {
-        let mut watched = Watched { monitor, collision: Instant::now(), fields: None };
-        let collision = simulation.run(&mut watched);
-        let end = watched.fields.unwrap_or_else(Instant::now);
-        let (setup, solve) = (watched.collision - started, end - watched.collision);
-        (collision, Self { started, setup, solve })
-    }
-
     /// What was spent up to now.
     pub fn spent(&self) -> Spent {
         Spent {

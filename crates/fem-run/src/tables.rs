@@ -3,10 +3,9 @@
 use comfy_table::CellAlignment::{self, Left, Right};
 use comfy_table::{ContentArrangement, Row, Table};
 use fem_case::Scene;
+use fem_case::engineering::show;
 use fem_mesh::{Quality, SphereMesh};
 use indicatif::HumanCount;
-
-use crate::engineering::show;
 
 /// A table without lines, and the alignment of its columns; the last one wraps.
 pub fn table<R: Into<Row>>(
@@ -27,6 +26,19 @@ pub fn table<R: Into<Row>>(
 /// Two columns: what it is, and its value.
 pub fn pairs<const N: usize>(rows: [(&str, String); N]) -> String {
     table(&[Left, Left], rows.map(|(name, value)| [name.to_string(), value]))
+}
+
+/// A parameter's value with its unit.
+pub fn show_value(value: f64, unit: &str) -> String {
+    let takes_prefix = ["s", "m/s"].contains(&unit);
+    if takes_prefix {
+        show(value, unit)
+    } else if (0.01..1e5).contains(&value.abs()) || value == 0.0 {
+        let digits = (3 - value.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;
+        format!("{value:.digits$} {unit}").trim_end().to_string()
+    } else {
+        format!("{value:.4e} {unit}").trim_end().to_string()
+    }
 }
 
 /// Size and quality of each mesh; a wall has none.

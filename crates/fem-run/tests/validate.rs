@@ -124,6 +124,13 @@ fn bad_claims_are_refused_before_anything_runs() {
         assert_eq!(ran.code, Some(2), "{}", ran.stderr);
         assert!(ran.stderr.contains(message), "wants {message}\n{}", ran.stderr);
     }
+    let sumary = claim(CHECK).replace("'summary'", "'sumary'");
+    place.write("validation/mine/claim.toml", &sumary);
+    let ran = place.run(&["validate"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    let message = "claim.toml:1:1: there is no study `sumary`; the studies are balances, ";
+    assert!(ran.stderr.contains(message), "{}", ran.stderr);
+    place.write("validation/mine/claim.toml", &claim(CHECK));
     place.write("case.toml", &common::CASE.replace("density", "densty"));
     let ran = place.run(&["validate"]);
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use fem_figure::engineering::Unit;
+use fem_case::engineering::Unit;
 use serde::Deserialize;
 
 /// What a reference is worth.

@@ -15,9 +15,9 @@ pub enum ClaimError {
     /// A file or folder cannot be read.
     #[error("{}: {error}", path.display())]
     Unreadable {
-        /// Which.
+        /// Which folder or file.
         path: PathBuf,
-        /// Why.
+        /// Why it cannot be read.
         error: std::io::Error,
     },
     /// A claim file says something that it cannot.
@@ -25,9 +25,9 @@ pub enum ClaimError {
     Invalid {
         /// Which file.
         path: PathBuf,
-        /// From 1.
+        /// Line, from 1.
         line: usize,
-        /// From 1.
+        /// Column, from 1.
         column: usize,
         /// What is wrong.
         message: String,
@@ -38,7 +38,7 @@ pub enum ClaimError {
     /// No such claim.
     #[error("there is no claim `{name}`; the claims are {known}")]
     Unknown {
-        /// As asked.
+        /// The name that was asked for.
         name: String,
         /// All, with commas.
         known: String,
@@ -54,9 +54,9 @@ pub enum StudyError {
     /// A run that did not end by itself.
     #[error("{title}: {stop}")]
     Stopped {
-        /// Of the case.
+        /// Title of the case.
         title: String,
-        /// Why.
+        /// Why it ended.
         stop: Stop,
     },
     /// The user wants to stop.

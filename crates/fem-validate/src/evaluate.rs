@@ -1,12 +1,13 @@
 //! A claim and its verdict.
 
-use crate::check::CheckResult;
+use crate::check::{Check, CheckResult};
 use crate::claim::Claim;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::{Laboratory, Observer};
 use crate::price::Price;
 use crate::shelf::Shelf;
+use crate::studies::find_study;
 
 /// A claim that was tried.
 #[derive(Debug, Clone)]
@@ -33,13 +34,14 @@ impl ClaimResult {
 /// Runs a claim's study and makes its checks.
 pub fn evaluate(claim: &Claim, shelf: &Shelf, observer: &dyn Observer) -> ClaimResult {
     let laboratory = Laboratory::new(claim, shelf, observer);
-    let outcome = (claim.study)(&laboratory);
+    let study = find_study(&claim.study).map_err(StudyError::Parameters);
+    let outcome = study.and_then(|study| study(&laboratory));
     let price = laboratory.price();
     let claim = claim.clone();
     match outcome {
         Ok(findings) => {
             let measured = |quantity: &str| findings.quantities.get(quantity).copied();
-            let judge = |check: &crate::Check| check.judge(measured(&check.quantity));
+            let judge = |check: &Check| check.judge(measured(&check.quantity));
             let checks = claim.checks.iter().map(judge).collect();
             ClaimResult { checks, claim, findings, error: None, price }
         }

@@ -32,7 +32,7 @@ pub struct Laboratory<'a> {
 }
 
 impl<'a> Laboratory<'a> {
-    /// For a claim.
+    /// A laboratory for a claim.
     pub fn new(claim: &'a Claim, shelf: &'a Shelf, observer: &'a dyn Observer) -> Self {
         Self { claim, shelf, observer, price: Mutex::default() }
     }

@@ -13,6 +13,7 @@
 
 mod check;
 mod claim;
+mod claim_file;
 mod error;
 mod evaluate;
 mod findings;
@@ -21,14 +22,14 @@ mod markdown;
 mod order;
 mod page;
 mod position;
-mod power_law;
 mod price;
 mod run;
 mod shelf;
 mod studies;
 
 pub use check::{Check, CheckResult, Kind, Tolerance};
-pub use claim::{Claim, RunFile, Section, load_claims};
+pub use claim::{Claim, RunFile, Section};
+pub use claim_file::load_claims;
 pub use error::{ClaimError, StudyError};
 pub use evaluate::{ClaimResult, evaluate};
 pub use findings::{Figure, Findings, Table};

@@ -46,7 +46,7 @@ fn data_address(figure: &Figure) -> String {
 
 /// `1.2 s`, or `3 ms`.
 fn seconds(value: &f64) -> String {
-    fem_figure::engineering::Unit::fitting(*value, "s").with_digits(2).show(*value)
+    fem_case::engineering::Unit::fitting(*value, "s").with_digits(2).show(*value)
 }
 
 /// `3.4e9`.

@@ -5,7 +5,10 @@ use std::ops::Deref;
 use fem::Explicit;
 use fem_case::Case;
 use fem_collision::Collision;
+use fem_contact::ContactInterface;
 use fem_laws::HertzImpact;
+
+use crate::error::StudyError;
 
 /// A case of any model and what came out of it; the run ended by itself.
 #[derive(Clone, Debug)]
@@ -29,22 +32,22 @@ impl Run {
         known(self.collision.contact_time)
     }
 
-    /// N.
+    /// Largest contact force, N.
     pub fn peak_force(&self) -> f64 {
         known(self.collision.peak_force)
     }
 
-    /// m.
+    /// Largest approach, m.
     pub fn max_approach(&self) -> f64 {
         known(self.collision.max_approach)
     }
 
-    /// m.
+    /// Largest contact radius, m.
     pub fn max_contact_radius(&self) -> f64 {
         known(self.collision.max_contact_radius)
     }
 
-    /// Pa.
+    /// Largest pressure on the axis, Pa.
     pub fn peak_pressure(&self) -> f64 {
         known(self.collision.peak_pressure)
     }
@@ -83,6 +86,21 @@ pub struct ExplicitRun {
     pub explicit: Explicit,
     /// What every model gives.
     pub run: Run,
+}
+
+impl ExplicitRun {
+    /// The penalty springs between the bodies.
+    ///
+    /// # Errors
+    /// A case with another contact, of which a study of springs can tell nothing.
+    pub fn springs(&self) -> Result<&ContactInterface, StudyError> {
+        self.explicit.bodies.interface().ok_or_else(no_springs)
+    }
+}
+
+/// What is said of a contact that has no penalty springs.
+pub(crate) fn no_springs() -> StudyError {
+    StudyError::parameters("the study is of penalty springs, and the contact has none")
 }
 
 impl Deref for ExplicitRun {

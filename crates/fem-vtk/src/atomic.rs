@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use crate::Error;
+use crate::error::Error;
 
 /// Writes a hidden temporary file beside `path`, then renames it over `path`.
 pub(crate) fn write_atomically(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {

@@ -6,8 +6,8 @@ use std::path::Path;
 use quick_xml::escape::escape;
 use serde_json::json;
 
-use crate::Error;
 use crate::atomic::write_atomically;
+use crate::error::Error;
 
 /// Writes `path` (`<stem>.pvd`) and `<stem>.vtu.series` beside it.
 ///

@@ -3,9 +3,11 @@
 use std::io;
 use std::sync::{Arc, OnceLock};
 
-use crate::VTK_QUAD;
 use crate::blocks::{Compressed, compress};
 use crate::values::Values;
+
+/// The cell type of a four-node quadrilateral, `VTK_QUAD`.
+pub(crate) const VTK_QUAD: u8 = 9;
 
 /// Points and quadrilaterals that several files share.
 ///

@@ -33,6 +33,7 @@
 mod atomic;
 mod blocks;
 mod collection;
+mod contents;
 mod decode;
 mod document;
 mod encoding;
@@ -52,6 +53,3 @@ pub use grid::VtuGrid;
 pub use reader::{QuadMesh, ReadArray, VtuFile, read_quad_mesh};
 pub use values::{Numbers, Values, pad_vectors};
 pub use writer::VtuWriter;
-
-/// The cell type of a four-node quadrilateral, `VTK_QUAD`.
-const VTK_QUAD: u8 = 9;

@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::decode::{decode, place};
 use crate::document::{ArrayEntry, Document, Fault};
+use crate::error::Error;
+use crate::grid::VTK_QUAD;
 use crate::section::Section;
 use crate::values::{Numbers, first_not_finite};
-use crate::{Error, VTK_QUAD};
 
 /// Points and quadrilaterals of a file.
 #[derive(Clone, Debug, PartialEq)]

@@ -11,7 +11,7 @@ pub fn approach_of(scene: &Scene) -> Approach {
     }
 }
 
-/// The same scene with bodies that meet in another way.
+/// A scene with its bodies meeting in another way.
 pub fn scene_at(scene: &Scene, approach: &Approach) -> Scene {
     let mut scene = scene.clone();
     for (body, velocity) in scene.bodies.iter_mut().zip(approach.velocities) {

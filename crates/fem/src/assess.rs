@@ -28,6 +28,17 @@ const LARGEST_OUTGROWTH: f64 = 1.05;
 /// Restitution above 1 that is no rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
 
+impl Simulation {
+    /// All that the user should know of a collision: what was known before it, what it shows itself
+    /// ([`assess`]), and what its model says.
+    pub fn warnings(&self, collision: &Collision) -> Vec<String> {
+        let mut warnings = self.setup().warnings.clone();
+        warnings.extend(assess(self, collision));
+        warnings.extend(collision.warnings.iter().cloned());
+        warnings
+    }
+}
+
 /// Warnings about a collision of finite elements; a reduced model has no such errors.
 pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };

@@ -50,7 +50,7 @@ impl Estimate {
         Expectation { contact_time: self.contact_time, approach: self.approach }
     }
 
-    /// Of a scene.
+    /// What closed forms say of a scene.
     ///
     /// # Errors
     /// Numbers so extreme that Hertz' values leave the range of f64.

@@ -10,30 +10,48 @@
 //! a key; the case knows where that stands. [`effects`] says which effects a scene calls for and what
 //! follows from what a model has of them.
 
+pub mod accuracy;
 mod approach;
 mod assess;
+pub mod calibrate;
 pub mod effects;
 mod estimate;
+pub mod laws;
 mod limits;
+pub mod measured;
+mod mesh_source;
 mod meshes;
 mod method;
 mod models;
+mod pair_cache;
 mod plan;
 mod refusal;
 mod remedy;
 pub mod results;
 mod simulation;
+mod stress;
+pub mod sweep;
 
 pub use approach::{approach_of, scene_at};
 pub use assess::assess;
 pub use estimate::Estimate;
 pub use meshes::build_meshes;
-pub use method::{Cost, ElementSetup, ForceLaw, METHODS, Method, Model, Setup, Shared, method_of};
+pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
     CONDENSED, Condensed, CondensedMethod, EXPLICIT, Explicit, ExplicitMethod, HERTZ, HertzMethod,
-    LAW, LawMethod, PairCache, Reduced, TING, TingMethod, ting_impact,
+    LAW, LawMethod, METHODS, Reduced, TING, TingMethod, method_of, ting_impact,
 };
+pub use pair_cache::PairCache;
 pub use plan::Plan;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};
-pub use simulation::Simulation;
+pub use results::Summary;
+pub use simulation::{Simulation, collide};
+pub use stress::BodyStress;
+pub use sweep::sweep;
+
+pub use fem_case::{Case, CaseError, CaseFile, schema};
+pub use fem_collision::{
+    Account, Approach, Collision, Ending, Label, Monitor, Progress, Row, Snapshot, Stop,
+    StressField, Want, invariants,
+};

@@ -3,7 +3,7 @@
 use fem_case::{Scene, Shape};
 use fem_explicit::n_states;
 
-use crate::meshes::{half_disc, mesh_refusal};
+use crate::mesh_source::{half_disc, mesh_refusal};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 

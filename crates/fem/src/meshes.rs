@@ -3,45 +3,12 @@
 use std::path::Path;
 
 use fem_case::{Scene, Shape};
-use fem_mesh::{HalfDisc, MeshError, Side, SphereMesh};
+use fem_mesh::SphereMesh;
 
 use crate::limits::check_size;
+use crate::mesh_source::{MeshSource, half_disc, mesh_refusal};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
-
-/// What a mesh is made from; equal ones make equal meshes.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum MeshSource {
-    /// Made here.
-    HalfDisc(HalfDisc),
-    /// Read from a file.
-    File(SphereMesh),
-}
-
-impl MeshSource {
-    /// How many elements the mesh has, without making it.
-    ///
-    /// # Errors
-    /// As [`HalfDisc::n_elements`].
-    pub fn n_elements(&self) -> Result<usize, MeshError> {
-        match self {
-            Self::HalfDisc(half_disc) => half_disc.n_elements(),
-            Self::File(mesh) => Ok(mesh.quads().len()),
-        }
-    }
-
-    /// The mesh of the lower body, 0, or the upper one.
-    ///
-    /// # Errors
-    /// As [`HalfDisc::build`].
-    pub fn build(&self, body: usize) -> Result<SphereMesh, MeshError> {
-        let mesh = match self {
-            Self::HalfDisc(half_disc) => half_disc.build()?,
-            Self::File(mesh) => mesh.clone(),
-        };
-        Ok(mesh.on_side(if body == 0 { Side::Below } else { Side::Above }))
-    }
-}
 
 /// The meshes of both bodies in their places; a wall has none.
 ///
@@ -74,15 +41,6 @@ pub(crate) fn mesh_sources(scene: &Scene, plan: &Plan) -> Result<[Option<MeshSou
     Ok(sources)
 }
 
-pub(crate) fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
-    HalfDisc {
-        radius: 0.5 * diameter,
-        contact_element_size: plan.contact_element_size,
-        refined_radius: plan.refined_radius,
-        growth: plan.growth,
-    }
-}
-
 fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Refusal> {
     read_sphere(diameter, path).map_err(|found| {
         let message = format!("mesh {}: {found}", path.display());
@@ -107,18 +65,4 @@ fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
 #[cfg(not(feature = "files"))]
 fn read_sphere(_: f64, _: &Path) -> Result<SphereMesh, String> {
     Err("no files are read here".to_string())
-}
-
-/// The key that is to blame for a mesh that cannot be made.
-pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
-    let key = match error {
-        MeshError::RefinedRadius { .. } => "mesh.refined_radius",
-        MeshError::Growth(_) => "mesh.growth",
-        _ => "mesh.contact_element_size",
-    };
-    let refusal = Refusal::new(key, error.to_string());
-    match error {
-        MeshError::TooLarge(_) => refusal.with_help("use a larger contact_element_size"),
-        _ => refusal,
-    }
 }

@@ -1,17 +1,17 @@
 //! What a way to compute collisions is to the rest of the house, and what it makes of a scene.
 //!
 //! A [`Method`] turns a scene into a [`Model`], which computes its collision at any approach. There
-//! is one file a method in `models/`; [`METHODS`] lists them from the cheapest to the dearest.
+//! is one file a method in `models/`, where [`METHODS`](crate::METHODS) lists them.
 
 use std::fmt;
 
-use fem_case::{CaseFile, ModelChoice, Scene};
+use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, Want};
 use fem_mesh::SphereMesh;
 
 use crate::effects::Verdict;
 use crate::estimate::Estimate;
-use crate::models::{CONDENSED, EXPLICIT, HERTZ, LAW, PairCache, TING};
+use crate::pair_cache::PairCache;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
@@ -39,20 +39,6 @@ pub trait Method: Sync {
     /// # Errors
     /// As [`Method::price`].
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal>;
-}
-
-/// All methods, from the cheapest to the dearest.
-pub const METHODS: [&dyn Method; 5] = [&HERTZ, &LAW, &TING, &CONDENSED, &EXPLICIT];
-
-/// The method that a scene chooses.
-pub fn method_of(scene: &Scene) -> &'static dyn Method {
-    match scene.model {
-        ModelChoice::Hertz { .. } => &HERTZ,
-        ModelChoice::Law { .. } => &LAW,
-        ModelChoice::Ting { .. } => &TING,
-        ModelChoice::Condensed(_) => &CONDENSED,
-        _ => &EXPLICIT,
-    }
 }
 
 /// What the models of several scenes share.
@@ -123,9 +109,9 @@ pub enum Cost {
         steps: u64,
         /// Elements times steps.
         element_updates: u64,
-        /// Bytes.
+        /// Memory of the run, bytes.
         memory: u64,
-        /// s.
+        /// Time step, s.
         time_step: f64,
         /// What it would be without mass scaling, s.
         plain_time_step: f64,
@@ -151,12 +137,12 @@ pub enum Cost {
 /// F = K ξ^γ + C ξⁿ ξ̇, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceLaw {
-    /// K.
+    /// Stiffness K.
     pub stiffness: f64,
-    /// γ.
+    /// Exponent γ of the spring.
     pub elastic_exponent: f64,
-    /// C.
+    /// Damping C.
     pub damping: f64,
-    /// n.
+    /// Exponent n of the dashpot.
     pub damping_exponent: f64,
 }

@@ -55,11 +55,11 @@ pub struct Plan {
     pub mass_scaling: f64,
     /// Snapshots to keep.
     pub snapshots: SnapshotRequest,
-    /// Refusal limits.
+    /// Elements above which a run is refused.
     pub max_elements: u64,
-    /// Elements times steps.
+    /// Elements times steps above which a run is refused.
     pub max_element_updates: u64,
-    /// Bytes.
+    /// Memory above which a run is refused, bytes.
     pub max_memory: u64,
     /// Keys of the case that the plan does not read.
     pub warnings: Vec<String>,

@@ -15,7 +15,7 @@ pub struct Refusal {
 }
 
 impl Refusal {
-    /// Blames a key.
+    /// A refusal that blames a key.
     pub fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self { key: key.into(), message: message.into(), help: None }
     }
@@ -27,7 +27,7 @@ impl Refusal {
         self
     }
 
-    /// The same as an error of the case that the scene is from, with its place.
+    /// This refusal as an error of the case that the scene is from, with its place.
     pub fn in_case(self, case: &Case) -> CaseError {
         let error = case.error_at(&self.key, self.message);
         match self.help {

@@ -129,7 +129,7 @@ fn a_contact_that_outgrows_the_searched_region_is_run_again() {
     let Setup { approach, want, .. } = explicit.setup().clone();
     let collision = explicit.collide(&approach, &want, &mut ());
     assert!(collision.is_complete());
-    assert!(explicit.bodies.interface().candidate_radius() > 0.223e-3);
+    assert!(explicit.bodies.candidate_radius() > 0.223e-3);
     assert!((collision.restitution.unwrap() - 1.0).abs() < 1e-3);
 }
 

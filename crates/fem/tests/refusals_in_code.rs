@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::Simulation;
+use fem::{METHODS, Shared, Simulation};
 use fem_case::schema::MeshTable;
 use fem_case::{Case, CaseError, CaseFile};
 
@@ -41,4 +41,21 @@ fn what_nobody_gave_is_named_too() {
         file.limits.get_or_insert_default().elements = Some(1e9.into());
     });
     assert_eq!(refused(many.unwrap()).source_name(), "limits.memory");
+}
+
+/// Condensed elements take any scene, with the options that a scene has without any.
+#[test]
+fn a_method_refuses_a_scene_that_chose_another() {
+    for model in ["fem={}", "hertz={}", "ting={}", "law.falcon.c=300"] {
+        let set = [format!("model.{model}")];
+        let scene = Case::parse("pair.toml", GLASS, Path::new("."), &set).unwrap().scene;
+        for method in METHODS.iter().filter(|method| method.name() != "condensed") {
+            let made = method.build(&scene, &Shared::default());
+            if method.name() == scene.model.name() {
+                made.unwrap();
+            } else {
+                assert_eq!(made.unwrap_err().key, scene.model.path(), "{}", method.name());
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use fem_material::{ElasticModuli, Material, MaterialError, ModuliInput, PronySer
 use super::{ANY, Check, POSITIVE};
 use crate::error::CaseError;
 use crate::key_path::join;
-use crate::schema::{ActsOn, MaterialTable, RelaxationTable};
+use crate::schema::{MaterialTable, RelaxationTable};
 
 impl Check<'_> {
     /// The material of the table at `path`.
@@ -30,11 +30,7 @@ impl Check<'_> {
         let relaxation = match &table.relaxation {
             Some(relaxation) => {
                 let terms = self.relaxation_terms(path, relaxation)?;
-                let acts_on = match relaxation.acts_on {
-                    ActsOn::All => fem_material::ActsOn::All,
-                    ActsOn::Shear => fem_material::ActsOn::Shear,
-                };
-                Some(PronySeries::new(terms, acts_on).map_err(place)?)
+                Some(PronySeries::new(terms, relaxation.acts_on.into()).map_err(place)?)
             }
             None => None,
         };

@@ -125,10 +125,7 @@ impl Check<'_> {
         }
         let inner = self.tolerance(&join(&path, "tolerance"), tolerance)?;
         let outer = self.tolerance("model.law.tolerance", table.tolerance.as_ref())?;
-        let end_rule = match end.or(table.end).unwrap_or(End::ZeroForce) {
-            End::ZeroForce => EndRule::ZeroForce,
-            End::ZeroOverlap => EndRule::ZeroOverlap,
-        };
+        let end_rule = EndRule::from(end.or(table.end).unwrap_or(End::ZeroForce));
         let law = Keys { check: self, path: &path }.law(table)?;
         if law.family().end_rule().is_some_and(|own| own != end_rule) {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };

@@ -27,7 +27,7 @@ fn disturbed(factor: f64) -> Collision {
     let model = model();
     let mut run = Run::new(&model, EXPECTED, &want(SnapshotRequest::none()));
     assert_eq!(run.advance(128), Ok(Status::UnderWay));
-    for v in run.memory.state.bodies[0].v.as_flattened_mut() {
+    for v in run.memory.state.bodies[0].velocity.as_flattened_mut() {
         *v *= factor;
     }
     let stopped = run.advance(u64::MAX).err();
@@ -106,7 +106,7 @@ fn the_next_contact_is_foreseen() {
     update_forces(&model, &state, &mut scratch);
     let lifted = |offset: f64| {
         let mut state = state.clone();
-        state.bodies[1].u.iter_mut().for_each(|u| u[1] += offset);
+        state.bodies[1].displacement.iter_mut().for_each(|u| u[1] += offset);
         state
     };
     let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch));

@@ -1,14 +1,16 @@
 //! Prony branches through the whole step.
 
-use fem_collision::BodyFields;
+use fem_collision::{Account, BodyFields};
 use fem_material::{ActsOn, ElasticModuli, Material};
 use fem_mesh::Side;
 
 use crate::body::Body;
-use crate::kernel::Moduli;
-use crate::state::{BodyState, Scratch, State};
+use crate::state::{Scratch, State};
 use crate::step::{advance, update_forces};
-use crate::test_support::{assembled, free_sphere, moduli, relaxing_glass, unit_sphere, vector};
+use crate::stress::Moduli;
+use crate::test_support::{
+    accounts, assembled, free_sphere, moduli, relaxing_glass, unit_sphere, vector,
+};
 
 const TERMS: [(f64, f64); 3] = [(0.3, 0.02), (0.4, 0.3), (0.1, 5.0)];
 
@@ -17,12 +19,10 @@ fn strained(material: Material) -> (crate::Model, State) {
     let mesh = unit_sphere(8.0, Side::Above);
     let u: Vec<_> = mesh.nodes().iter().map(|&[r, y]| [0.02 * r, -0.01 * y]).collect();
     let (model, mut state) = free_sphere(mesh, material, 0.9);
-    let body = &mut state.bodies[1];
-    body.u.copy_from_slice(&u);
-    for q in &mut body.q {
-        q.copy_from_slice(&u);
-    }
-    body.update_effective(&model.bodies()[1]);
+    let state_of_body = &mut state.bodies[1];
+    let stress = model.bodies()[1].stress.as_ref().unwrap();
+    stress.part.start_deformed(&u, &mut state_of_body.history);
+    state_of_body.displacement = u;
     (model, state)
 }
 
@@ -55,7 +55,7 @@ fn a_held_strain_relaxes_as_the_prony_series() {
         let n = n_steps(&model);
         let f = hold(&model, &mut state, n);
         let mesh = model.bodies()[1].mesh().unwrap();
-        let u = vector(&state.bodies[1].u);
+        let u = vector(&state.bodies[1].displacement);
         let bulk = assembled(mesh, Moduli { shear: 0.0, ..moduli }) * &u;
         let shear = assembled(mesh, Moduli { bulk: 0.0, ..moduli }) * &u;
         let g = relaxation(n as f64 * model.time_step());
@@ -79,13 +79,13 @@ fn recovered_stress_relaxes_alike() {
         hold(&model, &mut state, n);
         let g = relaxation(n as f64 * model.time_step());
         let body = &model.bodies()[1];
-        let Moduli { bulk, shear } = body.moduli;
+        let Moduli { bulk, shear } = moduli(body.material().unwrap());
         let bulk = if acts_on == ActsOn::All { g * bulk } else { bulk };
         let relaxed = ElasticModuli::from_bulk_shear(bulk, g * shear).unwrap();
         let exact = relaxed.stress([0.02, -0.01, 0.02, 0.0]);
         let mut fields = BodyFields::default();
-        fields.displacement.clone_from(&state.bodies[1].u);
-        fields.effective.clone_from(&state.bodies[1].w);
+        fields.displacement.clone_from(&state.bodies[1].displacement);
+        fields.effective.clone_from(&state.bodies[1].history[body.effective().unwrap()]);
         let stress = body.stress(&fields);
         for found in stress.cells.iter().chain(&stress.points) {
             for (found, exact) in found.iter().zip(exact) {
@@ -107,7 +107,7 @@ fn stored_energy_falls_by_what_is_dissipated() {
         let body = &model.bodies()[1];
         let mesh = body.mesh().unwrap();
         let energy = |moduli: Moduli| {
-            let u = vector(&state.bodies[1].u);
+            let u = vector(&state.bodies[1].displacement);
             0.5 * u.dot(&(assembled(mesh, moduli) * &u))
         };
         let (bulk, shear) =
@@ -125,8 +125,9 @@ fn stored_energy_falls_by_what_is_dissipated() {
             stored += part;
             power += 2.0 / tau * part;
         }
-        let BodyState { u, q, .. } = &state.bodies[1];
-        let (found, found_power) = body.stored_and_dissipated(u, q);
+        let told = accounts(body, &state.bodies[1]);
+        let found = told.energies.get(Account::Strain).unwrap();
+        let found_power = told.powers.get(Account::ViscousDissipation).unwrap();
         // Rounding of some dozen steps.
         assert!((found / stored - 1.0).abs() < 1e-13, "{acts_on:?}: {found} {stored}");
         assert!((found_power / power - 1.0).abs() < 1e-12, "{acts_on:?}: {found_power} {power}");
@@ -140,10 +141,10 @@ fn branches_follow_a_ramp_exactly() {
     let rate: Vec<_> = mesh.nodes().iter().map(|&[r, y]| [0.02 * r, -0.01 * y]).collect();
     let material = relaxing_glass(&[(0.5, 1e-4), (0.3, 0.3)], ActsOn::All);
     let (model, mut state) = free_sphere(mesh, material, 0.9);
-    state.bodies[1].v.copy_from_slice(&rate);
+    state.bodies[1].velocity.copy_from_slice(&rate);
     hold(&model, &mut state, 40);
     let time = 40.0 * model.time_step();
-    for (tau, q) in [1e-4, 0.3].into_iter().zip(&state.bodies[1].q) {
+    for (tau, q) in [1e-4, 0.3].into_iter().zip(&state.bodies[1].history[1..]) {
         let gain = -tau * f64::exp_m1(-time / tau);
         for (q, rate) in q.iter().zip(&rate) {
             for axis in 0..2 {
@@ -158,18 +159,23 @@ fn branches_follow_a_ramp_exactly() {
 fn effective_displacement_of_a_state_is_what_the_step_leaves() {
     let (model, mut state) = strained(relaxing_glass(&TERMS, ActsOn::Shear));
     hold(&model, &mut state, 7);
-    let after_step = state.bodies[1].w.clone();
-    state.bodies[1].update_effective(&model.bodies()[1]);
-    assert_eq!(state.bodies[1].w, after_step);
+    let after_step = state.bodies[1].history.clone();
+    // A rigid start leaves the branches as they are and makes the effective displacement anew.
+    let body = &mut state.bodies[1];
+    let stress = model.bodies()[1].stress.as_ref().unwrap();
+    stress.part.start_rigid(&body.displacement, &mut body.history);
+    assert_eq!(body.history, after_step);
 }
 
 /// Terms of no weight keep no history; an elastic body has no branch at all.
 #[test]
 fn branches_without_weight_are_absent() {
-    let n_branches = |model: &crate::Model| model.bodies().each_ref().map(Body::n_branches);
+    let n_history = |model: &crate::Model| model.bodies().each_ref().map(Body::n_history);
+    // The effective displacement and one branch.
     let (model, _) = strained(relaxing_glass(&[(0.0, 1.0), (0.5, 1.0)], ActsOn::All));
-    assert_eq!(n_branches(&model), [0, 1]);
+    assert_eq!(n_history(&model), [0, 2]);
     let (model, state) = strained(relaxing_glass(&[(0.0, 1.0)], ActsOn::All));
-    assert_eq!(n_branches(&model), [0, 0]);
-    assert!(state.bodies[1].w.is_empty());
+    assert_eq!(n_history(&model), [0, 0]);
+    assert_eq!(model.bodies()[1].effective(), None);
+    assert!(state.bodies[1].history.is_empty());
 }

@@ -9,9 +9,9 @@ use crate::model::{Model, Settings};
 use crate::state::{Scratch, State};
 use crate::step::update_forces;
 use crate::test_support::{
-    assembled, largest_eigenvalue, moduli, ragged, settings, sphere, unit_glass, unit_sphere,
+    assembled, largest_eigenvalue, lumped, moduli, ragged, settings, sphere, unit_glass,
+    unit_sphere,
 };
-use crate::time_step::NodalBound;
 
 fn glass_sphere(mesh: SphereMesh) -> BodyInput {
     BodyInput::Sphere { mesh, material: unit_glass() }
@@ -33,14 +33,14 @@ fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
         scratch.forces.concat()
     };
     let before = forces(state);
-    let n_lower = state.bodies[0].u.len();
+    let n_lower = state.bodies[0].displacement.len();
     let step = 1e-3;
     let mut matrix = DMatrix::zeros(2 * before.len(), 2 * before.len());
     for j in 0..2 * before.len() {
         let mut moved = state.clone();
         let node = j / 2;
         let (side, node) = if node < n_lower { (0, node) } else { (1, node - n_lower) };
-        moved.bodies[side].u[node][j % 2] += step;
+        moved.bodies[side].displacement[node][j % 2] += step;
         for (i, (f, g)) in
             before.as_flattened().iter().zip(forces(&moved).as_flattened()).enumerate()
         {
@@ -52,10 +52,10 @@ fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
 
 /// Critical time step of the bound over the true one, 2/ω_max of the assembled body.
 fn tightness(mesh: &SphereMesh) -> f64 {
-    let bound = NodalBound::of_sphere(mesh, &unit_glass());
-    let critical = bound.critical_time_step();
-    let (mass, _) = bound.scale_mass(0.0);
-    let body = Body::deformable(mesh.clone(), &unit_glass(), 0.0, mass, 0.0, critical);
+    let sphere = lumped(mesh, unit_glass());
+    let critical = sphere.bound.critical_time_step();
+    let (mass, _) = sphere.bound.scale_mass(0.0);
+    let body = Body::of_sphere(sphere, 0.0, mass, 0.0, critical);
     let exact = largest_eigenvalue(&assembled(mesh, moduli(&unit_glass())), &[&body]);
     critical * exact.sqrt() / 2.0
 }
@@ -81,12 +81,12 @@ fn critical_time_step_with_closed_contact_is_safe() {
             let both = [&bodies[0], &bodies[1]];
             let mut state = State::at_first_touch(&model);
             // All points closed: the pole of the upper body is a radius inside of the lower.
-            state.bodies[1].u.iter_mut().for_each(|u| u[1] -= 1.0);
+            state.bodies[1].displacement.iter_mut().for_each(|u| u[1] -= 1.0);
             let closed = largest_eigenvalue(&tangent(&model, &state), &both);
             for (side, body) in bodies.iter().enumerate() {
                 let field = ragged(body.mesh().unwrap(), side);
                 state.bodies[side]
-                    .u
+                    .displacement
                     .iter_mut()
                     .zip(&field)
                     .for_each(|(u, x)| *u = [0.0, 4.0 * x[1]]);
@@ -107,7 +107,7 @@ fn lumped_mass_is_that_of_the_sphere() {
     for (size, refined_radius) in [(0.25, 0.5), (0.02, 0.06)] {
         let mesh =
             HalfDisc { radius: 3.0, contact_element_size: size, refined_radius, growth: None };
-        let bound = NodalBound::of_sphere(&mesh.build().unwrap(), &unit_glass());
+        let bound = lumped(&mesh.build().unwrap(), unit_glass()).bound;
         let mass: f64 = bound.mass.iter().sum();
         // Rounding of a sum over the elements.
         assert!((mass / sphere_volume(3.0) - 1.0).abs() < 1e-13, "{mass}");
@@ -118,7 +118,7 @@ fn lumped_mass_is_that_of_the_sphere() {
 #[test]
 fn mass_scaling_adds_what_the_bound_needs_and_stays_in_its_budget() {
     let mesh = sphere(0.02, 0.06, Side::Above);
-    let bound = NodalBound::of_sphere(&mesh, &unit_glass());
+    let bound = lumped(&mesh, unit_glass()).bound;
     let plain = bound.critical_time_step();
     let mass: f64 = bound.mass.iter().sum();
     let mut last = plain;
@@ -126,7 +126,7 @@ fn mass_scaling_adds_what_the_bound_needs_and_stays_in_its_budget() {
         let scaled = bound.scaled_time_step(fraction);
         assert!(scaled > last);
         last = scaled;
-        let (filled, added) = bound.clone().scale_mass(scaled);
+        let (filled, added) = bound.scale_mass(scaled);
         for ((after, before), stiffness) in filled.iter().zip(&bound.mass).zip(&bound.stiffness) {
             let needed = 0.25 * scaled * scaled * stiffness;
             assert_eq!(*after, before.max(needed));
@@ -142,10 +142,10 @@ fn mass_scaling_adds_what_the_bound_needs_and_stays_in_its_budget() {
 
 #[test]
 fn no_mass_scaling_is_no_mass_scaling() {
-    let bound = NodalBound::of_sphere(&unit_sphere(8.0, Side::Above), &unit_glass());
+    let bound = lumped(&unit_sphere(8.0, Side::Above), unit_glass()).bound;
     let plain = bound.critical_time_step();
     assert_eq!(bound.scaled_time_step(0.0), plain);
-    let (masses, added) = bound.clone().scale_mass(plain);
+    let (masses, added) = bound.scale_mass(plain);
     // The node that decides may be filled up by a rounding.
     assert!(added <= 1e-15 * masses.iter().sum::<f64>());
     let model = pair([0.25, 0.125], &settings());

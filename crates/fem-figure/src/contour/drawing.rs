@@ -7,9 +7,9 @@ use super::levels::Levels;
 use super::paths;
 use super::region::Region;
 use super::section::Section;
+use super::window::{PANEL_WIDTH, Window};
 use crate::style::{FONT, escaped, tick};
 
-const PANEL_WIDTH: f64 = 400.0;
 const LEFT: f64 = 62.0;
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 50.0;
@@ -19,38 +19,6 @@ const SWATCH_WIDTH: f64 = 22.0;
 /// Intervals between ticks, about.
 const N_TICKS: usize = 7;
 const INK: &str = "#1c2126";
-
-/// What of the plane is seen: horizontal and vertical range, in the units of the points.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window {
-    /// From left to right.
-    pub x: (f64, f64),
-    /// From bottom to top.
-    pub y: (f64, f64),
-}
-
-impl Window {
-    fn scale(&self) -> f64 {
-        PANEL_WIDTH / (self.x.1 - self.x.0)
-    }
-
-    fn height(&self) -> f64 {
-        self.scale() * (self.y.1 - self.y.0)
-    }
-
-    /// In pixels from the upper left corner.
-    pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.scale() * (x - self.x.0), self.scale() * (self.y.1 - y)]
-    }
-
-    /// Within half a window's width of it.
-    pub(crate) fn is_near(&self, [x, y]: [f64; 2]) -> bool {
-        let margin = 0.5 * (self.x.1 - self.x.0);
-        let inside =
-            |value: f64, (from, to): (f64, f64)| (from - margin..=to + margin).contains(&value);
-        inside(x, self.x) && inside(y, self.y)
-    }
-}
 
 /// What is drawn in one window.
 #[derive(Debug, Clone, PartialEq)]

@@ -14,9 +14,11 @@ mod levels;
 mod paths;
 mod region;
 mod section;
+mod window;
 
 pub use colours::band_colour;
-pub use drawing::{Contour, Panel, Window};
+pub use drawing::{Contour, Panel};
 pub use levels::Levels;
 pub use region::Region;
 pub use section::Section;
+pub use window::Window;

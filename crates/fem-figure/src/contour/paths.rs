@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::drawing::Window;
 use super::region::Region;
+use super::window::Window;
 
 /// Closed paths of a region's outline.
 pub(crate) fn of_region(region: &Region, window: &Window) -> String {

@@ -6,20 +6,20 @@ use fem_laws::{EndRule, LawError, Pair};
 /// A sphere, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
-    /// D, m.
+    /// Diameter D, m.
     pub diameter: f64,
-    /// ρ, kg/m³.
+    /// Density ρ, kg/m³.
     pub density: f64,
     /// Instantaneous Young's modulus, Pa.
     pub youngs_modulus: f64,
-    /// ν.
+    /// Poisson's ratio ν.
     pub poissons_ratio: f64,
 }
 
 /// A Hertzian contact whose restitution is the same at every speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {
-    /// e.
+    /// Restitution e.
     pub restitution: f64,
     /// Where e is good: from, to, m/s, and its largest error over all data.
     pub validity: [f64; 3],
@@ -28,11 +28,11 @@ pub struct Elastic {
 /// A linear spring and dashpot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dashpot {
-    /// e.
+    /// Restitution e.
     pub restitution: f64,
-    /// T, s.
+    /// Contact time T, s.
     pub contact_time: f64,
-    /// As of [`Elastic`].
+    /// Where e is good: from, to, m/s, and its largest error over all data.
     pub validity: [f64; 3],
 }
 
@@ -43,7 +43,7 @@ pub struct Export {
     pub title: String,
     /// The two spheres, or the one that strikes a rigid wall.
     pub spheres: Vec<Sphere>,
-    /// The same as a pair.
+    /// The spheres as a pair.
     pub pair: Pair,
     /// Smallest and largest speed of the data, m/s.
     pub speeds: (f64, f64),

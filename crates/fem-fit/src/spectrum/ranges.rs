@@ -6,7 +6,7 @@
 //! the end that was found. No ridge: that is the user's wish and no knowledge.
 
 use super::bounded::Linear;
-use crate::FitError;
+use crate::error::FitError;
 
 /// Corrections of an end by a collision computed there.
 const CHORDS: usize = 4;
@@ -20,7 +20,7 @@ pub struct Range {
     pub value: f64,
     /// Least value that the data allow.
     pub low: f64,
-    /// Largest.
+    /// Largest value.
     pub high: f64,
 }
 

@@ -21,7 +21,7 @@ pub struct Combination {
     pub coefficients: Vec<f64>,
     /// v·w of the best weights.
     pub value: f64,
-    /// σ/s.
+    /// Standard error σ/s of the combination.
     pub standard_error: f64,
     /// Whether the data know it better than to 1/2.
     pub is_determined: bool,

@@ -6,11 +6,12 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use super::bounded::Linear;
+use super::fit::{MODEL_ERROR, SpectrumFit};
+use super::problem::{SpectrumProblem, root_mean_square};
 use super::ranges::{Seeker, moments};
 use super::repeats::{PureError, n_distinct};
 use super::resolution::Resolution;
-use super::{MODEL_ERROR, SpectrumFit, SpectrumProblem, root_mean_square};
-use crate::FitError;
+use crate::error::FitError;
 
 /// Step of the differences: weights are of order 1, collisions smooth to 1e-7.
 const STEP: f64 = 1e-3;
@@ -19,7 +20,31 @@ const STANDS: f64 = 1e-6;
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
 
-pub(super) struct Solver<'a> {
+impl SpectrumProblem<'_> {
+    /// The best weights and their intervals at this level of confidence (such as 0.95).
+    ///
+    /// # Errors
+    /// Fewer data than weights without regularisation; a level outside (0, 1); a λ that is negative
+    /// or not finite; a collision that cannot be computed.
+    pub fn fit(&self, confidence: f64) -> Result<SpectrumFit, FitError> {
+        let range = |quantity, value, allowed, is_good: bool| {
+            let error = FitError::OutOfRange { quantity, value, allowed };
+            if is_good { Ok(()) } else { Err(error) }
+        };
+        let is_level = confidence > 0.0 && confidence < 1.0;
+        range("confidence", confidence, "between 0 and 1", is_level)?;
+        let is_ridge = self.regularisation >= 0.0 && self.regularisation.is_finite();
+        range("regularisation", self.regularisation, "at least 0 and finite", is_ridge)?;
+        let (n_values, n_free) = (self.measured.len(), self.times.len());
+        if n_values < n_free && self.regularisation == 0.0 {
+            let free = "the weights of the series".to_string();
+            return Err(FitError::TooFewData { n_values, n_free, free });
+        }
+        Solver::new(self).fit(confidence)
+    }
+}
+
+struct Solver<'a> {
     problem: &'a SpectrumProblem<'a>,
     n_evaluations: Cell<usize>,
 }
@@ -31,11 +56,11 @@ struct State {
 }
 
 impl<'a> Solver<'a> {
-    pub fn new(problem: &'a SpectrumProblem<'a>) -> Self {
+    fn new(problem: &'a SpectrumProblem<'a>) -> Self {
         Self { problem, n_evaluations: Cell::new(0) }
     }
 
-    pub fn fit(&self, confidence: f64) -> Result<SpectrumFit, FitError> {
+    fn fit(&self, confidence: f64) -> Result<SpectrumFit, FitError> {
         let problem = self.problem;
         let (state, jacobian) = self.minimise()?;
         let linear = self.linear(&state, &jacobian);

@@ -11,9 +11,9 @@
 pub struct SpeedPoint {
     /// Which pair of bodies.
     pub pair: usize,
-    /// m/s.
+    /// Approach speed, m/s.
     pub speed: f64,
-    /// e.
+    /// Restitution e.
     pub restitution: f64,
 }
 

@@ -9,11 +9,12 @@
 //! [`super::kuwabara_kono`]. Limits: the range of the fit; the dissipated share scales as
 //! v^((4n−1)/5), so a restitution that falls with speed needs n > 1/4.
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
+use crate::pair::Pair;
 
-/// Of a pair, A, s, and n.
+/// The law of a pair, a dissipation time A, s, and an exponent n.
 ///
 /// # Errors
 /// A or n negative or not finite.

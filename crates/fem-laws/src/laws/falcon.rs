@@ -5,11 +5,12 @@
 //! comes from an experiment. The restitution is independent of speed. Limits: those of an empirical
 //! law: the material and the sizes at which C was measured.
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::LawError;
+use crate::pair::Pair;
 
-/// Of a pair and C, N s/m^(5/4).
+/// The law of a pair and a damping C, N s/m^(5/4).
 ///
 /// # Errors
 /// C negative or not finite.

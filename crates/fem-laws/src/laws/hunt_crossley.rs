@@ -9,11 +9,12 @@
 //! wanted e in first order of 1 − e only. Limits: 1 − e small, at the one speed v. The force never
 //! attracts: the rate stays above −K/C.
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, positive, restitution as checked};
+use crate::pair::Pair;
 
-/// Of a pair and the restitution, in (0, 1], wanted at an approach speed, m/s.
+/// The law of a pair and the restitution, in (0, 1], wanted at an approach speed, m/s.
 ///
 /// # Errors
 /// A restitution outside (0, 1], a speed that is not positive and finite.

@@ -24,11 +24,12 @@
 
 use fem_material::ElasticModuli;
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
+use crate::pair::Pair;
 
-/// Of a pair and its dissipation time A, s.
+/// The law of a pair and its dissipation time A, s.
 ///
 /// # Errors
 /// A negative or not finite.

@@ -18,12 +18,13 @@
 
 use std::f64::consts::PI;
 
-use super::{ContactLaw, power};
+use super::power::{ContactLaw, power};
 use crate::bisection::last_where;
+use crate::end_rule::EndRule;
 use crate::error::{LawError, positive, restitution as checked};
-use crate::{EndRule, Pair};
+use crate::pair::Pair;
 
-/// From K, N/m, and C, N s/m.
+/// The law of a stiffness K, N/m, and a damping C, N s/m.
 ///
 /// # Errors
 /// K not positive and finite, C negative or not finite.
@@ -31,7 +32,7 @@ pub fn linear(stiffness: f64, damping: f64) -> Result<ContactLaw, LawError> {
     power(stiffness, 1.0, damping, 0.0)
 }
 
-/// With a restitution in (0, 1] and a contact time, s, for the end rule under which it is to run.
+/// The law with a restitution in (0, 1] and a contact time, s, for the end rule under which it is to run.
 ///
 /// # Errors
 /// A restitution outside (0, 1], a time that is not positive and finite.

@@ -4,10 +4,10 @@
 //! K and C are measured for one pair of bodies: no elastic theory gives the exponent 8/5. Limits: the
 //! pair and the speeds of the fit.
 
-use super::{ContactLaw, power};
+use super::power::{ContactLaw, power};
 use crate::error::LawError;
 
-/// From K, N/m^(8/5), and C, N s/m^(9/5).
+/// The law of a stiffness K, N/m^(8/5), and a damping C, N s/m^(9/5).
 ///
 /// # Errors
 /// K not positive and finite, C negative or not finite.

@@ -25,8 +25,3 @@ pub use power::{ContactLaw, power};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel};
 pub use tsuji::{tsuji, tsuji_coefficient};
 pub use zhang_whiten::zhang_whiten_coefficient;
-
-/// K = (4/3) E* √R*, N/m^(3/2), of Hertz' force.
-fn hertz_stiffness(pair: &crate::Pair) -> f64 {
-    4.0 / 3.0 * pair.contact_modulus() * pair.effective_radius().sqrt()
-}

@@ -8,9 +8,10 @@
 //! (2/3) E √R*/(1−ν²), with E and ν replaced by the viscoelastic coefficients η₁ and η₂. Limits: equal
 //! materials, a mild loss; the coefficients are hard to find for any material.
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
+use crate::pair::Pair;
 
 /// Of a pair and η₁, Pa s, and η₂, in (−1, 1).
 ///

@@ -20,7 +20,7 @@ pub struct ContactLaw {
     damping_exponent: f64,
 }
 
-/// From K in N/m^γ, γ, C in N s/m^(n+1), n.
+/// The law of K in N/m^γ, γ, C in N s/m^(n+1), n.
 ///
 /// # Errors
 /// K or γ not positive and finite; C or n negative or not finite.
@@ -39,22 +39,22 @@ pub fn power(
 }
 
 impl ContactLaw {
-    /// K, N/m^γ.
+    /// Stiffness K, N/m^γ.
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
 
-    /// γ.
+    /// Exponent γ of the spring.
     pub fn elastic_exponent(&self) -> f64 {
         self.elastic_exponent
     }
 
-    /// C, N s/m^(n+1).
+    /// Damping C, N s/m^(n+1).
     pub fn damping(&self) -> f64 {
         self.damping
     }
 
-    /// n.
+    /// Exponent n of the dashpot.
     pub fn damping_exponent(&self) -> f64 {
         self.damping_exponent
     }

@@ -13,9 +13,10 @@
 
 use fem_material::ElasticModuli;
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative, positive};
+use crate::pair::Pair;
 
 /// Of a pair and C_n, s.
 ///

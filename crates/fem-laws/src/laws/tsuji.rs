@@ -17,11 +17,12 @@
 
 use std::f64::consts::PI;
 
-use super::{ContactLaw, hertz_stiffness, power};
-use crate::Pair;
+use super::hertz::hertz_stiffness;
+use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative, restitution as checked};
+use crate::pair::Pair;
 
-/// Of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
+/// The law of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
 ///
 /// # Errors
 /// α negative or not finite.

@@ -11,7 +11,7 @@
 //! solved for ζ by bisection. Limits: a restitution that is to be the same at every speed.
 
 use super::linear::damping_ratio;
-use crate::EndRule;
+use crate::end_rule::EndRule;
 use crate::error::{LawError, restitution as checked};
 
 /// α of a restitution, in (0, 1], at the end of force.

@@ -1,22 +1,21 @@
 //! A calibration as text.
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::calibrate::{Calibration, CalibrationModel};
+use fem_case::engineering::show;
+use fem_case::schema::ActsOn;
 use fem_fit::spectrum::Range;
 
-use super::verdict::measured_exponent;
-use super::{Calibrated, ModelName};
-use crate::engineering::show;
-use crate::reduced::show_value;
-use crate::tables::table;
+use crate::tables::{show_value, table};
 
 /// For stdout.
-pub fn calibration_text(found: &Calibrated<'_>) -> String {
+pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     let mut text = heading(found);
     text += &weights(found);
     text += "\n";
     text += &combinations(found);
     text += "\n";
-    let fit = found.fit;
+    let fit = &found.fit;
     text += &format!(
         "rms error: {:.2e}; that of a single Maxwell term (weight 1, {}): {:.2e}\n",
         fit.rms,
@@ -30,30 +29,33 @@ pub fn calibration_text(found: &Calibrated<'_>) -> String {
         },
         found.maxwell.rms
     );
-    if let Some(exponent) = measured_exponent(found.measured) {
+    if let Some(exponent) = found.loss_exponent() {
         let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
         text += &format!(
             "1 - e goes as the speed to the power {:.3}{error} (any Prony series: -0.2 to 0.2)\n",
             exponent.value
         );
     }
-    for warning in found.warnings {
+    for warning in warnings {
         text += &format!("warning: {warning}\n");
     }
     text
 }
 
-fn heading(found: &Calibrated<'_>) -> String {
+fn heading(found: &Calibration) -> String {
     let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let span = |(low, high): (f64, f64), unit: &str| match low == high {
         true => show(low, unit),
         false => format!("{} to {}", show(low, unit), show(high, unit)),
     };
     let name = match found.model {
-        ModelName::Condensed => "condensed",
-        ModelName::Ting => "ting with finite size",
+        CalibrationModel::Condensed => "condensed",
+        CalibrationModel::Ting => "ting with finite size",
     };
-    let moduli = if found.acts_on() == "all" { "all moduli" } else { "the shear modulus" };
+    let moduli = match found.acts_on() {
+        ActsOn::All => "all moduli",
+        ActsOn::Shear => "the shear modulus",
+    };
     let mut text = format!(
         "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
         counted(found.times.len(), "term"),
@@ -62,7 +64,7 @@ fn heading(found: &Calibrated<'_>) -> String {
         counted(found.measured.data.points.len(), "point"),
         found.measured.data.name,
         counted(found.experiments.len(), "pair"),
-        span(found.speeds(), "m/s"),
+        span(found.measured.data.speeds(), "m/s"),
         span(found.contact_times(), "s"),
     );
     let across = found.experiments.iter().filter_map(|experiment| experiment.elements_across);
@@ -76,8 +78,8 @@ fn heading(found: &Calibrated<'_>) -> String {
     text + "\n"
 }
 
-fn weights(found: &Calibrated<'_>) -> String {
-    let fit = found.fit;
+fn weights(found: &Calibration) -> String {
+    let fit = &found.fit;
     let level = format!("{} % range, others free", 100.0 * found.confidence);
     let header = ["", "relaxation time", "best", level.as_str(), "from the data"].map(String::from);
     let span = |range: &Range, shown: &dyn Fn(f64) -> String| {
@@ -108,7 +110,7 @@ fn weights(found: &Calibrated<'_>) -> String {
     table(&[Left, Right, Right, Left, Right], rows)
 }
 
-fn combinations(found: &Calibrated<'_>) -> String {
+fn combinations(found: &Calibration) -> String {
     let header = ["combination", "singular value", "value", "standard error", ""].map(String::from);
     let all = &found.fit.resolution.combinations;
     let seen = all.iter().filter(|combination| combination.singular_value > 0.0);

@@ -2,22 +2,17 @@
 
 use std::path::PathBuf;
 
+use fem::calibrate::{Calibration, CalibrationFault, CalibrationModel, SettingNames, Settings};
+use fem::measured::{MeasuredPairs, UncertaintyError};
+use fem_case::schema::ActsOn;
 use fem_case::{Case, parse_quantity};
-use fem_fit::FitError;
-use fem_fit::spectrum::{SpectrumProblem, root_mean_square};
-use fem_material::{ActsOn, PronyTerm};
-use rayon::prelude::*;
 
-use crate::arguments::{CaseArguments, stem_of};
-use crate::calibrate::{
-    Calibrated, Experiment, Maxwell, Measured, ModelName, Target, calibration_numbers,
-    calibration_picture, calibration_text, ends, read_measured, relaxation_table, terms,
-    unused_model, warnings,
-};
+use crate::calibrate::{calibration_picture, calibration_text};
+use crate::case_arguments::{CaseArguments, stem_of};
+use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{
-    LARGEST_UNCERTAINTY, Output, OutputArguments, from_fit_error, parse_confidence,
-};
+use crate::law_arguments::parse_confidence;
+use crate::output::OutputArguments;
 use crate::standard_output;
 
 /// Find a Prony series that makes measured restitutions, and what they leave open
@@ -68,149 +63,77 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// How far the relaxation times reach beyond the contact times: a term ten times slower or faster
-/// loses a tenth, and one beyond is told from it by its weight only.
-const REACH: f64 = 10.0;
-/// λ without uncertainties.
-const REGULARISATION: f64 = 1e-3;
+/// Which model computes the restitutions.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum ModelName {
+    /// Finite elements condensed to their contact
+    Condensed,
+    /// Ting's half-spaces with the spheres' finite size
+    Ting,
+}
+
+/// What the texts of a calibration advise to change.
+const OPTIONS: SettingNames = SettingNames {
+    terms: "--terms",
+    times: "--times",
+    uncertainty: "--uncertainty",
+    model: "--model",
+};
 
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let acts_on = arguments.acts_on.as_deref();
-    let acts_on = acts_on.map(|on| if on == "all" { ActsOn::All } else { ActsOn::Shear });
-    let target = Target::of(&case, arguments.material.as_deref(), acts_on)?;
-    let mut measured = read_measured(&arguments.data, &case)?;
+    let mut measured = MeasuredPairs::read(&read_table(&arguments.data)?, &case.scene)?;
     fill_uncertainties(arguments, &mut measured)?;
-    let uncertainties: Option<Vec<f64>> =
-        measured.data.points.iter().map(|point| point.restitution_uncertainty).collect();
-    let regularisation = arguments
-        .regularisation
-        .unwrap_or_else(|| uncertainties.as_deref().map_or(REGULARISATION, root_mean_square));
-    let (n_values, n_free) = (measured.data.points.len(), usize::from(arguments.terms));
-    if n_values < n_free && regularisation == 0.0 {
-        let free = "the weights".to_string();
-        return Err(refused(FitError::TooFewData { n_values, n_free, free }));
-    }
-    let experiments = measured
-        .bodies
-        .par_iter()
-        .map(|bodies| Experiment::new(&case, &measured, bodies, &target, arguments.model));
-    let experiments: Vec<Experiment> = experiments.collect::<Result<_, _>>()?;
-    let contacts = ends(experiments.iter().flat_map(|experiment| &experiment.contact_times));
-    let window = arguments.times.unwrap_or((contacts.0 / REACH, contacts.1 * REACH));
-    let times = spaced(window, n_free);
-    let restitutions = |terms: &[PronyTerm]| all_restitutions(&experiments, terms, n_values);
-    let of_weights = |weights: &[f64]| restitutions(&terms(&times, weights));
-    let wanted = measured.restitutions();
-    let problem = SpectrumProblem {
-        restitutions: &of_weights,
-        measured: &wanted,
-        collisions: &measured.collisions(),
-        uncertainties: uncertainties.as_deref(),
-        times: &times,
-        regularisation,
-    };
-    let fit = problem.fit(arguments.confidence).map_err(refused)?;
-    let maxwell = Maxwell::of_mean(&restitutions, &wanted, contacts).map_err(refused)?;
-    let mut warnings = warnings(&measured, &experiments, &fit);
-    warnings.extend(unused_model(&case, arguments.model));
-    let found = Calibrated {
-        case: &arguments.input.case,
-        measured: &measured,
-        experiments: &experiments,
-        target: &target,
-        model: arguments.model,
-        regularisation,
-        confidence: arguments.confidence,
-        times: &times,
-        fit: &fit,
-        maxwell: &maxwell,
-        warnings: &warnings,
-    };
-    let picture = calibration_picture(&found).map_err(refused)?;
+    let found = Calibration::of(&case, measured, &settings(arguments))?;
+    let warnings = found.warnings(&OPTIONS);
+    let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate")?;
-    output.write("relaxation.toml", relaxation_table(&found))?;
-    write_residuals(&mut output, &found)?;
+    output.write("relaxation.toml", found.relaxation_toml())?;
+    output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals())?;
     output.write("calibrate.svg", picture)?;
-    let place = output.publish(calibration_numbers(&found))?;
+    let text = calibration_text(&found, &warnings);
+    let name = arguments.input.case.display().to_string();
+    let place = output.publish(&found.numbers(&name, warnings))?;
     if arguments.output.quiet {
         return Ok(());
     }
-    standard_output::print(&format!("{}\nResult: {place}\n", calibration_text(&found)))
+    standard_output::print(&format!("{text}\nResult: {place}\n"))
+}
+
+fn settings(arguments: &Arguments) -> Settings {
+    Settings {
+        model: match arguments.model {
+            ModelName::Condensed => CalibrationModel::Condensed,
+            ModelName::Ting => CalibrationModel::Ting,
+        },
+        material: arguments.material.clone(),
+        acts_on: arguments.acts_on.as_deref().and_then(ActsOn::from_word),
+        n_terms: usize::from(arguments.terms),
+        times: arguments.times,
+        regularisation: arguments.regularisation,
+        confidence: arguments.confidence,
+    }
 }
 
 /// `--uncertainty` for all rows of a file that has none.
-fn fill_uncertainties(arguments: &Arguments, measured: &mut Measured) -> Result<(), Failure> {
+fn fill_uncertainties(arguments: &Arguments, measured: &mut MeasuredPairs) -> Result<(), Failure> {
     let Some(uncertainty) = arguments.uncertainty else { return Ok(()) };
-    if !(uncertainty > 0.0 && uncertainty <= LARGEST_UNCERTAINTY) {
-        let message = format!("--uncertainty is {uncertainty:?}");
-        return Err(Failure::bad_input(message)
-            .with_help("it must be greater than 0 and at most 1: restitutions lie between"));
-    }
-    let points = &mut measured.data.points;
-    if points.iter().any(|point| point.restitution_uncertainty.is_some()) {
-        let message = format!("{} has uncertainties of its own", measured.data.name);
-        return Err(Failure::bad_input(message).with_help("leave --uncertainty out"));
-    }
-    points.iter_mut().for_each(|point| point.restitution_uncertainty = Some(uncertainty));
-    Ok(())
-}
-
-/// Restitutions of all points in the order of the data, the pairs side by side.
-fn all_restitutions(
-    experiments: &[Experiment],
-    terms: &[PronyTerm],
-    n_points: usize,
-) -> Result<Vec<f64>, FitError> {
-    let of_pair =
-        |experiment: &Experiment| -> Result<Vec<f64>, FitError> { experiment.restitutions(terms) };
-    let found: Vec<_> = experiments.par_iter().map(of_pair).collect::<Result<_, _>>()?;
-    let mut restitutions = vec![0.0; n_points];
-    for (experiment, found) in experiments.iter().zip(found) {
-        for (point, restitution) in experiment.points.iter().zip(found) {
-            restitutions[*point] = restitution;
+    measured.data.set_uncertainty(uncertainty).map_err(|error| match error {
+        UncertaintyError::OutOfRange(found) => {
+            Failure::bad_input(format!("--uncertainty is {found:?}"))
+                .with_help("it must be greater than 0 and at most 1: restitutions lie between")
         }
-    }
-    Ok(restitutions)
-}
-
-fn write_residuals(output: &mut Output, found: &Calibrated<'_>) -> Result<(), Failure> {
-    let header = [
-        "diameter_1_m",
-        "diameter_2_m",
-        "speed_m_s",
-        "restitution",
-        "restitution_uncertainty",
-        "fitted_restitution",
-        "residual",
-    ];
-    let rows = found.measured.data.points.iter().enumerate().map(|(k, point)| {
-        let [first, second] = found.experiments[found.measured.pair_of(k)].diameters;
-        let fitted = found.fit.restitutions[k];
-        vec![
-            first,
-            second,
-            Some(point.speed),
-            Some(point.restitution),
-            point.restitution_uncertainty,
-            Some(fitted),
-            Some(fitted - point.restitution),
-        ]
-    });
-    output.write_table("residuals.csv", &header, rows)
+        UncertaintyError::Known(_) => {
+            Failure::bad_input(error.to_string()).with_help("leave --uncertainty out")
+        }
+    })
 }
 
 /// A λ.
 fn parse_ridge(text: &str) -> Result<f64, String> {
     let ridge = text.parse::<f64>().ok().filter(|ridge| *ridge >= 0.0 && ridge.is_finite());
     ridge.ok_or_else(|| "it must be at least 0, such as 0.001; 0 is none".to_string())
-}
-
-/// Evenly in the logarithm, the ends included; one alone lies in the middle.
-fn spaced((first, last): (f64, f64), n: usize) -> Vec<f64> {
-    let share = |k: usize| if n == 1 { 0.5 } else { k as f64 / (n - 1) as f64 };
-    (0..n).map(|k| first * (last / first).powf(share(k))).collect()
 }
 
 /// `10 us..1 ms`.
@@ -226,20 +149,5 @@ fn parse_window(text: &str) -> Result<(f64, f64), String> {
         Ok((first, last))
     } else {
         Err("the first time must be greater than 0 and at most the last".to_string())
-    }
-}
-
-/// Bad input, unless it is a collision that failed.
-fn refused(error: FitError) -> Failure {
-    match error {
-        FitError::TooFewData { .. } => Failure::bad_input(error.to_string())
-            .with_help("lower --terms, measure at more speeds, or give --regularisation above 0"),
-        FitError::Collision { .. } => Failure::failed(error.to_string()).with_help(
-            "leave out the speeds at which the bodies are not linear, or give slower --times",
-        ),
-        FitError::NotConverged { .. } => {
-            Failure::failed(error.to_string()).with_help("lower --terms, or raise --regularisation")
-        }
-        error => from_fit_error(error),
     }
 }

@@ -3,10 +3,10 @@
 use comfy_table::CellAlignment::Left;
 use fem::{Cost, ForceLaw, Simulation};
 use fem_case::Case;
+use fem_case::engineering::show;
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::arguments::CaseArguments;
-use crate::engineering::show;
+use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
 use crate::report;
 use crate::standard_output;

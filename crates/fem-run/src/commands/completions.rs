@@ -1,6 +1,5 @@
 //! `fem-run completions SHELL`.
 
-use clap::CommandFactory;
 use clap_complete::Shell;
 
 use crate::failure::Failure;
@@ -15,10 +14,9 @@ pub struct Arguments {
     shell: Shell,
 }
 
-/// Prints the script.
-pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+/// Prints the script for a command line.
+pub fn execute(arguments: &Arguments, mut command: clap::Command) -> Result<(), Failure> {
     let mut script = Vec::new();
-    let mut command = crate::arguments::Arguments::command();
     clap_complete::generate(arguments.shell, &mut command, "fem-run", &mut script);
     standard_output::print(&String::from_utf8_lossy(&script))
 }

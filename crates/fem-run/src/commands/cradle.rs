@@ -3,13 +3,15 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
 use fem_figure::{Axis, Chart, Curve};
-use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial};
+use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
 use serde_json::json;
 
-use crate::arguments::stem_of;
+use crate::case_arguments::stem_of;
+use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{CsvTable, Kind, OutputArguments, from_fit_error, parse_measured};
+use crate::output::OutputArguments;
 use crate::standard_output;
 use crate::tables::table;
 
@@ -54,19 +56,19 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-fn length(text: &str) -> Result<Measured, String> {
+fn length(text: &str) -> Result<Measured, NotMeasured> {
     parse_measured(Kind::Length, text)
 }
 
-fn mass(text: &str) -> Result<Measured, String> {
+fn mass(text: &str) -> Result<Measured, NotMeasured> {
     parse_measured(Kind::Mass, text)
 }
 
-fn angle(text: &str) -> Result<Measured, String> {
+fn angle(text: &str) -> Result<Measured, NotMeasured> {
     parse_measured(Kind::Angle, text)
 }
 
-fn acceleration(text: &str) -> Result<Measured, String> {
+fn acceleration(text: &str) -> Result<Measured, NotMeasured> {
     parse_measured(Kind::Acceleration, text)
 }
 
@@ -80,21 +82,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         };
         let uncertain = |angle| with_default(angle, arguments);
         let trial = Trial { release: uncertain(alpha), rise: uncertain(beta) };
-        let swing = cradle.swing(&trial).map_err(from_fit_error)?;
+        let swing = cradle.swing(&trial)?;
         if arguments.output.quiet {
             return Ok(());
         }
         return standard_output::print(&one(&cradle, &trial, &swing));
     };
-    let trials = read(path, arguments)?;
-    let swings: Vec<(Trial, Swing)> = trials
-        .into_iter()
-        .map(|(trial, place)| {
-            let swing = cradle.swing(&trial);
-            let swing = swing.map_err(|error| Failure::bad_input(format!("{place}: {error}")))?;
-            Ok((trial, swing))
-        })
-        .collect::<Result<_, Failure>>()?;
+    let swings = swings(&cradle, &read_table(path)?, arguments)?;
     let mut output = arguments.output.claim(&stem_of(path), "cradle")?;
     let header = [
         "speed_m_s",
@@ -122,7 +116,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("cradle.csv", &header, rows)?;
     output.write("cradle.svg", picture(&swings))?;
     let [first, second] = cradle.masses;
-    let place = output.publish(json!({
+    let place = output.publish(&json!({
         "data": path.display().to_string(),
         "trials": swings.len(),
         "length_m": cradle.length.value,
@@ -144,11 +138,7 @@ fn cradle(arguments: &Arguments) -> Result<Cradle, Failure> {
     let masses = if arguments.diameters.is_empty() {
         pair(&arguments.masses, "--masses")?
     } else {
-        // Of one density, which cancels.
-        pair(&arguments.diameters, "--diameters")?.map(|Measured { value, uncertainty }| Measured {
-            value: value.powi(3),
-            uncertainty: 3.0 * value * value * uncertainty,
-        })
+        masses_of_balls(pair(&arguments.diameters, "--diameters")?)
     };
     let gravity = arguments.gravity.unwrap_or(Measured::exact(STANDARD_GRAVITY));
     Ok(Cradle { gravity, length: arguments.length, masses })
@@ -163,30 +153,20 @@ fn with_default(angle: Measured, arguments: &Arguments) -> Measured {
     }
 }
 
-/// The trials of a file, each with its place.
-fn read(path: &std::path::Path, arguments: &Arguments) -> Result<Vec<(Trial, String)>, Failure> {
-    let table = CsvTable::read(path)?;
-    let alpha = table.require(&["alpha"], "alpha_deg")?;
-    let beta = table.require(&["beta"], "beta_deg")?;
-    let of_alpha = table.find(&["alpha_uncertainty"])?;
-    let of_beta = table.find(&["beta_uncertainty"])?;
-    let trial = |row: usize| {
-        let angle = |column: usize, uncertainty: Option<usize>| {
-            let name = &table.header()[column];
-            if !name.ends_with("_deg") && !name.ends_with("rad") {
-                return Err(table
-                    .fault(table.header_line(), format!("the column {name} does not name its unit"))
-                    .with_help(format!("call it {name}_deg or {name}_rad")));
-            }
-            let uncertainty = uncertainty.map(|column| table.number(row, column, [0; 3]));
-            let uncertainty = uncertainty.transpose()?.map_or(0.0, |cell| cell.value);
-            let value = table.number(row, column, [0; 3])?.value;
-            Ok(with_default(Measured { value, uncertainty }, arguments))
-        };
-        let trial = Trial { release: angle(alpha, of_alpha)?, rise: angle(beta, of_beta)? };
-        Ok((trial, format!("{}:{}", table.name(), table.line(row))))
-    };
-    (0..table.n_rows()).map(trial).collect()
+/// The trials of a table, and what they show.
+fn swings(
+    cradle: &Cradle,
+    table: &Table,
+    arguments: &Arguments,
+) -> Result<Vec<(Trial, Swing)>, Failure> {
+    let trials = cradle_trials(table)?.into_iter().enumerate().map(|(row, trial)| {
+        let [release, rise] =
+            [trial.release, trial.rise].map(|angle| with_default(angle, arguments));
+        let trial = Trial { release, rise };
+        let swing = cradle.swing(&trial).map_err(|error| table.fault(row, error))?;
+        Ok((trial, swing))
+    });
+    trials.collect()
 }
 
 /// `0.9250 ± 0.0031`: two digits of the uncertainty.
@@ -196,24 +176,6 @@ fn show_measured(Measured { value, uncertainty }: Measured, unit: &str) -> Strin
     }
     let digits = (1 - uncertainty.log10().floor() as i32).clamp(0, 9) as usize;
     format!("{value:.digits$} ± {uncertainty:.digits$} {unit}").trim_end().to_string()
-}
-
-/// Beyond what energy and momentum allow, in words.
-fn doubt(cradle: &Cradle, trial: &Trial, swing: &Swing) -> Option<String> {
-    let e = swing.restitution;
-    let by = |excess: f64| match e.uncertainty > 0.0 {
-        true => format!(" by {:.1} of its uncertainty", excess / e.uncertainty),
-        false => String::new(),
-    };
-    if e.value > 1.0 {
-        let highest = cradle.highest_rise(trial.release.value);
-        let highest = highest.map_or(String::new(), |highest| {
-            format!(": without loss the second ball rises to {:.2} deg", highest.to_degrees())
-        });
-        return Some(format!("restitution above 1{}{highest}", by(e.value - 1.0)));
-    }
-    let falls_short = || format!("restitution below 0{}: v2 is less than v1", by(-e.value));
-    (e.value < 0.0).then(falls_short)
 }
 
 fn one(cradle: &Cradle, trial: &Trial, swing: &Swing) -> String {
@@ -231,7 +193,7 @@ fn one(cradle: &Cradle, trial: &Trial, swing: &Swing) -> String {
             shares.map(|(name, share)| format!("{:.0} % {name}", 100.0 * share)).collect();
         text += &format!("\nUncertainty, first order; variance of e from {}.\n", shares.join(", "));
     }
-    if let Some(doubt) = doubt(cradle, trial, swing) {
+    if let Some(doubt) = cradle.doubt(trial, swing) {
         text += &format!("warning: {doubt}\n");
     }
     text
@@ -251,7 +213,7 @@ fn many(cradle: &Cradle, swings: &[(Trial, Swing)]) -> String {
     });
     let mut text = table(&[Right; 6], std::iter::once(header).chain(rows));
     for (trial, swing) in swings {
-        if let Some(doubt) = doubt(cradle, trial, swing) {
+        if let Some(doubt) = cradle.doubt(trial, swing) {
             let alpha = trial.release.value.to_degrees();
             text += &format!("warning: alpha = {alpha:.2} deg: {doubt}\n");
         }

@@ -3,21 +3,20 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::Reduced;
-use fem_case::{Case, ModelChoice};
-use fem_figure::{Axis, COLOURS, Chart, Curve as Line, Mark};
-use fem_fit::dem::{Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets};
-use fem_fit::{FitError, Point};
-use fem_laws::{EndRule, Family, Ting};
-use serde_json::{Value, json};
+use fem::laws::{DemExport, FittedLaw, ImpactCurve};
+use fem::measured::Restitutions;
+use fem_case::Case;
+use fem_case::engineering::{Unit, show};
+use fem_figure::{Axis, COLOURS, Chart, Curve, Mark};
+use fem_fit::FitError;
+use fem_fit::dem::{Export, Snippet};
+use fem_laws::Family;
 
-use crate::arguments::CaseArguments;
-use crate::engineering::{Unit, show};
+use crate::case_arguments::CaseArguments;
+use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{
-    Curve, Drawn, OutputArguments, fit_export, from_fit_error, model_of, parse_speed, read_data,
-    spheres_of,
-};
+use crate::law_arguments::parse_speed;
+use crate::output::OutputArguments;
 use crate::standard_output;
 use crate::tables::table;
 
@@ -42,9 +41,6 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// Speeds at which a reduced model is computed.
-const N_SPEEDS: usize = 13;
-
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if !(arguments.tolerance > 0.0 && arguments.tolerance < 1.0) {
@@ -53,10 +49,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
     let curve = curve(arguments, &case)?;
-    let fitted = fit_export(&case, spheres_of(&case), &curve, arguments.tolerance);
-    let (export, drawn) = fitted.map_err(|error| {
+    let fitted = DemExport::of(&case, curve, arguments.tolerance).map_err(|error| {
         let is_lossless = matches!(error, FitError::Insensitive { .. });
-        let failure = from_fit_error(error);
+        let failure = Failure::from(error);
         if is_lossless {
             failure.with_help(
                 "an elastic contact needs no fit, its restitution is 1; if there is a loss, narrow \
@@ -66,65 +61,35 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             failure
         }
     })?;
-    let failed = |error: fem_laws::LawError| from_fit_error(error.into());
-    let mut snippets = lammps_snippets(&export).map_err(failed)?;
-    snippets.extend(liggghts_snippets(&export).map_err(failed)?);
-    snippets.extend(yade_snippets(&export).map_err(failed)?);
+    let snippets = fitted.snippets()?;
     let mut output = arguments.output.claim(&arguments.input.stem(), "export")?;
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
-    output.write("export.svg", picture(&curve, &drawn))?;
-    let place = output.publish(numbers(&arguments.input, &export, &curve, &drawn, &snippets))?;
+    output.write("export.svg", picture(&fitted))?;
+    let name = arguments.input.case.display().to_string();
+    let place = output.publish(&fitted.numbers(&name, &snippets))?;
     if arguments.output.quiet {
         return Ok(());
     }
     let mut note = String::new();
-    if curve.has_hertz_times {
+    if fitted.curve.has_hertz_times {
         note +=
             "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n";
     }
-    if export.spheres.len() < 2 {
+    if fitted.export.spheres.len() < 2 {
         note += "\nA wall is written for LAMMPS only: LIGGGHTS and YADE give it a material or a radius \
                  of its own.\n";
     }
-    standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&export, &snippets)))
+    standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&fitted.export, &snippets)))
 }
 
-fn curve(arguments: &Arguments, case: &Case) -> Result<Curve, Failure> {
-    if let Some(path) = &arguments.data {
-        let data = read_data(path, &case.scene, true)?;
-        if data.points.len() < 2 {
-            return Err(Failure::bad_input(format!("{}: one speed only", data.name))
-                .with_help("a range of validity needs two speeds or more"));
-        }
-        let pair = case.scene.pair().map_err(|error| from_fit_error(error.into()))?;
-        return Curve::of(&pair, data.points).map_err(from_fit_error);
-    }
-    let reduced = reduced(case)?;
-    let middle = case.scene.approach_speed();
-    let decade = 10f64.sqrt();
-    let (low, high) = arguments.speeds.unwrap_or((middle / decade, middle * decade));
-    let speed = |k: usize| low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64);
-    let speeds: Vec<f64> = (0..N_SPEEDS).map(speed).collect();
-    Curve::computed(&reduced, &speeds).map_err(from_fit_error)
-}
-
-/// The case's own model; Ting's in place of one with elements.
-fn reduced(case: &Case) -> Result<Reduced, Failure> {
-    let mut case = case.clone();
-    let is_reduced = !matches!(case.scene.model, ModelChoice::Fem | ModelChoice::Condensed(_));
-    if !is_reduced {
-        model_of(&case, Family::Ting, EndRule::ZeroForce).map_err(|error| {
-            from_fit_error(error).with_help(
-                "give a material a [material.NAME.relaxation] table, a law in [model], or \
-                 restitutions with --data",
-            )
-        })?;
-        let tolerance = Ting::DEFAULT_TOLERANCE;
-        case.scene.model = ModelChoice::Ting { finite_size: false, tolerance };
-    }
-    Ok(Reduced::new(&case.scene).map_err(|refusal| refusal.in_case(&case))?)
+fn curve(arguments: &Arguments, case: &Case) -> Result<ImpactCurve, Failure> {
+    let Some(path) = &arguments.data else {
+        return Ok(ImpactCurve::computed(case, arguments.speeds)?);
+    };
+    let data = Restitutions::read_with_contact_times(&read_table(path)?, &case.scene)?;
+    Ok(ImpactCurve::measured(&case.scene, &data)?)
 }
 
 fn parse_speeds(text: &str) -> Result<(f64, f64), String> {
@@ -167,84 +132,31 @@ fn entry(value: f64) -> String {
     if (0.001..1e4).contains(&value) { format!("{value:.4}") } else { format!("{value:.4e}") }
 }
 
-fn numbers(
-    input: &CaseArguments,
-    export: &Export,
-    curve: &Curve,
-    drawn: &[Drawn],
-    snippets: &[Snippet],
-) -> Value {
-    let snippet = |snippet: &Snippet| {
-        let [from, to, worst] = snippet.validity;
-        let entries = snippet.entries.iter().map(|(key, value)| (key.to_string(), json!(value)));
-        // What depends on speed is the viscoelastic damping.
-        let viscoelastic = drawn.iter().find(|law| law.model.family() == Family::KuwabaraKono);
-        let at_speed = |point: &Point| match (snippet.restitution, viscoelastic) {
-            (Some(restitution), _) => Some(restitution),
-            (None, Some(law)) => law.outcome(point.speed).map(|outcome| outcome.restitution),
-            (None, None) => None,
-        };
-        json!({
-            "file": snippet.name,
-            "code": snippet.code,
-            "model": snippet.model,
-            "entries": Value::Object(entries.collect()),
-            "restitution": snippet.restitution,
-            "valid_from_m_s": (from <= to).then_some(from),
-            "valid_to_m_s": (from <= to).then_some(to),
-            "worst_error": worst,
-            "restitutions_at_data": curve.points.iter().map(at_speed).collect::<Vec<_>>(),
-        })
-    };
-    let sphere = |sphere: &Sphere| {
-        json!({ "diameter_m": sphere.diameter, "density_kg_m3": sphere.density,
-            "youngs_modulus_pa": sphere.youngs_modulus, "poissons_ratio": sphere.poissons_ratio })
-    };
-    let point = |point: &Point| {
-        json!({ "speed_m_s": point.speed, "restitution": point.restitution,
-            "contact_time_s": point.contact_time })
-    };
-    json!({
-        "case": input.case.display().to_string(),
-        "wall": export.spheres.len() < 2,
-        "spheres": export.spheres.iter().map(sphere).collect::<Vec<_>>(),
-        "tolerance": export.tolerance,
-        "speeds_m_s": export.speeds,
-        "effective_mass_kg": export.pair.effective_mass(),
-        "effective_radius_m": export.pair.effective_radius(),
-        "contact_modulus_pa": export.pair.contact_modulus(),
-        "dissipation_time_s": export.dissipation_time.0,
-        "linear_contact_time_s": export.linear.contact_time,
-        "has_hertz_times": curve.has_hertz_times,
-        "data": curve.points.iter().map(point).collect::<Vec<_>>(),
-        "snippets": snippets.iter().map(snippet).collect::<Vec<_>>(),
-    })
-}
-
 /// e(v) and T(v): data and the three kinds of law.
-fn picture(curve: &Curve, drawn: &[Drawn]) -> String {
-    let fastest = curve.points[curve.points.len() - 1].speed;
+fn picture(fitted: &DemExport) -> String {
+    let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
     let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
     let (speed, time) = (Unit::fitting(fastest, "m/s"), Unit::fitting(longest, "s"));
-    let panel = |y_label: String, data: Vec<(f64, f64)>, y: &dyn Fn(&Drawn, f64) -> Option<f64>| {
-        // The linear law hides the other constant one.
-        let mark = |law: &Drawn| match law.model.family() {
-            Family::Linear => Mark::Dashed,
-            _ => Mark::Line,
+    let panel =
+        |y_label: String, data: Vec<(f64, f64)>, y: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {
+            // The linear law hides the other constant one.
+            let mark = |law: &FittedLaw| match law.model.family() {
+                Family::Linear => Mark::Dashed,
+                _ => Mark::Line,
+            };
+            let law = |(law, colour): (&FittedLaw, &'static str)| {
+                let points = curve
+                    .points
+                    .iter()
+                    .filter_map(|point| Some((speed.scaled(point.speed), y(law, point.speed)?)));
+                Curve::new(law.name, mark(law), points.collect()).coloured(colour)
+            };
+            let axis = Axis::new(format!("approach speed [{}]", speed.symbol())).logarithmic();
+            let colours = [COLOURS[0], COLOURS[2], COLOURS[3]];
+            let laws = fitted.laws.iter().zip(colours).map(law);
+            laws.fold(Chart::new(axis, Axis::new(y_label)), Chart::with)
+                .with(Curve::points("data", data).like_curve(1))
         };
-        let law = |(law, colour): (&Drawn, &'static str)| {
-            let points = curve
-                .points
-                .iter()
-                .filter_map(|point| Some((speed.scaled(point.speed), y(law, point.speed)?)));
-            Line::new(law.name, mark(law), points.collect()).coloured(colour)
-        };
-        let axis = Axis::new(format!("approach speed [{}]", speed.symbol())).logarithmic();
-        let colours = [COLOURS[0], COLOURS[2], COLOURS[3]];
-        let laws = drawn.iter().zip(colours).map(law);
-        laws.fold(Chart::new(axis, Axis::new(y_label)), Chart::with)
-            .with(Line::points("data", data).like_curve(1))
-    };
     let points = || curve.points.iter();
     let e_data = points().map(|point| (speed.scaled(point.speed), point.restitution)).collect();
     let t_data = points()

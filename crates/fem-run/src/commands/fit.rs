@@ -2,17 +2,20 @@
 
 use std::path::PathBuf;
 
+use fem::laws::{ChosenLaw, LawFit, family_of, parse_value};
+use fem::measured::Restitutions;
 use fem_case::Case;
-use fem_fit::{Fit, Free, Model, Problem};
-use fem_laws::{Family, Role};
+use fem_fit::{Free, Problem};
+use fem_laws::Family;
 
-use crate::arguments::{CaseArguments, stem_of};
+use crate::case_arguments::{CaseArguments, stem_of};
+use crate::data_file::read_table;
 use crate::failure::Failure;
-use crate::reduced::{
-    ChosenLaw, Data, Fitted, LawArguments, Output, OutputArguments, family_of, find_key, find_loss,
-    fit_numbers, fit_picture, fit_text, from_fit_error, histories_picture, parse_confidence,
-    parse_family, parse_speed, parse_value, read_data, split,
+use crate::fit::{fit_picture, fit_text, histories_picture};
+use crate::law_arguments::{
+    LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
 };
+use crate::output::OutputArguments;
 use crate::standard_output;
 
 /// Fit parameters of a contact law to restitutions over speeds
@@ -59,52 +62,36 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// Values of a profile that are drawn.
-const GRID: usize = 25;
-/// Half the width of that grid, in widths of the parameter's interval, where that is known.
-const GRID_REACH: f64 = 2.5;
-
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let data = read_data(&arguments.data, &case.scene, arguments.contact_time)?;
-    let family = arguments.law.or_else(|| family_of(&case)).ok_or_else(|| {
+    let table = read_table(&arguments.data)?;
+    let data = match arguments.contact_time {
+        true => Restitutions::read_with_contact_times(&table, &case.scene)?,
+        false => Restitutions::read(&table, &case.scene)?,
+    };
+    let family = arguments.law.or_else(|| family_of(&case.scene)).ok_or_else(|| {
         Failure::bad_input("--law is missing, and the case's [model] names no law")
             .with_help("name one, such as --law bordbar_hyppanen; docs/fits.md lists them")
     })?;
-    let chosen = arguments.values.choose(&case, family)?;
-    let model = &chosen.model;
-    let problem = problem(arguments, &chosen, &data)?;
-    let profiled = profiled(arguments, &problem)?;
-    let fit = problem.fit(arguments.confidence).map_err(from_fit_error)?;
-    let profile = profiled
-        .map(|free| problem.profile(&fit, free, &grid(free, &fit)))
-        .transpose()
-        .map_err(from_fit_error)?;
-    let mut others = Vec::new();
-    for family in &arguments.compare {
-        let model = model.with_family(*family).map_err(from_fit_error)?;
-        others.push((model, *family));
+    let law = arguments.values.choose(&case, family)?;
+    let problem = problem(arguments, &law, &data)?;
+    let profiled = profiled(arguments, &problem)?.copied();
+    let mut fitted = LawFit::of(&data, problem, arguments.confidence)?;
+    if let Some(free) = &profiled {
+        fitted = fitted.with_profile(free)?;
     }
-    let compared = others.iter().map(|(model, family)| compare(model, *family, &data, arguments));
-    let compared: Vec<(&Model, Fit)> = compared.collect::<Result<_, _>>()?;
+    for family in &arguments.compare {
+        fitted = fitted.compared_with(*family)?;
+    }
 
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit")?;
-    let fitted = Fitted {
-        case: &arguments.input.case,
-        data: &data,
-        problem: &problem,
-        fit: &fit,
-        profile: profile.as_ref(),
-        compared: &compared,
-        confidence: arguments.confidence,
-    };
-    write_residuals(&mut output, &problem, &fit)?;
+    output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
     output.write("fit.svg", fit_picture(&fitted))?;
-    let speed = arguments.at.unwrap_or_else(|| problem.middle_speed());
-    let histories = histories_picture(&case.scene, model, &fit.values, speed);
-    output.write("histories.svg", histories.map_err(|error| from_fit_error(error.into()))?)?;
-    let place = output.publish(fit_numbers(&fitted))?;
+    let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
+    let histories = histories_picture(&case.scene, law.model(), &fitted.fit.values, speed)?;
+    output.write("histories.svg", histories)?;
+    let place = output.publish(&fitted.numbers(&arguments.input.case.display().to_string()))?;
     if arguments.output.quiet {
         return Ok(());
     }
@@ -114,39 +101,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// The problem with all that options and case say.
 fn problem<'a>(
     arguments: &Arguments,
-    chosen: &'a ChosenLaw,
-    data: &'a Data,
+    law: &'a ChosenLaw,
+    data: &'a Restitutions,
 ) -> Result<Problem<'a>, Failure> {
-    let model = &chosen.model;
-    let family = model.family();
-    let default = [loss_key(family)?.to_string()];
-    let keys = if arguments.free.is_empty() { &default[..] } else { &arguments.free };
-    for key in keys {
-        find_key(family, key, "--free")?;
+    for key in &arguments.free {
+        find_key(law.family(), key, "--free")?;
     }
-    let keys: Vec<&str> = keys.iter().map(|key| key.trim()).collect();
-    let mut problem = Problem::new(model, &data.points, &keys).map_err(from_fit_error)?;
-    problem.values = chosen.values(&problem.values);
-    for free in &mut problem.free {
-        free.start = chosen.start(free.index);
-    }
-    let is_free = |index: usize| problem.free.iter().any(|free| free.index == index);
-    if let Some(key) = chosen.missing(is_free) {
-        let message = format!("{} needs a value of {key}", family.name());
-        return Err(Failure::bad_input(message).with_help(format!(
-            "give it, --param {key}=VALUE, or let it be found, --free {},{key}",
-            keys.join(",")
-        )));
-    }
+    let free: Vec<&str> = arguments.free.iter().map(String::as_str).collect();
+    let mut problem = law.problem(&data.points, &free)?;
     for text in &arguments.bounds {
-        bound(&mut problem, family, text)?;
+        bound(&mut problem, law.family(), text)?;
     }
     Ok(problem)
-}
-
-/// The key of what stands for the loss.
-fn loss_key(family: Family) -> Result<&'static str, Failure> {
-    Ok(family.parameters()[find_loss(family)?].key)
 }
 
 fn bound(problem: &mut Problem<'_>, family: Family, text: &str) -> Result<(), Failure> {
@@ -158,8 +124,8 @@ fn bound(problem: &mut Problem<'_>, family: Family, text: &str) -> Result<(), Fa
             .with_help("write --bounds KEY=LOW..HIGH with LOW < HIGH, such as --bounds n=0.3..1.5")
     };
     let (low, high) = range.split_once("..").ok_or_else(|| fault("there is no `..`"))?;
-    let low = parse_value(parameter, low, "--bounds")?;
-    let high = parse_value(parameter, high, "--bounds")?;
+    let low = parse_value(parameter, low).map_err(of_value("--bounds"))?;
+    let high = parse_value(parameter, high).map_err(of_value("--bounds"))?;
     if low >= high {
         return Err(fault("the range is empty"));
     }
@@ -184,74 +150,4 @@ fn profiled<'p>(
             })
         }
     }
-}
-
-/// Values around the best one; a logarithmic parameter's in equal ratios.
-fn grid(free: &Free, fit: &Fit) -> Vec<f64> {
-    let best = fit.values[free.index];
-    let estimate = fit.estimates.iter().find(|estimate| estimate.index == free.index);
-    let is_number = estimate.is_some_and(|estimate| estimate.key == "n");
-    let (low, high) = match estimate.and_then(|estimate| estimate.interval) {
-        _ if is_number => (best.min(0.4), best.max(1.1)),
-        Some((low, high)) if low > 0.0 => {
-            ((low / best).powf(GRID_REACH) * best, (high / best).powf(GRID_REACH) * best)
-        }
-        _ => (0.5 * best, 2.0 * best),
-    };
-    let (low, high) = (low.max(free.bounds.0), high.min(free.bounds.1));
-    let part = |k: usize| k as f64 / (GRID - 1) as f64;
-    (0..GRID)
-        .map(|k| match is_number {
-            true => low + part(k) * (high - low),
-            false => low * (high / low).powf(part(k)),
-        })
-        .collect()
-}
-
-/// Another law on the same data.
-fn compare<'a>(
-    model: &'a Model,
-    family: Family,
-    data: &Data,
-    arguments: &Arguments,
-) -> Result<(&'a Model, Fit), Failure> {
-    let mut free = vec![loss_key(family)?];
-    // Contact times determine a stiffness that no theory gives; restitutions do not depend on it.
-    if data.points.iter().any(|point| point.contact_time.is_some()) {
-        let stiff =
-            family.parameters().iter().filter(|parameter| parameter.role == Role::Stiffness);
-        free.extend(stiff.map(|parameter| parameter.key));
-    }
-    let problem = Problem::new(model, &data.points, &free).map_err(from_fit_error)?;
-    let fit = problem.fit(arguments.confidence).map_err(|error| {
-        Failure::bad_input(format!("--compare {}: {error}", family.name()))
-            .with_help("leave it out, or fit it alone with --law")
-    })?;
-    Ok((model, fit))
-}
-
-fn write_residuals(output: &mut Output, problem: &Problem<'_>, fit: &Fit) -> Result<(), Failure> {
-    let header = [
-        "speed_m_s",
-        "restitution",
-        "restitution_uncertainty",
-        "fitted_restitution",
-        "residual",
-        "contact_time_s",
-        "fitted_contact_time_s",
-    ];
-    let rows = problem.points.iter().map(|point| {
-        let fitted = problem.model.outcome(&fit.values, point.speed).ok();
-        let restitution = fitted.map(|fitted| fitted.restitution);
-        vec![
-            Some(point.speed),
-            Some(point.restitution),
-            point.restitution_uncertainty,
-            restitution,
-            restitution.map(|restitution| restitution - point.restitution),
-            point.contact_time,
-            fitted.and_then(|fitted| fitted.contact_time),
-        ]
-    });
-    output.write_table("residuals.csv", &header, rows)
 }

@@ -1,19 +1,17 @@
 //! `fem-run invert CASE --restitution 0.92`: the parameter of a law that gives it.
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
-use fem_fit::{FitError, Inversion, Model, Problem, invert};
-use fem_laws::{Family, Role};
+use fem_case::engineering::show;
+use fem_fit::FitError;
+use fem_laws::Family;
 
-use crate::arguments::CaseArguments;
-use crate::engineering::show;
+use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
-use crate::reduced::{
-    LawArguments, family_of, find_key, find_loss, from_fit_error, parse_family, parse_speed,
-    show_value,
-};
+use crate::law_arguments::{LawArguments, find_key, parse_family, parse_speed};
 use crate::standard_output;
-use crate::tables::table;
+use crate::tables::{show_value, table};
 
 /// Find the parameter of a law that gives a wanted restitution at one speed
 ///
@@ -53,7 +51,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::bad_input(message));
     }
     let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
-    let law = arguments.law.or_else(|| family_of(&case));
+    let law = arguments.law.or_else(|| family_of(&case.scene));
     let options =
         [("--param", !arguments.values.param.is_empty()), ("--find", arguments.find.is_some())];
     if let (None, Some((option, _))) = (law, options.iter().find(|(_, is_given)| *is_given)) {
@@ -66,7 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         match solve(arguments, &case, family, speed) {
             Ok(solved) => {
                 is_found = true;
-                rows.extend(lines(&solved, speed));
+                rows.extend(lines(&solved));
             }
             Err(failure) if law.is_some() => return Err(failure),
             // Of all laws, those that cannot are told so in the table.
@@ -94,71 +92,37 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ))
 }
 
-/// A model with the values that give the restitution.
-struct Solved {
-    model: Model,
-    index: usize,
-    values: Vec<f64>,
-    inversion: Inversion,
-}
-
-/// Laws with numbers that no theory gives.
-fn needs_more(family: Family) -> bool {
-    let loss = family.loss_parameter();
-    let mut others =
-        family.parameters().iter().enumerate().filter(|(index, _)| Some(*index) != loss);
-    loss.is_none()
-        || others.any(|(_, parameter)| parameter.default.is_none() && parameter.role != Role::Speed)
-}
-
 fn solve(
     arguments: &Arguments,
     case: &Case,
     family: Family,
     speed: f64,
-) -> Result<Solved, Failure> {
-    let chosen = arguments.values.choose(case, family)?;
-    let index = match &arguments.find {
-        Some(key) => find_key(family, key, "--find")?,
-        None => find_loss(family)?,
-    };
-    // A speed is that of the collision.
-    let is_known = |other: usize| other == index || family.parameters()[other].role == Role::Speed;
-    if let Some(key) = chosen.missing(is_known) {
-        let message = format!("{} needs a value of {key}", family.name());
-        return Err(Failure::bad_input(message).with_help(format!("give it, --param {key}=VALUE")));
+) -> Result<LawInversion, Failure> {
+    let law = arguments.values.choose(case, family)?;
+    if let Some(key) = &arguments.find {
+        find_key(family, key, "--find")?;
     }
-    let at_speed = [fem_fit::Point::new(speed, arguments.restitution)];
-    let problem = Problem::new(&chosen.model, &at_speed, &[]).map_err(from_fit_error)?;
-    let values = chosen.values(&problem.values);
-    let model = chosen.model;
-    let inversion = invert(&model, index, &values, speed, arguments.restitution);
-    let inversion = inversion.map_err(|error| match error {
-        FitError::NoSolution { .. } if family == Family::HuntCrossley => {
+    let key = arguments.find.as_deref();
+    LawInversion::of(&law, key, speed, arguments.restitution).map_err(|fault| match fault {
+        LawFault::Fit(error @ FitError::NoSolution { .. }) if family == Family::HuntCrossley => {
             Failure::bad_input(error.to_string())
                 .with_help("its coefficient holds for mild losses only; take another law")
         }
-        error => from_fit_error(error),
-    })?;
-    Ok(Solved { model, index, values, inversion })
+        fault => fault.into(),
+    })
 }
 
-/// A line a solution, and one for each other rate of a body.
-fn lines(solved: &Solved, speed: f64) -> Vec<[String; 5]> {
-    let Solved { model, index, inversion, .. } = solved;
-    let family = model.family();
-    let parameter = &family.parameters()[*index];
-    let line = |value: &f64| {
-        let mut values = solved.values.clone();
-        values[*index] = *value;
-        let time = model.outcome(&values, speed).ok().and_then(|outcome| outcome.contact_time);
+/// A line a solution.
+fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
+    let parameter = solved.parameter();
+    let line = |(value, time): (f64, Option<f64>)| {
         [
-            family.name().to_string(),
+            solved.model.family().name().to_string(),
             parameter.key.to_string(),
-            show_value(*value, parameter.unit),
+            show_value(value, parameter.unit),
             format!("{value:.6e}"),
             time.map_or("-".to_string(), |time| show(time, "s")),
         ]
     };
-    inversion.solutions.iter().map(line).collect()
+    solved.solutions().into_iter().map(line).collect()
 }

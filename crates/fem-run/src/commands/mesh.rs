@@ -7,7 +7,7 @@ use fem_case::Case;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuFile, VtuWriter};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
 use crate::standard_output;
 use crate::tables::mesh_table;

@@ -1,4 +1,4 @@
-//! One file a job of the command line.
+//! The jobs of the command line: one variant and one file a job.
 
 pub mod calibrate;
 pub mod check;
@@ -12,26 +12,39 @@ pub mod run;
 pub mod sweep;
 pub mod validate;
 
-use std::time::Instant;
+use clap::Subcommand;
 
-use crate::arguments::{Arguments, Command};
 use crate::failure::Failure;
 
-/// Does what the command line asks for; `started` is when the process began.
-pub fn execute(arguments: Arguments, started: Instant) -> Result<(), Failure> {
-    match (arguments.command, arguments.input) {
-        (Some(Command::Check(arguments)), _) => check::execute(&arguments),
-        (Some(Command::Mesh(arguments)), _) => mesh::execute(&arguments),
-        (Some(Command::Sweep(arguments)), _) => sweep::execute(&arguments),
-        (Some(Command::Validate(arguments)), _) => validate::execute(&arguments),
-        (Some(Command::Fit(arguments)), _) => fit::execute(&arguments),
-        (Some(Command::Calibrate(arguments)), _) => calibrate::execute(&arguments),
-        (Some(Command::Invert(arguments)), _) => invert::execute(&arguments),
-        (Some(Command::Export(arguments)), _) => export::execute(&arguments),
-        (Some(Command::Cradle(arguments)), _) => cradle::execute(&arguments),
-        (Some(Command::Completions(arguments)), _) => completions::execute(&arguments),
-        (None, Some(input)) => run::execute(&input, &arguments.options, started),
-        // clap prints its help when there are no arguments at all.
-        (None, None) => Ok(()),
+/// Another job than to run a case.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Check(check::Arguments),
+    Mesh(mesh::Arguments),
+    Sweep(sweep::Arguments),
+    Validate(validate::Arguments),
+    Fit(fit::Arguments),
+    Calibrate(calibrate::Arguments),
+    Invert(invert::Arguments),
+    Export(export::Arguments),
+    Cradle(cradle::Arguments),
+    Completions(completions::Arguments),
+}
+
+impl Command {
+    /// Does the job; `whole` makes the whole command line, which completions need.
+    pub fn execute(self, whole: fn() -> clap::Command) -> Result<(), Failure> {
+        match self {
+            Self::Check(arguments) => check::execute(&arguments),
+            Self::Mesh(arguments) => mesh::execute(&arguments),
+            Self::Sweep(arguments) => sweep::execute(&arguments),
+            Self::Validate(arguments) => validate::execute(&arguments),
+            Self::Fit(arguments) => fit::execute(&arguments),
+            Self::Calibrate(arguments) => calibrate::execute(&arguments),
+            Self::Invert(arguments) => invert::execute(&arguments),
+            Self::Export(arguments) => export::execute(&arguments),
+            Self::Cradle(arguments) => cradle::execute(&arguments),
+            Self::Completions(arguments) => completions::execute(&arguments, whole()),
+        }
     }
 }

@@ -1,25 +1,25 @@
 //! `fem-run CASE.toml`: computes a collision and writes its result folder.
 
-use std::fs::File;
-use std::io::{BufWriter, Write, stderr};
+use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use fem::results::{HISTORY_FILE, SUMMARY_FILE, Summary, history_csv, write_snapshots};
-use fem::{Cost, Simulation, assess, remedy_of};
+use fem::results::Summary;
+use fem::{Cost, Simulation, remedy_of};
 use fem_case::{Case, Keep};
-use fem_collision::{Collision, Stop};
+use fem_collision::Stop;
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::arguments::CaseArguments;
+use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::Watch;
 use crate::report::report;
+use crate::result_files::{longest_name, write_result};
 use crate::result_folder::ResultFolder;
 use crate::standard_output;
-use crate::stopwatch::Stopwatch;
+use crate::stopwatch::Timed;
 
 /// How to run a case.
 #[derive(clap::Args, Debug)]
@@ -49,8 +49,9 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         announce(&simulation, &input.case, &out);
     }
 
-    let mut watch = Watch::new(interrupt, options.quiet);
-    let (collision, stopwatch) = Stopwatch::run(started, &mut simulation, &mut watch);
+    let mut watch = Timed::since(started, Watch::new(interrupt, options.quiet));
+    let collision = simulation.run(&mut watch);
+    let (stopwatch, watch) = watch.stop();
     watch.finish();
 
     let summary =
@@ -63,11 +64,6 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         None => Ok(()),
         Some(stop) => Err(stopped(stop, &summary, &place)),
     }
-}
-
-/// The longest name of a file to come, the writer's temporary ending included.
-pub fn longest_name(stem: &str) -> String {
-    format!(".{stem}_99999_mid-compression.vtu.XXXXXX.tmp")
 }
 
 /// One line on stderr about what begins.
@@ -92,43 +88,6 @@ fn price(simulation: &Simulation) -> String {
         ),
         Cost::Little { .. } => format!("{}, milliseconds", simulation.setup().description),
     }
-}
-
-/// Writes the files of a result that are to be kept, the summary last.
-pub fn write_result(
-    folder: &Path,
-    stem: &str,
-    simulation: &Simulation,
-    collision: &Collision,
-    stopwatch: &Stopwatch,
-    keep: Keep,
-) -> Result<Summary, Failure> {
-    let fault = |error: &dyn std::error::Error| {
-        Failure::failed(format!("the result cannot be written: {error}")).with_help(
-            "nothing was kept of this run; is the disk full? An older result is where it was",
-        )
-    };
-    let mut files = vec![SUMMARY_FILE.to_string()];
-    let mut left_out = Vec::new();
-    if keep == Keep::All {
-        let file = File::create(folder.join(HISTORY_FILE)).map_err(|error| fault(&error))?;
-        history_csv(BufWriter::new(file), &simulation.case.scene, &collision.history)
-            .map_err(|error| fault(&error))?;
-        files.push(HISTORY_FILE.to_string());
-        let (vtk_files, missing) =
-            write_snapshots(folder, stem, simulation, collision).map_err(|error| fault(&error))?;
-        files.extend(vtk_files);
-        left_out = missing;
-    }
-    let mut warnings = simulation.setup().warnings.clone();
-    warnings.extend(assess(simulation, collision));
-    warnings.extend(collision.warnings.iter().cloned());
-    warnings.extend(left_out);
-    let summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
-    let mut text = serde_json::to_string_pretty(&summary).map_err(|error| fault(&error))?;
-    text.push('\n');
-    std::fs::write(folder.join(SUMMARY_FILE), text).map_err(|error| fault(&error))?;
-    Ok(summary)
 }
 
 fn stopped(stop: &Stop, summary: &Summary, place: &Path) -> Failure {

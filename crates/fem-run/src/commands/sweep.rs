@@ -8,16 +8,16 @@ use std::str::FromStr;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::results::PROGRAM;
-use fem::{Shared, Simulation};
+use fem::sweep::{Member, Row, SWEEP_FILE, advice, identify, left_to_do};
 use fem_case::Sweep;
+use fem_case::engineering::show;
 use serde_json::{Value, json};
 
-use crate::arguments::stem_of;
-use crate::engineering::show;
+use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output::{self, one_line};
-use crate::sweep::{Choice, Job, Member, Row, SweepFolder, collect, members, run_members};
+use crate::sweep::{Choice, Job, SweepFolder, collect, run_members};
 use crate::tables::table;
 
 /// Compute many members of a case: lists of values for some of its keys
@@ -77,55 +77,38 @@ const MOST_ROWS: usize = 40;
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let sweep = Sweep::load(&arguments.sweep, &arguments.set)?;
-    let members = members(&sweep)?;
+    let members = identify(&sweep)?;
     let choice = Choice::of(&sweep, &members)?;
     let stem = stem_of(&arguments.sweep);
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(stem));
     let shard = arguments.shard.unwrap_or(Shard { first: 0, step: 1 });
     let own: Vec<&Member> = members.iter().skip(shard.first).step_by(shard.step).collect();
-    let todo = find_todo(&sweep, &own, &out)?;
+    let there = SweepFolder::at(&out);
+    let is_done = |member: &Member| there.has(&member.identity, sweep.keep);
+    let left = left_to_do(&sweep, own.iter().copied(), is_done)?;
     let folder = SweepFolder::claim(&out, &mark(&sweep, &members, arguments))?;
     if !arguments.quiet {
-        announce(arguments, members.len(), own.len(), todo.len());
-        if let Some(hint) = hint_at_meshes(&sweep, &todo)? {
-            let _ = writeln!(stderr(), "{hint}");
+        announce(arguments, members.len(), own.len(), left.len());
+        if let Some(advice) = advice(&sweep, &left)? {
+            let _ = writeln!(stderr(), "hint: {advice}");
         }
     }
 
     let job = Job {
         sweep: &sweep,
+        members: &members,
         folder: &folder,
         threads: arguments.threads,
         quiet: arguments.quiet,
-        shared: Shared::default(),
         interrupt: interrupt.clone(),
     };
-    let ran = run_members(&job, &todo);
+    let ran = run_members(&job, &left);
     let rows = collect(&sweep, &members, &folder, &choice)?;
     ran?;
     if !arguments.quiet {
         standard_output::print(&report(&sweep, &rows, members.len(), folder.path()))?;
     }
     conclude(&sweep, &rows, &own, interrupt.is_requested())
-}
-
-/// The members that are not done, the dearest first; each of them could run.
-fn find_todo<'m>(
-    sweep: &Sweep,
-    own: &[&'m Member],
-    out: &Path,
-) -> Result<Vec<&'m Member>, Failure> {
-    let folder = SweepFolder::at(out);
-    let mut todo: Vec<(u64, &Member)> = Vec::new();
-    let mut known = HashSet::new();
-    for &member in own {
-        if !known.insert(&member.identity) || folder.has(&member.identity, sweep.keep) {
-            continue;
-        }
-        todo.push((sweep.build(member.index, |case| Simulation::price(&case))?, member));
-    }
-    todo.sort_by_key(|(updates, member)| (std::cmp::Reverse(*updates), member.index));
-    Ok(todo.into_iter().map(|(_, member)| member).collect())
 }
 
 /// `sweep.json`: which sweep the folder holds, and which member is where.
@@ -153,36 +136,14 @@ fn mark(sweep: &Sweep, members: &[Member], arguments: &Arguments) -> String {
 }
 
 /// One line on stderr about what begins.
-fn announce(arguments: &Arguments, n_members: usize, n_own: usize, n_todo: usize) {
+fn announce(arguments: &Arguments, n_members: usize, n_own: usize, n_left: usize) {
     let shard = if n_own == n_members { String::new() } else { format!(", {n_own} in this shard") };
     let name = one_line(&arguments.sweep.display().to_string());
     let _ = writeln!(
         stderr(),
-        "{name}: {n_members} members{shard}; {} done before, {n_todo} to run",
-        n_own - n_todo
+        "{name}: {n_members} members{shard}; {} done before, {n_left} to run",
+        n_own - n_left
     );
-}
-
-/// What would make condensed members cheaper: a mesh that the case leaves open goes by the contact
-/// that is expected, another one for each speed.
-fn hint_at_meshes(sweep: &Sweep, todo: &[&Member]) -> Result<Option<String>, Failure> {
-    let is_condensed = |member: &&&Member| {
-        member.case.model.as_ref().is_some_and(|model| model.condensed.is_some())
-    };
-    let condensed: Vec<&Member> = todo.iter().filter(is_condensed).copied().collect();
-    let Some(first) = condensed.first() else { return Ok(None) };
-    let Some(other) = condensed.iter().find(|member| member.case.mesh != first.case.mesh) else {
-        return Ok(None);
-    };
-    let is_open = sweep.build(other.index, |case| {
-        let mesh = case.scene.mesh;
-        Ok(mesh.contact_element_size.is_none() || mesh.refined_radius.is_none())
-    })?;
-    Ok(is_open.then(|| {
-        "hint: members have meshes of their own; give mesh.contact_element_size and \
-         mesh.refined_radius, and those of equal bodies share one factor"
-            .to_string()
-    }))
 }
 
 /// The main results of each member, and where the rest is.
@@ -191,8 +152,8 @@ fn report(sweep: &Sweep, rows: &[Row], n_members: usize, folder: &Path) -> Strin
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
-        let mut cells: Vec<String> = sweep.values(row.index).into_iter().map(one_line).collect();
-        cells.extend(result_cells(&row.summary));
+        let mut cells: Vec<String> = row.values.iter().map(|value| one_line(value)).collect();
+        cells.extend(result_cells(row));
         cells
     };
     let mut alignment = vec![Left; sweep.axes.len()];
@@ -205,18 +166,19 @@ fn report(sweep: &Sweep, rows: &[Row], n_members: usize, folder: &Path) -> Strin
     if rows.len() < n_members {
         text += &format!("\n{} of {n_members} members are done.\n", rows.len());
     }
-    text + &format!("\nResult: {}\n", one_line(&folder.join("sweep.csv").display().to_string()))
+    text + &format!("\nResult: {}\n", one_line(&folder.join(SWEEP_FILE).display().to_string()))
 }
 
-fn result_cells(summary: &Value) -> [String; 5] {
+fn result_cells(row: &Row) -> [String; 5] {
     const NONE: &str = "-";
+    let summary = &row.summary;
     let number = |key: &str| summary[key].as_f64();
     let quantity = |key: &str, unit| number(key).map_or(NONE.into(), |value| show(value, unit));
     let ratio = |key: &str| {
         let both = number(key).zip(summary["hertz"][key].as_f64());
         both.map_or(NONE.into(), |(ours, hertz)| format!("{:.4}", ours / hertz))
     };
-    if summary["complete"] != true {
+    if !row.is_complete() {
         return ["failed", NONE, NONE, NONE, NONE].map(String::from);
     }
     [
@@ -242,7 +204,7 @@ fn conclude(
         return Err(Failure::interrupted(message)
             .with_help("they are kept; the same command goes on with the others"));
     }
-    let failed = done.iter().filter(|row| row.summary["complete"] != true);
+    let failed = done.iter().filter(|row| !row.is_complete());
     let lines: Vec<String> = failed
         .map(|row| {
             let reason = row.summary["stopped_because"].as_str().unwrap_or("unknown");

@@ -1,25 +1,12 @@
 //! From the members' folders to table and picture.
 
+use fem::sweep::{Member, Row, SWEEP_FILE, sweep_csv};
 use fem_case::Sweep;
-use serde_json::Value;
 
-use super::folder::{PICTURE_FILE, SweepFolder, TABLE_FILE};
-use super::member::Member;
+use super::folder::{PICTURE_FILE, SweepFolder};
 use super::picture::picture;
 use super::picture_data::Choice;
-use super::table_file::table;
 use crate::failure::Failure;
-
-/// A member that has been computed.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// Its place in the sweep.
-    pub index: usize,
-    /// Its name in `members/`.
-    pub identity: String,
-    /// Its summary.
-    pub summary: Value,
-}
 
 /// Writes table and picture of what is there and returns the rows.
 ///
@@ -39,17 +26,19 @@ pub fn collect(
         Failure::failed(message)
             .with_help("the members that were computed are kept; the same command goes on")
     };
-    let mut rows = read(members, folder);
+    let mut rows = read(sweep, members, folder);
     loop {
-        let text = table(sweep, &rows).map_err(|error| fault(TABLE_FILE, &error))?;
-        folder.write(TABLE_FILE, &text).map_err(|error| fault(TABLE_FILE, &error))?;
-        match picture(sweep, members, &rows, choice) {
+        let mut text = Vec::new();
+        let keys = sweep.axes.iter().map(|axis| axis.key.as_str());
+        sweep_csv(&mut text, keys, &rows).map_err(|error| fault(SWEEP_FILE, &error))?;
+        folder.write(SWEEP_FILE, &text).map_err(|error| fault(SWEEP_FILE, &error))?;
+        match picture(sweep, &rows, choice) {
             Some(svg) => folder
                 .write(PICTURE_FILE, svg.as_bytes())
                 .map_err(|error| fault(PICTURE_FILE, &error))?,
             None => folder.remove(PICTURE_FILE),
         }
-        let found = read(members, folder);
+        let found = read(sweep, members, folder);
         if found.len() <= rows.len() {
             return Ok(rows);
         }
@@ -57,10 +46,10 @@ pub fn collect(
     }
 }
 
-fn read(members: &[Member], folder: &SweepFolder) -> Vec<Row> {
+fn read(sweep: &Sweep, members: &[Member], folder: &SweepFolder) -> Vec<Row> {
     let row = |member: &Member| {
         let summary = folder.summary(&member.identity)?;
-        Some(Row { index: member.index, identity: member.identity.clone(), summary })
+        Some(Row::new(member, sweep.values(member.index), summary))
     };
     members.iter().filter_map(row).collect()
 }

@@ -15,8 +15,6 @@ use crate::standard_output::one_line;
 
 /// What the sweep is: its keys and the members' values and folders.
 pub const MARK_FILE: &str = "sweep.json";
-/// One row a member.
-pub const TABLE_FILE: &str = "sweep.csv";
 /// The plot.
 pub const PICTURE_FILE: &str = "sweep.svg";
 const MEMBERS: &str = "members";

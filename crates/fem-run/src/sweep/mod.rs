@@ -1,9 +1,9 @@
 //! `fem-run sweep`: many members of one case, side by side in one folder.
 //!
 //! ```text
-//! fem-case ─ members ─ runner ──── member folders ─ collect ─ table (sweep.csv)
-//! Sweep      identity,  threads,   members/ID/       rows      picture (sweep.svg)
-//!            shard      progress   renamed into place
+//! fem::sweep ─ runner ──── member folders ─ collect ─ table (sweep.csv)
+//! members,     progress,   members/ID/       rows      picture (sweep.svg)
+//! threads      keeping     renamed into place
 //! ```
 //!
 //! The file system is all that processes share. A member is known by what it computes, so the
@@ -13,17 +13,12 @@
 
 mod board;
 mod collect;
-mod columns;
 mod folder;
-mod member;
 mod picture;
 mod picture_data;
 mod runner;
-mod table_file;
 
-pub use collect::{Row, collect};
-pub use columns::COLUMNS;
+pub use collect::collect;
 pub use folder::SweepFolder;
-pub use member::{Member, members};
 pub use picture_data::Choice;
 pub use runner::{Job, run_members};

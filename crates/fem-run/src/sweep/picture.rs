@@ -1,12 +1,11 @@
 //! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside.
 
+use fem::sweep::{Row, column_unit, column_words};
 use fem_case::Sweep;
+use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve as Line, GREY};
 
-use super::collect::Row;
-use super::member::Member;
-use super::picture_data::{Choice, Curve, axis_unit, column_unit, column_words, curves};
-use crate::engineering::Unit;
+use super::picture_data::{Choice, Curve, axis_unit, curves};
 
 /// Hertz in the legend.
 const HERTZ: &str = "Hertz";
@@ -16,10 +15,10 @@ const LONGEST_LEGEND: usize = 14;
 const LOGARITHMIC_FROM: f64 = 10.0;
 
 /// The picture, or none if there is nothing to draw.
-pub fn picture(sweep: &Sweep, members: &[Member], rows: &[Row], choice: &Choice) -> Option<String> {
-    let x = choice.x?;
+pub fn picture(sweep: &Sweep, rows: &[Row], choice: &Choice) -> Option<String> {
+    let x = choice.x.as_ref()?;
     let panel = |column: &&'static str| {
-        chart(sweep, x, column, &curves(sweep, members, rows, choice, x, column))
+        chart(sweep, x.axis, column, &curves(sweep, rows, choice, x, column))
     };
     fem_figure::svg(&choice.y.iter().map(panel).collect::<Vec<_>>())
 }

@@ -1,20 +1,14 @@
 //! What the picture of a sweep shows: which columns against which key, and the curves.
 
+use fem::sweep::{COLUMNS, Member, Row};
 use fem_case::{CaseError, CaseFile, Combine, Sweep, parse_quantity};
 use serde_json::Value;
-
-use super::collect::Row;
-use super::columns::{COLUMNS, value_of};
-use super::member::Member;
 
 /// Panels unless the sweep file names others.
 const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
 /// Columns of text or of yes and no.
 const NOT_NUMBERS: [&str; 2] = ["complete", "stopped_because"];
-/// Endings of column names and their units.
-const ENDINGS: [(&str, &str); 6] =
-    [("_m_s", "m/s"), ("_pa", "Pa"), ("_n", "N"), ("_s", "s"), ("_m", "m"), ("_j", "J")];
 /// Exponents of metre, kilogram, second and byte, and their units.
 const DIMENSIONS: [([i32; 4], &str); 6] = [
     ([1, 0, 0, 0], "m"),
@@ -43,12 +37,29 @@ const KEYS: [(&str, [i32; 4]); 11] = [
 /// Which columns are drawn against which key.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// The axis of the sweep along the horizontal; none if no key has numbers.
-    pub x: Option<usize>,
+    /// What is along the horizontal; none if no key has numbers.
+    pub x: Option<Horizontal>,
     /// Columns of the table, one panel each.
     pub y: Vec<&'static str>,
     /// The axis whose values tell curves apart; all others together if none.
     pub series: Option<usize>,
+}
+
+/// An axis of the sweep along the horizontal of the picture.
+#[derive(Clone, Debug)]
+pub struct Horizontal {
+    /// Which.
+    pub axis: usize,
+    /// Its value in each member, SI.
+    pub values: Vec<f64>,
+}
+
+impl Horizontal {
+    /// The axis, if its values are numbers.
+    fn of(sweep: &Sweep, axis: usize, members: &[Member]) -> Option<Self> {
+        let values = members.iter().map(|member| number(sweep, axis, &member.case));
+        Some(Self { axis, values: values.collect::<Option<_>>()? })
+    }
 }
 
 impl Choice {
@@ -64,18 +75,19 @@ impl Choice {
                 error.with_help(format!("the varied keys are {}", keys.join(", ")))
             })
         };
-        let has_numbers =
-            |axis: usize| members.iter().all(|member| number(sweep, axis, &member.case).is_some());
+        let horizontal = |axis: usize| Horizontal::of(sweep, axis, members);
         let x = match &sweep.plot.x {
-            Some(key) => Some(find("plot.x", key)?),
-            None => (0..keys.len()).find(|axis| has_numbers(*axis)),
+            Some(key) => {
+                let axis = find("plot.x", key)?;
+                Some(horizontal(axis).ok_or_else(|| {
+                    let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[axis]));
+                    error.with_help("name a varied key whose values are numbers")
+                })?)
+            }
+            None => (0..keys.len()).find_map(horizontal),
         };
-        if let Some(axis) = x.filter(|axis| !has_numbers(*axis)) {
-            let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[axis]));
-            return Err(error.with_help("name a varied key whose values are numbers"));
-        }
         let series = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
-        if series.is_some() && series == x {
+        if series.is_some() && series == x.as_ref().map(|x| x.axis) {
             let error = sweep.error_at("plot.series", "x and series are the same key");
             return Err(error.with_help("series tells curves apart; leave it out"));
         }
@@ -118,24 +130,23 @@ pub struct Curve {
 /// One curve of `column` a series, complete members only. Curves come in the order of the sweep.
 pub fn curves(
     sweep: &Sweep,
-    members: &[Member],
     rows: &[Row],
     choice: &Choice,
-    x: usize,
+    x: &Horizontal,
     column: &str,
 ) -> Vec<Curve> {
     let hertz_column = format!("hertz_{column}");
     let has_hertz = COLUMNS.contains(&hertz_column.as_str());
     let mut curves: Vec<Curve> = Vec::new();
-    for row in rows.iter().filter(|row| row.summary["complete"] == true) {
-        let label = label(sweep, row.index, choice, x);
+    for row in rows.iter().filter(|row| row.is_complete()) {
+        let label = label(sweep, row.index, choice, x.axis);
         let known = curves.iter().position(|curve| curve.label == label);
         let place = known.unwrap_or_else(|| {
             curves.push(Curve { label, points: Vec::new(), hertz: Vec::new() });
             curves.len() - 1
         });
-        let Some(x) = number(sweep, x, &members[row.index].case) else { continue };
-        let y = |column: &str| value_of(&row.summary, column).as_f64();
+        let x = x.values[row.index];
+        let y = |column: &str| row.value(column).as_f64();
         curves[place].points.extend(y(column).map(|y| (x, y)));
         if has_hertz {
             curves[place].hertz.extend(y(&hertz_column).map(|y| (x, y)));
@@ -173,21 +184,6 @@ fn number(sweep: &Sweep, axis: usize, case: &CaseFile) -> Option<f64> {
         };
     }
     value.as_f64()
-}
-
-/// The SI unit of a column; empty if it has none.
-pub fn column_unit(column: &str) -> &'static str {
-    ending(column).map_or("", |(_, unit)| unit)
-}
-
-/// A column's name in words, without its unit.
-pub fn column_words(column: &str) -> String {
-    let bare = ending(column).map_or(column, |(ending, _)| &column[..column.len() - ending.len()]);
-    bare.replace('_', " ")
-}
-
-fn ending(column: &str) -> Option<(&'static str, &'static str)> {
-    ENDINGS.into_iter().find(|(ending, _)| column.ends_with(ending))
 }
 
 /// The SI unit of a varied key: that of its values, or that of the key if all are bare numbers.

@@ -1,37 +1,36 @@
-//! Runs members on all threads, each on one, and puts their results into the sweep's folder.
+//! Runs the members of a sweep and puts their results into its folder.
 
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
 use fem::results::Summary;
-use fem::{Shared, Simulation};
+use fem::sweep::{Member, Observer, Ran, Runner};
+use fem::{CaseError, Shared};
+use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
 use rayon::ThreadPoolBuilder;
-use rayon::iter::{ParallelBridge, ParallelIterator};
 
 use super::board::{Board, MemberWatch};
 use super::folder::SweepFolder;
-use super::member::Member;
-use crate::commands::run::{longest_name, write_result};
-use crate::engineering::show;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::result_files::{longest_name, write_result};
 use crate::result_folder::ResultFolder;
-use crate::stopwatch::Stopwatch;
+use crate::stopwatch::{Stopwatch, Timed};
 
 /// What members are run with.
 pub struct Job<'a> {
     /// The sweep.
     pub sweep: &'a Sweep,
+    /// All members.
+    pub members: &'a [Member],
     /// Where results go.
     pub folder: &'a SweepFolder,
     /// Threads; as many as the machine has if none.
     pub threads: Option<NonZeroUsize>,
     /// Show no progress.
     pub quiet: bool,
-    /// What members share.
-    pub shared: Shared,
     /// Whether the user wants the sweep to end.
     pub interrupt: Interrupt,
 }
@@ -41,57 +40,82 @@ pub struct Job<'a> {
 ///
 /// # Errors
 /// A result that cannot be written, or no threads. The other members end early.
-pub fn run_members(job: &Job<'_>, members: &[&Member]) -> Result<(), Failure> {
+pub fn run_members(job: &Job<'_>, left: &[&Member]) -> Result<(), Failure> {
     let threads = job.threads.map_or(0, NonZeroUsize::get);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
-    let board = Board::new(job.interrupt.clone(), members.len(), job.quiet);
-    let first_failure = Mutex::new(None);
-    pool.install(|| {
-        // A bridge hands members out one by one, in order.
-        members.iter().par_bridge().for_each(|member| {
-            if board.is_stopped() {
-                return;
+    let board = Board::new(job.interrupt.clone(), left.len(), job.quiet);
+    let keeper = Keeper { job, board: &board, first_failure: Mutex::new(None) };
+    let shared = Shared::default();
+    let runner = Runner::new(job.sweep, &shared);
+    let runner = if job.sweep.keep == Keep::Summary { runner.without_fields() } else { runner };
+    let order: Vec<usize> = left.iter().map(|member| member.index).collect();
+    pool.install(|| runner.run(&order, &keeper, drop));
+    board.finish();
+    keeper.first_failure.into_inner().ok().flatten().map_or(Ok(()), Err)
+}
+
+/// Puts each member's result into the sweep's folder when it has ended.
+struct Keeper<'a> {
+    job: &'a Job<'a>,
+    board: &'a Board,
+    first_failure: Mutex<Option<Failure>>,
+}
+
+impl<'a> Observer for Keeper<'a> {
+    type Watch = Timed<MemberWatch<'a>>;
+
+    fn admits(&self, index: usize) -> bool {
+        if self.board.is_stopped() {
+            return false;
+        }
+        let Job { sweep, members, folder, .. } = self.job;
+        let is_done = folder.has(&members[index].identity, sweep.keep);
+        if is_done {
+            self.board.finish_member(&format!("{}: done elsewhere", sweep.describe(index)));
+        }
+        !is_done
+    }
+
+    fn begin(&self, _: usize) -> Self::Watch {
+        Timed::since(Instant::now(), MemberWatch::new(self.board))
+    }
+
+    fn end(&self, index: usize, watch: Self::Watch, ran: Result<&Ran, &CaseError>) {
+        let (stopwatch, watch) = watch.stop();
+        let kept = match ran {
+            Ok(ran) if ran.collision.is_interrupted() => return,
+            Ok(ran) => self.keep(index, ran, &stopwatch),
+            Err(error) => Err(error.clone().into()),
+        };
+        match kept {
+            Ok(summary) => {
+                watch.finish();
+                let name = self.job.sweep.describe(index);
+                self.board.finish_member(&format!("{name}: {}", in_a_few_words(&summary)));
             }
-            if let Err(failure) = run_member(job, &board, member) {
-                board.abort();
-                if let Ok(mut first) = first_failure.lock() {
+            Err(failure) => {
+                self.board.abort();
+                if let Ok(mut first) = self.first_failure.lock() {
                     first.get_or_insert(failure);
                 }
             }
-        });
-    });
-    board.finish();
-    first_failure.into_inner().ok().flatten().map_or(Ok(()), Err)
+        }
+    }
 }
 
-fn run_member(job: &Job<'_>, board: &Board, member: &Member) -> Result<(), Failure> {
-    let Job { sweep, folder, .. } = job;
-    let name = sweep.describe(member.index);
-    if folder.has(&member.identity, sweep.keep) {
-        board.finish_member(&format!("{name}: done elsewhere"));
-        return Ok(());
+impl Keeper<'_> {
+    fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
+        let Job { sweep, members, folder, .. } = self.job;
+        let stem = &members[index].identity;
+        let place = ResultFolder::claim(&folder.member(stem), &longest_name(stem))
+            .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;
+        let Ran { simulation, collision } = ran;
+        let summary =
+            write_result(place.path(), stem, simulation, collision, stopwatch, sweep.keep)?;
+        place.publish()?;
+        Ok(summary)
     }
-    let started = Instant::now();
-    let mut simulation =
-        sweep.build(member.index, |case| Simulation::sharing(case, &job.shared))?;
-    if sweep.keep == Keep::Summary {
-        simulation.skip_snapshots();
-    }
-    let mut watch = MemberWatch::new(board);
-    let (collision, stopwatch) = Stopwatch::run(started, &mut simulation, &mut watch);
-    if collision.is_interrupted() {
-        return Ok(());
-    }
-    let stem = &member.identity;
-    let place = ResultFolder::claim(&folder.member(stem), &longest_name(stem))
-        .map_err(|failure| Failure::failed(format!("{name}: {failure}")))?;
-    let summary =
-        write_result(place.path(), stem, &simulation, &collision, &stopwatch, sweep.keep)?;
-    place.publish()?;
-    watch.finish();
-    board.finish_member(&format!("{name}: {}", in_a_few_words(&summary)));
-    Ok(())
 }
 
 /// A member's result in a few words.

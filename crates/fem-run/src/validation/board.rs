@@ -5,10 +5,10 @@ use std::io::{IsTerminal, Write, stderr};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
+use fem_case::engineering::show;
 use fem_validate::{ClaimResult, Observer};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::engineering::show;
 use crate::interrupt::Interrupt;
 
 /// What all claims share while they are tried.

@@ -6,14 +6,15 @@
 
 use std::sync::Arc;
 
+use fem::accuracy::PowerLaw;
+use fem_case::engineering::show;
 use fem_collision::Label;
-use fem_figure::{Axis, Chart, Curve, engineering::show};
+use fem_figure::{Axis, Chart, Curve};
 use serde::Deserialize;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
-use crate::power_law::PowerLaw;
 use crate::run::{ExplicitRun, Run};
 
 #[derive(Deserialize)]
@@ -65,7 +66,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let residuals = runs.iter().map(|run| run.energy_residual());
     findings.measure("energy_residual", residuals.fold(0.0, f64::max));
     if let Some(finest) = runs.last() {
-        findings.measure("profile_radius", profile_radius(finest));
+        findings.measure("profile_radius", profile_radius(finest)?);
     }
     let slope = sizes.iter().map(|h| (1e6 * h, 1e-3 * h / sizes[0])).collect();
     chart = chart.with(Curve::dashed("first order", slope).coloured(fem_figure::GREY));
@@ -108,12 +109,12 @@ fn equivalent_radius(run: &Run) -> f64 {
 /// Contact radius at maximum compression, m, as the root of p² = α − β r² fitted to the nodal
 /// pressures, whose area an r weighs: free of where a node happens to lie at the edge. NaN without
 /// a snapshot of the maximum.
-fn profile_radius(run: &ExplicitRun) -> f64 {
+fn profile_radius(run: &ExplicitRun) -> Result<f64, StudyError> {
     let snapshots = &run.collision.snapshots;
     let Some(snapshot) = snapshots.iter().find(|s| s.label == Some(Label::Maximum)) else {
-        return f64::NAN;
+        return Ok(f64::NAN);
     };
-    let interface = run.explicit.bodies.interface();
+    let interface = run.springs()?;
     let u = snapshot.bodies.each_ref().map(|body| body.displacement.as_slice());
     let edge = interface.contact_radius(u);
     let mut sums = [0.0; 5];
@@ -127,5 +128,5 @@ fn profile_radius(run: &ExplicitRun) -> f64 {
     let [s0, s1, s2, y0, y1] = sums;
     // α and −β up to the same factor.
     let (alpha, slope) = (y0 * s2 - y1 * s1, s0 * y1 - s1 * y0);
-    edge * (-alpha / slope).sqrt()
+    Ok(edge * (-alpha / slope).sqrt())
 }

@@ -21,6 +21,7 @@ use serde::Deserialize;
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
+use crate::run::no_springs;
 
 /// Two elements along a block, so that few elements reach any size.
 const BLOCK: f64 = 2.0;
@@ -146,7 +147,7 @@ impl Pair<'_> {
         let [lower, upper] = model.bodies();
         let mut assembly = Assembly::of(&[lower, upper], self.material);
         let mut ratio = |more_springs: f64| {
-            assembly.add_contact(&model, more_springs);
+            assembly.add_contact(&model, more_springs)?;
             let eigenvalues = eigenvalues(&assembly)?;
             Ok::<_, StudyError>(model.time_step() * eigenvalues[eigenvalues.len() - 1].sqrt() / 2.0)
         };
@@ -195,13 +196,14 @@ impl Assembly {
 
     /// Springs of all candidates, so many times, from the forces of a deep penetration, which are
     /// linear.
-    fn add_contact(&mut self, model: &Model, times: f64) {
+    fn add_contact(&mut self, model: &Model, times: f64) -> Result<(), StudyError> {
+        let springs = model.interface().ok_or_else(no_springs)?;
         let deep = |n: usize, u: f64| vec![[0.0, u]; n];
         let n_nodes = model.bodies().each_ref().map(|body| body.nodal_mass().len());
         let forces = |u: &[Vec<[f64; 2]>; 2]| {
             let mut forces = n_nodes.map(|n| deep(n, 0.0));
             let [lower, upper] = &mut forces;
-            model.interface().add_forces([&u[0], &u[1]], [lower, upper]);
+            springs.add_forces([&u[0], &u[1]], [lower, upper]);
             forces
         };
         // A radius deep, and a hundredth of it to and fro.
@@ -209,7 +211,7 @@ impl Assembly {
         let before = forces(&u);
         let step = 0.01;
         for side in 0..2 {
-            for node in model.interface().candidate_nodes(side) {
+            for node in springs.candidate_nodes(side) {
                 let node = node as usize;
                 u[side][node][1] += step;
                 let after = forces(&u);
@@ -223,6 +225,7 @@ impl Assembly {
                 }
             }
         }
+        Ok(())
     }
 }
 

@@ -50,6 +50,14 @@ pub fn study_names() -> impl Iterator<Item = &'static str> {
     STUDIES.iter().map(|(name, _)| *name)
 }
 
-pub(crate) fn find_study(name: &str) -> Option<Study> {
-    STUDIES.iter().find(|(known, _)| *known == name).map(|(_, study)| *study)
+/// The study of a name.
+///
+/// # Errors
+/// No such study: which there are.
+pub(crate) fn find_study(name: &str) -> Result<Study, String> {
+    let found = STUDIES.iter().find(|(known, _)| *known == name);
+    found.map(|(_, study)| *study).ok_or_else(|| {
+        let known = study_names().collect::<Vec<_>>().join(", ");
+        format!("there is no study `{name}`; the studies are {known}")
+    })
 }

@@ -4,7 +4,7 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::{Effect, Need, percent};
+use super::effect::{Effect, Need, percent};
 use crate::estimate::Estimate;
 
 /// Above this share of the shear wave speed an impact sends shocks.

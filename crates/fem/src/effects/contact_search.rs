@@ -1,6 +1,6 @@
 //! Contact is looked for near the axis only, and free flight is not stepped: a decision of the plan.
 
-use super::Effect;
+use super::effect::Effect;
 
 /// Where contact is looked for.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! The dashpot of a contact law.
 
-use super::Effect;
+use super::effect::Effect;
 
 /// The dashpot of a contact law.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! A sphere is stiffer than the half-space of Hertz: its own compliance, in series, to first order.
 
-use super::Effect;
+use super::effect::Effect;
 
 /// The spheres' own compliance.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::{Effect, Need, percent};
+use super::effect::{Effect, Need, percent};
 use crate::estimate::Estimate;
 
 /// Above this a/R the small-strain model is in doubt: that of a glass impact at 3 m/s.

@@ -2,7 +2,7 @@
 
 use fem_case::Scene;
 
-use super::{Effect, Need};
+use super::effect::{Effect, Need};
 use crate::estimate::Estimate;
 
 /// Weight of the bodies.

@@ -1,6 +1,6 @@
 //! Elements with one mean stress need a stiffness of their own against the modes that this does not see.
 
-use super::Effect;
+use super::effect::Effect;
 
 /// Stiffness of the modes that a mean stress does not see.
 #[derive(Clone, Copy, Debug)]

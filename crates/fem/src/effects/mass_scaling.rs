@@ -1,6 +1,6 @@
 //! Mass added to the lightest nodes for a longer time step: a decision of the plan.
 
-use super::Effect;
+use super::effect::Effect;
 
 /// Mass added for a longer time step.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,7 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::{Effect, Need};
+use super::effect::{Effect, Need};
 use crate::estimate::Estimate;
 
 /// Two identical bodies as one against a rigid plane.

@@ -14,6 +14,7 @@
 mod bulk_viscosity;
 mod contact_search;
 mod dashpot;
+mod effect;
 mod finite_size;
 mod finite_strain;
 mod gravity;
@@ -24,7 +25,7 @@ mod penalty_springs;
 mod vibration;
 mod viscoelasticity;
 
-use fem_case::{EffectsTable, Scene, Switch};
+use fem_case::{Scene, Switch};
 use serde::Serialize;
 
 use crate::estimate::Estimate;
@@ -33,6 +34,7 @@ use crate::refusal::Refusal;
 pub use bulk_viscosity::{BulkViscosity, MACH_LIMIT};
 pub use contact_search::ContactSearch;
 pub use dashpot::DashpotEffect;
+pub use effect::{Effect, Need};
 pub use finite_size::FiniteSizeEffect;
 pub use finite_strain::FiniteStrain;
 pub use gravity::Gravity;
@@ -42,22 +44,6 @@ pub use mirror_symmetry::MirrorSymmetry;
 pub use penalty_springs::PenaltySprings;
 pub use vibration::{QUASI_STATIC_LIMIT, Vibration};
 pub use viscoelasticity::Viscoelasticity;
-
-/// Something that a collision may show, or that a computation may need.
-pub trait Effect: Sync {
-    /// What it is called in results.
-    fn name(&self) -> &'static str;
-
-    /// What the case says of it, if it is one that `[effects]` switches.
-    fn switch(&self, _: &EffectsTable) -> Option<Switch> {
-        None
-    }
-
-    /// Whether a scene calls for it. `None` of one that only the built model can tell.
-    fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {
-        None
-    }
-}
 
 /// All effects, in the order of the level at which they act.
 pub const EFFECTS: [&dyn Effect; 12] = [
@@ -74,21 +60,6 @@ pub const EFFECTS: [&dyn Effect; 12] = [
     &HourglassControl,
     &MassScaling,
 ];
-
-/// What a scene needs of an effect.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Need {
-    /// Whether the scene calls for it.
-    pub is_called_for: bool,
-    /// The number that decides, in words.
-    pub number: String,
-    /// What follows where it is not called for.
-    pub otherwise: String,
-    /// What stays open in a model that lacks it.
-    pub left_open: String,
-    /// What a user should know of a model that lacks it although it is called for.
-    pub warning: Option<String>,
-}
 
 /// What a model has of an effect.
 #[derive(Clone, Debug, PartialEq)]
@@ -184,11 +155,6 @@ fn refuse_forced(scene: &Scene, answers: &[(&'static dyn Effect, Answer)]) -> Re
         }
     }
     Ok(())
-}
-
-/// A share in per cent.
-pub(crate) fn percent(share: f64) -> String {
-    format!("{:.2} %", 100.0 * share)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Springs at Gauss points that resist overlap, instead of a contact that allows none.
 
-use super::Effect;
+use super::effect::Effect;
 
 /// Springs that resist overlap.
 #[derive(Clone, Copy, Debug)]

@@ -3,7 +3,8 @@
 //!
 //! Decided by the approach speed over the shear wave speed.
 
-use super::{Effect, MACH_LIMIT, percent};
+use super::bulk_viscosity::MACH_LIMIT;
+use super::effect::{Effect, percent};
 use crate::estimate::Estimate;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than

@@ -4,7 +4,7 @@
 
 use fem_case::Scene;
 
-use super::{Effect, Need, percent};
+use super::effect::{Effect, Need, percent};
 use crate::estimate::Estimate;
 
 /// Relaxation of the materials.

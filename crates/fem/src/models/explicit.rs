@@ -2,7 +2,9 @@
 
 use fem_case::{Body, CaseFile, ModelChoice, Scene, Shape};
 use fem_collision::{Approach, BodyInput, Collision, Monitor, Stop, Want};
+use fem_contact::ContactInterface;
 use fem_explicit::{Model as Bodies, Settings, collide};
+use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
 use super::region::until_it_fits;
@@ -25,7 +27,7 @@ const CANDIDATE_GROWTH: f64 = 1.5;
 #[derive(Clone, Copy, Debug)]
 pub struct ExplicitMethod;
 
-/// The method.
+/// Explicit finite elements, as a method.
 pub const EXPLICIT: ExplicitMethod = ExplicitMethod;
 
 impl Method for ExplicitMethod {
@@ -125,14 +127,14 @@ impl Explicit {
 
     /// A larger searched region, if there is one.
     fn enlarge(&mut self) -> Result<(), Refusal> {
-        let before = self.bodies.interface().candidate_radius();
+        let before = self.bodies.candidate_radius();
         self.plan.candidate_radius = CANDIDATE_GROWTH * before;
         let approach = *self.bodies.approach();
         let nothing_larger =
             || Refusal::new("body", "the searched region is as large as it can be");
         let bodies = Bodies::new(self.inputs.clone(), approach, &settings(&self.plan))
             .map_err(|_| nothing_larger())?;
-        if bodies.interface().candidate_radius() <= before {
+        if bodies.candidate_radius() <= before {
             return Err(nothing_larger());
         }
         self.bodies = bodies;
@@ -189,8 +191,9 @@ fn settings(plan: &Plan) -> Settings {
 fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
     let elements = model.n_elements() as u64;
     let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
-    let branches: u64 =
-        model.bodies().iter().map(|body| body.n_elements() as u64 * body.n_branches() as u64).sum();
+    let branches: u64 = (model.bodies().iter().zip(&scene.bodies))
+        .map(|(body, named)| body.n_elements() as u64 * n_branches(named))
+        .sum();
     let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
     let element_updates = (steps * elements as f64) as u64;
     let memory = explicit_memory(plan, elements, branches);
@@ -208,6 +211,13 @@ fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
     })
 }
 
+/// Prony terms whose history is kept of a body.
+fn n_branches(body: &Body) -> u64 {
+    let series = body.material().and_then(Material::relaxation);
+    let terms = series.into_iter().flat_map(PronySeries::terms);
+    terms.filter(|term| term.weight > 0.0).count() as u64
+}
+
 /// What explicit elements have of each effect.
 fn effects(
     scene: &Scene,
@@ -215,11 +225,10 @@ fn effects(
     model: &Bodies,
 ) -> Result<(Vec<Verdict>, Vec<String>), Refusal> {
     let hourglass = "elements with one mean stress need the stiffness of their bending modes";
-    let interface = model.interface();
     let search = format!(
         "{} integration points within {:.4e} m of the axis; free flight is not stepped",
-        interface.n_points(),
-        interface.candidate_radius()
+        model.interface().map_or(0, ContactInterface::n_points),
+        model.candidate_radius()
     );
     let (adds_mass, scaling) = mass_scaling(model, &scene.bodies);
     let answers: Vec<(&'static dyn Effect, Answer)> = vec![

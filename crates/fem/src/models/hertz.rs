@@ -5,7 +5,7 @@ use fem_case::schema::{HertzTable, ModelTable};
 use fem_case::{CaseFile, ModelChoice, Scene};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use super::reduced::{Motion, Reduced, resolve_start};
+use super::reduced::{Motion, Reduced, chose_another, resolve_start};
 use super::ting;
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
@@ -15,7 +15,7 @@ use crate::refusal::Refusal;
 #[derive(Clone, Copy, Debug)]
 pub struct HertzMethod;
 
-/// The method.
+/// Hertz' closed form, as a method.
 pub const HERTZ: HertzMethod = HertzMethod;
 
 impl Method for HertzMethod {
@@ -24,11 +24,11 @@ impl Method for HertzMethod {
     }
 
     fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
-        Ok(Box::new(Reduced::new(scene)?))
+        Ok(Box::new(build(scene)?))
     }
 
     fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
-        Reduced::new(scene).map(|_| 0)
+        build(scene).map(|_| 0)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
@@ -52,12 +52,12 @@ impl Motion for ClosedForm {
 /// Builds the model of a scene.
 ///
 /// # Errors
-/// As [`Reduced::new`].
-pub(super) fn build(
-    scene: &Scene,
-    estimate: Estimate,
-    finite_size: bool,
-) -> Result<Reduced, Refusal> {
+/// As [`Reduced::new`]; a scene that chose another model.
+pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+    let ModelChoice::Hertz { finite_size } = scene.model else {
+        return Err(chose_another(scene, "hertz"));
+    };
+    let estimate = Estimate::checked(scene)?;
     // Elastic bodies under Ting are Hertz', and Ting knows their size.
     let motion: Box<dyn Motion> = match finite_size {
         false => Box::new(ClosedForm(estimate.hertz)),

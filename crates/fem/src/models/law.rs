@@ -6,7 +6,7 @@ use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, Impact, LawError, LawImpact, Pair, PairRelaxation};
 
 use super::law_numbers::{Setting, Unmade};
-use super::reduced::{Motion, Reduced, refused, resolve_start};
+use super::reduced::{Motion, Reduced, chose_another, refused, resolve_start};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -15,7 +15,7 @@ use crate::refusal::Refusal;
 #[derive(Clone, Copy, Debug)]
 pub struct LawMethod;
 
-/// The method.
+/// Contact laws, as a method.
 pub const LAW: LawMethod = LawMethod;
 
 impl Method for LawMethod {
@@ -24,16 +24,16 @@ impl Method for LawMethod {
     }
 
     fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
-        Ok(Box::new(Reduced::new(scene)?))
+        Ok(Box::new(build(scene)?))
     }
 
     fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
-        Reduced::new(scene).map(|_| 0)
+        build(scene).map(|_| 0)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
         let ModelChoice::Law { end_rule, tolerance, .. } = scene.model else { return Ok(file) };
-        Reduced::new(scene)?;
+        build(scene)?;
         let mut file = resolve_start(scene, file);
         let given = file.model.take().unwrap_or_default();
         let end = match end_rule {
@@ -80,14 +80,13 @@ impl Motion for LawMotion {
 /// Builds the model of a scene.
 ///
 /// # Errors
-/// As [`Reduced::new`].
-pub(super) fn build(
-    scene: &Scene,
-    estimate: Estimate,
-    law: &Law,
-    end_rule: EndRule,
-    tolerance: f64,
-) -> Result<Reduced, Refusal> {
+/// As [`Reduced::new`]; a scene that chose another model.
+pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+    let ModelChoice::Law { law, end_rule, tolerance } = &scene.model else {
+        return Err(chose_another(scene, "law"));
+    };
+    let (end_rule, tolerance) = (*end_rule, *tolerance);
+    let estimate = Estimate::checked(scene)?;
     let refuse = |error: LawError| refused(scene, &error);
     let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;
     let Some(made) = law.family().law(&pair, &numbers) else {

@@ -1,4 +1,4 @@
-//! The methods, one file or folder each.
+//! The methods, one file or folder each, and which of them a scene chooses.
 
 mod condensed;
 mod explicit;
@@ -9,9 +9,44 @@ mod reduced;
 mod region;
 mod ting;
 
-pub use condensed::{CONDENSED, Condensed, CondensedMethod, PairCache};
+use fem_case::{ModelChoice, Scene};
+
+use crate::method::Method;
+use crate::refusal::Refusal;
+
+pub use condensed::{CONDENSED, Condensed, CondensedMethod};
 pub use explicit::{EXPLICIT, Explicit, ExplicitMethod};
 pub use hertz::{HERTZ, HertzMethod};
 pub use law::{LAW, LawMethod};
 pub use reduced::Reduced;
 pub use ting::{TING, TingMethod, ting_impact};
+
+/// All methods, from the cheapest to the dearest.
+pub const METHODS: [&dyn Method; 5] = [&HERTZ, &LAW, &TING, &CONDENSED, &EXPLICIT];
+
+/// The method that a scene chooses.
+pub fn method_of(scene: &Scene) -> &'static dyn Method {
+    match scene.model {
+        ModelChoice::Hertz { .. } => &HERTZ,
+        ModelChoice::Law { .. } => &LAW,
+        ModelChoice::Ting { .. } => &TING,
+        ModelChoice::Condensed(_) => &CONDENSED,
+        _ => &EXPLICIT,
+    }
+}
+
+impl Reduced {
+    /// Builds the reduced model that a scene chooses.
+    ///
+    /// # Errors
+    /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
+    /// contact too large for the finite-size correction; a law that cannot be made of this pair.
+    pub fn new(scene: &Scene) -> Result<Self, Refusal> {
+        match scene.model {
+            ModelChoice::Hertz { .. } => hertz::build(scene),
+            ModelChoice::Law { .. } => law::build(scene),
+            ModelChoice::Ting { .. } => ting::build(scene),
+            _ => Err(Refusal::new("model", "finite elements are no reduced model")),
+        }
+    }
+}

@@ -5,7 +5,7 @@ use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
-use super::reduced::{Motion, Reduced, refused, resolve_start};
+use super::reduced::{Motion, Reduced, chose_another, refused, resolve_start};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -14,7 +14,7 @@ use crate::refusal::Refusal;
 #[derive(Clone, Copy, Debug)]
 pub struct TingMethod;
 
-/// The method.
+/// Ting's half-spaces, as a method.
 pub const TING: TingMethod = TingMethod;
 
 impl Method for TingMethod {
@@ -23,11 +23,11 @@ impl Method for TingMethod {
     }
 
     fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
-        Ok(Box::new(Reduced::new(scene)?))
+        Ok(Box::new(build(scene)?))
     }
 
     fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
-        Reduced::new(scene).map(|_| 0)
+        build(scene).map(|_| 0)
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
@@ -51,13 +51,12 @@ impl Motion for Ting {
 /// Builds the model of a scene.
 ///
 /// # Errors
-/// As [`Reduced::new`].
-pub(super) fn build(
-    scene: &Scene,
-    estimate: Estimate,
-    finite_size: bool,
-    tolerance: f64,
-) -> Result<Reduced, Refusal> {
+/// As [`Reduced::new`]; a scene that chose another model.
+pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
+    let ModelChoice::Ting { finite_size, tolerance } = scene.model else {
+        return Err(chose_another(scene, "ting"));
+    };
+    let estimate = Estimate::checked(scene)?;
     let motion = motion(scene, &estimate, true, finite_size, tolerance)?;
     let description = "model ting, one degree of freedom".to_string();
     let pair = *estimate.hertz.pair();

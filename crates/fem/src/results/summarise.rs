@@ -70,6 +70,13 @@ impl Summary {
     }
 }
 
+impl Simulation {
+    /// A collision summed up, all warnings in it; what it took is left open, and no file is named.
+    pub fn summary(&self, collision: &Collision) -> Summary {
+        Summary::of(self, collision, Spent::default(), self.warnings(collision), Vec::new())
+    }
+}
+
 /// Keeps numbers that are not finite out of the summary.
 struct Numbers {
     warnings: Vec<String>,

@@ -40,11 +40,11 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Whether the run ended by itself.
     pub complete: bool,
-    /// Why not.
+    /// Why the run did not end by itself.
     pub stopped_because: Option<String>,
     /// By which a result folder is known.
     pub program: &'static str,
-    /// Of the program.
+    /// Version of the program.
     pub version: &'static str,
     /// Names of the files that the program wrote into the folder.
     pub files: Vec<String>,
@@ -74,7 +74,7 @@ pub struct Quantities {
 pub struct Energy {
     /// At the start, walls not counted.
     pub initial_j: Option<f64>,
-    /// Of the bodies.
+    /// Motion of the bodies, walls not counted.
     pub kinetic_j: Option<f64>,
     /// Held by the bodies or the law.
     pub strain_j: Option<f64>,
@@ -95,19 +95,19 @@ pub struct Energy {
 pub struct BodySummary {
     /// As the case names it.
     pub name: String,
-    /// Of its mesh.
+    /// Elements of its mesh.
     pub elements: Option<usize>,
-    /// Of its mesh.
+    /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// Without what scaling adds.
+    /// Mass without what scaling adds.
     pub mass_kg: Option<f64>,
-    /// By mass scaling.
+    /// Mass added by scaling.
     pub added_mass_kg: Option<f64>,
-    /// Along +y.
+    /// Velocity along +y before.
     pub velocity_before_m_s: Option<f64>,
-    /// Along +y.
+    /// Velocity along +y after.
     pub velocity_after_m_s: Option<f64>,
-    /// Left in it.
+    /// Energy left in its vibrations.
     pub vibration_energy_j: Option<f64>,
 }
 
@@ -120,12 +120,12 @@ pub struct CostSummary {
     pub setup_s: f64,
     /// The collision alone.
     pub solve_s: f64,
-    /// Of the collision alone.
+    /// Time of an element and step, of the collision alone.
     pub ns_per_element_update: Option<f64>,
-    /// That the run used.
+    /// Threads that the run used.
     pub threads: usize,
-    /// Of the process.
+    /// Largest memory of the process.
     pub peak_memory_bytes: Option<u64>,
-    /// Of condensed bodies.
+    /// Memory of the factors of condensed bodies.
     pub factor_bytes: Option<u64>,
 }

@@ -3,6 +3,7 @@
 
 use fem_case::Shape;
 use fem_collision::{Label, Snapshot};
+use fem_contact::ContactInterface;
 use fem_laws::HertzPressure;
 use fem_mesh::segment_measures;
 
@@ -46,7 +47,8 @@ impl Fields {
             return Err(StudyError::parameters("the case has no sphere"));
         };
         let u = displacements(run, snapshot);
-        let hertz = hertz_at_force(run, &u);
+        let springs = run.springs()?;
+        let hertz = hertz_at_force(run, &u)?;
         let stress = bodies[side].stress(&snapshot.bodies[side]);
         let poissons_ratio = material.instantaneous().poissons_ratio();
         let boundary = |profile: Profile| {
@@ -80,7 +82,7 @@ impl Fields {
             size: hertz.contact_radius / run.explicit.plan.estimate.smallest_radius,
             poissons_ratio,
             profiles: Profile::ALL.map(|profile| match profile {
-                Profile::Pressure => pressure(run, &u, hertz),
+                Profile::Pressure => pressure(springs, &u, hertz),
                 _ => boundary(profile),
             }),
         })
@@ -108,18 +110,22 @@ fn displacements(run: &ExplicitRun, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
 }
 
 /// a and p₀ of the contact force: a³ = 3FR*/4E*, p₀ = 3F/2πa².
-fn hertz_at_force(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2]) -> HertzPressure {
+fn hertz_at_force(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2]) -> Result<HertzPressure, StudyError> {
     let mut forces = u.each_ref().map(|u| vec![[0.0; 2]; u.len()]);
     let [lower, upper] = &mut forces;
-    let force = run.explicit.bodies.interface().add_forces([&u[0], &u[1]], [lower, upper]).force;
+    let force = run.springs()?.add_forces([&u[0], &u[1]], [lower, upper]).force;
     let hertz = run.hertz;
     let approach = (force / hertz.stiffness()).powf(2.0 / 3.0);
-    hertz.pressure(approach)
+    Ok(hertz.pressure(approach))
 }
 
 /// Contact pressure at the nodes of the first sphere, out to a tenth beyond the contact.
-fn pressure(run: &ExplicitRun, u: &[Vec<[f64; 2]>; 2], hertz: HertzPressure) -> Vec<Sample> {
-    let pressure = run.explicit.bodies.interface().nodal_pressure([&u[0], &u[1]]);
+fn pressure(
+    springs: &ContactInterface,
+    u: &[Vec<[f64; 2]>; 2],
+    hertz: HertzPressure,
+) -> Vec<Sample> {
+    let pressure = springs.nodal_pressure([&u[0], &u[1]]);
     let (places, values): (Vec<f64>, Vec<f64>) = pressure
         .map(|(r, p)| (r / hertz.contact_radius, p / hertz.peak_pressure))
         .take_while(|(place, _)| *place < 1.1)

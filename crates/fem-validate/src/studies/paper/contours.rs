@@ -1,8 +1,8 @@
 //! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
 
+use fem_case::engineering::Unit;
 use fem_collision::{Label, Snapshot};
 use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
-use fem_figure::engineering::Unit;
 use serde::Deserialize;
 
 use crate::error::StudyError;

@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use fem_case::Scene;
-use fem_figure::engineering::show;
+use fem_case::engineering::show;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
 use crate::error::StudyError;

@@ -1,7 +1,6 @@
 //! Linear finite elements that are condensed to their contact nodes: the meshes and the materials of
 //! the explicit model, milliseconds instead of seconds.
 
-mod cache;
 mod effects;
 
 use std::sync::Arc;
@@ -16,14 +15,12 @@ use fem_mesh::SphereMesh;
 use super::region::until_it_fits;
 use crate::approach::{approach_of, frame_of};
 use crate::effects::Vibration;
-use crate::meshes::{MeshSource, mesh_refusal, mesh_sources};
+use crate::mesh_source::{MeshSource, mesh_refusal};
+use crate::meshes::mesh_sources;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
+use crate::pair_cache::PairKey;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
-
-use cache::PairKey;
-
-pub use cache::PairCache;
 
 /// Growth of the condensed region when the contact leaves it.
 const CANDIDATE_GROWTH: f64 = 2.0;
@@ -39,7 +36,7 @@ const BYTES_PER_ELEMENT: u64 = 8_000;
 #[derive(Clone, Copy, Debug)]
 pub struct CondensedMethod;
 
-/// The method.
+/// Finite elements condensed to their contact nodes, as a method.
 pub const CONDENSED: CondensedMethod = CondensedMethod;
 
 impl Method for CondensedMethod {

@@ -6,13 +6,12 @@ mod effects;
 
 use std::fmt;
 
-use fem_case::{CaseFile, ModelChoice, Quantity};
-use fem_case::{Scene, schema::StartTable};
+use fem_case::schema::StartTable;
+use fem_case::{CaseFile, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, Stop, Want};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
-use super::{hertz, law, ting};
 use crate::approach::{approach_of, frame_of};
 use crate::estimate::Estimate;
 use crate::method::{Cost, ForceLaw, Model, Setup};
@@ -45,25 +44,6 @@ pub struct Reduced {
 }
 
 impl Reduced {
-    /// Builds the reduced model that a scene asks for.
-    ///
-    /// # Errors
-    /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
-    /// contact too large for the finite-size correction; a law that cannot be made of this pair.
-    pub fn new(scene: &Scene) -> Result<Self, Refusal> {
-        let estimate = Estimate::checked(scene)?;
-        match &scene.model {
-            ModelChoice::Hertz { finite_size } => hertz::build(scene, estimate, *finite_size),
-            ModelChoice::Ting { finite_size, tolerance } => {
-                ting::build(scene, estimate, *finite_size, *tolerance)
-            }
-            ModelChoice::Law { law, end_rule, tolerance } => {
-                law::build(scene, estimate, law, *end_rule, *tolerance)
-            }
-            _ => Err(Refusal::new("model", "finite elements are no reduced model")),
-        }
-    }
-
     /// A motion of a pair; `description` says in a few words what is integrated.
     ///
     /// # Errors
@@ -143,6 +123,12 @@ fn stop_of(error: &LawError) -> Stop {
         LawError::OutsideValidity { .. } => Stop::OutsideValidity(message),
         _ => Stop::OutOfRange(message),
     }
+}
+
+/// A scene that chose another model than the one that was to be built.
+pub(super) fn chose_another(scene: &Scene, method: &str) -> Refusal {
+    let message = format!("model `{}` is not `{method}`", scene.model.name());
+    Refusal::new(scene.model.path(), message)
 }
 
 /// What a law of the scene refuses.

@@ -1,0 +1,92 @@
+//! A valid case, and the same with a fault in a marked place.
+
+use std::path::Path;
+
+use fem_case::{Case, CaseError};
+
+pub const VALID: &str = r#"title = "a pair"
+
+[material.glass]
+density = "2390 kg/m^3"
+youngs_modulus = "63 GPa"
+poissons_ratio = 0.244
+
+[material.glass.relaxation]
+acts_on = "all"
+terms = [{ weight = 0.5, decay_rate = "2708 1/s" }, { weight = 0.25, relaxation_time = 1e-3 }]
+
+[[body]]
+name = "striker"
+sphere = { diameter = "22.2 mm" }
+material = "glass"
+approach_speed = "0.5 m/s"
+
+[[body]]
+name = "target"
+sphere = { diameter = "15.9 mm" }
+material = "glass"
+
+[start]
+gap = "1 um"
+
+[mesh]
+contact_element_size = "14 um"
+refined_radius = "0.3 mm"
+growth = 1.1
+
+[contact]
+penalty_factor = 1.0
+
+[time]
+step_factor = 0.9
+mass_scaling = 2e-4
+
+[output]
+snapshots = ["mid-compression", "maximum"]
+
+[model]
+fem = {}
+
+[effects]
+finite_strain = "auto"
+bulk_viscosity = "off"
+
+[limits]
+elements = 200000
+element_updates = 1e12
+memory = "8 GB"
+"#;
+
+pub fn parse(text: &str) -> Result<Case, CaseError> {
+    Case::parse("pair.toml", text, Path::new("."), &[])
+}
+
+/// The error of `marked`, in which «» enclose the text that must be underlined.
+#[track_caller]
+pub fn error_at_mark(marked: &str) -> CaseError {
+    let (before, rest) = marked.split_once('«').expect("a mark");
+    let (culprit, after) = rest.split_once('»').expect("the mark's end");
+    let text = format!("{before}{culprit}{after}");
+    let error = parse(&text).expect_err("a fault");
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap().chars().count() + 1;
+    assert_eq!((error.line(), error.column()), (Some(line), Some(column)), "{error}");
+    assert_eq!(&text[error.span().unwrap()], culprit, "{error}");
+    assert_eq!(error.source_name(), "pair.toml");
+    assert_eq!(error.source_text(), Some(text.as_str()));
+    error
+}
+
+/// The valid case with one part replaced has this fault: `message` and `help` in its text.
+#[track_caller]
+pub fn fault(part: &str, replacement: &str, message: &str, help: &str) {
+    assert!(VALID.contains(part), "{part}");
+    let error = error_at_mark(&VALID.replacen(part, replacement, 1));
+    assert!(error.message().contains(message), "{error}");
+    assert!(error.help().unwrap_or("").contains(help), "{error}");
+}
+
+#[test]
+fn the_valid_case_is_valid() {
+    parse(VALID).unwrap();
+}

@@ -1,0 +1,47 @@
+//! How the bodies touch: the port, and one file an implementation.
+
+mod penalty;
+
+use fem_contact::ContactForces;
+
+use crate::part::{Field, Motion, MotionMut, NodalField, Part};
+
+/// The contact of both bodies; arrays are of the lower and the upper one.
+///
+/// The place of another way to keep the bodies apart: penalty springs, a boundary without mass that
+/// is always in balance, surfaces that turn as they deform, friction. The fields of history that it
+/// declares are kept of both bodies.
+pub trait Contact: Part {
+    /// Radius out to which contact is looked for, m.
+    fn candidate_radius(&self) -> f64;
+
+    /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, whatever is
+    /// closed.
+    fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
+
+    /// Adds the contact forces (N) of a configuration.
+    fn add_forces(
+        &self,
+        motions: &[Motion<'_>; 2],
+        history: [&[NodalField]; 2],
+        forces: [&mut Field; 2],
+    ) -> ContactForces;
+
+    /// Takes the history to the end of a step, whose motion is given; moves the nodes that the step
+    /// does not, if there are any.
+    fn advance(&self, _motions: [MotionMut<'_>; 2], _history: [&mut [NodalField]; 2]) {}
+
+    /// Whether the next configuration is in contact, of whose nodes `next` tells the displacements,
+    /// m.
+    fn is_closed_next(
+        &self,
+        next: [&dyn Fn(u32) -> [f64; 2]; 2],
+        history: [&[NodalField]; 2],
+    ) -> bool;
+
+    /// Radius at which the contact pressure falls to zero, m; 0 without contact.
+    fn contact_radius(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64;
+
+    /// Contact pressure on the axis, Pa; 0 without contact there.
+    fn centre_pressure(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64;
+}

@@ -1,0 +1,52 @@
+//! Forces on the nodes of a body beside stress and contact: the port; one file a force.
+
+use crate::part::{Accounts, Field, Motion, NodalField, Part};
+
+/// A force on the nodes of a body, from first touch on.
+///
+/// The place of effects that act on a body from outside or by its motion: gravity, a drag, a
+/// prescribed load. A body has a list of them, empty by default ([`Parts`](crate::Parts)); they add
+/// up in its order. A wall has none. Flight before first touch is not stepped and knows no force.
+///
+/// ```
+/// use fem_collision::Account;
+/// use fem_explicit::{Accounts, Field, Motion, NodalField, NodeForce, Part};
+///
+/// /// The same acceleration (m/s²) along +y everywhere.
+/// #[derive(Debug)]
+/// struct Pull(f64);
+///
+/// impl Part for Pull {}
+///
+/// impl NodeForce for Pull {
+///     fn add_forces(&self, motion: &Motion<'_>, _: &[NodalField], forces: &mut Field) -> f64 {
+///         let mut resultant = 0.0;
+///         for (force, mass) in forces.iter_mut().zip(motion.nodal_mass) {
+///             force[1] += mass * self.0;
+///             resultant += mass * self.0;
+///         }
+///         resultant
+///     }
+///
+///     fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {
+///         let nodes = motion.nodal_mass.iter().zip(motion.displacement);
+///         // Work from outside: an effect of its own has an account of its own.
+///         let work = nodes.map(|(mass, u)| mass * self.0 * u[1]).sum();
+///         accounts.energies.add(Account::WallWork, work);
+///     }
+/// }
+/// ```
+pub trait NodeForce: Part {
+    /// Adds its forces (N) to `forces` and returns their sum along +y, N.
+    fn add_forces(&self, motion: &Motion<'_>, history: &[NodalField], forces: &mut Field) -> f64;
+
+    /// Takes its history to the end of a step, whose motion is given.
+    fn advance(&self, _motion: &Motion<'_>, _history: &mut [NodalField]) {}
+
+    /// Adds the work that it has done since first touch, what it stores, or its power.
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
+
+    /// Adds a bound of its stiffness at each node, N/m; a force that does not depend on the
+    /// displacement has none.
+    fn add_stiffness_bound(&self, _bound: &mut [f64]) {}
+}

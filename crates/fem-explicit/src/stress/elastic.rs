@@ -1,0 +1,46 @@
+//! Hooke's law at small strain.
+//!
+//! ```math
+//! f = -K u, \qquad E = \tfrac12\, u \cdot K u
+//! ```
+
+use fem_collision::Account;
+use fem_element::{QuadGeometry, largest_eigenvalue, mean_gradient};
+
+use super::block::Blocks;
+use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
+use super::port::Stress;
+use crate::part::{Accounts, Field, Motion, NodalField, Part};
+
+/// The elements of a body and their moduli, which relaxing bodies start from.
+#[derive(Debug, Clone)]
+pub(super) struct Elastic {
+    pub blocks: Blocks,
+    /// Of a deformation in no time.
+    pub moduli: Moduli,
+}
+
+impl Part for Elastic {}
+
+impl Stress for Elastic {
+    fn largest_eigenvalue(
+        &self,
+        geometry: &QuadGeometry,
+        masses: &[f64; 4],
+        on_axis: [bool; 4],
+    ) -> f64 {
+        let matrix = mean_gradient(geometry).combine(self.moduli.bulk, self.moduli.shear);
+        largest_eigenvalue(&matrix, masses, on_axis)
+    }
+
+    fn subtract_forces(&self, motion: &Motion<'_>, _: &[NodalField], forces: &mut Field) {
+        subtract_internal_forces(&self.blocks, self.moduli, motion.displacement, forces);
+    }
+
+    fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {
+        let stored = strain_energy(&self.blocks, self.moduli, motion.displacement);
+        accounts.energies.add(Account::Strain, stored);
+        // A body that dissipates nothing has an account of it.
+        accounts.powers.add(Account::ViscousDissipation, 0.0);
+    }
+}

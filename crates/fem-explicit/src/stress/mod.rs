@@ -1,0 +1,50 @@
+//! How a body's stress follows from its motion: the port, and one file a law.
+//!
+//! ```text
+//! port                what the step asks of a stress
+//! elastic             Hooke's law
+//! constant_poisson    all moduli relax alike: Poisson's ratio stays
+//! relaxing_shear      shear relaxes, bulk is elastic
+//! prony               the history of both, one field a term
+//! kernel              the element loops of all: forces and strain energy
+//! lanes, block        four elements at once, and how they lie in memory
+//! ```
+
+mod block;
+mod constant_poisson;
+mod elastic;
+mod kernel;
+mod lanes;
+mod port;
+mod prony;
+mod relaxing_shear;
+
+use fem_element::QuadGeometry;
+use fem_material::{ActsOn, Material};
+use fem_mesh::SphereMesh;
+
+use block::Blocks;
+use constant_poisson::ConstantPoisson;
+use elastic::Elastic;
+pub(crate) use kernel::Moduli;
+pub use port::Stress;
+use prony::Relaxing;
+use relaxing_shear::RelaxingShear;
+
+/// The stress of a material at small strain, on the integrated elements of a mesh.
+pub(crate) fn of_material(
+    mesh: &SphereMesh,
+    geometries: &[QuadGeometry],
+    material: &Material,
+) -> Box<dyn Stress> {
+    let elastic = Elastic {
+        blocks: Blocks::pack(mesh, geometries),
+        moduli: Moduli::of(material.instantaneous()),
+    };
+    let relaxation = material.relaxation().filter(|series| series.relaxes());
+    match relaxation.map(|series| (series, series.acts_on())) {
+        None => Box::new(elastic),
+        Some((series, ActsOn::All)) => Box::new(Relaxing::<ConstantPoisson>::new(elastic, series)),
+        Some((series, ActsOn::Shear)) => Box::new(Relaxing::<RelaxingShear>::new(elastic, series)),
+    }
+}

@@ -1,0 +1,174 @@
+//! Linear viscoelasticity by Prony terms, one nodal field a term.
+//!
+//! ```math
+//! \dot q_k + q_k/\tau_k = \dot u, \qquad w = g_\infty u + \sum_k g_k q_k
+//! ```
+//!
+//! A branch is stepped exactly for a constant rate ([`RelaxationStep`]). What relaxes is the stress
+//! of the effective displacement w; which stress that is, [`Relaxes`] says. A branch stores
+//! ½ q·g K q and dissipates q·g K q / τ; the rest of the stiffness stores ½ u·K u.
+
+use std::fmt::Debug;
+use std::marker::PhantomData;
+
+use fem_collision::Account;
+use fem_element::QuadGeometry;
+use fem_material::{PronySeries, RelaxationStep};
+use multiversion::multiversion;
+
+use super::elastic::Elastic;
+use super::kernel::{Moduli, strain_energy};
+use super::port::Stress;
+use crate::part::{Accounts, Field, Motion, NodalField, Part};
+
+/// Which part of the stress relaxes.
+pub(super) trait Relaxes: Debug + Send + Sync + 'static {
+    /// The moduli that relax, of those of a deformation in no time.
+    fn relaxing(instantaneous: Moduli) -> Moduli;
+
+    /// The moduli that are left for good, with g∞ of what relaxes.
+    fn lasting(instantaneous: Moduli, equilibrium_weight: f64) -> Moduli;
+
+    /// Subtracts the forces of a displacement u and an effective displacement w from f.
+    fn subtract_forces(elastic: &Elastic, u: &Field, w: &Field, f: &mut Field);
+}
+
+/// One Prony term at the run's time step.
+#[derive(Debug, Clone, Copy)]
+struct Branch {
+    weight: f64,
+    relaxation_time: f64,
+    /// Factor of the branch over a step.
+    decay: f64,
+    /// What it gains of a velocity in a step, s.
+    gain: f64,
+}
+
+/// A body whose stress relaxes. Its history is w, then q of each term.
+#[derive(Debug)]
+pub(super) struct Relaxing<R> {
+    elastic: Elastic,
+    equilibrium_weight: f64,
+    branches: Vec<Branch>,
+    relaxes: PhantomData<R>,
+}
+
+impl<R: Relaxes> Relaxing<R> {
+    /// Of an elastic body and a series; terms without weight keep no history.
+    pub fn new(elastic: Elastic, series: &PronySeries) -> Self {
+        let terms = series.terms().iter().filter(|term| term.weight > 0.0);
+        // Still as long as no time step is known.
+        let branches = terms.map(|term| Branch {
+            weight: term.weight,
+            relaxation_time: term.relaxation_time,
+            decay: 1.0,
+            gain: 0.0,
+        });
+        Self {
+            elastic,
+            equilibrium_weight: series.equilibrium_weight(),
+            branches: branches.collect(),
+            relaxes: PhantomData,
+        }
+    }
+
+    /// w = g∞ u + Σ g_k q_k.
+    fn update_effective(&self, u: &Field, history: &mut [NodalField]) {
+        let [w, branches @ ..] = history else { return };
+        start_effective(self.equilibrium_weight, u, w);
+        for (branch, q) in self.branches.iter().zip(branches) {
+            advance_branch(1.0, 0.0, branch.weight, u, q, w);
+        }
+    }
+}
+
+impl<R: Relaxes> Part for Relaxing<R> {
+    fn n_history(&self) -> usize {
+        1 + self.branches.len()
+    }
+
+    fn set_time_step(&mut self, time_step: f64) {
+        for branch in &mut self.branches {
+            let step = RelaxationStep::new(branch.relaxation_time, time_step);
+            branch.decay = step.decay;
+            branch.gain = step.gain * time_step;
+        }
+    }
+}
+
+impl<R: Relaxes> Stress for Relaxing<R> {
+    fn largest_eigenvalue(
+        &self,
+        geometry: &QuadGeometry,
+        masses: &[f64; 4],
+        on_axis: [bool; 4],
+    ) -> f64 {
+        self.elastic.largest_eigenvalue(geometry, masses, on_axis)
+    }
+
+    /// Rigid motion strains nothing: the branches stay at zero.
+    fn start_rigid(&self, displacement: &Field, history: &mut [NodalField]) {
+        self.update_effective(displacement, history);
+    }
+
+    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
+        for q in &mut history[1..] {
+            q.copy_from_slice(displacement);
+        }
+        self.update_effective(displacement, history);
+    }
+
+    fn subtract_forces(&self, motion: &Motion<'_>, history: &[NodalField], forces: &mut Field) {
+        R::subtract_forces(&self.elastic, motion.displacement, &history[0], forces);
+    }
+
+    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
+        let [w, branches @ ..] = history else { return };
+        start_effective(self.equilibrium_weight, motion.displacement, w);
+        for (branch, q) in self.branches.iter().zip(branches) {
+            advance_branch(branch.decay, branch.gain, branch.weight, motion.velocity, q, w);
+        }
+    }
+
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
+        let Elastic { blocks, moduli } = &self.elastic;
+        let lasting = R::lasting(*moduli, self.equilibrium_weight);
+        let relaxing = R::relaxing(*moduli);
+        let (mut stored, mut power) = (0.0, 0.0);
+        if lasting.bulk != 0.0 || lasting.shear != 0.0 {
+            stored += strain_energy(blocks, lasting, motion.displacement);
+        }
+        for (branch, q) in self.branches.iter().zip(&history[1..]) {
+            let weight = branch.weight;
+            let moduli = Moduli { bulk: weight * relaxing.bulk, shear: weight * relaxing.shear };
+            let energy = strain_energy(blocks, moduli, q);
+            stored += energy;
+            power += 2.0 * energy / branch.relaxation_time;
+        }
+        accounts.energies.add(Account::Strain, stored);
+        accounts.powers.add(Account::ViscousDissipation, power);
+    }
+
+    fn effective(&self) -> Option<usize> {
+        Some(0)
+    }
+}
+
+/// Starts the effective displacement: w ← g∞ u.
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
+fn start_effective(equilibrium_weight: f64, u: &Field, w: &mut Field) {
+    for (w, u) in w.as_flattened_mut().iter_mut().zip(u.as_flattened()) {
+        *w = equilibrium_weight * u;
+    }
+}
+
+/// Advances one branch by a step of constant rate and adds its share: q ← decay q + gain v,
+/// w ← w + weight q.
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
+fn advance_branch(decay: f64, gain: f64, weight: f64, v: &Field, q: &mut Field, w: &mut Field) {
+    let (q, w) = (q.as_flattened_mut(), w.as_flattened_mut());
+    for ((q, w), v) in q.iter_mut().zip(w).zip(v.as_flattened()) {
+        *q = decay * *q + gain * v;
+        *w += weight * *q;
+    }
+}

@@ -1,0 +1,105 @@
+//! Forces on nodes beside stress and contact: a free fall.
+
+use fem_collision::{Account, Approach, BodyInput};
+use fem_contact::ContactForces;
+use fem_mesh::Side;
+
+use crate::contact_log::ContactLog;
+use crate::forces::NodeForce;
+use crate::ledger::Ledger;
+use crate::model::{Model, Parts};
+use crate::part::{Accounts, Field, Motion, NodalField, Part};
+use crate::state::{Scratch, State};
+use crate::step::{advance, update_forces};
+use crate::test_support::{settings, unit_glass, unit_sphere};
+
+const ACCELERATION: f64 = 0.3;
+
+/// The same acceleration along +y everywhere.
+#[derive(Debug)]
+struct Pull(f64);
+
+impl Part for Pull {}
+
+impl NodeForce for Pull {
+    fn add_forces(&self, motion: &Motion<'_>, _: &[NodalField], forces: &mut Field) -> f64 {
+        for (force, mass) in forces.iter_mut().zip(motion.nodal_mass) {
+            force[1] += mass * self.0;
+        }
+        motion.nodal_mass.iter().map(|mass| mass * self.0).sum()
+    }
+
+    fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {
+        let nodes = motion.nodal_mass.iter().zip(motion.displacement);
+        let work = nodes.map(|(mass, u)| mass * self.0 * u[1]).sum();
+        accounts.energies.add(Account::WallWork, work);
+    }
+}
+
+/// A sphere at rest that is pulled away from a wall far below.
+fn falling() -> (Model, State) {
+    let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
+    let approach = Approach { velocities: [1.0, 0.0], gap: 1e3 };
+    // In two parts, which add up.
+    let pulls = [0.25, 0.75].map(|share| Box::new(Pull(share * ACCELERATION)) as Box<_>);
+    let parts = Parts { node_forces: [Vec::new(), pulls.into()], contact: None };
+    let bodies = [BodyInput::Wall, sphere];
+    let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
+    let mut state = State::at_first_touch(&model);
+    // Back from first touch to the start.
+    state.bodies[0].displacement.fill([0.0; 2]);
+    (model, state)
+}
+
+/// u = ½at² and v = at at the steps' times: leapfrog is exact if it starts half a step before.
+#[test]
+fn a_free_fall_is_the_closed_form() {
+    let (model, mut state) = falling();
+    let (mut scratch, time_step) = (Scratch::new(&model), model.time_step());
+    for n in 0..=200 {
+        let time = f64::from(n) * time_step;
+        let body = &state.bodies[1];
+        let (u, v) = (0.5 * ACCELERATION * time * time, ACCELERATION * (time - 0.5 * time_step));
+        for node in 0..body.displacement.len() {
+            let ([r, y], [v_r, v_y]) = (body.displacement[node], body.velocity[node]);
+            // Two hundred roundings of equal increments, which may all go one way, and the
+            // vibrations that they start.
+            assert!((y - u).abs() <= 1e-12 * u, "{n}: {y} {u}");
+            assert!((v_y - v).abs() <= 1e-12 * v.abs(), "{n}: {v_y} {v}");
+            assert!(r.abs() <= 1e-12 * u && v_r.abs() <= 1e-12 * v.abs(), "{n}: {r:e} {v_r:e}");
+        }
+        update_forces(&model, &state, &mut scratch);
+        let weight = ACCELERATION * model.bodies()[1].total_mass();
+        assert!((scratch.resultants[1] / weight - 1.0).abs() < 1e-14);
+        advance(&model, &mut state, &scratch);
+    }
+}
+
+/// What the pull gives is motion. Leapfrog's kinetic energy ½ v_{n−½}·M v_{n+½} is ⅛ m (aΔt)² short
+/// of ½ m v_n².
+#[test]
+fn the_account_of_a_force_closes_the_ledger() {
+    let (model, mut state) = falling();
+    let mut scratch = Scratch::new(&model);
+    let (mut ledger, mut log) = (Ledger::new(&model, &state), ContactLog::new(&model, &state));
+    let body = &model.bodies()[1];
+    let short = 0.125 * body.total_mass() * (ACCELERATION * model.time_step()).powi(2);
+    for n in 0..1000 {
+        let contact = update_forces(&model, &state, &mut scratch);
+        assert_eq!(contact, ContactForces::default());
+        log.observe(state.time, &contact);
+        let row = ledger.balance(&model, &state, &scratch, &contact);
+        let work = row.energy(Account::WallWork).unwrap();
+        let residual = row.residual.unwrap();
+        assert!((residual + short).abs() < 1e-12 * (work + short), "{n}: {residual:e} {short:e}");
+        // The approach that steers the recorder, counted from here on.
+        let approach = row.approach + model.approach().gap;
+        // Rounding of the gap.
+        assert!((log.approach - approach).abs() < 1e-12, "{n}: {} {approach}", log.approach);
+        ledger.count_step(&model, &scratch, contact.force);
+        log.advance(&model, &scratch);
+        advance(&model, &mut state, &scratch);
+    }
+    // Momentum is what was given.
+    assert!(ledger.worst_momentum < 1e-13, "{}", ledger.worst_momentum);
+}

@@ -1,0 +1,86 @@
+//! A fit as text.
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::laws::LawFit;
+use fem_case::engineering::show;
+use fem_case::schema::End;
+use fem_fit::{Estimate, Profile};
+use fem_laws::Family;
+
+use crate::tables::{show_value, table};
+
+/// For stdout.
+pub fn fit_text(fitted: &LawFit<'_>) -> String {
+    let LawFit { problem, fit, .. } = fitted;
+    let (model, points) = (problem.model, problem.points);
+    let (slowest, fastest) = fitted.data.speeds();
+    let mut text = format!(
+        "{}, contact ends at {}; {} of {}, {} to {}\n\n",
+        model.family().name(),
+        End::from(model.end_rule()).word().replace('_', " "),
+        if points.len() == 1 { "1 point".to_string() } else { format!("{} points", points.len()) },
+        fitted.data.name,
+        show(slowest, "m/s"),
+        show(fastest, "m/s"),
+    );
+    let level = format!("{} % interval", 100.0 * fitted.confidence);
+    let header = ["", "best value", "standard error", level.as_str(), "by profile"];
+    let rows = model.family().parameters().iter().enumerate().map(|(index, parameter)| {
+        let shown = |value: f64| show_value(value, parameter.unit);
+        let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
+        let [error, interval, profile] = match estimate {
+            None => ["held".to_string(), String::new(), String::new()],
+            Some(Estimate { standard_error, interval, .. }) => [
+                standard_error.map_or("-".to_string(), shown),
+                interval.map_or("-".to_string(), |(a, b)| format!("{} to {}", shown(a), shown(b))),
+                profile_words(
+                    fitted.profile.as_ref().filter(|profile| profile.index == index),
+                    shown,
+                ),
+            ],
+        };
+        [parameter.key.to_string(), shown(fit.values[index]), error, interval, profile]
+    });
+    let rows: Vec<_> = std::iter::once(header.map(String::from)).chain(rows).collect();
+    text += &table(&[Left, Right, Right, Left, Left], rows);
+    text += "\n";
+    for i in 0..fit.estimates.len() {
+        for j in 0..i {
+            let (first, second) = (fit.estimates[j].key, fit.estimates[i].key);
+            text += &format!("correlation of {first} and {second}: {:.4}\n", fit.correlation[i][j]);
+        }
+    }
+    let unit = if problem.has_uncertainties() { " uncertainties" } else { "" };
+    let freedom = fit.degrees_of_freedom;
+    let plural = if freedom == 1 { "degree" } else { "degrees" };
+    text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
+    let rates = model.decay_rates(fit.values[0]);
+    let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
+    if model.family() == Family::Ting && others.count() > 0 {
+        text += "decay_rate is the largest; all others keep their ratio to it\n";
+    }
+    for (model, fit) in &fitted.compared {
+        let parameters = model.family().parameters().iter().zip(&fit.values);
+        let values: Vec<_> = parameters
+            .map(|(parameter, value)| {
+                format!("{} {}", parameter.key, show_value(*value, parameter.unit))
+            })
+            .collect();
+        let name = model.family().name();
+        text += &format!("{name}: rms error {:.4} with {}\n", fit.rms, values.join(", "));
+    }
+    for warning in fitted.warnings() {
+        text += &format!("warning: {warning}\n");
+    }
+    text
+}
+
+fn profile_words(profile: Option<&Profile>, shown: impl Fn(f64) -> String) -> String {
+    match profile.and_then(|profile| profile.interval) {
+        None => String::new(),
+        Some((low, high)) => {
+            let end = |end: Option<f64>| end.map_or("open".to_string(), &shown);
+            format!("{} to {}", end(low), end(high))
+        }
+    }
+}

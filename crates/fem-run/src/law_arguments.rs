@@ -1,0 +1,132 @@
+//! A law on the command line: `--law bordbar_hyppanen --param n=0.65 --end zero_overlap`.
+
+use fem::laws::{ChosenLaw, ParameterError, find_parameter, parse_value};
+use fem_case::{Case, parse_quantity};
+use fem_laws::{EndRule, Family};
+
+use crate::failure::Failure;
+
+/// Which law, with which values.
+#[derive(clap::Args, Clone, Debug)]
+pub struct LawArguments {
+    /// A parameter's value, such as a=2e-4 or a='0.2 ms'; may be repeated
+    ///
+    /// Bare numbers are SI. What is not given has the value of the case's model, if that names the
+    /// same law. The value of a parameter that is searched for is where to begin.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub param: Vec<String>,
+    /// When a contact is over [default: that of the case's model if it names the same law, or else
+    /// zero_force]
+    #[arg(long, value_name = "RULE")]
+    pub end: Option<End>,
+}
+
+/// As the case file says it.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+#[value(rename_all = "snake_case")]
+pub enum End {
+    /// At zero force: the surfaces cannot pull
+    ZeroForce,
+    /// At zero overlap: the dashpot may pull until then
+    ZeroOverlap,
+}
+
+impl End {
+    /// For the law.
+    pub fn rule(self) -> EndRule {
+        match self {
+            Self::ZeroForce => EndRule::ZeroForce,
+            Self::ZeroOverlap => EndRule::ZeroOverlap,
+        }
+    }
+}
+
+impl LawArguments {
+    /// The law with the case's numbers and end if the case has the same one, and the options' before
+    /// them.
+    ///
+    /// # Errors
+    /// Keys that the law does not have, values without a meaning; see [`ChosenLaw::of`].
+    pub fn choose(&self, case: &Case, family: Family) -> Result<ChosenLaw, Failure> {
+        let parse = |text: &String| {
+            let (key, value) = split(text, "--param")?;
+            let parameter = &family.parameters()[find_key(family, key, "--param")?];
+            let value = parse_value(parameter, value).map_err(of_value("--param"))?;
+            Ok((parameter.key, value))
+        };
+        let given: Vec<(&str, f64)> =
+            self.param.iter().map(parse).collect::<Result<_, Failure>>()?;
+        Ok(ChosenLaw::of(case, family, &given, self.end.map(End::rule))?)
+    }
+}
+
+/// `family` of a name.
+///
+/// # Errors
+/// No such law.
+pub fn parse_family(name: &str) -> Result<Family, String> {
+    Family::from_name(name).ok_or_else(|| {
+        let names: Vec<_> = Family::ALL.iter().map(|family| family.name()).collect();
+        format!("the laws are {}", names.join(", "))
+    })
+}
+
+/// The place of a law's parameter.
+///
+/// # Errors
+/// No such key.
+pub fn find_key(family: Family, key: &str, option: &str) -> Result<usize, Failure> {
+    find_parameter(family, key)
+        .map_err(|error| with_help(format!("{option}: {error}"), error.help()))
+}
+
+/// A value that an option gives, as a fault of it.
+pub fn of_value(option: &str) -> impl Fn(ParameterError) -> Failure {
+    move |error| with_help(format!("{option} {error}"), error.help())
+}
+
+fn with_help(message: String, help: Option<String>) -> Failure {
+    let failure = Failure::bad_input(message);
+    match help {
+        Some(help) => failure.with_help(help),
+        None => failure,
+    }
+}
+
+/// `KEY` and `VALUE`.
+///
+/// # Errors
+/// No `=`.
+pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Failure> {
+    text.split_once('=').ok_or_else(|| {
+        Failure::bad_input(format!("{option} {text:?}: there is no `=`"))
+            .with_help(format!("write {option} KEY=VALUE, such as {option} n=0.65"))
+    })
+}
+
+/// A level of confidence.
+///
+/// # Errors
+/// None, in words.
+pub fn parse_confidence(text: &str) -> Result<f64, String> {
+    let level = text.parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
+    level.ok_or_else(|| "it must be between 0 and 1, such as 0.95 for 95 %".to_string())
+}
+
+/// A speed, m/s.
+///
+/// # Errors
+/// What is no positive speed.
+pub fn parse_speed(text: &str) -> Result<f64, String> {
+    match parse_quantity(text) {
+        Ok((value, dimension)) if [[0; 4], [1, 0, -1, 0]].contains(&dimension.0) => {
+            if value > 0.0 {
+                Ok(value)
+            } else {
+                Err("a speed is greater than 0".to_string())
+            }
+        }
+        Ok(_) => Err("this is not a speed, such as '1 cm/s'".to_string()),
+        Err(error) => Err(format!("this is not a speed: {error}")),
+    }
+}

@@ -1,0 +1,74 @@
+//! Faults of laws and of fits, with the options that help.
+
+use fem::laws::{LawFault, ParameterError};
+use fem_fit::FitError;
+use fem_laws::LawError;
+
+use crate::failure::Failure;
+
+impl From<LawFault> for Failure {
+    fn from(fault: LawFault) -> Self {
+        let message = fault.to_string();
+        match fault {
+            LawFault::Case(error) => error.into(),
+            LawFault::Data(error) => error.into(),
+            LawFault::Parameter(error) => error.into(),
+            LawFault::Fit(error) => error.into(),
+            LawFault::Missing { key, free, .. } => {
+                let give = format!("give it, --param {key}=VALUE");
+                Failure::bad_input(message).with_help(match &free[..] {
+                    [] => give,
+                    free => format!("{give}, or let it be found, --free {},{key}", free.join(",")),
+                })
+            }
+            LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
+                .with_help("leave it out, or fit it alone with --law"),
+            LawFault::NoStandIn(error) => Failure::from(error).with_help(
+                "give a material a [material.NAME.relaxation] table, a law in [model], or \
+                 restitutions with --data",
+            ),
+        }
+    }
+}
+
+impl From<ParameterError> for Failure {
+    fn from(error: ParameterError) -> Self {
+        let failure = Failure::bad_input(error.to_string());
+        match (&error, error.help()) {
+            (ParameterError::Lossless { .. }, _) => {
+                failure.with_help("take another law; docs/fits.md lists them")
+            }
+            (_, Some(help)) => failure.with_help(help),
+            (_, None) => failure,
+        }
+    }
+}
+
+/// Bad input all of them, since data and options are the user's.
+impl From<FitError> for Failure {
+    fn from(error: FitError) -> Self {
+        let failure = Failure::bad_input(error.to_string());
+        let help = match error {
+            FitError::TooFewData { .. } => "free fewer parameters, or measure at more speeds",
+            FitError::Degenerate { .. } => {
+                "hold one of them with --param KEY=VALUE and leave it out of --free, or measure over \
+                 a wider range of speeds"
+            }
+            FitError::Insensitive { .. } => "the data show no loss, or nothing but loss",
+            FitError::NotConverged { .. } => {
+                "give a start with --param KEY=VALUE, or a range with --bounds KEY=LOW..HIGH"
+            }
+            FitError::NoSolution { .. } => "no value of this parameter makes it: take another law",
+            FitError::OwnEnd { .. } => "leave --end out; zhang_whiten with another end is tsuji",
+            FitError::NoRelaxation => "give a material a [material.NAME.relaxation] table",
+            _ => return failure,
+        };
+        failure.with_help(help)
+    }
+}
+
+impl From<LawError> for Failure {
+    fn from(error: LawError) -> Self {
+        FitError::from(error).into()
+    }
+}

@@ -1,0 +1,64 @@
+//! Commands that the pages show are understood by the program, and what they read is there.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::pages::{Page, root};
+use crate::shell::{Shown, commands, words};
+
+/// The folders of the repository that commands read.
+const FOLDERS: [&str; 5] = ["cases/", "validation/", "meshes/", ".ci/", "crates/"];
+
+/// The source of the example or test that a command of cargo names.
+fn target(command: &Shown) -> Option<PathBuf> {
+    let behind = |flag: &str| {
+        let place = command.words.iter().position(|word| word == flag)?;
+        command.words.get(place + 1)
+    };
+    let package = root().join("crates").join(behind("-p")?);
+    match (behind("--example"), behind("--test")) {
+        (Some(name), _) => Some(package.join(format!("examples/{name}.rs"))),
+        (_, Some(name)) => Some(package.join(format!("tests/{name}/main.rs"))),
+        _ => Some(package),
+    }
+}
+
+/// What is wrong with a command; help is printed only once all that stands before it was understood.
+fn fault(command: &Shown) -> Option<String> {
+    let missing = command.words.iter().find(|word| {
+        let path = word.trim_start_matches("./");
+        // A name in capitals stands for another.
+        let is_meant = !path.contains("NAME");
+        is_meant
+            && FOLDERS.iter().any(|folder| path.starts_with(folder))
+            && !root().join(path).exists()
+    });
+    if let Some(path) = missing {
+        return Some(format!("{}: there is no {path}", command.place));
+    }
+    if let Some(target) = target(command).filter(|target| !target.exists()) {
+        return Some(format!("{}: there is no {}", command.place, target.display()));
+    }
+    let arguments = command.arguments()?;
+    let mut program = Command::new(env!("CARGO_BIN_EXE_fem-run"));
+    let ran = program.args(arguments).arg("--help").output().unwrap();
+    (!ran.status.success()).then(|| {
+        let shown = command.words.join(" ");
+        format!("{}: {shown}: {}", command.place, String::from_utf8_lossy(&ran.stderr))
+    })
+}
+
+#[test]
+fn commands_are_understood() {
+    let mut shown = Vec::new();
+    for page in Page::all() {
+        shown.extend(page.blocks().iter().flat_map(|block| commands(&page, block)));
+        for code in page.code().iter().filter(|code| code.text.starts_with("fem-run ")) {
+            let words = words(&code.text.replace('…', ""));
+            shown.push(Shown { place: format!("{}:{}", page.path, code.line), words });
+        }
+    }
+    assert!(shown.len() > 40, "{}", shown.len());
+    let faults: Vec<String> = shown.iter().filter_map(fault).collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}

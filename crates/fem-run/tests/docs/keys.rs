@@ -1,0 +1,65 @@
+//! Names in a result folder are those that docs/results.md has.
+
+use std::collections::BTreeSet;
+
+use crate::common::Place;
+use crate::pages::Page;
+
+/// The page, and a place with a result in `runs/case`.
+fn page_and_result() -> (Page, Place) {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--quiet"]);
+    (Page::load("docs/results.md"), place)
+}
+
+fn keys(summary: &serde_json::Value, pointer: &str) -> BTreeSet<String> {
+    summary.pointer(pointer).and_then(|value| value.as_object()).unwrap().keys().cloned().collect()
+}
+
+#[test]
+fn keys_of_a_summary_are_those_of_the_page() {
+    let (page, place) = page_and_result();
+    let summary = place.json("runs/case/summary.json");
+    let (_, listed) = page.first_columns("key").remove(0);
+    assert_eq!(BTreeSet::from_iter(listed), keys(&summary, ""));
+    // The second cell of a row names the keys of an object, and none that is not there.
+    for (row, pointer) in [("energy", "/energy"), ("bodies", "/bodies/0"), ("cost", "/cost")] {
+        let mut rows = page.text.lines().filter(|line| line.starts_with(&format!("| `{row}` |")));
+        let row = rows.next().unwrap().splitn(3, '|').nth(2).unwrap();
+        let named = row.split('`').skip(1).step_by(2).map(String::from);
+        assert_eq!(BTreeSet::from_iter(named), keys(&summary, pointer), "{pointer}");
+    }
+}
+
+#[test]
+fn columns_of_a_history_are_those_of_the_page() {
+    let (page, place) = page_and_result();
+    let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+    let code = page.code();
+    let listed = code.iter().find(|code| code.text.starts_with("time_s, ")).unwrap();
+    let velocities = "velocity_striker_m_s, velocity_target_m_s";
+    let listed = listed.text.replace("velocity_<body>_m_s …", velocities).replace(", ", ",");
+    assert_eq!(history.lines().next(), Some(listed.as_str()));
+}
+
+#[test]
+fn snapshots_have_the_arrays_and_names_of_the_page() {
+    let (page, place) = page_and_result();
+    let files = place.list("runs/case");
+    for ending in ["case.pvd", "case.vtu.series", "case_0_mid-compression.vtu"] {
+        assert!(files.iter().any(|file| file == ending), "{ending} is not in {files:?}");
+    }
+    let grid = place.read("runs/case/case_0_mid-compression.vtu");
+    let grid = String::from_utf8_lossy(&grid);
+    let arrays: BTreeSet<&str> =
+        grid.split("Name=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let code: Vec<String> = page.code().into_iter().map(|code| code.text).collect();
+    let named = |array: &str| code.iter().any(|code| code.split(", ").any(|name| name == array));
+    let of_the_grid = ["Points", "TimeValue", "connectivity", "offsets", "types"];
+    for array in arrays.iter().filter(|array| !of_the_grid.contains(array)) {
+        assert!(named(array), "docs/results.md has no {array}");
+    }
+    for array in ["displacement", "velocity", "sigma_rr", "von_mises", "body"] {
+        assert!(arrays.contains(array), "there is no array {array}");
+    }
+}

@@ -1,0 +1,22 @@
+//! What the documentation says is so: what it points at exists, the commands that it shows are
+//! understood, what it shows as printed is what they print.
+//!
+//! ```text
+//! pages     a page's blocks, code in its text, links
+//! shell     the commands in a block
+//! pointers  files, items and anchors
+//! commands  that are understood
+//! printed   that are run, and what they print and leave
+//! keys      names in a result folder
+//! accuracy  the table of what accuracy costs
+//! ```
+
+mod accuracy;
+mod commands;
+#[path = "../common/mod.rs"]
+mod common;
+mod keys;
+mod pages;
+mod pointers;
+mod printed;
+mod shell;

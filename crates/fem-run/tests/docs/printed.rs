@@ -1,0 +1,270 @@
+//! What pages show as printed is what the commands above it print; so are numbers in their text, and
+//! the files that they list are those that are left.
+
+use std::fs;
+use std::path::Path;
+
+use crate::common::Place;
+use crate::pages::{Page, root};
+use crate::shell::{commands, words};
+
+/// Commands that take longer than two seconds, or read what such a one has written.
+const SLOW: [&str; 6] = [
+    "calibrate cases/ice_2cm.toml",
+    "export cases/",
+    "invert cases/glass_0.5ms_elastic_bulk.toml",
+    "sweep cases/sweep_speed.toml",
+    "sweep cases/sweep_glass.toml",
+    "runs/sweep_glass/sweep.csv",
+];
+/// Commands that are not run here: claims are tests of their own, a task of an array is a part.
+const LEFT_OUT: [&str; 3] = ["validate", "--shard", "--help"];
+
+/// Numbers in the text of a page, and the command that prints them.
+const SAID: [(&str, &str, &[&str]); 8] = [
+    ("README.md", "cases/glass_0.5ms_elastic.toml", &["1.42e-5"]),
+    (
+        "docs/calibrate.md",
+        "calibrate cases/glass_0.5ms.toml --data validation/data/paper_glass.csv",
+        &["0.1110", "355.6 µs"],
+    ),
+    ("docs/calibrate.md", "cases/glass_0.5ms.toml --set model.condensed={}", &["0.9276"]),
+    ("docs/fits.md", "invert cases/glass_0.5ms.toml --restitution 0.92", &["958.8 ns", "2982 1/s"]),
+    (
+        "docs/fits.md",
+        "invert cases/glass_0.5ms_elastic_bulk.toml --law ting --restitution 0.92",
+        &["4173 1/s"],
+    ),
+    (
+        "docs/fits.md",
+        "fit cases/ice_2cm.toml --data validation/data/bridges_ice.csv --law bordbar_hyppanen \
+         --param n=0.65 --compare kuwabara_kono --at 1 cm/s --out runs/ice_paper",
+        &["0.0404"],
+    ),
+    (
+        "docs/fits.md",
+        "fit cases/ice_2cm.toml --data validation/data/bridges_ice.csv --law bordbar_hyppanen \
+         --param n=0.7",
+        &["0.0325"],
+    ),
+    (
+        "docs/fits.md",
+        "fit cases/ice_2cm.toml --data validation/data/bridges_ice.csv --law bordbar_hyppanen \
+         --param n=0.8",
+        &["0.0364"],
+    ),
+];
+
+/// Which commands are run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pace {
+    Quick,
+    Slow,
+}
+
+/// How a shown number agrees with a printed one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Digits {
+    /// In all of them: the explicit elements and the laws give the same bits on any processor.
+    All,
+    /// But for one unit of the last: factors of condensed bodies depend on the processor in their
+    /// last bits.
+    ButLast,
+}
+
+/// When a command is run, if at all.
+fn pace(arguments: &str) -> Option<Pace> {
+    let is_among = |parts: &[&str]| parts.iter().any(|part| arguments.contains(part));
+    match (is_among(&LEFT_OUT), is_among(&SLOW)) {
+        (true, _) => None,
+        (_, true) => Some(Pace::Slow),
+        (_, false) => Some(Pace::Quick),
+    }
+}
+
+/// A place with the repository's cases and data.
+fn place() -> Place {
+    let place = Place::new();
+    for folder in ["cases", "validation/data"] {
+        fs::create_dir_all(place.path(folder)).unwrap();
+        for entry in fs::read_dir(root().join(folder)).unwrap() {
+            let entry = entry.unwrap();
+            fs::copy(entry.path(), place.path(Path::new(folder).join(entry.file_name()))).unwrap();
+        }
+    }
+    place
+}
+
+/// What the commands of a page have printed.
+struct Session {
+    page: Page,
+    place: Place,
+    wanted: Pace,
+    printed: Vec<(String, String)>,
+}
+
+/// Runs the commands of a page in their order, and compares what is shown.
+fn check(path: &str, wanted: Pace, digits: Digits) {
+    let (page, printed) = (Page::load(path), Vec::new());
+    let mut session = Session { page, place: place(), wanted, printed };
+    session.check_blocks(digits);
+    assert!(!session.printed.is_empty(), "{path}: no {wanted:?} command");
+    session.check_numbers();
+    session.check_files();
+}
+
+impl Session {
+    fn check_blocks(&mut self, digits: Digits) {
+        let mut last = None;
+        for block in self.page.blocks() {
+            for command in commands(&self.page, &block) {
+                let Some(arguments) = command.arguments() else { continue };
+                let arguments = arguments.join(" ");
+                last = pace(&arguments);
+                if last == Some(self.wanted) {
+                    let ran = self.place.succeed(command.arguments().unwrap());
+                    self.printed.push((arguments, ran.stdout));
+                }
+            }
+            if block.language == "text" && last == Some(self.wanted) {
+                let (path, line, shown) = (&self.page.path, block.line, &block.text);
+                let (_, printed) = self.printed.last().unwrap();
+                let is_printed = contains(printed, shown, digits);
+                assert!(is_printed, "{path}:{line} shows\n{shown}\nprinted is\n{printed}");
+            }
+        }
+    }
+
+    fn check_numbers(&self) {
+        let path = &self.page.path;
+        for (_, arguments, numbers) in SAID.iter().filter(|said| said.0 == path) {
+            if pace(arguments) != Some(self.wanted) {
+                continue;
+            }
+            let known = self.printed.iter().find(|(command, _)| command == arguments);
+            let text = known.map(|(_, text)| text.clone());
+            let text = text.unwrap_or_else(|| self.place.succeed(&words(arguments)).stdout);
+            for number in *numbers {
+                assert!(self.page.text.contains(number), "{path} does not say {number}");
+                assert!(text.contains(number), "{path} says {number}; {arguments} prints\n{text}");
+            }
+        }
+    }
+
+    fn check_files(&self) {
+        for (line, files) in self.page.first_columns("file") {
+            let folder = self.folder_above(line);
+            if self.place.path(&folder).exists() {
+                // Of what lies in a folder of the folder, that one's name.
+                let top = |file: &String| file.split('/').next().unwrap().to_string();
+                let mut listed: Vec<String> = files.iter().map(top).collect();
+                listed.sort();
+                assert_eq!(listed, self.place.list(&folder), "{}:{line}", self.page.path);
+            }
+        }
+    }
+
+    /// The result folder that the text above a line names last.
+    fn folder_above(&self, line: usize) -> String {
+        let code = self.page.code().into_iter().take_while(|code| code.line < line);
+        let folders = code.filter(|code| code.text.starts_with("runs/"));
+        folders.last().unwrap_or_else(|| panic!("{}:{line}", self.page.path)).text
+    }
+}
+
+/// Whether the lines of `shown` follow each other in `printed`.
+fn contains(printed: &str, shown: &str, digits: Digits) -> bool {
+    let [printed, shown]: [Vec<&str>; 2] = [printed, shown].map(|text| text.lines().collect());
+    let agree = |(printed, shown): (&&str, &&str)| match digits {
+        Digits::All => printed == shown,
+        Digits::ButLast => are_near(printed, shown),
+    };
+    printed.windows(shown.len()).any(|lines| lines.iter().zip(&shown).all(agree))
+}
+
+/// Whether two lines have the same words, and numbers that differ by one unit of the last digit.
+fn are_near(printed: &str, shown: &str) -> bool {
+    let [printed, shown]: [Vec<&str>; 2] = [printed, shown].map(|line| line.split(' ').collect());
+    let agree = |(a, b): (&&str, &&str)| match (units(a), units(b)) {
+        (Some(a), Some(b)) => a.form == b.form && a.units.abs_diff(b.units) <= 1,
+        _ => a == b,
+    };
+    printed.len() == shown.len() && printed.iter().zip(&shown).all(agree)
+}
+
+/// A number in units of its last digit.
+struct Units {
+    units: i64,
+    /// Decimals, and what stands behind the digits: an exponent, a bracket.
+    form: (usize, String),
+}
+
+fn units(word: &str) -> Option<Units> {
+    let n_digits = word.find(|c: char| !"-.0123456789".contains(c)).unwrap_or(word.len());
+    let (digits, rest) = word.split_at(n_digits);
+    let n_decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let units = digits.replace('.', "").parse().ok()?;
+    Some(Units { units, form: (n_decimals, rest.to_string()) })
+}
+
+/// Pages that show what a command prints are those that are checked here.
+#[test]
+fn pages_with_output_are_checked() {
+    let shows = |page: &Page| {
+        let blocks = page.blocks();
+        let is_command = |block| commands(page, block).iter().any(|c| c.arguments().is_some());
+        blocks.iter().any(is_command) && blocks.iter().any(|block| block.language == "text")
+    };
+    let pages: Vec<String> = Page::all().into_iter().filter(shows).map(|page| page.path).collect();
+    assert_eq!(pages, ["README.md", "docs/calibrate.md", "docs/cradle.md", "docs/fits.md"]);
+}
+
+#[test]
+fn the_readme_shows_what_is_printed() {
+    check("README.md", Pace::Quick, Digits::All);
+}
+
+#[test]
+fn the_page_on_fits_shows_what_is_printed() {
+    check("docs/fits.md", Pace::Quick, Digits::All);
+}
+
+#[test]
+fn the_page_on_cradles_shows_what_is_printed() {
+    check("docs/cradle.md", Pace::Quick, Digits::All);
+}
+
+#[test]
+fn the_page_on_calibration_shows_what_is_printed() {
+    check("docs/calibrate.md", Pace::Quick, Digits::ButLast);
+}
+
+#[test]
+#[ignore = "takes seconds; .ci/run asks for it"]
+fn the_page_on_fits_shows_what_takes_longer() {
+    check("docs/fits.md", Pace::Slow, Digits::All);
+}
+
+#[test]
+#[ignore = "takes seconds; .ci/run asks for it"]
+fn the_page_on_sweeps_lists_what_is_left() {
+    check("docs/sweeps.md", Pace::Slow, Digits::All);
+}
+
+#[test]
+#[ignore = "takes seconds; .ci/run asks for it"]
+fn the_page_on_calibration_shows_what_takes_longer() {
+    check("docs/calibrate.md", Pace::Slow, Digits::ButLast);
+}
+
+#[test]
+fn lines_that_are_shown_follow_each_other() {
+    let printed = "a\nb 1.25 m\nc\n";
+    assert!(contains(printed, "b 1.25 m\nc\n", Digits::All));
+    assert!(!contains(printed, "a\nc\n", Digits::All));
+    assert!(!contains(printed, "b 1.24 m\n", Digits::All));
+    assert!(contains(printed, "b 1.24 m\n", Digits::ButLast));
+    for far in ["b 1.23 m\n", "b 12.4 m\n", "b 1.24 s\n", "b -1.25 m\n"] {
+        assert!(!contains(printed, far, Digits::ButLast), "{far}");
+    }
+}

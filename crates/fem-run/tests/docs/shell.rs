@@ -1,0 +1,71 @@
+//! The commands in a block of a page.
+
+use crate::pages::{Block, Page};
+
+/// A command, and where it stands.
+pub struct Shown {
+    /// The page and the line.
+    pub place: String,
+    /// Its words.
+    pub words: Vec<String>,
+}
+
+impl Shown {
+    /// The words behind the name of the program, if it is this program.
+    pub fn arguments(&self) -> Option<&[String]> {
+        let own = ["fem-run"];
+        let built = ["cargo", "run", "--release", "--"];
+        [&own[..], &built].iter().find_map(|name| {
+            let (head, rest) = self.words.split_at_checked(name.len())?;
+            (head == *name).then_some(rest)
+        })
+    }
+}
+
+/// The commands of a block; none if it is no shell's.
+pub fn commands(page: &Page, block: &Block) -> Vec<Shown> {
+    if !matches!(block.language.as_str(), "sh" | "console") {
+        return Vec::new();
+    }
+    let joined = block.text.replace("\\\n", " ");
+    let lines = joined.lines().map(|line| line.trim_start_matches("$ "));
+    let place = format!("{}:{}", page.path, block.line);
+    lines
+        .map(|line| Shown { place: place.clone(), words: words(line) })
+        .filter(|command| !command.words.is_empty())
+        .collect()
+}
+
+/// The words of a line as a shell parts them; a variable counts as 1.
+pub fn words(line: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    let mut word: Option<String> = None;
+    let mut quote = None;
+    let mut letters = line.chars().peekable();
+    while let Some(c) = letters.next() {
+        match (c, quote) {
+            ('\'' | '"', None) => {
+                quote = Some(c);
+                word.get_or_insert_default();
+            }
+            (c, Some(open)) if c == open => quote = None,
+            ('#', None) if word.is_none() => break,
+            (c, None) if c.is_whitespace() => words.extend(word.take()),
+            ('$', None | Some('"')) => {
+                while letters.next_if(|c| c.is_ascii_uppercase() || *c == '_').is_some() {}
+                word.get_or_insert_default().push('1');
+            }
+            (c, _) => word.get_or_insert_default().push(c),
+        }
+    }
+    assert!(quote.is_none(), "a quote without an end: {line}");
+    words.extend(word);
+    words
+}
+
+#[test]
+fn words_are_parted_as_a_shell_does() {
+    let line = r#"fem-run a.toml --set b='"1 m/s"' --shard "$TASK_ID/10" '' # and so on"#;
+    let expected = ["fem-run", "a.toml", "--set", r#"b="1 m/s""#, "--shard", "1/10", ""];
+    assert_eq!(words(line), expected);
+}

@@ -1,0 +1,249 @@
+//! A Prony series of a material from measured restitutions.
+
+use fem_case::Case;
+use fem_fit::FitError;
+use fem_fit::spectrum::{
+    SpectrumFit, SpectrumProblem, SpeedExponent, SpeedPoint, root_mean_square, speed_exponent,
+};
+use fem_material::PronyTerm;
+use rayon::prelude::*;
+
+use super::experiment::Experiment;
+use super::fault::CalibrationFault;
+use super::maxwell::Maxwell;
+use super::settings::{CalibrationModel, Settings};
+use super::speed_span::ends;
+use super::target::Target;
+use crate::measured::{DataError, MeasuredPairs};
+
+/// How far the relaxation times reach beyond the contact times: a term ten times slower or faster
+/// loses a tenth, and one beyond is told from it by its weight only.
+const REACH: f64 = 10.0;
+/// λ without uncertainties.
+const REGULARISATION: f64 = 1e-3;
+/// Of a case's condensed model: a calibration takes its own.
+pub(super) const UNUSED_STEPS: &str = "model.condensed.steps";
+/// Weights this small are rounding.
+const LEAST_WEIGHT: f64 = 1e-9;
+
+/// A series, what it was found from, and what the data leave open of it.
+///
+/// ```
+/// # use std::path::Path;
+/// # let text = "material.glass = { density = 2390, youngs_modulus = 63e9, poissons_ratio = 0.244 }
+/// # [[body]]
+/// # name = 'lower'
+/// # sphere.diameter = 0.0222
+/// # material = 'glass'
+/// # approach_speed = 0.5
+/// # [[body]]
+/// # name = 'upper'
+/// # sphere.diameter = 0.0159
+/// # material = 'glass'";
+/// # let case = fem_case::Case::parse("pair.toml", text, Path::new("."), &[])?;
+/// use fem::calibrate::{Calibration, CalibrationModel, Settings};
+/// use fem::measured::Restitutions;
+///
+/// let measured = Restitutions::of("glass", &[(0.1, 0.915), (0.5, 0.925), (1.0, 0.93)]);
+/// let settings =
+///     Settings { model: CalibrationModel::Ting, n_terms: 2, ..Settings::default() };
+/// let found = Calibration::of(&case, measured.into(), &settings)?;
+/// assert!(found.fit.rms < 0.005);
+///
+/// // The same case with what was found.
+/// let series = found.relaxation();
+/// let relaxing = case.edited(|file| {
+///     if let Some(glass) = file.material.get_mut(&found.target.material) {
+///         glass.relaxation = series;
+///     }
+/// })?;
+/// assert!(relaxing.gives("material.glass.relaxation"));
+/// # Ok::<(), fem::calibrate::CalibrationFault>(())
+/// ```
+#[derive(Debug)]
+pub struct Calibration {
+    /// The data.
+    pub measured: MeasuredPairs,
+    /// One a pair of bodies, in their order.
+    pub experiments: Vec<Experiment>,
+    /// Whose series it is.
+    pub target: Target,
+    /// What computed the restitutions.
+    pub model: CalibrationModel,
+    /// λ, in units of e.
+    pub regularisation: f64,
+    /// Level of the ranges.
+    pub confidence: f64,
+    /// Relaxation times of the terms, s.
+    pub times: Vec<f64>,
+    /// Weights, their ranges, and which combinations are determined.
+    pub fit: SpectrumFit,
+    /// The single Maxwell term of weight 1 with the measured mean.
+    pub maxwell: Maxwell,
+    /// The key of the case's own model that was not looked at.
+    pub unused_key: Option<String>,
+}
+
+impl Calibration {
+    /// Names of the columns of [`Calibration::residuals`].
+    pub const RESIDUAL_COLUMNS: [&'static str; 7] = [
+        "diameter_1_m",
+        "diameter_2_m",
+        "speed_m_s",
+        "restitution",
+        "restitution_uncertainty",
+        "fitted_restitution",
+        "residual",
+    ];
+
+    /// Calibrates, the pairs of bodies side by side.
+    ///
+    /// # Errors
+    /// A material, data or settings that do not fit; bodies without a model at the data's sizes and
+    /// speeds; fewer data than terms without regularisation; a collision that cannot be computed.
+    pub fn of(
+        case: &Case,
+        measured: MeasuredPairs,
+        settings: &Settings,
+    ) -> Result<Self, CalibrationFault> {
+        let target = Target::of(case, settings.material.as_deref(), settings.acts_on)?;
+        let uncertainties = measured.uncertainties();
+        let regularisation = settings
+            .regularisation
+            .unwrap_or_else(|| uncertainties.as_deref().map_or(REGULARISATION, root_mean_square));
+        check(&measured, settings, regularisation)?;
+        let pairs = measured.pairs.par_iter();
+        let experiments = pairs
+            .map(|pair| Experiment::new(case, &measured, pair, &target, settings.model))
+            .collect::<Result<Vec<_>, _>>()?;
+        let contacts = ends(experiments.iter().flat_map(|experiment| &experiment.contact_times));
+        let window = settings.times.unwrap_or((contacts.0 / REACH, contacts.1 * REACH));
+        let times = spaced(window, settings.n_terms);
+        let wanted = measured.restitutions();
+        let of_terms = |terms: &[PronyTerm]| restitutions(&experiments, terms, wanted.len());
+        let problem = SpectrumProblem {
+            restitutions: &|weights: &[f64]| of_terms(&terms(&times, weights)),
+            measured: &wanted,
+            collisions: &measured.collisions(),
+            uncertainties: uncertainties.as_deref(),
+            times: &times,
+            regularisation,
+        };
+        let fit = problem.fit(settings.confidence)?;
+        let maxwell = Maxwell::of_mean(&of_terms, &wanted, contacts)?;
+        Ok(Self {
+            target,
+            model: settings.model,
+            regularisation,
+            confidence: settings.confidence,
+            unused_key: unused_key(case, settings.model),
+            fit,
+            maxwell,
+            times,
+            experiments,
+            measured,
+        })
+    }
+
+    /// The terms that are not zero.
+    pub fn terms(&self) -> Vec<PronyTerm> {
+        terms(&self.times, &self.fit.weights)
+    }
+
+    /// Contact times of the data without relaxation, shortest and longest, s.
+    pub fn contact_times(&self) -> (f64, f64) {
+        ends(self.experiments.iter().flat_map(|experiment| &experiment.contact_times))
+    }
+
+    /// 1 − e ∝ v^p of the data; none where each pair has one speed.
+    pub fn loss_exponent(&self) -> Option<SpeedExponent> {
+        let points = self.measured.data.points.iter().enumerate();
+        let points = points.map(|(k, point)| SpeedPoint {
+            pair: self.measured.pair_of(k),
+            speed: point.speed,
+            restitution: point.restitution,
+        });
+        speed_exponent(&points.collect::<Vec<_>>())
+    }
+
+    /// Data, restitutions of the best series and their differences, a row a point; SI.
+    pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
+        let points = self.measured.data.points.iter().zip(&self.fit.restitutions).enumerate();
+        points.map(|(k, (point, fitted))| {
+            let [first, second] = self.experiments[self.measured.pair_of(k)].diameters;
+            [
+                first,
+                second,
+                Some(point.speed),
+                Some(point.restitution),
+                point.restitution_uncertainty,
+                Some(*fitted),
+                Some(fitted - point.restitution),
+            ]
+        })
+    }
+}
+
+/// Refuses what costs time to find out.
+fn check(
+    measured: &MeasuredPairs,
+    settings: &Settings,
+    regularisation: f64,
+) -> Result<(), CalibrationFault> {
+    let (n_values, n_free) = (measured.data.points.len(), settings.n_terms);
+    if n_values == 0 {
+        return Err(DataError::new(&measured.data.name, "there is no restitution").into());
+    }
+    if n_values < n_free && regularisation == 0.0 {
+        let free = "the weights".to_string();
+        return Err(FitError::TooFewData { n_values, n_free, free }.into());
+    }
+    if n_free == 0 {
+        let (quantity, allowed) = ("the number of terms", "at least 1");
+        return Err(FitError::OutOfRange { quantity, value: 0.0, allowed }.into());
+    }
+    if let Some((first, last)) = settings.times
+        && !(first > 0.0 && first <= last && last.is_finite())
+    {
+        let (quantity, allowed) = ("the first relaxation time", "greater than 0, at most the last");
+        return Err(FitError::OutOfRange { quantity, value: first, allowed }.into());
+    }
+    Ok(())
+}
+
+/// What of the case's own model is not looked at: all of it, or the steps of the chosen one.
+fn unused_key(case: &Case, chosen: CalibrationModel) -> Option<String> {
+    let model = case.scene.model.path();
+    let is_own = chosen == CalibrationModel::Condensed && model == "model.condensed";
+    let key = if is_own { UNUSED_STEPS.to_string() } else { model };
+    case.gives(&key).then_some(key)
+}
+
+/// Restitutions of all points in the order of the data, the pairs side by side.
+fn restitutions(
+    experiments: &[Experiment],
+    terms: &[PronyTerm],
+    n_points: usize,
+) -> Result<Vec<f64>, FitError> {
+    let of_pairs = experiments.par_iter().map(|experiment| experiment.restitutions(terms));
+    let found: Vec<_> = of_pairs.collect::<Result<_, _>>()?;
+    let mut restitutions = vec![0.0; n_points];
+    for (experiment, found) in experiments.iter().zip(found) {
+        for (point, restitution) in experiment.points.iter().zip(found) {
+            restitutions[*point] = restitution;
+        }
+    }
+    Ok(restitutions)
+}
+
+/// Terms of times and weights; those without weight are left out.
+fn terms(times: &[f64], weights: &[f64]) -> Vec<PronyTerm> {
+    let both = times.iter().zip(weights).filter(|(_, weight)| **weight > LEAST_WEIGHT);
+    both.map(|(&relaxation_time, &weight)| PronyTerm { weight, relaxation_time }).collect()
+}
+
+/// Evenly in the logarithm, the ends included; one alone lies in the middle.
+fn spaced((first, last): (f64, f64), n: usize) -> Vec<f64> {
+    let share = |k: usize| if n == 1 { 0.5 } else { k as f64 / (n - 1) as f64 };
+    (0..n).map(|k| first * (last / first).powf(share(k))).collect()
+}

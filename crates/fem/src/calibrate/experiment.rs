@@ -1,0 +1,160 @@
+//! One pair of bodies and its speeds: any series to restitutions.
+//!
+//! The condensed model factors the pair once, on a mesh for all of its speeds: fine block and
+//! condensed region are those of the largest contact (instantaneous moduli), elements are small
+//! enough for the smallest, unless the case gives their size.
+
+use std::sync::Mutex;
+
+use fem_case::engineering::show;
+use fem_case::{Body, Case, CaseError};
+use fem_fit::FitError;
+use fem_material::PronyTerm;
+
+use super::fault::CalibrationFault;
+use super::pair_model::{Evaluator, PairModel};
+use super::settings::CalibrationModel;
+use super::speed_span::{SpeedDoubt, SpeedSpan};
+use super::target::Target;
+use crate::measured::{MeasuredPair, MeasuredPairs};
+use crate::method::{Model, Shared};
+use crate::models::Condensed;
+
+/// What the size of elements decides on: to blame if there is no mesh.
+const OF_ELEMENT_SIZE: [&str; 3] =
+    ["mesh.contact_element_size", "limits.memory", "output.snapshots"];
+
+/// A pair, its data and its model.
+#[derive(Debug)]
+pub struct Experiment {
+    /// Places of its points in the data.
+    pub points: Vec<usize>,
+    /// Approach speeds, m/s.
+    pub speeds: Vec<f64>,
+    /// Hertz' with instantaneous moduli, s.
+    pub contact_times: Vec<f64>,
+    /// Diameters of the bodies, m; a wall has none.
+    pub diameters: [Option<f64>; 2],
+    /// Elements across the smallest and the largest contact radius; none without a mesh.
+    pub elements_across: Option<(f64, f64)>,
+    /// Why its fastest point is perhaps a slip.
+    pub doubt: Option<SpeedDoubt>,
+    /// What the user should know of the model's limits.
+    pub warnings: Vec<String>,
+    model: PairModel,
+}
+
+impl Experiment {
+    /// Gives the case the bodies of the data and its speeds, and makes its model.
+    ///
+    /// # Errors
+    /// A case that cannot be, a mesh or a factor that cannot be made.
+    pub fn new(
+        case: &Case,
+        measured: &MeasuredPairs,
+        pair: &MeasuredPair,
+        target: &Target,
+        model: CalibrationModel,
+    ) -> Result<Self, CalibrationFault> {
+        let speed = |point: &usize| measured.data.points[*point].speed;
+        let speeds: Vec<f64> = pair.points.iter().map(speed).collect();
+        let case = case.edited(|file| pair.resize(file))?;
+        let span = SpeedSpan::of(&case.scene, &speeds)?;
+        let made = match model {
+            CalibrationModel::Condensed => condensed(&case, &span)?,
+            CalibrationModel::Ting => {
+                let size = case.scene.finite_size()?;
+                size.check(span.fastest.max_contact_radius()).map_err(|error| {
+                    let is_fastest = |point: &&usize| speed(point) == span.speeds().1;
+                    let point = pair.points.iter().find(is_fastest).unwrap_or(&pair.points[0]);
+                    measured.data.fault(*point, error).with_help(format!(
+                        "{} is too fast for the sizes and the moduli: is the unit of the speeds \
+                         right?",
+                        show(span.speeds().1, "m/s")
+                    ))
+                })?;
+                Made {
+                    evaluator: Evaluator::Ting(*span.fastest.pair()),
+                    elements_across: None,
+                    warnings: Vec::new(),
+                    is_quasi_static: false,
+                }
+            }
+        };
+        Ok(Self {
+            points: pair.points.clone(),
+            contact_times: speeds.iter().map(|speed| span.contact_time(*speed)).collect(),
+            speeds,
+            diameters: case.scene.bodies.each_ref().map(Body::diameter),
+            elements_across: made.elements_across,
+            doubt: span.doubt(&case.scene).filter(|_| !made.is_quasi_static),
+            warnings: made.warnings,
+            model: PairModel::new(&case.scene, target, made.evaluator),
+        })
+    }
+
+    /// The restitutions at its speeds with these terms in the calibrated material.
+    ///
+    /// # Errors
+    /// A collision that cannot be computed.
+    pub fn restitutions(&self, terms: &[PronyTerm]) -> Result<Vec<f64>, FitError> {
+        self.model.restitutions(terms, &self.speeds)
+    }
+
+    /// The restitution at a speed (m/s) with these terms in the calibrated material; 0 where the
+    /// bodies do not part.
+    ///
+    /// # Errors
+    /// A collision that cannot be computed.
+    pub fn restitution(&self, terms: &[PronyTerm], speed: f64) -> Result<f64, FitError> {
+        self.model.restitution(terms, speed)
+    }
+}
+
+/// What is made for a pair and its speeds.
+struct Made {
+    evaluator: Evaluator,
+    elements_across: Option<(f64, f64)>,
+    warnings: Vec<String>,
+    /// Whether the model itself finds all speeds slow enough.
+    is_quasi_static: bool,
+}
+
+fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
+    let is_given = case.gives("mesh.contact_element_size");
+    let size = span.element_size(&case.scene);
+    let moving = usize::from(case.scene.bodies[0].diameter().is_none());
+    let fastest = case.edited(|file| {
+        file.body[moving].approach_speed = Some(span.speeds().1.into());
+        file.body[1 - moving].approach_speed = Some(0.0.into());
+        if !is_given {
+            file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
+        }
+    })?;
+    let condensed = Condensed::new(&fastest.scene, &Shared::default());
+    let condensed = condensed.map_err(|refusal| {
+        let error = refusal.in_case(&fastest);
+        if is_given { error.into() } else { no_mesh(error, size, span) }
+    })?;
+    let plan = condensed.setup().elements.as_ref().map(|elements| &elements.plan);
+    let made_size = plan.map_or(f64::NAN, |plan| plan.contact_element_size);
+    // Their remedy is a model that calibrates nothing: a doubt takes their place.
+    let of_speed = condensed.speed_warnings();
+    let warnings = condensed.setup().warnings.iter();
+    let warnings = warnings.filter(|warning| !of_speed.contains(warning)).cloned().collect();
+    Ok(Made {
+        evaluator: Evaluator::Condensed(Box::new(Mutex::new(condensed))),
+        elements_across: Some(span.elements_across(made_size)),
+        warnings,
+        is_quasi_static: of_speed.is_empty(),
+    })
+}
+
+/// A mesh whose elements the speeds make too small; what else is wrong with a mesh is the case's.
+fn no_mesh(error: CaseError, element_size: f64, span: &SpeedSpan) -> CalibrationFault {
+    if !error.key().is_some_and(|key| OF_ELEMENT_SIZE.contains(&key)) {
+        return error.into();
+    }
+    let reason = error.message().to_string();
+    CalibrationFault::NoMesh { speeds: span.speeds(), element_size, reason }
+}

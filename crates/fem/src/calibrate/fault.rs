@@ -1,0 +1,59 @@
+//! What can be wrong with a calibration.
+
+use fem_case::CaseError;
+use fem_case::engineering::show;
+use fem_fit::FitError;
+use fem_laws::LawError;
+
+use crate::measured::DataError;
+
+/// What is wrong with case, data or settings of a calibration, or a collision that fails.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CalibrationFault {
+    /// The case, with the sizes and the speeds of the data in it.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// The data.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// What data and settings determine; a collision that cannot be computed.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A material that no body is made of.
+    #[error("no body is made of {name}")]
+    OtherMaterial {
+        /// As it was asked for.
+        name: String,
+        /// What the bodies are made of.
+        materials: Vec<String>,
+    },
+    /// Two materials, and none is named.
+    #[error("the bodies are made of {}", materials.join(" and "))]
+    TwoMaterials {
+        /// What the bodies are made of.
+        materials: Vec<String>,
+    },
+    /// Elements that are small enough for the slowest collision are too many.
+    #[error(
+        "no mesh for all speeds from {} to {}: elements of {} are needed for the smallest contact, \
+         {reason}",
+        show(speeds.0, "m/s"),
+        show(speeds.1, "m/s"),
+        show(*element_size, "m")
+    )]
+    NoMesh {
+        /// Slowest and fastest, m/s.
+        speeds: (f64, f64),
+        /// That is needed at the contact, m.
+        element_size: f64,
+        /// Why it cannot be.
+        reason: String,
+    },
+}
+
+/// A pair of bodies that no theory takes.
+impl From<LawError> for CalibrationFault {
+    fn from(error: LawError) -> Self {
+        Self::Fit(error.into())
+    }
+}

@@ -1,0 +1,139 @@
+//! The single Maxwell term of weight 1 that makes the mean of measured restitutions.
+
+use std::cell::RefCell;
+
+use fem_fit::FitError;
+use fem_fit::spectrum::root_mean_square;
+use fem_laws::bisection::falling_zero;
+use fem_material::PronyTerm;
+
+/// Where the search begins and ends, over the shortest and the longest contact time: from a loss
+/// that leaves little to one that nobody sees.
+const SEARCH: (f64, f64) = (0.2, 1e4);
+/// How far down it may go on, in steps, where that is not little enough. There contacts are deeper.
+const STEP_DOWN: f64 = 4.0;
+const MOST_STEPS_DOWN: usize = 4;
+/// Means of e this near are the same.
+const SAME: f64 = 1e-6;
+
+/// A single Maxwell term of weight 1 whose restitutions have the mean of the measured ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Maxwell {
+    /// Its relaxation time, s.
+    pub time: f64,
+    /// Whether that is only an end of the search.
+    pub beyond: Option<Beyond>,
+    /// Root mean square error of e.
+    pub rms: f64,
+}
+
+/// Which side of the search the time would be on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beyond {
+    /// More is lost than the fastest term that can be computed loses.
+    Faster,
+    /// Less is lost than anybody sees.
+    Slower,
+}
+
+impl Beyond {
+    /// For text.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Faster => "faster",
+            Self::Slower => "slower",
+        }
+    }
+}
+
+/// Terms to the restitutions of all points.
+type OfTerms<'a> = dyn Fn(&[PronyTerm]) -> Result<Vec<f64>, FitError> + 'a;
+
+impl Maxwell {
+    /// Searches from a fifth of the shortest contact time, and below while the model can, to ten
+    /// thousand times the longest, s.
+    ///
+    /// # Errors
+    /// A collision that cannot be computed.
+    pub fn of_mean(
+        restitutions: &OfTerms<'_>,
+        wanted: &[f64],
+        contacts: (f64, f64),
+    ) -> Result<Self, FitError> {
+        let differences = |time: f64| -> Result<Vec<f64>, FitError> {
+            let found = restitutions(&[term(time)])?;
+            Ok(wanted.iter().zip(found).map(|(wanted, e)| wanted - e).collect())
+        };
+        let lack = |time: f64| -> Result<f64, FitError> {
+            let mean = differences(time)?.iter().sum::<f64>() / wanted.len() as f64;
+            // Exactly 0 ends the search.
+            Ok(if mean.abs() < SAME { 0.0 } else { mean })
+        };
+        let (mut first, last) = (SEARCH.0 * contacts.0, SEARCH.1 * contacts.1);
+        let mut of_first = lack(first)?;
+        for _ in 0..MOST_STEPS_DOWN {
+            if of_first > 0.0 {
+                break;
+            }
+            let Ok(below) = lack(first / STEP_DOWN) else { break };
+            (first, of_first) = (first / STEP_DOWN, below);
+        }
+        let failure = RefCell::new(None);
+        let (time, beyond) = if of_first <= 0.0 {
+            (first, Some(Beyond::Faster))
+        } else if lack(last)? >= 0.0 {
+            (last, Some(Beyond::Slower))
+        } else {
+            let of_logarithm = |time: f64| {
+                lack(time.exp()).unwrap_or_else(|error| {
+                    *failure.borrow_mut() = Some(error);
+                    0.0
+                })
+            };
+            (falling_zero(first.ln(), last.ln(), of_logarithm).exp(), None)
+        };
+        if let Some(error) = failure.into_inner() {
+            return Err(error);
+        }
+        Ok(Self { time, beyond, rms: root_mean_square(&differences(time)?) })
+    }
+
+    /// Its one term as a Prony term.
+    pub fn term(&self) -> PronyTerm {
+        term(self.time)
+    }
+}
+
+fn term(relaxation_time: f64) -> PronyTerm {
+    PronyTerm { weight: 1.0, relaxation_time }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1 − e = 1/(1 + τ): for each mean one τ.
+    fn restitutions(terms: &[PronyTerm]) -> Result<Vec<f64>, FitError> {
+        let lost = 1.0 / (1.0 + terms[0].relaxation_time);
+        Ok(vec![1.0 - 1.5 * lost, 1.0 - 0.5 * lost])
+    }
+
+    #[test]
+    fn the_term_has_the_mean_and_the_ends_of_the_search_are_told() {
+        let found =
+            |wanted: [f64; 2]| Maxwell::of_mean(&restitutions, &wanted, (0.1, 0.1)).unwrap();
+        let one = found([0.7, 0.9]);
+        // Means within 1e-6 are the same, and dτ = (1 + τ)² de.
+        assert!((one.time - 4.0).abs() < 1e-4 && one.beyond.is_none(), "{one:?}");
+        assert!(one.rms < 1e-6);
+        assert_eq!(found([1.0, 1.0]).beyond, Some(Beyond::Slower));
+        assert_eq!(found([0.0, 0.0]).beyond, Some(Beyond::Faster));
+    }
+
+    #[test]
+    fn a_collision_that_fails_is_told() {
+        let failed = || FitError::Collision { reason: "none".to_string() };
+        let never = |_: &[PronyTerm]| Err(failed());
+        assert_eq!(Maxwell::of_mean(&never, &[0.9], (0.1, 0.1)), Err(failed()));
+    }
+}

@@ -1,0 +1,78 @@
+//! What is asked of a calibration.
+
+use fem_case::schema::ActsOn;
+
+/// What is asked of a calibration; what is `None` follows from the data or the case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// What computes a collision.
+    pub model: CalibrationModel,
+    /// The material that is calibrated, where the bodies' differ; the other keeps its relaxation.
+    pub material: Option<String>,
+    /// What relaxes: as in the case, or all moduli.
+    pub acts_on: Option<ActsOn>,
+    /// Terms of the series, at least 1.
+    pub n_terms: usize,
+    /// Relaxation times of the first and the last term, s, the others evenly between in the
+    /// logarithm: a tenth of the shortest contact time to ten times the longest.
+    pub times: Option<(f64, f64)>,
+    /// λ, ≥ 0: a weight of 1 costs as much as this error of a restitution. The data's uncertainty,
+    /// or 0.001.
+    pub regularisation: Option<f64>,
+    /// Level of the ranges, in (0, 1).
+    pub confidence: f64,
+}
+
+impl Default for Settings {
+    /// Four terms by condensed elements, ranges of 95 %.
+    fn default() -> Self {
+        Self {
+            model: CalibrationModel::Condensed,
+            material: None,
+            acts_on: None,
+            n_terms: 4,
+            times: None,
+            regularisation: None,
+            confidence: 0.95,
+        }
+    }
+}
+
+/// Which model computes the restitutions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CalibrationModel {
+    /// Finite elements condensed to their contact.
+    Condensed,
+    /// Ting's half-spaces with the spheres' finite size.
+    Ting,
+}
+
+impl CalibrationModel {
+    /// Its name: that of a method.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Condensed => "condensed",
+            Self::Ting => "ting",
+        }
+    }
+}
+
+/// What a caller calls the settings that texts advise to change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SettingNames {
+    /// [`Settings::n_terms`].
+    pub terms: &'static str,
+    /// [`Settings::times`].
+    pub times: &'static str,
+    /// The uncertainty of all restitutions.
+    pub uncertainty: &'static str,
+    /// [`Settings::model`].
+    pub model: &'static str,
+}
+
+impl Default for SettingNames {
+    /// As the fields are called.
+    fn default() -> Self {
+        Self { terms: "n_terms", times: "times", uncertainty: "an uncertainty", model: "model" }
+    }
+}

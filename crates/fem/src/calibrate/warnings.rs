@@ -1,0 +1,150 @@
+//! What a reader should know before trusting a series.
+
+use fem_case::engineering::show;
+use fem_fit::spectrum::{SpectrumFit, SpeedExponent};
+
+use super::calibration::{Calibration, UNUSED_STEPS};
+use super::pair_model::STEPS;
+use super::settings::SettingNames;
+use crate::effects::QUASI_STATIC_LIMIT;
+
+/// Fewer elements across a contact radius than this do not follow it.
+const FEWEST_ELEMENTS: f64 = 3.0;
+/// A misfit of so many times the uncertainties is no scatter.
+const LARGE_MISFIT: f64 = 2.0;
+/// An rms error of e above this is more than a model's or a mesh's own.
+const LARGE_ERROR: f64 = 0.02;
+
+impl Calibration {
+    /// What a reader should know, in the order of its weight; `names` are those of the settings that
+    /// may help.
+    pub fn warnings(&self, names: &SettingNames) -> Vec<String> {
+        let mut warnings: Vec<String> = self.doubt(names).into_iter().collect();
+        warnings.extend(self.loss_exponent().and_then(|found| falling(&found, &self.fit)));
+        warnings.extend(self.measured.data.warnings());
+        warnings.extend(self.misfit(names));
+        warnings.extend(self.scatter(names));
+        warnings.extend(self.undetermined());
+        for experiment in &self.experiments {
+            if let Some((least, _)) = experiment.elements_across
+                && least < FEWEST_ELEMENTS
+            {
+                warnings.push(format!(
+                    "{least:.1} elements across the smallest contact radius are too few: lower \
+                     mesh.contact_element_size, or leave it out"
+                ));
+            }
+            for warning in &experiment.warnings {
+                if !warnings.contains(warning) {
+                    warnings.push(warning.clone());
+                }
+            }
+        }
+        warnings.extend(self.unused(names));
+        warnings
+    }
+
+    /// Pairs in the same unit are in doubt together.
+    fn doubt(&self, names: &SettingNames) -> Option<String> {
+        let doubt = self.experiments.iter().find_map(|experiment| experiment.doubt)?;
+        Some(format!(
+            "{} is {:.2} % of the shear wave speed; above {:.1} % the inertia of the bodies counts, \
+             which {} {} leaves out: is the unit of the speeds right?",
+            show(doubt.speed, "m/s"),
+            100.0 * doubt.mach,
+            100.0 * QUASI_STATIC_LIMIT,
+            names.model,
+            self.model.word(),
+        ))
+    }
+
+    fn has_uncertainties(&self) -> bool {
+        let mut points = self.measured.data.points.iter();
+        points.any(|point| point.restitution_uncertainty.is_some())
+    }
+
+    fn misfit(&self, names: &SettingNames) -> Option<String> {
+        if !misses(&self.fit) {
+            return None;
+        }
+        let none = "no series of these relaxation times makes these data";
+        let flatness = "the ranges tell flatness, no probability";
+        let remedy = format!("try more {} or other {}", names.terms, names.times);
+        Some(match self.fit.misfit {
+            Some(misfit) if !self.has_uncertainties() => format!(
+                "the misfit is {misfit:.1} times the scatter of repeats: {none}, and {flatness}; \
+                 {remedy}"
+            ),
+            Some(misfit) => format!(
+                "the misfit is {misfit:.1} times the uncertainties: {none}, or the uncertainties \
+                 are too small, and so are the ranges; {remedy}"
+            ),
+            None => {
+                let rms = self.fit.rms;
+                format!("the rms error is {rms:.3}: {none}, and {flatness}; {remedy}")
+            }
+        })
+    }
+
+    fn scatter(&self, names: &SettingNames) -> Option<String> {
+        let is_unknown = self.fit.degrees_of_freedom == 0 && !self.has_uncertainties();
+        is_unknown.then(|| {
+            format!(
+                "no more data than weights: their scatter is unknown, and the ranges are those of \
+                 an error of {:.1e} in e; give {}",
+                self.fit.error, names.uncertainty
+            )
+        })
+    }
+
+    fn undetermined(&self) -> Option<String> {
+        let (n, determined) = (self.fit.weights.len(), self.fit.resolution.n_determined());
+        (determined < n).then(|| {
+            format!(
+                "the data determine {determined} of {n} combinations of weights; the regularisation \
+                 and the bounds (no weight below 0, their sum at most 1) chose the rest"
+            )
+        })
+    }
+
+    fn unused(&self, names: &SettingNames) -> Option<String> {
+        let key = self.unused_key.as_deref()?;
+        Some(match key {
+            UNUSED_STEPS => format!("{key} is not looked at: calibrate takes {STEPS}"),
+            _ => format!(
+                "{key} is not looked at: {} chooses, here {}",
+                names.model,
+                self.model.word()
+            ),
+        })
+    }
+}
+
+/// Whether the best series does not make the data.
+fn misses(fit: &SpectrumFit) -> bool {
+    fit.misfit.map_or(fit.rms > LARGE_ERROR, |misfit| misfit > LARGE_MISFIT)
+}
+
+/// The sentence on restitutions that fall with speed.
+fn falling(found: &SpeedExponent, fit: &SpectrumFit) -> Option<String> {
+    if !found.is_above(0.0) {
+        return None;
+    }
+    let error = found.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
+    let start = format!(
+        "restitution falls with speed, 1 - e as the speed to the power {:.3}{error}; a Maxwell \
+         term slower than the contact gives -0.2 (restitution rises), and no linear viscoelastic \
+         spectrum more than 0.2",
+        found.value
+    );
+    let verdict = if found.is_above(SpeedExponent::LIMIT) {
+        "no Prony series makes these data; a loss that grows with the strain, such as plastic \
+         flow, fracture or friction, is at work"
+    } else if misses(fit) {
+        "a single Maxwell term (weight 1) cannot make these data, and the best series misses them"
+    } else {
+        "a single Maxwell term (weight 1) cannot make these data, only terms faster than the \
+         contact beside an equilibrium modulus can"
+    };
+    Some(format!("{start}: {verdict}"))
+}

@@ -1,0 +1,169 @@
+//! From a case to a law of its bodies: which one, with which numbers, from `[model]` and from what
+//! is given.
+
+use fem_case::{Case, ModelChoice, Scene};
+use fem_fit::{FitError, Model, Point, Problem};
+use fem_laws::{EndRule, Family};
+
+use super::law_fault::LawFault;
+use super::parameter::{check_value, find_parameter, loss_parameter};
+use crate::models::Reduced;
+
+/// The bodies of a scene under a law.
+///
+/// # Errors
+/// Numbers so extreme that they leave the range of f64; Ting's model of bodies that do not relax; a
+/// law with another end of its own.
+pub fn model_of(scene: &Scene, family: Family, end_rule: EndRule) -> Result<Model, FitError> {
+    let pair = scene.pair()?;
+    let materials = scene.bodies.each_ref().map(|body| body.material().cloned());
+    let model = Model::new(&pair, materials, family, end_rule)?;
+    Ok(match &scene.model {
+        ModelChoice::Ting { finite_size: true, .. } => model.with_finite_size(scene.finite_size()?),
+        _ => model,
+    })
+}
+
+/// The law that `[model]` names, if it names one.
+pub fn family_of(scene: &Scene) -> Option<Family> {
+    match &scene.model {
+        ModelChoice::Ting { .. } => Some(Family::Ting),
+        ModelChoice::Law { law, .. } => Some(law.family()),
+        _ => None,
+    }
+}
+
+/// A law of a case, and what is known of its parameters.
+///
+/// ```
+/// # use std::path::Path;
+/// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
+/// # [[body]]
+/// # name = 'floor'
+/// # wall = {}
+/// # [[body]]
+/// # name = 'ball'
+/// # sphere.diameter = 0.02
+/// # material = 'ice'
+/// # approach_speed = 0.1";
+/// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
+/// use fem::laws::{ChosenLaw, Family, LawFit};
+/// use fem::measured::Restitutions;
+///
+/// let ice = Restitutions::of("ice", &[(0.05, 0.7), (0.1, 0.62), (0.2, 0.55), (0.4, 0.45)]);
+/// let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[("n", 0.65)], None)?;
+/// let fit = LawFit::of(&ice, law.problem(&ice.points, &["a"])?, 0.95)?;
+/// assert!(fit.fit.rms < 0.05 && fit.fit.estimates[0].key == "a");
+/// # Ok::<(), fem::laws::LawFault>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChosenLaw {
+    model: Model,
+    known: Vec<Known>,
+}
+
+/// Where a parameter's value comes from, SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Known {
+    Nowhere,
+    Case(f64),
+    Given(f64),
+}
+
+impl ChosenLaw {
+    /// The law with the case's numbers and end if the case has the same one, and what is given by key
+    /// (SI) before them.
+    ///
+    /// # Errors
+    /// Keys that the law does not have, values without a meaning; see [`model_of`].
+    pub fn of(
+        case: &Case,
+        family: Family,
+        given: &[(&str, f64)],
+        end_rule: Option<EndRule>,
+    ) -> Result<Self, LawFault> {
+        let mut known = vec![Known::Nowhere; family.parameters().len()];
+        let mut own_end = family.end_rule().unwrap_or(EndRule::ZeroForce);
+        if let ModelChoice::Law { law, end_rule, .. } = &case.scene.model
+            && law.family() == family
+        {
+            let reduced = Reduced::new(&case.scene).map_err(|refusal| refusal.in_case(case))?;
+            let numbers = reduced.law_numbers().unwrap_or_default();
+            known = numbers.iter().copied().map(Known::Case).collect();
+            own_end = *end_rule;
+        }
+        for (key, value) in given {
+            let index = find_parameter(family, key)?;
+            check_value(&family.parameters()[index], *value)?;
+            known[index] = Known::Given(*value);
+        }
+        let model = model_of(&case.scene, family, end_rule.unwrap_or(own_end))?;
+        Ok(Self { model, known })
+    }
+
+    /// The bodies under the law.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Which law.
+    pub fn family(&self) -> Family {
+        self.model.family()
+    }
+
+    /// The search for the parameters with these keys, or for the one that stands for the loss if
+    /// there are none; all others have their values.
+    ///
+    /// # Errors
+    /// A law without a loss; keys that it does not have; a parameter without a value.
+    pub fn problem<'a>(
+        &'a self,
+        points: &'a [Point],
+        free: &[&str],
+    ) -> Result<Problem<'a>, LawFault> {
+        let parameters = self.family().parameters();
+        let mut indices = vec![loss_parameter(self.family())?];
+        if !free.is_empty() {
+            let found = free.iter().map(|key| find_parameter(self.family(), key));
+            indices = found.collect::<Result<_, _>>()?;
+        }
+        let keys: Vec<&str> = indices.iter().map(|index| parameters[*index].key).collect();
+        let mut problem = Problem::new(&self.model, points, &keys)?;
+        problem.values = self.values(&problem.values);
+        for free in &mut problem.free {
+            free.start = self.start(free.index);
+        }
+        match self.missing(|index| indices.contains(&index)) {
+            Some(key) => Err(LawFault::Missing { law: self.family().name(), key, free: keys }),
+            None => Ok(problem),
+        }
+    }
+
+    /// What is known in place of `guesses`, in the order of the parameters.
+    pub(super) fn values(&self, guesses: &[f64]) -> Vec<f64> {
+        let value = |(known, guess): (&Known, &f64)| match known {
+            Known::Nowhere => *guess,
+            Known::Case(value) | Known::Given(value) => *value,
+        };
+        self.known.iter().zip(guesses).map(value).collect()
+    }
+
+    /// The key of a parameter that has neither a value nor a default and is not known `otherwise`.
+    pub(super) fn missing(&self, otherwise: impl Fn(usize) -> bool) -> Option<&'static str> {
+        let parameters = self.family().parameters().iter().enumerate();
+        let mut missing = parameters.filter(|(index, parameter)| {
+            let is_known = self.known[*index] != Known::Nowhere || parameter.default.is_some();
+            !is_known && !otherwise(*index)
+        });
+        missing.next().map(|(_, parameter)| parameter.key)
+    }
+
+    /// Where to begin with a parameter that is searched for: what is given; a case's value is that of
+    /// another run.
+    fn start(&self, index: usize) -> Option<f64> {
+        match self.known[index] {
+            Known::Given(value) => Some(value),
+            _ => None,
+        }
+    }
+}

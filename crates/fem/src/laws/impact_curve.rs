@@ -1,0 +1,115 @@
+//! Restitution and contact time over speed: what laws of other codes are fitted to.
+
+use fem_case::{Case, ModelChoice, Scene};
+use fem_fit::{FitError, Model, Point};
+use fem_laws::{EndRule, Family, HertzImpact, Pair, Ting};
+
+use super::chosen_law::model_of;
+use super::law_fault::LawFault;
+use crate::measured::{DataError, Restitutions};
+use crate::models::Reduced;
+
+/// Speeds at which a reduced model is computed.
+const N_SPEEDS: usize = 13;
+
+/// e(v) and T(v), in the order of the speed, with a contact time each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImpactCurve {
+    /// Points of the curve, two or more.
+    pub points: Vec<Point>,
+    /// Whether the times are Hertz', for want of data.
+    pub has_hertz_times: bool,
+}
+
+impl ImpactCurve {
+    /// The curve of data; without all contact times, Hertz' with instantaneous moduli stand in.
+    ///
+    /// # Errors
+    /// One speed only; speeds without a Hertz impact.
+    pub fn measured(scene: &Scene, data: &Restitutions) -> Result<Self, LawFault> {
+        if data.points.len() < 2 {
+            let error = DataError::new(&data.name, "one speed only");
+            return Err(error.with_help("a range of validity needs two speeds or more").into());
+        }
+        Ok(Self::of(&scene.pair()?, data.points.clone())?)
+    }
+
+    /// Computed by the case's reduced model, Ting's in place of one with elements, from one speed to
+    /// another, m/s, or over a decade around the case's.
+    ///
+    /// # Errors
+    /// A case that has no such model; collisions that cannot be computed.
+    pub fn computed(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
+        let reduced = reduced(case)?;
+        let (middle, decade) = (case.scene.approach_speed(), 10f64.sqrt());
+        let (low, high) = speeds.unwrap_or((middle / decade, middle * decade));
+        let point = |k: usize| {
+            let speed = low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64);
+            let impact = reduced.impact(speed)?;
+            let point = Point::new(speed, impact.restitution);
+            Ok(Point { contact_time: impact.contact_time, ..point })
+        };
+        let points: Vec<Point> = (0..N_SPEEDS).map(point).collect::<Result<_, FitError>>()?;
+        Ok(Self::of(&reduced.scene().pair()?, points)?)
+    }
+
+    fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {
+        points.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        let has_hertz_times = points.iter().any(|point| point.contact_time.is_none());
+        for point in &mut points {
+            if has_hertz_times {
+                point.contact_time = Some(HertzImpact::new(pair, point.speed)?.contact_time());
+            }
+            point.restitution_uncertainty = None;
+        }
+        Ok(Self { points, has_hertz_times })
+    }
+
+    /// Slowest and fastest speed, m/s.
+    pub fn speeds(&self) -> (f64, f64) {
+        (self.points[0].speed, self.points[self.points.len() - 1].speed)
+    }
+
+    /// From, to (m/s), and the largest error of a law's e: the longest run of neighbouring speeds at
+    /// which it is within the tolerance. From is above to where there is none.
+    ///
+    /// # Errors
+    /// Collisions that cannot be computed.
+    pub fn validity(
+        &self,
+        model: &Model,
+        values: &[f64],
+        tolerance: f64,
+    ) -> Result<[f64; 3], FitError> {
+        let mut worst = 0.0f64;
+        let mut runs: Vec<(usize, usize)> = Vec::new();
+        for (index, point) in self.points.iter().enumerate() {
+            let outcome = model.outcome(values, point.speed)?;
+            let error = (outcome.restitution - point.restitution).abs();
+            worst = worst.max(error);
+            if error > tolerance {
+                continue;
+            }
+            match runs.last_mut() {
+                Some(run) if run.1 + 1 == index => run.1 = index,
+                _ => runs.push((index, index)),
+            }
+        }
+        let longest = runs.iter().max_by_key(|run| run.1 - run.0);
+        let (from, to) = longest.map_or((f64::INFINITY, 0.0), |(first, last)| {
+            (self.points[*first].speed, self.points[*last].speed)
+        });
+        Ok([from, to, worst])
+    }
+}
+
+/// The case's own model; Ting's in place of one with elements.
+fn reduced(case: &Case) -> Result<Reduced, LawFault> {
+    let mut scene = case.scene.clone();
+    if matches!(scene.model, ModelChoice::Fem | ModelChoice::Condensed(_)) {
+        model_of(&scene, Family::Ting, EndRule::ZeroForce).map_err(LawFault::NoStandIn)?;
+        let tolerance = Ting::DEFAULT_TOLERANCE;
+        scene.model = ModelChoice::Ting { finite_size: false, tolerance };
+    }
+    Ok(Reduced::new(&scene).map_err(|refusal| refusal.in_case(case))?)
+}

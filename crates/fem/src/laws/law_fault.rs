@@ -1,0 +1,53 @@
+//! What can be wrong with a law of a case.
+
+use fem_case::CaseError;
+use fem_fit::FitError;
+use fem_laws::LawError;
+
+use super::parameter::ParameterError;
+use crate::measured::DataError;
+
+/// What is wrong with a law, with its data, or with what is asked of it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LawFault {
+    /// The law of the case itself, at its place.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A parameter that is named or given.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// The data.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// What the data determine.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A parameter that has neither a value nor a default.
+    #[error("{law} needs a value of {key}")]
+    Missing {
+        /// Name of the law.
+        law: &'static str,
+        /// Of the parameter.
+        key: &'static str,
+        /// What is searched for; empty if nothing more can be.
+        free: Vec<&'static str>,
+    },
+    /// A law that is compared with another one.
+    #[error("{law}: {error}")]
+    Compared {
+        /// Its name.
+        law: &'static str,
+        /// Why it cannot be fitted.
+        error: FitError,
+    },
+    /// A case of finite elements in whose place no reduced model can stand.
+    #[error(transparent)]
+    NoStandIn(FitError),
+}
+
+/// A collision that cannot happen.
+impl From<LawError> for LawFault {
+    fn from(error: LawError) -> Self {
+        Self::Fit(error.into())
+    }
+}

@@ -1,0 +1,209 @@
+//! A law that is fitted to restitutions, and how far the fit can be trusted.
+
+use fem_fit::{Fit, FitError, Free, Model, Problem, Profile};
+use fem_laws::{Family, Role};
+
+use super::law_fault::LawFault;
+use super::parameter::loss_parameter;
+use crate::measured::Restitutions;
+
+/// Values of a profile.
+const GRID: usize = 25;
+/// Half the width of that grid, in widths of the parameter's interval, where that is known.
+const GRID_REACH: f64 = 2.5;
+/// A plain number's grid reaches at least over these: damping exponents of all laws.
+const EXPONENTS: (f64, f64) = (0.4, 1.1);
+/// A misfit of so many times the variances is no scatter.
+const LARGE_CHI_SQUARE: f64 = 2.0;
+
+/// A fitted law, its data, and the laws that are compared with it.
+#[derive(Clone, Debug)]
+pub struct LawFit<'a> {
+    /// What was fitted to.
+    pub data: &'a Restitutions,
+    /// What was fitted.
+    pub problem: Problem<'a>,
+    /// The best values.
+    pub fit: Fit,
+    /// The error over one parameter, all others fitted anew.
+    pub profile: Option<Profile>,
+    /// Other laws on the same data.
+    pub compared: Vec<(Model, Fit)>,
+    /// Level of the intervals.
+    pub confidence: f64,
+}
+
+impl<'a> LawFit<'a> {
+    /// Names of the columns of [`LawFit::residuals`].
+    pub const RESIDUAL_COLUMNS: [&'static str; 7] = [
+        "speed_m_s",
+        "restitution",
+        "restitution_uncertainty",
+        "fitted_restitution",
+        "residual",
+        "contact_time_s",
+        "fitted_contact_time_s",
+    ];
+
+    /// Fits a law to measured restitutions.
+    ///
+    /// # Errors
+    /// Data that do not determine the free parameters.
+    pub fn of(
+        data: &'a Restitutions,
+        problem: Problem<'a>,
+        confidence: f64,
+    ) -> Result<Self, LawFault> {
+        let fit = problem.fit(confidence)?;
+        Ok(Self { data, problem, fit, profile: None, compared: Vec::new(), confidence })
+    }
+
+    /// Adds the error over a free parameter.
+    ///
+    /// # Errors
+    /// A value at which the others cannot be fitted.
+    pub fn with_profile(mut self, free: &Free) -> Result<Self, LawFault> {
+        self.profile = Some(self.problem.profile(&self.fit, free, &grid(free, &self.fit))?);
+        Ok(self)
+    }
+
+    /// Adds another law, its loss free, and a stiffness that no theory gives where there are contact
+    /// times to determine it.
+    ///
+    /// # Errors
+    /// A law without a loss, or that cannot be fitted.
+    pub fn compared_with(mut self, family: Family) -> Result<Self, LawFault> {
+        let model = self.problem.model.with_family(family)?;
+        let mut free = vec![family.parameters()[loss_parameter(family)?].key];
+        // Restitutions do not depend on it.
+        if self.data.points.iter().any(|point| point.contact_time.is_some()) {
+            let parameters = family.parameters().iter();
+            let stiff = parameters.filter(|parameter| parameter.role == Role::Stiffness);
+            free.extend(stiff.map(|parameter| parameter.key));
+        }
+        let problem = Problem::new(&model, &self.data.points, &free)?;
+        let law = family.name();
+        let fitted = |error: FitError| LawFault::Compared { law, error };
+        let fit = problem.fit(self.confidence).map_err(fitted)?;
+        self.compared.push((model, fit));
+        Ok(self)
+    }
+
+    /// Data, fitted values and their differences, a row a point; SI.
+    pub fn residuals(&self) -> impl Iterator<Item = [Option<f64>; 7]> {
+        self.problem.points.iter().map(|point| {
+            let fitted = self.problem.model.outcome(&self.fit.values, point.speed).ok();
+            let restitution = fitted.map(|fitted| fitted.restitution);
+            [
+                Some(point.speed),
+                Some(point.restitution),
+                point.restitution_uncertainty,
+                restitution,
+                restitution.map(|restitution| restitution - point.restitution),
+                point.contact_time,
+                fitted.and_then(|fitted| fitted.contact_time),
+            ]
+        })
+    }
+
+    /// What a reader should know before trusting the numbers.
+    pub fn warnings(&self) -> Vec<String> {
+        let (fit, problem) = (&self.fit, &self.problem);
+        let mut warnings = self.data.warnings();
+        for estimate in fit.estimates.iter().filter(|estimate| estimate.is_at_bound) {
+            warnings.push(format!("{} is at its bound: the best value lies beyond", estimate.key));
+        }
+        if fit.degrees_of_freedom == 0 {
+            let what = "as many data as parameters: the law passes through them, which says nothing \
+                        on whether it is right";
+            warnings.push(what.to_string());
+        }
+        let chi_square = fit.sum_of_squares / fit.degrees_of_freedom.max(1) as f64;
+        let is_misfit = fit.degrees_of_freedom > 0 && chi_square > LARGE_CHI_SQUARE;
+        if problem.has_uncertainties() && is_misfit {
+            warnings.push(format!(
+                "the misfit is {:.1} times the uncertainties: the law is wrong or they are too \
+                 small, and so are the intervals",
+                chi_square.sqrt()
+            ));
+        }
+        if !problem.has_uncertainties() && has_trend(&fit.residuals) {
+            let what = "the residuals have a trend: what is left is the law's misfit more than \
+                        scatter, and the intervals tell the fit's flatness, no probability";
+            warnings.push(what.to_string());
+        }
+        warnings
+    }
+}
+
+/// Neighbouring residuals of scatter have opposite signs half of the time; of a misfit, rarely.
+fn has_trend(residuals: &[f64]) -> bool {
+    let changes = residuals.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
+    residuals.len() >= 6 && 4 * changes < residuals.len()
+}
+
+/// Values around the best one; a logarithmic parameter's in equal ratios.
+fn grid(free: &Free, fit: &Fit) -> Vec<f64> {
+    let best = fit.values[free.index];
+    let estimate = fit.estimates.iter().find(|estimate| estimate.index == free.index);
+    let is_exponent = estimate.is_some_and(|estimate| estimate.key == "n");
+    let (low, high) = match estimate.and_then(|estimate| estimate.interval) {
+        _ if is_exponent => (best.min(EXPONENTS.0), best.max(EXPONENTS.1)),
+        Some((low, high)) if low > 0.0 => {
+            ((low / best).powf(GRID_REACH) * best, (high / best).powf(GRID_REACH) * best)
+        }
+        _ => (0.5 * best, 2.0 * best),
+    };
+    let (low, high) = (low.max(free.bounds.0), high.min(free.bounds.1));
+    let part = |k: usize| k as f64 / (GRID - 1) as f64;
+    (0..GRID)
+        .map(|k| match is_exponent {
+            true => low + part(k) * (high - low),
+            false => low * (high / low).powf(part(k)),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trend_is_told_from_scatter() {
+        assert!(has_trend(&[-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]));
+        assert!(!has_trend(&[-1.0, 1.0, -1.0, 1.0, -1.0, 1.0]));
+        // Five say nothing.
+        assert!(!has_trend(&[1.0; 5]));
+    }
+
+    #[test]
+    fn a_profile_spans_its_interval_within_the_bounds() {
+        let estimate = |key, interval| fem_fit::Estimate {
+            index: 0,
+            key,
+            value: 1.0,
+            standard_error: None,
+            interval,
+            is_at_bound: false,
+        };
+        let fit = |key, interval| Fit {
+            values: vec![1.0],
+            estimates: vec![estimate(key, interval)],
+            correlation: Vec::new(),
+            residuals: Vec::new(),
+            sum_of_squares: 0.0,
+            rms: 0.0,
+            degrees_of_freedom: 1,
+            quantile: None,
+            allowed_rise: None,
+            condition: 1.0,
+        };
+        let free = Free { index: 0, start: None, bounds: (0.1, 3.0) };
+        let ends = |values: Vec<f64>| (values[0], values[GRID - 1]);
+        assert_eq!(ends(grid(&free, &fit("n", None))), (0.4, 1.1));
+        assert_eq!(ends(grid(&free, &fit("a", None))), (0.5, 2.0));
+        let (low, high) = ends(grid(&free, &fit("a", Some((0.5, 2.0)))));
+        // 2^2.5 is beyond the bound, its reciprocal is not; powers round.
+        assert!((low - 0.5f64.powf(2.5)).abs() < 1e-15 && (high - 3.0).abs() < 1e-15);
+    }
+}

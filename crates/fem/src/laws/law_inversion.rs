@@ -1,0 +1,102 @@
+//! The parameter of a law that gives a wanted restitution at one speed.
+
+use fem_fit::{Inversion, Model, Point, Problem, invert};
+use fem_laws::{Family, Parameter, Role};
+
+use super::chosen_law::ChosenLaw;
+use super::law_fault::LawFault;
+use super::parameter::{find_parameter, loss_parameter};
+
+/// A law with the values of one parameter that give a restitution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawInversion {
+    /// The bodies under the law.
+    pub model: Model,
+    /// The place of the parameter that is found.
+    pub index: usize,
+    /// What gives the restitution.
+    pub inversion: Inversion,
+    /// Approach speed, m/s.
+    pub speed: f64,
+    /// Values of all parameters; of the one that is found only a guess.
+    values: Vec<f64>,
+}
+
+impl LawInversion {
+    /// Finds a parameter, or the one that stands for the loss, so that a collision at `speed` (m/s)
+    /// has a restitution.
+    ///
+    /// # Errors
+    /// A key that the law does not have; a law without a loss; a parameter without a value; a
+    /// restitution that no value gives.
+    ///
+    /// ```
+    /// # use std::path::Path;
+    /// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
+    /// # [[body]]
+    /// # name = 'floor'
+    /// # wall = {}
+    /// # [[body]]
+    /// # name = 'ball'
+    /// # sphere.diameter = 0.02
+    /// # material = 'ice'
+    /// # approach_speed = 0.1";
+    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
+    /// use fem::laws::{ChosenLaw, Family, LawInversion};
+    ///
+    /// let law = ChosenLaw::of(&case, Family::Tsuji, &[], None)?;
+    /// let found = LawInversion::of(&law, None, 0.1, 0.9)?;
+    /// assert_eq!(found.parameter().key, "alpha");
+    /// let [(alpha, _)] = found.solutions()[..] else { panic!("one") };
+    /// let made = found.model.outcome(&[alpha], 0.1)?;
+    /// assert!((made.restitution - 0.9).abs() < 1e-8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(
+        law: &ChosenLaw,
+        key: Option<&str>,
+        speed: f64,
+        restitution: f64,
+    ) -> Result<Self, LawFault> {
+        let family = law.family();
+        let index = match key {
+            Some(key) => find_parameter(family, key)?,
+            None => loss_parameter(family)?,
+        };
+        // A speed is that of the collision.
+        let is_known =
+            |other: usize| other == index || family.parameters()[other].role == Role::Speed;
+        if let Some(key) = law.missing(is_known) {
+            return Err(LawFault::Missing { law: family.name(), key, free: Vec::new() });
+        }
+        let at_speed = [Point::new(speed, restitution)];
+        let values = law.values(&Problem::new(law.model(), &at_speed, &[])?.values);
+        let model = law.model().clone();
+        let inversion = invert(&model, index, &values, speed, restitution)?;
+        Ok(Self { model, index, inversion, speed, values })
+    }
+
+    /// The parameter that is found.
+    pub fn parameter(&self) -> &'static Parameter {
+        &self.model.family().parameters()[self.index]
+    }
+
+    /// Its values, SI, each with the contact time that it makes, s; none if the bodies stay together.
+    pub fn solutions(&self) -> Vec<(f64, Option<f64>)> {
+        let contact_time = |value: f64| {
+            let mut values = self.values.clone();
+            values[self.index] = value;
+            self.model.outcome(&values, self.speed).ok()?.contact_time
+        };
+        self.inversion.solutions.iter().map(|value| (*value, contact_time(*value))).collect()
+    }
+}
+
+/// Whether a law has numbers beside its loss that no theory gives.
+pub fn needs_more(family: Family) -> bool {
+    let Some(loss) = family.loss_parameter() else { return true };
+    let mut parameters = family.parameters().iter().enumerate();
+    parameters.any(|(index, parameter)| {
+        index != loss && parameter.default.is_none() && parameter.role != Role::Speed
+    })
+}

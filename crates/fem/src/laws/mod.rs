@@ -1,0 +1,34 @@
+//! Contact laws by their parameters: fitted to restitutions, found for a wanted one, written for DEM
+//! codes.
+//!
+//! ```text
+//! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ fit_numbers
+//! keys and                a case's    ├─ law_inversion
+//! values as               law, what   └─ impact_curve ─ dem_export ─ export_numbers
+//! text                    is given       e(v), T(v)
+//! ```
+
+mod chosen_law;
+mod dem_export;
+mod export_numbers;
+mod fit_numbers;
+mod impact_curve;
+mod law_fault;
+mod law_fit;
+mod law_inversion;
+mod parameter;
+
+pub use chosen_law::{ChosenLaw, family_of, model_of};
+pub use dem_export::{DemExport, FittedLaw};
+pub use export_numbers::{ExportNumbers, PointNumbers, SnippetNumbers, SphereNumbers};
+pub use fit_numbers::{
+    ComparedNumbers, FitNumbers, ParameterNumbers, ProfileNumbers, ProfilePointNumbers,
+};
+pub use impact_curve::ImpactCurve;
+pub use law_fault::LawFault;
+pub use law_fit::LawFit;
+pub use law_inversion::{LawInversion, needs_more};
+pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
+
+pub use fem_fit::FitError;
+pub use fem_laws::{EndRule, Family};

@@ -1,0 +1,167 @@
+//! Parameters of laws as callers write them: `a = 0.2 ms`, `n = 0.65`.
+
+use fem_case::{UnitError, parse_quantity};
+use fem_laws::{Family, Parameter, Role};
+
+/// What is wrong with a parameter that a caller names or gives a value.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ParameterError {
+    /// The law has no such key.
+    #[error("{law} has no parameter {key:?}")]
+    Unknown {
+        /// Name of the law.
+        law: &'static str,
+        /// As it was written.
+        key: String,
+        /// The keys that there are.
+        known: Vec<&'static str>,
+    },
+    /// A law without a loss.
+    #[error("{law} loses nothing: it has no parameter to find")]
+    Lossless {
+        /// Name of the law.
+        law: &'static str,
+    },
+    /// A text that is no number with a unit.
+    #[error("{key}: {text:?}: {error}")]
+    NotANumber {
+        /// Of the parameter.
+        key: &'static str,
+        /// As it was written.
+        text: String,
+        /// What is wrong with it.
+        error: UnitError,
+    },
+    /// A unit of another dimension.
+    #[error("{key}: {text:?} is of another dimension")]
+    OtherDimension {
+        /// Of the parameter.
+        key: &'static str,
+        /// As it was written.
+        text: String,
+        /// SI unit of the parameter; empty for a plain number.
+        unit: &'static str,
+    },
+    /// A value without a meaning.
+    #[error("{key}: the value is {value:?}")]
+    OutOfRange {
+        /// Of the parameter.
+        key: &'static str,
+        /// SI.
+        value: f64,
+        /// What it must be.
+        allowed: String,
+    },
+}
+
+impl ParameterError {
+    /// What is allowed.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Unknown { known, .. } => Some(format!("its parameters are {}", known.join(", "))),
+            Self::OtherDimension { key, unit: "", .. } => {
+                Some(format!("{key} is a plain number; bare numbers are SI"))
+            }
+            Self::OtherDimension { key, unit, .. } => {
+                Some(format!("{key} is in {unit}; bare numbers are SI"))
+            }
+            Self::OutOfRange { allowed, .. } => Some(allowed.clone()),
+            Self::Lossless { .. } | Self::NotANumber { .. } => None,
+        }
+    }
+}
+
+/// The place of a law's parameter.
+///
+/// # Errors
+/// No such key.
+pub fn find_parameter(family: Family, key: &str) -> Result<usize, ParameterError> {
+    let key = key.trim();
+    let known = || family.parameters().iter().map(|parameter| parameter.key);
+    known().position(|found| found == key).ok_or_else(|| ParameterError::Unknown {
+        law: family.name(),
+        key: key.to_string(),
+        known: known().collect(),
+    })
+}
+
+/// The place of the parameter that stands for a law's loss.
+///
+/// # Errors
+/// A law without a loss.
+pub fn loss_parameter(family: Family) -> Result<usize, ParameterError> {
+    family.loss_parameter().ok_or(ParameterError::Lossless { law: family.name() })
+}
+
+/// A value with or without its unit, SI.
+///
+/// # Errors
+/// No number, another dimension, a value without a meaning.
+///
+/// ```
+/// use fem::laws::{Family, parse_value};
+///
+/// let dissipation_time = &Family::KuwabaraKono.parameters()[0];
+/// assert_eq!(parse_value(dissipation_time, "0.2 ms")?, 2e-4);
+///
+/// let error = parse_value(dissipation_time, "1 kg").unwrap_err();
+/// assert_eq!(error.to_string(), "a: \"1 kg\" is of another dimension");
+/// assert_eq!(error.help().unwrap(), "a is in s; bare numbers are SI");
+/// # Ok::<(), fem::laws::ParameterError>(())
+/// ```
+pub fn parse_value(parameter: &Parameter, text: &str) -> Result<f64, ParameterError> {
+    let Parameter { key, unit, dimension: [m, kg, s], .. } = *parameter;
+    let text = text.trim().trim_matches(['"', '\'']);
+    let (value, dimension) = parse_quantity(text).map_err(|error| {
+        let text = text.to_string();
+        ParameterError::NotANumber { key, text, error }
+    })?;
+    if dimension.0 != [0; 4] && dimension.0 != [m, kg, s, 0] {
+        return Err(ParameterError::OtherDimension { key, text: text.to_string(), unit });
+    }
+    check_value(parameter, value)?;
+    Ok(value)
+}
+
+/// Refuses a value without a meaning, SI.
+///
+/// # Errors
+/// Which values have one.
+pub fn check_value(parameter: &Parameter, value: f64) -> Result<(), ParameterError> {
+    let Parameter { key, role, limits: (low, high), .. } = *parameter;
+    let is_allowed = value >= low && value <= high && value.is_finite();
+    if is_allowed && (role == Role::Number || value > 0.0) {
+        return Ok(());
+    }
+    let allowed = match role {
+        Role::Number => format!("it must be from {low} to {high}"),
+        _ => "it must be greater than 0".to_string(),
+    };
+    Err(ParameterError::OutOfRange { key, value, allowed })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_are_found_and_their_values_have_a_meaning() {
+        let family = Family::BordbarHyppanen;
+        assert_eq!(find_parameter(family, " n "), Ok(1));
+        let error = find_parameter(family, "b").unwrap_err();
+        assert_eq!(error.help().unwrap(), "its parameters are a, n");
+        assert_eq!(loss_parameter(family), Ok(0));
+        let error = loss_parameter(Family::Hertz).unwrap_err();
+        assert_eq!(error.to_string(), "hertz loses nothing: it has no parameter to find");
+        let [a, n] = family.parameters() else { panic!("two parameters") };
+        assert_eq!(parse_value(n, "'0.65'"), Ok(0.65));
+        for (parameter, value, allowed) in [
+            (a, 0.0, "it must be greater than 0"),
+            (a, f64::INFINITY, "it must be greater than 0"),
+            (n, 7.0, "it must be from 0 to 3"),
+            (n, f64::NAN, "it must be from 0 to 3"),
+        ] {
+            assert_eq!(check_value(parameter, value).unwrap_err().help().unwrap(), allowed);
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Units in the names of columns: `speed_cm_s`, `alpha_deg`.
+
+use std::f64::consts::PI;
+
+/// The end of a column's name that is a unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ending {
+    /// With its underscore.
+    pub text: &'static str,
+    /// How many SI units it is.
+    pub scale: f64,
+    /// Exponents of metre, kilogram, second.
+    pub dimension: [i32; 3],
+}
+
+const fn ending(text: &'static str, scale: f64, dimension: [i32; 3]) -> Ending {
+    Ending { text, scale, dimension }
+}
+
+/// Of two that end the same name the longer one is first.
+const ENDINGS: [Ending; 14] = [
+    ending("_cm_s", 1e-2, [1, 0, -1]),
+    ending("_mm_s", 1e-3, [1, 0, -1]),
+    ending("_km_h", 1.0 / 3.6, [1, 0, -1]),
+    ending("_m_s", 1.0, [1, 0, -1]),
+    ending("_us", 1e-6, [0, 0, 1]),
+    ending("_ms", 1e-3, [0, 0, 1]),
+    ending("_ns", 1e-9, [0, 0, 1]),
+    ending("_s", 1.0, [0, 0, 1]),
+    ending("_deg", PI / 180.0, [0; 3]),
+    ending("_mrad", 1e-3, [0; 3]),
+    ending("_rad", 1.0, [0; 3]),
+    ending("_percent", 1e-2, [0; 3]),
+    ending("_mm", 1e-3, [1, 0, 0]),
+    ending("_m", 1.0, [1, 0, 0]),
+];
+
+/// The unit in which a column's name ends.
+pub(super) fn ending_of(header: &str) -> Option<Ending> {
+    ENDINGS.into_iter().find(|ending| header.ends_with(ending.text))
+}
+
+/// A name without the ending of its unit.
+pub(super) fn bare(header: &str) -> &str {
+    ENDINGS.iter().find_map(|ending| header.strip_suffix(ending.text)).unwrap_or(header)
+}
+
+/// A name, and all that it could be without a unit at its end: `speed_m_s` is `speed` in m/s, or
+/// `speed_m` in s.
+pub(super) fn readings(header: &str) -> impl Iterator<Item = &str> {
+    let bare = ENDINGS.iter().filter_map(|ending| header.strip_suffix(ending.text));
+    std::iter::once(header).chain(bare)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_end_in_their_units() {
+        assert_eq!(ending_of("speed_cm_s"), Some(ending("_cm_s", 1e-2, [1, 0, -1])));
+        assert_eq!(ending_of("speed"), None);
+        assert_eq!(bare("contact_time_us"), "contact_time");
+        assert_eq!(bare("e"), "e");
+        assert_eq!(readings("v_m_s").collect::<Vec<_>>(), ["v_m_s", "v", "v_m"]);
+    }
+}

@@ -1,0 +1,73 @@
+//! What is wrong with data, and where.
+
+/// A fault of data: what was found, in which line of which text, and what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: {message}", self.place())]
+pub struct DataError {
+    /// What the data are called, such as the name of their file.
+    pub source_name: String,
+    /// Line of the text, from 1.
+    pub line: Option<u64>,
+    /// Name of the column.
+    pub column: Option<String>,
+    /// What was found.
+    pub message: String,
+    /// What is allowed, or what to do.
+    pub help: Option<String>,
+}
+
+impl DataError {
+    /// Of data as a whole.
+    pub fn new(source_name: &str, message: impl std::fmt::Display) -> Self {
+        Self {
+            source_name: one_line(source_name),
+            line: None,
+            column: None,
+            message: one_line(&message.to_string()),
+            help: None,
+        }
+    }
+
+    /// Says in which line.
+    #[must_use]
+    pub fn in_line(self, line: u64) -> Self {
+        Self { line: Some(line), ..self }
+    }
+
+    /// Says in which column.
+    #[must_use]
+    pub fn in_column(self, column: &str) -> Self {
+        Self { column: Some(one_line(column)), ..self }
+    }
+
+    /// Adds what is allowed, or what to do.
+    #[must_use]
+    pub fn with_help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
+    }
+
+    /// `e.csv:3`, or the name alone.
+    pub fn place(&self) -> String {
+        match self.line {
+            Some(line) => format!("{}:{line}", self.source_name),
+            None => self.source_name.clone(),
+        }
+    }
+}
+
+/// Data may hold anything; a terminal must not obey them.
+pub(super) fn one_line(text: &str) -> String {
+    text.replace(char::is_control, "\u{fffd}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_tells_its_place_and_tames_what_it_quotes() {
+        let error = DataError::new("e.csv", "speed is \"\u{1b}[2J\"");
+        assert_eq!(error.to_string(), "e.csv: speed is \"\u{fffd}[2J\"");
+        assert_eq!(error.in_line(3).to_string(), "e.csv:3: speed is \"\u{fffd}[2J\"");
+    }
+}

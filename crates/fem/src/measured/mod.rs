@@ -1,0 +1,40 @@
+//! Measured data: from text with names and units to restitutions, with the place of every fault.
+//!
+//! ```text
+//! quantity          20 cm ± 1 mm
+//! data_error ─┬─ restitutions ─ pairs ──────── e(v) of one pair of bodies, or of several
+//!             │
+//!             └─ column_units ─ table ─┬────── restitution_columns ─ restitution_table ─ pair_table
+//!                speed_cm_s     CSV    └────── cradle_trials
+//! ```
+//!
+//! Texts are handed in, nothing is opened here; a name stands for where a text is from. Tables are
+//! the feature `csv`.
+
+#[cfg(feature = "csv")]
+mod column_units;
+#[cfg(feature = "csv")]
+mod cradle_trials;
+mod data_error;
+#[cfg(feature = "csv")]
+mod pair_table;
+mod pairs;
+mod quantity;
+#[cfg(feature = "csv")]
+mod restitution_columns;
+#[cfg(feature = "csv")]
+mod restitution_table;
+mod restitutions;
+#[cfg(feature = "csv")]
+mod table;
+
+#[cfg(feature = "csv")]
+pub use cradle_trials::cradle_trials;
+pub use data_error::DataError;
+pub use pairs::{MeasuredPair, MeasuredPairs};
+pub use quantity::{Kind, NotMeasured, parse_measured};
+pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError};
+#[cfg(feature = "csv")]
+pub use table::Table;
+
+pub use fem_fit::Point;

@@ -1,0 +1,66 @@
+//! Restitutions of several pairs of bodies from a table that tells their diameters.
+
+use fem_case::Scene;
+
+use super::data_error::DataError;
+use super::pairs::MeasuredPairs;
+use super::restitution_columns::Wanted;
+use super::restitution_table::read_rows;
+use super::table::Table;
+
+/// Columns that tell bodies apart, for the lower and the upper one; a sweep's own names last.
+const DIAMETERS: [[&str; 2]; 2] =
+    [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
+const SIDES: [&str; 2] = ["first", "second"];
+const LENGTH: [i32; 3] = [1, 0, 0];
+
+impl MeasuredPairs {
+    /// As [`Restitutions::read`](super::Restitutions::read); columns like `diameter_1_mm` and
+    /// `diameter_2_mm` make several pairs. The scene says which body is a wall.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the table.
+    pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        let columns = diameter_columns(table, scene)?;
+        let others: Vec<usize> = columns.iter().flatten().copied().collect();
+        let names = DIAMETERS.map(|[name, _]| name);
+        let wanted = Wanted { others: &others, names: &names, ..Wanted::default() };
+        let (data, rows) = read_rows(table, scene, wanted)?;
+        let diameters = rows.iter().map(|row| diameters(table, *row, columns));
+        let diameters: Vec<[Option<f64>; 2]> = diameters.collect::<Result<_, _>>()?;
+        Ok(Self::sorted(data, |point| diameters[point]))
+    }
+}
+
+fn diameter_columns(table: &Table, scene: &Scene) -> Result<[Option<usize>; 2], DataError> {
+    let [first, second] = DIAMETERS;
+    let columns = [table.find(&first)?, table.find(&second)?];
+    for ((column, body), side) in columns.iter().zip(&scene.bodies).zip(SIDES) {
+        if let (Some(column), None) = (column, body.diameter()) {
+            let (header, name) = (&table.header()[*column], &body.name);
+            let message = format!("{header} is of the {side} body, and \"{name}\" is a wall");
+            let error = table.header_fault(message).in_column(header);
+            return Err(error.with_help("leave the column out, or take a case of two spheres"));
+        }
+    }
+    Ok(columns)
+}
+
+fn diameters(
+    table: &Table,
+    row: usize,
+    columns: [Option<usize>; 2],
+) -> Result<[Option<f64>; 2], DataError> {
+    let mut diameters = [None, None];
+    for (diameter, column) in diameters.iter_mut().zip(columns) {
+        let Some(column) = column else { continue };
+        let value = table.number(row, column, LENGTH)?;
+        if value <= 0.0 {
+            let header = &table.header()[column];
+            let error = table.fault(row, format!("{header} is {value:?}")).in_column(header);
+            return Err(error.with_help("it must be greater than 0"));
+        }
+        *diameter = Some(value);
+    }
+    Ok(diameters)
+}

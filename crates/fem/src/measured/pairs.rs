@@ -1,0 +1,99 @@
+//! Restitutions sorted by the pair of bodies they are of.
+
+use fem_case::CaseFile;
+
+use super::restitutions::Restitutions;
+
+/// Restitutions by pairs of bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredPairs {
+    /// All points, in the order of the data.
+    pub data: Restitutions,
+    /// In the order of their first points.
+    pub pairs: Vec<MeasuredPair>,
+}
+
+/// The points of one pair.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredPair {
+    /// Diameters in place of the case's, m.
+    pub diameters: [Option<f64>; 2],
+    /// Places in the data.
+    pub points: Vec<usize>,
+}
+
+impl MeasuredPair {
+    /// Gives the spheres of a case the diameters of the data.
+    pub fn resize(&self, file: &mut CaseFile) {
+        for (body, diameter) in file.body.iter_mut().zip(self.diameters) {
+            if let (Some(sphere), Some(diameter)) = (&mut body.sphere, diameter) {
+                sphere.diameter = diameter.into();
+            }
+        }
+    }
+}
+
+/// All of the case's own pair.
+impl From<Restitutions> for MeasuredPairs {
+    fn from(data: Restitutions) -> Self {
+        Self::sorted(data, |_| [None, None])
+    }
+}
+
+impl MeasuredPairs {
+    /// Sorts points by the diameters (m) that they have in place of the case's.
+    pub fn sorted(data: Restitutions, diameters: impl Fn(usize) -> [Option<f64>; 2]) -> Self {
+        let mut pairs: Vec<MeasuredPair> = Vec::new();
+        for point in 0..data.points.len() {
+            let diameters = diameters(point);
+            match pairs.iter_mut().find(|known| known.diameters == diameters) {
+                Some(known) => known.points.push(point),
+                None => pairs.push(MeasuredPair { diameters, points: vec![point] }),
+            }
+        }
+        Self { data, pairs }
+    }
+
+    /// Restitutions of all points.
+    pub fn restitutions(&self) -> Vec<f64> {
+        self.data.points.iter().map(|point| point.restitution).collect()
+    }
+
+    /// Standard uncertainties of all points, if all have one.
+    pub fn uncertainties(&self) -> Option<Vec<f64>> {
+        self.data.points.iter().map(|point| point.restitution_uncertainty).collect()
+    }
+
+    /// For each point the first that is of the same collision: the same pair and speed.
+    pub fn collisions(&self) -> Vec<usize> {
+        let points = &self.data.points;
+        let is_same = |a: usize, b: usize| {
+            let (first, second) = (points[a].speed, points[b].speed);
+            // Units round.
+            (first - second).abs() <= 1e-12 * first && self.pair_of(a) == self.pair_of(b)
+        };
+        (0..points.len()).map(|k| (0..k).find(|j| is_same(*j, k)).unwrap_or(k)).collect()
+    }
+
+    /// The pair of a point.
+    pub fn pair_of(&self, point: usize) -> usize {
+        self.pairs.iter().position(|pair| pair.points.contains(&point)).unwrap_or(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_sorted_by_pairs_and_repeats_are_known() {
+        let data = Restitutions::of("e", &[(0.1, 0.9), (0.1, 0.8), (0.1, 0.91), (0.2, 0.9)]);
+        let sizes = [[Some(0.01), None], [Some(0.02), None]];
+        let measured = MeasuredPairs::sorted(data, |point| sizes[point % 2]);
+        assert_eq!(measured.pairs[0].points, [0, 2]);
+        assert_eq!(measured.pairs[1].points, [1, 3]);
+        assert_eq!([0, 1, 2, 3].map(|point| measured.pair_of(point)), [0, 1, 0, 1]);
+        assert_eq!(measured.collisions(), [0, 1, 0, 3]);
+        assert_eq!(measured.uncertainties(), None);
+    }
+}

@@ -1,0 +1,172 @@
+//! Numbers with their uncertainty as text: `20 cm ± 1 mm`, `30 +- 0.5 deg`, `13.7 g ± 1 %`.
+
+use std::f64::consts::PI;
+
+use fem_case::parse_quantity;
+use fem_fit::cradle::Measured;
+
+/// Kinds of quantity that a cradle takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A length, m.
+    Length,
+    /// A mass, kg.
+    Mass,
+    /// An acceleration, m/s².
+    Acceleration,
+    /// An angle, rad.
+    Angle,
+}
+
+/// Why a text is no measured quantity.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NotMeasured {
+    /// No number of this kind.
+    #[error("{text:?} is not {}", kind.words())]
+    OtherKind {
+        /// As it was found.
+        text: String,
+        /// What it should be.
+        kind: Kind,
+    },
+    /// More than half a turn, if it is in radians.
+    #[error("{0:?} without a unit is in radians; write '{0} deg' for degrees")]
+    BareDegrees(String),
+    /// Less than nothing.
+    #[error("an uncertainty is at least 0")]
+    NegativeUncertainty,
+}
+
+impl Kind {
+    fn dimension(self) -> [i32; 4] {
+        match self {
+            Self::Length => [1, 0, 0, 0],
+            Self::Mass => [0, 1, 0, 0],
+            Self::Acceleration => [1, 0, -2, 0],
+            Self::Angle => [0; 4],
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Length => "a length, such as '20 cm' or '20 cm ± 1 mm'",
+            Self::Mass => "a mass, such as '13.7 g' or '13.7 g ± 0.1 g'",
+            Self::Acceleration => "an acceleration, such as '9.81 m/s^2'",
+            Self::Angle => "an angle, such as '20 deg', '20 ± 0.5 deg' or '0.35 rad'",
+        }
+    }
+}
+
+/// Units of angles and how many radians they are. They are no units of a case file: there a bare
+/// number would do for any of them.
+const ANGLES: [(&str, f64); 5] =
+    [("deg", PI / 180.0), ("°", PI / 180.0), ("mrad", 1e-3), ("rad", 1.0), ("′", PI / 10_800.0)];
+
+/// A value with or without its uncertainty, SI.
+///
+/// # Errors
+/// What it is not.
+///
+/// ```
+/// use fem::measured::{Kind, parse_measured};
+///
+/// let length = parse_measured(Kind::Length, "20 cm ± 1 mm")?;
+/// assert_eq!((length.value, length.uncertainty), (0.2, 0.001));
+/// # Ok::<(), fem::measured::NotMeasured>(())
+/// ```
+pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
+    let signs = ["±", "+/-", "+-"];
+    let sign = signs.iter().find_map(|sign| text.split_once(sign));
+    let Some((value, uncertainty)) = sign else {
+        return Ok(Measured::exact(parse(kind, text)?));
+    };
+    let (value, uncertainty) = (value.trim(), uncertainty.trim());
+    // `30 ± 0.5 deg`: one unit for both.
+    let whole = match value.parse::<f64>() {
+        Ok(_) => {
+            let number = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
+            let unit = uncertainty.trim_start_matches(number);
+            if unit.trim() == "%" { value.to_string() } else { format!("{value}{unit}") }
+        }
+        Err(_) => value.to_string(),
+    };
+    let value = parse(kind, &whole)?;
+    let uncertainty = match uncertainty.strip_suffix('%') {
+        Some(share) => {
+            let share: f64 = share.trim().parse().map_err(|_| wrong(kind, uncertainty))?;
+            value.abs() * share * 1e-2
+        }
+        None => parse(kind, uncertainty)?,
+    };
+    if uncertainty < 0.0 {
+        return Err(NotMeasured::NegativeUncertainty);
+    }
+    Ok(Measured { value, uncertainty })
+}
+
+fn parse(kind: Kind, text: &str) -> Result<f64, NotMeasured> {
+    let text = text.trim();
+    if kind == Kind::Angle
+        && let Some((number, scale)) =
+            ANGLES.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, scale)))
+    {
+        let (number, dimension) = parse_quantity(number).map_err(|_| wrong(kind, text))?;
+        return if dimension.0 == [0; 4] { Ok(number * scale) } else { Err(wrong(kind, text)) };
+    }
+    let (value, dimension) = parse_quantity(text).map_err(|_| wrong(kind, text))?;
+    let is_angle = kind == Kind::Angle;
+    if is_angle && value > PI {
+        return Err(NotMeasured::BareDegrees(text.to_string()));
+    }
+    let is_bare = dimension.0 == [0; 4] && !text.ends_with('%');
+    if is_bare || dimension.0 == kind.dimension() { Ok(value) } else { Err(wrong(kind, text)) }
+}
+
+fn wrong(kind: Kind, text: &str) -> NotMeasured {
+    NotMeasured::OtherKind { text: text.to_string(), kind }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_and_uncertainties_are_read() {
+        let read = |kind, text| {
+            let Measured { value, uncertainty } = parse_measured(kind, text).unwrap();
+            (value, uncertainty)
+        };
+        assert_eq!(read(Kind::Length, "20 cm"), (0.2, 0.0));
+        assert_eq!(read(Kind::Length, "20 cm ± 1 mm"), (0.2, 0.001));
+        assert_eq!(read(Kind::Length, "20 +/- 0.1 cm"), (0.2, 0.001));
+        assert_eq!(read(Kind::Length, "0.2"), (0.2, 0.0));
+        assert_eq!(read(Kind::Mass, "2 kg ± 50 %"), (2.0, 1.0));
+        for text in ["30 deg ± 0.5 deg", "30 ± 0.5 deg", "30° +- 0.5°"] {
+            let (value, uncertainty) = read(Kind::Angle, text);
+            // Products of a rounded π/180.
+            assert!((value - PI / 6.0).abs() < 1e-15, "{text}");
+            assert!((uncertainty - PI / 360.0).abs() < 1e-16, "{text}");
+        }
+        assert_eq!(read(Kind::Angle, "0.35"), (0.35, 0.0));
+        // 350 × 0.001 rounds.
+        assert!((read(Kind::Angle, "350 mrad").0 - 0.35).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_none_is_refused() {
+        for (kind, text) in [
+            (Kind::Length, "20 g"),
+            (Kind::Length, "20 cm ± 1 g"),
+            (Kind::Length, "20 cm ± -1 mm"),
+            (Kind::Length, ""),
+            (Kind::Mass, "3 %"),
+            (Kind::Angle, "30"),
+            (Kind::Angle, "30 cm"),
+            (Kind::Angle, "30 cm deg"),
+            (Kind::Angle, "deg"),
+            (Kind::Angle, "±"),
+        ] {
+            assert!(parse_measured(kind, text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Restitutions over speeds from a table, measured or that of a sweep.
+
+use fem_case::Scene;
+
+use super::data_error::DataError;
+use super::restitution_columns::{CONTACT_TIMES, Columns, Wanted};
+use super::restitutions::Restitutions;
+use super::table::Table;
+use crate::sweep::COLUMNS;
+
+/// Names that need not be there, of which a near miss is no other name.
+const OPTIONAL: [&str; 5] =
+    ["restitution_uncertainty", "uncertainty", "standard_error", "sigma", "contact_time"];
+/// What stands beside them in tables that are made of trials, fits and sweeps.
+const WRITTEN: [&str; 9] = [
+    "speed_uncertainty",
+    "first_after",
+    "second_after",
+    "alpha",
+    "beta",
+    "fitted_restitution",
+    "residual",
+    "fitted_contact_time",
+    "member",
+];
+impl Restitutions {
+    /// Of a table with columns like `speed_m_s` and `restitution`, perhaps
+    /// `restitution_uncertainty`, or of a sweep over speeds. The scene has the speed of a body that
+    /// the sweep does not vary.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with the table.
+    ///
+    /// ```
+    /// # use std::path::Path;
+    /// # let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
+    /// # [[body]]
+    /// # name = 'floor'
+    /// # wall = {}
+    /// # [[body]]
+    /// # name = 'ball'
+    /// # sphere.diameter = 0.02
+    /// # material = 'ice'
+    /// # approach_speed = 0.1";
+    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
+    /// use fem::measured::{Restitutions, Table};
+    ///
+    /// let table = Table::parse("ice.csv", "speed_cm_s,e,sigma\n5,0.6,0.02\n20,0.4,0.02\n")?;
+    /// let ice = Restitutions::read(&table, &case.scene)?;
+    /// assert_eq!(ice.points[1].speed, 0.2);
+    /// assert_eq!(ice.points[1].restitution_uncertainty, Some(0.02));
+    ///
+    /// let table = Table::parse("ice.csv", "speed_cm_s,e\n5,60\n")?;
+    /// let error = Restitutions::read(&table, &case.scene).unwrap_err();
+    /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60.0");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn read(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        Ok(read_rows(table, scene, Wanted::default())?.0)
+    }
+
+    /// Restitutions, and contact times if the table has them.
+    ///
+    /// # Errors
+    /// As [`Restitutions::read`].
+    pub fn read_with_contact_times(table: &Table, scene: &Scene) -> Result<Self, DataError> {
+        let wanted = Wanted { contact_times: true, ..Wanted::default() };
+        Ok(read_rows(table, scene, wanted)?.0)
+    }
+}
+
+/// The restitutions of a table, and the row that each is from.
+///
+/// # Errors
+/// As [`Restitutions::read`].
+pub(super) fn read_rows(
+    table: &Table,
+    scene: &Scene,
+    wanted: Wanted<'_>,
+) -> Result<(Restitutions, Vec<usize>), DataError> {
+    let columns = Columns::of(table, scene, wanted)?;
+    let unread = table.unread(
+        &[&columns.read()[..], wanted.others].concat(),
+        &[&OPTIONAL[..], wanted.names].concat(),
+        |name| {
+            // A sweep's keys have points in their names; they are the same in all rows here.
+            name.contains('.')
+                || [COLUMNS, &WRITTEN, &CONTACT_TIMES].iter().any(|known| known.contains(&name))
+        },
+    )?;
+    let (mut points, mut rows) = (Vec::new(), Vec::new());
+    for row in 0..table.n_rows() {
+        if columns.has_result(table, row) {
+            points.push(columns.point(table, row)?);
+            rows.push(row);
+        }
+    }
+    if points.is_empty() {
+        return Err(DataError::new(table.name(), "no row has a restitution"));
+    }
+    let with = points.iter().filter(|point| point.restitution_uncertainty.is_some()).count();
+    if with != 0 && with != points.len() {
+        let message = format!("{with} of {} rows have an uncertainty", points.len());
+        return Err(
+            DataError::new(table.name(), message).with_help("give one in every row, or in none")
+        );
+    }
+    let restitutions = Restitutions {
+        name: table.name().to_string(),
+        n_left_out: table.n_rows() - points.len(),
+        lines: rows.iter().map(|row| table.line(*row)).collect(),
+        points,
+        unread,
+    };
+    Ok((restitutions, rows))
+}

@@ -1,0 +1,112 @@
+//! Restitutions over approach speeds: measured, or those of a sweep.
+
+use fem_fit::Point;
+
+use super::data_error::DataError;
+
+/// Uncertainties above it tell nothing of a number between 0 and 1.
+pub const LARGEST_UNCERTAINTY: f64 = 1.0;
+
+/// Restitutions over speeds, each with where it is from.
+///
+/// ```
+/// use fem::measured::Restitutions;
+///
+/// let measured = Restitutions::of("glass", &[(0.2, 0.93), (0.5, 0.925)]);
+/// assert_eq!(measured.points[1].restitution, 0.925);
+/// assert_eq!(measured.fault(1, "too fast").to_string(), "glass: point 1: too fast");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Restitutions {
+    /// What the data are called, such as the name of their file.
+    pub name: String,
+    /// Speed, m/s, and restitution, in the order of the data.
+    pub points: Vec<Point>,
+    /// The line of the text that each point is from; none if they are from code.
+    pub lines: Vec<u64>,
+    /// Rows of a sweep's members that failed.
+    pub n_left_out: usize,
+    /// Columns that nobody reads.
+    pub unread: Vec<String>,
+}
+
+/// Why data do not take an uncertainty.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum UncertaintyError {
+    /// Not greater than 0, or above [`LARGEST_UNCERTAINTY`].
+    #[error("the uncertainty of a restitution is {0:?}")]
+    OutOfRange(f64),
+    /// They have uncertainties of their own.
+    #[error("{0} has uncertainties of its own")]
+    Known(String),
+}
+
+impl Restitutions {
+    /// From speeds, m/s, with their restitutions.
+    pub fn of(name: &str, points: &[(f64, f64)]) -> Self {
+        let points = points.iter().map(|(speed, e)| Point::new(*speed, *e)).collect();
+        let name = name.to_string();
+        Self { name, points, lines: Vec::new(), n_left_out: 0, unread: Vec::new() }
+    }
+
+    /// Gives all points the same standard uncertainty.
+    ///
+    /// # Errors
+    /// One without a meaning; data that have their own.
+    pub fn set_uncertainty(&mut self, uncertainty: f64) -> Result<(), UncertaintyError> {
+        if !(uncertainty > 0.0 && uncertainty <= LARGEST_UNCERTAINTY) {
+            return Err(UncertaintyError::OutOfRange(uncertainty));
+        }
+        if self.points.iter().any(|point| point.restitution_uncertainty.is_some()) {
+            return Err(UncertaintyError::Known(self.name.clone()));
+        }
+        for point in &mut self.points {
+            point.restitution_uncertainty = Some(uncertainty);
+        }
+        Ok(())
+    }
+
+    /// Slowest and fastest, m/s.
+    pub fn speeds(&self) -> (f64, f64) {
+        let speeds = || self.points.iter().map(|point| point.speed);
+        (speeds().fold(f64::INFINITY, f64::min), speeds().fold(0.0, f64::max))
+    }
+
+    /// What was not looked at.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if self.n_left_out > 0 {
+            warnings.push(format!("{} rows without a result were left out", self.n_left_out));
+        }
+        if !self.unread.is_empty() {
+            warnings.push(format!("columns that are not read: {}", self.unread.join(", ")));
+        }
+        warnings
+    }
+
+    /// A fault of a point, in its line; one from code is counted from 0.
+    pub fn fault(&self, point: usize, message: impl std::fmt::Display) -> DataError {
+        match self.lines.get(point) {
+            Some(line) => DataError::new(&self.name, message).in_line(*line),
+            None => DataError::new(&self.name, format!("point {point}: {message}")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_uncertainty_is_given_once_and_has_a_meaning() {
+        let mut measured = Restitutions::of("e", &[(0.5, 0.9)]);
+        for bad in [0.0, -1.0, 1.1, f64::NAN] {
+            let refused = measured.set_uncertainty(bad);
+            assert!(matches!(refused, Err(UncertaintyError::OutOfRange(_))), "{bad}");
+        }
+        assert_eq!(measured.set_uncertainty(1.0), Ok(()));
+        assert_eq!(measured.points[0].restitution_uncertainty, Some(1.0));
+        let again = measured.set_uncertainty(0.1);
+        assert_eq!(again, Err(UncertaintyError::Known("e".to_string())));
+    }
+}

@@ -1,0 +1,195 @@
+//! CSV tables with a header: cells as numbers, faults with their line.
+//!
+//! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`; without one a
+//! cell is a bare SI number or has its unit, `5 cm/s`.
+
+use std::fmt::Display;
+
+use fem_case::{nearest, parse_quantity};
+
+use super::column_units::{bare, ending_of, readings};
+use super::data_error::{DataError, one_line};
+
+/// A table in memory, its cells as they are written.
+///
+/// ```
+/// use fem::measured::Table;
+///
+/// let table = Table::parse("e.csv", "# glass\nspeed_cm_s, e\n50, 0.925\n")?;
+/// let speed = table.require(&["speed"], "speed_m_s")?;
+/// assert_eq!(table.number(0, speed, [1, 0, -1])?, 0.5);
+///
+/// let error = table.number(0, speed, [0, 0, 1]).unwrap_err();
+/// assert_eq!(error.place(), "e.csv:3");
+/// # Ok::<(), fem::measured::DataError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table {
+    name: String,
+    header: Vec<String>,
+    header_line: u64,
+    rows: Vec<(u64, Vec<String>)>,
+}
+
+/// Similarity of names above which one is the other misspelt: `diameter1`, `uncertanty` are, and
+/// `contact_radius` for `contact_time` is not.
+const MISSPELT: f64 = 0.9;
+
+impl Table {
+    /// Reads a text; `name` stands for it in messages.
+    ///
+    /// # Errors
+    /// A text that is no CSV, or has no row.
+    pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
+        let name = one_line(name);
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|error| DataError::new(&name, error))?;
+        let is_header = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
+        let header_line = text.lines().position(is_header).map_or(1, |above| above as u64 + 1);
+        let header: Vec<String> =
+            header.iter().map(|name| name.trim_start_matches('\u{feff}').to_lowercase()).collect();
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| {
+                let line = error.position().map_or(0, csv::Position::line);
+                DataError::new(&name, error)
+                    .in_line(line)
+                    .with_help("every row has as many cells as the header")
+            })?;
+            let line = record.position().map_or(0, csv::Position::line);
+            rows.push((line, record.iter().map(str::to_string).collect()));
+        }
+        if rows.is_empty() {
+            return Err(DataError::new(&name, "there is no row below the header"));
+        }
+        Ok(Self { name, header, header_line, rows })
+    }
+
+    /// What the table is called, in one line.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// How many rows.
+    pub fn n_rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The names of the columns, in lower case.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The column that has one of these names, with or without the ending of a unit.
+    ///
+    /// # Errors
+    /// Two that have.
+    pub fn find(&self, names: &[&str]) -> Result<Option<usize>, DataError> {
+        let is_it = |column: &usize| {
+            readings(&self.header[*column]).any(|reading| names.contains(&reading))
+        };
+        let mut found = (0..self.header.len()).filter(is_it);
+        match (found.next(), found.next()) {
+            (Some(first), Some(second)) => {
+                let [first, second] = [first, second].map(|column| &self.header[column]);
+                let message = format!("the columns {first} and {second} mean the same");
+                Err(self.header_fault(message).with_help("keep one of the two"))
+            }
+            (first, _) => Ok(first),
+        }
+    }
+
+    /// As [`Table::find`]; a column that must be there, in messages under the first of its names.
+    ///
+    /// # Errors
+    /// None that has one of the names.
+    pub fn require(&self, names: &[&str], example: &str) -> Result<usize, DataError> {
+        self.find(names)?.ok_or_else(|| {
+            let found = self.header.join(", ");
+            self.header_fault(format!("there is no column {}; found are {found}", names[0]))
+                .with_help(format!("name a column {example}"))
+        })
+    }
+
+    /// Names of the columns that are neither read nor known otherwise.
+    ///
+    /// # Errors
+    /// One whose name is nearly that of a column that would be read.
+    pub fn unread(
+        &self,
+        read: &[usize],
+        optional: &[&str],
+        is_known: impl Fn(&str) -> bool,
+    ) -> Result<Vec<String>, DataError> {
+        let mut unread = Vec::new();
+        for (column, header) in self.header.iter().enumerate() {
+            let bare = bare(header);
+            if read.contains(&column) || is_known(header) || is_known(bare) {
+                continue;
+            }
+            // `contact_time_spread` and `mass_uncertainty` are names of their own.
+            let is_own = |near: &str| {
+                bare.starts_with(&format!("{near}_")) || bare.ends_with(&format!("_{near}"))
+            };
+            if let Some(near) = nearest(bare, optional, MISSPELT).filter(|near| !is_own(near)) {
+                let help = format!(
+                    "did you mean `{near}`? columns that may be given are {}; rename one that is \
+                     not to be read",
+                    optional.join(", ")
+                );
+                let error = self.header_fault(format!("unknown column {header}"));
+                return Err(error.in_column(header).with_help(help));
+            }
+            unread.push(one_line(header));
+        }
+        Ok(unread)
+    }
+
+    /// A cell as it is.
+    pub fn text(&self, row: usize, column: usize) -> &str {
+        self.rows[row].1.get(column).map_or("", String::as_str)
+    }
+
+    /// The line of a row.
+    pub fn line(&self, row: usize) -> u64 {
+        self.rows[row].0
+    }
+
+    /// A cell as a number of a dimension (exponents of metre, kilogram, second), SI.
+    ///
+    /// # Errors
+    /// Something else.
+    pub fn number(&self, row: usize, column: usize, dimension: [i32; 3]) -> Result<f64, DataError> {
+        let (text, header) = (self.text(row, column), &self.header[column]);
+        let fault = |found: String| {
+            self.fault(row, format!("{header} is \"{text}\", {found}")).in_column(header)
+        };
+        let (value, found) =
+            parse_quantity(text).map_err(|_| fault("which is not a number".to_string()))?;
+        let [m, kg, s] = dimension;
+        let is_bare = found.0 == [0; 4];
+        match ending_of(header) {
+            Some(ending) if ending.dimension != dimension => {
+                Err(fault(format!("in a column whose name ends in {}", ending.text))
+                    .with_help("the ending of a column's name is its unit"))
+            }
+            Some(ending) if is_bare => Ok(value * ending.scale),
+            None if is_bare || found.0 == [m, kg, s, 0] => Ok(value),
+            Some(_) => Err(fault("but the column's name has the unit already".to_string())),
+            None => Err(fault("which is of another dimension".to_string())),
+        }
+    }
+
+    /// A fault of a row.
+    pub fn fault(&self, row: usize, message: impl Display) -> DataError {
+        DataError::new(&self.name, message).in_line(self.line(row))
+    }
+
+    /// A fault of the names of columns.
+    pub fn header_fault(&self, message: impl Display) -> DataError {
+        DataError::new(&self.name, message).in_line(self.header_line)
+    }
+}

@@ -1,0 +1,64 @@
+//! What the mesh of a body is made from: a half disc made here, or a file.
+
+use fem_mesh::{HalfDisc, MeshError, Side, SphereMesh};
+
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// What a mesh is made from; equal ones make equal meshes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum MeshSource {
+    /// Made here.
+    HalfDisc(HalfDisc),
+    /// Read from a file.
+    File(SphereMesh),
+}
+
+impl MeshSource {
+    /// How many elements the mesh has, without making it.
+    ///
+    /// # Errors
+    /// As [`HalfDisc::n_elements`].
+    pub fn n_elements(&self) -> Result<usize, MeshError> {
+        match self {
+            Self::HalfDisc(half_disc) => half_disc.n_elements(),
+            Self::File(mesh) => Ok(mesh.quads().len()),
+        }
+    }
+
+    /// The mesh of the lower body, 0, or the upper one.
+    ///
+    /// # Errors
+    /// As [`HalfDisc::build`].
+    pub fn build(&self, body: usize) -> Result<SphereMesh, MeshError> {
+        let mesh = match self {
+            Self::HalfDisc(half_disc) => half_disc.build()?,
+            Self::File(mesh) => mesh.clone(),
+        };
+        Ok(mesh.on_side(if body == 0 { Side::Below } else { Side::Above }))
+    }
+}
+
+/// What the plan makes a sphere of this diameter (m) of.
+pub(crate) fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
+    HalfDisc {
+        radius: 0.5 * diameter,
+        contact_element_size: plan.contact_element_size,
+        refined_radius: plan.refined_radius,
+        growth: plan.growth,
+    }
+}
+
+/// The key that is to blame for a mesh that cannot be made.
+pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
+    let key = match error {
+        MeshError::RefinedRadius { .. } => "mesh.refined_radius",
+        MeshError::Growth(_) => "mesh.growth",
+        _ => "mesh.contact_element_size",
+    };
+    let refusal = Refusal::new(key, error.to_string());
+    match error {
+        MeshError::TooLarge(_) => refusal.with_help("use a larger contact_element_size"),
+        _ => refusal,
+    }
+}

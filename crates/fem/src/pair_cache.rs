@@ -1,0 +1,134 @@
+//! Condensed pairs that several cases share: a sweep over speeds or relaxations factors once.
+//!
+//! A pair is known by what it is made from, so that no mesh is made to find it. What a case gives
+//! does not depend on the cases before it: a pair that had to be enlarged is not put back.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use fem_condensed::{CondensedPair, PairSettings};
+use fem_material::Material;
+
+use crate::mesh_source::MeshSource;
+
+/// Bytes that all pairs of a cache may take.
+const MAX_BYTES: usize = 1_000_000_000;
+/// Numbers an equation that are neither factor nor field: mesh, places and values of the stiffness.
+const NUMBERS_PER_EQUATION: usize = 32;
+
+/// What a pair is made from; equal ones make equal pairs.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct PairKey {
+    /// Mesh and material, without its relaxation; none for a wall.
+    pub bodies: [Option<(MeshSource, Material)>; 2],
+    /// How it is condensed.
+    pub settings: PairSettings,
+}
+
+/// The pairs used last, as many as fit; always the last one.
+#[derive(Debug)]
+pub struct PairCache {
+    max_bytes: usize,
+    /// The one used last at the end.
+    entries: Mutex<Vec<Arc<Entry>>>,
+    n_made: AtomicUsize,
+}
+
+/// A pair, or the place of one that a thread is making while others wait for it.
+#[derive(Debug)]
+struct Entry {
+    key: PairKey,
+    pair: Mutex<Option<Arc<CondensedPair>>>,
+    /// 0 until it is made.
+    bytes: AtomicUsize,
+}
+
+impl Default for PairCache {
+    fn default() -> Self {
+        Self::with_max_bytes(MAX_BYTES)
+    }
+}
+
+impl PairCache {
+    /// An empty cache of pairs that take so many bytes together.
+    pub fn with_max_bytes(max_bytes: usize) -> Self {
+        Self { max_bytes, entries: Mutex::default(), n_made: AtomicUsize::new(0) }
+    }
+
+    /// How many pairs were factored.
+    pub fn n_made(&self) -> usize {
+        self.n_made.load(Ordering::Relaxed)
+    }
+
+    /// How many pairs are kept.
+    pub fn n_kept(&self) -> usize {
+        lock(&self.entries).len()
+    }
+
+    /// The pair that is made from `key`: a kept one, or the one that `make` makes.
+    ///
+    /// # Errors
+    /// Those of `make`.
+    pub(crate) fn pair<E>(
+        &self,
+        key: PairKey,
+        make: impl FnOnce(&PairKey) -> Result<CondensedPair, E>,
+    ) -> Result<Arc<CondensedPair>, E> {
+        let entry = self.entry(key);
+        let mut place = lock(&entry.pair);
+        if let Some(pair) = &*place {
+            return Ok(pair.clone());
+        }
+        let pair = match make(&entry.key) {
+            Ok(pair) => Arc::new(pair),
+            Err(error) => {
+                lock(&self.entries).retain(|other| !Arc::ptr_eq(other, &entry));
+                return Err(error);
+            }
+        };
+        self.n_made.fetch_add(1, Ordering::Relaxed);
+        entry.bytes.store(bytes(&pair), Ordering::Relaxed);
+        *place = Some(pair.clone());
+        drop(place);
+        self.trim();
+        Ok(pair)
+    }
+
+    /// The entry of this key, now the one used last.
+    fn entry(&self, key: PairKey) -> Arc<Entry> {
+        let mut entries = lock(&self.entries);
+        let entry = match entries.iter().position(|entry| entry.key == key) {
+            Some(index) => entries.remove(index),
+            None => {
+                let (pair, bytes) = (Mutex::new(None), AtomicUsize::new(0));
+                Arc::new(Entry { key, pair, bytes })
+            }
+        };
+        entries.push(entry.clone());
+        entry
+    }
+
+    /// Drops what was not used for longest; who has such a pair keeps it.
+    fn trim(&self) {
+        let mut entries = lock(&self.entries);
+        let bytes = |entry: &Arc<Entry>| entry.bytes.load(Ordering::Relaxed);
+        let mut total: usize = entries.iter().map(bytes).sum();
+        while total > self.max_bytes {
+            let older = &entries[..entries.len().saturating_sub(1)];
+            let Some(oldest) = older.iter().position(|entry| bytes(entry) > 0) else { break };
+            total -= bytes(&entries.remove(oldest));
+        }
+    }
+}
+
+/// A thread that panicked left what it was changing whole.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// About what a pair takes, the springs of a relaxing shear included, which are made later.
+fn bytes(pair: &CondensedPair) -> usize {
+    let settings = pair.settings();
+    let n_fields = settings.shear_blocks * pair.n_points() + settings.vibration_modes;
+    pair.factor_bytes() + 8 * pair.n_equations() * (n_fields + NUMBERS_PER_EQUATION)
+}

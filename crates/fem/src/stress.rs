@@ -1,0 +1,35 @@
+//! The stress in a body at an instant of its collision.
+
+use fem_collision::{Snapshot, StressField};
+use fem_mesh::SphereMesh;
+
+use crate::simulation::Simulation;
+
+/// The stress in a body at an instant.
+#[derive(Clone, Debug)]
+pub struct BodyStress<'a> {
+    /// Nodes and elements, as the body lies before the collision.
+    pub mesh: &'a SphereMesh,
+    /// (σ_rr, σ_yy, σ_θθ, σ_ry) of each, tension positive, Pa.
+    pub field: StressField,
+}
+
+impl BodyStress<'_> {
+    /// Depth below the contact pole (m) and stress of each node on the axis, from the contact to the
+    /// far pole. There σ_rr = σ_θθ and σ_ry = 0: the stresses are principal.
+    pub fn on_axis(&self) -> impl Iterator<Item = (f64, [f64; 4])> {
+        let nodes = self.mesh.axis().iter().map(|node| *node as usize);
+        nodes.map(|node| (self.mesh.nodes()[node][1].abs(), self.field.points[node]))
+    }
+}
+
+impl Simulation {
+    /// The stress in the lower body, 0, or the upper one, 1, at an instant of its collision; none in
+    /// a wall, nor by a model without elements.
+    pub fn stress(&self, snapshot: &Snapshot, side: usize) -> Option<BodyStress<'_>> {
+        let mesh = self.model.meshes()[side]?;
+        let material = self.case.scene.bodies[side].material()?;
+        let field = StressField::of(mesh, material, &snapshot.bodies[side]);
+        Some(BodyStress { mesh, field })
+    }
+}

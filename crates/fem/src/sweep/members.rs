@@ -1,0 +1,59 @@
+//! Where the cases of a sweep come from.
+
+use fem_case::{Case, CaseError, Sweep};
+
+/// So many cases, each made when it is asked for.
+///
+/// A sweep file is one such source, [`Variations`](super::Variations) made in code another, and
+/// cases at hand are a third.
+pub trait Members: Sync {
+    /// How many there are.
+    fn n_members(&self) -> usize;
+
+    /// What `make` makes of a member's case.
+    ///
+    /// # Errors
+    /// A member that is no valid case, or of which `make` can make nothing. A sweep file points at
+    /// the value that is to blame, for which it may make other cases.
+    fn build<T>(
+        &self,
+        index: usize,
+        make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> Result<T, CaseError>;
+
+    /// A member's case.
+    ///
+    /// # Errors
+    /// A member that is no valid case.
+    fn case(&self, index: usize) -> Result<Case, CaseError> {
+        self.build(index, Ok)
+    }
+}
+
+impl Members for Sweep {
+    fn n_members(&self) -> usize {
+        Sweep::n_members(self)
+    }
+
+    fn build<T>(
+        &self,
+        index: usize,
+        make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> Result<T, CaseError> {
+        Sweep::build(self, index, make)
+    }
+}
+
+impl Members for [Case] {
+    fn n_members(&self) -> usize {
+        self.len()
+    }
+
+    fn build<T>(
+        &self,
+        index: usize,
+        make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> Result<T, CaseError> {
+        make(self[index].clone())
+    }
+}

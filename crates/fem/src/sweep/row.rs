@@ -1,0 +1,52 @@
+//! What comes out of a member, as a row of a table.
+
+use serde_json::Value;
+
+use super::columns::value_of;
+use super::identity::Member;
+use crate::results::Summary;
+
+/// A member that has been computed.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its place in the sweep.
+    pub index: usize,
+    /// Of each varied key, as written.
+    pub values: Vec<String>,
+    /// What the member is known by.
+    pub identity: String,
+    /// Its summary.
+    pub summary: Value,
+}
+
+impl Row {
+    /// The row of a member with these values, and this summary as JSON.
+    pub fn new<V: ToString>(
+        member: &Member,
+        values: impl IntoIterator<Item = V>,
+        summary: Value,
+    ) -> Self {
+        let values = values.into_iter().map(|value| value.to_string()).collect();
+        Self { index: member.index, values, identity: member.identity.clone(), summary }
+    }
+
+    /// A row of a summary as it comes out of a run.
+    pub fn of<V: ToString>(
+        member: &Member,
+        values: impl IntoIterator<Item = V>,
+        summary: &Summary,
+    ) -> Self {
+        // A summary has only finite numbers and text: it always serializes.
+        Self::new(member, values, serde_json::to_value(summary).unwrap_or_default())
+    }
+
+    /// The value of one of the [`COLUMNS`](super::COLUMNS); `null` if it has none.
+    pub fn value(&self, column: &str) -> Value {
+        value_of(&self.summary, column)
+    }
+
+    /// Whether the member's collision ended by itself.
+    pub fn is_complete(&self) -> bool {
+        self.summary["complete"] == true
+    }
+}

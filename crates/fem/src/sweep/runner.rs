@@ -1,0 +1,72 @@
+//! Runs one member, or many side by side.
+
+use fem_case::CaseError;
+use fem_collision::Monitor;
+use rayon::iter::{ParallelBridge, ParallelIterator};
+
+use super::members::Members;
+use super::observer::{Observer, Ran};
+use crate::method::Shared;
+use crate::simulation::Simulation;
+
+/// Members and what they are run with.
+#[derive(Clone, Copy, Debug)]
+pub struct Runner<'a, M: ?Sized> {
+    members: &'a M,
+    shared: &'a Shared,
+    has_fields: bool,
+}
+
+impl<'a, M: Members + ?Sized> Runner<'a, M> {
+    /// Runs members that take from `shared` what others have made already.
+    pub fn new(members: &'a M, shared: &'a Shared) -> Self {
+        Self { members, shared, has_fields: true }
+    }
+
+    /// This runner without the fields that the members ask for; all else keeps its bits.
+    #[must_use]
+    pub fn without_fields(self) -> Self {
+        Self { has_fields: false, ..self }
+    }
+
+    /// Runs a member on this thread.
+    ///
+    /// # Errors
+    /// A member that is no valid case or that its model refuses.
+    pub fn run_one(&self, index: usize, monitor: &mut dyn Monitor) -> Result<Ran, CaseError> {
+        let make = |case| Simulation::sharing(case, self.shared);
+        let mut simulation = self.members.build(index, make)?;
+        if !self.has_fields {
+            simulation.skip_snapshots();
+        }
+        let collision = simulation.run(monitor);
+        Ok(Ran { simulation, collision })
+    }
+
+    /// Runs these members, begun in this order, on the threads of the current rayon pool, each
+    /// member on one.
+    ///
+    /// Returns what `keep` keeps of each and its place in the sweep, in the order of the sweep
+    /// whatever that of running; `observer` may leave members out. Where there are no threads, as in
+    /// a browser, one runs after the other.
+    pub fn run<T: Send>(
+        &self,
+        order: &[usize],
+        observer: &impl Observer,
+        keep: impl Fn(Ran) -> T + Sync,
+    ) -> Vec<(usize, Result<T, CaseError>)> {
+        let run = |&index: &usize| {
+            if !observer.admits(index) {
+                return None;
+            }
+            let mut watch = observer.begin(index);
+            let ran = self.run_one(index, &mut watch);
+            observer.end(index, watch, ran.as_ref());
+            Some((index, ran.map(&keep)))
+        };
+        // A bridge hands members out one by one, in order.
+        let mut kept: Vec<_> = order.iter().par_bridge().filter_map(run).collect();
+        kept.sort_by_key(|(index, _)| *index);
+        kept
+    }
+}

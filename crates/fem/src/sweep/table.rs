@@ -1,0 +1,39 @@
+//! `sweep.csv`: the swept keys as written, the summary's columns, and the member's identity.
+
+use std::io::Write;
+
+use serde_json::Value;
+
+use super::columns::COLUMNS;
+use super::row::Row;
+
+/// The name of the file.
+pub const SWEEP_FILE: &str = "sweep.csv";
+
+/// Writes a table, a row a member; numbers are the shortest that read back as the same, a cell
+/// without a value is empty.
+///
+/// # Errors
+/// Those of `to`.
+pub fn sweep_csv<'k>(
+    to: impl Write,
+    keys: impl IntoIterator<Item = &'k str>,
+    rows: &[Row],
+) -> csv::Result<()> {
+    let mut file = csv::Writer::from_writer(to);
+    file.write_record(keys.into_iter().chain(COLUMNS.iter().copied()).chain(["member"]))?;
+    for row in rows {
+        let columns = COLUMNS.iter().map(|column| cell(&row.value(column)));
+        let values = row.values.iter().cloned();
+        file.write_record(values.chain(columns).chain([row.identity.clone()]))?;
+    }
+    Ok(file.flush()?)
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        value => value.to_string(),
+    }
+}

@@ -1,0 +1,151 @@
+//! Fits, inversions and exports as a library user has them.
+
+use fem::laws::{
+    ChosenLaw, DemExport, EndRule, Family, FitError, ImpactCurve, LawFault, LawFit, LawInversion,
+    ParameterError, family_of, needs_more,
+};
+use fem::measured::Restitutions;
+use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable, TsujiTable};
+use fem::{Case, CaseFile};
+
+/// A ball of ice on a wall.
+fn ball(model: Option<ModelTable>) -> Case {
+    let ice = MaterialTable::from_youngs_modulus_poissons_ratio(917.0, "9.3 GPa", 0.33);
+    let ball = BodyTable::sphere("ball", "20 mm", "ice").approaching("0.1 m/s");
+    let mut file = CaseFile::of_bodies(BodyTable::wall("floor"), ball).with_material("ice", ice);
+    file.model = model;
+    Case::of(file).unwrap()
+}
+
+fn tsuji(restitution: f64) -> ModelTable {
+    ModelTable::law(TsujiTable { e: Some(restitution.into()), ..TsujiTable::default() })
+}
+
+/// Restitutions that Bordbar and Hyppänen's law makes with n = 0.65.
+fn made(dissipation_time: f64, speeds: &[f64]) -> Restitutions {
+    let case = ball(None);
+    let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[], None).unwrap();
+    let point = |speed: &f64| {
+        let made = law.model().outcome(&[dissipation_time, 0.65], *speed).unwrap();
+        (*speed, made.restitution)
+    };
+    Restitutions::of("made", &speeds.iter().map(point).collect::<Vec<_>>())
+}
+
+#[test]
+fn a_law_that_made_the_data_is_found_again() {
+    let (case, data) = (ball(None), made(1e-6, &[0.02, 0.05, 0.1, 0.2, 0.5]));
+    let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[], None).unwrap();
+    let problem = law.problem(&data.points, &["a", "n"]).unwrap();
+    let exponent = problem.free[1];
+    let fit = LawFit::of(&data, problem, 0.95).unwrap().with_profile(&exponent).unwrap();
+    let fit = fit.compared_with(Family::KuwabaraKono).unwrap();
+    // The fit's own accuracy: differences of 1e-4 that are good to 1e-5.
+    assert!((fit.fit.values[0] / 1e-6 - 1.0).abs() < 1e-3, "{:?}", fit.fit.values);
+    assert!((fit.fit.values[1] - 0.65).abs() < 1e-3, "{:?}", fit.fit.values);
+    let [(_, compared)] = &fit.compared[..] else { panic!("one is compared") };
+    assert!(compared.rms > 100.0 * fit.fit.rms);
+    assert!(fit.residuals().all(|row| row[4].unwrap().abs() < 1e-4));
+    let numbers = serde_json::to_value(fit.numbers("ball")).unwrap();
+    assert_eq!(
+        (&numbers["law"], &numbers["end"]),
+        (&"bordbar_hyppanen".into(), &"zero_force".into())
+    );
+    assert_eq!(numbers["profile"]["key"], "n");
+    assert_eq!(numbers["parameters"][1]["free"], true);
+}
+
+#[test]
+fn what_is_given_goes_before_the_case_and_is_where_a_search_begins() {
+    let case = ball(Some(tsuji(0.9)));
+    assert_eq!(family_of(&case.scene), Some(Family::Tsuji));
+    let data = Restitutions::of("e", &[(0.1, 0.8), (0.2, 0.8)]);
+    let own = ChosenLaw::of(&case, Family::Tsuji, &[], None).unwrap();
+    let problem = own.problem(&data.points, &[]).unwrap();
+    // The case's value is known, and no place to begin.
+    assert!(problem.values[0] > 0.0 && problem.free[0].start.is_none());
+    let given = ChosenLaw::of(&case, Family::Tsuji, &[("alpha", 0.3)], None).unwrap();
+    assert_eq!(given.problem(&data.points, &[]).unwrap().free[0].start, Some(0.3));
+    let wall_end = Some(EndRule::ZeroOverlap);
+    let end = ChosenLaw::of(&case, Family::Tsuji, &[], wall_end).unwrap();
+    assert_eq!(end.model().end_rule(), EndRule::ZeroOverlap);
+}
+
+#[test]
+fn what_no_law_can_do_is_refused() {
+    let case = ball(None);
+    let of = |family, given: &[(&str, f64)], end| ChosenLaw::of(&case, family, given, end);
+    let unknown = of(Family::Tsuji, &[("n", 0.5)], None).unwrap_err();
+    assert!(matches!(unknown, LawFault::Parameter(ParameterError::Unknown { .. })));
+    let nan = of(Family::Tsuji, &[("alpha", f64::NAN)], None).unwrap_err();
+    assert!(matches!(nan, LawFault::Parameter(ParameterError::OutOfRange { .. })));
+    let end = of(Family::ZhangWhiten, &[], Some(EndRule::ZeroOverlap)).unwrap_err();
+    assert_eq!(end, LawFault::Fit(FitError::OwnEnd { law: "zhang_whiten" }));
+    assert_eq!(of(Family::Ting, &[], None).unwrap_err(), LawFault::Fit(FitError::NoRelaxation));
+
+    let data = Restitutions::of("e", &[(0.1, 0.8)]);
+    let linear = of(Family::Linear, &[], None).unwrap();
+    let missing = linear.problem(&data.points, &[]).unwrap_err();
+    let expected = LawFault::Missing { law: "linear", key: "k", free: vec!["c"] };
+    assert_eq!((missing.to_string().as_str(), missing), ("linear needs a value of k", expected));
+    let lossless = of(Family::Hertz, &[], None).unwrap();
+    let fault = LawInversion::of(&lossless, None, 0.1, 0.9).unwrap_err();
+    assert_eq!(fault, LawFault::Parameter(ParameterError::Lossless { law: "hertz" }));
+}
+
+#[test]
+fn every_law_that_needs_no_more_is_inverted() {
+    let case = ball(None);
+    for family in Family::ALL.into_iter().filter(|family| *family != Family::Ting) {
+        if needs_more(family) {
+            continue;
+        }
+        let law = ChosenLaw::of(&case, family, &[], None).unwrap();
+        let found = LawInversion::of(&law, None, 0.1, 0.92).unwrap();
+        assert!(!found.solutions().is_empty());
+        for (value, contact_time) in found.solutions() {
+            assert!(value > 0.0 && contact_time.unwrap() > 0.0, "{}", family.name());
+        }
+    }
+    assert!(needs_more(Family::Linear) && needs_more(Family::Hertz));
+}
+
+#[test]
+fn an_export_says_where_it_is_good() {
+    let case = ball(Some(tsuji(0.9)));
+    let curve = ImpactCurve::computed(&case, Some((0.05, 0.5))).unwrap();
+    assert!(!curve.has_hertz_times && curve.points.len() == 13);
+    let export = DemExport::of(&case, curve, 0.01).unwrap();
+    let [constant, viscoelastic, _] = &export.laws;
+    // As the law gives it at each speed, to its tolerance.
+    assert!((export.export.hertz.restitution - 0.9).abs() < 1e-7);
+    assert_eq!(constant.validity[..2], [0.05, 0.5]);
+    assert!(viscoelastic.validity[2] > 0.01);
+    let numbers = export.numbers("ball", &export.snippets().unwrap());
+    let numbers = serde_json::to_value(numbers).unwrap();
+    assert_eq!(numbers["wall"], true);
+    assert!(numbers["snippets"][0]["entries"].as_object().is_some_and(|all| !all.is_empty()));
+
+    // Without contact times Hertz' stand in; one speed says nothing.
+    let measured =
+        |points: &[(f64, f64)]| ImpactCurve::measured(&case.scene, &Restitutions::of("e", points));
+    assert!(measured(&[(0.2, 0.9), (0.1, 0.9)]).unwrap().has_hertz_times);
+    let one = measured(&[(0.2, 0.9)]).unwrap_err();
+    assert_eq!(one.to_string(), "e: one speed only");
+}
+
+#[test]
+fn elements_have_ting_in_their_place_if_a_body_relaxes() {
+    let elastic = ImpactCurve::computed(&ball(None), None).unwrap_err();
+    assert_eq!(elastic, LawFault::NoStandIn(FitError::NoRelaxation));
+    let case = ball(None).edited(|file| {
+        let ice = file.material.remove("ice").unwrap();
+        let ice = ice.relaxing(ActsOn::All, [TermTable::with_relaxation_time(0.5, "1 ms")]);
+        file.material.insert("ice".to_string(), ice);
+    });
+    let curve = ImpactCurve::computed(&case.unwrap(), None).unwrap();
+    let (low, high) = curve.speeds();
+    // A decade around the case's speed; powers round.
+    assert!((high / low - 10.0).abs() < 1e-9 && (low * high - 0.01).abs() < 1e-12);
+    assert!(curve.points.iter().all(|point| point.restitution < 1.0));
+}

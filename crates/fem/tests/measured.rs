@@ -1,0 +1,91 @@
+//! Tables of measured data: every spelling of the same data is the same, faults have their place.
+
+use fem::measured::{MeasuredPairs, Restitutions, Table};
+use fem::schema::{BodyTable, MaterialTable};
+use fem::{Case, CaseFile};
+
+fn case(lower: BodyTable) -> Case {
+    let glass = MaterialTable::from_youngs_modulus_poissons_ratio(2390.0, "63 GPa", 0.244);
+    let target = BodyTable::sphere("target", "15.9 mm", "glass").approaching("0.25 m/s");
+    Case::of(CaseFile::of_bodies(lower, target).with_material("glass", glass)).unwrap()
+}
+
+fn spheres() -> Case {
+    case(BodyTable::sphere("striker", "22.2 mm", "glass"))
+}
+
+#[test]
+fn units_and_columns_of_sweeps_are_read() {
+    for text in [
+        "speed_m_s,restitution\n0.5,0.95\n0.75,0.92\n",
+        "# a comment\nSpeed_cm_s, e\n50, 0.95\n75, 0.92\n",
+        "v,restitution_percent\n50 cm/s,95\n0.75 m/s,92\n",
+        // The other body has 0.25 m/s.
+        "body.0.approach_speed,restitution,complete\n0.25,0.95,true\n0.5,0.92,true\n1,,false\n",
+    ] {
+        let table = Table::parse("e.csv", text).unwrap();
+        let read = Restitutions::read(&table, &spheres().scene).unwrap();
+        assert_eq!(read.points.len(), 2);
+        for (point, (speed, restitution)) in read.points.iter().zip([(0.5, 0.95), (0.75, 0.92)]) {
+            // Units round.
+            let is_it = point.speed == speed && (point.restitution - restitution).abs() < 1e-15;
+            assert!(is_it, "{text}: {point:?}");
+        }
+        assert_eq!(read.n_left_out, usize::from(text.contains("false")));
+        assert_eq!(read.speeds(), (0.5, 0.75));
+    }
+}
+
+#[test]
+fn contact_times_are_read_where_they_are_wanted() {
+    let text = "speed_m_s,e,contact_time_us,humidity\n0.5,0.95,65,0.4\n";
+    let table = Table::parse("e.csv", text).unwrap();
+    let scene = spheres().scene;
+    let read = Restitutions::read(&table, &scene).unwrap();
+    assert_eq!(read.points[0].contact_time, None);
+    assert_eq!(read.warnings(), ["columns that are not read: humidity"]);
+    let read = Restitutions::read_with_contact_times(&table, &scene).unwrap();
+    // 65 × 1e-6 rounds.
+    assert!((read.points[0].contact_time.unwrap() - 65e-6).abs() < 1e-19);
+}
+
+#[test]
+fn diameters_make_pairs() {
+    let text = "diameter_1_mm,speed_m_s,e\n10,0.5,0.95\n20,0.5,0.94\n10,1,0.95\n";
+    let table = Table::parse("e.csv", text).unwrap();
+    let read = MeasuredPairs::read(&table, &spheres().scene).unwrap();
+    assert_eq!(read.pairs[0].diameters, [Some(0.01), None]);
+    assert_eq!((&read.pairs[0].points[..], &read.pairs[1].points[..]), (&[0, 2][..], &[1][..]));
+    assert_eq!(read.data.lines, [2, 3, 4]);
+    let resized = spheres().edited(|file| read.pairs[1].resize(file)).unwrap();
+    let diameters = resized.scene.bodies.map(|body| body.diameter().unwrap());
+    assert_eq!(diameters, [0.02, 0.0159]);
+}
+
+#[test]
+fn faults_have_name_line_and_column() {
+    let fault = |case: &Case, text: &str| {
+        let table = Table::parse("bad.csv", text)?;
+        MeasuredPairs::read(&table, &case.scene).map(|_| ())
+    };
+    for (text, place, column, message) in [
+        ("", "bad.csv", None, "there is no row below the header"),
+        ("speed_m_s,e\n1,0.9,3\n", "bad.csv:2", None, "CSV error"),
+        ("speed_m_s,e\n1,0.9\n2,much\n", "bad.csv:3", Some("e"), "which is not a number"),
+        ("speed_m_s,e\n1,92\n", "bad.csv:2", Some("e"), "the restitution is 92.0"),
+        ("speed_s,e\n1,0.9\n", "bad.csv:2", Some("speed_s"), "a column whose name ends in _s"),
+        ("speed,e\n1 kg,0.9\n", "bad.csv:2", Some("speed"), "of another dimension"),
+        ("v_m_s,speed_m_s,e\n1,1,0.9\n", "bad.csv:1", None, "mean the same"),
+        ("speed_m_s,e,sigma\n1,0.9,5\n", "bad.csv:2", Some("sigma"), "sigma is 5.0"),
+        ("speed_m_s,e,sigma\n1,0.9,\n2,0.9,0.1\n", "bad.csv", None, "1 of 2 rows have"),
+        ("diameter_1_mm,speed_m_s,e\n-3,1,0.9\n", "bad.csv:2", Some("diameter_1_mm"), "-0.003"),
+        ("speed_m_s,e,uncertanty\n1,0.9,1\n", "bad.csv:1", Some("uncertanty"), "unknown column"),
+    ] {
+        let error = fault(&spheres(), text).unwrap_err();
+        assert_eq!((error.place().as_str(), error.column.as_deref()), (place, column), "{error}");
+        assert!(error.message.contains(message), "{error}");
+    }
+    let wall = case(BodyTable::wall("floor"));
+    let error = fault(&wall, "diameter_1_mm,speed_m_s,e\n10,1,0.9\n").unwrap_err();
+    assert_eq!(error.message, "diameter_1_mm is of the first body, and \"floor\" is a wall");
+}

@@ -1,0 +1,294 @@
+//! The sweep engine as a library user has it: members from a file and from code, their order, who
+//! looks on, what comes out.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use fem::schema::{
+    ActsOn, BodyTable, CondensedTable, LimitsTable, MaterialTable, MeshTable, ModelTable, TermTable,
+};
+use fem::sweep::{
+    COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, advice, column_unit,
+    column_words, dearest_first, identify, left_to_do, sweep_csv,
+};
+use fem::{Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
+use fem_case::Sweep;
+
+const SPEEDS: [f64; 3] = [0.3, 0.1, 0.2];
+
+/// A pair of glass spheres with elements for some hundred microseconds of computation.
+fn pair(model: ModelTable) -> Case {
+    let glass = MaterialTable::from_youngs_modulus_poissons_ratio(2390.0, 63e9, 0.244)
+        .relaxing(ActsOn::All, [TermTable::with_decay_rate(1.0, 2708.0)]);
+    let striker = BodyTable::sphere("striker", 22.2e-3, "glass").approaching(0.5);
+    let mut file = CaseFile::of_bodies(striker, BodyTable::sphere("target", 15.9e-3, "glass"))
+        .with_material("glass", glass)
+        .with_model(model);
+    file.mesh = Some(MeshTable {
+        contact_element_size: Some(0.2e-3.into()),
+        refined_radius: Some(0.4e-3.into()),
+        growth: None,
+    });
+    Case::of(file).unwrap()
+}
+
+fn set_speed(file: &mut CaseFile, speed: f64) {
+    file.body[0].approach_speed = Some(speed.into());
+}
+
+fn pool(n_threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap()
+}
+
+#[test]
+fn summaries_come_in_the_order_of_the_values_and_are_those_of_the_cases_alone() {
+    let case = pair(ModelTable::condensed());
+    let alone = SPEEDS.map(|speed| {
+        let case = case.edited(|file| set_speed(file, speed)).unwrap();
+        let mut simulation = Simulation::new(case).unwrap();
+        simulation.skip_snapshots();
+        let collision = simulation.run(&mut ());
+        serde_json::to_value(simulation.summary(&collision)).unwrap()
+    });
+    for n_threads in [1, 3] {
+        let summaries = pool(n_threads).install(|| sweep(&case, SPEEDS, set_speed));
+        let summaries = summaries.into_iter().map(|summary| serde_json::to_value(summary.unwrap()));
+        let summaries: Vec<_> = summaries.map(Result::unwrap).collect();
+        assert_eq!(summaries, alone);
+    }
+}
+
+#[test]
+fn a_value_that_makes_no_case_is_an_error_of_its_own() {
+    let summaries = sweep(&pair(ModelTable::ting()), [0.1, -1.0, 0.2], set_speed);
+    let errors: Vec<Option<&str>> =
+        summaries.iter().map(|summary| summary.as_ref().err().and_then(CaseError::key)).collect();
+    assert_eq!(errors, [None, Some("body.0.approach_speed"), None]);
+    // So is one that the model refuses.
+    let summaries = sweep(&pair(ModelTable::fem()), [1e6, 10.0], |file, elements| {
+        file.limits = Some(LimitsTable { elements: Some(elements.into()), ..Default::default() });
+    });
+    assert!(summaries[0].is_ok());
+    assert_eq!(summaries[1].as_ref().unwrap_err().key(), Some("mesh.contact_element_size"));
+}
+
+/// A sweep file and code make the same members, and one engine runs both.
+#[test]
+fn members_of_a_file_are_those_of_code() {
+    let case = pair(ModelTable::condensed());
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), case.file.to_toml().unwrap()).unwrap();
+    let path = folder.path().join("sweep.toml");
+    let vary = "case = 'case.toml'\n[vary]\nbody.0.approach_speed = ['30 cm/s', 0.1, 0.2]\n";
+    std::fs::write(&path, vary).unwrap();
+    let file = Sweep::load(&path, &[]).unwrap();
+    let code = Variations::of(&case, SPEEDS, set_speed);
+    let cases = SPEEDS.map(|speed| case.edited(|file| set_speed(file, speed)).unwrap());
+
+    let identities = |members: Vec<Member>| -> Vec<String> {
+        members.into_iter().map(|member| member.identity).collect()
+    };
+    let expected = identities(identify(&code).unwrap());
+    assert_eq!(identities(identify(&file).unwrap()), expected);
+    assert_eq!(identities(identify(&cases[..]).unwrap()), expected);
+    assert_ne!(expected[0], expected[1]);
+
+    fn histories(members: &(impl Members + ?Sized)) -> Vec<Vec<fem::Row>> {
+        let shared = Shared::default();
+        let runner = Runner::new(members, &shared).without_fields();
+        let kept = runner.run(&[0, 1, 2], &(), |ran| ran.collision.history);
+        assert_eq!(shared.pairs.n_made(), 1, "equal bodies share their factors");
+        kept.into_iter().map(|(_, history)| history.unwrap()).collect()
+    }
+    let expected = histories(&code);
+    assert!(expected.iter().all(|history| history.len() > 100));
+    assert_eq!(histories(&file), expected);
+    assert_eq!(histories(&cases[..]), expected);
+}
+
+#[test]
+fn a_member_is_known_by_what_it_computes() {
+    let case = pair(ModelTable::condensed());
+    let identity = |case: &Case| Member::of(0, case).unwrap().identity;
+    let edited = |change: fn(&mut CaseFile)| identity(&case.edited(change).unwrap());
+    let own = identity(&case);
+    assert_eq!(own.len(), 16);
+    // What is written otherwise, or the default, computes the same.
+    assert_eq!(edited(|file| file.body[0].approach_speed = Some("50 cm/s".into())), own);
+    let default = |file: &mut CaseFile| {
+        let table = CondensedTable { steps: Some(1000.into()), ..Default::default() };
+        file.model = Some(table.into());
+    };
+    assert_eq!(edited(default), own);
+    assert_ne!(edited(|file| file.body[0].approach_speed = Some(0.6.into())), own);
+    assert_ne!(edited(|file| file.model = Some(ModelTable::ting())), own);
+}
+
+#[test]
+fn the_dearest_are_left_to_do_first_each_once() {
+    let case = pair(ModelTable::fem());
+    let ting = ModelTable::ting;
+    // The finer the mesh, the dearer; the cheap ones keep their order.
+    let values = [(1.0, ting()), (2.0, ModelTable::fem()), (1.0, ModelTable::fem()), (1.0, ting())];
+    let members = Variations::of(&case, values, |file, (factor, model)| {
+        let mesh = file.mesh.as_mut().unwrap();
+        mesh.contact_element_size = Some((factor * 0.2e-3).into());
+        file.model = Some(model);
+    });
+    assert_eq!(dearest_first(&members), [2, 1, 0, 3]);
+    let own = identify(&members).unwrap();
+    assert_eq!(own[0].identity, own[3].identity);
+    let left = |is_done: fn(&Member) -> bool| -> Vec<usize> {
+        let left = left_to_do(&members, &own, is_done).unwrap();
+        left.into_iter().map(|member| member.index).collect()
+    };
+    assert_eq!(left(|_| false), [2, 1, 0]);
+    assert_eq!(left(|member| member.index == 2), [1, 0]);
+    // A shard.
+    let half = left_to_do(&members, own.iter().skip(1).step_by(2), |_| false).unwrap();
+    assert_eq!(half.into_iter().map(|member| member.index).collect::<Vec<_>>(), [1, 3]);
+}
+
+#[test]
+fn condensed_members_with_meshes_of_their_own_are_told_of() {
+    let condensed = pair(ModelTable::condensed());
+    let open = condensed.edited(|file| file.mesh = None).unwrap();
+    for (case, is_told) in [(&condensed, false), (&open, true)] {
+        let members = Variations::of(case, SPEEDS, set_speed);
+        let own = identify(&members).unwrap();
+        let left: Vec<&Member> = own.iter().collect();
+        assert_eq!(advice(&members, &left).unwrap().is_some(), is_told);
+    }
+}
+
+/// Sees members begin, go on and end, and wants no more of them after some reports.
+#[derive(Default)]
+struct Looker {
+    seen: Mutex<Vec<(usize, &'static str)>>,
+    n_reports: AtomicUsize,
+    most_reports: usize,
+    is_stopped: AtomicBool,
+}
+
+struct Watch<'a> {
+    looker: &'a Looker,
+    index: usize,
+}
+
+impl Looker {
+    fn see(&self, index: usize, what: &'static str) {
+        self.seen.lock().unwrap().push((index, what));
+    }
+}
+
+impl Monitor for Watch<'_> {
+    fn report(&mut self, _: Progress) -> bool {
+        if self.looker.n_reports.fetch_add(1, Ordering::Relaxed) >= self.looker.most_reports {
+            self.looker.is_stopped.store(true, Ordering::Relaxed);
+        }
+        !self.looker.is_stopped.load(Ordering::Relaxed)
+    }
+}
+
+impl<'a> Observer for &'a Looker {
+    type Watch = Watch<'a>;
+
+    fn admits(&self, index: usize) -> bool {
+        let is_stopped = self.is_stopped.load(Ordering::Relaxed);
+        if is_stopped {
+            self.see(index, "left out");
+        }
+        !is_stopped
+    }
+
+    fn begin(&self, index: usize) -> Watch<'a> {
+        self.see(index, "began");
+        Watch { looker: self, index }
+    }
+
+    fn end(&self, index: usize, watch: Watch<'a>, ran: Result<&Ran, &CaseError>) {
+        assert_eq!(watch.index, index);
+        self.see(
+            index,
+            match ran {
+                Ok(ran) if ran.collision.is_interrupted() => "interrupted",
+                Ok(_) => "done",
+                Err(_) => "refused",
+            },
+        );
+    }
+}
+
+#[test]
+fn who_looks_on_sees_all_and_can_end_it() {
+    let case = pair(ModelTable::fem());
+    let members = Variations::of(&case, [0.2, -1.0, 0.3, 0.4], set_speed);
+    let shared = Shared::default();
+    let run = |most_reports: usize| {
+        let looker = Looker { most_reports, ..Looker::default() };
+        let runner = Runner::new(&members, &shared).without_fields();
+        let run = || runner.run(&[3, 1, 0, 2], &&looker, |ran| ran.collision.is_complete());
+        let kept: Vec<_> =
+            pool(1).install(run).into_iter().map(|(index, kept)| (index, kept.ok())).collect();
+        (kept, looker.seen.into_inner().unwrap(), looker.n_reports.into_inner())
+    };
+    let (kept, seen, n_reports) = run(usize::MAX);
+    assert_eq!(kept, [(0, Some(true)), (1, None), (2, Some(true)), (3, Some(true))]);
+    let began_and = |index, end| [(index, "began"), (index, end)];
+    let all = [(3, "done"), (1, "refused"), (0, "done"), (2, "done")];
+    assert_eq!(seen, all.map(|(index, end)| began_and(index, end)).as_flattened());
+    assert!(n_reports > 3);
+
+    // After the first report of the first member.
+    let (kept, seen, _) = run(0);
+    assert_eq!(kept, [(3, Some(false))]);
+    let first = began_and(3, "interrupted");
+    assert_eq!(seen[..2], first);
+    assert_eq!(seen[2..], [(1, "left out"), (0, "left out"), (2, "left out")]);
+}
+
+#[test]
+fn rows_are_summaries() {
+    let case = pair(ModelTable::condensed());
+    let members = Variations::of(&case, SPEEDS, set_speed);
+    let shared = Shared::default();
+    let runner = Runner::new(&members, &shared);
+    let member = Member::of(1, &members.case(1).unwrap()).unwrap();
+    let ran = runner.run_one(1, &mut ()).unwrap();
+    assert_eq!(ran.collision.snapshots.len(), 4, "fields are left out on demand only");
+    let summary = ran.summary();
+    let row = Row::of(&member, [members.values()[1]], &summary);
+    assert!(row.is_complete());
+    assert_eq!(row.value("restitution").as_f64(), summary.collision.restitution);
+    assert_eq!(row.value("hertz_peak_force_n").as_f64(), summary.hertz.peak_force_n);
+    assert_eq!(row.value("energy_kinetic_j").as_f64(), summary.energy.kinetic_j);
+    let n_elements: usize = summary.bodies.iter().filter_map(|body| body.elements).sum();
+    assert_eq!(row.value("elements").as_u64(), Some(n_elements as u64));
+    assert_eq!(row.value("warnings").as_u64(), Some(summary.warnings.len() as u64));
+    assert!(row.value("element_updates").is_null());
+
+    let mut table = Vec::new();
+    sweep_csv(&mut table, ["speed"], &[row]).unwrap();
+    let mut reader = csv::Reader::from_reader(table.as_slice());
+    let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_string).collect();
+    assert_eq!(header[0], "speed");
+    assert_eq!(header[1..=COLUMNS.len()], *COLUMNS);
+    assert_eq!(header[COLUMNS.len() + 1..], ["member"]);
+    let record = reader.records().next().unwrap().unwrap();
+    assert_eq!(record[0], *"0.1");
+    assert_eq!(record[1].parse().ok(), summary.collision.restitution);
+    assert_eq!(record[record.len() - 1], member.identity);
+}
+
+#[test]
+fn columns_have_words_and_units() {
+    assert_eq!(
+        (column_words("contact_time_s"), column_unit("contact_time_s")),
+        ("contact time".into(), "s")
+    );
+    assert_eq!(column_unit("peak_pressure_pa"), "Pa");
+    assert_eq!(
+        (column_words("restitution"), column_unit("restitution")),
+        ("restitution".into(), "")
+    );
+}
