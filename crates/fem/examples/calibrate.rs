@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p fem --example calibrate`
 
+#![allow(clippy::disallowed_macros, reason = "an example prints what it found")]
+
 use std::error::Error;
 
 use fem::calibrate::{Calibration, SettingNames, Settings};
