@@ -42,8 +42,6 @@ mod validation;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use fem_case::engineering;
-
 fn main() -> ExitCode {
     let started = Instant::now();
     match arguments::parse().execute(started) {

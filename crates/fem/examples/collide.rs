@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p fem --example collide`
 
+#![allow(clippy::disallowed_macros, reason = "an example prints what it found")]
+
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};
 use fem::{Account, Case, CaseError, CaseFile, Row, Simulation};
 

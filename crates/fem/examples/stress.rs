@@ -3,6 +3,8 @@
 //!
 //! `cargo run --release -p fem --example stress`
 
+#![allow(clippy::disallowed_macros, reason = "an example prints what it found")]
+
 use fem::schema::{BodyTable, MaterialTable, MeshTable, ModelTable};
 use fem::{Case, CaseError, CaseFile, Label, Simulation};
 

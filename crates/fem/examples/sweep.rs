@@ -2,6 +2,8 @@
 //!
 //! `cargo run --release -p fem --example sweep`
 
+#![allow(clippy::disallowed_macros, reason = "an example prints what it found")]
+
 use fem::schema::{ActsOn, BodyTable, MaterialTable, MeshTable, ModelTable, TermTable};
 use fem::{Case, CaseError, CaseFile, sweep};
 

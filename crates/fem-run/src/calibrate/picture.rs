@@ -1,10 +1,9 @@
 //! `calibrate.svg`: restitutions with what a series can do, and the weights with their ranges.
 
 use fem::calibrate::{Abscissa, Calibration};
+use fem_case::engineering::Unit;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 use fem_fit::FitError;
-
-use crate::engineering::Unit;
 
 /// Restitutions over speed or contact time, and weights over relaxation time.
 ///

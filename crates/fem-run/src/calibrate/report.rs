@@ -2,10 +2,10 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::calibrate::{Calibration, CalibrationModel};
+use fem_case::engineering::show;
 use fem_case::schema::ActsOn;
 use fem_fit::spectrum::Range;
 
-use crate::engineering::show;
 use crate::tables::{show_value, table};
 
 /// For stdout.

@@ -6,6 +6,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{DemExport, FittedLaw, ImpactCurve};
 use fem::measured::Restitutions;
 use fem_case::Case;
+use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, Mark};
 use fem_fit::FitError;
 use fem_fit::dem::{Export, Snippet};
@@ -13,7 +14,6 @@ use fem_laws::Family;
 
 use crate::case_arguments::CaseArguments;
 use crate::data_file::read_table;
-use crate::engineering::{Unit, show};
 use crate::failure::Failure;
 use crate::law_arguments::parse_speed;
 use crate::output::OutputArguments;

@@ -3,11 +3,11 @@
 use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
+use fem_case::engineering::show;
 use fem_fit::FitError;
 use fem_laws::Family;
 
 use crate::case_arguments::CaseArguments;
-use crate::engineering::show;
 use crate::failure::Failure;
 use crate::law_arguments::{LawArguments, find_key, parse_family, parse_speed};
 use crate::standard_output;

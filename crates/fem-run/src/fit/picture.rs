@@ -2,12 +2,11 @@
 
 use fem::laws::LawFit;
 use fem_case::Scene;
+use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawImpact, Role};
-
-use crate::engineering::Unit;
 
 /// Points of a curve.
 const N: usize = 80;
@@ -126,7 +125,7 @@ fn overlaps(model: &Model, values: &[f64], speed: f64, time: &Unit) -> Result<Ch
     let curves = impacts.iter().zip(&COLOURS[2..]).map(|((speed, impact), colour)| {
         let instants = impact.history.iter();
         let points = instants.map(|now| (time.scaled(now.time), length.scaled(now.approach)));
-        let label = format!("overlap at {}", crate::engineering::show(*speed, "m/s"));
+        let label = format!("overlap at {}", show(*speed, "m/s"));
         Curve::line(label, points.collect()).coloured(colour)
     });
     let label = format!("overlap [{}]", length.symbol());

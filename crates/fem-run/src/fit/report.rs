@@ -2,11 +2,11 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::LawFit;
+use fem_case::engineering::show;
 use fem_case::schema::End;
 use fem_fit::{Estimate, Profile};
 use fem_laws::Family;
 
-use crate::engineering::show;
 use crate::tables::{show_value, table};
 
 /// For stdout.

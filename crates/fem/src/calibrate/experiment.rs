@@ -29,7 +29,7 @@ const OF_ELEMENT_SIZE: [&str; 3] =
 pub struct Experiment {
     /// Places of its points in the data.
     pub points: Vec<usize>,
-    /// m/s.
+    /// Approach speeds, m/s.
     pub speeds: Vec<f64>,
     /// Hertz' with instantaneous moduli, s.
     pub contact_times: Vec<f64>,

@@ -23,7 +23,7 @@ pub struct Maxwell {
     pub time: f64,
     /// Whether that is only an end of the search.
     pub beyond: Option<Beyond>,
-    /// rms error of e.
+    /// Root mean square error of e.
     pub rms: f64,
 }
 
@@ -98,7 +98,7 @@ impl Maxwell {
         Ok(Self { time, beyond, rms: root_mean_square(&differences(time)?) })
     }
 
-    /// Its term.
+    /// Its one term as a Prony term.
     pub fn term(&self) -> PronyTerm {
         term(self.time)
     }

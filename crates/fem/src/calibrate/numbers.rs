@@ -21,29 +21,29 @@ pub struct CalibrationNumbers {
     pub material: String,
     /// Which of its moduli relax.
     pub acts_on: ActsOn,
-    /// How many.
+    /// Number of measured points.
     pub points: usize,
-    /// Of bodies.
+    /// The pairs of bodies.
     pub pairs: Vec<PairNumbers>,
     /// Without relaxation, shortest and longest.
     pub contact_times_s: (f64, f64),
-    /// λ.
+    /// Regularisation λ.
     pub regularisation: f64,
     /// Level of the ranges.
     pub confidence: f64,
     /// By their relaxation times.
     pub terms: Vec<TermNumbers>,
-    /// Σ g.
+    /// Sum of the weights, Σ g.
     pub weight_sum: RangeNumbers,
-    /// Σ g/τ.
+    /// Initial decay rate Σ g/τ.
     pub initial_decay_rate_1_s: RangeNumbers,
-    /// Σ g τ.
+    /// Viscous time Σ g τ.
     pub viscous_time_s: RangeNumbers,
     /// Of weights, by how well they are seen.
     pub combinations: Vec<CombinationNumbers>,
     /// How many of them the data determine.
     pub combinations_determined: usize,
-    /// √(Σ (e − ê)²/N).
+    /// Root mean square error, √(Σ (e − ê)²/N).
     pub rms: f64,
     /// Of a restitution, as the ranges assume it.
     pub error: f64,
@@ -68,7 +68,7 @@ pub struct CalibrationNumbers {
 pub struct PairNumbers {
     /// Of the lower and the upper body; a wall has none.
     pub diameters_m: [Option<f64>; 2],
-    /// How many.
+    /// Number of measured points.
     pub points: usize,
     /// Across its radius.
     pub elements_across_smallest_contact: Option<f64>,
@@ -79,9 +79,9 @@ pub struct PairNumbers {
 /// One term of the series.
 #[derive(Clone, Debug, Serialize)]
 pub struct TermNumbers {
-    /// τ.
+    /// Relaxation time τ.
     pub relaxation_time_s: f64,
-    /// g.
+    /// Weight g.
     pub weight: f64,
     /// Least and largest, all others free.
     pub range: (f64, f64),
@@ -92,7 +92,7 @@ pub struct TermNumbers {
 /// A number and what it can be.
 #[derive(Clone, Debug, Serialize)]
 pub struct RangeNumbers {
-    /// The best one.
+    /// The best value.
     pub value: f64,
     /// Least and largest.
     pub range: (f64, f64),
@@ -101,11 +101,11 @@ pub struct RangeNumbers {
 /// A combination of weights.
 #[derive(Clone, Debug, Serialize)]
 pub struct CombinationNumbers {
-    /// Of the weights.
+    /// Coefficients of the weights.
     pub coefficients: Vec<f64>,
     /// How much the data see of it.
     pub singular_value: f64,
-    /// The best one.
+    /// The best value.
     pub value: f64,
     /// None if it is not seen.
     pub standard_error: Option<f64>,
@@ -116,18 +116,18 @@ pub struct CombinationNumbers {
 /// The single term of weight 1.
 #[derive(Clone, Debug, Serialize)]
 pub struct MaxwellNumbers {
-    /// τ.
+    /// Relaxation time τ.
     pub relaxation_time_s: f64,
     /// Where τ is if it is only an end of the search.
     pub beyond_search: Option<&'static str>,
-    /// √(Σ (e − ê)²/N).
+    /// Root mean square error, √(Σ (e − ê)²/N).
     pub rms: f64,
 }
 
 /// An exponent of the data.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExponentNumbers {
-    /// The best one.
+    /// The best value.
     pub value: f64,
     /// None of two points.
     pub standard_error: Option<f64>,

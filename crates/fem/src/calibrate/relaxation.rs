@@ -20,7 +20,7 @@ impl Calibration {
         self.target.acts_on.into()
     }
 
-    /// The same table as text to paste into a case file; only comments where nothing relaxes.
+    /// The table of the relaxation as text to paste into a case file; only comments where nothing relaxes.
     pub fn relaxation_toml(&self) -> String {
         let resolution = &self.fit.resolution;
         let mut text = format!(

@@ -21,7 +21,7 @@ pub(super) struct SpeedSpan {
 /// A speed at which the inertia of the bodies counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedDoubt {
-    /// m/s.
+    /// Approach speed, m/s.
     pub speed: f64,
     /// Over the slowest shear wave speed.
     pub mach: f64,

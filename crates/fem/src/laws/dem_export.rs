@@ -27,18 +27,18 @@ pub struct DemExport {
 /// A law and its values.
 #[derive(Clone, Debug)]
 pub struct FittedLaw {
-    /// In words.
+    /// Its name in words.
     pub name: &'static str,
     /// The bodies under it.
     pub model: Model,
-    /// Of its parameters, SI.
+    /// Values of its parameters, SI.
     pub values: Vec<f64>,
     /// From, to (m/s), largest error of e; see [`ImpactCurve::validity`].
     pub validity: [f64; 3],
 }
 
 impl FittedLaw {
-    /// At a speed, m/s.
+    /// Restitution and contact time at a speed, m/s.
     pub fn outcome(&self, speed: f64) -> Option<Outcome> {
         self.model.outcome(&self.values, speed).ok()
     }

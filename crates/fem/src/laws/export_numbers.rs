@@ -14,17 +14,17 @@ pub struct ExportNumbers {
     pub case: String,
     /// Whether one of the bodies is a wall.
     pub wall: bool,
-    /// Two, or one.
+    /// Two spheres, or the one that strikes a wall.
     pub spheres: Vec<SphereNumbers>,
     /// Error of e up to which a law is called good.
     pub tolerance: f64,
     /// Slowest and fastest.
     pub speeds_m_s: (f64, f64),
-    /// m*.
+    /// Effective mass m*.
     pub effective_mass_kg: f64,
-    /// R*.
+    /// Effective radius R*.
     pub effective_radius_m: f64,
-    /// E*.
+    /// Contact modulus E*.
     pub contact_modulus_pa: f64,
     /// A of Kuwabara & Kono.
     pub dissipation_time_s: f64,
@@ -41,33 +41,33 @@ pub struct ExportNumbers {
 /// A sphere.
 #[derive(Clone, Debug, Serialize)]
 pub struct SphereNumbers {
-    /// D.
+    /// Diameter D.
     pub diameter_m: f64,
-    /// ρ.
+    /// Density ρ.
     pub density_kg_m3: f64,
     /// E, instantaneous.
     pub youngs_modulus_pa: f64,
-    /// ν.
+    /// Poisson's ratio ν.
     pub poissons_ratio: f64,
 }
 
 /// A point of the curve.
 #[derive(Clone, Debug, Serialize)]
 pub struct PointNumbers {
-    /// v.
+    /// Approach speed v.
     pub speed_m_s: f64,
-    /// e.
+    /// Restitution e.
     pub restitution: f64,
-    /// T.
+    /// Contact time T.
     pub contact_time_s: Option<f64>,
 }
 
 /// A file for a code.
 #[derive(Clone, Debug, Serialize)]
 pub struct SnippetNumbers {
-    /// Its name.
+    /// Name of the file.
     pub file: &'static str,
-    /// The code.
+    /// The DEM code.
     pub code: &'static str,
     /// In the code's own words.
     pub model: &'static str,
@@ -80,7 +80,7 @@ pub struct SnippetNumbers {
     pub valid_from_m_s: Option<f64>,
     /// None if it is good nowhere.
     pub valid_to_m_s: Option<f64>,
-    /// Of e.
+    /// Largest error of e.
     pub worst_error: f64,
     /// At the speeds of the data.
     pub restitutions_at_data: Vec<Option<f64>>,

@@ -18,23 +18,23 @@ pub struct FitNumbers {
     pub law: &'static str,
     /// When a contact is over.
     pub end: End,
-    /// How many.
+    /// Number of measured points.
     pub points: usize,
     /// Whether the data have uncertainties.
     pub weighted: bool,
     /// Level of the intervals.
     pub confidence: f64,
-    /// In the order of the law.
+    /// Parameters, in the order of the law.
     pub parameters: Vec<ParameterNumbers>,
-    /// Of the free parameters.
+    /// Correlation of the free parameters.
     pub correlation: Vec<Vec<f64>>,
-    /// √(Σ r²/N).
+    /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
-    /// Σ r².
+    /// Sum of the squared residuals, Σ r².
     pub sum_of_squares: f64,
     /// Data less free parameters.
     pub degrees_of_freedom: usize,
-    /// Of the scaled Jacobian.
+    /// Condition number of the scaled Jacobian.
     pub condition_number: f64,
     /// The error over one parameter.
     pub profile: Option<ProfileNumbers>,
@@ -55,9 +55,9 @@ pub struct ParameterNumbers {
     pub value: f64,
     /// Whether it was searched for.
     pub free: bool,
-    /// First order.
+    /// Standard error, first order.
     pub standard_error: Option<f64>,
-    /// First order.
+    /// Interval of the confidence, first order.
     pub interval: Option<(f64, f64)>,
     /// Whether the best value lies beyond the search.
     pub at_bound: bool,
@@ -79,7 +79,7 @@ pub struct ProfileNumbers {
 pub struct ProfilePointNumbers {
     /// At which it is held.
     pub value: f64,
-    /// √(Σ r²/N).
+    /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
     /// Of all parameters.
     pub values: Vec<f64>,
@@ -92,7 +92,7 @@ pub struct ComparedNumbers {
     pub law: &'static str,
     /// Of its parameters, in the order of the law.
     pub values: Vec<f64>,
-    /// √(Σ r²/N).
+    /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
 }
 

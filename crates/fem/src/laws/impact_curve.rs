@@ -15,14 +15,14 @@ const N_SPEEDS: usize = 13;
 /// e(v) and T(v), in the order of the speed, with a contact time each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImpactCurve {
-    /// Two or more.
+    /// Points of the curve, two or more.
     pub points: Vec<Point>,
     /// Whether the times are Hertz', for want of data.
     pub has_hertz_times: bool,
 }
 
 impl ImpactCurve {
-    /// Of data; without all contact times, Hertz' with instantaneous moduli stand in.
+    /// The curve of data; without all contact times, Hertz' with instantaneous moduli stand in.
     ///
     /// # Errors
     /// One speed only; speeds without a Hertz impact.
@@ -65,7 +65,7 @@ impl ImpactCurve {
         Ok(Self { points, has_hertz_times })
     }
 
-    /// Slowest and fastest, m/s.
+    /// Slowest and fastest speed, m/s.
     pub fn speeds(&self) -> (f64, f64) {
         (self.points[0].speed, self.points[self.points.len() - 1].speed)
     }

@@ -45,7 +45,7 @@ impl<'a> LawFit<'a> {
         "fitted_contact_time_s",
     ];
 
-    /// Fits.
+    /// Fits a law to measured restitutions.
     ///
     /// # Errors
     /// Data that do not determine the free parameters.

@@ -8,13 +8,13 @@ use fem_fit::cradle::Measured;
 /// Kinds of quantity that a cradle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// In m.
+    /// A length, m.
     Length,
-    /// In kg.
+    /// A mass, kg.
     Mass,
-    /// In m/s².
+    /// An acceleration, m/s².
     Acceleration,
-    /// In rad.
+    /// An angle, rad.
     Angle,
 }
 
