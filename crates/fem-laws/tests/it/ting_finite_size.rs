@@ -1,9 +1,7 @@
 //! Viscoelastic impact of spheres of finite size: finite elements, an independent integration,
 //! limits, robustness.
 
-mod direct;
-
-use direct::{Direct, direct};
+use crate::direct::{Direct, direct};
 use fem_laws::{FiniteSize, HertzImpact, LawError, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 

@@ -1,8 +1,6 @@
 //! Viscoelastic impact: published references, an independent integration, limits, robustness.
 
-mod direct;
-
-use direct::{Direct, direct};
+use crate::direct::{Direct, direct};
 use fem_laws::{HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, Ting};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
