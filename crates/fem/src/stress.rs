@@ -25,11 +25,17 @@ impl BodyStress<'_> {
 
 impl Simulation {
     /// The stress in the lower body, 0, or the upper one, 1, at an instant of its collision; none in
-    /// a wall, nor by a model without elements.
+    /// a wall, by a model without elements, or where the snapshot's fields are not those of its mesh.
     pub fn stress(&self, snapshot: &Snapshot, side: usize) -> Option<BodyStress<'_>> {
-        let mesh = self.model.meshes()[side]?;
+        let mesh = (*self.model.meshes().get(side)?)?;
         let material = self.case.scene.bodies[side].material()?;
-        let field = StressField::of(mesh, material, &snapshot.bodies[side]);
+        let fields = &snapshot.bodies[side];
+        let n_nodes = mesh.nodes().len();
+        let relaxed = fields.effective.len();
+        if fields.displacement.len() != n_nodes || (relaxed != 0 && relaxed != n_nodes) {
+            return None;
+        }
+        let field = StressField::of(mesh, material, fields);
         Some(BodyStress { mesh, field })
     }
 }
