@@ -20,11 +20,8 @@ const LARGEST_FILE: u64 = 16 << 20;
 /// A valid case: as written, as a scene, and with the positions of its keys.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The case as written, overrides in it; title, approach speeds and the full paths of mesh
-    /// files are filled in. The plan fills in the rest and prints it as the resolved case.
-    pub file: CaseFile,
-    /// The case in SI units, validated.
-    pub scene: Scene,
+    file: CaseFile,
+    scene: Scene,
     document: Document,
     defaults: Defaults,
 }
@@ -84,7 +81,7 @@ impl Case {
     ///     let ball = BodyTable::sphere("ball", diameter, "ice").approaching("10 cm/s");
     ///     CaseFile::of_bodies(floor, ball).with_material("ice", ice.clone())
     /// };
-    /// assert_eq!(Case::of(pair(0.02))?.scene.approach_speed(), 0.1);
+    /// assert_eq!(Case::of(pair(0.02))?.scene().approach_speed(), 0.1);
     ///
     /// let error = Case::of(pair(0.0)).unwrap_err();
     /// assert_eq!(error.key(), Some("body.1.sphere.diameter"));
@@ -125,7 +122,7 @@ impl Case {
     ///     file.body[1].approach_speed = Some("1 m/s".into());
     ///     file.mesh.get_or_insert_default().contact_element_size = Some(14e-6.into());
     /// })?;
-    /// assert_eq!(fine.scene.approach_speed(), 1.0);
+    /// assert_eq!(fine.scene().approach_speed(), 1.0);
     /// assert!(fine.gives("mesh.contact_element_size"));
     /// # Ok::<(), fem_case::CaseError>(())
     /// ```
@@ -165,6 +162,17 @@ impl Case {
         let scene = validate(&document, &file, &defaults.title, &defaults.folder)?;
         fill_in(&mut file, &scene);
         Ok(Case { file, scene, document, defaults })
+    }
+
+    /// The case as written, overrides in it; title, approach speeds and the full paths of mesh files
+    /// are filled in. What else it leaves open, a method resolves.
+    pub fn file(&self) -> &CaseFile {
+        &self.file
+    }
+
+    /// The case in SI units, validated.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
     }
 
     /// An error about the key at a dotted path (`mesh.contact_element_size`, `body.0.sphere`).

@@ -40,9 +40,9 @@
 //!     Path::new("."),
 //!     &["body.0.sphere.diameter='1 cm'".to_string()],
 //! )?;
-//! assert_eq!(case.scene.title, "ball");
-//! assert_eq!(case.scene.bodies[0].diameter(), Some(0.01));
-//! assert_eq!(case.scene.bodies[0].velocity, 0.5);
+//! assert_eq!(case.scene().title(), "ball");
+//! assert_eq!(case.scene().bodies()[0].diameter(), Some(0.01));
+//! assert_eq!(case.scene().bodies()[0].velocity(), 0.5);
 //!
 //! let error = case.error_at("body.0.sphere.diameter", "too small for the mesh");
 //! assert_eq!(error.source_name(), "--set body.0.sphere.diameter=…");

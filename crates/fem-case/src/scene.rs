@@ -11,33 +11,76 @@ use crate::schema::{EffectsTable, SnapshotLabel};
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct Scene {
-    /// What the case is about.
-    pub title: String,
-    /// The lower body, then the upper one. They approach each other; at most one is a wall.
-    pub bodies: [Body; 2],
-    /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
-    pub gap: Option<f64>,
-    /// How finely the bodies are divided.
-    pub mesh: MeshSettings,
-    /// Times the default normal stiffness per area, > 0.
-    pub penalty_factor: Option<f64>,
-    /// Times the critical time step, in (0, 1].
-    pub step_factor: Option<f64>,
-    /// Largest added mass as a fraction of a body's mass, in [0, 0.1].
-    pub mass_scaling: Option<f64>,
-    /// Which instants are drawn.
-    pub snapshots: Option<Snapshots>,
-    /// Which model computes the collision.
-    pub model: ModelChoice,
-    /// Effects that the case forces on or off.
-    pub effects: EffectsTable,
-    /// What is too dear to start.
-    pub limits: Limits,
+    pub(crate) title: String,
+    pub(crate) bodies: [Body; 2],
+    pub(crate) gap: Option<f64>,
+    pub(crate) mesh: MeshSettings,
+    pub(crate) penalty_factor: Option<f64>,
+    pub(crate) step_factor: Option<f64>,
+    pub(crate) mass_scaling: Option<f64>,
+    pub(crate) snapshots: Option<Snapshots>,
+    pub(crate) model: ModelChoice,
+    pub(crate) effects: EffectsTable,
+    pub(crate) limits: Limits,
 }
 
 impl Scene {
+    /// What the case is about.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// The lower body, then the upper one. They approach each other; at most one is a wall.
+    pub fn bodies(&self) -> &[Body; 2] {
+        &self.bodies
+    }
+
+    /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
+    pub fn gap(&self) -> Option<f64> {
+        self.gap
+    }
+
+    /// How finely the bodies are divided.
+    pub fn mesh(&self) -> MeshSettings {
+        self.mesh
+    }
+
+    /// Times the default normal stiffness per area, > 0.
+    pub fn penalty_factor(&self) -> Option<f64> {
+        self.penalty_factor
+    }
+
+    /// Times the critical time step, in (0, 1].
+    pub fn step_factor(&self) -> Option<f64> {
+        self.step_factor
+    }
+
+    /// Largest added mass as a fraction of a body's mass, in [0, 0.1].
+    pub fn mass_scaling(&self) -> Option<f64> {
+        self.mass_scaling
+    }
+
+    /// Which instants are drawn.
+    pub fn snapshots(&self) -> Option<&Snapshots> {
+        self.snapshots.as_ref()
+    }
+
+    /// Which model computes the collision.
+    pub fn model(&self) -> &ModelChoice {
+        &self.model
+    }
+
+    /// Effects that the case forces on or off.
+    pub fn effects(&self) -> &EffectsTable {
+        &self.effects
+    }
+
+    /// What is too dear to start.
+    pub fn limits(&self) -> Limits {
+        self.limits
+    }
+
     /// Relative to each other, m/s, > 0.
     pub fn approach_speed(&self) -> f64 {
         self.bodies[0].velocity - self.bodies[1].velocity
@@ -70,17 +113,28 @@ impl Scene {
 
 /// One of the two bodies.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
 pub struct Body {
-    /// Letters, digits, `_` and `-`; unlike the other body's.
-    pub name: String,
-    /// Its shape and stuff.
-    pub shape: Shape,
-    /// Along +y at time 0, m/s.
-    pub velocity: f64,
+    pub(crate) name: String,
+    pub(crate) shape: Shape,
+    pub(crate) velocity: f64,
 }
 
 impl Body {
+    /// Letters, digits, `_` and `-`; unlike the other body's.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its shape and stuff.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Along +y at time 0, m/s.
+    pub fn velocity(&self) -> f64 {
+        self.velocity
+    }
+
     /// Its material; a wall has none.
     pub fn material(&self) -> Option<&Material> {
         match &self.shape {

@@ -46,23 +46,23 @@ fn values_are_replaced_and_added() {
         "model.fem={}",
     ])
     .unwrap();
-    let scene = &case.scene;
-    assert_eq!(scene.bodies[0].velocity, 1.0);
-    assert_eq!(scene.mesh.contact_element_size, Some(28e-6));
-    assert_eq!(scene.title, "a pair");
-    assert_eq!(scene.bodies[1].diameter(), Some(0.003));
-    assert_eq!(scene.step_factor, Some(0.5));
-    assert_eq!(scene.mass_scaling, Some(0.0));
-    assert!(matches!(&scene.snapshots, Some(Snapshots::Labels(labels)) if labels.len() == 1));
-    assert_eq!(scene.bodies[1].material().unwrap().density(), 3000.0);
+    let scene = case.scene();
+    assert_eq!(scene.bodies()[0].velocity(), 1.0);
+    assert_eq!(scene.mesh().contact_element_size, Some(28e-6));
+    assert_eq!(scene.title(), "a pair");
+    assert_eq!(scene.bodies()[1].diameter(), Some(0.003));
+    assert_eq!(scene.step_factor(), Some(0.5));
+    assert_eq!(scene.mass_scaling(), Some(0.0));
+    assert!(matches!(&scene.snapshots(), Some(Snapshots::Labels(labels)) if labels.len() == 1));
+    assert_eq!(scene.bodies()[1].material().unwrap().density(), 3000.0);
 }
 
 #[test]
 fn they_are_applied_left_to_right() {
     let case = with(&["start={gap = 1}", "start.gap=2", "start.gap=3"]).unwrap();
-    assert_eq!(case.scene.gap, Some(3.0));
+    assert_eq!(case.scene().gap(), Some(3.0));
     let case = with(&["start.gap=2", "start={}"]).unwrap();
-    assert_eq!(case.scene.gap, None);
+    assert_eq!(case.scene().gap(), None);
     // Only the case that results is validated.
     with(&["start.gap=-2", "start.gap=0"]).unwrap();
 }
@@ -78,8 +78,8 @@ fn a_table_that_is_absent_is_made() {
         "body.1={name='b', wall={}}",
     ])
     .unwrap();
-    assert_eq!(case.scene.bodies[1].shape, Shape::Wall);
-    assert!(case.scene.bodies[0].material().unwrap().relaxation().is_some());
+    assert_eq!(case.scene().bodies()[1].shape(), &Shape::Wall);
+    assert!(case.scene().bodies()[0].material().unwrap().relaxation().is_some());
 }
 
 /// The fault of the override `marked`, in which «» enclose what must be underlined.

@@ -57,7 +57,7 @@ fn parse(name: &str, text: &str) -> Result<Case, CaseError> {
 
 /// Numbers as text: `==` on doubles would pass 0 for −0, and their `Debug` is exact.
 fn exactly(case: &Case) -> String {
-    format!("{:?}", case.scene)
+    format!("{:?}", case.scene())
 }
 
 #[test]
@@ -65,11 +65,11 @@ fn toml_out_and_in_is_the_same_scene() {
     for snapshots in ["[\"3 us\", 1.7e-6, 1e-5]", "7", "[]", "[\"maximum\", \"last-contact\"]"] {
         let text = FULL.replace("[\"3 us\", 1.7e-6, 1e-5]", snapshots);
         let case = parse("first.toml", &text).unwrap();
-        let printed = case.file.to_toml().unwrap();
+        let printed = case.file().to_toml().unwrap();
         // Another name and folder: title and mesh path must have been resolved.
         let again = Case::parse("second.toml", &printed, Path::new("/elsewhere"), &[]).unwrap();
         assert_eq!(exactly(&again), exactly(&case), "{printed}");
-        assert_eq!(again.file.to_toml().unwrap(), printed);
+        assert_eq!(again.file().to_toml().unwrap(), printed);
         for with_unit in [" ksi\"", " mm\"", " km/h\"", " %\"", " GiB\"", " h\""] {
             assert!(!printed.contains(with_unit), "{printed}");
         }
@@ -79,7 +79,7 @@ fn toml_out_and_in_is_the_same_scene() {
 #[test]
 fn json_has_the_same_numbers() {
     let case = parse("first.toml", FULL).unwrap();
-    let json = serde_json::to_value(&case.file).unwrap();
+    let json = serde_json::to_value(case.file()).unwrap();
     assert_eq!(json["body"][0]["sphere"]["diameter"], 0.874 * 25.4e-3);
     assert_eq!(json["body"][1]["wall"], serde_json::json!({}));
     assert_eq!(json["title"], "first");
@@ -94,15 +94,15 @@ fn json_has_the_same_numbers() {
 fn a_default_that_is_filled_in_is_read_back() {
     let text = &FULL[..FULL.find("[mesh]").unwrap()];
     let case = parse("first.toml", text).unwrap();
-    assert_eq!(case.scene.mesh.contact_element_size, None);
-    let mut resolved = case.file.clone();
+    assert_eq!(case.scene().mesh().contact_element_size, None);
+    let mut resolved = case.file().clone();
     let size = 1.0 / 70_001.0;
     resolved.mesh = Some(MeshTable {
         contact_element_size: Some(Quantity::from_si(size)),
         ..Default::default()
     });
     let again = parse("second.toml", &resolved.to_toml().unwrap()).unwrap();
-    assert_eq!(again.scene.mesh.contact_element_size, Some(size));
+    assert_eq!(again.scene().mesh().contact_element_size, Some(size));
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn truncated_and_mutated_cases_never_panic() {
     ) {
         Ok(case) => {
             n_valid += 1;
-            let printed = case.file.to_toml().unwrap();
+            let printed = case.file().to_toml().unwrap();
             let again = Case::parse("x.toml", &printed, Path::new("."), &[]).unwrap();
             assert_eq!(exactly(&again), exactly(&case), "{text}");
         }
@@ -211,12 +211,12 @@ fn repository_case(name: &str) -> Case {
 
 #[test]
 fn the_glass_pair_is_the_contracts() {
-    let scene = repository_case("glass_0.5ms.toml").scene;
-    assert_eq!(scene.title, "Glass on glass, 22.2 mm striking 15.9 mm at 0.5 m/s");
-    let [striker, target] = &scene.bodies;
-    assert_eq!((striker.name.as_str(), target.name.as_str()), ("striker", "target"));
+    let scene = repository_case("glass_0.5ms.toml").scene().clone();
+    assert_eq!(scene.title(), "Glass on glass, 22.2 mm striking 15.9 mm at 0.5 m/s");
+    let [striker, target] = &scene.bodies();
+    assert_eq!((striker.name(), target.name()), ("striker", "target"));
     assert_eq!((striker.diameter(), target.diameter()), (Some(0.0222), Some(0.0159)));
-    assert_eq!((striker.velocity, target.velocity), (0.5, 0.0));
+    assert_eq!((striker.velocity(), target.velocity()), (0.5, 0.0));
     assert_eq!(striker.material(), target.material());
     let glass = striker.material().unwrap();
     assert_eq!(glass.density(), 2390.0);
@@ -226,32 +226,36 @@ fn the_glass_pair_is_the_contracts() {
     let relaxation = glass.relaxation().unwrap();
     assert_eq!(relaxation.acts_on(), ActsOn::All);
     assert_eq!(relaxation.terms(), [PronyTerm { weight: 1.0, relaxation_time: 1.0 / 2708.0 }]);
-    assert_eq!(scene.snapshots, None);
-    assert_eq!(scene.mesh, Default::default());
+    assert_eq!(scene.snapshots(), None);
+    assert_eq!(scene.mesh(), Default::default());
 }
 
 #[test]
 fn its_variants_differ_only_in_relaxation() {
-    let pair = repository_case("glass_0.5ms.toml").scene;
-    let elastic = repository_case("glass_0.5ms_elastic.toml").scene;
-    let elastic_bulk = repository_case("glass_0.5ms_elastic_bulk.toml").scene;
+    let pair = repository_case("glass_0.5ms.toml").scene().clone();
+    let elastic = repository_case("glass_0.5ms_elastic.toml").scene().clone();
+    let elastic_bulk = repository_case("glass_0.5ms_elastic_bulk.toml").scene().clone();
     for other in [&elastic, &elastic_bulk] {
-        for (a, b) in pair.bodies.iter().zip(&other.bodies) {
-            assert_eq!((&a.name, a.diameter(), a.velocity), (&b.name, b.diameter(), b.velocity));
+        for (a, b) in pair.bodies().iter().zip(other.bodies()) {
+            assert_eq!(
+                (&a.name(), a.diameter(), a.velocity()),
+                (&b.name(), b.diameter(), b.velocity())
+            );
             let (a, b) = (a.material().unwrap(), b.material().unwrap());
             assert_eq!((a.density(), a.instantaneous()), (b.density(), b.instantaneous()));
         }
     }
-    assert_eq!(elastic.bodies[0].material().unwrap().relaxation(), None);
-    let bulk = elastic_bulk.bodies[0].material().unwrap().relaxation().unwrap();
+    assert_eq!(elastic.bodies()[0].material().unwrap().relaxation(), None);
+    let bulk = elastic_bulk.bodies()[0].material().unwrap().relaxation().unwrap();
     assert_eq!(bulk.acts_on(), ActsOn::Shear);
 }
 
 #[test]
 fn the_wall_lies_below_the_ball() {
-    let [wall, ball] = repository_case("glass_on_wall.toml").scene.bodies;
-    assert_eq!((wall.shape, wall.velocity), (Shape::Wall, 0.0));
-    assert_eq!((ball.diameter(), ball.velocity), (Some(0.0222), -0.5));
+    let case = repository_case("glass_on_wall.toml");
+    let [wall, ball] = case.scene().bodies();
+    assert_eq!((wall.shape(), wall.velocity()), (&Shape::Wall, 0.0));
+    assert_eq!((ball.diameter(), ball.velocity()), (Some(0.0222), -0.5));
     assert_eq!(ball.material().unwrap().relaxation(), None);
 }
 
@@ -259,7 +263,7 @@ fn the_wall_lies_below_the_ball() {
 fn snapshots_are_labels_times_or_a_count() {
     let snapshots = |value: &str| {
         let text = FULL.replace("[\"3 us\", 1.7e-6, 1e-5]", value);
-        parse("x.toml", &text).unwrap().scene.snapshots.unwrap()
+        parse("x.toml", &text).unwrap().scene().snapshots().cloned().unwrap()
     };
     assert_eq!(snapshots("7"), Snapshots::Count(7));
     assert_eq!(snapshots("[]"), Snapshots::Labels(vec![]));

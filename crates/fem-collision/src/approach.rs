@@ -1,23 +1,88 @@
 //! How two bodies meet.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
-/// Velocities and distance at time 0.
+/// Velocities and distance at time 0, of bodies that approach each other.
+///
+/// ```
+/// use fem_collision::Approach;
+///
+/// let overtaken = Approach::new([3.0, 1.0], 1e-3)?;
+/// assert_eq!((overtaken.speed(), overtaken.first_touch()), (2.0, 0.5e-3));
+/// assert!(Approach::new([1.0, 3.0], 1e-3).is_err());
+/// # Ok::<(), fem_collision::ApproachError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked")]
 pub struct Approach {
-    /// Velocities of the lower and the upper body along +y, m/s.
-    pub velocities: [f64; 2],
-    /// Distance of the surfaces on the axis, m, ≥ 0.
-    pub gap: f64,
+    velocities: [f64; 2],
+    gap: f64,
+}
+
+/// Why two bodies do not meet.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum ApproachError {
+    /// They recede, stand still, or move at no speed that can be computed with.
+    #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
+    NotApproaching(f64),
+    /// They overlap already, or are infinitely far.
+    #[error("gap is {0} m; allowed is at least 0, and finite")]
+    Gap(f64),
+}
+
+/// An approach as it is read.
+#[derive(Deserialize)]
+struct Unchecked {
+    velocities: [f64; 2],
+    gap: f64,
+}
+
+impl TryFrom<Unchecked> for Approach {
+    type Error = ApproachError;
+
+    fn try_from(read: Unchecked) -> Result<Self, ApproachError> {
+        Self::new(read.velocities, read.gap)
+    }
 }
 
 impl Approach {
-    /// The lower body strikes the upper one at rest at this speed (m/s); they touch at time 0.
-    pub fn at(speed: f64) -> Self {
-        Self { velocities: [speed, 0.0], gap: 0.0 }
+    /// Bodies with these velocities along +y (m/s), the lower one's first, at this distance of their
+    /// surfaces on the axis at time 0, m.
+    ///
+    /// # Errors
+    /// Bodies that do not approach each other; a gap that is negative or not finite.
+    pub fn new(velocities: [f64; 2], gap: f64) -> Result<Self, ApproachError> {
+        let approach = Self { velocities, gap };
+        let speed = approach.speed();
+        if !(speed > 0.0 && speed.is_finite()) {
+            return Err(ApproachError::NotApproaching(speed));
+        }
+        if !(gap >= 0.0 && gap.is_finite()) {
+            return Err(ApproachError::Gap(gap));
+        }
+        Ok(approach)
     }
 
-    /// Relative speed of approach, m/s.
+    /// The lower body strikes the upper one at rest at this speed (m/s); they touch at time 0.
+    ///
+    /// # Errors
+    /// A speed that is not positive and finite.
+    pub fn at(speed: f64) -> Result<Self, ApproachError> {
+        Self::new([speed, 0.0], 0.0)
+    }
+
+    /// Velocities of the lower and the upper body along +y, m/s.
+    pub fn velocities(&self) -> [f64; 2] {
+        self.velocities
+    }
+
+    /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
+    pub fn gap(&self) -> f64 {
+        self.gap
+    }
+
+    /// Relative speed of approach, m/s, > 0.
     pub fn speed(&self) -> f64 {
         self.velocities[0] - self.velocities[1]
     }
@@ -38,5 +103,22 @@ impl Approach {
         // The lighter body does more of the approach; the common mass centre moves on.
         let common = shares[1] * self.velocities[0] + shares[0] * self.velocities[1];
         [common * time + shares[0] * approach, common * time - shares[1] * approach]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_bodies_that_meet_have_an_approach() {
+        for velocities in [[0.0, 0.0], [-0.5, 0.0], [f64::NAN, 0.0], [f64::INFINITY, 0.0]] {
+            let refused = Approach::new(velocities, 0.0).unwrap_err();
+            assert!(matches!(refused, ApproachError::NotApproaching(_)), "{refused:?}");
+        }
+        for gap in [-1e-9, f64::INFINITY, f64::NAN] {
+            let refused = Approach::new([1.0, 0.0], gap).unwrap_err();
+            assert!(matches!(refused, ApproachError::Gap(_)), "{refused:?}");
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! What comes out of a collision, the same for every model.
 
+use crate::account::Book;
+use crate::approach::Approach;
 use crate::ending::Ending;
 use crate::row::Row;
 use crate::snapshot::{Label, Snapshot};
@@ -12,6 +14,8 @@ pub const STAY_TOGETHER: &str =
 /// A collision as far as it got. `None`: the model knows it not, or it has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
+    /// How the bodies met.
+    pub approach: Approach,
     /// How it ended.
     pub ending: Ending,
     /// Relative velocity after over before, 1 when elastic; 0 for bodies that stay together.
@@ -32,8 +36,16 @@ pub struct Collision {
     pub max_contact_radius: Option<f64>,
     /// Largest contact pressure on the axis, Pa.
     pub peak_pressure: Option<f64>,
+    /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
+    pub force_scatter: Option<f64>,
+    /// Radius out to which contact was looked for in the end, of a model that has such a limit, m.
+    pub searched_radius: Option<f64>,
     /// Kinetic energy at the start, walls not counted, J.
     pub initial_energy: Option<f64>,
+    /// What is in each account of energy at the end, J.
+    pub energies: Book,
+    /// What the energies do not account for at the end, J.
+    pub residual: Option<f64>,
     /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre.
     pub residual_relative: Option<f64>,
     /// Worst drift of momentum over Σ m|v| at the start.
@@ -74,9 +86,10 @@ pub struct BodyResult {
 }
 
 impl Collision {
-    /// Nothing, and why.
-    pub fn stopped(stop: Stop) -> Self {
+    /// Nothing of bodies that were to meet like this, and why.
+    pub fn stopped(approach: Approach, stop: Stop) -> Self {
         Self {
+            approach,
             ending: Ending::Stopped(stop),
             restitution: None,
             contact_time: None,
@@ -87,7 +100,11 @@ impl Collision {
             max_approach: None,
             max_contact_radius: None,
             peak_pressure: None,
+            force_scatter: None,
+            searched_radius: None,
             initial_energy: None,
+            energies: Book::EMPTY,
+            residual: None,
             residual_relative: None,
             momentum_residual_relative: None,
             bodies: [BodyResult::default(); 2],

@@ -33,7 +33,7 @@ impl Frame {
 
     /// Velocities of both bodies (m/s) at a rate of the approach, m/s.
     pub fn velocities(&self, rate: f64) -> [f64; 2] {
-        let before = self.approach.velocities;
+        let before = self.approach.velocities();
         let change = |side: usize| self.masses[side].map_or(0.0, |m| self.impulse(rate) / m);
         [before[0] - change(0), before[1] + change(1)]
     }
@@ -57,14 +57,14 @@ impl Frame {
 
     /// Work that a moving wall has done, J.
     pub fn wall_work(&self, rate: f64) -> f64 {
-        let velocities = self.approach.velocities;
+        let velocities = self.approach.velocities();
         let wall = |side: usize| self.masses[side].is_none().then_some(velocities[side]);
         self.impulse(rate) * (wall(0).unwrap_or(0.0) - wall(1).unwrap_or(0.0))
     }
 
     /// Drift of the momentum, a wall's share counted, over Σ m|v| at the start.
     pub fn momentum_drift(&self, rate: f64) -> f64 {
-        let (before, after) = (self.approach.velocities, self.velocities(rate));
+        let (before, after) = (self.approach.velocities(), self.velocities(rate));
         let gained = |side: usize, sign: f64| match self.masses[side] {
             Some(mass) => mass * (after[side] - before[side]),
             None => sign * self.impulse(rate),
@@ -84,7 +84,7 @@ mod tests {
     /// Two spheres that part at half the speed, by hand: momentum 2·3 + 1·0 is kept.
     #[test]
     fn momentum_is_kept_and_the_rate_is_the_difference() {
-        let approach = Approach { velocities: [3.0, 0.0], gap: 0.0 };
+        let approach = Approach::at(3.0).unwrap();
         let frame = Frame { approach, masses: [Some(2.0), Some(1.0)], reduced_mass: 2.0 / 3.0 };
         let [lower, upper] = frame.velocities(-1.5);
         assert!((lower - upper + 1.5).abs() < 1e-15);
@@ -96,7 +96,7 @@ mod tests {
     /// A wall keeps its velocity; what it gives is force times way.
     #[test]
     fn a_wall_that_moves_does_work() {
-        let approach = Approach { velocities: [2.0, 0.0], gap: 0.0 };
+        let approach = Approach::at(2.0).unwrap();
         let frame = Frame { approach, masses: [None, Some(1.0)], reduced_mass: 1.0 };
         assert_eq!(frame.velocities(-2.0), [2.0, 4.0]);
         assert_eq!(frame.wall_work(-2.0), 8.0);

@@ -27,7 +27,7 @@ impl CondensedPair {
     /// bodies, lower first; `None` is elastic. `n_steps` steps over the elastic contact time.
     ///
     /// # Errors
-    /// As [`CondensedPair::collide`]; whatever stops a collision before its end: a contact beyond
+    /// As [`CondensedPair::collide`]; a speed that is not positive and finite; whatever stops a collision before its end: a contact beyond
     /// the condensed region, bodies that do not part within the time.
     pub fn impact(
         &self,
@@ -35,7 +35,7 @@ impl CondensedPair {
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
     ) -> Result<Collision, CondensedError> {
-        let frame = self.frame(speed);
+        let frame = self.frame(speed)?;
         let collision = self.collide(&frame, relaxations, n_steps, &Want::quantities(), &mut ())?;
         match collision.ending {
             Ending::Stopped(stop) => Err(stop.into()),
@@ -46,8 +46,7 @@ impl CondensedPair {
     /// The collision of bodies that meet like this, as far as it gets.
     ///
     /// # Errors
-    /// A speed that is not positive and finite, too few steps, a contact that is beyond the
-    /// condensed region already without relaxation.
+    /// Too few steps, a contact that is beyond the condensed region already without relaxation.
     pub fn collide(
         &self,
         frame: &Frame,
@@ -57,9 +56,6 @@ impl CondensedPair {
         monitor: &mut dyn Monitor,
     ) -> Result<Collision, CondensedError> {
         let speed = frame.speed();
-        if !(speed > 0.0 && speed.is_finite()) {
-            return Err(CondensedError::NotApproaching(speed));
-        }
         if n_steps < FEWEST_STEPS {
             let (name, value) = ("number of steps", n_steps as f64);
             return Err(CondensedError::Setting { name, value, allowed: "at least 8" });

@@ -1,6 +1,6 @@
 //! Why a pair cannot be condensed, or its collision not be computed.
 
-use fem_collision::Stop;
+use fem_collision::{ApproachError, Stop};
 use fem_contact::ContactError;
 use thiserror::Error;
 
@@ -20,9 +20,9 @@ pub enum CondensedError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// The bodies do not approach each other.
-    #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
-    NotApproaching(f64),
+    /// The bodies do not meet.
+    #[error(transparent)]
+    Approach(#[from] ApproachError),
     /// The stiffness matrix has no Cholesky factor.
     #[error(
         "the stiffness matrix of a body is not positive definite: an element is degenerate or \

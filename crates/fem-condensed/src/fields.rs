@@ -84,7 +84,7 @@ impl CondensedPair {
                 .iter()
                 .zip(&states)
                 .flat_map(|(&instant, [now, rates])| {
-                    let approach = now.approach + frame.approach.gap;
+                    let approach = now.approach + frame.approach.gap();
                     let centre = frame.approach.centres(self.masses(), approach, time(instant))[s];
                     let velocity = frame.approach.centres(self.masses(), rates.approach, 1.0)[s];
                     let effective = now.sides[s].effective();

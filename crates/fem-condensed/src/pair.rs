@@ -1,7 +1,7 @@
 //! Two bodies condensed to their contact, ready for any number of collisions.
 
 use faer::Mat;
-use fem_collision::{Approach, BodyInput, BodyResult, Frame, Stop};
+use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, Frame, Stop};
 use fem_contact::{ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
@@ -127,9 +127,12 @@ impl CondensedPair {
     }
 
     /// The lower body strikes the upper one at rest at this speed, m/s.
-    pub fn frame(&self, speed: f64) -> Frame {
+    ///
+    /// # Errors
+    /// A speed that is not positive and finite.
+    pub fn frame(&self, speed: f64) -> Result<Frame, ApproachError> {
         let masses = self.sides.each_ref().map(|side| side.as_ref().map(|s| s.body.mass));
-        Frame { approach: Approach::at(speed), masses, reduced_mass: self.reduced_mass }
+        Ok(Frame { approach: Approach::at(speed)?, masses, reduced_mass: self.reduced_mass })
     }
 
     /// What is known of the bodies before they collide.

@@ -304,7 +304,9 @@ impl<'a> Run<'a> {
             let place = history.partition_point(|row| row.time < first_touch + end.time);
             history.insert(place, end.row(frame));
         }
+        let end = history.last();
         let collision = Collision {
+            approach: frame.approach,
             restitution,
             contact_time: is_parted.then_some(self.last_contact),
             first_contact: has_touched.then_some(first_touch),
@@ -314,7 +316,11 @@ impl<'a> Run<'a> {
             max_approach: Some(self.approach.highest),
             max_contact_radius: Some(self.max_radius),
             peak_pressure: Some(self.max_pressure),
+            force_scatter: None,
+            searched_radius: Some(self.pair.candidate_radius()),
             initial_energy: Some(frame.kinetic(frame.speed())),
+            energies: end.map_or(Book::EMPTY, |row| row.energies),
+            residual: end.and_then(|row| row.residual),
             residual_relative: Some(self.worst_residual),
             momentum_residual_relative: Some(self.worst_drift),
             bodies,

@@ -23,7 +23,8 @@ fn run_explicit(scene: &Scene) -> Collision {
         // 3e-5 of the mass moves T by as much.
         mass_scaling: 3e-5,
     };
-    let model = Model::new(scene.inputs(ELEMENTS), Approach::at(scene.speed), &settings).unwrap();
+    let model =
+        Model::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings).unwrap();
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
     let want = Want { give_up_after: 20.0, ..Want::history() };
@@ -74,7 +75,7 @@ fn six_scenes_are_the_explicit_ones() {
         let contact = ContactModel::Springs(PENALTY * scene.pair().contact_modulus());
         let settings = PairSettings { contact, vibration_modes: MODES, ..scene.settings() };
         let pair = CondensedPair::new(scene.inputs(ELEMENTS), settings).unwrap();
-        let frame = pair.frame(scene.speed);
+        let frame = pair.frame(scene.speed).unwrap();
         let relaxations = pair.relaxations();
         let run = pair.collide(&frame, relaxations, 1000, &Want::history(), &mut ()).unwrap();
         let restitution = reference.restitution.unwrap();

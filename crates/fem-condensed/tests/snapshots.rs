@@ -38,8 +38,8 @@ fn snapshots_are_the_motion() {
         let scene = Scene::paper(lower, upper);
         let settings = PairSettings { vibration_modes, ..scene.settings() };
         let pair = CondensedPair::new(scene.inputs(8.0), settings).unwrap();
-        let approach = Approach { velocities: [0.7, 0.2], gap: 1e-6 };
-        let frame = Frame { approach, ..pair.frame(0.5) };
+        let approach = Approach::new([0.7, 0.2], 1e-6).unwrap();
+        let frame = Frame { approach, ..pair.frame(0.5).unwrap() };
         let run = drawn(&pair, frame, SnapshotRequest::Labels(Label::ALL.to_vec()), 200);
         let (snapshots, missing) = (&run.snapshots, &run.warnings);
         assert!(missing.is_empty() && snapshots.len() == 4, "{missing:?}");
@@ -106,7 +106,7 @@ fn counts_and_times() {
     let pair = scene.condensed(6.0);
     let run = scene.collide(&pair);
     let with = |request| {
-        let run = drawn(&pair, pair.frame(0.5), request, 200);
+        let run = drawn(&pair, pair.frame(0.5).unwrap(), request, 200);
         (run.snapshots, run.warnings)
     };
     let (five, missing) = with(SnapshotRequest::Count(5));
@@ -136,7 +136,7 @@ fn fields_are_the_explicit_ones() {
         step_factor: 0.9,
         mass_scaling: 3e-5,
     };
-    let model = fem_explicit::Model::new(bodies, Approach::at(0.5), &settings).unwrap();
+    let model = fem_explicit::Model::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
     let request = SnapshotRequest::Labels(vec![Label::Maximum]);
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
@@ -148,7 +148,7 @@ fn fields_are_the_explicit_ones() {
         ..scene.settings()
     };
     let pair = CondensedPair::new(scene.inputs(5.0), settings).unwrap();
-    let run = drawn(&pair, pair.frame(0.5), request, 1000);
+    let run = drawn(&pair, pair.frame(0.5).unwrap(), request, 1000);
     for side in 0..2 {
         let (found, expected) =
             (&run.snapshots[0].bodies[side], &reference.snapshots[0].bodies[side]);

@@ -19,9 +19,6 @@ pub enum ModelError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// The bodies do not approach each other.
-    #[error("the bodies approach each other at {0} m/s; it must be positive and finite")]
-    NotApproaching(f64),
     /// A wall keeps its velocity, whatever acts on it.
     #[error("a force acts on the nodes of a wall, which keeps its velocity")]
     ForceOnWall,

@@ -136,7 +136,7 @@ impl Ledger {
             time: state.time,
             contact_force: contact.force,
             contact_radius: Some(model.contact().contact_radius(&motions, history)),
-            approach: lower.displacement - upper.displacement - model.approach().gap,
+            approach: lower.displacement - upper.displacement - model.approach().gap(),
             centre_pressure: Some(model.contact().centre_pressure(&motions, history)),
             velocity: [lower.velocity, upper.velocity],
             energies,

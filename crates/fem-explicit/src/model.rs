@@ -53,7 +53,7 @@ impl Model {
     /// Lumps masses, pairs the surfaces, chooses the time step.
     ///
     /// # Errors
-    /// Settings out of range, two walls, bodies that do not approach.
+    /// Settings out of range, two walls.
     pub fn new(
         inputs: [BodyInput; 2],
         approach: Approach,
@@ -72,14 +72,10 @@ impl Model {
         settings: &Settings,
         parts: Parts,
     ) -> Result<Self, ModelError> {
-        check(settings, approach.gap)?;
-        let approach_speed = approach.speed();
-        if !(approach_speed > 0.0 && approach_speed.is_finite()) {
-            return Err(ModelError::NotApproaching(approach_speed));
-        }
+        check(settings)?;
         let mut contact = match parts.contact {
             Some(contact) => contact,
-            None => Box::new(penalty(&inputs, approach.gap, settings)?),
+            None => Box::new(penalty(&inputs, approach.gap(), settings)?),
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
@@ -98,7 +94,7 @@ impl Model {
         let time_step = settings.step_factor * critical;
         contact.set_time_step(time_step);
         let mut spheres = spheres.into_iter();
-        let bodies = approach.velocities.map(|velocity| match spheres.next().flatten() {
+        let bodies = approach.velocities().map(|velocity| match spheres.next().flatten() {
             Some(sphere) => {
                 let (nodal_mass, added_mass) = sphere.bound.scale_mass(critical);
                 Body::of_sphere(sphere, velocity, nodal_mass, added_mass, time_step)
@@ -182,17 +178,14 @@ fn lump(
     }
 }
 
-fn check(settings: &Settings, gap: f64) -> Result<(), ModelError> {
+fn check(settings: &Settings) -> Result<(), ModelError> {
     let &Settings { step_factor, mass_scaling, .. } = settings;
-    let setting = |name, value, allowed| Err(ModelError::Setting { name, value, allowed });
     check_step_factor(step_factor)?;
-    if !(0.0..1.0).contains(&mass_scaling) {
-        return setting("mass scaling", mass_scaling, "at least 0 and below 1");
+    if (0.0..1.0).contains(&mass_scaling) {
+        return Ok(());
     }
-    if !(gap >= 0.0 && gap.is_finite()) {
-        return setting("gap", gap, "at least 0");
-    }
-    Ok(())
+    let (name, allowed) = ("mass scaling", "at least 0 and below 1");
+    Err(ModelError::Setting { name, value: mass_scaling, allowed })
 }
 
 pub(crate) fn check_step_factor(value: f64) -> Result<(), ModelError> {

@@ -1,7 +1,8 @@
 //! A run from first touch to separation, as a stepper: whoever owns it decides when to go on.
 
 use fem_collision::{
-    BodyResult, Collision, Ending, Expectation, Monitor, Phase, Progress, Row, RowKind, Stop, Want,
+    BodyResult, Book, Collision, Ending, Expectation, Monitor, Phase, Progress, Row, RowKind, Stop,
+    Want,
 };
 
 use crate::contact_log::FLIGHT_AFTER;
@@ -76,7 +77,7 @@ pub enum Status {
 /// #     mass_scaling: 1e-3,
 /// # };
 /// let bodies = [BodyInput::Sphere { mesh, material }, BodyInput::Wall];
-/// let model = Model::new(bodies, Approach::at(0.5), &settings)?;
+/// let model = Model::new(bodies, Approach::at(0.5)?, &settings)?;
 /// let expected = Expectation { contact_time: 80e-6, approach: 20e-6 };
 /// let mut run = Run::new(&model, expected, &Want::quantities());
 /// for _ in 0..10 {
@@ -234,6 +235,7 @@ impl<'a> Run<'a> {
             (over_rows(|row| row.contact_radius), over_rows(|row| row.centre_pressure));
         let (snapshots, warnings) = recorder.finish();
         Collision {
+            approach: *self.model.approach(),
             ending: stopped.map_or(Ending::Parted, Ending::Stopped),
             restitution,
             // A contact that was left before its end has no duration.
@@ -245,7 +247,11 @@ impl<'a> Run<'a> {
             max_approach: Some(log.max_approach),
             max_contact_radius,
             peak_pressure,
+            force_scatter: None,
+            searched_radius: Some(self.model.candidate_radius()),
             initial_energy: Some(ledger.initial),
+            energies: rows.last().map_or(Book::EMPTY, |row| row.energies),
+            residual: rows.last().and_then(|row| row.residual),
             residual_relative: Some(ledger.worst_residual),
             momentum_residual_relative: Some(ledger.worst_momentum),
             bodies,

@@ -71,6 +71,6 @@ pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
             effective: vec![displacement; n_effective],
         }
     });
-    let approach = model.approach().speed() * time - model.approach().gap;
+    let approach = model.approach().speed() * time - model.approach().gap();
     Snapshot { label: None, time, approach, bodies }
 }

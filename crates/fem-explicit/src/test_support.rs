@@ -58,7 +58,7 @@ pub(crate) fn free_sphere(
     step_factor: f64,
 ) -> (Model, State) {
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
-    let approach = Approach { velocities: [1.0, 0.0], gap: 1e3 };
+    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let settings = Settings { step_factor, ..settings() };
     let model = Model::new(bodies, approach, &settings).unwrap();
     let mut state = State::at_first_touch(&model);

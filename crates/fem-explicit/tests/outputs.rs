@@ -259,15 +259,8 @@ fn settings_out_of_range_are_refused() {
     ] {
         refuses(model(approach, &settings), name);
     }
-    for gap in [-1e-9, f64::INFINITY] {
-        refuses(model(Approach { gap, ..approach }, &good), "gap");
-    }
     let refused = model(approach, &Settings { contact_stiffness: 0.0, ..good }).unwrap_err();
     assert!(matches!(refused, ModelError::Contact(ContactError::NotPositive { .. })));
-    for velocities in [[0.0, 0.0], [-0.5, 0.0], [f64::NAN, 0.0], [f64::INFINITY, 0.0]] {
-        let refused = model(Approach { velocities, ..approach }, &good).unwrap_err();
-        assert!(matches!(refused, ModelError::NotApproaching(_)), "{refused:?}");
-    }
     let walls = Model::new([BodyInput::Wall, BodyInput::Wall], approach, &good).unwrap_err();
     assert_eq!(walls, ModelError::Contact(ContactError::TwoWalls));
 }

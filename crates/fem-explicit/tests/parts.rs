@@ -215,7 +215,7 @@ impl Counting {
             lower,
             upper,
             settings.contact_stiffness,
-            approach.gap,
+            approach.gap(),
             settings.candidate_radius,
         );
         Self { penalty: penalty.unwrap(), first_touch: approach.first_touch(), time_step: 0.0 }

@@ -23,7 +23,7 @@ fn model(n: f64) -> Model {
         step_factor: 0.9,
         mass_scaling: 0.0,
     };
-    Model::new([BodyInput::Wall, sphere], Approach::at(1.0), &settings).unwrap()
+    Model::new([BodyInput::Wall, sphere], Approach::at(1.0).unwrap(), &settings).unwrap()
 }
 
 fn stress_of(body: &Body, displacement: impl Fn([f64; 2]) -> [f64; 2]) -> StressField {

@@ -59,8 +59,8 @@ pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
             format!("{} to {}", show(quality.min_edge, "m"), show(quality.max_edge, "m")),
         ]
     };
-    let bodies = scene.bodies.iter().zip(meshes);
-    let rows = bodies.map(|(body, mesh)| row(&body.name, mesh));
+    let bodies = scene.bodies().iter().zip(meshes);
+    let rows = bodies.map(|(body, mesh)| row(body.name(), mesh));
     let rows = std::iter::once(header.map(String::from)).chain(rows);
     table(&[Left, Right, Right, Right, Right, Left], rows)
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use fem_case::CaseError;
-use fem_collision::Stop;
+use fem_collision::{ApproachError, Stop};
 use fem_explicit::ModelError;
 use fem_laws::LawError;
 use fem_material::MaterialError;
@@ -71,6 +71,9 @@ pub enum StudyError {
     /// A material that cannot be.
     #[error("{0}")]
     Material(#[from] MaterialError),
+    /// Bodies that do not meet.
+    #[error("{0}")]
+    Approach(#[from] ApproachError),
     /// A model that cannot be made.
     #[error("{0}")]
     Model(#[from] ModelError),

@@ -71,9 +71,10 @@ impl<'a> Laboratory<'a> {
         if self.observer.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
-        if case.scene.model != ModelChoice::Fem {
-            let message = format!("model `{}` has no explicit elements", case.scene.model.name());
-            return Err(case.error_at(&case.scene.model.path(), message).into());
+        if *case.scene().model() != ModelChoice::Fem {
+            let message =
+                format!("model `{}` has no explicit elements", case.scene().model().name());
+            return Err(case.error_at(&case.scene().model().path(), message).into());
         }
         let slot = self.shelf.explicit.slot(key(Simulation::resolve(&case)?)?);
         let result = slot.get_or_init(|| self.run_explicit(case)).clone();
@@ -94,7 +95,7 @@ impl<'a> Laboratory<'a> {
     /// # Errors
     /// As [`Laboratory::run`], but for the model.
     pub fn simulate(&self, case: Case) -> Result<Arc<Run>, StudyError> {
-        if case.scene.model == ModelChoice::Fem {
+        if *case.scene().model() == ModelChoice::Fem {
             return self.run(case).map(|run| Arc::new(run.run.clone()));
         }
         if self.observer.is_interrupted() {
@@ -150,7 +151,7 @@ impl<'a> Laboratory<'a> {
     }
 
     fn run_explicit(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
-        let mut explicit = Explicit::new(&case.scene).map_err(|refusal| refusal.in_case(&case))?;
+        let mut explicit = Explicit::new(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
         let (approach, want) = (explicit.setup().approach, explicit.setup().want.clone());
         let hertz = explicit.plan.estimate.hertz;
         let collide = |listener: &mut dyn Monitor| explicit.collide(&approach, &want, listener);
@@ -177,7 +178,7 @@ impl<'a> Laboratory<'a> {
         if collision.is_interrupted() {
             return Err(StudyError::Interrupted);
         }
-        let title = || case.scene.title.clone();
+        let title = || case.scene().title().to_string();
         if let Some(stop) = collision.stop() {
             return Err(StudyError::Stopped { title: title(), stop: stop.clone() });
         }

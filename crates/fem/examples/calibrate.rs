@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let target = BodyTable::sphere("target", "15.9 mm", "glass");
     let case = Case::of(CaseFile::of_bodies(striker, target).with_material("glass", glass))?;
     let table = Table::parse("measured", MEASURED)?;
-    let measured = Restitutions::read(&table, &case.scene)?;
+    let measured = Restitutions::read(&table, case.scene())?;
 
     // A spring and a dashpot of the overlap, as DEM codes have them.
     let law = ChosenLaw::of(&case, Family::KuwabaraKono, &[], None)?;

@@ -202,7 +202,7 @@ impl<'a> Run<'a> {
     }
 
     fn added_mass(&self) -> impl Iterator<Item = String> {
-        let bodies = self.collision.bodies.iter().zip(&self.simulation.case.scene.bodies);
+        let bodies = self.collision.bodies.iter().zip(self.simulation.case.scene().bodies());
         bodies.filter_map(|(body, named)| {
             let share = body.added_mass? / body.mass?;
             (share > LARGEST_ADDED_MASS).then(|| {
@@ -210,7 +210,7 @@ impl<'a> Run<'a> {
                     "mass scaling adds {:.2} % to the mass of {}; above {} %, use a smaller \
                      time.mass_scaling",
                     100.0 * share,
-                    named.name,
+                    named.name(),
                     100.0 * LARGEST_ADDED_MASS
                 )
             })

@@ -55,7 +55,14 @@ impl Estimate {
     /// # Errors
     /// Numbers so extreme that Hertz' values leave the range of f64.
     pub fn of(scene: &Scene) -> Result<Self, LawError> {
-        let speed = scene.approach_speed();
+        Self::at(scene, scene.approach_speed())
+    }
+
+    /// What closed forms say of the bodies of a scene that meet at this speed, m/s.
+    ///
+    /// # Errors
+    /// As [`Estimate::of`].
+    pub fn at(scene: &Scene, speed: f64) -> Result<Self, LawError> {
         let hertz = HertzImpact::new(&pair(scene, 0.0)?, speed)?;
         let mut relaxed_impact = hertz;
         // The contact time hardly depends on the moduli; a few passes settle it.
@@ -66,10 +73,10 @@ impl Estimate {
                 Err(_) => break,
             }
         }
-        let spheres = || scene.bodies.iter().filter_map(Body::diameter);
+        let spheres = || scene.bodies().iter().filter_map(Body::diameter);
         let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
         let contact_radius = relaxed_impact.max_contact_radius();
-        let materials = || scene.bodies.iter().filter_map(Body::material);
+        let materials = || scene.bodies().iter().filter_map(Body::material);
         let slowest = materials().map(|m| m.shear_wave_speed()).fold(f64::INFINITY, f64::min);
         let contact_time = relaxed_impact.contact_time();
         let relaxed = materials()
@@ -91,7 +98,7 @@ impl Estimate {
 
 /// The pair with moduli as they are `time` after a sudden load.
 fn pair(scene: &Scene, time: f64) -> Result<Pair, LawError> {
-    let [first, second] = scene.bodies.each_ref().map(|body| match &body.shape {
+    let [first, second] = scene.bodies().each_ref().map(|body| match body.shape() {
         Shape::Sphere { diameter, material, .. } => {
             let mass = fem_laws::sphere_mass(*diameter, material.density());
             let now = material.instantaneous();

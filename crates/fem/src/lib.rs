@@ -32,7 +32,7 @@ mod simulation;
 mod stress;
 pub mod sweep;
 
-pub use approach::{approach_of, scene_at};
+pub use approach::approach_of;
 pub use assess::assess;
 pub use estimate::Estimate;
 pub use meshes::build_meshes;

@@ -29,8 +29,8 @@ pub(crate) fn explicit_memory(plan: &Plan, elements: u64, branches: u64) -> u64 
 /// More elements or memory than the limits allow; a mesh that cannot be made.
 pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
     let (mut elements, mut branches) = (0, 0);
-    for body in &scene.bodies {
-        if let Shape::Sphere { diameter, mesh: None, material } = &body.shape {
+    for body in scene.bodies() {
+        if let Shape::Sphere { diameter, mesh: None, material } = body.shape() {
             let n = half_disc(plan, *diameter).n_elements().map_err(|e| mesh_refusal(&e))? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;
@@ -52,7 +52,7 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
     if elements <= plan.max_elements {
         return Ok(());
     }
-    let key = blamed(scene, "limits.elements", scene.limits.elements);
+    let key = blamed(scene, "limits.elements", scene.limits().elements);
     let found = format!(
         "the meshes would have {elements} elements, {:.3e} m long at the contact",
         plan.contact_element_size
@@ -80,7 +80,7 @@ pub(crate) fn check_memory(
     let (key, remedy) = if states > memory / 2 {
         ("output.snapshots", "ask for fewer output.snapshots")
     } else {
-        let key = blamed(scene, "limits.memory", scene.limits.memory);
+        let key = blamed(scene, "limits.memory", scene.limits().memory);
         (key, "use a larger mesh.contact_element_size")
     };
     let megabytes = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
@@ -109,7 +109,7 @@ pub(crate) fn check_updates(
     if element_updates <= plan.max_element_updates {
         return Ok(());
     }
-    let key = blamed(scene, "limits.element_updates", scene.limits.element_updates);
+    let key = blamed(scene, "limits.element_updates", scene.limits().element_updates);
     let found = format!(
         "the run would take {steps} steps of {elements} elements, {:.1e} element updates",
         element_updates as f64
@@ -123,6 +123,6 @@ pub(crate) fn check_updates(
 
 /// The element size if the case gives it, else the limit if that is given.
 fn blamed(scene: &Scene, limit: &'static str, given: Option<u64>) -> &'static str {
-    let has_size = scene.mesh.contact_element_size.is_some();
+    let has_size = scene.mesh().contact_element_size.is_some();
     if !has_size && given.is_some() { limit } else { "mesh.contact_element_size" }
 }

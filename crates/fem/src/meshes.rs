@@ -30,8 +30,8 @@ pub fn build_meshes(scene: &Scene, plan: &Plan) -> Result<[Option<SphereMesh>; 2
 pub(crate) fn mesh_sources(scene: &Scene, plan: &Plan) -> Result<[Option<MeshSource>; 2], Refusal> {
     check_size(scene, plan)?;
     let mut sources = [None, None];
-    for (k, body) in scene.bodies.iter().enumerate() {
-        if let Shape::Sphere { diameter, mesh, .. } = &body.shape {
+    for (k, body) in scene.bodies().iter().enumerate() {
+        if let Shape::Sphere { diameter, mesh, .. } = body.shape() {
             sources[k] = Some(match mesh {
                 Some(path) => MeshSource::File(import(k, *diameter, path)?),
                 None => MeshSource::HalfDisc(half_disc(plan, *diameter)),

@@ -75,42 +75,42 @@ impl Plan {
         // Half of the radius is as far as the fine block of a half disc reaches.
         let half_radius = 0.5 * estimate.smallest_radius;
         let contact_radius = estimate.contact_radius.min(half_radius);
-        let contact_element_size = scene.mesh.contact_element_size.unwrap_or(
+        let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
             (contact_radius / ELEMENTS_PER_CONTACT_RADIUS).min(estimate.smallest_radius / 12.0),
         );
         let refined_radius = scene
-            .mesh
+            .mesh()
             .refined_radius
             .unwrap_or((REFINED_OVER_CONTACT * contact_radius).min(half_radius));
         let candidate_radius =
             (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size);
-        let penalty_factor = scene.penalty_factor.unwrap_or(1.0);
-        let made_here = |body: &Body| matches!(body.shape, Shape::Sphere { mesh: None, .. });
-        let makes_meshes = scene.bodies.iter().any(made_here);
+        let penalty_factor = scene.penalty_factor().unwrap_or(1.0);
+        let made_here = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: None, .. });
+        let makes_meshes = scene.bodies().iter().any(made_here);
         let given = [
-            ("contact_element_size", scene.mesh.contact_element_size),
-            ("refined_radius", scene.mesh.refined_radius),
-            ("growth", scene.mesh.growth),
+            ("contact_element_size", scene.mesh().contact_element_size),
+            ("refined_radius", scene.mesh().refined_radius),
+            ("growth", scene.mesh().growth),
         ];
         let unread = given.into_iter().find(|(_, value)| !makes_meshes && value.is_some());
         let warning =
             |key: &str| format!("mesh.{key} has no effect: the meshes are read from files");
         let warnings = unread.map(|(key, _)| warning(key)).into_iter().collect();
-        let limits = scene.limits;
+        let limits = scene.limits();
         Ok(Self {
-            gap: scene.gap.unwrap_or(0.0),
+            gap: scene.gap().unwrap_or(0.0),
             contact_element_size,
             refined_radius,
-            growth: scene.mesh.growth,
+            growth: scene.mesh().growth,
             makes_meshes,
             candidate_radius,
             penalty_factor,
             contact_stiffness: penalty_factor
                 * PENALTY_OVER_MODULUS
                 * estimate.hertz.pair().contact_modulus(),
-            step_factor: scene.step_factor.unwrap_or(STEP_FACTOR),
-            mass_scaling: scene.mass_scaling.unwrap_or(MASS_SCALING),
-            snapshots: request(scene.snapshots.as_ref()),
+            step_factor: scene.step_factor().unwrap_or(STEP_FACTOR),
+            mass_scaling: scene.mass_scaling().unwrap_or(MASS_SCALING),
+            snapshots: request(scene.snapshots()),
             max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),
             max_memory: limits.memory.unwrap_or(MAX_MEMORY),
@@ -124,7 +124,7 @@ impl Plan {
     /// # Errors
     /// As [`Plan::of`].
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
-        Self::of(&case.scene).map_err(|refusal| refusal.in_case(case))
+        Self::of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
     /// What a run is asked for.

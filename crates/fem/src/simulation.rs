@@ -61,8 +61,8 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::new`].
     pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
-        let method = method_of(&case.scene);
-        let model = method.build(&case.scene, shared).map_err(|refusal| refusal.in_case(&case))?;
+        let method = method_of(case.scene());
+        let model = method.build(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
         let resolved = resolve(method, &case)?;
         let want = model.setup().want.clone();
         Ok(Self { case, model, want, resolved })
@@ -73,7 +73,7 @@ impl Simulation {
     /// # Errors
     /// What the method refuses before it makes anything.
     pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
-        resolve(method_of(&case.scene), case)
+        resolve(method_of(case.scene()), case)
     }
 
     /// Element updates to come; see [`Method::price`].
@@ -81,7 +81,7 @@ impl Simulation {
     /// # Errors
     /// As [`Method::price`].
     pub fn price(case: &Case) -> Result<u64, CaseError> {
-        method_of(&case.scene).price(&case.scene).map_err(|refusal| refusal.in_case(case))
+        method_of(case.scene()).price(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
     /// What was decided.
@@ -109,5 +109,5 @@ impl Simulation {
 }
 
 fn resolve(method: &dyn Method, case: &Case) -> Result<CaseFile, CaseError> {
-    method.resolve(&case.scene, case.file.clone()).map_err(|refusal| refusal.in_case(case))
+    method.resolve(case.scene(), case.file().clone()).map_err(|refusal| refusal.in_case(case))
 }

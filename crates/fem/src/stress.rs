@@ -28,7 +28,7 @@ impl Simulation {
     /// a wall, by a model without elements, or where the snapshot's fields are not those of its mesh.
     pub fn stress(&self, snapshot: &Snapshot, side: usize) -> Option<BodyStress<'_>> {
         let mesh = (*self.model.meshes().get(side)?)?;
-        let material = self.case.scene.bodies[side].material()?;
+        let material = self.case.scene().bodies()[side].material()?;
         let fields = &snapshot.bodies[side];
         let n_nodes = mesh.nodes().len();
         let relaxed = fields.effective.len();

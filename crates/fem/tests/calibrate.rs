@@ -62,7 +62,8 @@ fn a_series_that_made_the_data_makes_them_again() {
         glass.relaxation = found.relaxation();
     });
     let sum: f64 = found.terms().iter().map(|term| term.weight).sum();
-    let materials = relaxing.unwrap().scene.bodies.map(|body| body.material().cloned().unwrap());
+    let materials =
+        relaxing.unwrap().scene().bodies().each_ref().map(|body| body.material().cloned().unwrap());
     for material in materials {
         let left = material.relaxation().unwrap().equilibrium_weight();
         assert!((left - (1.0 - sum)).abs() < 1e-12);

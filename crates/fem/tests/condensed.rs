@@ -26,7 +26,7 @@ const CONDENSED: &str = "model.condensed={}";
 
 #[test]
 fn keys_are_read_and_checked() {
-    let model = |value: &str| parse(&[value]).map(|case| case.scene.model);
+    let model = |value: &str| parse(&[value]).map(|case| case.scene().model().clone());
     assert_eq!(model(CONDENSED).unwrap(), ModelChoice::Condensed(CondensedOptions::default()));
     let all = "model.condensed={vibration_modes=12, steps=200, penalty_springs=true}";
     let expected = CondensedOptions { vibration_modes: 12, steps: 200, penalty_springs: true };
@@ -127,7 +127,7 @@ fn cases_share_a_pair() {
     let condensed_of = |extra: &str| {
         let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
         let case = parse(&overrides).unwrap();
-        let mut condensed = Condensed::new(&case.scene, &shared).unwrap();
+        let mut condensed = Condensed::new(case.scene(), &shared).unwrap();
         let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
         let collision = condensed.collide(&approach, &want, &mut ());
         assert_eq!(collision.history, run(&overrides).history);
@@ -230,7 +230,7 @@ fn an_enlarged_pair_is_not_put_back() {
         parse(&[&COARSE[1..], &fine].concat()).unwrap()
     };
     let condensed = |case: Case| {
-        let mut condensed = Condensed::new(&case.scene, &shared).unwrap();
+        let mut condensed = Condensed::new(case.scene(), &shared).unwrap();
         let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
         condensed.collide(&approach, &want, &mut ());
         condensed.pair().candidate_radius()

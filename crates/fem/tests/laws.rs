@@ -58,7 +58,7 @@ fn a_law_that_made_the_data_is_found_again() {
 #[test]
 fn what_is_given_goes_before_the_case_and_is_where_a_search_begins() {
     let case = ball(Some(tsuji(0.9)));
-    assert_eq!(family_of(&case.scene), Some(Family::Tsuji));
+    assert_eq!(family_of(case.scene()), Some(Family::Tsuji));
     let data = Restitutions::of("e", &[(0.1, 0.8), (0.2, 0.8)]);
     let own = ChosenLaw::of(&case, Family::Tsuji, &[], None).unwrap();
     let problem = own.problem(&data.points, &[]).unwrap();
@@ -128,7 +128,7 @@ fn an_export_says_where_it_is_good() {
 
     // Without contact times Hertz' stand in; one speed says nothing.
     let measured =
-        |points: &[(f64, f64)]| ImpactCurve::measured(&case.scene, &Restitutions::of("e", points));
+        |points: &[(f64, f64)]| ImpactCurve::measured(case.scene(), &Restitutions::of("e", points));
     assert!(measured(&[(0.2, 0.9), (0.1, 0.9)]).unwrap().has_hertz_times);
     let one = measured(&[(0.2, 0.9)]).unwrap_err();
     assert_eq!(one.to_string(), "e: one speed only");

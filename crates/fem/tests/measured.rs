@@ -24,7 +24,7 @@ fn units_and_columns_of_sweeps_are_read() {
         "body.0.approach_speed,restitution,complete\n0.25,0.95,true\n0.5,0.92,true\n1,,false\n",
     ] {
         let table = Table::parse("e.csv", text).unwrap();
-        let read = Restitutions::read(&table, &spheres().scene).unwrap();
+        let read = Restitutions::read(&table, spheres().scene()).unwrap();
         assert_eq!(read.points.len(), 2);
         for (point, (speed, restitution)) in read.points.iter().zip([(0.5, 0.95), (0.75, 0.92)]) {
             // Units round.
@@ -40,11 +40,11 @@ fn units_and_columns_of_sweeps_are_read() {
 fn contact_times_are_read_where_they_are_wanted() {
     let text = "speed_m_s,e,contact_time_us,humidity\n0.5,0.95,65,0.4\n";
     let table = Table::parse("e.csv", text).unwrap();
-    let scene = spheres().scene;
-    let read = Restitutions::read(&table, &scene).unwrap();
+    let case = spheres();
+    let read = Restitutions::read(&table, case.scene()).unwrap();
     assert_eq!(read.points[0].contact_time, None);
     assert_eq!(read.warnings(), ["columns that are not read: humidity"]);
-    let read = Restitutions::read_with_contact_times(&table, &scene).unwrap();
+    let read = Restitutions::read_with_contact_times(&table, case.scene()).unwrap();
     // 65 × 1e-6 rounds.
     assert!((read.points[0].contact_time.unwrap() - 65e-6).abs() < 1e-19);
 }
@@ -53,12 +53,12 @@ fn contact_times_are_read_where_they_are_wanted() {
 fn diameters_make_pairs() {
     let text = "diameter_1_mm,speed_m_s,e\n10,0.5,0.95\n20,0.5,0.94\n10,1,0.95\n";
     let table = Table::parse("e.csv", text).unwrap();
-    let read = MeasuredPairs::read(&table, &spheres().scene).unwrap();
+    let read = MeasuredPairs::read(&table, spheres().scene()).unwrap();
     assert_eq!(read.pairs[0].diameters, [Some(0.01), None]);
     assert_eq!((&read.pairs[0].points[..], &read.pairs[1].points[..]), (&[0, 2][..], &[1][..]));
     assert_eq!(read.data.lines, [2, 3, 4]);
     let resized = spheres().edited(|file| read.pairs[1].resize(file)).unwrap();
-    let diameters = resized.scene.bodies.map(|body| body.diameter().unwrap());
+    let diameters = resized.scene().bodies().each_ref().map(|body| body.diameter().unwrap());
     assert_eq!(diameters, [0.02, 0.0159]);
 }
 
@@ -66,7 +66,7 @@ fn diameters_make_pairs() {
 fn faults_have_name_line_and_column() {
     let fault = |case: &Case, text: &str| {
         let table = Table::parse("bad.csv", text)?;
-        MeasuredPairs::read(&table, &case.scene).map(|_| ())
+        MeasuredPairs::read(&table, case.scene()).map(|_| ())
     };
     for (text, place, column, message) in [
         ("", "bad.csv", None, "there is no row below the header"),

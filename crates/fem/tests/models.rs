@@ -15,7 +15,7 @@ fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
 }
 
 fn model(value: &str) -> ModelChoice {
-    parse(&format!("{GLASS}\n[model]\n{value}\n"), &[]).unwrap().scene.model
+    parse(&format!("{GLASS}\n[model]\n{value}\n"), &[]).unwrap().scene().model().clone()
 }
 
 fn law(value: &str) -> Law {
@@ -141,7 +141,7 @@ fn faults_point_at_their_key() {
 fn an_override_of_another_model_takes_the_place_of_the_first() {
     let with_model = format!("{GLASS}\n[model.law.kuwabara_kono]\na = 1e-6\n");
     for text in [GLASS, &with_model] {
-        let chosen = |overrides: &[&str]| parse(text, overrides).unwrap().scene.model;
+        let chosen = |overrides: &[&str]| parse(text, overrides).unwrap().scene().model().clone();
         assert!(matches!(chosen(&["model.ting={}"]), ModelChoice::Ting { .. }));
         assert!(matches!(
             chosen(&["model.ting.finite_size=true"]),
@@ -160,7 +160,7 @@ fn an_override_of_another_model_takes_the_place_of_the_first() {
     }
     let kept = parse(&with_model, &["model.law.kuwabara_kono.tolerance=1e-4"]).unwrap();
     assert!(matches!(
-        kept.scene.model,
+        kept.scene().model(),
         ModelChoice::Law { law: Law::KuwabaraKono(Dissipation::Time(_)), tolerance: 1e-4, .. }
     ));
 }
@@ -188,8 +188,8 @@ fn a_resolved_case_computes_the_same() {
 
 #[test]
 fn finite_elements_are_for_the_model_fem() {
-    let scene = parse(GLASS, &["model.ting={}"]).unwrap().scene;
-    let refusal = Explicit::new(&scene).unwrap_err();
+    let case = parse(GLASS, &["model.ting={}"]).unwrap();
+    let refusal = Explicit::new(case.scene()).unwrap_err();
     assert_eq!(refusal.key, "model.ting");
     assert!(refusal.message.contains("no finite elements"), "{refusal}");
 }

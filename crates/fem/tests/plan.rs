@@ -47,7 +47,7 @@ fn the_resolved_case_makes_the_same_problem() {
     let text = Simulation::resolve(&first).unwrap().to_toml().unwrap();
     let again = Case::parse("resolved.toml", &text, Path::new("."), &[]).unwrap();
     assert_eq!(Simulation::resolve(&again).unwrap().to_toml().unwrap(), text);
-    let [first, again] = [first, again].map(|case| Explicit::new(&case.scene).unwrap());
+    let [first, again] = [first, again].map(|case| Explicit::new(case.scene()).unwrap());
     assert_eq!(again.plan.candidate_radius, first.plan.candidate_radius);
     assert_eq!(again.plan.contact_stiffness, first.plan.contact_stiffness);
     assert_eq!(again.bodies.time_step(), first.bodies.time_step());
@@ -125,7 +125,7 @@ fn a_contact_that_outgrows_the_searched_region_is_run_again() {
     let mut plan = Plan::of_case(&case).unwrap();
     // Half of the largest contact radius, 0.223 mm.
     plan.candidate_radius = 0.11e-3;
-    let mut explicit = Explicit::with_plan(&case.scene, plan).unwrap();
+    let mut explicit = Explicit::with_plan(case.scene(), plan).unwrap();
     let Setup { approach, want, .. } = explicit.setup().clone();
     let collision = explicit.collide(&approach, &want, &mut ());
     assert!(collision.is_complete());

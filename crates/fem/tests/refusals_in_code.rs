@@ -31,7 +31,7 @@ fn what_the_text_gives_keeps_its_line() {
 
 #[test]
 fn what_nobody_gave_is_named_too() {
-    let file = Case::parse("pair.toml", GLASS, Path::new("."), &[]).unwrap().file;
+    let file = Case::parse("pair.toml", GLASS, Path::new("."), &[]).unwrap().file().clone();
     let case = Case::of(file).unwrap();
     let fine = case.edited(|file| mesh(file).contact_element_size = Some("20 nm".into())).unwrap();
     assert_eq!(refused(fine).source_name(), "mesh.contact_element_size");
@@ -48,13 +48,14 @@ fn what_nobody_gave_is_named_too() {
 fn a_method_refuses_a_scene_that_chose_another() {
     for model in ["fem={}", "hertz={}", "ting={}", "law.falcon.c=300"] {
         let set = [format!("model.{model}")];
-        let scene = Case::parse("pair.toml", GLASS, Path::new("."), &set).unwrap().scene;
+        let case = Case::parse("pair.toml", GLASS, Path::new("."), &set).unwrap();
+        let scene = case.scene();
         for method in METHODS.iter().filter(|method| method.name() != "condensed") {
-            let made = method.build(&scene, &Shared::default());
-            if method.name() == scene.model.name() {
+            let made = method.build(scene, &Shared::default());
+            if method.name() == scene.model().name() {
                 made.unwrap();
             } else {
-                assert_eq!(made.unwrap_err().key, scene.model.path(), "{}", method.name());
+                assert_eq!(made.unwrap_err().key, scene.model().path(), "{}", method.name());
             }
         }
     }

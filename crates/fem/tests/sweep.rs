@@ -77,7 +77,7 @@ fn a_value_that_makes_no_case_is_an_error_of_its_own() {
 fn members_of_a_file_are_those_of_code() {
     let case = pair(ModelTable::condensed());
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("case.toml"), case.file.to_toml().unwrap()).unwrap();
+    std::fs::write(folder.path().join("case.toml"), case.file().to_toml().unwrap()).unwrap();
     let path = folder.path().join("sweep.toml");
     let vary = "case = 'case.toml'\n[vary]\nbody.0.approach_speed = ['30 cm/s', 0.1, 0.2]\n";
     std::fs::write(&path, vary).unwrap();

@@ -196,11 +196,13 @@ fn no_case_file_panics_and_each_is_as_its_text() {
         match Case::of(file) {
             Ok(made) => {
                 n_valid += 1;
-                let read = read.unwrap().edited(|file| file.title = Some(made.scene.title.clone()));
+                let read = read
+                    .unwrap()
+                    .edited(|file| file.title = Some(made.scene().title().to_string()));
                 assert_eq!(exactly(&read.unwrap()), exactly(&made), "{text}");
                 let edited = edited.unwrap();
-                assert_eq!(edited.scene.bodies, made.scene.bodies);
-                for path in paths(&made.file) {
+                assert_eq!(edited.scene().bodies(), made.scene().bodies());
+                for path in paths(made.file()) {
                     let error = edited.error_at(&path, "here");
                     assert!(error.line().is_some() || is_named(&error), "{error}");
                 }

@@ -12,8 +12,8 @@ fn an_edit_of_nothing_changes_nothing() {
     for case in shipped() {
         let same = case.edited(|_| {}).unwrap();
         assert_eq!(exactly(&same), exactly(&case));
-        assert_eq!(same.file, case.file);
-        for path in paths(&case.file) {
+        assert_eq!(same.file(), case.file());
+        for path in paths(case.file()) {
             n_filled_in += usize::from(!case.gives(&path));
             assert_eq!(same.gives(&path), case.gives(&path), "{path}");
             assert_eq!(same.error_at(&path, "here"), case.error_at(&path, "here"));

@@ -23,7 +23,7 @@ fn what_is_made_is_what_is_written() {
     }
     // A relaxation by the other pair of moduli.
     let file = made().with_material("glass", MaterialTable::from_bulk_shear(1.0, 2.0, "3 Pa"));
-    let moduli = *Case::of(file).unwrap().scene.bodies[0].material().unwrap().instantaneous();
+    let moduli = *Case::of(file).unwrap().scene().bodies()[0].material().unwrap().instantaneous();
     assert_eq!((moduli.bulk_modulus(), moduli.shear_modulus()), (2.0, 3.0));
 }
 
@@ -54,9 +54,9 @@ fn models_are_what_is_written() {
 #[test]
 fn shipped_cases_can_be_made_in_code() {
     for case in shipped() {
-        let made = Case::of(case.file.clone()).unwrap();
+        let made = Case::of(case.file().clone()).unwrap();
         assert_eq!(exactly(&made), exactly(&case));
-        assert_eq!(made.file, case.file);
+        assert_eq!(made.file(), case.file());
     }
 }
 
@@ -64,21 +64,21 @@ fn shipped_cases_can_be_made_in_code() {
 fn titles_and_folders_have_defaults() {
     let file = CaseFile { title: None, ..made() };
     let case = Case::of(file.clone()).unwrap();
-    assert_eq!(case.scene.title, "striker and target");
+    assert_eq!(case.scene().title(), "striker and target");
     // A title that an edit takes away is that of the file again.
     let read = Case::parse("x/ball.toml", &file.to_toml().unwrap(), Path::new("x"), &[]).unwrap();
     let titled = read.edited(|file| file.title = Some("other".into())).unwrap();
-    assert_eq!(titled.scene.title, "other");
-    assert_eq!(titled.edited(|file| file.title = None).unwrap().scene.title, "ball");
+    assert_eq!(titled.scene().title(), "other");
+    assert_eq!(titled.edited(|file| file.title = None).unwrap().scene().title(), "ball");
 
     let mesh = |file: &mut CaseFile| {
         file.body[0].sphere.as_mut().unwrap().mesh = Some("a/b.vtu".into());
     };
-    let found = |scene: &Scene| match &scene.bodies[0].shape {
+    let found = |scene: &Scene| match &scene.bodies()[0].shape() {
         Shape::Sphere { mesh, .. } => mesh.clone().unwrap(),
         Shape::Wall => panic!("a sphere"),
     };
     let current = std::env::current_dir().unwrap();
-    assert_eq!(found(&case.edited(mesh).unwrap().scene), current.join("a/b.vtu"));
-    assert_eq!(found(&read.edited(mesh).unwrap().scene), current.join("x/a/b.vtu"));
+    assert_eq!(found(case.edited(mesh).unwrap().scene()), current.join("a/b.vtu"));
+    assert_eq!(found(read.edited(mesh).unwrap().scene()), current.join("x/a/b.vtu"));
 }

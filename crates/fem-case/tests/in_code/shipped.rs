@@ -7,7 +7,7 @@ use fem_case::{Case, CaseFile};
 
 /// Numbers as text: `==` on doubles would pass 0 for −0, and their `Debug` is exact.
 pub fn exactly(case: &Case) -> String {
-    format!("{:?}", case.scene)
+    format!("{:?}", case.scene())
 }
 
 /// All cases of the repository, and as the claims run them.

@@ -13,7 +13,7 @@ const CONTACT_TIME: f64 = 2.0;
 fn model() -> Model {
     let mesh = unit_sphere(4.0, Side::Above);
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material: unit_glass() }];
-    Model::new(bodies, Approach { velocities: [1.0, 0.0], gap: 0.5 }, &settings()).unwrap()
+    Model::new(bodies, Approach::new([1.0, 0.0], 0.5).unwrap(), &settings()).unwrap()
 }
 
 fn expectation(approach: f64, contact_time: f64) -> Expectation {

@@ -13,7 +13,7 @@ fn model() -> Model {
     let bodies = [Side::Below, Side::Above]
         .map(|side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() });
     let settings = Settings { contact_stiffness: 5.0, ..settings() };
-    Model::new(bodies, Approach::at(0.01), &settings).unwrap()
+    Model::new(bodies, Approach::at(0.01).unwrap(), &settings).unwrap()
 }
 
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };

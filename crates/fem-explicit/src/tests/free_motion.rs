@@ -13,7 +13,7 @@ use crate::test_support::{accounts, free_sphere, ragged, settings, unit_glass, u
 fn rigid_flight_strains_nothing() {
     let bodies = [Side::Below, Side::Above]
         .map(|side| BodyInput::Sphere { mesh: unit_sphere(8.0, side), material: unit_glass() });
-    let approach = Approach { velocities: [0.3, -0.7], gap: 1e3 };
+    let approach = Approach::new([0.3, -0.7], 1e3).unwrap();
     let model = Model::new(bodies, approach, &settings()).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.

@@ -39,7 +39,7 @@ impl NodeForce for Pull {
 /// A sphere at rest that is pulled away from a wall far below.
 fn falling() -> (Model, State) {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
-    let approach = Approach { velocities: [1.0, 0.0], gap: 1e3 };
+    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     // In two parts, which add up.
     let pulls = [0.25, 0.75].map(|share| Box::new(Pull(share * ACCELERATION)) as Box<_>);
     let parts = Parts { node_forces: [Vec::new(), pulls.into()], contact: None };
@@ -93,7 +93,7 @@ fn the_account_of_a_force_closes_the_ledger() {
         let residual = row.residual.unwrap();
         assert!((residual + short).abs() < 1e-12 * (work + short), "{n}: {residual:e} {short:e}");
         // The approach that steers the recorder, counted from here on.
-        let approach = row.approach + model.approach().gap;
+        let approach = row.approach + model.approach().gap();
         // Rounding of the gap.
         assert!((log.approach - approach).abs() < 1e-12, "{n}: {} {approach}", log.approach);
         ledger.count_step(&model, &scratch, contact.force);

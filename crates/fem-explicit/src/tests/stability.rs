@@ -21,7 +21,7 @@ fn glass_sphere(mesh: SphereMesh) -> BodyInput {
 fn pair(sizes: [f64; 2], settings: &Settings) -> Model {
     let lower = sphere(sizes[0], 2.0 * sizes[0], Side::Below);
     let upper = sphere(sizes[1], 2.0 * sizes[1], Side::Above);
-    Model::new([lower, upper].map(glass_sphere), Approach::at(1.0), settings).unwrap()
+    Model::new([lower, upper].map(glass_sphere), Approach::at(1.0).unwrap(), settings).unwrap()
 }
 
 /// −∂f/∂u of bodies and contact at a state, from the step's own forces, which are linear while no

@@ -81,10 +81,8 @@ impl Pair {
 
     pub fn approach(&self) -> Approach {
         let [length, time, _] = self.units;
-        Approach {
-            velocities: self.velocities.map(|velocity| velocity * length / time),
-            gap: self.gap * length,
-        }
+        let velocities = self.velocities.map(|velocity| velocity * length / time);
+        Approach::new(velocities, self.gap * length).unwrap()
     }
 
     pub fn settings(&self) -> Settings {

@@ -83,7 +83,7 @@ const OPTIONS: SettingNames = SettingNames {
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let mut measured = MeasuredPairs::read(&read_table(&arguments.data)?, &case.scene)?;
+    let mut measured = MeasuredPairs::read(&read_table(&arguments.data)?, case.scene())?;
     fill_uncertainties(arguments, &mut measured)?;
     let found = Calibration::of(&case, measured, &settings(arguments))?;
     let warnings = found.warnings(&OPTIONS);

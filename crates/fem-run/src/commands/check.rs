@@ -54,7 +54,7 @@ fn expect(simulation: &Simulation) -> String {
     let costs = costs(&setup.cost);
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
-            let meshes = mesh_table(&simulation.case.scene, simulation.model.meshes());
+            let meshes = mesh_table(simulation.case.scene(), simulation.model.meshes());
             format!("Mesh\n{meshes}\nCost\n{costs}")
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),

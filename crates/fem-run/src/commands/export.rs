@@ -88,8 +88,8 @@ fn curve(arguments: &Arguments, case: &Case) -> Result<ImpactCurve, Failure> {
     let Some(path) = &arguments.data else {
         return Ok(ImpactCurve::computed(case, arguments.speeds)?);
     };
-    let data = Restitutions::read_with_contact_times(&read_table(path)?, &case.scene)?;
-    Ok(ImpactCurve::measured(&case.scene, &data)?)
+    let data = Restitutions::read_with_contact_times(&read_table(path)?, case.scene())?;
+    Ok(ImpactCurve::measured(case.scene(), &data)?)
 }
 
 fn parse_speeds(text: &str) -> Result<(f64, f64), String> {

@@ -67,10 +67,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
     let table = read_table(&arguments.data)?;
     let data = match arguments.contact_time {
-        true => Restitutions::read_with_contact_times(&table, &case.scene)?,
-        false => Restitutions::read(&table, &case.scene)?,
+        true => Restitutions::read_with_contact_times(&table, case.scene())?,
+        false => Restitutions::read(&table, case.scene())?,
     };
-    let family = arguments.law.or_else(|| family_of(&case.scene)).ok_or_else(|| {
+    let family = arguments.law.or_else(|| family_of(case.scene())).ok_or_else(|| {
         Failure::bad_input("--law is missing, and the case's [model] names no law")
             .with_help("name one, such as --law bordbar_hyppanen; docs/fits.md lists them")
     })?;
@@ -89,7 +89,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
     output.write("fit.svg", fit_picture(&fitted))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
-    let histories = histories_picture(&case.scene, law.model(), &fitted.fit.values, speed)?;
+    let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
     let place = output.publish(&fitted.numbers(&arguments.input.case.display().to_string()))?;
     if arguments.output.quiet {

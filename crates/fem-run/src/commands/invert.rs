@@ -44,14 +44,14 @@ pub struct Arguments {
 /// Solves and prints.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let speed = arguments.speed.unwrap_or_else(|| case.scene.approach_speed());
+    let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
     let wanted = arguments.restitution;
     if !(wanted > 0.0 && wanted < 1.0) {
         let message = format!("--restitution {wanted}: it must be greater than 0 and less than 1");
         return Err(Failure::bad_input(message));
     }
     let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
-    let law = arguments.law.or_else(|| family_of(&case.scene));
+    let law = arguments.law.or_else(|| family_of(case.scene()));
     let options =
         [("--param", !arguments.values.param.is_empty()), ("--find", arguments.find.is_some())];
     if let (None, Some((option, _))) = (law, options.iter().find(|(_, is_given)| *is_given)) {

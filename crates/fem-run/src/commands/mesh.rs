@@ -36,13 +36,13 @@ pub struct Arguments {
 /// Writes meshes and prints their quality.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = Case::load(&arguments.input.case, &arguments.input.set)?;
-    let meshes = build_meshes(&case.scene, &Plan::of_case(&case)?)
+    let meshes = build_meshes(case.scene(), &Plan::of_case(&case)?)
         .map_err(|refusal| refusal.in_case(&case))?;
     let default = || Path::new("meshes").join(arguments.input.stem());
     let out = arguments.out.clone().unwrap_or_else(default);
-    let bodies = case.scene.bodies.iter().zip(&meshes);
+    let bodies = case.scene().bodies().iter().zip(&meshes);
     let files: Vec<(PathBuf, &SphereMesh)> = bodies
-        .filter_map(|(body, mesh)| Some((out.join(format!("{}.vtu", body.name)), mesh.as_ref()?)))
+        .filter_map(|(body, mesh)| Some((out.join(format!("{}.vtu", body.name())), mesh.as_ref()?)))
         .collect();
     for (path, _) in &files {
         check_place(path)?;
@@ -58,7 +58,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     let written = files.iter().map(|(path, _)| format!("written: {}\n", path.display()));
-    let table = mesh_table(&case.scene, meshes.each_ref().map(Option::as_ref));
+    let table = mesh_table(case.scene(), meshes.each_ref().map(Option::as_ref));
     standard_output::print(&(table + "\n" + &written.collect::<String>()))
 }
 

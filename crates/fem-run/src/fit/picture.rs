@@ -82,7 +82,7 @@ pub fn histories_picture(
         Curve::new(label, mark, points.collect()).coloured(colour)
     };
     // The first body moves with v at first and the second rests, as in the paper's figure.
-    let share = scene.bodies[0].material().map_or(0.0, |_| mass_share(scene));
+    let share = scene.bodies()[0].material().map_or(0.0, |_| mass_share(scene));
     let first = |rate: f64| speed - share * (speed - rate);
     let both = |y: &dyn Fn(f64) -> f64| {
         [
@@ -94,7 +94,7 @@ pub fn histories_picture(
         let chart = Chart::new(time_axis(&time), Axis::new(label));
         curves.into_iter().fold(chart, Chart::with)
     };
-    let first_name = &scene.bodies[0].name;
+    let first_name = &scene.bodies()[0].name();
     let overlaps = overlaps(model, values, speed, &time)?;
     let charts = [
         panel(format!("approach rate [{}]", rate.symbol()), both(&|rate| rate)),
@@ -107,7 +107,7 @@ pub fn histories_picture(
 /// m*/m₁: the share of a change of the relative velocity that the first body takes.
 fn mass_share(scene: &Scene) -> f64 {
     let mass = |index: usize| {
-        let body = &scene.bodies[index];
+        let body = &scene.bodies()[index];
         body.diameter().zip(body.material()).map_or(f64::INFINITY, |(diameter, material)| {
             fem_laws::sphere_mass(diameter, material.density())
         })

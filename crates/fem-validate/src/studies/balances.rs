@@ -40,7 +40,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let rows = names.iter().zip(&runs).map(|(name, run)| {
         [
             name.replace('_', " "),
-            run.case.scene.title.clone(),
+            run.case.scene().title().to_string(),
             format!("{:.4}", run.restitution),
             format!("{:.1e}", run.energy_residual()),
             format!("{:.1e}", run.momentum_residual()),

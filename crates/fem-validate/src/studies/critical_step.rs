@@ -138,7 +138,7 @@ impl Pair<'_> {
             mass_scaling: self.scaling,
         };
         let bodies = [body(0, Side::Below)?, body(1, Side::Above)?];
-        Ok(Model::new(bodies, Approach::at(1.0), &settings)?)
+        Ok(Model::new(bodies, Approach::at(1.0)?, &settings)?)
     }
 
     /// The ratio with all candidates closed, and with springs so many times as stiff.

@@ -14,7 +14,7 @@ pub(super) fn with_relaxation(
     material: &str,
     relaxation: RelaxationTable,
 ) -> Result<Case, StudyError> {
-    let table = case.file.material.get(material).cloned();
+    let table = case.file().material.get(material).cloned();
     let missing = || StudyError::parameters(format!("the case has no material `{material}`"));
     let mut table = table.ok_or_else(missing)?;
     table.relaxation = Some(relaxation);
@@ -26,7 +26,7 @@ pub(super) fn with_relaxation(
 /// # Errors
 /// No such material, or an elastic one; a term that cannot be.
 pub(super) fn with_term(case: &Case, material: &str, term: TermTable) -> Result<Case, StudyError> {
-    let own = case.file.material.get(material).and_then(|table| table.relaxation.as_ref());
+    let own = case.file().material.get(material).and_then(|table| table.relaxation.as_ref());
     let missing = || StudyError::parameters(format!("the case has no `{material}` that relaxes"));
     let acts_on = own.ok_or_else(missing)?.acts_on;
     with_relaxation(case, material, RelaxationTable { acts_on, terms: vec![term] })

@@ -127,7 +127,7 @@ fn measure(
         file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
     })?;
     let run = laboratory.simulate(fine)?;
-    let (scene, pair) = (&run.case.scene, run.hertz.pair());
+    let (scene, pair) = (run.case.scene(), run.hertz.pair());
     let half_space = ting_impact(scene, pair, false)?.restitution;
     let finite = ting_impact(scene, pair, true)?.restitution;
     Ok(Outcome { member, half_space, finite, run })

@@ -213,7 +213,7 @@ fn check(
 
 /// What of the case's own model is not looked at: all of it, or the steps of the chosen one.
 fn unused_key(case: &Case, chosen: CalibrationModel) -> Option<String> {
-    let model = case.scene.model.path();
+    let model = case.scene().model().path();
     let is_own = chosen == CalibrationModel::Condensed && model == "model.condensed";
     let key = if is_own { UNUSED_STEPS.to_string() } else { model };
     case.gives(&key).then_some(key)

@@ -59,11 +59,11 @@ impl Experiment {
         let speed = |point: &usize| measured.data.points[*point].speed;
         let speeds: Vec<f64> = pair.points.iter().map(speed).collect();
         let case = case.edited(|file| pair.resize(file))?;
-        let span = SpeedSpan::of(&case.scene, &speeds)?;
+        let span = SpeedSpan::of(case.scene(), &speeds)?;
         let made = match model {
             CalibrationModel::Condensed => condensed(&case, &span)?,
             CalibrationModel::Ting => {
-                let size = case.scene.finite_size()?;
+                let size = case.scene().finite_size()?;
                 size.check(span.fastest.max_contact_radius()).map_err(|error| {
                     let is_fastest = |point: &&usize| speed(point) == span.speeds().1;
                     let point = pair.points.iter().find(is_fastest).unwrap_or(&pair.points[0]);
@@ -85,11 +85,11 @@ impl Experiment {
             points: pair.points.clone(),
             contact_times: speeds.iter().map(|speed| span.contact_time(*speed)).collect(),
             speeds,
-            diameters: case.scene.bodies.each_ref().map(Body::diameter),
+            diameters: case.scene().bodies().each_ref().map(Body::diameter),
             elements_across: made.elements_across,
-            doubt: span.doubt(&case.scene).filter(|_| !made.is_quasi_static),
+            doubt: span.doubt(case.scene()).filter(|_| !made.is_quasi_static),
             warnings: made.warnings,
-            model: PairModel::new(&case.scene, target, made.evaluator),
+            model: PairModel::new(case.scene(), target, made.evaluator),
         })
     }
 
@@ -122,8 +122,8 @@ struct Made {
 
 fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
     let is_given = case.gives("mesh.contact_element_size");
-    let size = span.element_size(&case.scene);
-    let moving = usize::from(case.scene.bodies[0].diameter().is_none());
+    let size = span.element_size(case.scene());
+    let moving = usize::from(case.scene().bodies()[0].diameter().is_none());
     let fastest = case.edited(|file| {
         file.body[moving].approach_speed = Some(span.speeds().1.into());
         file.body[1 - moving].approach_speed = Some(0.0.into());
@@ -131,7 +131,7 @@ fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
             file.mesh.get_or_insert_default().contact_element_size = Some(size.into());
         }
     })?;
-    let condensed = Condensed::new(&fastest.scene, &Shared::default());
+    let condensed = Condensed::new(fastest.scene(), &Shared::default());
     let condensed = condensed.map_err(|refusal| {
         let error = refusal.in_case(&fastest);
         if is_given { error.into() } else { no_mesh(error, size, span) }

@@ -43,8 +43,8 @@ impl PairModel {
     pub fn new(scene: &Scene, target: &Target, evaluator: Evaluator) -> Self {
         Self {
             target: target.clone(),
-            materials: scene.bodies.each_ref().map(|body| body.material().cloned()),
-            diameters: scene.bodies.each_ref().map(fem_case::Body::diameter),
+            materials: scene.bodies().each_ref().map(|body| body.material().cloned()),
+            diameters: scene.bodies().each_ref().map(fem_case::Body::diameter),
             evaluator,
         }
     }

@@ -51,7 +51,7 @@ impl SpeedSpan {
 
     /// The size of elements that follow the smallest contact on a mesh for the largest, m.
     pub fn element_size(&self, scene: &Scene) -> f64 {
-        let radii = scene.bodies.iter().filter_map(|body| Some(0.5 * body.diameter()?));
+        let radii = scene.bodies().iter().filter_map(|body| Some(0.5 * body.diameter()?));
         let smallest_radius = radii.fold(f64::INFINITY, f64::min);
         (self.fastest.max_contact_radius() / ELEMENTS_ACROSS.0)
             .min(self.slowest.max_contact_radius() / ELEMENTS_ACROSS.1)
@@ -65,7 +65,7 @@ impl SpeedSpan {
 
     /// The fastest speed, if it is too fast for bodies without inertia.
     pub fn doubt(&self, scene: &Scene) -> Option<SpeedDoubt> {
-        let materials = scene.bodies.iter().filter_map(|body| body.material());
+        let materials = scene.bodies().iter().filter_map(|body| body.material());
         let slow = materials.map(Material::shear_wave_speed).fold(f64::INFINITY, f64::min);
         let speed = self.fastest.approach_speed();
         let mach = speed / slow;

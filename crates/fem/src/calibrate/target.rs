@@ -27,7 +27,8 @@ impl Target {
         name: Option<&str>,
         acts_on: Option<schema::ActsOn>,
     ) -> Result<Self, CalibrationFault> {
-        let own = |side: usize| case.file.body.get(side).and_then(|body| body.material.as_deref());
+        let own =
+            |side: usize| case.file().body.get(side).and_then(|body| body.material.as_deref());
         let own = [own(0), own(1)];
         let mut names: Vec<&str> = own.into_iter().flatten().collect();
         names.dedup();
@@ -42,7 +43,7 @@ impl Target {
             (None, _) => return Err(CalibrationFault::TwoMaterials { materials: materials() }),
         };
         let sides = own.map(|own| own == Some(material));
-        let bodies = case.scene.bodies.iter().zip(sides).filter(|(_, is_it)| *is_it);
+        let bodies = case.scene().bodies().iter().zip(sides).filter(|(_, is_it)| *is_it);
         let series = bodies.filter_map(|(body, _)| body.material()?.relaxation()).next();
         let acts_on =
             acts_on.map(ActsOn::from).or(series.map(PronySeries::acts_on)).unwrap_or(ActsOn::All);

@@ -21,7 +21,7 @@ impl Effect for MirrorSymmetry {
 
     /// It saves work and changes nothing: a scene may allow it, none calls for it.
     fn need(&self, scene: &Scene, _: &Estimate) -> Option<Need> {
-        let [first, second] = &scene.bodies;
+        let [first, second] = &scene.bodies();
         let are_identical = match (first.diameter(), second.diameter()) {
             (Some(a), Some(b)) => a == b && first.material() == second.material(),
             _ => false,

@@ -147,7 +147,7 @@ fn refuse_forced(scene: &Scene, answers: &[(&'static dyn Effect, Answer)]) -> Re
         let computes = answers
             .iter()
             .any(|(other, answer)| other.name() == effect.name() && *answer != Answer::Lacks);
-        if effect.switch(&scene.effects) == Some(Switch::On) && !computes {
+        if effect.switch(scene.effects()) == Some(Switch::On) && !computes {
             let key = effect.name().replace(' ', "_");
             let message = format!("effect `{key}` is not available in this version");
             return Err(Refusal::new(format!("effects.{key}"), message)

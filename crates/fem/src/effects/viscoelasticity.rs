@@ -17,10 +17,10 @@ impl Effect for Viscoelasticity {
     }
 
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
-        let bodies = scene.bodies.iter();
+        let bodies = scene.bodies().iter();
         let relaxing: Vec<&str> = bodies
             .filter(|body| body.material().is_some_and(|m| m.relaxation().is_some()))
-            .map(|body| body.name.as_str())
+            .map(|body| body.name())
             .collect();
         if relaxing.is_empty() {
             return Some(Need { number: "no material relaxes".to_string(), ..Need::default() });

@@ -16,9 +16,9 @@ use crate::models::Reduced;
 /// law with another end of its own.
 pub fn model_of(scene: &Scene, family: Family, end_rule: EndRule) -> Result<Model, FitError> {
     let pair = scene.pair()?;
-    let materials = scene.bodies.each_ref().map(|body| body.material().cloned());
+    let materials = scene.bodies().each_ref().map(|body| body.material().cloned());
     let model = Model::new(&pair, materials, family, end_rule)?;
-    Ok(match &scene.model {
+    Ok(match scene.model() {
         ModelChoice::Ting { finite_size: true, .. } => model.with_finite_size(scene.finite_size()?),
         _ => model,
     })
@@ -26,7 +26,7 @@ pub fn model_of(scene: &Scene, family: Family, end_rule: EndRule) -> Result<Mode
 
 /// The law that `[model]` names, if it names one.
 pub fn family_of(scene: &Scene) -> Option<Family> {
-    match &scene.model {
+    match scene.model() {
         ModelChoice::Ting { .. } => Some(Family::Ting),
         ModelChoice::Law { law, .. } => Some(law.family()),
         _ => None,
@@ -84,10 +84,10 @@ impl ChosenLaw {
     ) -> Result<Self, LawFault> {
         let mut known = vec![Known::Nowhere; family.parameters().len()];
         let mut own_end = family.end_rule().unwrap_or(EndRule::ZeroForce);
-        if let ModelChoice::Law { law, end_rule, .. } = &case.scene.model
+        if let ModelChoice::Law { law, end_rule, .. } = case.scene().model()
             && law.family() == family
         {
-            let reduced = Reduced::new(&case.scene).map_err(|refusal| refusal.in_case(case))?;
+            let reduced = Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case))?;
             let numbers = reduced.law_numbers().unwrap_or_default();
             known = numbers.iter().copied().map(Known::Case).collect();
             own_end = *end_rule;
@@ -97,7 +97,7 @@ impl ChosenLaw {
             check_value(&family.parameters()[index], *value)?;
             known[index] = Known::Given(*value);
         }
-        let model = model_of(&case.scene, family, end_rule.unwrap_or(own_end))?;
+        let model = model_of(case.scene(), family, end_rule.unwrap_or(own_end))?;
         Ok(Self { model, known })
     }
 

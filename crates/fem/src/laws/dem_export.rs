@@ -66,14 +66,14 @@ impl DemExport {
     /// use fem::measured::Restitutions;
     ///
     /// let ice = Restitutions::of("ice", &[(0.1, 0.6), (0.2, 0.6)]);
-    /// let curve = ImpactCurve::measured(&case.scene, &ice)?;
+    /// let curve = ImpactCurve::measured(case.scene(), &ice)?;
     /// let export = DemExport::of(&case, curve, 0.01)?;
     /// assert!((export.export.hertz.restitution - 0.6).abs() < 1e-6);
     /// assert!(export.snippets()?.iter().any(|snippet| snippet.code == "LAMMPS"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
-        let scene = &case.scene;
+        let scene = case.scene();
         // A restitution that is the same at all speeds does not depend on a stiffness.
         let timeless = |point: &Point| Point { contact_time: None, ..*point };
         let only_e: Vec<Point> = curve.points.iter().map(timeless).collect();
@@ -93,7 +93,7 @@ impl DemExport {
         let of_constant = constant.model.outcome(&constant.values, slowest)?;
         let of_linear = linear.model.outcome(&linear.values, slowest)?;
         let export = Export {
-            title: scene.title.replace(char::is_control, " "),
+            title: scene.title().replace(char::is_control, " "),
             spheres: spheres(scene),
             pair: *constant.model.pair(),
             speeds: curve.speeds(),
@@ -132,5 +132,5 @@ fn spheres(scene: &Scene) -> Vec<Sphere> {
             poissons_ratio: material.instantaneous().poissons_ratio(),
         })
     };
-    scene.bodies.iter().filter_map(sphere).collect()
+    scene.bodies().iter().filter_map(sphere).collect()
 }

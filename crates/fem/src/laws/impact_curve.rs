@@ -1,8 +1,9 @@
 //! Restitution and contact time over speed: what laws of other codes are fitted to.
 
+use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
 use fem_fit::{FitError, Model, Point};
-use fem_laws::{EndRule, Family, HertzImpact, Pair, Ting};
+use fem_laws::{EndRule, Family, HertzImpact, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
@@ -41,7 +42,7 @@ impl ImpactCurve {
     /// A case that has no such model; collisions that cannot be computed.
     pub fn computed(case: &Case, speeds: Option<(f64, f64)>) -> Result<Self, LawFault> {
         let reduced = reduced(case)?;
-        let (middle, decade) = (case.scene.approach_speed(), 10f64.sqrt());
+        let (middle, decade) = (case.scene().approach_speed(), 10f64.sqrt());
         let (low, high) = speeds.unwrap_or((middle / decade, middle * decade));
         let point = |k: usize| {
             let speed = low * (high / low).powf(k as f64 / (N_SPEEDS - 1) as f64);
@@ -105,11 +106,12 @@ impl ImpactCurve {
 
 /// The case's own model; Ting's in place of one with elements.
 fn reduced(case: &Case) -> Result<Reduced, LawFault> {
-    let mut scene = case.scene.clone();
-    if matches!(scene.model, ModelChoice::Fem | ModelChoice::Condensed(_)) {
-        model_of(&scene, Family::Ting, EndRule::ZeroForce).map_err(LawFault::NoStandIn)?;
-        let tolerance = Ting::DEFAULT_TOLERANCE;
-        scene.model = ModelChoice::Ting { finite_size: false, tolerance };
+    let of = |case: &Case| Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case));
+    if !matches!(case.scene().model(), ModelChoice::Fem | ModelChoice::Condensed(_)) {
+        return Ok(of(case)?);
     }
-    Ok(Reduced::new(&scene).map_err(|refusal| refusal.in_case(case))?)
+    model_of(case.scene(), Family::Ting, EndRule::ZeroForce).map_err(LawFault::NoStandIn)?;
+    let half_spaces = TingTable { finite_size: Some(false), ..TingTable::default() };
+    let model = ModelTable { ting: Some(half_spaces), ..ModelTable::default() };
+    Ok(of(&case.edited(|file| file.model = Some(model))?)?)
 }

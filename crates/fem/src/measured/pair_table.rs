@@ -35,9 +35,9 @@ impl MeasuredPairs {
 fn diameter_columns(table: &Table, scene: &Scene) -> Result<[Option<usize>; 2], DataError> {
     let [first, second] = DIAMETERS;
     let columns = [table.find(&first)?, table.find(&second)?];
-    for ((column, body), side) in columns.iter().zip(&scene.bodies).zip(SIDES) {
+    for ((column, body), side) in columns.iter().zip(scene.bodies()).zip(SIDES) {
         if let (Some(column), None) = (column, body.diameter()) {
-            let (header, name) = (&table.header()[*column], &body.name);
+            let (header, name) = (&table.header()[*column], &body.name());
             let message = format!("{header} is of the {side} body, and \"{name}\" is a wall");
             let error = table.header_fault(message).in_column(header);
             return Err(error.with_help("leave the column out, or take a case of two spheres"));

@@ -49,7 +49,7 @@ impl Columns {
             let name = format!("body.{body}.approach_speed");
             table.header().iter().position(|header| *header == name)
         });
-        let own = [scene.bodies[0].velocity, -scene.bodies[1].velocity];
+        let own = [scene.bodies()[0].velocity(), -scene.bodies()[1].velocity()];
         let (speeds, other_speed) = if swept == [None, None] {
             (vec![table.require(&SPEEDS, "speed_m_s, or speed_cm_s")?], 0.0)
         } else {

@@ -46,12 +46,12 @@ impl Restitutions {
     /// use fem::measured::{Restitutions, Table};
     ///
     /// let table = Table::parse("ice.csv", "speed_cm_s,e,sigma\n5,0.6,0.02\n20,0.4,0.02\n")?;
-    /// let ice = Restitutions::read(&table, &case.scene)?;
+    /// let ice = Restitutions::read(&table, case.scene())?;
     /// assert_eq!(ice.points[1].speed, 0.2);
     /// assert_eq!(ice.points[1].restitution_uncertainty, Some(0.02));
     ///
     /// let table = Table::parse("ice.csv", "speed_cm_s,e\n5,60\n")?;
-    /// let error = Restitutions::read(&table, &case.scene).unwrap_err();
+    /// let error = Restitutions::read(&table, case.scene()).unwrap_err();
     /// assert_eq!(error.to_string(), "ice.csv:2: the restitution is 60.0");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

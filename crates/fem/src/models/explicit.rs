@@ -8,7 +8,7 @@ use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
 use super::region::until_it_fits;
-use crate::approach::{approach_of, scene_at};
+use crate::approach::approach_of;
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
     MassScaling, MirrorSymmetry, Verdict, Viscoelasticity, decide,
@@ -79,13 +79,13 @@ impl Explicit {
     /// # Errors
     /// As [`Explicit::new`].
     pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
-        if scene.model != ModelChoice::Fem {
-            let message = format!("model `{}` has no finite elements", scene.model.name());
-            return Err(Refusal::new(scene.model.path(), message));
+        if *scene.model() != ModelChoice::Fem {
+            let message = format!("model `{}` has no finite elements", scene.model().name());
+            return Err(Refusal::new(scene.model().path(), message));
         }
         let meshes = build_meshes(scene, &plan)?;
         let inputs = inputs(scene, meshes);
-        let approach = approach_of(scene);
+        let approach = approach_of(scene)?;
         let bodies = Bodies::new(inputs.clone(), approach, &settings(&plan))
             .map_err(|error| Refusal::new("body", error.to_string()))?;
         let cost = cost(scene, &bodies, &plan)?;
@@ -117,11 +117,11 @@ impl Explicit {
             return Ok(());
         }
         let not_made = |error: &dyn std::fmt::Display| Stop::NotMade(error.to_string());
-        let scene = scene_at(&self.scene, approach);
-        let estimate = Estimate::of(&scene).map_err(|error| not_made(&error))?;
+        let estimate =
+            Estimate::at(&self.scene, approach.speed()).map_err(|error| not_made(&error))?;
         let bodies = Bodies::new(self.inputs.clone(), *approach, &settings(&self.plan))
             .map_err(|error| not_made(&error))?;
-        (self.plan.estimate, self.bodies, self.scene) = (estimate, bodies, scene);
+        (self.plan.estimate, self.bodies) = (estimate, bodies);
         Ok(())
     }
 
@@ -155,7 +155,7 @@ impl Model for Explicit {
         monitor: &mut dyn Monitor,
     ) -> Collision {
         if let Err(stop) = self.meet(approach) {
-            return Collision::stopped(stop);
+            return Collision::stopped(*approach, stop);
         }
         let run = |model: &Self| {
             collide(&model.bodies, model.plan.estimate.expectation(), want, &mut *monitor)
@@ -170,7 +170,7 @@ impl Model for Explicit {
 
 fn inputs(scene: &Scene, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
     let mut meshes = meshes.into_iter();
-    scene.bodies.each_ref().map(|body| match (&body.shape, meshes.next().flatten()) {
+    scene.bodies().each_ref().map(|body| match (body.shape(), meshes.next().flatten()) {
         (Shape::Sphere { material, .. }, Some(mesh)) => {
             BodyInput::Sphere { mesh, material: material.clone() }
         }
@@ -191,7 +191,7 @@ fn settings(plan: &Plan) -> Settings {
 fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
     let elements = model.n_elements() as u64;
     let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
-    let branches: u64 = (model.bodies().iter().zip(&scene.bodies))
+    let branches: u64 = (model.bodies().iter().zip(scene.bodies()))
         .map(|(body, named)| body.n_elements() as u64 * n_branches(named))
         .sum();
     let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
@@ -230,7 +230,7 @@ fn effects(
         model.interface().map_or(0, ContactInterface::n_points),
         model.candidate_radius()
     );
-    let (adds_mass, scaling) = mass_scaling(model, &scene.bodies);
+    let (adds_mass, scaling) = mass_scaling(model, scene.bodies());
     let answers: Vec<(&'static dyn Effect, Answer)> = vec![
         (&Viscoelasticity, Answer::Computes { idle: "no history is kept" }),
         (&FiniteStrain, Answer::Lacks),
@@ -254,7 +254,7 @@ fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> (bool, String) {
         .zip(bodies)
         .filter(|(body, _)| body.added_mass() > 0.0)
         .map(|(body, named)| {
-            format!("{:.1e} of the mass of {}", body.added_mass() / body.mass(), named.name)
+            format!("{:.1e} of the mass of {}", body.added_mass() / body.mass(), named.name())
         })
         .collect();
     match added.is_empty() {

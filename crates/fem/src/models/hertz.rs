@@ -32,7 +32,7 @@ impl Method for HertzMethod {
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-        let ModelChoice::Hertz { finite_size } = scene.model else { return Ok(file) };
+        let ModelChoice::Hertz { finite_size } = *scene.model() else { return Ok(file) };
         let mut file = resolve_start(scene, file);
         let table = HertzTable { finite_size: Some(finite_size) };
         file.model = Some(ModelTable { hertz: Some(table), ..ModelTable::default() });
@@ -54,7 +54,7 @@ impl Motion for ClosedForm {
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
 pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
-    let ModelChoice::Hertz { finite_size } = scene.model else {
+    let ModelChoice::Hertz { finite_size } = *scene.model() else {
         return Err(chose_another(scene, "hertz"));
     };
     let estimate = Estimate::checked(scene)?;

@@ -32,7 +32,7 @@ impl Method for LawMethod {
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-        let ModelChoice::Law { end_rule, tolerance, .. } = scene.model else { return Ok(file) };
+        let ModelChoice::Law { end_rule, tolerance, .. } = *scene.model() else { return Ok(file) };
         build(scene)?;
         let mut file = resolve_start(scene, file);
         let given = file.model.take().unwrap_or_default();
@@ -82,7 +82,7 @@ impl Motion for LawMotion {
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
 pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
-    let ModelChoice::Law { law, end_rule, tolerance } = &scene.model else {
+    let ModelChoice::Law { law, end_rule, tolerance } = scene.model() else {
         return Err(chose_another(scene, "law"));
     };
     let (end_rule, tolerance) = (*end_rule, *tolerance);
@@ -91,7 +91,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;
     let Some(made) = law.family().law(&pair, &numbers) else {
         let message = format!("{} is no law of the overlap", law.name());
-        return Err(Refusal::new(scene.model.path(), message));
+        return Err(Refusal::new(scene.model().path(), message));
     };
     let description = format!("model law {}, one degree of freedom", law.name());
     let law = made.map_err(refuse)?;
@@ -107,7 +107,7 @@ fn law_numbers(
     law: &Law,
     end_rule: EndRule,
 ) -> Result<(Vec<f64>, Pair), Refusal> {
-    let materials = scene.bodies.each_ref().map(|body| body.material());
+    let materials = scene.bodies().each_ref().map(|body| body.material());
     let relaxation =
         PairRelaxation::new(materials[0], materials[1]).map_err(|error| refused(scene, &error))?;
     let setting = Setting {
@@ -119,6 +119,8 @@ fn law_numbers(
     };
     setting.numbers(law).map_err(|unmade| match unmade {
         Unmade::Law(error) => refused(scene, &error),
-        Unmade::Source(message, help) => Refusal::new(scene.model.path(), message).with_help(help),
+        Unmade::Source(message, help) => {
+            Refusal::new(scene.model().path(), message).with_help(help)
+        }
     })
 }

@@ -26,7 +26,7 @@ pub const METHODS: [&dyn Method; 5] = [&HERTZ, &LAW, &TING, &CONDENSED, &EXPLICI
 
 /// The method that a scene chooses.
 pub fn method_of(scene: &Scene) -> &'static dyn Method {
-    match scene.model {
+    match scene.model() {
         ModelChoice::Hertz { .. } => &HERTZ,
         ModelChoice::Law { .. } => &LAW,
         ModelChoice::Ting { .. } => &TING,
@@ -42,7 +42,7 @@ impl Reduced {
     /// A scene whose closed-form estimates are not finite, or that asks for finite elements; a
     /// contact too large for the finite-size correction; a law that cannot be made of this pair.
     pub fn new(scene: &Scene) -> Result<Self, Refusal> {
-        match scene.model {
+        match scene.model() {
             ModelChoice::Hertz { .. } => hertz::build(scene),
             ModelChoice::Law { .. } => law::build(scene),
             ModelChoice::Ting { .. } => ting::build(scene),

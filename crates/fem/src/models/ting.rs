@@ -31,7 +31,7 @@ impl Method for TingMethod {
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-        let ModelChoice::Ting { finite_size, tolerance } = scene.model else { return Ok(file) };
+        let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else { return Ok(file) };
         let mut file = resolve_start(scene, file);
         let table = TingTable {
             finite_size: Some(finite_size),
@@ -53,7 +53,7 @@ impl Motion for Ting {
 /// # Errors
 /// As [`Reduced::new`]; a scene that chose another model.
 pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
-    let ModelChoice::Ting { finite_size, tolerance } = scene.model else {
+    let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else {
         return Err(chose_another(scene, "ting"));
     };
     let estimate = Estimate::checked(scene)?;
@@ -78,7 +78,7 @@ pub(super) fn motion(
     let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
     if let Some(size) = &size {
         size.check(estimate.hertz.max_contact_radius()).map_err(|error| {
-            Refusal::new(format!("{}.finite_size", scene.model.path()), error.to_string())
+            Refusal::new(format!("{}.finite_size", scene.model().path()), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;
     }
@@ -102,7 +102,7 @@ fn ting_of(
     relaxes: bool,
     size: Option<FiniteSize>,
 ) -> Result<Ting, LawError> {
-    let [first, second] = scene.bodies.each_ref().map(Body::material);
+    let [first, second] = scene.bodies().each_ref().map(Body::material);
     let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
     let relaxation = if relaxes {
         PairRelaxation::new(first, second)?

@@ -18,7 +18,7 @@ const ENERGIES: [Account; 4] =
 /// Those of `to`.
 pub fn history_csv(to: impl Write, scene: &Scene, rows: &[Row]) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
-    let velocities = scene.bodies.each_ref().map(|body| format!("velocity_{}_m_s", body.name));
+    let velocities = scene.bodies().each_ref().map(|body| format!("velocity_{}_m_s", body.name()));
     let energies = ENERGIES.map(|account| format!("{}_j", account.name()));
     let first =
         ["time_s", "contact_force_n", "contact_radius_m", "approach_m", "centre_pressure_pa"];

@@ -144,17 +144,17 @@ fn body(
     side: usize,
     numbers: &mut Numbers,
 ) -> BodySummary {
-    let (named, body) = (&simulation.case.scene.bodies[side], &collision.bodies[side]);
+    let (named, body) = (&simulation.case.scene().bodies()[side], &collision.bodies[side]);
     let mut number = |key: &str, value: Option<f64>| {
-        numbers.finite_if_any(&format!("{key} of {}", named.name), value)
+        numbers.finite_if_any(&format!("{key} of {}", named.name()), value)
     };
     BodySummary {
-        name: named.name.clone(),
+        name: named.name().to_string(),
         elements: body.elements,
         nodes: body.nodes,
         mass_kg: number("mass_kg", body.mass),
         added_mass_kg: number("added_mass_kg", body.added_mass),
-        velocity_before_m_s: number("velocity_before_m_s", Some(named.velocity)),
+        velocity_before_m_s: number("velocity_before_m_s", Some(named.velocity())),
         velocity_after_m_s: number("velocity_after_m_s", body.velocity_after),
         vibration_energy_j: number("vibration_energy_j", body.vibration_energy),
     }

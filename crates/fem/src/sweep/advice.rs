@@ -22,7 +22,7 @@ pub fn advice(
     let Some(other) = condensed.iter().find(|member| member.case.mesh != first.case.mesh) else {
         return Ok(None);
     };
-    let mesh = members.case(other.index)?.scene.mesh;
+    let mesh = members.case(other.index)?.scene().mesh();
     let is_open = mesh.contact_element_size.is_none() || mesh.refined_radius.is_none();
     Ok(is_open.then_some(
         "members have meshes of their own; give mesh.contact_element_size and \

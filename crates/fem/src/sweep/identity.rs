@@ -45,8 +45,8 @@ pub fn identify(members: &(impl Members + ?Sized)) -> Result<Vec<Member>, CaseEr
 /// The bytes of the mesh files of a case.
 fn mesh_files(case: &Case) -> Result<Vec<Vec<u8>>, CaseError> {
     let mut files = Vec::new();
-    for (k, body) in case.scene.bodies.iter().enumerate() {
-        if let Shape::Sphere { mesh: Some(path), .. } = &body.shape {
+    for (k, body) in case.scene().bodies().iter().enumerate() {
+        if let Shape::Sphere { mesh: Some(path), .. } = body.shape() {
             files.push(std::fs::read(path).map_err(|error| {
                 let key = format!("body.{k}.sphere.mesh");
                 case.error_at(&key, format!("mesh {}: {error}", path.display()))

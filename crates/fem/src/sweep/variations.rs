@@ -24,7 +24,7 @@ use super::members::Members;
 ///     ice.poissons_ratio = Some(ratio.into());
 /// });
 /// assert_eq!(members.n_members(), 4);
-/// assert_eq!(members.case(1)?.scene.approach_speed(), 0.1);
+/// assert_eq!(members.case(1)?.scene().approach_speed(), 0.1);
 /// # Ok::<(), fem::CaseError>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -42,7 +42,7 @@ impl Fields {
         let snapshot = run.collision.snapshots.iter().find(is_maximum).ok_or_else(missing)?;
         let bodies = run.explicit.bodies.bodies();
         let side = usize::from(bodies[0].mesh().is_none());
-        let shape = &run.case.scene.bodies[side].shape;
+        let shape = run.case.scene().bodies()[side].shape();
         let (Some(mesh), Shape::Sphere { material, .. }) = (bodies[side].mesh(), shape) else {
             return Err(StudyError::parameters("the case has no sphere"));
         };
@@ -105,7 +105,7 @@ impl Fields {
 fn displacements(run: &ExplicitRun, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
     std::array::from_fn(|side| match run.explicit.bodies.bodies()[side].mesh() {
         Some(_) => snapshot.bodies[side].displacement.clone(),
-        None => vec![[0.0, run.case.scene.bodies[side].velocity * snapshot.time]],
+        None => vec![[0.0, run.case.scene().bodies()[side].velocity() * snapshot.time]],
     })
 }
 

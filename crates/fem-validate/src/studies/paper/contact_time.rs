@@ -22,7 +22,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut points = Vec::new();
     for run in speeds.run_elastic(laboratory)? {
         let hertz = run.hertz;
-        let finite = ting_impact(&run.case.scene, hertz.pair(), true)?;
+        let finite = ting_impact(run.case.scene(), hertz.pair(), true)?;
         points.push(Point {
             speed: hertz.approach_speed(),
             ours: run.contact_time(),

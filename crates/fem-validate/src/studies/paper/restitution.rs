@@ -40,7 +40,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let mut findings = Findings::new();
     let mut rows = Vec::new();
     for (name, run) in names.iter().zip(&runs) {
-        let scene = &run.case.scene;
+        let scene = run.case.scene();
         let pair = run.hertz.pair();
         let half_space = ting_impact(scene, pair, false)?.restitution;
         let finite = ting_impact(scene, pair, true)?.restitution;
@@ -82,7 +82,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 /// What relaxes, in words.
 fn reading(run: &Run) -> String {
     use fem_case::schema::ActsOn;
-    let relaxation = run.case.file.material.values().find_map(|m| m.relaxation.as_ref());
+    let relaxation = run.case.file().material.values().find_map(|m| m.relaxation.as_ref());
     match relaxation.map(|relaxation| relaxation.acts_on) {
         None => "nothing",
         Some(ActsOn::All) => "shear and bulk (constant ν)",
@@ -97,14 +97,14 @@ fn rate(run: &Run) -> String {
 }
 
 fn decay_rate(run: &Run) -> Option<f64> {
-    let material = run.case.scene.bodies[0].material()?;
+    let material = run.case.scene().bodies()[0].material()?;
     Some(material.relaxation()?.terms().first()?.relaxation_time.recip())
 }
 
 fn restitution_by_ting(case: &Case, rate: f64, finite_size: bool) -> Result<f64, StudyError> {
     let case = with_term(case, "glass", TermTable::with_decay_rate(1.0, rate))?;
     let hertz = Plan::of_case(&case)?.estimate.hertz;
-    Ok(ting_impact(&case.scene, hertz.pair(), finite_size)?.restitution)
+    Ok(ting_impact(case.scene(), hertz.pair(), finite_size)?.restitution)
 }
 
 fn draw(

@@ -60,7 +60,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let series = parameters.series(*ratio)?;
         let term = series.terms()[0];
         let pair = run.hertz.pair();
-        let expected = ting_impact(&run.case.scene, pair, true)?.restitution;
+        let expected = ting_impact(run.case.scene(), pair, true)?.restitution;
         findings.measure(format!("weight.{ratio}"), term.weight);
         findings.measure(format!("restitution.{ratio}"), run.restitution);
         findings.measure_worst("worst_over_ting", (run.restitution - expected).abs());
@@ -85,7 +85,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let ratio = parameters.largest_ratio * f64::from(k) / 24.0;
         let case = parameters.case(&glass, ratio)?;
         let hertz = Plan::of_case(&case)?.estimate.hertz;
-        Ok((ratio, ting_impact(&case.scene, hertz.pair(), true)?.restitution))
+        Ok((ratio, ting_impact(case.scene(), hertz.pair(), true)?.restitution))
     };
     let curve = (0..=24).map(by_ting).collect::<Result<_, StudyError>>()?;
     let restitution = Chart::new(Axis::new("k₂ / k₁"), Axis::new("restitution"))

@@ -34,7 +34,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     }
     let main = names.iter().position(|name| *name == MAIN).map(|k| &runs[k]);
     let run = main.ok_or_else(|| StudyError::parameters(format!("no [run.{MAIN}]")))?;
-    let rigid = RigidPair::of(&run.case.scene);
+    let rigid = RigidPair::of(run.case.scene());
     measure(run, &rigid, &mut findings);
     draw(run, &rigid, &mut findings);
     compare(run, &rigid, &mut findings);
@@ -49,11 +49,11 @@ struct RigidPair {
 
 impl RigidPair {
     fn of(scene: &Scene) -> Self {
-        let masses = scene.bodies.each_ref().map(|body| {
+        let masses = scene.bodies().each_ref().map(|body| {
             let material = body.material().zip(body.diameter());
             material.map_or(f64::NAN, |(m, d)| fem_laws::sphere_mass(d, m.density()))
         });
-        Self { masses, before: scene.bodies.each_ref().map(|body| body.velocity) }
+        Self { masses, before: scene.bodies().each_ref().map(|body| body.velocity()) }
     }
 
     /// Velocities, m/s, at an approach rate.

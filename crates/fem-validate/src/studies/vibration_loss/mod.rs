@@ -85,8 +85,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 fn modes_of(run: &Run, highest_frequency: f64) -> Vec<Excited> {
     let pulse = Pulse::new(&run.hertz);
     let mut modes = Vec::new();
-    for body in &run.case.scene.bodies {
-        if let Shape::Sphere { diameter, material, .. } = &body.shape {
+    for body in run.case.scene().bodies() {
+        if let Shape::Sphere { diameter, material, .. } = body.shape() {
             modes.extend(excite(material, 0.5 * diameter, &pulse, highest_frequency));
         }
     }

@@ -20,11 +20,11 @@ pub(super) fn decide(
     let estimate = &plan.estimate;
     let n_modes = pair.frequencies().map(<[f64]>::len);
     let spheres: Vec<(&str, usize)> = scene
-        .bodies
+        .bodies()
         .iter()
         .zip(n_modes)
         .filter(|(body, _)| body.diameter().is_some())
-        .map(|(body, n_modes)| (body.name.as_str(), n_modes))
+        .map(|(body, n_modes)| (body.name(), n_modes))
         .collect();
     let vibration = match options.vibration_modes {
         0 => format!("quasi-static: approach speed / shear wave speed = {:.1e}", estimate.mach),
@@ -75,13 +75,13 @@ fn unresolved_modes(spheres: &[(&str, usize)], options: CondensedOptions) -> Vec
 fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<String> {
     let mut warnings = Vec::new();
     for (key, value) in
-        [("time.step_factor", scene.step_factor), ("time.mass_scaling", scene.mass_scaling)]
+        [("time.step_factor", scene.step_factor()), ("time.mass_scaling", scene.mass_scaling())]
     {
         if value.is_some() {
             warnings.push(format!("{key} has no effect: model condensed has no critical step"));
         }
     }
-    if scene.penalty_factor.is_some() && !options.penalty_springs {
+    if scene.penalty_factor().is_some() && !options.penalty_springs {
         warnings.push(
             "contact.penalty_factor has no effect: contact is exact unless \
              model.condensed.penalty_springs = true"

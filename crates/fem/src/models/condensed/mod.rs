@@ -95,12 +95,12 @@ impl Condensed {
         let key = PairKey { bodies: bodies(scene, sources), settings: settings(&plan, options) };
         let pair = shared.pairs.pair(key, |key| {
             CondensedPair::new(inputs(key)?, key.settings)
-                .map_err(|error| Refusal::new(scene.model.path(), error.to_string()))
+                .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
         })?;
         let (effects, warnings) = effects::decide(scene, &plan, &pair, options)?;
         let setup = Setup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
-            approach: approach_of(scene),
+            approach: approach_of(scene)?,
             want: plan.want(),
             estimate: plan.estimate,
             effects,
@@ -137,7 +137,7 @@ impl Condensed {
         n_steps: usize,
     ) -> Result<f64, Stop> {
         let want = Want::quantities();
-        let approach = Approach::at(speed);
+        let approach = Approach::at(speed).map_err(CondensedError::from)?;
         let collision = self.follow(&approach, relaxations, n_steps, &want, &mut ());
         match (collision.ending, collision.restitution) {
             (Ending::Stopped(stop), _) => Err(stop),
@@ -162,7 +162,7 @@ impl Condensed {
                 Err(error) => Collision {
                     initial_energy: Some(frame.kinetic(frame.speed())),
                     bodies: pair.bodies_before(&frame),
-                    ..Collision::stopped(stop_of(error, approach))
+                    ..Collision::stopped(*approach, stop_of(error, approach))
                 },
             }
         };
@@ -187,7 +187,7 @@ impl Model for Condensed {
         monitor: &mut dyn Monitor,
     ) -> Collision {
         let scene = self.scene.clone();
-        let relaxations = scene.bodies.each_ref().map(|body| body.material()?.relaxation());
+        let relaxations = scene.bodies().each_ref().map(|body| body.material()?.relaxation());
         self.follow(approach, relaxations, self.options.steps, want, monitor)
     }
 
@@ -207,8 +207,8 @@ fn stop_of(error: CondensedError, approach: &Approach) -> Stop {
 }
 
 fn options(scene: &Scene) -> CondensedOptions {
-    match scene.model {
-        ModelChoice::Condensed(options) => options,
+    match scene.model() {
+        ModelChoice::Condensed(options) => *options,
         _ => CondensedOptions::default(),
     }
 }
@@ -226,7 +226,7 @@ fn cost_of(pair: &CondensedPair, n_steps: usize) -> Cost {
 /// Bodies without their relaxations, which only the collision reads.
 fn bodies(scene: &Scene, sources: [Option<MeshSource>; 2]) -> [Option<(MeshSource, Material)>; 2] {
     let mut sources = sources.into_iter();
-    scene.bodies.each_ref().map(|body| {
+    scene.bodies().each_ref().map(|body| {
         let source = sources.next().flatten()?;
         Some((source, body.material()?.without_relaxation()))
     })

@@ -27,7 +27,9 @@ pub(super) fn of_impact(
     let drift = |instant: &ImpactInstant| frame.momentum_drift(instant.approach_rate);
     let is_together = impact.contact_time.is_none();
     let first_touch = frame.approach.first_touch();
+    let end = impact.history.last().map(|instant| rows.row(instant));
     Collision {
+        approach: frame.approach,
         ending: if is_together { Ending::Together } else { Ending::Parted },
         restitution: Some(impact.restitution),
         contact_time: impact.contact_time,
@@ -38,7 +40,11 @@ pub(super) fn of_impact(
         max_approach: Some(impact.max_approach),
         max_contact_radius: has_radius.then_some(impact.max_contact_radius),
         peak_pressure: impact.peak_pressure,
+        force_scatter: None,
+        searched_radius: None,
         initial_energy: Some(frame.kinetic(frame.speed())),
+        energies: end.map_or(Book::EMPTY, |row| row.energies),
+        residual: end.and_then(|row| row.residual),
         residual_relative: Some(instants().map(residual).fold(0.0, worse) / frame.initial()),
         momentum_residual_relative: Some(instants().map(drift).fold(0.0, worse)),
         bodies: [0, 1].map(|side: usize| BodyResult {

@@ -19,7 +19,7 @@ pub(super) fn decide(
     estimate: &Estimate,
     law: Option<&ContactLaw>,
 ) -> Result<(Vec<Verdict>, Vec<String>), Refusal> {
-    let model = &scene.model;
+    let model = scene.model();
     let is_slow_limit =
         matches!(model, ModelChoice::Law { law: Law::KuwabaraKono(Dissipation::Relaxation), .. });
     let (relaxation, mut warnings) = relaxation(scene, estimate, is_slow_limit);
@@ -40,7 +40,7 @@ pub(super) fn decide(
     warnings.extend(decisions.warnings);
     warnings.extend(slowness(scene, estimate).filter(|_| is_slow_limit));
     warnings.extend(Vibration::warning_of_rigid_bodies(estimate));
-    if scene.snapshots.is_some() {
+    if scene.snapshots().is_some() {
         let name = describe(model);
         warnings.push(format!("output.snapshots has no effect: {name} has no fields to draw"));
     }
@@ -50,7 +50,7 @@ pub(super) fn decide(
 /// What the model has of the relaxation, and a warning if it has nothing of what is there.
 fn relaxation(scene: &Scene, estimate: &Estimate, is_slow_limit: bool) -> (Answer, Vec<String>) {
     let need = Viscoelasticity.need(scene, estimate).unwrap_or_default();
-    let knows_it = is_slow_limit || matches!(scene.model, ModelChoice::Ting { .. });
+    let knows_it = is_slow_limit || matches!(scene.model(), ModelChoice::Ting { .. });
     if !need.is_called_for || (knows_it && !is_slow_limit) {
         return (Answer::Computes { idle: "" }, Vec::new());
     }
@@ -60,7 +60,7 @@ fn relaxation(scene: &Scene, estimate: &Estimate, is_slow_limit: bool) -> (Answe
             format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");
         return (Answer::Is(true, reason), Vec::new());
     }
-    let name = describe(&scene.model);
+    let name = describe(scene.model());
     let warning = format!(
         "{reason}, and {name} does not know it: it takes the instantaneous moduli. Model ting or \
          fem computes the relaxation"
@@ -101,7 +101,7 @@ fn finite_size(model: &ModelChoice) -> String {
 
 /// A warning if the contact is not slow next to the relaxation.
 fn slowness(scene: &Scene, estimate: &Estimate) -> Option<String> {
-    let series = scene.bodies.iter().filter_map(|body| body.material()?.relaxation());
+    let series = scene.bodies().iter().filter_map(|body| body.material()?.relaxation());
     let times = series.flat_map(|series| series.terms()).filter(|term| term.weight > 0.0);
     let longest = times.map(|term| term.relaxation_time).fold(0.0, f64::max);
     let ratio = longest / estimate.contact_time;

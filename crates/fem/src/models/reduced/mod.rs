@@ -64,7 +64,7 @@ impl Reduced {
         });
         let setup = Setup {
             description,
-            approach: approach_of(scene),
+            approach: approach_of(scene)?,
             want: Want::history(),
             estimate,
             effects,
@@ -111,7 +111,7 @@ impl Model for Reduced {
                 let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
                 collision::of_impact(&impact, &frame, &self.pair, self.law(), want)
             }
-            Err(error) => Collision::stopped(stop_of(&error)),
+            Err(error) => Collision::stopped(*approach, stop_of(&error)),
         }
     }
 }
@@ -127,18 +127,18 @@ fn stop_of(error: &LawError) -> Stop {
 
 /// A scene that chose another model than the one that was to be built.
 pub(super) fn chose_another(scene: &Scene, method: &str) -> Refusal {
-    let message = format!("model `{}` is not `{method}`", scene.model.name());
-    Refusal::new(scene.model.path(), message)
+    let message = format!("model `{}` is not `{method}`", scene.model().name());
+    Refusal::new(scene.model().path(), message)
 }
 
 /// What a law of the scene refuses.
 pub(super) fn refused(scene: &Scene, error: &LawError) -> Refusal {
-    Refusal::new(scene.model.path(), error.to_string())
+    Refusal::new(scene.model().path(), error.to_string())
 }
 
 /// The start that all reduced models fill in; what they do not read stays as it is.
 pub(super) fn resolve_start(scene: &Scene, mut file: CaseFile) -> CaseFile {
-    let gap = scene.gap.unwrap_or_default();
+    let gap = scene.gap().unwrap_or_default();
     file.start = Some(StartTable { gap: Some(Quantity::from_si(gap)) });
     file
 }
