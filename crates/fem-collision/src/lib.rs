@@ -17,6 +17,7 @@
 //! SI throughout; the axis is y, forces and approach are positive in compression, stress in tension.
 
 mod account;
+mod aftermath;
 mod approach;
 mod body_input;
 mod collision;
@@ -36,6 +37,7 @@ mod want;
 mod worst;
 
 pub use account::{Account, Book, Side};
+pub use aftermath::{Aftermath, FLIGHT_AFTER};
 pub use approach::{Approach, ApproachError};
 pub use body_input::BodyInput;
 pub use collision::{BodyResult, Collision, STAY_TOGETHER};
@@ -44,7 +46,7 @@ pub use frame::Frame;
 pub use history::{History, RowKind};
 pub use instants::{did_not_occur, evenly, fewer_than_asked};
 pub use losses::Losses;
-pub use monitor::{Monitor, Phase, Progress};
+pub use monitor::{Monitor, Phase, Progress, STEPS_BETWEEN_REPORTS};
 pub use row::Row;
 pub use scatter::Scatter;
 pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};

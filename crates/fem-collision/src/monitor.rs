@@ -1,5 +1,8 @@
 //! Who looks on while a collision is computed.
 
+/// Steps that a run does between two reports to its monitor.
+pub const STEPS_BETWEEN_REPORTS: u64 = 64;
+
 /// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {

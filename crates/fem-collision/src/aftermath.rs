@@ -1,0 +1,54 @@
+//! After the last contact: how long a run goes on, and what is left in the bodies' vibrations.
+
+use serde::{Deserialize, Serialize};
+
+/// A run goes on for this share of the contact time after the last contact, so that the bodies'
+/// velocities and vibrations are those of free flight.
+pub const FLIGHT_AFTER: f64 = 0.2;
+
+/// Mean energy of the vibrations of both bodies since the last contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Aftermath {
+    /// Sums of the kinetic energies relative to the mass centres, J.
+    sums: [f64; 2],
+    n: usize,
+}
+
+impl Aftermath {
+    /// Takes an instant of a run whose bodies have touched: whether they do, and the kinetic energy of
+    /// each relative to its mass centre, J.
+    pub fn observe(&mut self, is_closed: bool, vibration: [f64; 2]) {
+        if is_closed {
+            *self = Self::default();
+            return;
+        }
+        self.n += 1;
+        for (sum, energy) in self.sums.iter_mut().zip(vibration) {
+            *sum += energy;
+        }
+    }
+
+    /// Energy left in the vibrations of both bodies, J: twice the mean kinetic energy, since half of a
+    /// vibration's energy is kinetic. `None` before the bodies have parted.
+    pub fn vibration_energy(&self) -> Option<[f64; 2]> {
+        (self.n > 0).then(|| self.sums.map(|sum| 2.0 * sum / self.n as f64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_follows_the_last_contact_counts() {
+        let mut aftermath = Aftermath::default();
+        assert_eq!(aftermath.vibration_energy(), None);
+        for (is_closed, energy) in [(true, 5.0), (false, 9.0), (true, 5.0)] {
+            aftermath.observe(is_closed, [energy, 0.0]);
+        }
+        assert_eq!(aftermath.vibration_energy(), None);
+        aftermath.observe(false, [1.0, 0.5]);
+        aftermath.observe(false, [2.0, 0.5]);
+        assert_eq!(aftermath.vibration_energy(), Some([3.0, 1.0]));
+    }
+}
