@@ -4,7 +4,6 @@ use fem_laws::{EndRule, Family};
 
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
 pub enum ModelChoice {
     /// Explicit finite elements.
     #[default]

@@ -4,6 +4,7 @@ use crate::account::Book;
 use crate::approach::Approach;
 use crate::ending::Ending;
 use crate::row::Row;
+use crate::searched::Searched;
 use crate::snapshot::{Label, Snapshot};
 use crate::stop::Stop;
 
@@ -38,8 +39,8 @@ pub struct Collision {
     pub peak_pressure: Option<f64>,
     /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
     pub force_scatter: Option<f64>,
-    /// Radius out to which contact was looked for in the end, of a model that has such a limit, m.
-    pub searched_radius: Option<f64>,
+    /// Where contact was looked for in the end, of a model that does not look everywhere.
+    pub searched: Option<Searched>,
     /// Kinetic energy at the start, walls not counted, J.
     pub initial_energy: Option<f64>,
     /// What is in each account of energy at the end, J.
@@ -58,6 +59,8 @@ pub struct Collision {
     pub steps: Option<u64>,
     /// Elements times steps, of a model that computes each element at each step.
     pub element_updates: Option<u64>,
+    /// Memory of the factors of condensed bodies, bytes.
+    pub factor_bytes: Option<u64>,
     /// Steps whose contact problem took more than one solution, of a model that solves one a step.
     pub repeated_contact_solutions: Option<u64>,
     /// Instants over contact and separation.
@@ -101,7 +104,7 @@ impl Collision {
             max_contact_radius: None,
             peak_pressure: None,
             force_scatter: None,
-            searched_radius: None,
+            searched: None,
             initial_energy: None,
             energies: Book::EMPTY,
             residual: None,
@@ -111,6 +114,7 @@ impl Collision {
             time_step: None,
             steps: None,
             element_updates: None,
+            factor_bytes: None,
             repeated_contact_solutions: None,
             history: Vec::new(),
             snapshots: Vec::new(),

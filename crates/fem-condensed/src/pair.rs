@@ -1,7 +1,7 @@
 //! Two bodies condensed to their contact, ready for any number of collisions.
 
 use faer::Mat;
-use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, Frame, Stop};
+use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, Frame, Searched, Stop};
 use fem_contact::{ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
@@ -108,6 +108,15 @@ impl CondensedPair {
     /// Radius of the outermost point that can touch, m.
     pub fn candidate_radius(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.radius)
+    }
+
+    /// Where contact is looked for.
+    pub fn searched(&self) -> Searched {
+        Searched {
+            radius: self.candidate_radius(),
+            n_points: self.n_points(),
+            at_nodes: self.nodal_side.is_some(),
+        }
     }
 
     /// Radius of the smaller sphere, m.

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use fem_collision::{Approach, BodyInput};
+use fem_collision::{Approach, BodyInput, Searched};
 use fem_contact::{ContactError, ContactInterface, Surface};
 
 use crate::body::Body;
@@ -129,6 +129,15 @@ impl Model {
     /// Radius out to which contact is looked for, m.
     pub fn candidate_radius(&self) -> f64 {
         self.contact.candidate_radius()
+    }
+
+    /// Where contact is looked for.
+    pub fn searched(&self) -> Searched {
+        Searched {
+            radius: self.candidate_radius(),
+            n_points: self.interface().map_or(0, ContactInterface::n_points),
+            at_nodes: false,
+        }
     }
 
     /// Time step, s.

@@ -35,7 +35,7 @@ pub fn write_result(
     let mut left_out = Vec::new();
     if keep == Keep::All {
         let file = File::create(folder.join(HISTORY_FILE)).map_err(|error| fault(&error))?;
-        history_csv(BufWriter::new(file), simulation.case.scene(), &collision.history)
+        history_csv(BufWriter::new(file), simulation.case().scene(), &collision.history)
             .map_err(|error| fault(&error))?;
         files.push(HISTORY_FILE.to_string());
         let (vtk_files, missing) =

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use fem::{Explicit, Model, Simulation};
+use fem::{Explicit, Model, Setup, Simulation};
 use fem_case::{Case, CaseFile, ModelChoice};
 use fem_collision::{Collision, Monitor, Progress};
 use fem_laws::HertzImpact;
@@ -151,18 +151,18 @@ impl<'a> Laboratory<'a> {
     }
 
     fn run_explicit(&self, case: Case) -> Result<Arc<ExplicitRun>, StudyError> {
-        let mut explicit = Explicit::new(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
-        let (approach, want) = (explicit.setup().approach, explicit.setup().want.clone());
-        let hertz = explicit.plan.estimate.hertz;
-        let collide = |listener: &mut dyn Monitor| explicit.collide(&approach, &want, listener);
-        let run = self.collide(case, hertz, collide)?;
-        Ok(Arc::new(ExplicitRun { explicit, run }))
+        let explicit = Explicit::new(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
+        let Setup { approach, want, estimate, .. } = explicit.setup();
+        let collide = |listener: &mut dyn Monitor| explicit.collide(approach, want, listener);
+        let run = self.collide(case, estimate.hertz, collide)?;
+        let model = explicit.bodies_of(&run.collision)?;
+        Ok(Arc::new(ExplicitRun { model, run }))
     }
 
     /// A condensed pair that the shelf has is not made again.
     fn run_other(&self, case: Case) -> Result<Arc<Run>, StudyError> {
-        let mut simulation = Simulation::sharing(case, &self.shelf.shared)?;
-        let (case, hertz) = (simulation.case.clone(), simulation.setup().estimate.hertz);
+        let simulation = Simulation::sharing(case, &self.shelf.shared)?;
+        let (case, hertz) = (simulation.case().clone(), simulation.setup().estimate.hertz);
         self.collide(case, hertz, |listener| simulation.run(listener)).map(Arc::new)
     }
 

@@ -1,11 +1,12 @@
 //! Cases that were run.
 
 use std::ops::Deref;
+use std::sync::Arc;
 
-use fem::Explicit;
 use fem_case::Case;
 use fem_collision::Collision;
 use fem_contact::ContactInterface;
+use fem_explicit::Model;
 use fem_laws::HertzImpact;
 
 use crate::error::StudyError;
@@ -40,6 +41,12 @@ impl Run {
     /// Largest approach, m.
     pub fn max_approach(&self) -> f64 {
         known(self.collision.max_approach)
+    }
+
+    /// Of the smaller sphere, m.
+    pub fn smallest_radius(&self) -> f64 {
+        let diameters = self.case.scene().bodies().iter().filter_map(|body| body.diameter());
+        0.5 * diameters.fold(f64::INFINITY, f64::min)
     }
 
     /// Largest contact radius, m.
@@ -82,8 +89,8 @@ fn known(value: Option<f64>) -> f64 {
 /// A run of the explicit model, with its meshes and contact.
 #[derive(Debug)]
 pub struct ExplicitRun {
-    /// Plan, meshes and bodies.
-    pub explicit: Explicit,
+    /// Meshes, bodies and contact, as they were in the end.
+    pub model: Arc<Model>,
     /// What every model gives.
     pub run: Run,
 }
@@ -94,7 +101,7 @@ impl ExplicitRun {
     /// # Errors
     /// A case with another contact, of which a study of springs can tell nothing.
     pub fn springs(&self) -> Result<&ContactInterface, StudyError> {
-        self.explicit.bodies.interface().ok_or_else(no_springs)
+        self.model.interface().ok_or_else(no_springs)
     }
 }
 

@@ -19,7 +19,7 @@ fn main() -> Result<(), CaseError> {
 
     // Half-spaces; finite elements condensed to their contact, linear; explicit finite elements.
     for model in [ModelTable::ting(), ModelTable::condensed(), ModelTable::fem()] {
-        let mut simulation = Simulation::new(case.edited(|file| file.model = Some(model))?)?;
+        let simulation = Simulation::new(case.edited(|file| file.model = Some(model))?)?;
         let collision = simulation.run(&mut ());
         println!("{}: {:?}", simulation.setup().description, collision.ending);
         // What a model does not know, or what has no value, is `None`.

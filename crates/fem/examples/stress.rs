@@ -17,7 +17,7 @@ fn main() -> Result<(), CaseError> {
     // Some 16 elements across the contact radius; the refined block goes by the contact expected.
     file.mesh = Some(MeshTable { contact_element_size: Some("7 um".into()), ..Default::default() });
 
-    let mut simulation = Simulation::new(Case::of(file)?)?;
+    let simulation = Simulation::new(Case::of(file)?)?;
     let collision = simulation.run(&mut ());
     let hertz = &simulation.setup().estimate.hertz;
     let (radius, pressure) = (hertz.max_contact_radius(), hertz.peak_pressure());

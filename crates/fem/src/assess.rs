@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use fem_collision::Collision;
 use fem_mesh::SphereMesh;
 
+use crate::effects::{EFFECTS, Effect};
 use crate::method::ElementSetup;
 use crate::plan::Plan;
 use crate::simulation::Simulation;
@@ -13,16 +14,10 @@ use crate::simulation::Simulation;
 const FEWEST_ELEMENTS: f64 = 4.0;
 /// Overlap of the surfaces over the approach.
 const LARGEST_PENETRATION: f64 = 0.01;
-/// Added mass over a body's mass.
-const LARGEST_ADDED_MASS: f64 = 1e-3;
 /// Energy that does not add up over the initial.
 const LARGEST_RESIDUAL: f64 = 1e-3;
-/// Vibration energy over the initial relative kinetic energy.
-const LARGEST_VIBRATION: f64 = 0.01;
 /// Scatter of the force over its peak.
 const LARGEST_NOISE: f64 = 0.005;
-/// Contact radius over effective radius.
-const LARGEST_STRAIN: f64 = 0.1;
 /// Contact radius over the half-width of the fine block.
 const LARGEST_OUTGROWTH: f64 = 1.05;
 /// Restitution above 1 that is no rounding.
@@ -32,15 +27,27 @@ impl Simulation {
     /// All that the user should know of a collision: what was known before it, what it shows itself
     /// ([`assess`]), and what its model says.
     pub fn warnings(&self, collision: &Collision) -> Vec<String> {
-        let mut warnings = self.setup().warnings.clone();
+        let mut warnings = self.decisions(collision).warnings;
+        warnings.extend(self.setup().unread.iter().cloned());
         warnings.extend(assess(self, collision));
         warnings.extend(collision.warnings.iter().cloned());
         warnings
     }
 }
 
-/// Warnings about a collision of finite elements; a reduced model has no such errors.
+/// Warnings about a collision: of finite elements, which have errors of their own, and of effects that
+/// show in it.
 pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
+    let mut warnings = of_elements(simulation, collision);
+    if let Some(estimate) = simulation.estimate(collision) {
+        let scene = simulation.case().scene();
+        let after = |effect: &&dyn Effect| effect.after(scene, &estimate, collision);
+        warnings.extend(EFFECTS.iter().flat_map(after));
+    }
+    warnings
+}
+
+fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
     let warnings = [
         run.incomplete(),
@@ -49,16 +56,13 @@ pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
         run.resolution(),
         run.refinement(),
         run.penetration(),
-        run.vibration(),
         run.noise(),
-        run.strain(),
     ];
-    warnings.into_iter().flatten().chain(run.added_mass()).collect()
+    warnings.into_iter().flatten().collect()
 }
 
 /// A run of finite elements.
 struct Run<'a> {
-    simulation: &'a Simulation,
     collision: &'a Collision,
     plan: &'a Plan,
     meshes: [Option<&'a SphereMesh>; 2],
@@ -72,9 +76,9 @@ impl<'a> Run<'a> {
     fn of(simulation: &'a Simulation, collision: &'a Collision) -> Option<Self> {
         let ElementSetup { plan, has_springs, finer_steps } =
             simulation.setup().elements.as_ref()?;
-        let meshes = simulation.model.meshes();
+        let meshes = simulation.model().meshes();
         let (has_springs, finer_steps) = (*has_springs, *finer_steps);
-        Some(Self { simulation, collision, plan, meshes, has_springs, finer_steps })
+        Some(Self { collision, plan, meshes, has_springs, finer_steps })
     }
 
     fn incomplete(&self) -> Option<String> {
@@ -152,30 +156,10 @@ impl<'a> Run<'a> {
         })
     }
 
-    fn vibration(&self) -> Option<String> {
-        let hertz = &self.plan.estimate.hertz;
-        let initial = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
-        let left = self.collision.bodies.iter().filter_map(|body| body.vibration_energy);
-        let share = left.sum::<f64>() / initial;
-        (share > LARGEST_VIBRATION).then(|| {
-            format!(
-                "{:.1} % of the initial kinetic energy stays in vibrations of the bodies; closed \
-                 forms know nothing of them",
-                100.0 * share
-            )
-        })
-    }
-
-    /// Scatter of the contact force from row to row, over its peak.
+    /// Scatter of the contact force from instant to instant, over its peak.
     fn noise(&self) -> Option<String> {
-        let forces = self.collision.history.iter().map(|row| row.contact_force);
-        let rows: Vec<f64> = forces.filter(|force| *force > 0.0).collect();
-        // A smooth pulse bends by some 1e-5 over three of a thousand rows; the middle of three
-        // numbers with independent scatter s is off the mean of the others by s √(3/2).
-        let bends = rows.windows(3).map(|f| (f[1] - 0.5 * (f[0] + f[2])).powi(2));
-        let mean = bends.sum::<f64>() / rows.len().max(1) as f64;
-        let scatter = (mean / 1.5).sqrt() / self.collision.peak_force?;
-        (rows.len() > 100 && scatter > LARGEST_NOISE).then(|| {
+        let scatter = self.collision.force_scatter? / self.collision.peak_force?;
+        (scatter > LARGEST_NOISE).then(|| {
             format!(
                 "the contact force scatters by {:.1} % of its peak; above {} %, peaks are too \
                  high: lower contact.penalty_factor or {}",
@@ -183,37 +167,6 @@ impl<'a> Run<'a> {
                 100.0 * LARGEST_NOISE,
                 self.finer_steps
             )
-        })
-    }
-
-    /// The plan warns of what it expects; this is what came.
-    fn strain(&self) -> Option<String> {
-        let radius = self.plan.estimate.hertz.pair().effective_radius();
-        let strain = self.collision.max_contact_radius? / radius;
-        let is_news = self.plan.estimate.strain <= LARGEST_STRAIN;
-        (is_news && strain > LARGEST_STRAIN).then(|| {
-            format!(
-                "the contact radius grew to {:.0} % of the effective radius; above {:.0} % the \
-                 small-strain model is in doubt",
-                100.0 * strain,
-                100.0 * LARGEST_STRAIN
-            )
-        })
-    }
-
-    fn added_mass(&self) -> impl Iterator<Item = String> {
-        let bodies = self.collision.bodies.iter().zip(self.simulation.case.scene().bodies());
-        bodies.filter_map(|(body, named)| {
-            let share = body.added_mass? / body.mass?;
-            (share > LARGEST_ADDED_MASS).then(|| {
-                format!(
-                    "mass scaling adds {:.2} % to the mass of {}; above {} %, use a smaller \
-                     time.mass_scaling",
-                    100.0 * share,
-                    named.name(),
-                    100.0 * LARGEST_ADDED_MASS
-                )
-            })
         })
     }
 }

@@ -38,8 +38,8 @@ pub use estimate::Estimate;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
-    CONDENSED, Condensed, CondensedMethod, EXPLICIT, Explicit, ExplicitMethod, HERTZ, HertzMethod,
-    LAW, LawMethod, METHODS, Reduced, TING, TingMethod, method_of, ting_impact,
+    Condensed, CondensedMethod, Explicit, ExplicitMethod, HertzMethod, LawMethod, METHODS, Reduced,
+    TingMethod, method_of, ting_impact,
 };
 pub use pair_cache::PairCache;
 pub use plan::Plan;

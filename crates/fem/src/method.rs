@@ -9,7 +9,7 @@ use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, Want};
 use fem_mesh::SphereMesh;
 
-use crate::effects::Verdict;
+use crate::effects::Decisions;
 use crate::estimate::Estimate;
 use crate::pair_cache::PairCache;
 use crate::plan::Plan;
@@ -48,15 +48,21 @@ pub struct Shared {
     pub pairs: PairCache,
 }
 
-/// A scene ready to be computed.
-pub trait Model: fmt::Debug + Send {
-    /// What was decided.
+/// A scene ready to be computed, at any approach and from any number of threads: what a collision
+/// gives does not depend on those before it.
+pub trait Model: fmt::Debug + Send + Sync {
+    /// What was decided on the scene as it is.
     fn setup(&self) -> &Setup;
 
-    /// Computes a collision of the scene's bodies, as far as it gets. A model may enlarge the region
-    /// in which it looks for contact, and says so in its setup.
-    fn collide(&mut self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor)
-    -> Collision;
+    /// Decides on effects for an estimate of the scene's bodies that meet in another way.
+    ///
+    /// # Errors
+    /// An effect that the case forces on and the model lacks.
+    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal>;
+
+    /// Computes a collision of the scene's bodies, as far as it gets. Where the contact outgrows the
+    /// region in which it is looked for, the collision is computed again with a larger one.
+    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision;
 
     /// The meshes; a wall has none, nor has a model without elements.
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
@@ -76,13 +82,20 @@ pub struct Setup {
     /// What closed forms say.
     pub estimate: Estimate,
     /// Which effects are on, and why.
-    pub effects: Vec<Verdict>,
-    /// What the user should know before the run.
-    pub warnings: Vec<String>,
+    pub decisions: Decisions,
+    /// Of keys that the case gives and the model does not read.
+    pub unread: Vec<String>,
     /// What the run will take.
     pub cost: Cost,
     /// Of a model with meshes.
     pub elements: Option<ElementSetup>,
+}
+
+impl Setup {
+    /// What the user should know before the run.
+    pub fn warnings(&self) -> Vec<String> {
+        self.decisions.warnings.iter().chain(&self.unread).cloned().collect()
+    }
 }
 
 /// What was decided on finite elements.

@@ -1,8 +1,11 @@
 //! A case with the model that computes it, whichever that is.
 
-use fem_case::{Case, CaseError, CaseFile};
-use fem_collision::{Collision, Monitor, Phase, SnapshotRequest, Want};
+use fem_case::schema::StartTable;
+use fem_case::{Case, CaseError, CaseFile, Quantity};
+use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want};
 
+use crate::effects::{ContactSearch, Decisions};
+use crate::estimate::Estimate;
 use crate::method::{Method, Model, Setup, Shared};
 use crate::models::method_of;
 
@@ -37,12 +40,9 @@ pub fn collide(case: &Case) -> Result<Collision, CaseError> {
 /// A case that is ready to run.
 #[derive(Debug)]
 pub struct Simulation {
-    /// The case.
-    pub case: Case,
-    /// What computes it.
-    pub model: Box<dyn Model>,
-    /// What the run is asked for.
-    pub want: Want,
+    case: Case,
+    model: Box<dyn Model>,
+    want: Want,
     resolved: CaseFile,
 }
 
@@ -84,14 +84,43 @@ impl Simulation {
         method_of(case.scene()).price(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
-    /// What was decided.
+    /// The case.
+    pub fn case(&self) -> &Case {
+        &self.case
+    }
+
+    /// What computes it.
+    pub fn model(&self) -> &dyn Model {
+        self.model.as_ref()
+    }
+
+    /// What was decided on the case as it is.
     pub fn setup(&self) -> &Setup {
         self.model.setup()
+    }
+
+    /// What the run is asked for.
+    pub fn want(&self) -> &Want {
+        &self.want
     }
 
     /// The case with every default filled in: it runs again to the same bits.
     pub fn resolved(&self) -> &CaseFile {
         &self.resolved
+    }
+
+    /// The resolved case with its bodies meeting in another way.
+    pub fn resolved_at(&self, approach: &Approach) -> CaseFile {
+        let mut file = self.resolved.clone();
+        if *approach != self.setup().approach {
+            let [lower, upper] = approach.velocities();
+            // A speed is toward the other body; a body at rest has 0, never -0.
+            for (body, speed) in file.body.iter_mut().zip([lower, 0.0 - upper]) {
+                body.approach_speed = Some(Quantity::from_si(speed));
+            }
+            file.start = Some(StartTable { gap: Some(Quantity::from_si(approach.gap())) });
+        }
+        file
     }
 
     /// Makes the run compute no fields to draw, nor warn of those that could not be had. All else
@@ -101,10 +130,35 @@ impl Simulation {
     }
 
     /// Computes the collision.
-    pub fn run(&mut self, monitor: &mut dyn Monitor) -> Collision {
-        monitor.enter(Phase::Collision);
-        let approach = self.model.setup().approach;
-        self.model.collide(&approach, &self.want, monitor)
+    pub fn run(&self, monitor: &mut dyn Monitor) -> Collision {
+        self.model.collide(&self.setup().approach, &self.want, monitor)
+    }
+
+    /// What closed forms say of a collision of the case's bodies; none where that is no number.
+    pub fn estimate(&self, collision: &Collision) -> Option<Estimate> {
+        let setup = self.setup();
+        match collision.approach == setup.approach {
+            true => Some(setup.estimate),
+            false => Estimate::at(self.case.scene(), collision.approach.speed()).ok(),
+        }
+    }
+
+    /// Which effects were on in a collision of the case's bodies, and why; and what was to be known
+    /// of them before it.
+    pub fn decisions(&self, collision: &Collision) -> Decisions {
+        let setup = self.setup();
+        let as_set_up = collision.approach == setup.approach;
+        let estimate = self.estimate(collision).filter(|_| !as_set_up);
+        let decided = estimate.and_then(|estimate| self.model.decide(&estimate).ok());
+        let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
+        if let Some(searched) = &collision.searched {
+            for verdict in &mut decisions.verdicts {
+                if verdict.name == ContactSearch::NAME {
+                    verdict.reason = ContactSearch::reason(searched);
+                }
+            }
+        }
+        decisions
     }
 }
 

@@ -27,8 +27,8 @@ impl Simulation {
     /// The stress in the lower body, 0, or the upper one, 1, at an instant of its collision; none in
     /// a wall, by a model without elements, or where the snapshot's fields are not those of its mesh.
     pub fn stress(&self, snapshot: &Snapshot, side: usize) -> Option<BodyStress<'_>> {
-        let mesh = (*self.model.meshes().get(side)?)?;
-        let material = self.case.scene().bodies()[side].material()?;
+        let mesh = (*self.model().meshes().get(side)?)?;
+        let material = self.case().scene().bodies()[side].material()?;
         let fields = &snapshot.bodies[side];
         let n_nodes = mesh.nodes().len();
         let relaxed = fields.effective.len();

@@ -111,7 +111,7 @@ fn a_resolved_case_computes_the_same() {
         let first = simulation(&[value, "mesh.contact_element_size='50 um'"]);
         let text = first.resolved().to_toml().unwrap();
         let case = Case::parse("again.toml", &text, Path::new("."), &[]).unwrap();
-        let mut again = Simulation::new(case).unwrap();
+        let again = Simulation::new(case).unwrap();
         assert_eq!(again.resolved().to_toml().unwrap(), text);
         let expected = run(&[value, "mesh.contact_element_size='50 um'"]);
         assert_eq!(again.run(&mut ()).history, expected.history);
@@ -127,7 +127,7 @@ fn cases_share_a_pair() {
     let condensed_of = |extra: &str| {
         let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
         let case = parse(&overrides).unwrap();
-        let mut condensed = Condensed::new(case.scene(), &shared).unwrap();
+        let condensed = Condensed::new(case.scene(), &shared).unwrap();
         let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
         let collision = condensed.collide(&approach, &want, &mut ());
         assert_eq!(collision.history, run(&overrides).history);
@@ -230,10 +230,9 @@ fn an_enlarged_pair_is_not_put_back() {
         parse(&[&COARSE[1..], &fine].concat()).unwrap()
     };
     let condensed = |case: Case| {
-        let mut condensed = Condensed::new(case.scene(), &shared).unwrap();
+        let condensed = Condensed::new(case.scene(), &shared).unwrap();
         let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
-        condensed.collide(&approach, &want, &mut ());
-        condensed.pair().candidate_radius()
+        condensed.collide(&approach, &want, &mut ()).searched.unwrap().radius
     };
     let small = condensed(soft(0.0));
     // It sinks in so much deeper that the region does not reach.
@@ -264,10 +263,10 @@ fn snapshots_are_skipped_on_demand() {
 #[test]
 fn limits_are_told() {
     let warned = |overrides: &[&str], words: &str| {
-        let warnings = simulation(overrides).setup().warnings.join("\n");
+        let warnings = simulation(overrides).setup().warnings().join("\n");
         assert!(warnings.contains(words), "{warnings}");
     };
-    assert!(simulation(&[CONDENSED]).setup().warnings.is_empty());
+    assert!(simulation(&[CONDENSED]).setup().warnings().is_empty());
     warned(&[CONDENSED, "time.step_factor=0.5"], "time.step_factor has no effect");
     warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");

@@ -22,7 +22,7 @@ impl Run {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(case);
         let case = Case::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let Plan { estimate, contact_element_size, .. } = Plan::of_case(&case).unwrap();
-        let mut simulation = Simulation::new(case).unwrap_or_else(|error| panic!("{error}"));
+        let simulation = Simulation::new(case).unwrap_or_else(|error| panic!("{error}"));
         let collision = simulation.run(&mut ());
         assert!(collision.is_complete());
         let (hertz, element) = (estimate.hertz, contact_element_size);

@@ -20,7 +20,7 @@ fn case(model: ModelTable) -> Case {
 /// the recovery has one side only.
 #[test]
 fn the_stress_on_the_axis_is_that_of_hertz() {
-    let mut simulation = Simulation::new(case(ModelTable::condensed())).unwrap();
+    let simulation = Simulation::new(case(ModelTable::condensed())).unwrap();
     let collision = simulation.run(&mut ());
     let hertz = &simulation.setup().estimate.hertz;
     let (radius, pressure) = (hertz.max_contact_radius(), hertz.peak_pressure());

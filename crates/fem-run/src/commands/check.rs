@@ -54,15 +54,15 @@ fn expect(simulation: &Simulation) -> String {
     let costs = costs(&setup.cost);
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
-            let meshes = mesh_table(simulation.case.scene(), simulation.model.meshes());
+            let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
             format!("Mesh\n{meshes}\nCost\n{costs}")
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
     format!(
         "{model}\nHertz, instantaneous moduli\n{closed_form}\nEffects\n{}\n{}",
-        report::effects(&setup.effects),
-        report::warnings(&setup.warnings),
+        report::effects(&setup.decisions.verdicts),
+        report::warnings(&setup.warnings()),
     )
 }
 

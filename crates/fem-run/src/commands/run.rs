@@ -41,7 +41,7 @@ pub struct Options {
 /// Runs a case.
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
-    let mut simulation = Simulation::new(Case::load(&input.case, &input.set)?)?;
+    let simulation = Simulation::new(Case::load(&input.case, &input.set)?)?;
     let stem = input.stem();
     let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&stem));
     let folder = ResultFolder::claim(&out, &longest_name(&stem))?;

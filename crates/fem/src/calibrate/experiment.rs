@@ -4,8 +4,6 @@
 //! condensed region are those of the largest contact (instantaneous moduli), elements are small
 //! enough for the smallest, unless the case gives their size.
 
-use std::sync::Mutex;
-
 use fem_case::engineering::show;
 use fem_case::{Body, Case, CaseError};
 use fem_fit::FitError;
@@ -140,10 +138,10 @@ fn condensed(case: &Case, span: &SpeedSpan) -> Result<Made, CalibrationFault> {
     let made_size = plan.map_or(f64::NAN, |plan| plan.contact_element_size);
     // Their remedy is a model that calibrates nothing: a doubt takes their place.
     let of_speed = condensed.speed_warnings();
-    let warnings = condensed.setup().warnings.iter();
-    let warnings = warnings.filter(|warning| !of_speed.contains(warning)).cloned().collect();
+    let mut warnings = condensed.setup().warnings();
+    warnings.retain(|warning| !of_speed.contains(warning));
     Ok(Made {
-        evaluator: Evaluator::Condensed(Box::new(Mutex::new(condensed))),
+        evaluator: Evaluator::Condensed(Box::new(condensed)),
         elements_across: Some(span.elements_across(made_size)),
         warnings,
         is_quasi_static: of_speed.is_empty(),

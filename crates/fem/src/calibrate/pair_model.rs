@@ -1,7 +1,6 @@
 //! The model of one pair of bodies: any series in the calibrated material to restitutions.
 
 use std::fmt::Display;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use fem_case::Scene;
 use fem_collision::Stop;
@@ -32,8 +31,8 @@ pub(super) struct PairModel {
 /// What computes a collision.
 #[derive(Debug)]
 pub(super) enum Evaluator {
-    /// Factored once; a collision changes its state.
-    Condensed(Box<Mutex<Condensed>>),
+    /// Factored once.
+    Condensed(Box<Condensed>),
     /// With the spheres' finite size.
     Ting(Pair),
 }
@@ -55,11 +54,7 @@ impl PairModel {
     /// A collision that cannot be computed.
     pub fn restitutions(&self, terms: &[PronyTerm], speeds: &[f64]) -> Result<Vec<f64>, FitError> {
         let at = |speed: &f64| self.restitution(terms, *speed);
-        match &self.evaluator {
-            // One pair of bodies in one state.
-            Evaluator::Condensed(_) => speeds.iter().map(at).collect(),
-            Evaluator::Ting(_) => speeds.par_iter().map(at).collect(),
-        }
+        speeds.par_iter().map(at).collect()
     }
 
     /// The restitution at a speed, m/s; 0 where the bodies do not part.
@@ -77,7 +72,7 @@ impl PairModel {
         let relaxations = [relaxation(0), relaxation(1)];
         match &self.evaluator {
             Evaluator::Condensed(condensed) => {
-                match lock(condensed).restitution(speed, relaxations, STEPS) {
+                match condensed.restitution(speed, relaxations, STEPS) {
                     Err(Stop::NoSeparation { .. }) => Ok(0.0),
                     result => result.map_err(failed),
                 }
@@ -99,11 +94,6 @@ impl PairModel {
             }
         }
     }
-}
-
-/// A thread that panicked left the pair whole.
-pub(super) fn lock(condensed: &Mutex<Condensed>) -> MutexGuard<'_, Condensed> {
-    condensed.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn failed(error: impl Display) -> FitError {

@@ -4,19 +4,25 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::effect::{Effect, Need, percent};
+use super::effect::{Effect, Need};
+use super::vibration::{above, number};
 use crate::estimate::Estimate;
 
 /// Above this share of the shear wave speed an impact sends shocks.
-pub const MACH_LIMIT: f64 = 0.02;
+pub(super) const MACH_LIMIT: f64 = 0.02;
 
 /// Artificial viscosity against shocks.
 #[derive(Clone, Copy, Debug)]
 pub struct BulkViscosity;
 
+impl BulkViscosity {
+    /// Its name in results.
+    pub const NAME: &'static str = "bulk viscosity";
+}
+
 impl Effect for BulkViscosity {
     fn name(&self) -> &'static str {
-        "bulk viscosity"
+        Self::NAME
     }
 
     fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
@@ -27,16 +33,12 @@ impl Effect for BulkViscosity {
         let mach = estimate.mach;
         let is_called_for = mach > MACH_LIMIT;
         let warning = is_called_for.then(|| {
-            format!(
-                "the approach speed is {} of the shear wave speed; above {} shocks form that this \
-                 version does not spread",
-                percent(mach),
-                percent(MACH_LIMIT),
-            )
+            let doubt = above(estimate, MACH_LIMIT);
+            format!("{doubt} shocks form that this version does not spread")
         });
         Some(Need {
             is_called_for,
-            number: format!("approach speed / shear wave speed = {mach:.1e}"),
+            number: number(estimate),
             otherwise: "no shocks to spread".to_string(),
             left_open: String::new(),
             warning,

@@ -6,8 +6,13 @@ use super::effect::Effect;
 #[derive(Clone, Copy, Debug)]
 pub struct DashpotEffect;
 
+impl DashpotEffect {
+    /// Its name in results.
+    pub const NAME: &'static str = "dashpot";
+}
+
 impl Effect for DashpotEffect {
     fn name(&self) -> &'static str {
-        "dashpot"
+        Self::NAME
     }
 }

@@ -1,6 +1,7 @@
 //! What an effect is, and what a scene needs of it.
 
 use fem_case::{EffectsTable, Scene, Switch};
+use fem_collision::Collision;
 
 use crate::estimate::Estimate;
 
@@ -17,6 +18,11 @@ pub trait Effect: Sync {
     /// Whether a scene calls for it. `None` of one that only the built model can tell.
     fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {
         None
+    }
+
+    /// What a collision shows of it that the user should know, and that nothing foretold.
+    fn after(&self, _: &Scene, _: &Estimate, _: &Collision) -> Vec<String> {
+        Vec::new()
     }
 }
 

@@ -6,8 +6,13 @@ use super::effect::Effect;
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteSizeEffect;
 
+impl FiniteSizeEffect {
+    /// Its name in results.
+    pub const NAME: &'static str = "finite size";
+}
+
 impl Effect for FiniteSizeEffect {
     fn name(&self) -> &'static str {
-        "finite size"
+        Self::NAME
     }
 }

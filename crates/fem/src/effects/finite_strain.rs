@@ -3,6 +3,7 @@
 //! Decided by the contact radius over the effective radius, the size of the strain.
 
 use fem_case::{EffectsTable, Scene, Switch};
+use fem_collision::Collision;
 
 use super::effect::{Effect, Need, percent};
 use crate::estimate::Estimate;
@@ -17,9 +18,14 @@ const OPEN_SHARE: f64 = 0.045;
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteStrain;
 
+impl FiniteStrain {
+    /// Its name in results.
+    pub const NAME: &'static str = "finite strain";
+}
+
 impl Effect for FiniteStrain {
     fn name(&self) -> &'static str {
-        "finite strain"
+        Self::NAME
     }
 
     fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
@@ -46,5 +52,21 @@ impl Effect for FiniteStrain {
             left_open: format!("{open} of the contact time is open"),
             warning,
         })
+    }
+
+    /// The estimate warns of what it expects; this is what came.
+    fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
+        let radius = estimate.hertz.pair().effective_radius();
+        let strain = collision.max_contact_radius.unwrap_or_default() / radius;
+        let is_news = estimate.strain <= SMALL_STRAIN_LIMIT && strain > SMALL_STRAIN_LIMIT;
+        let warning = is_news.then(|| {
+            format!(
+                "the contact radius grew to {:.0} % of the effective radius; above {:.0} % the \
+                 small-strain model is in doubt",
+                100.0 * strain,
+                100.0 * SMALL_STRAIN_LIMIT
+            )
+        });
+        warning.into_iter().collect()
     }
 }

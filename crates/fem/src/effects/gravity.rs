@@ -9,9 +9,14 @@ use crate::estimate::Estimate;
 #[derive(Clone, Copy, Debug)]
 pub struct Gravity;
 
+impl Gravity {
+    /// Its name in results.
+    pub const NAME: &'static str = "gravity";
+}
+
 impl Effect for Gravity {
     fn name(&self) -> &'static str {
-        "gravity"
+        Self::NAME
     }
 
     fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {

@@ -6,8 +6,13 @@ use super::effect::Effect;
 #[derive(Clone, Copy, Debug)]
 pub struct HourglassControl;
 
+impl HourglassControl {
+    /// Its name in results.
+    pub const NAME: &'static str = "hourglass control";
+}
+
 impl Effect for HourglassControl {
     fn name(&self) -> &'static str {
-        "hourglass control"
+        Self::NAME
     }
 }

@@ -10,9 +10,14 @@ use crate::estimate::Estimate;
 #[derive(Clone, Copy, Debug)]
 pub struct MirrorSymmetry;
 
+impl MirrorSymmetry {
+    /// Its name in results.
+    pub const NAME: &'static str = "mirror symmetry";
+}
+
 impl Effect for MirrorSymmetry {
     fn name(&self) -> &'static str {
-        "mirror symmetry"
+        Self::NAME
     }
 
     fn switch(&self, effects: &EffectsTable) -> Option<Switch> {

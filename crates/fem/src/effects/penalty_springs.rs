@@ -6,8 +6,13 @@ use super::effect::Effect;
 #[derive(Clone, Copy, Debug)]
 pub struct PenaltySprings;
 
+impl PenaltySprings {
+    /// Its name in results.
+    pub const NAME: &'static str = "penalty springs";
+}
+
 impl Effect for PenaltySprings {
     fn name(&self) -> &'static str {
-        "penalty springs"
+        Self::NAME
     }
 }

@@ -3,60 +3,127 @@
 //!
 //! Decided by the approach speed over the shear wave speed.
 
+use fem_case::Scene;
+use fem_collision::Collision;
+
+use super::answer::Answer;
 use super::bulk_viscosity::MACH_LIMIT;
-use super::effect::{Effect, percent};
+use super::effect::{Effect, Need, percent};
 use crate::estimate::Estimate;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
 /// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
-pub const QUASI_STATIC_LIMIT: f64 = 5e-3;
+pub(crate) const QUASI_STATIC_LIMIT: f64 = 5e-3;
 /// Modes that bring it back.
 const ENOUGH_MODES: usize = 12;
+/// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
+const LARGEST_VIBRATION: f64 = 0.01;
 
 /// Inertia of the bodies' own deformation.
 #[derive(Clone, Copy, Debug)]
 pub struct Vibration;
 
+impl Vibration {
+    /// Its name in results.
+    pub const NAME: &'static str = "vibration";
+}
+
 impl Effect for Vibration {
     fn name(&self) -> &'static str {
-        "vibration"
+        Self::NAME
+    }
+
+    fn need(&self, _: &Scene, estimate: &Estimate) -> Option<Need> {
+        Some(Need {
+            is_called_for: estimate.mach > QUASI_STATIC_LIMIT,
+            number: number(estimate),
+            ..Need::default()
+        })
+    }
+
+    fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
+        let hertz = &estimate.hertz;
+        let initial = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
+        let left = collision.bodies.iter().filter_map(|body| body.vibration_energy);
+        let share = left.sum::<f64>() / initial;
+        let warning = (share > LARGEST_VIBRATION).then(|| {
+            format!(
+                "{:.1} % of the initial kinetic energy stays in vibrations of the bodies; closed \
+                 forms know nothing of them",
+                100.0 * share
+            )
+        });
+        warning.into_iter().collect()
     }
 }
 
 impl Vibration {
-    /// What a model with so many modes of vibration lacks at a speed: inertia where they are few,
-    /// shocks in any case.
-    pub(crate) fn warnings_of_modes(estimate: &Estimate, n_modes: usize) -> Vec<String> {
+    /// What a model has of it with these numbers of modes, those asked for and those of each sphere
+    /// by its name: where they are few it lacks inertia, and shocks in any case.
+    pub(crate) fn of_modes(
+        estimate: &Estimate,
+        n_asked: usize,
+        spheres: &[(&str, usize)],
+    ) -> Answer {
+        let reason = match n_asked {
+            0 => format!("quasi-static: {}", number(estimate)),
+            _ => {
+                let count = |(name, n_modes): &(&str, usize)| format!("{n_modes} modes of {name}");
+                spheres.iter().map(count).collect::<Vec<_>>().join(", ")
+            }
+        };
+        let mut warnings = Self::doubts_of_speed(estimate, n_asked);
+        let unresolved = spheres.iter().filter(|(_, n_modes)| *n_modes < n_asked);
+        warnings.extend(unresolved.map(|(name, n_modes)| {
+            format!(
+                "the mesh of {name} resolves {n_modes} of the {n_asked} modes of vibration asked \
+                 for, the others are left out: use a smaller mesh.contact_element_size for more"
+            )
+        }));
+        Answer::is(n_asked > 0, reason).warning(warnings)
+    }
+
+    /// What such a model leaves open because of the speed.
+    pub(crate) fn doubts_of_speed(estimate: &Estimate, n_asked: usize) -> Vec<String> {
         let mut warnings = Vec::new();
-        if estimate.mach > QUASI_STATIC_LIMIT && n_modes < ENOUGH_MODES {
+        if estimate.mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES {
             warnings.push(format!(
-                "the approach speed is {} of the shear wave speed; above {} the inertia of the \
-                 bodies counts: set model.condensed.vibration_modes = {ENOUGH_MODES}, or use model \
-                 fem",
-                percent(estimate.mach),
-                percent(QUASI_STATIC_LIMIT),
+                "{} the inertia of the bodies counts: set model.condensed.vibration_modes = \
+                 {ENOUGH_MODES}, or use model fem",
+                above(estimate, QUASI_STATIC_LIMIT)
             ));
         }
         if estimate.mach > MACH_LIMIT {
             warnings.push(format!(
-                "the approach speed is {} of the shear wave speed; above {} shocks form that no \
-                 mode of vibration carries: use model fem, which warns of them as well",
-                percent(estimate.mach),
-                percent(MACH_LIMIT),
+                "{} shocks form that no mode of vibration carries: use model fem, which warns of \
+                 them as well",
+                above(estimate, MACH_LIMIT)
             ));
         }
         warnings
     }
 
-    /// What a model of rigid bodies with one degree of freedom lacks at a speed.
-    pub(crate) fn warning_of_rigid_bodies(estimate: &Estimate) -> Option<String> {
-        (estimate.mach > MACH_LIMIT).then(|| {
+    /// What a model of rigid bodies with one degree of freedom has of it.
+    pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Answer {
+        let warning = (estimate.mach > MACH_LIMIT).then(|| {
             format!(
-                "the approach speed is {} of the shear wave speed; above {} the bodies vibrate, \
-                 which this model leaves out",
-                percent(estimate.mach),
-                percent(MACH_LIMIT),
+                "{} the bodies vibrate, which this model leaves out",
+                above(estimate, MACH_LIMIT)
             )
-        })
+        });
+        Answer::is(false, "the bodies move as a whole: quasi-static contact").warning(warning)
     }
+}
+
+pub(super) fn number(estimate: &Estimate) -> String {
+    format!("approach speed / shear wave speed = {:.1e}", estimate.mach)
+}
+
+/// What the approach speed is next to that of shear waves, and above which share something follows.
+pub(super) fn above(estimate: &Estimate, limit: f64) -> String {
+    format!(
+        "the approach speed is {} of the shear wave speed; above {}",
+        percent(estimate.mach),
+        percent(limit)
+    )
 }

@@ -11,9 +11,14 @@ use crate::estimate::Estimate;
 #[derive(Clone, Copy, Debug)]
 pub struct Viscoelasticity;
 
+impl Viscoelasticity {
+    /// Its name in results.
+    pub const NAME: &'static str = "viscoelasticity";
+}
+
 impl Effect for Viscoelasticity {
     fn name(&self) -> &'static str {
-        "viscoelasticity"
+        Self::NAME
     }
 
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {

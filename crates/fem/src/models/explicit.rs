@@ -1,17 +1,19 @@
 //! Explicit finite elements.
 
+use std::sync::Arc;
+
 use fem_case::{Body, CaseFile, ModelChoice, Scene, Shape};
 use fem_collision::{Approach, BodyInput, Collision, Monitor, Stop, Want};
-use fem_contact::ContactInterface;
-use fem_explicit::{Model as Bodies, Settings, collide};
+use fem_explicit::{Model as Bodies, ModelError, Parts, Settings, collide};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
+use super::chose_another;
 use super::region::until_it_fits;
 use crate::approach::approach_of;
 use crate::effects::{
-    Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MirrorSymmetry, Verdict, Viscoelasticity, decide,
+    Answer, BulkViscosity, ContactSearch, Decisions, Effect, FiniteStrain, Gravity,
+    HourglassControl, MassScaling, MirrorSymmetry, Viscoelasticity, decide,
 };
 use crate::estimate::Estimate;
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
@@ -26,9 +28,6 @@ const CANDIDATE_GROWTH: f64 = 1.5;
 /// Explicit finite elements, `[model] fem = {}`.
 #[derive(Clone, Copy, Debug)]
 pub struct ExplicitMethod;
-
-/// Explicit finite elements, as a method.
-pub const EXPLICIT: ExplicitMethod = ExplicitMethod;
 
 impl Method for ExplicitMethod {
     fn name(&self) -> &'static str {
@@ -54,13 +53,17 @@ impl Method for ExplicitMethod {
 /// A scene with meshes, masses and a time step.
 #[derive(Clone, Debug)]
 pub struct Explicit {
-    /// What was decided on mesh, contact and time step.
-    pub plan: Plan,
-    /// Bodies and contact.
-    pub bodies: Bodies,
     setup: Setup,
+    made: Made,
+    /// As the scene's bodies meet.
+    bodies: Arc<Bodies>,
+}
+
+/// What bodies are made of, however they meet.
+#[derive(Clone, Debug)]
+struct Made {
     scene: Scene,
-    /// Kept for a model with a larger searched region.
+    settings: Settings,
     inputs: [BodyInput; 2],
 }
 
@@ -80,66 +83,79 @@ impl Explicit {
     /// As [`Explicit::new`].
     pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
         if *scene.model() != ModelChoice::Fem {
-            let message = format!("model `{}` has no finite elements", scene.model().name());
-            return Err(Refusal::new(scene.model().path(), message));
+            return Err(chose_another(scene, "fem"));
         }
-        let meshes = build_meshes(scene, &plan)?;
-        let inputs = inputs(scene, meshes);
+        let inputs = inputs(scene, build_meshes(scene, &plan)?);
         let approach = approach_of(scene)?;
-        let bodies = Bodies::new(inputs.clone(), approach, &settings(&plan))
+        let made = Made { scene: scene.clone(), settings: settings(&plan), inputs };
+        let bodies = made
+            .bodies(&approach, plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
         let cost = cost(scene, &bodies, &plan)?;
-        let (effects, mut warnings) = effects(scene, &plan.estimate, &bodies)?;
-        warnings.extend(plan.warnings.iter().cloned());
+        let decisions = effects(scene, &plan.estimate, &bodies)?;
         let setup = Setup {
             description: "model fem, explicit finite elements".to_string(),
             approach,
             want: plan.want(),
             estimate: plan.estimate,
-            effects,
-            warnings,
+            decisions,
+            unread: plan.warnings.clone(),
             cost,
             elements: Some(ElementSetup {
-                plan: plan.clone(),
+                plan,
                 has_springs: true,
                 finer_steps: "lower time.step_factor",
             }),
         };
-        Ok(Self { plan, bodies, setup, scene: scene.clone(), inputs })
+        Ok(Self { setup, made, bodies: Arc::new(bodies) })
     }
 
-    /// Makes the bodies meet in another way.
+    /// Bodies and contact, as the scene's bodies meet.
+    pub fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
+    /// Bodies and contact as they computed a collision, however they met and however far contact was
+    /// looked for.
     ///
     /// # Errors
-    /// Bodies that do not approach, speeds without a finite estimate.
-    fn meet(&mut self, approach: &Approach) -> Result<(), Stop> {
-        if self.bodies.approach() == approach {
-            return Ok(());
+    /// A collision of other bodies.
+    pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<Bodies>, ModelError> {
+        let own = self.bodies.searched();
+        let searched = collision.searched.unwrap_or(own);
+        if collision.approach == self.setup.approach && searched == own {
+            return Ok(self.bodies.clone());
         }
-        let not_made = |error: &dyn std::fmt::Display| Stop::NotMade(error.to_string());
-        let estimate =
-            Estimate::at(&self.scene, approach.speed()).map_err(|error| not_made(&error))?;
-        let bodies = Bodies::new(self.inputs.clone(), *approach, &settings(&self.plan))
-            .map_err(|error| not_made(&error))?;
-        (self.plan.estimate, self.bodies) = (estimate, bodies);
-        Ok(())
+        self.made.bodies(&collision.approach, searched.radius).map(Arc::new)
     }
 
-    /// A larger searched region, if there is one.
-    fn enlarge(&mut self) -> Result<(), Refusal> {
-        let before = self.bodies.candidate_radius();
-        self.plan.candidate_radius = CANDIDATE_GROWTH * before;
-        let approach = *self.bodies.approach();
-        let nothing_larger =
-            || Refusal::new("body", "the searched region is as large as it can be");
-        let bodies = Bodies::new(self.inputs.clone(), approach, &settings(&self.plan))
-            .map_err(|_| nothing_larger())?;
-        if bodies.candidate_radius() <= before {
-            return Err(nothing_larger());
+    /// The bodies that meet in another way, and what closed forms say of it.
+    fn meeting(&self, approach: &Approach) -> Result<(Arc<Bodies>, Estimate), Stop> {
+        if *approach == self.setup.approach {
+            return Ok((self.bodies.clone(), self.setup.estimate));
         }
-        self.bodies = bodies;
-        (self.setup.effects, _) = effects(&self.scene, &self.plan.estimate, &self.bodies)?;
-        Ok(())
+        let not_made = |error: &dyn std::fmt::Display| Stop::NotMade(error.to_string());
+        let estimate = Estimate::at(&self.made.scene, approach.speed());
+        let bodies = self.made.bodies(approach, self.made.settings.candidate_radius);
+        Ok((
+            Arc::new(bodies.map_err(|error| not_made(&error))?),
+            estimate.map_err(|error| not_made(&error))?,
+        ))
+    }
+}
+
+impl Made {
+    /// Bodies that look for contact out to a radius, m, with the parts that effects ask for.
+    fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
+        let settings = Settings { candidate_radius, ..self.settings };
+        Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts(&self.scene))
+    }
+
+    /// The same bodies with a larger searched region, if there is one.
+    fn larger(&self, bodies: &Bodies) -> Option<Bodies> {
+        let before = bodies.candidate_radius();
+        let larger = self.bodies(bodies.approach(), CANDIDATE_GROWTH * before).ok()?;
+        (larger.candidate_radius() > before).then_some(larger)
     }
 }
 
@@ -148,24 +164,28 @@ impl Model for Explicit {
         &self.setup
     }
 
-    fn collide(
-        &mut self,
-        approach: &Approach,
-        want: &Want,
-        monitor: &mut dyn Monitor,
-    ) -> Collision {
-        if let Err(stop) = self.meet(approach) {
-            return Collision::stopped(*approach, stop);
-        }
-        let run = |model: &Self| {
-            collide(&model.bodies, model.plan.estimate.expectation(), want, &mut *monitor)
+    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal> {
+        effects(&self.made.scene, estimate, &self.bodies)
+    }
+
+    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+        let (bodies, estimate) = match self.meeting(approach) {
+            Ok(meeting) => meeting,
+            Err(stop) => return Collision::stopped(*approach, stop),
         };
-        until_it_fits(self, run, |model, _| model.enlarge().map_err(|_| None))
+        let run =
+            |bodies: &Arc<Bodies>| collide(bodies, estimate.expectation(), want, &mut *monitor);
+        until_it_fits(bodies, run, |bodies| self.made.larger(bodies).map(Arc::new).ok_or(None))
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         self.bodies.bodies().each_ref().map(|body| body.mesh())
     }
+}
+
+/// What effects of the scene put into the step, beside stress and contact.
+fn parts(_: &Scene) -> Parts {
+    Parts::default()
 }
 
 fn inputs(scene: &Scene, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
@@ -218,35 +238,27 @@ fn n_branches(body: &Body) -> u64 {
     terms.filter(|term| term.weight > 0.0).count() as u64
 }
 
-/// What explicit elements have of each effect.
-fn effects(
-    scene: &Scene,
-    estimate: &Estimate,
-    model: &Bodies,
-) -> Result<(Vec<Verdict>, Vec<String>), Refusal> {
-    let hourglass = "elements with one mean stress need the stiffness of their bending modes";
-    let search = format!(
-        "{} integration points within {:.4e} m of the axis; free flight is not stepped",
-        model.interface().map_or(0, ContactInterface::n_points),
-        model.candidate_radius()
-    );
-    let (adds_mass, scaling) = mass_scaling(model, scene.bodies());
-    let answers: Vec<(&'static dyn Effect, Answer)> = vec![
-        (&Viscoelasticity, Answer::Computes { idle: "no history is kept" }),
-        (&FiniteStrain, Answer::Lacks),
-        (&MirrorSymmetry, Answer::Lacks),
-        (&HourglassControl, Answer::Is(true, hourglass.to_string())),
-        (&BulkViscosity, Answer::Lacks),
-        (&Gravity, Answer::Lacks),
-        (&ContactSearch, Answer::Is(true, search)),
-        (&MassScaling, Answer::Is(adds_mass, scaling)),
-    ];
-    let decisions = decide(scene, estimate, answers)?;
-    Ok((decisions.verdicts, decisions.warnings))
+/// Decides on what explicit elements have of each effect.
+fn effects(scene: &Scene, estimate: &Estimate, model: &Bodies) -> Result<Decisions, Refusal> {
+    decide(scene, estimate, |effect: &dyn Effect| {
+        Some(match effect.name() {
+            Viscoelasticity::NAME => Answer::Computes { idle: "no history is kept" },
+            HourglassControl::NAME => {
+                let why = "elements with one mean stress need the stiffness of their bending modes";
+                Answer::is(true, why)
+            }
+            ContactSearch::NAME => ContactSearch::within(&model.searched()),
+            MassScaling::NAME => mass_scaling(model, scene.bodies()),
+            FiniteStrain::NAME | MirrorSymmetry::NAME | BulkViscosity::NAME | Gravity::NAME => {
+                Answer::Lacks
+            }
+            _ => return None,
+        })
+    })
 }
 
 /// Whether mass is added, and to whom.
-fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> (bool, String) {
+fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> Answer {
     let ratio = model.time_step() / model.plain_time_step();
     let added: Vec<String> = model
         .bodies()
@@ -258,7 +270,10 @@ fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> (bool, String) {
         })
         .collect();
     match added.is_empty() {
-        true => (false, "no mass is added".to_string()),
-        false => (true, format!("adds {} for a {ratio:.1} times longer step", added.join(" and "))),
+        true => Answer::is(false, "no mass is added"),
+        false => {
+            let added = added.join(" and ");
+            Answer::is(true, format!("adds {added} for a {ratio:.1} times longer step"))
+        }
     }
 }

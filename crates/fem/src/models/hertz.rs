@@ -5,8 +5,9 @@ use fem_case::schema::{HertzTable, ModelTable};
 use fem_case::{CaseFile, ModelChoice, Scene};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use super::reduced::{Motion, Reduced, chose_another, resolve_start};
-use super::ting;
+use super::reduced::effects::{Relaxation, Traits};
+use super::reduced::{Motion, Moving, Reduced, resolve_start};
+use super::{chose_another, ting};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -14,9 +15,6 @@ use crate::refusal::Refusal;
 /// Hertz, `[model] hertz = {}`.
 #[derive(Clone, Copy, Debug)]
 pub struct HertzMethod;
-
-/// Hertz' closed form, as a method.
-pub const HERTZ: HertzMethod = HertzMethod;
 
 impl Method for HertzMethod {
     fn name(&self) -> &'static str {
@@ -67,6 +65,11 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
         false => "model hertz, a closed form",
         true => "model hertz, one degree of freedom",
     };
-    let pair = *estimate.hertz.pair();
-    Reduced::of(scene, estimate, description.to_string(), motion, pair)
+    let traits = Traits {
+        relaxation: Relaxation::Nothing,
+        dashpot: None,
+        finite_size: ting::finite_size(finite_size),
+    };
+    let (description, pair) = (description.to_string(), *estimate.hertz.pair());
+    Reduced::of(scene, estimate, Moving { motion, pair, description, traits })
 }

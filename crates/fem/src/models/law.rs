@@ -1,12 +1,14 @@
 //! Contact laws: a spring and a dashpot of the overlap, integrated.
 
 use fem_case::schema::{End, LawTable, ModelTable};
-use fem_case::{CaseFile, Law, ModelChoice, Quantity, Scene};
+use fem_case::{CaseFile, Dissipation, Law, ModelChoice, Quantity, Scene};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, Impact, LawError, LawImpact, Pair, PairRelaxation};
 
+use super::chose_another;
 use super::law_numbers::{Setting, Unmade};
-use super::reduced::{Motion, Reduced, chose_another, refused, resolve_start};
+use super::reduced::effects::{Relaxation, Traits};
+use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -14,9 +16,6 @@ use crate::refusal::Refusal;
 /// A contact law, `[model] law = { NAME = { … } }`.
 #[derive(Clone, Copy, Debug)]
 pub struct LawMethod;
-
-/// Contact laws, as a method.
-pub const LAW: LawMethod = LawMethod;
 
 impl Method for LawMethod {
     fn name(&self) -> &'static str {
@@ -94,11 +93,27 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
         return Err(Refusal::new(scene.model().path(), message));
     };
     let description = format!("model law {}, one degree of freedom", law.name());
+    let takes_slow_limit = matches!(law, Law::KuwabaraKono(Dissipation::Relaxation));
     let law = made.map_err(refuse)?;
     let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
     let impact = impact.with_tolerance(tolerance).map_err(refuse)?;
     let motion = Box::new(LawMotion { impact, law, numbers });
-    Reduced::of(scene, estimate, description, motion, pair)
+    let traits = Traits {
+        relaxation: match takes_slow_limit {
+            true => Relaxation::SlowLimit,
+            false => Relaxation::Nothing,
+        },
+        dashpot: (law.damping() > 0.0).then(|| {
+            format!(
+                "C = {:.4e} N s/m^{:.4} at the exponent n = {:.4}",
+                law.damping(),
+                law.damping_exponent() + 1.0,
+                law.damping_exponent()
+            )
+        }),
+        finite_size: (false, "a law's stiffness is given"),
+    };
+    Reduced::of(scene, estimate, Moving { motion, pair, description, traits })
 }
 
 fn law_numbers(

@@ -14,24 +14,25 @@ use fem_case::{ModelChoice, Scene};
 use crate::method::Method;
 use crate::refusal::Refusal;
 
-pub use condensed::{CONDENSED, Condensed, CondensedMethod};
-pub use explicit::{EXPLICIT, Explicit, ExplicitMethod};
-pub use hertz::{HERTZ, HertzMethod};
-pub use law::{LAW, LawMethod};
+pub use condensed::{Condensed, CondensedMethod};
+pub use explicit::{Explicit, ExplicitMethod};
+pub use hertz::HertzMethod;
+pub use law::LawMethod;
 pub use reduced::Reduced;
-pub use ting::{TING, TingMethod, ting_impact};
+pub use ting::{TingMethod, ting_impact};
 
 /// All methods, from the cheapest to the dearest.
-pub const METHODS: [&dyn Method; 5] = [&HERTZ, &LAW, &TING, &CONDENSED, &EXPLICIT];
+pub const METHODS: [&dyn Method; 5] =
+    [&HertzMethod, &LawMethod, &TingMethod, &CondensedMethod, &ExplicitMethod];
 
 /// The method that a scene chooses.
 pub fn method_of(scene: &Scene) -> &'static dyn Method {
     match scene.model() {
-        ModelChoice::Hertz { .. } => &HERTZ,
-        ModelChoice::Law { .. } => &LAW,
-        ModelChoice::Ting { .. } => &TING,
-        ModelChoice::Condensed(_) => &CONDENSED,
-        _ => &EXPLICIT,
+        ModelChoice::Hertz { .. } => &HertzMethod,
+        ModelChoice::Law { .. } => &LawMethod,
+        ModelChoice::Ting { .. } => &TingMethod,
+        ModelChoice::Condensed(_) => &CondensedMethod,
+        ModelChoice::Fem => &ExplicitMethod,
     }
 }
 
@@ -46,7 +47,15 @@ impl Reduced {
             ModelChoice::Hertz { .. } => hertz::build(scene),
             ModelChoice::Law { .. } => law::build(scene),
             ModelChoice::Ting { .. } => ting::build(scene),
-            _ => Err(Refusal::new("model", "finite elements are no reduced model")),
+            ModelChoice::Condensed(_) | ModelChoice::Fem => {
+                Err(Refusal::new("model", "finite elements are no reduced model"))
+            }
         }
     }
+}
+
+/// A scene that chose another model than the one that was to be built.
+fn chose_another(scene: &Scene, method: &str) -> Refusal {
+    let message = format!("model `{}` is not `{method}`", scene.model().name());
+    Refusal::new(scene.model().path(), message)
 }

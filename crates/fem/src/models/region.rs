@@ -3,18 +3,20 @@
 
 use fem_collision::{Collision, Ending, Stop};
 
-/// Computes collisions until the region suffices. `enlarge` is told how far the contact reached, m;
-/// with its refusal the run keeps what it had, and ends there.
+/// Computes collisions until the region suffices. `larger` makes what has a larger one; with its
+/// refusal the run keeps what it had, and ends there.
 pub(super) fn until_it_fits<M>(
-    model: &mut M,
+    mut model: M,
     mut collide: impl FnMut(&M) -> Collision,
-    mut enlarge: impl FnMut(&mut M, f64) -> Result<(), Option<Stop>>,
+    mut larger: impl FnMut(&M) -> Result<M, Option<Stop>>,
 ) -> Collision {
     loop {
-        let mut collision = collide(model);
-        let Some(radius) = collision.outgrown_radius() else { return collision };
-        match enlarge(model, radius) {
-            Ok(()) => {}
+        let mut collision = collide(&model);
+        if collision.outgrown_radius().is_none() {
+            return collision;
+        }
+        match larger(&model) {
+            Ok(larger) => model = larger,
             Err(stop) => {
                 if let Some(stop) = stop {
                     collision.ending = Ending::Stopped(stop);

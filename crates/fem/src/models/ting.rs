@@ -5,7 +5,9 @@ use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
-use super::reduced::{Motion, Reduced, chose_another, refused, resolve_start};
+use super::chose_another;
+use super::reduced::effects::{Relaxation, Traits};
+use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -13,9 +15,6 @@ use crate::refusal::Refusal;
 /// Ting, `[model] ting = {}`.
 #[derive(Clone, Copy, Debug)]
 pub struct TingMethod;
-
-/// Ting's half-spaces, as a method.
-pub const TING: TingMethod = TingMethod;
 
 impl Method for TingMethod {
     fn name(&self) -> &'static str {
@@ -58,9 +57,22 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     };
     let estimate = Estimate::checked(scene)?;
     let motion = motion(scene, &estimate, true, finite_size, tolerance)?;
+    let traits = Traits {
+        relaxation: Relaxation::Whole,
+        dashpot: None,
+        finite_size: self::finite_size(finite_size),
+    };
     let description = "model ting, one degree of freedom".to_string();
     let pair = *estimate.hertz.pair();
-    Reduced::of(scene, estimate, description, motion, pair)
+    Reduced::of(scene, estimate, Moving { motion, pair, description, traits })
+}
+
+/// Whether the spheres' own compliance is there, and why.
+pub(super) fn finite_size(is_there: bool) -> (bool, &'static str) {
+    match is_there {
+        true => (true, "the spheres' own compliance is in series, to first order"),
+        false => (false, "half-spaces; finite_size = true adds the spheres' own compliance"),
+    }
 }
 
 /// Ting's model of a scene, of the materials or of elastic ones with the same instantaneous moduli.

@@ -27,10 +27,10 @@ struct Drawing<'a> {
 impl<'a> Drawing<'a> {
     fn of(simulation: &'a Simulation, collision: &'a Collision) -> Self {
         Self {
-            meshes: simulation.model.meshes(),
-            materials: simulation.case.scene().bodies().each_ref().map(|body| body.material()),
+            meshes: simulation.model().meshes(),
+            materials: simulation.case().scene().bodies().each_ref().map(|body| body.material()),
             gap: simulation.setup().approach.gap(),
-            request: &simulation.want.snapshots,
+            request: &simulation.want().snapshots,
             snapshots: &collision.snapshots,
             is_complete: collision.is_complete(),
         }

@@ -4,7 +4,7 @@ use fem_collision::{Account, Collision};
 use fem_laws::HertzImpact;
 
 use super::summary::{BodySummary, CostSummary, Energy, PROGRAM, Quantities, Summary};
-use crate::method::Cost;
+use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 
 /// What a run took; whoever ran it has the clock.
@@ -33,12 +33,11 @@ impl Summary {
         files: Vec<String>,
     ) -> Self {
         let mut numbers = Numbers { warnings };
-        let setup = simulation.setup();
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         Self {
             collision: quantities(collision, &mut numbers),
             contact_episodes: collision.contact_episodes,
-            hertz: hertz(&setup.estimate.hertz, &mut numbers),
+            hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(collision, &mut numbers),
             momentum_residual_relative: numbers
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
@@ -53,18 +52,15 @@ impl Summary {
                 ns_per_element_update: updates.map(|updates| 1e9 * spent.solve / updates as f64),
                 threads: spent.threads,
                 peak_memory_bytes: spent.peak_memory,
-                factor_bytes: match setup.cost {
-                    Cost::Factors { factor_bytes, .. } => Some(factor_bytes),
-                    _ => None,
-                },
+                factor_bytes: collision.factor_bytes,
             },
-            effects: setup.effects.clone(),
+            effects: simulation.decisions(collision).verdicts,
             complete: collision.is_complete(),
             stopped_because: collision.stop().map(ToString::to_string),
             program: PROGRAM,
             version: env!("CARGO_PKG_VERSION"),
             files,
-            case: simulation.resolved().clone(),
+            case: simulation.resolved_at(&collision.approach),
             warnings: numbers.warnings,
         }
     }
@@ -107,15 +103,19 @@ fn quantities(collision: &Collision, numbers: &mut Numbers) -> Quantities {
     }
 }
 
-fn hertz(impact: &HertzImpact, numbers: &mut Numbers) -> Quantities {
+/// Hertz with instantaneous moduli; nothing where closed forms have no finite numbers.
+fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
+    let hertz = estimate.map(|estimate| estimate.hertz);
+    let mut number = |key: &str, value: fn(&HertzImpact) -> f64| {
+        numbers.finite_if_any(&format!("hertz.{key}"), hertz.as_ref().map(value))
+    };
     Quantities {
-        restitution: Some(impact.restitution()),
-        contact_time_s: numbers.finite("hertz.contact_time_s", impact.contact_time()),
-        peak_force_n: numbers.finite("hertz.peak_force_n", impact.peak_force()),
-        max_approach_m: numbers.finite("hertz.max_approach_m", impact.max_approach()),
-        max_contact_radius_m: numbers
-            .finite("hertz.max_contact_radius_m", impact.max_contact_radius()),
-        peak_pressure_pa: numbers.finite("hertz.peak_pressure_pa", impact.peak_pressure()),
+        restitution: number("restitution", HertzImpact::restitution),
+        contact_time_s: number("contact_time_s", HertzImpact::contact_time),
+        peak_force_n: number("peak_force_n", HertzImpact::peak_force),
+        max_approach_m: number("max_approach_m", HertzImpact::max_approach),
+        max_contact_radius_m: number("max_contact_radius_m", HertzImpact::max_contact_radius),
+        peak_pressure_pa: number("peak_pressure_pa", HertzImpact::peak_pressure),
     }
 }
 
@@ -144,7 +144,7 @@ fn body(
     side: usize,
     numbers: &mut Numbers,
 ) -> BodySummary {
-    let (named, body) = (&simulation.case.scene().bodies()[side], &collision.bodies[side]);
+    let (named, body) = (&simulation.case().scene().bodies()[side], &collision.bodies[side]);
     let mut number = |key: &str, value: Option<f64>| {
         numbers.finite_if_any(&format!("{key} of {}", named.name()), value)
     };
@@ -154,7 +154,10 @@ fn body(
         nodes: body.nodes,
         mass_kg: number("mass_kg", body.mass),
         added_mass_kg: number("added_mass_kg", body.added_mass),
-        velocity_before_m_s: number("velocity_before_m_s", Some(named.velocity())),
+        velocity_before_m_s: number(
+            "velocity_before_m_s",
+            Some(collision.approach.velocities()[side]),
+        ),
         velocity_after_m_s: number("velocity_after_m_s", body.velocity_after),
         vibration_energy_j: number("vibration_energy_j", body.vibration_energy),
     }

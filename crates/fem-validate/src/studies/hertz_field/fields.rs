@@ -40,7 +40,7 @@ impl Fields {
         let missing = || StudyError::parameters("the run has no snapshot of its largest approach");
         let is_maximum = |snapshot: &&Snapshot| snapshot.label == Some(Label::Maximum);
         let snapshot = run.collision.snapshots.iter().find(is_maximum).ok_or_else(missing)?;
-        let bodies = run.explicit.bodies.bodies();
+        let bodies = run.model.bodies();
         let side = usize::from(bodies[0].mesh().is_none());
         let shape = run.case.scene().bodies()[side].shape();
         let (Some(mesh), Shape::Sphere { material, .. }) = (bodies[side].mesh(), shape) else {
@@ -79,7 +79,7 @@ impl Fields {
             .collect();
         Ok(Self {
             inner_shear,
-            size: hertz.contact_radius / run.explicit.plan.estimate.smallest_radius,
+            size: hertz.contact_radius / run.smallest_radius(),
             poissons_ratio,
             profiles: Profile::ALL.map(|profile| match profile {
                 Profile::Pressure => pressure(springs, &u, hertz),
@@ -103,7 +103,7 @@ impl Fields {
 
 /// Of both bodies, m; a wall has moved as its one node.
 fn displacements(run: &ExplicitRun, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
-    std::array::from_fn(|side| match run.explicit.bodies.bodies()[side].mesh() {
+    std::array::from_fn(|side| match run.model.bodies()[side].mesh() {
         Some(_) => snapshot.bodies[side].displacement.clone(),
         None => vec![[0.0, run.case.scene().bodies()[side].velocity() * snapshot.time]],
     })

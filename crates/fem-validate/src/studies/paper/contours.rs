@@ -55,7 +55,7 @@ struct Instant {
 
 impl Instant {
     fn of(run: &ExplicitRun, label: Label, snapshot: &Snapshot) -> Self {
-        let bodies = run.explicit.bodies.bodies();
+        let bodies = run.model.bodies();
         let mut halves: [Section; 2] = Default::default();
         let mut poles = [f64::NAN; 2];
         for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {

@@ -4,75 +4,48 @@ use fem_case::{CondensedOptions, Scene};
 use fem_condensed::CondensedPair;
 
 use crate::effects::{
-    Answer, ContactSearch, Effect, FiniteStrain, Gravity, PenaltySprings, Verdict, Vibration,
+    Answer, ContactSearch, Decisions, Effect, FiniteStrain, Gravity, PenaltySprings, Vibration,
     Viscoelasticity, decide as decide_all,
 };
-use crate::plan::Plan;
+use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 
-/// Verdicts and warnings.
+/// Decides on what a condensed pair has of each effect.
 pub(super) fn decide(
     scene: &Scene,
-    plan: &Plan,
+    estimate: &Estimate,
     pair: &CondensedPair,
     options: CondensedOptions,
-) -> Result<(Vec<Verdict>, Vec<String>), Refusal> {
-    let estimate = &plan.estimate;
-    let n_modes = pair.frequencies().map(<[f64]>::len);
-    let spheres: Vec<(&str, usize)> = scene
-        .bodies()
-        .iter()
-        .zip(n_modes)
-        .filter(|(body, _)| body.diameter().is_some())
-        .map(|(body, n_modes)| (body.name(), n_modes))
-        .collect();
-    let vibration = match options.vibration_modes {
-        0 => format!("quasi-static: approach speed / shear wave speed = {:.1e}", estimate.mach),
-        _ => {
-            let counts = spheres.iter().map(|(name, n_modes)| format!("{n_modes} modes of {name}"));
-            counts.collect::<Vec<_>>().join(", ")
-        }
-    };
+) -> Result<Decisions, Refusal> {
     let springs = match options.penalty_springs {
         true => "those of the explicit model, at its Gauss points",
         false => "the surfaces do not overlap at the nodes",
     };
-    let search = format!(
-        "{} points within {:.4e} m of the axis; free flight is not stepped",
-        pair.n_points(),
-        pair.candidate_radius()
-    );
-    let answers: Vec<(&'static dyn Effect, Answer)> = vec![
-        (&Viscoelasticity, Answer::Computes { idle: "" }),
-        (&FiniteStrain, Answer::Lacks),
-        (&Vibration, Answer::Is(options.vibration_modes > 0, vibration)),
-        (&PenaltySprings, Answer::Is(options.penalty_springs, springs.to_string())),
-        (&ContactSearch, Answer::Is(true, search)),
-        (&Gravity, Answer::Lacks),
-    ];
-    let decisions = decide_all(scene, estimate, answers)?;
-    let mut warnings = plan.warnings.clone();
-    warnings.extend(decisions.warnings);
-    warnings.extend(Vibration::warnings_of_modes(estimate, options.vibration_modes));
-    warnings.extend(unresolved_modes(&spheres, options));
-    warnings.extend(unread_keys(scene, options));
-    Ok((decisions.verdicts, warnings))
+    decide_all(scene, estimate, |effect: &dyn Effect| {
+        Some(match effect.name() {
+            Viscoelasticity::NAME => Answer::Computes { idle: "" },
+            Vibration::NAME => {
+                let spheres = modes_of_spheres(scene, pair);
+                Vibration::of_modes(estimate, options.vibration_modes, &spheres)
+            }
+            PenaltySprings::NAME => Answer::is(options.penalty_springs, springs),
+            ContactSearch::NAME => ContactSearch::within(&pair.searched()),
+            FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
+            _ => return None,
+        })
+    })
 }
 
-/// Modes that were asked for and that the meshes are too coarse for.
-fn unresolved_modes(spheres: &[(&str, usize)], options: CondensedOptions) -> Vec<String> {
-    let unresolved = spheres.iter().filter(|(_, n_modes)| *n_modes < options.vibration_modes);
-    let warning = |(name, n_modes): &(&str, usize)| {
-        format!(
-            "the mesh of {name} resolves {n_modes} of the {} modes of vibration asked for, the \
-             others are left out: use a smaller mesh.contact_element_size for more",
-            options.vibration_modes
-        )
-    };
-    unresolved.map(warning).collect()
+/// How many modes of vibration each sphere has, by its name.
+fn modes_of_spheres<'a>(scene: &'a Scene, pair: &CondensedPair) -> Vec<(&'a str, usize)> {
+    let n_modes = pair.frequencies().map(<[f64]>::len);
+    let bodies = scene.bodies().iter().zip(n_modes);
+    let spheres = bodies.filter(|(body, _)| body.diameter().is_some());
+    spheres.map(|(body, n_modes)| (body.name(), n_modes)).collect()
 }
 
-fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<String> {
+/// What the case gives and condensed bodies do not read.
+pub(super) fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<String> {
     let mut warnings = Vec::new();
     for (key, value) in
         [("time.step_factor", scene.step_factor()), ("time.mass_scaling", scene.mass_scaling())]

@@ -3,7 +3,7 @@
 
 mod effects;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
@@ -12,9 +12,11 @@ use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
+use super::chose_another;
 use super::region::until_it_fits;
 use crate::approach::{approach_of, frame_of};
-use crate::effects::Vibration;
+use crate::effects::{Decisions, Vibration};
+use crate::estimate::Estimate;
 use crate::mesh_source::{MeshSource, mesh_refusal};
 use crate::meshes::mesh_sources;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
@@ -36,15 +38,15 @@ const BYTES_PER_ELEMENT: u64 = 8_000;
 #[derive(Clone, Copy, Debug)]
 pub struct CondensedMethod;
 
-/// Finite elements condensed to their contact nodes, as a method.
-pub const CONDENSED: CondensedMethod = CondensedMethod;
-
 impl Method for CondensedMethod {
     fn name(&self) -> &'static str {
         "condensed"
     }
 
     fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        if !matches!(scene.model(), ModelChoice::Condensed(_)) {
+            return Err(chose_another(scene, "condensed"));
+        }
         Ok(Box::new(Condensed::new(scene, shared)?))
     }
 
@@ -73,16 +75,19 @@ impl Method for CondensedMethod {
 }
 
 /// A scene with condensed bodies, ready to run.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Condensed {
     setup: Setup,
     scene: Scene,
     pair: Arc<CondensedPair>,
+    /// The same bodies condensed further and further out, as far as a contact has asked for.
+    larger: Mutex<Vec<Arc<CondensedPair>>>,
     options: CondensedOptions,
 }
 
 impl Condensed {
     /// Meshes and condenses, or takes the same pair from those that are shared without making a mesh.
+    /// A scene of another model is condensed with the options that a case has by default.
     ///
     /// # Errors
     /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
@@ -97,14 +102,16 @@ impl Condensed {
             CondensedPair::new(inputs(key)?, key.settings)
                 .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
         })?;
-        let (effects, warnings) = effects::decide(scene, &plan, &pair, options)?;
+        let decisions = effects::decide(scene, &plan.estimate, &pair, options)?;
+        let mut unread = plan.warnings.clone();
+        unread.extend(effects::unread_keys(scene, options));
         let setup = Setup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach: approach_of(scene)?,
             want: plan.want(),
             estimate: plan.estimate,
-            effects,
-            warnings,
+            decisions,
+            unread,
             cost: cost_of(&pair, options.steps),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
@@ -112,12 +119,12 @@ impl Condensed {
                 plan,
             }),
         };
-        Ok(Self { setup, scene: scene.clone(), pair, options })
+        Ok(Self { setup, scene: scene.clone(), pair, larger: Mutex::default(), options })
     }
 
     /// Those of the warnings that the speed causes.
     pub fn speed_warnings(&self) -> Vec<String> {
-        Vibration::warnings_of_modes(&self.setup.estimate, self.options.vibration_modes)
+        Vibration::doubts_of_speed(&self.setup.estimate, self.options.vibration_modes)
     }
 
     /// The bodies.
@@ -131,7 +138,7 @@ impl Condensed {
     /// # Errors
     /// What stops the collision before its end.
     pub fn restitution(
-        &mut self,
+        &self,
         speed: f64,
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
@@ -147,31 +154,41 @@ impl Condensed {
 
     /// Condenses further out as long as the contact reaches the end.
     fn follow(
-        &mut self,
+        &self,
         approach: &Approach,
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
         want: &Want,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        let (scene, pair, cost) = (&self.scene, &mut self.pair, &mut self.setup.cost);
         let collide = |pair: &Arc<CondensedPair>| {
-            let frame = frame_of(scene, approach, pair.reduced_mass());
+            let frame = frame_of(&self.scene, approach, pair.reduced_mass());
             match pair.collide(&frame, relaxations, n_steps, want, &mut *monitor) {
                 Ok(collision) => collision,
                 Err(error) => Collision {
                     initial_energy: Some(frame.kinetic(frame.speed())),
                     bodies: pair.bodies_before(&frame),
+                    searched: Some(pair.searched()),
+                    factor_bytes: Some(pair.factor_bytes() as u64),
                     ..Collision::stopped(*approach, stop_of(error, approach))
                 },
             }
         };
-        until_it_fits(pair, collide, |pair, radius| {
-            let larger = pair.enlarge(CANDIDATE_GROWTH * radius);
-            *pair = Arc::new(larger.map_err(|error| Some(stop_of(error, approach)))?);
-            *cost = cost_of(pair, n_steps);
-            Ok(())
+        until_it_fits(self.pair.clone(), collide, |pair| {
+            self.larger(pair).map_err(|error| Some(stop_of(error, approach)))
         })
+    }
+
+    /// The bodies condensed further out than a pair: the same for all collisions that ask for it.
+    fn larger(&self, pair: &CondensedPair) -> Result<Arc<CondensedPair>, CondensedError> {
+        let mut larger = self.larger.lock().unwrap_or_else(PoisonError::into_inner);
+        let radius = pair.candidate_radius();
+        if let Some(known) = larger.iter().find(|known| known.candidate_radius() > radius) {
+            return Ok(known.clone());
+        }
+        let made = Arc::new(pair.enlarge(CANDIDATE_GROWTH * radius)?);
+        larger.push(made.clone());
+        Ok(made)
     }
 }
 
@@ -180,14 +197,13 @@ impl Model for Condensed {
         &self.setup
     }
 
-    fn collide(
-        &mut self,
-        approach: &Approach,
-        want: &Want,
-        monitor: &mut dyn Monitor,
-    ) -> Collision {
-        let scene = self.scene.clone();
-        let relaxations = scene.bodies().each_ref().map(|body| body.material()?.relaxation());
+    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal> {
+        effects::decide(&self.scene, estimate, &self.pair, self.options)
+    }
+
+    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+        let bodies = self.scene.bodies().each_ref();
+        let relaxations = bodies.map(|body| body.material()?.relaxation());
         self.follow(approach, relaxations, self.options.steps, want, monitor)
     }
 

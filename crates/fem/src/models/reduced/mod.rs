@@ -2,7 +2,7 @@
 //! from the relative motion and the conservation of momentum.
 
 mod collision;
-mod effects;
+pub(super) mod effects;
 
 use std::fmt;
 
@@ -13,9 +13,11 @@ use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
 use crate::approach::{approach_of, frame_of};
+use crate::effects::Decisions;
 use crate::estimate::Estimate;
 use crate::method::{Cost, ForceLaw, Model, Setup};
 use crate::refusal::Refusal;
+use effects::Traits;
 
 /// What computes a relative motion.
 pub(super) trait Motion: fmt::Debug + Send + Sync {
@@ -33,29 +35,36 @@ pub(super) trait Motion: fmt::Debug + Send + Sync {
     }
 }
 
+/// A motion of a scene's bodies, and what is to be known of it.
+pub(super) struct Moving {
+    /// What computes it.
+    pub motion: Box<dyn Motion>,
+    /// Of the motion: with relaxed moduli if the law is a slow limit.
+    pub pair: Pair,
+    /// In a few words, what is integrated.
+    pub description: String,
+    /// What the model has that another lacks.
+    pub traits: Traits,
+}
+
 /// A scene with a reduced model, ready to run.
 #[derive(Debug)]
 pub struct Reduced {
     setup: Setup,
     scene: Scene,
     motion: Box<dyn Motion>,
-    /// Of the motion: with relaxed moduli if the law is a slow limit.
     pair: Pair,
+    traits: Traits,
 }
 
 impl Reduced {
-    /// A motion of a pair; `description` says in a few words what is integrated.
+    /// A scene whose bodies move like this.
     ///
     /// # Errors
     /// An effect that the case forces on and a reduced model lacks.
-    pub(super) fn of(
-        scene: &Scene,
-        estimate: Estimate,
-        description: String,
-        motion: Box<dyn Motion>,
-        pair: Pair,
-    ) -> Result<Self, Refusal> {
-        let (effects, warnings) = effects::decide(scene, &estimate, motion.law())?;
+    pub(super) fn of(scene: &Scene, estimate: Estimate, moving: Moving) -> Result<Self, Refusal> {
+        let Moving { motion, pair, description, traits } = moving;
+        let decisions = effects::decide(scene, &estimate, &traits)?;
         let force = motion.law().map(|law| ForceLaw {
             stiffness: law.stiffness(),
             elastic_exponent: law.elastic_exponent(),
@@ -67,12 +76,12 @@ impl Reduced {
             approach: approach_of(scene)?,
             want: Want::history(),
             estimate,
-            effects,
-            warnings,
+            decisions,
+            unread: effects::unread_keys(scene),
             cost: Cost::Little { force },
             elements: None,
         };
-        Ok(Self { setup, scene: scene.clone(), motion, pair })
+        Ok(Self { setup, scene: scene.clone(), motion, pair, traits })
     }
 
     /// The scene.
@@ -104,8 +113,12 @@ impl Model for Reduced {
         &self.setup
     }
 
+    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal> {
+        effects::decide(&self.scene, estimate, &self.traits)
+    }
+
     /// Closed forms and short integrations: nobody needs to look on.
-    fn collide(&mut self, approach: &Approach, want: &Want, _: &mut dyn Monitor) -> Collision {
+    fn collide(&self, approach: &Approach, want: &Want, _: &mut dyn Monitor) -> Collision {
         match self.impact(approach.speed()) {
             Ok(impact) => {
                 let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
@@ -123,12 +136,6 @@ fn stop_of(error: &LawError) -> Stop {
         LawError::OutsideValidity { .. } => Stop::OutsideValidity(message),
         _ => Stop::OutOfRange(message),
     }
-}
-
-/// A scene that chose another model than the one that was to be built.
-pub(super) fn chose_another(scene: &Scene, method: &str) -> Refusal {
-    let message = format!("model `{}` is not `{method}`", scene.model().name());
-    Refusal::new(scene.model().path(), message)
 }
 
 /// What a law of the scene refuses.

@@ -1,0 +1,115 @@
+//! What a model has of an effect, and what follows from that and from what a scene needs.
+
+use fem_case::Switch;
+
+use super::effect::Need;
+
+/// What a model has of an effect.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// It computes the effect where it is called for; what follows where it is not.
+    Computes {
+        /// Said after the number of a scene that does not call for it; may be empty.
+        idle: &'static str,
+    },
+    /// It lacks the effect; a scene that calls for it is warned about.
+    Lacks,
+    /// It decides by itself.
+    Is {
+        /// Whether the effect is on.
+        active: bool,
+        /// Why, or what it is.
+        reason: String,
+        /// What the user should know.
+        warnings: Vec<String>,
+    },
+}
+
+impl Answer {
+    /// The effect is on or off, and why.
+    pub fn is(active: bool, reason: impl Into<String>) -> Self {
+        Self::Is { active, reason: reason.into(), warnings: Vec::new() }
+    }
+
+    /// This answer with what the user should know; of one that decides by itself.
+    #[must_use]
+    pub fn warning(mut self, more: impl IntoIterator<Item = String>) -> Self {
+        if let Self::Is { warnings, .. } = &mut self {
+            warnings.extend(more);
+        }
+        self
+    }
+
+    /// Whether the effect is on, why, and what the user should know.
+    pub(super) fn of(self, need: Need, switch: Option<Switch>) -> (bool, String, Vec<String>) {
+        let Need { is_called_for, number, otherwise, left_open, warning } = need;
+        let none = Vec::new;
+        match self {
+            Self::Is { active, reason, warnings } => (active, reason, warnings),
+            Self::Computes { .. } if is_called_for && switch == Some(Switch::Off) => {
+                let warnings = warning.into_iter().collect();
+                (false, joined([&number, "called for, but switched off", &left_open]), warnings)
+            }
+            Self::Computes { .. } if is_called_for => (true, number, none()),
+            Self::Computes { .. } if switch == Some(Switch::On) => {
+                (true, joined([&number, &otherwise, "forced on"]), none())
+            }
+            Self::Computes { idle } => (false, joined([&number, &otherwise, idle]), none()),
+            Self::Lacks if is_called_for => {
+                let lacking = "called for, but not available in this version";
+                let warnings = warning.into_iter().collect();
+                (false, joined([&number, lacking, &left_open]), warnings)
+            }
+            Self::Lacks => (false, joined([&number, &otherwise, ""]), none()),
+        }
+    }
+}
+
+fn joined(parts: [&str; 3]) -> String {
+    let parts: Vec<&str> = parts.into_iter().filter(|part| !part.is_empty()).collect();
+    parts.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn need(is_called_for: bool) -> Need {
+        Need {
+            is_called_for,
+            number: "x = 1".into(),
+            otherwise: "small".into(),
+            left_open: "all of it is open".into(),
+            warning: Some("x is large".into()),
+        }
+    }
+
+    #[test]
+    fn reasons_say_the_number_and_what_follows() {
+        let computes = || Answer::Computes { idle: "nothing is kept" };
+        let none = Vec::new;
+        let auto = Some(Switch::Auto);
+        assert_eq!(computes().of(need(true), auto), (true, "x = 1".into(), none()));
+        let idle = "x = 1; small; nothing is kept";
+        assert_eq!(computes().of(need(false), None), (false, idle.into(), none()));
+        assert_eq!(Answer::Lacks.of(need(false), auto), (false, "x = 1; small".into(), none()));
+        let (active, reason, warnings) = Answer::Lacks.of(need(true), auto);
+        assert!(!active && reason.contains("not available") && reason.contains("all of it"));
+        assert_eq!(warnings, ["x is large"]);
+        let own = Answer::is(true, "always").warning(["beware".to_string()]);
+        assert_eq!(own.of(need(true), None), (true, "always".into(), vec!["beware".into()]));
+    }
+
+    #[test]
+    fn what_a_model_computes_obeys_its_switch() {
+        let of = |is_called_for, switch| {
+            Answer::Computes { idle: "" }.of(need(is_called_for), Some(switch))
+        };
+        let (active, reason, warnings) = of(false, Switch::On);
+        assert!(active && reason.contains("forced on") && warnings.is_empty());
+        let (active, reason, warnings) = of(true, Switch::Off);
+        assert!(!active && reason.contains("switched off") && reason.contains("all of it"));
+        assert_eq!(warnings, ["x is large"]);
+        assert!(!of(false, Switch::Off).0 && of(true, Switch::On).0);
+    }
+}
