@@ -1,6 +1,6 @@
 //! Why a model cannot compute a scene: which key is to blame, what was found, what is allowed.
 
-use fem_case::{Case, CaseError};
+use fem_case::{Case, CaseError, Scene};
 
 /// A fault of a scene that a model finds. It names a key; the case knows where that stands.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -18,6 +18,12 @@ impl Refusal {
     /// A refusal that blames a key.
     pub fn new(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self { key: key.into(), message: message.into(), help: None }
+    }
+
+    /// A scene that chose another model than that of a method.
+    pub(crate) fn chose_another(scene: &Scene, method: &str) -> Self {
+        let message = format!("model `{}` is not `{method}`", scene.model().name());
+        Self::new(scene.model().path(), message)
     }
 
     /// Adds what is allowed, or what to do.

@@ -5,11 +5,8 @@
 use fem_case::{EffectsTable, Scene, Switch};
 
 use super::effect::{Effect, Need};
-use super::vibration::{above, number};
+use super::speed::{MACH_LIMIT, above, number};
 use crate::estimate::Estimate;
-
-/// Above this share of the shear wave speed an impact sends shocks.
-pub(super) const MACH_LIMIT: f64 = 0.02;
 
 /// Artificial viscosity against shocks.
 #[derive(Clone, Copy, Debug)]

@@ -22,6 +22,7 @@ mod hourglass_control;
 mod mass_scaling;
 mod mirror_symmetry;
 mod penalty_springs;
+mod speed;
 mod vibration;
 mod viscoelasticity;
 
@@ -43,7 +44,7 @@ pub use hourglass_control::HourglassControl;
 pub use mass_scaling::MassScaling;
 pub use mirror_symmetry::MirrorSymmetry;
 pub use penalty_springs::PenaltySprings;
-pub(crate) use vibration::QUASI_STATIC_LIMIT;
+pub(crate) use speed::QUASI_STATIC_LIMIT;
 pub use vibration::Vibration;
 pub use viscoelasticity::Viscoelasticity;
 

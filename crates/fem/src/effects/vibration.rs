@@ -7,13 +7,10 @@ use fem_case::Scene;
 use fem_collision::Collision;
 
 use super::answer::Answer;
-use super::bulk_viscosity::MACH_LIMIT;
-use super::effect::{Effect, Need, percent};
+use super::effect::{Effect, Need};
+use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
 
-/// Approach speed over shear wave speed above which inertia shortens the contact by more than
-/// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
-pub(crate) const QUASI_STATIC_LIMIT: f64 = 5e-3;
 /// Modes that bring it back.
 const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
@@ -113,17 +110,4 @@ impl Vibration {
         });
         Answer::is(false, "the bodies move as a whole: quasi-static contact").warning(warning)
     }
-}
-
-pub(super) fn number(estimate: &Estimate) -> String {
-    format!("approach speed / shear wave speed = {:.1e}", estimate.mach)
-}
-
-/// What the approach speed is next to that of shear waves, and above which share something follows.
-pub(super) fn above(estimate: &Estimate, limit: f64) -> String {
-    format!(
-        "the approach speed is {} of the shear wave speed; above {}",
-        percent(estimate.mach),
-        percent(limit)
-    )
 }

@@ -8,7 +8,6 @@ use fem_explicit::{Model as Bodies, ModelError, Parts, Settings, collide};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
-use super::chose_another;
 use super::region::until_it_fits;
 use crate::approach::approach_of;
 use crate::effects::{
@@ -83,7 +82,7 @@ impl Explicit {
     /// As [`Explicit::new`].
     pub fn with_plan(scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
         if *scene.model() != ModelChoice::Fem {
-            return Err(chose_another(scene, "fem"));
+            return Err(Refusal::chose_another(scene, "fem"));
         }
         let inputs = inputs(scene, build_meshes(scene, &plan)?);
         let approach = approach_of(scene)?;

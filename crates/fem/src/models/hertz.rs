@@ -7,7 +7,7 @@ use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, resolve_start};
-use super::{chose_another, ting};
+use super::ting;
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -53,7 +53,7 @@ impl Motion for ClosedForm {
 /// As [`Reduced::new`]; a scene that chose another model.
 pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let ModelChoice::Hertz { finite_size } = *scene.model() else {
-        return Err(chose_another(scene, "hertz"));
+        return Err(Refusal::chose_another(scene, "hertz"));
     };
     let estimate = Estimate::checked(scene)?;
     // Elastic bodies under Ting are Hertz', and Ting knows their size.

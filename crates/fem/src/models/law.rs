@@ -5,7 +5,6 @@ use fem_case::{CaseFile, Dissipation, Law, ModelChoice, Quantity, Scene};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, Impact, LawError, LawImpact, Pair, PairRelaxation};
 
-use super::chose_another;
 use super::law_numbers::{Setting, Unmade};
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
@@ -82,7 +81,7 @@ impl Motion for LawMotion {
 /// As [`Reduced::new`]; a scene that chose another model.
 pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let ModelChoice::Law { law, end_rule, tolerance } = scene.model() else {
-        return Err(chose_another(scene, "law"));
+        return Err(Refusal::chose_another(scene, "law"));
     };
     let (end_rule, tolerance) = (*end_rule, *tolerance);
     let estimate = Estimate::checked(scene)?;

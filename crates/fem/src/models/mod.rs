@@ -53,9 +53,3 @@ impl Reduced {
         }
     }
 }
-
-/// A scene that chose another model than the one that was to be built.
-fn chose_another(scene: &Scene, method: &str) -> Refusal {
-    let message = format!("model `{}` is not `{method}`", scene.model().name());
-    Refusal::new(scene.model().path(), message)
-}

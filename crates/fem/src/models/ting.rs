@@ -5,7 +5,6 @@ use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
-use super::chose_another;
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
@@ -53,7 +52,7 @@ impl Motion for Ting {
 /// As [`Reduced::new`]; a scene that chose another model.
 pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let ModelChoice::Ting { finite_size, tolerance } = *scene.model() else {
-        return Err(chose_another(scene, "ting"));
+        return Err(Refusal::chose_another(scene, "ting"));
     };
     let estimate = Estimate::checked(scene)?;
     let motion = motion(scene, &estimate, true, finite_size, tolerance)?;

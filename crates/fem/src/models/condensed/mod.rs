@@ -12,7 +12,6 @@ use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
-use super::chose_another;
 use super::region::until_it_fits;
 use crate::approach::{approach_of, frame_of};
 use crate::effects::{Decisions, Vibration};
@@ -45,7 +44,7 @@ impl Method for CondensedMethod {
 
     fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
         if !matches!(scene.model(), ModelChoice::Condensed(_)) {
-            return Err(chose_another(scene, "condensed"));
+            return Err(Refusal::chose_another(scene, "condensed"));
         }
         Ok(Box::new(Condensed::new(scene, shared)?))
     }
