@@ -9,7 +9,7 @@ use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, Want};
 use fem_mesh::SphereMesh;
 
-use crate::effects::Decisions;
+use crate::effects::{Answer, Decisions, Effect};
 use crate::estimate::Estimate;
 use crate::pair_cache::PairCache;
 use crate::plan::Plan;
@@ -54,11 +54,9 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// What was decided on the scene as it is.
     fn setup(&self) -> &Setup;
 
-    /// Decides on effects for an estimate of the scene's bodies that meet in another way.
-    ///
-    /// # Errors
-    /// An effect that the case forces on and the model lacks.
-    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal>;
+    /// What it has of an effect in a collision of which closed forms say this; `None` of an effect
+    /// that means nothing to it.
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer>;
 
     /// Computes a collision of the scene's bodies, as far as it gets. Where the contact outgrows the
     /// region in which it is looked for, the collision is computed again with a larger one.

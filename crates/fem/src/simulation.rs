@@ -4,7 +4,7 @@ use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, Quantity};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want};
 
-use crate::effects::{ContactSearch, Decisions};
+use crate::effects::{ContactSearch, Decisions, Effect, decide};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Setup, Shared};
 use crate::models::method_of;
@@ -147,9 +147,11 @@ impl Simulation {
     /// of them before it.
     pub fn decisions(&self, collision: &Collision) -> Decisions {
         let setup = self.setup();
-        let as_set_up = collision.approach == setup.approach;
-        let estimate = self.estimate(collision).filter(|_| !as_set_up);
-        let decided = estimate.and_then(|estimate| self.model.decide(&estimate).ok());
+        let anew = self.estimate(collision).filter(|_| collision.approach != setup.approach);
+        let decided = anew.and_then(|estimate| {
+            let has = |effect: &dyn Effect| self.model.has(effect, &estimate);
+            decide(self.case.scene(), &estimate, has).ok()
+        });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
         if let Some(searched) = &collision.searched {
             for verdict in &mut decisions.verdicts {

@@ -11,8 +11,8 @@ use fem_mesh::SphereMesh;
 use super::region::until_it_fits;
 use crate::approach::approach_of;
 use crate::effects::{
-    Answer, BulkViscosity, ContactSearch, Decisions, Effect, FiniteStrain, Gravity,
-    HourglassControl, MassScaling, MirrorSymmetry, Viscoelasticity, decide,
+    Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
+    MassScaling, MirrorSymmetry, Viscoelasticity, decide,
 };
 use crate::estimate::Estimate;
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
@@ -91,7 +91,7 @@ impl Explicit {
             .bodies(&approach, plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
         let cost = cost(scene, &bodies, &plan)?;
-        let decisions = effects(scene, &plan.estimate, &bodies)?;
+        let decisions = decide(scene, &plan.estimate, |effect| has(effect, scene, &bodies))?;
         let setup = Setup {
             description: "model fem, explicit finite elements".to_string(),
             approach,
@@ -163,8 +163,8 @@ impl Model for Explicit {
         &self.setup
     }
 
-    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal> {
-        effects(&self.made.scene, estimate, &self.bodies)
+    fn has(&self, effect: &dyn Effect, _: &Estimate) -> Option<Answer> {
+        has(effect, &self.made.scene, &self.bodies)
     }
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
@@ -237,22 +237,20 @@ fn n_branches(body: &Body) -> u64 {
     terms.filter(|term| term.weight > 0.0).count() as u64
 }
 
-/// Decides on what explicit elements have of each effect.
-fn effects(scene: &Scene, estimate: &Estimate, model: &Bodies) -> Result<Decisions, Refusal> {
-    decide(scene, estimate, |effect: &dyn Effect| {
-        Some(match effect.name() {
-            Viscoelasticity::NAME => Answer::Computes { idle: "no history is kept" },
-            HourglassControl::NAME => {
-                let why = "elements with one mean stress need the stiffness of their bending modes";
-                Answer::is(true, why)
-            }
-            ContactSearch::NAME => ContactSearch::within(&model.searched()),
-            MassScaling::NAME => mass_scaling(model, scene.bodies()),
-            FiniteStrain::NAME | MirrorSymmetry::NAME | BulkViscosity::NAME | Gravity::NAME => {
-                Answer::Lacks
-            }
-            _ => return None,
-        })
+/// What explicit elements have of each effect.
+fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
+    Some(match effect.name() {
+        Viscoelasticity::NAME => Answer::Computes { idle: "no history is kept" },
+        HourglassControl::NAME => {
+            let why = "elements with one mean stress need the stiffness of their bending modes";
+            Answer::is(true, why)
+        }
+        ContactSearch::NAME => ContactSearch::within(&model.searched()),
+        MassScaling::NAME => mass_scaling(model, scene.bodies()),
+        FiniteStrain::NAME | MirrorSymmetry::NAME | BulkViscosity::NAME | Gravity::NAME => {
+            Answer::Lacks
+        }
+        _ => return None,
     })
 }
 

@@ -4,35 +4,32 @@ use fem_case::{CondensedOptions, Scene};
 use fem_condensed::CondensedPair;
 
 use crate::effects::{
-    Answer, ContactSearch, Decisions, Effect, FiniteStrain, Gravity, PenaltySprings, Vibration,
-    Viscoelasticity, decide as decide_all,
+    Answer, ContactSearch, Effect, FiniteStrain, Gravity, PenaltySprings, Vibration,
+    Viscoelasticity,
 };
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
 
-/// Decides on what a condensed pair has of each effect.
-pub(super) fn decide(
+/// What a condensed pair has of each effect.
+pub(super) fn has(
+    effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
     pair: &CondensedPair,
     options: CondensedOptions,
-) -> Result<Decisions, Refusal> {
-    let springs = match options.penalty_springs {
-        true => "those of the explicit model, at its Gauss points",
-        false => "the surfaces do not overlap at the nodes",
-    };
-    decide_all(scene, estimate, |effect: &dyn Effect| {
-        Some(match effect.name() {
-            Viscoelasticity::NAME => Answer::Computes { idle: "" },
-            Vibration::NAME => {
-                let spheres = modes_of_spheres(scene, pair);
-                Vibration::of_modes(estimate, options.vibration_modes, &spheres)
-            }
-            PenaltySprings::NAME => Answer::is(options.penalty_springs, springs),
-            ContactSearch::NAME => ContactSearch::within(&pair.searched()),
-            FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
-            _ => return None,
-        })
+) -> Option<Answer> {
+    Some(match effect.name() {
+        Viscoelasticity::NAME => Answer::Computes { idle: "" },
+        Vibration::NAME => {
+            let spheres = modes_of_spheres(scene, pair);
+            Vibration::of_modes(estimate, options.vibration_modes, &spheres)
+        }
+        PenaltySprings::NAME => match options.penalty_springs {
+            true => Answer::is(true, "those of the explicit model, at its Gauss points"),
+            false => Answer::is(false, "the surfaces do not overlap at the nodes"),
+        },
+        ContactSearch::NAME => ContactSearch::within(&pair.searched()),
+        FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
+        _ => return None,
     })
 }
 

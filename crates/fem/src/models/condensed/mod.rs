@@ -14,7 +14,7 @@ use fem_mesh::SphereMesh;
 
 use super::region::until_it_fits;
 use crate::approach::{approach_of, frame_of};
-use crate::effects::{Decisions, Vibration};
+use crate::effects::{Answer, Effect, Vibration, decide};
 use crate::estimate::Estimate;
 use crate::mesh_source::{MeshSource, mesh_refusal};
 use crate::meshes::mesh_sources;
@@ -101,7 +101,9 @@ impl Condensed {
             CondensedPair::new(inputs(key)?, key.settings)
                 .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
         })?;
-        let decisions = effects::decide(scene, &plan.estimate, &pair, options)?;
+        let estimate = &plan.estimate;
+        let has = |effect: &dyn Effect| effects::has(effect, scene, estimate, &pair, options);
+        let decisions = decide(scene, estimate, has)?;
         let mut unread = plan.warnings.clone();
         unread.extend(effects::unread_keys(scene, options));
         let setup = Setup {
@@ -196,8 +198,8 @@ impl Model for Condensed {
         &self.setup
     }
 
-    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal> {
-        effects::decide(&self.scene, estimate, &self.pair, self.options)
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+        effects::has(effect, &self.scene, estimate, &self.pair, self.options)
     }
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {

@@ -3,11 +3,10 @@
 use fem_case::{ModelChoice, Scene};
 
 use crate::effects::{
-    Answer, DashpotEffect, Decisions, Effect, FiniteSizeEffect, FiniteStrain, Gravity, Vibration,
-    Viscoelasticity, decide as decide_all,
+    Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, Vibration,
+    Viscoelasticity,
 };
 use crate::estimate::Estimate;
-use crate::refusal::Refusal;
 
 /// What one reduced model has that another lacks.
 #[derive(Clone, Debug)]
@@ -34,22 +33,23 @@ pub(in crate::models) enum Relaxation {
 /// Longest relaxation time over the contact time up to which the contact is slow.
 const SLOW_LIMIT: f64 = 0.1;
 
-/// Decides on what a model has of each effect.
-pub(super) fn decide(
+/// What a reduced model has of each effect.
+pub(super) fn has(
+    effect: &dyn Effect,
     scene: &Scene,
     estimate: &Estimate,
     traits: &Traits,
-) -> Result<Decisions, Refusal> {
-    let (is_finite, finite_size) = traits.finite_size;
-    decide_all(scene, estimate, |effect: &dyn Effect| {
-        Some(match effect.name() {
-            Viscoelasticity::NAME => relaxation(scene, estimate, traits.relaxation),
-            DashpotEffect::NAME => dashpot(scene.model(), traits.dashpot.as_deref()),
-            FiniteSizeEffect::NAME => Answer::is(is_finite, finite_size),
-            Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-            FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
-            _ => return None,
-        })
+) -> Option<Answer> {
+    Some(match effect.name() {
+        Viscoelasticity::NAME => relaxation(scene, estimate, traits.relaxation),
+        DashpotEffect::NAME => dashpot(scene.model(), traits.dashpot.as_deref()),
+        FiniteSizeEffect::NAME => {
+            let (is_finite, reason) = traits.finite_size;
+            Answer::is(is_finite, reason)
+        }
+        Vibration::NAME => Vibration::of_rigid_bodies(estimate),
+        FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
+        _ => return None,
     })
 }
 

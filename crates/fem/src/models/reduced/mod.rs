@@ -13,7 +13,7 @@ use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
 use crate::approach::{approach_of, frame_of};
-use crate::effects::Decisions;
+use crate::effects::{Answer, Effect, decide};
 use crate::estimate::Estimate;
 use crate::method::{Cost, ForceLaw, Model, Setup};
 use crate::refusal::Refusal;
@@ -64,7 +64,8 @@ impl Reduced {
     /// An effect that the case forces on and a reduced model lacks.
     pub(super) fn of(scene: &Scene, estimate: Estimate, moving: Moving) -> Result<Self, Refusal> {
         let Moving { motion, pair, description, traits } = moving;
-        let decisions = effects::decide(scene, &estimate, &traits)?;
+        let has = |effect: &dyn Effect| effects::has(effect, scene, &estimate, &traits);
+        let decisions = decide(scene, &estimate, has)?;
         let force = motion.law().map(|law| ForceLaw {
             stiffness: law.stiffness(),
             elastic_exponent: law.elastic_exponent(),
@@ -113,8 +114,8 @@ impl Model for Reduced {
         &self.setup
     }
 
-    fn decide(&self, estimate: &Estimate) -> Result<Decisions, Refusal> {
-        effects::decide(&self.scene, estimate, &self.traits)
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+        effects::has(effect, &self.scene, estimate, &self.traits)
     }
 
     /// Closed forms and short integrations: nobody needs to look on.
