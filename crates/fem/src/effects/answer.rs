@@ -60,7 +60,10 @@ impl Answer {
                 let warnings = warning.into_iter().collect();
                 (false, joined([&number, lacking, &left_open]), warnings)
             }
-            Self::Lacks => (false, joined([&number, &otherwise, ""]), none()),
+            Self::Lacks => {
+                let warnings = warning.into_iter().collect();
+                (false, joined([&number, &otherwise, ""]), warnings)
+            }
         }
     }
 }
@@ -92,7 +95,8 @@ mod tests {
         assert_eq!(computes().of(need(true), auto), (true, "x = 1".into(), none()));
         let idle = "x = 1; small; nothing is kept";
         assert_eq!(computes().of(need(false), None), (false, idle.into(), none()));
-        assert_eq!(Answer::Lacks.of(need(false), auto), (false, "x = 1; small".into(), none()));
+        let doubt = vec!["x is large".to_string()];
+        assert_eq!(Answer::Lacks.of(need(false), auto), (false, "x = 1; small".into(), doubt));
         let (active, reason, warnings) = Answer::Lacks.of(need(true), auto);
         assert!(!active && reason.contains("not available") && reason.contains("all of it"));
         assert_eq!(warnings, ["x is large"]);

@@ -37,7 +37,7 @@ pub struct Need {
     pub otherwise: String,
     /// What stays open in a model that lacks it.
     pub left_open: String,
-    /// What a user should know of a model that lacks it although it is called for.
+    /// What a user should know of a model that lacks it.
     pub warning: Option<String>,
 }
 
