@@ -22,7 +22,7 @@ impl Aftermath {
             *self = Self::default();
             return;
         }
-        self.n += 1;
+        self.n = self.n.saturating_add(1);
         for (sum, energy) in self.sums.iter_mut().zip(vibration) {
             *sum += energy;
         }

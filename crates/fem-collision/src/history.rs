@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::cadence::Cadence;
 use crate::row::Row;
 
 /// Why a row is kept.
@@ -23,8 +24,7 @@ pub struct History {
     essential: Vec<bool>,
     /// Where the row of the last contact so far is.
     last_contact: Option<usize>,
-    stride: u64,
-    max_rows: usize,
+    cadence: Cadence,
     /// Of a run that offers a row every step: the last one, if it was not due, and whether the
     /// contact was closed.
     skipped: Option<Row>,
@@ -34,14 +34,12 @@ pub struct History {
 impl History {
     /// For about `n_rows` rows over `expected_steps` steps; at most four times as many.
     pub fn new(n_rows: usize, expected_steps: f64) -> Self {
-        let stride = (expected_steps / n_rows.max(1) as f64).floor().max(1.0) as u64;
-        let max_rows = 4 * n_rows.max(16);
+        let cadence = Cadence::new(n_rows, expected_steps);
         Self {
-            rows: Vec::with_capacity(max_rows + 1),
-            essential: Vec::with_capacity(max_rows + 1),
+            rows: Vec::with_capacity(cadence.most() + 1),
+            essential: Vec::with_capacity(cadence.most() + 1),
             last_contact: None,
-            stride,
-            max_rows,
+            cadence,
             skipped: None,
             was_closed: None,
         }
@@ -49,7 +47,7 @@ impl History {
 
     /// Whether a row is due at this step.
     pub fn is_due(&self, step: u64) -> bool {
-        step.is_multiple_of(self.stride)
+        self.cadence.is_due(step)
     }
 
     /// Adds a row; beyond the capacity every second one is dropped and the stride doubled.
@@ -62,7 +60,7 @@ impl History {
         }
         self.rows.push(row);
         self.essential.push(kind != RowKind::Regular);
-        if self.rows.len() > self.max_rows {
+        if self.cadence.count() {
             self.thin();
         }
     }
@@ -100,12 +98,22 @@ impl History {
         }
         self.rows.truncate(kept);
         self.essential.truncate(kept);
-        self.stride *= 2;
+        self.cadence.recount(kept);
     }
 
     /// The rows so far, in the order of time.
     pub fn rows(&self) -> &[Row] {
         &self.rows
+    }
+
+    /// Whether a run can have left it like this: rows in the order of time and what belongs to each.
+    pub fn is_sound(&self) -> bool {
+        let n = self.rows.len();
+        self.cadence.is_sound()
+            && self.cadence.n() == n
+            && self.essential.len() == n
+            && self.last_contact.is_none_or(|row| row < n)
+            && self.rows.is_sorted_by(|one, next| one.time < next.time)
     }
 
     /// The rows, in the order of time; of a run that offered every step the last one among them.
@@ -171,10 +179,11 @@ mod tests {
                 let essential = [37, n_steps - 5];
                 let steps = run(&mut history, n_steps, essential);
                 assert!(steps.len() <= 4 * n_rows && steps.len() > n_rows, "{}", steps.len());
+                assert!(history.is_sound());
                 assert!(steps.windows(2).all(|pair| pair[0] < pair[1]));
                 assert!(essential.iter().all(|step| steps.contains(step)));
                 // Even to a factor of 2, away from the essential rows.
-                let stride = history.stride;
+                let stride = history.cadence.stride();
                 assert!(steps.windows(2).all(|pair| pair[1] - pair[0] <= 2 * stride), "{steps:?}");
                 assert_eq!(history.rows.capacity(), capacity, "a row was allocated");
             }

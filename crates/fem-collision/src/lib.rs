@@ -10,6 +10,8 @@
 //!
 //! * [`Account`] names a place of energy and [`Book`] holds what is in each; every model, part of a
 //!   step, column of a history and key of a summary means the same by them.
+//! * [`Cadence`] says at which steps of a run something is observed, [`Aftermath`] and [`Scatter`]
+//!   what follows from it beside extremes.
 //! * [`Frame`] leads from the relative motion of two bodies to each of them.
 //! * [`StressField`] is the stress recovered from a body's fields, [`StressRecovery`] the same for
 //!   many fields of one mesh.
@@ -20,6 +22,7 @@ mod account;
 mod aftermath;
 mod approach;
 mod body_input;
+mod cadence;
 mod collision;
 mod ending;
 mod frame;
@@ -41,6 +44,7 @@ pub use account::{Account, Book, Side};
 pub use aftermath::{Aftermath, FLIGHT_AFTER};
 pub use approach::{Approach, ApproachError};
 pub use body_input::BodyInput;
+pub use cadence::Cadence;
 pub use collision::{BodyResult, Collision, STAY_TOGETHER};
 pub use ending::Ending;
 pub use frame::Frame;

@@ -30,7 +30,7 @@ impl Scatter {
             self.sum += (middle - 0.5 * (first + force)).powi(2);
         }
         self.last = [Some(force), self.last[0]];
-        self.n += 1;
+        self.n = self.n.saturating_add(1);
     }
 
     /// The scatter so far, N; `None` of too few forces to tell.

@@ -1,0 +1,102 @@
+//! At which steps of a run something is done: evenly, and not too often, however long the run is.
+
+use serde::{Deserialize, Serialize};
+
+/// So many more instants than expected, then every second one is given up.
+const EXCESS: usize = 4;
+/// Fewer instants than this are not asked for.
+const FEWEST: usize = 16;
+
+/// An even stride over the steps of a run, which doubles whenever too many instants came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cadence {
+    stride: u64,
+    /// Instants so far; after the stride has doubled, those that are left of them.
+    n: usize,
+    most: usize,
+}
+
+impl Cadence {
+    /// For about `n_instants` over `expected_steps` steps; at most four times as many.
+    pub fn new(n_instants: usize, expected_steps: f64) -> Self {
+        let stride = (expected_steps / n_instants.max(1) as f64).floor().max(1.0) as u64;
+        Self { stride, n: 0, most: EXCESS.saturating_mul(n_instants.max(FEWEST)) }
+    }
+
+    /// Whether this step is due.
+    pub fn is_due(&self, step: u64) -> bool {
+        step.is_multiple_of(self.stride)
+    }
+
+    /// Counts an instant, a due one or another. Of too many every second one is forgotten and the
+    /// stride doubled: whether it was.
+    pub fn count(&mut self) -> bool {
+        self.n += 1;
+        let too_many = self.n > self.most;
+        if too_many {
+            self.n = self.n.div_ceil(2);
+            self.stride = self.stride.saturating_mul(2);
+        }
+        too_many
+    }
+
+    /// Tells how many instants are left, if it is not every second one.
+    pub(crate) fn recount(&mut self, n: usize) {
+        self.n = n;
+    }
+
+    /// Instants so far, as it counts them.
+    pub(crate) fn n(&self) -> usize {
+        self.n
+    }
+
+    /// The most that it counts to.
+    pub(crate) fn most(&self) -> usize {
+        self.most
+    }
+
+    /// Steps from one instant to the next.
+    pub fn stride(&self) -> u64 {
+        self.stride
+    }
+
+    /// Whether a run can have left it like this.
+    pub fn is_sound(&self) -> bool {
+        self.stride > 0 && self.n < usize::MAX
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn instants_come_at_the_stride_of_the_estimate() {
+        for (n_instants, expected_steps, stride) in
+            [(1000, 7600.0, 7), (1000, 50.0, 1), (0, 5.0, 5), (10, f64::NAN, 1)]
+        {
+            let cadence = Cadence::new(n_instants, expected_steps);
+            assert!(cadence.is_sound());
+            let due: Vec<u64> = (0..30).filter(|&step| cadence.is_due(step)).collect();
+            let expected: Vec<u64> = (0..30).step_by(stride).collect();
+            assert_eq!(due, expected);
+        }
+    }
+
+    /// Whatever the length of the run: between two and four times as many as asked for.
+    #[test]
+    fn a_long_run_has_as_many_instants() {
+        for n_steps in [10_000_u64, 300_000, 1 << 20] {
+            let mut cadence = Cadence::new(100, 300.0);
+            for step in 0..n_steps {
+                if cadence.is_due(step) {
+                    cadence.count();
+                }
+            }
+            assert!((200..=400).contains(&cadence.n), "{}", cadence.n);
+            let even = n_steps.div_ceil(cadence.stride) as usize;
+            // All that is left lies at the present stride.
+            assert_eq!(cadence.n, even);
+        }
+    }
+}
