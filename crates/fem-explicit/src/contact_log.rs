@@ -1,13 +1,11 @@
 //! What a run remembers of the contact so far.
 
+use fem_collision::{FLIGHT_AFTER, worst};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
 use crate::state::{Scratch, State};
-
-/// The run goes on for this share of the contact time after the last contact.
-pub(crate) const FLIGHT_AFTER: f64 = 0.2;
 
 /// Relative motion of the mass centres, first and last contact, and the extremes on the way.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,10 +62,13 @@ impl ContactLog {
             self.first_contact.get_or_insert(time);
             self.last_contact = Some(time);
             self.episodes += u64::from(!self.was_closed);
-            self.peak_force = self.peak_force.max(contact.force);
+            self.peak_force = worst(self.peak_force, contact.force);
         }
         self.was_closed = is_closed;
-        self.max_approach = self.max_approach.max(self.approach);
+        // Bodies that are farther apart than at first touch do not count; what is no number does.
+        if self.approach >= 0.0 || self.approach.is_nan() {
+            self.max_approach = worst(self.max_approach, self.approach);
+        }
     }
 
     /// Relative motion of the mass centres over a step under its forces.
@@ -81,6 +82,16 @@ impl ContactLog {
             }
         }
         self.approach += time_step * self.approach_rate;
+    }
+
+    /// Whether it can be of a run at this state.
+    pub fn fits(&self, state: &State) -> bool {
+        let times_fit = match (self.first_contact, self.last_contact) {
+            (Some(first), Some(last)) => first <= last && last <= state.time,
+            (None, None) => true,
+            _ => false,
+        };
+        times_fit && self.episodes <= state.step + 1
     }
 
     /// Whether at this time (s) the contact is over for good and has been so for a while.

@@ -22,10 +22,10 @@ pub enum ModelError {
     /// A wall keeps its velocity, whatever acts on it.
     #[error("a force acts on the nodes of a wall, which keeps its velocity")]
     ForceOnWall,
-    /// A run is to go on from the memory of another.
+    /// A run is to go on from the memory of another, or from a damaged one.
     #[error(
-        "the memory is of a run of another model: its sizes, approach, time step or region of contact \
-         differ"
+        "the memory is of a run of another model, or damaged: its sizes, approach, time step or region \
+         of contact differ, or its parts contradict each other"
     )]
     MemoryOfAnother,
 }

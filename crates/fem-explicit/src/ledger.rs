@@ -10,9 +10,9 @@
 //! so that is the form in which kinetic energy is reported. What the bodies store,
 //! are given and dissipate, their parts tell of the state; what does not add up is
 //! the residual, which can fail. Powers are integrated by the trapezoidal rule over
-//! the rows of the history.
+//! the instants that are observed.
 
-use fem_collision::{Account, Losses, Row};
+use fem_collision::{Account, Losses, Row, Stop, worst};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +20,9 @@ use crate::body::Body;
 use crate::model::Model;
 use crate::part::Accounts;
 use crate::state::{BodyState, Scratch, State};
+
+/// Total energy over initial energy beyond which a run is unstable.
+const ENERGY_LIMIT: f64 = 1.05;
 
 /// Running sums and worst imbalances.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,7 +43,7 @@ pub(crate) struct Ledger {
     /// ∫ F dt up to t_n − Δt/2, N s.
     impulse: f64,
     losses: Losses,
-    /// Time of the last row, s.
+    /// Time of the last balance, s.
     last_time: f64,
 }
 
@@ -145,6 +148,24 @@ impl Ledger {
         }
     }
 
+    /// Refuses a row whose energy is not finite or has grown.
+    pub fn check(&self, row: &Row, step: u64) -> Result<(), Stop> {
+        let ratio =
+            row.residual.map_or(f64::NAN, |residual| 1.0 + residual / self.initial_relative);
+        if ratio.is_finite() && ratio <= ENERGY_LIMIT {
+            Ok(())
+        } else {
+            Err(Stop::EnergyGrowth { time: row.time, step, ratio })
+        }
+    }
+
+    /// Whether it can be of a run of this model at this state.
+    pub fn fits(&self, model: &Model, state: &State) -> bool {
+        let constants =
+            |ledger: &Self| [ledger.initial, ledger.initial_relative, ledger.momentum_scale];
+        constants(self) == constants(&Self::new(model, state)) && self.last_time <= state.time
+    }
+
     /// Work of a moving wall on the other body up to t_n, J.
     fn wall_work(&self, model: &Model, force: f64) -> f64 {
         let impulse = self.impulse + 0.5 * model.time_step() * force;
@@ -167,11 +188,6 @@ impl Ledger {
         let drift = (momentum - (self.given_momentum + from_wall)) / self.momentum_scale;
         self.worst_momentum = worst(self.worst_momentum, drift);
     }
-}
-
-/// The larger magnitude; NaN wins, so that it cannot pass unseen.
-fn worst(so_far: f64, value: f64) -> f64 {
-    if so_far.is_nan() || value.abs() <= so_far { so_far } else { value.abs() }
 }
 
 fn balance_body(
@@ -209,18 +225,5 @@ fn balance_body(
         momentum,
         velocity: 0.5 * (before + after),
         displacement: first_moment / mass,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::worst;
-
-    #[test]
-    fn the_worst_is_the_largest_magnitude_and_nan_stays() {
-        let of = |values: &[f64]| values.iter().fold(0.0, |so_far, &value| worst(so_far, value));
-        assert_eq!(of(&[0.1, -0.3, 0.2]), 0.3);
-        assert_eq!(of(&[0.1, f64::NEG_INFINITY, 0.2]), f64::INFINITY);
-        assert!(of(&[0.1, f64::NAN, 0.2]).is_nan());
     }
 }

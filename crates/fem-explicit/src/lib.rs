@@ -20,8 +20,8 @@
 //!
 //! update forces              subtract_forces       add_forces            add_forces
 //! observe: log, ledger,      add_energies          add_energies          contact_radius,
-//!   history, recorder        effective                                   centre_pressure,
-//!                                                                        is_closed_next
+//!   observed, history,       effective                                   centre_pressure,
+//!   recorder                                                             is_closed_next
 //! advance: nodes (leapfrog)
 //!   what contact remembers                                               advance
 //!   what parts remember      advance               advance
@@ -50,6 +50,8 @@ mod lumped;
 mod memory;
 mod model;
 mod motion;
+mod observed;
+mod outcome;
 mod part;
 mod recorder;
 mod run;
@@ -71,6 +73,6 @@ pub use free_motion::FreeMotion;
 pub use memory::Memory;
 pub use model::{Model, Parts, Settings};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
-pub use run::{Run, Status, collide};
+pub use run::{Run, collide};
 pub use snapshot::n_states;
 pub use stress::Stress;

@@ -1,11 +1,12 @@
 //! All that a run knows beside its model: what a restart needs, and nothing else.
 
-use fem_collision::{Approach, Expectation, History, Want};
+use fem_collision::{Approach, Ending, Expectation, History, Want};
 use serde::{Deserialize, Serialize};
 
 use crate::contact_log::ContactLog;
 use crate::ledger::Ledger;
 use crate::model::Model;
+use crate::observed::Observed;
 use crate::recorder::Recorder;
 use crate::state::State;
 
@@ -15,8 +16,12 @@ pub struct Memory {
     pub(crate) state: State,
     pub(crate) log: ContactLog,
     pub(crate) ledger: Ledger,
-    pub(crate) history: History,
+    pub(crate) observed: Observed,
+    /// Of a run that is asked for rows.
+    pub(crate) history: Option<History>,
     pub(crate) recorder: Recorder,
+    /// Of a run that has ended.
+    pub(crate) ending: Option<Ending>,
     /// What closed forms expect.
     pub(crate) expected: Expectation,
     /// The run gives up this long after first touch, s.
@@ -38,8 +43,11 @@ impl Memory {
             log: ContactLog::new(model, &state),
             ledger: Ledger::new(model, &state),
             state,
-            history: History::new(want.history_rows, expected_steps),
+            observed: Observed::new(expected_steps),
+            history: (want.history_rows > 0)
+                .then(|| History::new(want.history_rows, expected_steps)),
             recorder: Recorder::new(&want.snapshots, model, expected),
+            ending: None,
             expected,
             max_time: want.give_up_after * expected.contact_time,
             approach: *model.approach(),
@@ -63,12 +71,31 @@ impl Memory {
         self.candidate_radius
     }
 
-    /// Whether it can be of a run of this model: fields of its sizes, its approach, its time step,
-    /// its region of contact. Moduli and relaxation times it does not know.
+    /// How the run ended; `None` while it is under way.
+    pub fn ending(&self) -> Option<&Ending> {
+        self.ending.as_ref()
+    }
+
+    /// Whether it can be of a run of this model: its approach, its time step, its region of contact,
+    /// fields of its sizes, and parts that do not contradict each other. Moduli and relaxation times
+    /// it does not know.
     pub(crate) fn fits(&self, model: &Model) -> bool {
+        let Self { state, .. } = self;
+        let history_fits = |history: &History| {
+            history.is_sound() && history.rows().last().is_none_or(|row| row.time <= state.time)
+        };
         self.approach == *model.approach()
             && self.time_step.to_bits() == model.time_step().to_bits()
             && self.candidate_radius.to_bits() == model.candidate_radius().to_bits()
-            && self.state.fits(model)
+            && !self.max_time.is_nan()
+            && state.fits(model)
+            && self.log.fits(state)
+            && self.ledger.fits(model, state)
+            && self.observed.fits(state)
+            && self.history.as_ref().is_none_or(history_fits)
+            && self.recorder.fits(model)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -145,6 +145,11 @@ impl Model {
         self.time_step
     }
 
+    /// Time after so many steps since the start of the case, s.
+    pub(crate) fn time_after(&self, step: u64) -> f64 {
+        self.approach.first_touch() + step as f64 * self.time_step
+    }
+
     /// What the time step would be without mass scaling, s.
     pub fn plain_time_step(&self) -> f64 {
         self.plain_time_step

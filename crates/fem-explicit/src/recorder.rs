@@ -12,7 +12,7 @@ use fem_collision::{
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
-use crate::snapshot::{in_free_flight, n_kept, take};
+use crate::snapshot::{fits, in_free_flight, n_kept, take};
 use crate::state::{Scratch, State};
 
 /// Growth of the approach from rung to rung: the nearest to half of the maximum
@@ -20,6 +20,9 @@ use crate::state::{Scratch, State};
 const RUNG_RATIO: f64 = 1.03;
 /// Share of the expected approach at which the ladder begins.
 const LADDER_START: f64 = 0.02;
+
+/// More evenly spaced states than any memory holds.
+const MOST_STATES: usize = 1 << 20;
 
 /// What the recorder is told of a step.
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +44,6 @@ pub(crate) struct Recorder {
     expected_approach: f64,
     /// Rungs of the ladder, or evenly spaced states.
     kept: Vec<Snapshot>,
-    pool: Vec<Snapshot>,
     /// Largest approach, once it is past.
     max_approach: Option<f64>,
     maximum: Option<Snapshot>,
@@ -69,7 +71,6 @@ impl Recorder {
             expected_approach: expected.approach,
             next_time: kept.len(),
             kept,
-            pool: Vec::new(),
             max_approach: None,
             maximum: None,
             mid_separation: None,
@@ -79,10 +80,11 @@ impl Recorder {
     }
 
     /// Keeps the state at t_n if it may be asked for.
-    pub fn observe(&mut self, model: &Model, state: &State, scratch: &Scratch, now: Instant) {
+    pub fn observe(&mut self, model: &Model, state: &State, scratch: &mut Scratch, now: Instant) {
+        let Scratch { forces, pool, .. } = scratch;
         let copy = |recycled: Option<Snapshot>, label: Option<Label>| {
             let mut snapshot = recycled.unwrap_or_default();
-            take(&mut snapshot, model, state, scratch, now.approach, label);
+            take(&mut snapshot, model, state, forces, now.approach, label);
             snapshot
         };
         let wants_last = match &self.request {
@@ -92,10 +94,10 @@ impl Recorder {
         };
         if now.is_closed {
             // In contact again: what was kept is not the last contact.
-            self.pool.extend(self.last_contact.take());
+            pool.extend(self.last_contact.take());
         }
         if now.is_last_contact && wants_last {
-            self.last_contact = Some(copy(self.pool.pop(), Some(Label::LastContact)));
+            self.last_contact = Some(copy(pool.pop(), Some(Label::LastContact)));
         }
         match &self.request {
             SnapshotRequest::Labels(labels) => match self.max_approach {
@@ -116,8 +118,8 @@ impl Recorder {
                         let half = 0.5 * now.approach / RUNG_RATIO;
                         let first = self.kept.iter().position(|rung| rung.approach >= half);
                         let n_dropped = first.unwrap_or(self.kept.len());
-                        self.pool.extend(self.kept.drain(..n_dropped));
-                        let snapshot = copy(self.pool.pop(), Some(Label::MidCompression));
+                        pool.extend(self.kept.drain(..n_dropped));
+                        let snapshot = copy(pool.pop(), Some(Label::MidCompression));
                         self.kept.push(snapshot);
                     }
                 }
@@ -135,10 +137,10 @@ impl Recorder {
                     now.is_closed && state.time >= last.time + self.spacing * (1.0 - 1e-9)
                 });
                 if now.is_first_contact || due {
-                    let snapshot = copy(self.pool.pop(), None);
+                    let snapshot = copy(pool.pop(), None);
                     self.kept.push(snapshot);
                     if self.kept.len() > n_kept(*n) {
-                        self.thin();
+                        self.thin(pool);
                     }
                 }
             }
@@ -154,9 +156,8 @@ impl Recorder {
     }
 
     /// Drops every second of the evenly spaced states.
-    fn thin(&mut self) {
+    fn thin(&mut self, pool: &mut Vec<Snapshot>) {
         let mut k = 0;
-        let pool = &mut self.pool;
         self.kept.retain_mut(|snapshot| {
             k += 1;
             let keep = k % 2 == 1;
@@ -166,6 +167,21 @@ impl Recorder {
             keep
         });
         self.spacing *= 2.0;
+    }
+
+    /// Whether it can be of a run of this model.
+    pub fn fits(&self, model: &Model) -> bool {
+        let request_fits = match &self.request {
+            SnapshotRequest::Labels(_) => true,
+            SnapshotRequest::Count(n) => *n <= MOST_STATES,
+            SnapshotRequest::Times(times) => {
+                self.next_time == self.kept.len() && self.next_time <= times.len()
+            }
+        };
+        let singles = [&self.maximum, &self.mid_separation, &self.last_contact];
+        request_fits
+            && self.kept.is_sorted_by(|one, next| one.time <= next.time)
+            && self.kept.iter().chain(singles.into_iter().flatten()).all(|kept| fits(kept, model))
     }
 
     /// The snapshots in the order of time, and what could not be had.

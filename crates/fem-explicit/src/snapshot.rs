@@ -4,7 +4,8 @@ use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest};
 
 use crate::model::Model;
 use crate::motion::advance_motion;
-use crate::state::{Scratch, State};
+use crate::part::NodalField;
+use crate::state::State;
 
 /// States that a run keeps in memory for a request, beyond the ladder for the labels.
 pub fn n_states(request: &SnapshotRequest) -> usize {
@@ -21,13 +22,13 @@ pub(crate) fn n_kept(n_snapshots: usize) -> usize {
     n_snapshots.max(16).saturating_mul(4)
 }
 
-/// Overwrites a snapshot with the state at t_n, whose forces are in
-/// `scratch`; buffers are used again.
+/// Overwrites a snapshot with the state at t_n, whose forces (N) are these;
+/// buffers are used again.
 pub(crate) fn take(
     snapshot: &mut Snapshot,
     model: &Model,
     state: &State,
-    scratch: &Scratch,
+    forces: &[NodalField; 2],
     approach: f64,
     label: Option<Label>,
 ) {
@@ -51,7 +52,7 @@ pub(crate) fn take(
         advance_motion(
             0.5 * model.time_step(),
             &body.inverse_mass,
-            &scratch.forces[side],
+            &forces[side],
             &mut fields.velocity,
             &mut fields.displacement,
         );
@@ -73,4 +74,15 @@ pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
     });
     let approach = model.approach().speed() * time - model.approach().gap();
     Snapshot { label: None, time, approach, bodies }
+}
+
+/// Whether a snapshot's fields are of the model's sizes.
+pub(crate) fn fits(snapshot: &Snapshot, model: &Model) -> bool {
+    snapshot.bodies.iter().zip(model.bodies()).all(|(fields, body)| {
+        let n = body.n_nodes();
+        let n_effective = if body.effective().is_some() { n } else { 0 };
+        fields.displacement.len() == n
+            && fields.velocity.len() == n
+            && fields.effective.len() == n_effective
+    })
 }

@@ -1,10 +1,14 @@
 //! What changes in a run.
 
+use fem_collision::Snapshot;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
 use crate::model::Model;
 use crate::part::{Motion, MotionMut, NodalField};
+
+/// More steps than any run does; so many are exact as a floating-point number.
+const MOST_STEPS: u64 = 1 << f64::MANTISSA_DIGITS;
 
 /// State of a body at time t_n.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,13 +31,15 @@ pub(crate) struct State {
     pub bodies: [BodyState; 2],
 }
 
-/// Forces of the present step; never read across steps.
+/// Forces of the present step, and buffers; never read across steps.
 #[derive(Debug, Clone)]
 pub(crate) struct Scratch {
     /// Nodal forces of both bodies, N.
     pub forces: [NodalField; 2],
     /// What the forces on nodes beside stress and contact add up to along +y, N.
     pub resultants: [f64; 2],
+    /// Snapshots that are not needed any more, to be overwritten.
+    pub pool: Vec<Snapshot>,
 }
 
 impl State {
@@ -49,10 +55,16 @@ impl State {
         Self { step: 0, time, bodies }
     }
 
-    /// Whether its fields are of the model's sizes.
+    /// Whether its fields are of the model's sizes, and its time that of its step.
     pub fn fits(&self, model: &Model) -> bool {
         let n_contact = model.contact().n_history();
-        self.bodies.iter().zip(model.bodies()).all(|(state, body)| state.fits(body, n_contact))
+        self.step <= MOST_STEPS
+            && self.time == model.time_after(self.step)
+            && self
+                .bodies
+                .iter()
+                .zip(model.bodies())
+                .all(|(state, body)| state.fits(body, n_contact))
     }
 
     /// Both bodies as their parts see them.
@@ -128,6 +140,6 @@ impl BodyState {
 impl Scratch {
     pub fn new(model: &Model) -> Self {
         let forces = model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]);
-        Self { forces, resultants: [0.0; 2] }
+        Self { forces, resultants: [0.0; 2], pool: Vec::new() }
     }
 }

@@ -24,7 +24,7 @@ pub(crate) fn update_forces(model: &Model, state: &State, scratch: &mut Scratch)
 /// Takes both bodies to the next time: the nodes, then what contact, stress and forces remember.
 pub(crate) fn advance(model: &Model, state: &mut State, scratch: &Scratch) {
     state.step += 1;
-    state.time = model.approach().first_touch() + state.step as f64 * model.time_step();
+    state.time = model.time_after(state.step);
     for side in 0..2 {
         let (body, forces) = (&model.bodies()[side], &scratch.forces[side]);
         advance_nodes(body, model.time_step(), &mut state.bodies[side], forces);

@@ -31,7 +31,7 @@ fn record(
 ) -> (Recorder, usize) {
     let mut recorder = Recorder::new(request, model, expectation(expected, CONTACT_TIME));
     let mut state = State::at_first_touch(model);
-    let scratch = Scratch::new(model);
+    let mut scratch = Scratch::new(model);
     let mut most = 0;
     for step in 0..=n_steps {
         let share = step as f64 / n_steps as f64;
@@ -43,8 +43,8 @@ fn record(
             is_first_contact: step == 1,
             is_last_contact: step == n_steps - 1,
         };
-        recorder.observe(model, &state, &scratch, now);
-        most = most.max(recorder.kept.len() + recorder.pool.len());
+        recorder.observe(model, &state, &mut scratch, now);
+        most = most.max(recorder.kept.len() + scratch.pool.len());
     }
     (recorder, most)
 }
@@ -133,7 +133,7 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
     let expected = expectation(1.0, CONTACT_TIME / 50.0);
     let mut recorder = Recorder::new(&SnapshotRequest::Count(5), &model, expected);
     let mut state = State::at_first_touch(&model);
-    let scratch = Scratch::new(&model);
+    let mut scratch = Scratch::new(&model);
     for step in 0..=5000 {
         state.time = model.approach().first_touch() + CONTACT_TIME * f64::from(step) / 5000.0;
         let now = Instant {
@@ -143,9 +143,9 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
             is_first_contact: step == 0,
             is_last_contact: step == 5000,
         };
-        recorder.observe(&model, &state, &scratch, now);
+        recorder.observe(&model, &state, &mut scratch, now);
         assert!(recorder.kept.len() <= n_kept(5));
-        assert!(recorder.kept.len() + recorder.pool.len() <= n_kept(5) + 1);
+        assert!(recorder.kept.len() + scratch.pool.len() <= n_kept(5) + 1);
     }
     let (snapshots, _) = recorder.finish();
     let times: Vec<_> = snapshots.iter().map(|s| s.time - model.approach().first_touch()).collect();

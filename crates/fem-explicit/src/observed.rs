@@ -1,0 +1,68 @@
+//! What a run observes of itself, whether or not anybody keeps the rows.
+//!
+//! A row takes a pass over all nodes and elements, so it is not made at every step: at the beginning
+//! and end of a contact, and at an even stride that follows from the expected contact alone. Extremes,
+//! integrals and means are those of these instants, the same for any number of rows that are kept.
+
+use fem_collision::{Aftermath, Cadence, Row, Scatter, Want, worst};
+use serde::{Deserialize, Serialize};
+
+use crate::state::State;
+
+/// What has been observed so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Observed {
+    cadence: Cadence,
+    /// Largest contact radius, m.
+    pub max_contact_radius: f64,
+    /// Largest contact pressure on the axis, Pa.
+    pub peak_pressure: f64,
+    /// Scatter of the contact force.
+    pub scatter: Scatter,
+    /// Since the last contact; `None` before the first one.
+    pub aftermath: Option<Aftermath>,
+    /// The last instant.
+    pub last: Option<Row>,
+}
+
+impl Observed {
+    /// Nothing yet of a contact of so many expected steps.
+    pub fn new(expected_steps: f64) -> Self {
+        Self {
+            cadence: Cadence::new(Want::ROWS, expected_steps),
+            max_contact_radius: 0.0,
+            peak_pressure: 0.0,
+            scatter: Scatter::default(),
+            aftermath: None,
+            last: None,
+        }
+    }
+
+    /// Whether this step is to be observed.
+    pub fn is_due(&self, step: u64) -> bool {
+        self.cadence.is_due(step)
+    }
+
+    /// Told of every step with a contact force, observed or not: what follows the last one begins
+    /// anew.
+    pub fn touch(&mut self) {
+        self.aftermath = Some(Aftermath::default());
+    }
+
+    /// Takes the balance of an instant, and whether the contact is closed in it.
+    pub fn take(&mut self, row: Row, is_closed: bool) {
+        self.cadence.count();
+        self.max_contact_radius = worst(self.max_contact_radius, row.contact_radius.unwrap_or(0.0));
+        self.peak_pressure = worst(self.peak_pressure, row.centre_pressure.unwrap_or(0.0));
+        self.scatter.observe(row.contact_force);
+        if let Some(aftermath) = &mut self.aftermath {
+            aftermath.observe(is_closed, row.vibration);
+        }
+        self.last = Some(row);
+    }
+
+    /// Whether it can be of a run at this state.
+    pub fn fits(&self, state: &State) -> bool {
+        self.cadence.is_sound() && self.last.is_none_or(|row| row.time <= state.time)
+    }
+}

@@ -1,0 +1,62 @@
+//! What a run leaves, as a collision.
+
+use fem_collision::{BodyResult, Book, Collision, Ending, History};
+
+use crate::memory::Memory;
+use crate::model::Model;
+
+/// The collision of a run that ended like this.
+pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collision {
+    let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
+    let is_complete = !matches!(ending, Ending::Stopped(_));
+    let velocity_after = observed.last.map(|row| row.velocity).filter(|_| is_complete);
+    let vibration_energy = observed
+        .aftermath
+        .filter(|_| is_complete)
+        .and_then(|aftermath| aftermath.vibration_energy());
+    let speed = model.approach().speed();
+    let bodies = [0, 1].map(|side: usize| {
+        let body = &model.bodies()[side];
+        let is_sphere = body.mesh().is_some();
+        BodyResult {
+            elements: Some(body.n_elements()),
+            nodes: Some(body.n_nodes()),
+            mass: is_sphere.then(|| body.mass()),
+            added_mass: is_sphere.then(|| body.added_mass()),
+            velocity_after: velocity_after.map(|both| both[side]),
+            vibration_energy: vibration_energy.filter(|_| is_sphere).map(|both| both[side]),
+        }
+    });
+    let ends = log.first_contact.zip(log.last_contact);
+    let (snapshots, warnings) = recorder.finish();
+    Collision {
+        approach: *model.approach(),
+        ending,
+        restitution: velocity_after.map(|[lower, upper]| (upper - lower) / speed),
+        // A contact that was left before its end has no duration.
+        contact_time: ends.filter(|_| is_complete).map(|(first, last)| last - first),
+        first_contact: log.first_contact,
+        last_contact: log.last_contact,
+        contact_episodes: log.episodes,
+        peak_force: Some(log.peak_force),
+        max_approach: Some(log.max_approach),
+        max_contact_radius: Some(observed.max_contact_radius),
+        peak_pressure: Some(observed.peak_pressure),
+        force_scatter: observed.scatter.force(),
+        searched: Some(model.searched()),
+        initial_energy: Some(ledger.initial),
+        energies: observed.last.map_or(Book::EMPTY, |row| row.energies),
+        residual: observed.last.and_then(|row| row.residual),
+        residual_relative: Some(ledger.worst_residual),
+        momentum_residual_relative: Some(ledger.worst_momentum),
+        bodies,
+        time_step: Some(model.time_step()),
+        steps: Some(state.step),
+        element_updates: Some(state.step.saturating_mul(model.n_elements() as u64)),
+        factor_bytes: None,
+        repeated_contact_solutions: None,
+        history: history.map_or_else(Vec::new, History::into_rows),
+        snapshots,
+        warnings,
+    }
+}
