@@ -13,6 +13,7 @@
 //! * [`Cadence`] says at which steps of a run something is observed, [`Aftermath`] and [`Scatter`]
 //!   what follows from it beside extremes.
 //! * [`Frame`] leads from the relative motion of two bodies to each of them.
+//! * [`Standstill`] tells bodies that stay together from those that are slow to part.
 //! * [`StressField`] is the stress recovered from a body's fields, [`StressRecovery`] the same for
 //!   many fields of one mesh.
 //!
@@ -35,6 +36,7 @@ mod row;
 mod scatter;
 mod searched;
 mod snapshot;
+mod standstill;
 mod stop;
 mod stress;
 mod want;
@@ -56,6 +58,7 @@ pub use row::Row;
 pub use scatter::Scatter;
 pub use searched::Searched;
 pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
+pub use standstill::{Held, Standstill};
 pub use stop::Stop;
 pub use stress::{StressField, StressRecovery, invariants};
 pub use want::{Expectation, Want};
