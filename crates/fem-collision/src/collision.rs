@@ -49,7 +49,9 @@ pub struct Collision {
     pub residual: Option<f64>,
     /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre.
     pub residual_relative: Option<f64>,
-    /// Worst drift of momentum over Σ m|v| at the start.
+    /// Worst drift of momentum over Σ m|v| at the start, or of the momentum that the bodies have
+    /// exchanged from the impulse of the contact force. `None` of one degree of freedom, from which
+    /// both velocities follow because momentum is kept: that cannot fail.
     pub momentum_residual_relative: Option<f64>,
     /// Lower and upper body.
     pub bodies: [BodyResult; 2],

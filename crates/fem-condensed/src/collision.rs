@@ -27,8 +27,9 @@ impl CondensedPair {
     /// bodies, lower first; `None` is elastic. `n_steps` steps over the elastic contact time.
     ///
     /// # Errors
-    /// As [`CondensedPair::collide`]; a speed that is not positive and finite; whatever stops a collision before its end: a contact beyond
-    /// the condensed region, bodies that do not part within the time.
+    /// As [`CondensedPair::collide`]; a speed that is not positive and finite; whatever stops a
+    /// collision before its end: a contact beyond the condensed region, bodies that neither part nor
+    /// come to rest within the time.
     pub fn impact(
         &self,
         speed: f64,

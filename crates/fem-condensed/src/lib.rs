@@ -70,6 +70,7 @@ mod peak;
 mod points;
 mod pressure;
 mod run;
+mod sample;
 mod settings;
 mod shear;
 mod side;

@@ -1,24 +1,21 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Account, Book, Collision, Ending, Frame, History, Losses, Monitor, Progress, Row,
-    STAY_TOGETHER, Stop, Want,
+    Account, Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, Losses,
+    Monitor, Progress, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill, Stop, Want,
+    worst,
 };
 
 use crate::instants::Trace;
 use crate::motion::{Energies, Motion};
 use crate::pair::CondensedPair;
 use crate::peak::Peak;
+use crate::sample::Sample;
 
-/// The run goes on for this share of the contact time after the last contact.
-const FLIGHT_AFTER: f64 = 0.2;
-
-/// Mechanical energy over the initial below which bodies in contact stay together: it could part
-/// them with a restitution of 1e-4.
-const NOTHING_LEFT: f64 = 1e-8;
 /// Energy that does not add up over the initial: the run is no longer one.
 const LARGEST_IMBALANCE: f64 = 0.1;
-const STEPS_BETWEEN_REPORTS: u64 = 64;
+/// Bodies may take so many times as long to part as they came closer.
+const SLOWEST_PARTING: f64 = 2.0;
 
 /// A collision under way.
 pub(crate) struct Run<'a> {
@@ -31,14 +28,19 @@ pub(crate) struct Run<'a> {
     episodes: u64,
     was_closed: bool,
     losses: Losses,
+    /// ∫F dt, N s, by the trapezoidal rule, as the steps have it.
+    impulse: f64,
     worst_residual: f64,
-    worst_drift: f64,
+    worst_momentum: f64,
     approach: Peak,
     force: Peak,
+    scatter: Scatter,
     max_radius: f64,
     max_pressure: f64,
-    vibration_after: [f64; 2],
-    n_after: usize,
+    aftermath: Aftermath,
+    standstill: Standstill,
+    /// Since when the bodies no longer approach each other, after first touch, s.
+    turned: f64,
     /// Since first touch, s.
     give_up: f64,
     expected_end: f64,
@@ -56,66 +58,6 @@ pub(crate) struct Finished {
     pub trace: Vec<Trace>,
 }
 
-/// One instant of the relative motion.
-#[derive(Debug, Clone, Copy)]
-struct Sample {
-    /// Since first touch, s.
-    time: f64,
-    contact_force: f64,
-    contact_radius: f64,
-    approach: f64,
-    centre_pressure: f64,
-    rate: f64,
-    strain: f64,
-    contact: f64,
-    dissipated: f64,
-    residual: f64,
-    vibration: [f64; 2],
-}
-
-impl Sample {
-    /// The end of the contact between two steps, where the force is zero; the rest linearly.
-    fn between(before: &Self, after: &Self, time: f64) -> Self {
-        let part = (time - before.time) / (after.time - before.time);
-        let mean = |get: fn(&Self) -> f64| (1.0 - part) * get(before) + part * get(after);
-        Self {
-            time,
-            contact_force: 0.0,
-            contact_radius: 0.0,
-            centre_pressure: 0.0,
-            approach: mean(|sample| sample.approach),
-            rate: mean(|sample| sample.rate),
-            strain: mean(|sample| sample.strain),
-            contact: mean(|sample| sample.contact),
-            dissipated: mean(|sample| sample.dissipated),
-            residual: mean(|sample| sample.residual),
-            vibration: [0, 1]
-                .map(|side| (1.0 - part) * before.vibration[side] + part * after.vibration[side]),
-        }
-    }
-
-    /// The same of both bodies.
-    fn row(&self, frame: &Frame) -> Row {
-        let [lower, upper] = self.vibration;
-        Row {
-            time: frame.approach.first_touch() + self.time,
-            contact_force: self.contact_force,
-            contact_radius: Some(self.contact_radius),
-            approach: self.approach,
-            centre_pressure: Some(self.centre_pressure),
-            velocity: frame.velocities(self.rate),
-            energies: Book::EMPTY
-                .with(Account::Kinetic, frame.kinetic(self.rate) + lower + upper)
-                .with(Account::Strain, self.strain)
-                .with(Account::Contact, self.contact)
-                .with(Account::ViscousDissipation, self.dissipated)
-                .with(Account::WallWork, frame.wall_work(self.rate)),
-            residual: Some(self.residual),
-            vibration: self.vibration,
-        }
-    }
-}
-
 impl<'a> Run<'a> {
     pub fn new(
         pair: &'a CondensedPair,
@@ -125,25 +67,27 @@ impl<'a> Run<'a> {
         n_steps: usize,
         elastic_contact_time: f64,
     ) -> Self {
-        let speed = frame.speed();
         Self {
             give_up: want.give_up_after * elastic_contact_time,
             expected_end: (1.0 + FLIGHT_AFTER) * elastic_contact_time,
-            initial_energy: 0.5 * pair.reduced_mass * speed * speed,
+            initial_energy: frame.initial(),
             pair,
             frame,
             last_contact: 0.0,
             episodes: 0,
             was_closed: false,
             losses: Losses::default(),
+            impulse: 0.0,
             worst_residual: 0.0,
-            worst_drift: 0.0,
+            worst_momentum: 0.0,
             approach: Peak::default(),
             force: Peak::default(),
+            scatter: Scatter::default(),
             max_radius: 0.0,
             max_pressure: 0.0,
-            vibration_after: [0.0; 2],
-            n_after: 0,
+            aftermath: Aftermath::default(),
+            standstill: Standstill::new(frame),
+            turned: 0.0,
             history: (want.history_rows > 0)
                 .then(|| History::new(want.history_rows, n_steps as f64)),
             last: None,
@@ -191,7 +135,7 @@ impl<'a> Run<'a> {
         self.episodes += u64::from(is_closed && !self.was_closed);
         self.was_closed = is_closed;
         let before = self.last;
-        let mechanical = self.record();
+        let stays = self.record();
         if let (true, Some(before), Some(after)) = (opens, before, self.last) {
             let end = Sample::between(&before, &after, self.last_contact);
             self.opening = Some([before, end, after]);
@@ -200,7 +144,7 @@ impl<'a> Run<'a> {
         if !is_closed && self.motion.rate < 0.0 && flight >= FLIGHT_AFTER * self.last_contact {
             return Ok(Some(Ending::Parted));
         }
-        if is_closed && mechanical < NOTHING_LEFT * self.initial_energy {
+        if stays {
             return Ok(Some(Ending::Together));
         }
         // An imbalance that is no number is above every limit.
@@ -210,7 +154,7 @@ impl<'a> Run<'a> {
             let relative = self.worst_residual;
             return Err(Stop::EnergyImbalance { time: time_of_case, relative });
         }
-        if time > self.give_up {
+        if time > self.give_up && time > (1.0 + SLOWEST_PARTING) * self.turned {
             return Err(Stop::NoSeparation { time: time_of_case, step });
         }
         if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
@@ -227,53 +171,61 @@ impl<'a> Run<'a> {
         Ok(None)
     }
 
-    /// Observes a step; its mechanical energy, J.
-    fn record(&mut self) -> f64 {
+    /// Observes a step; whether the bodies stay together.
+    fn record(&mut self) -> bool {
         let motion = &self.motion;
+        let (time, rate) = (motion.time(), motion.rate);
         self.approach.observe(motion.approach);
         self.force.observe(motion.force);
+        self.scatter.observe(motion.force);
+        if rate > 0.0 {
+            self.turned = time;
+        }
         let Energies { stored, contact, power, vibration } = motion.energies();
         self.losses.advance(motion.time_step, Book::EMPTY.with(Account::ViscousDissipation, power));
         let dissipated =
             self.losses.energies().get(Account::ViscousDissipation).unwrap_or_default();
         let [lower, upper] = vibration;
-        let kinetic = 0.5 * self.pair.reduced_mass * motion.rate * motion.rate + lower + upper;
-        let mechanical = kinetic + stored + contact;
-        let residual = mechanical + dissipated - self.initial_energy;
-        let relative = residual.abs() / self.initial_energy;
-        if relative > self.worst_residual || relative.is_nan() {
-            self.worst_residual = relative;
+        let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
+        let residual = kinetic + stored + contact + dissipated - self.initial_energy;
+        self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
+        if let Some(before) = &self.last {
+            self.impulse += 0.5 * motion.time_step * (before.contact_force + motion.force);
         }
+        let drift = self.frame.momentum_residual(rate, self.impulse);
+        self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
             self.pair.radius_and_pressure(&motion.contact, &motion.forces);
-        self.max_radius = self.max_radius.max(contact_radius);
-        self.max_pressure = self.max_pressure.max(centre_pressure);
-        if self.episodes > 0 && !self.was_closed {
-            self.n_after += 1;
-            for (sum, energy) in self.vibration_after.iter_mut().zip(vibration) {
-                *sum += energy;
-            }
+        self.max_radius = worst(self.max_radius, contact_radius);
+        self.max_pressure = worst(self.max_pressure, centre_pressure);
+        if self.episodes > 0 {
+            self.aftermath.observe(self.was_closed, vibration);
         }
         self.trace.push(Trace { approach: motion.approach, is_closed: self.was_closed });
+        let sample = Sample {
+            time,
+            contact_force: motion.force,
+            contact_radius,
+            approach: motion.approach,
+            centre_pressure,
+            rate,
+            strain: stored,
+            contact,
+            dissipated,
+            residual,
+            vibration,
+        };
         if let Some(history) = &mut self.history {
-            let sample = Sample {
-                time: motion.time(),
-                contact_force: motion.force,
-                contact_radius,
-                approach: motion.approach,
-                centre_pressure,
-                rate: motion.rate,
-                strain: stored,
-                contact,
-                dissipated,
-                residual,
-                vibration,
-            };
             history.follow(motion.step as u64, self.was_closed, sample.row(self.frame));
-            self.last = Some(sample);
         }
-        self.worst_drift = self.worst_drift.max(self.frame.momentum_drift(motion.rate));
-        mechanical
+        self.last = Some(sample);
+        self.standstill.observe(&Held {
+            time,
+            is_closed: self.was_closed,
+            force: motion.force,
+            rate,
+            inner_energy: lower + upper + stored + contact,
+        })
     }
 
     fn finish(self, ending: Ending) -> Finished {
@@ -287,24 +239,24 @@ impl<'a> Run<'a> {
         };
         let velocity_after = restitution.map(|e| frame.velocities(-e * frame.speed()));
         let mut bodies = self.pair.bodies_before(frame);
+        let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);
-            // Half of a vibration's energy is kinetic, on the mean.
-            let mean = 2.0 * self.vibration_after[side] / self.n_after.max(1) as f64;
             let is_sphere = self.pair.inputs()[side].mesh().is_some();
-            body.vibration_energy = (is_sphere && is_parted).then_some(mean);
+            body.vibration_energy = vibration_energy.filter(|_| is_sphere).map(|both| both[side]);
         }
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
         let mut history = self.history.map(History::into_rows).unwrap_or_default();
-        if let Some([before, end, after]) = self.opening.filter(|_| is_parted)
+        if !history.is_empty()
+            && is_parted
+            && let Some([before, end, after]) = self.opening
             && before.time < end.time
             && end.time < after.time
         {
             let place = history.partition_point(|row| row.time < first_touch + end.time);
             history.insert(place, end.row(frame));
         }
-        let end = history.last();
         let collision = Collision {
             approach: frame.approach,
             restitution,
@@ -316,13 +268,13 @@ impl<'a> Run<'a> {
             max_approach: Some(self.approach.highest),
             max_contact_radius: Some(self.max_radius),
             peak_pressure: Some(self.max_pressure),
-            force_scatter: None,
+            force_scatter: self.scatter.force(),
             searched: Some(self.pair.searched()),
             initial_energy: Some(frame.kinetic(frame.speed())),
-            energies: end.map_or(Book::EMPTY, |row| row.energies),
-            residual: end.and_then(|row| row.residual),
+            energies: self.last.map_or(Book::EMPTY, |end| end.energies(frame)),
+            residual: self.last.map(|end| end.residual),
             residual_relative: Some(self.worst_residual),
-            momentum_residual_relative: Some(self.worst_drift),
+            momentum_residual_relative: Some(self.worst_momentum),
             bodies,
             time_step: Some(motion.time_step),
             steps: Some(motion.step as u64),

@@ -48,10 +48,12 @@ impl Findings {
         self.quantities.insert(quantity.into(), value);
     }
 
-    /// The larger of a quantity so far and a value; NaN stays.
+    /// The larger of a quantity so far and a value, signs counted; NaN stays.
     pub fn measure_worst(&mut self, quantity: &str, value: f64) {
-        let worst = self.quantities.entry(quantity.to_string()).or_insert(value);
-        *worst = worse(*worst, value);
+        let largest = self.quantities.entry(quantity.to_string()).or_insert(value);
+        if value > *largest || value.is_nan() {
+            *largest = value;
+        }
     }
 
     /// Charts side by side; nothing if they have no points.
@@ -74,11 +76,6 @@ impl Findings {
             rows: rows.into_iter().map(|row| row.to_vec()).collect(),
         });
     }
-}
-
-/// The larger of a worst so far and a value; NaN stays.
-pub(crate) fn worse(so_far: f64, value: f64) -> f64 {
-    if so_far.is_nan() || value <= so_far { so_far } else { value }
 }
 
 #[cfg(test)]

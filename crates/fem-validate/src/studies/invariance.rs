@@ -5,8 +5,10 @@
 //! difference of results, and of the contact force in any row of the history over the peak;
 //! `NAME.pressure` that of the largest pressure, which is read at the nodes of one body.
 
+use fem_collision::worst;
+
 use crate::error::StudyError;
-use crate::findings::{Findings, worse};
+use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use crate::run::Run;
 
@@ -60,5 +62,5 @@ fn difference(run: &Run, plain: &Run) -> f64 {
     let forces = ours.iter().zip(&theirs).map(|(ours, theirs)| (ours - theirs).abs());
     let results = results(run).into_iter().zip(results(plain));
     let all = forces.chain(results.map(|(ours, theirs)| (ours / theirs - 1.0).abs()));
-    all.fold(0.0, worse)
+    all.fold(0.0, worst)
 }

@@ -9,13 +9,14 @@
 
 use std::f64::consts::PI;
 
+use fem_collision::worst;
 use fem_explicit::FreeMotion;
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side, SphereMesh};
 use serde::Deserialize;
 
 use crate::error::StudyError;
-use crate::findings::{Findings, worse};
+use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
 #[derive(Deserialize)]
@@ -77,7 +78,7 @@ fn look(findings: &mut Findings, mut sphere: FreeMotion) {
         let exact = [-1.0, -1.0, -1.0, 0.0];
         let differences =
             stress.iter().flat_map(|s| s.iter().zip(exact).map(|(s, exact)| (s - exact).abs()));
-        differences.fold(0.0, worse)
+        differences.fold(0.0, worst)
     };
     findings.measure_worst("stress", off(&stress.cells));
     findings.measure_worst("recovered", off(&stress.points));
@@ -111,5 +112,5 @@ fn inside_of_axis(sphere: &FreeMotion, mut forces: Vec<[f64; 2]>) -> Vec<[f64; 2
 }
 
 fn largest(field: &[[f64; 2]]) -> f64 {
-    field.iter().map(|f| f[0].hypot(f[1])).fold(0.0, worse)
+    field.iter().map(|f| f[0].hypot(f[1])).fold(0.0, worst)
 }

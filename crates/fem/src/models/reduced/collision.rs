@@ -1,7 +1,7 @@
 //! From a relative motion to what is asked of every model.
 
 use fem_collision::{
-    Account, BodyResult, Book, Collision, Ending, Frame, Row, STAY_TOGETHER, Want,
+    Account, BodyResult, Book, Collision, Ending, Frame, Row, STAY_TOGETHER, Want, worst,
 };
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
@@ -23,8 +23,7 @@ pub(super) fn of_impact(
     let rows = Rows { frame, has_radius };
     let after = frame.velocities(-impact.restitution * frame.speed());
     let instants = || impact.history.iter();
-    let residual = |instant| rows.row(instant).residual.map_or(0.0, f64::abs);
-    let drift = |instant: &ImpactInstant| frame.momentum_drift(instant.approach_rate);
+    let residual = |instant| rows.row(instant).residual.unwrap_or(0.0);
     let is_together = impact.contact_time.is_none();
     let first_touch = frame.approach.first_touch();
     let end = impact.history.last().map(|instant| rows.row(instant));
@@ -45,8 +44,8 @@ pub(super) fn of_impact(
         initial_energy: Some(frame.kinetic(frame.speed())),
         energies: end.map_or(Book::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
-        residual_relative: Some(instants().map(residual).fold(0.0, worse) / frame.initial()),
-        momentum_residual_relative: Some(instants().map(drift).fold(0.0, worse)),
+        residual_relative: Some(instants().map(residual).fold(0.0, worst) / frame.initial()),
+        momentum_residual_relative: None,
         bodies: [0, 1].map(|side: usize| BodyResult {
             mass: frame.masses[side],
             velocity_after: Some(after[side]),
@@ -113,9 +112,4 @@ impl Rows<'_> {
             vibration: [0.0; 2],
         }
     }
-}
-
-/// The larger of two; NaN wins, so that it cannot pass unseen.
-fn worse(so_far: f64, value: f64) -> f64 {
-    if so_far.is_nan() || value <= so_far { so_far } else { value }
 }
