@@ -4,8 +4,9 @@
 //! \text{residual} = \sum \text{held} + \sum \text{lost} - E_0 - \sum \text{given}
 //! ```
 //!
-//! An account is one variant here and one line in [`LINES`]; what fills it is the part of a model that
-//! knows the energy. An account that nobody fills is absent: blank in a history, null in a summary.
+//! An account is one variant here and one line in [`LINES`], from which summaries, histories, sweeps
+//! and reports take it; what fills it is the part of a model that knows the energy. An account that
+//! nobody fills is blank in a history and null in a summary, or absent from both: [`Shown`].
 
 use serde::{Deserialize, Serialize};
 
@@ -35,13 +36,26 @@ pub enum Side {
     Given,
 }
 
-/// Each account, its name in files, its side; in the order in which a balance adds them up.
-const LINES: [(Account, &str, Side); 5] = [
-    (Account::Kinetic, "kinetic", Side::Held),
-    (Account::Strain, "strain", Side::Held),
-    (Account::Contact, "contact", Side::Held),
-    (Account::ViscousDissipation, "viscous_dissipation", Side::Lost),
-    (Account::WallWork, "wall_work", Side::Given),
+/// Which files show an account.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// Every summary and every history.
+    Always,
+    /// Every summary, and no history.
+    InSummary,
+    /// The summary, history and report of a collision that fills it, and no other: the account of an
+    /// effect. Its column stands behind those that every history has.
+    WhereFilled,
+}
+
+/// Each account, its name in files, its side, the files that show it; in the order in which a balance
+/// adds them up.
+const LINES: &[(Account, &str, Side, Shown)] = &[
+    (Account::Kinetic, "kinetic", Side::Held, Shown::Always),
+    (Account::Strain, "strain", Side::Held, Shown::Always),
+    (Account::Contact, "contact", Side::Held, Shown::Always),
+    (Account::ViscousDissipation, "viscous_dissipation", Side::Lost, Shown::Always),
+    (Account::WallWork, "wall_work", Side::Given, Shown::InSummary),
 ];
 
 impl Account {
@@ -58,6 +72,11 @@ impl Account {
     /// Its side of the balance.
     pub fn side(self) -> Side {
         LINES[self as usize].2
+    }
+
+    /// Which files show it.
+    pub fn shown(self) -> Shown {
+        LINES[self as usize].3
     }
 }
 
@@ -98,6 +117,17 @@ impl Book {
         Account::all().zip(self.0).filter_map(|(account, energy)| Some((account, energy?)))
     }
 
+    /// Whether an account is filled.
+    pub fn has(&self, account: Account) -> bool {
+        self.get(account).is_some()
+    }
+
+    /// What is in all accounts of a side, J; `None` if none of them is filled.
+    pub fn total(&self, side: Side) -> Option<f64> {
+        let own = self.entries().filter(|(account, _)| account.side() == side);
+        own.map(|(_, energy)| energy).reduce(|sum, energy| sum + energy)
+    }
+
     /// What does not add up, J: held and lost less what was there at the start (J) and what was given
     /// since.
     pub fn residual(&self, initial: f64) -> f64 {
@@ -132,6 +162,8 @@ mod tests {
         assert_eq!(book.get(Account::Kinetic), Some(2.5));
         assert_eq!(book.get(Account::Strain), None);
         assert_eq!(book.entries().count(), 3);
+        assert_eq!(book.total(Side::Held), Some(2.5));
+        assert_eq!(Book::EMPTY.total(Side::Held), None);
     }
 
     #[test]

@@ -42,7 +42,7 @@ mod stress;
 mod want;
 mod worst;
 
-pub use account::{Account, Book, Side};
+pub use account::{Account, Book, Shown, Side};
 pub use aftermath::{Aftermath, FLIGHT_AFTER};
 pub use approach::{Approach, ApproachError};
 pub use body_input::BodyInput;

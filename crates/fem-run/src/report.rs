@@ -7,6 +7,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::effects::Verdict;
 use fem::results::{BodySummary, Quantities, Summary};
 use fem_case::engineering::{Unit, show};
+use fem_collision::{Shown, Side};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::standard_output::one_line;
@@ -97,14 +98,20 @@ fn bodies(bodies: &[BodySummary]) -> String {
 
 fn balances(summary: &Summary) -> String {
     let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.1e}"));
-    let dissipated = summary.energy.viscous_dissipation_j;
+    let book = summary.energy.accounts.0;
+    let dissipated = book.total(Side::Lost);
+    let of_effects = book.entries().filter(|(account, _)| account.shown() == Shown::WhereFilled);
+    let of_effects = of_effects.map(|(account, energy)| {
+        format!("; {} {}", account.name().replace('_', " "), show(energy, "J"))
+    });
     let rows = [
         [
             "energy".to_string(),
             format!(
-                "residual {} of the initial; dissipated {}",
+                "residual {} of the initial; dissipated {}{}",
                 residual(summary.energy.residual_relative),
                 dissipated.map_or(NONE.into(), |energy| show(energy, "J")),
+                of_effects.collect::<String>(),
             ),
         ],
         ["momentum".into(), format!("residual {}", residual(summary.momentum_residual_relative))],

@@ -11,7 +11,7 @@ use fem::sweep::{
     COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, advice, column_unit,
     column_words, dearest_first, identify, left_to_do, sweep_csv,
 };
-use fem::{Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
+use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
 use fem_case::Sweep;
 
 const SPEEDS: [f64; 3] = [0.3, 0.1, 0.2];
@@ -261,7 +261,7 @@ fn rows_are_summaries() {
     assert!(row.is_complete());
     assert_eq!(row.value("restitution").as_f64(), summary.collision.restitution);
     assert_eq!(row.value("hertz_peak_force_n").as_f64(), summary.hertz.peak_force_n);
-    assert_eq!(row.value("energy_kinetic_j").as_f64(), summary.energy.kinetic_j);
+    assert_eq!(row.value("energy_kinetic_j").as_f64(), summary.energy.get(Account::Kinetic));
     let n_elements: usize = summary.bodies.iter().filter_map(|body| body.elements).sum();
     assert_eq!(row.value("elements").as_u64(), Some(n_elements as u64));
     assert_eq!(row.value("warnings").as_u64(), Some(summary.warnings.len() as u64));

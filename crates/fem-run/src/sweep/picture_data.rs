@@ -107,7 +107,8 @@ impl Choice {
 }
 
 fn column(sweep: &Sweep, k: usize, name: &str) -> Result<&'static str, CaseError> {
-    let numbers = || COLUMNS.iter().copied().filter(|column| !NOT_NUMBERS.contains(column));
+    let columns = || COLUMNS.iter().map(String::as_str);
+    let numbers = || columns().filter(|column| !NOT_NUMBERS.contains(column));
     numbers().find(|column| *column == name).ok_or_else(|| {
         let list: Vec<_> = numbers().collect();
         sweep
@@ -136,7 +137,7 @@ pub fn curves(
     column: &str,
 ) -> Vec<Curve> {
     let hertz_column = format!("hertz_{column}");
-    let has_hertz = COLUMNS.contains(&hertz_column.as_str());
+    let has_hertz = COLUMNS.contains(&hertz_column);
     let mut curves: Vec<Curve> = Vec::new();
     for row in rows.iter().filter(|row| row.is_complete()) {
         let label = label(sweep, row.index, choice, x.axis);

@@ -2,6 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use fem::results::energy_key;
+use fem::sweep::COLUMNS;
+use fem_collision::{Account, Shown};
+
 use crate::common::Place;
 use crate::pages::Page;
 
@@ -23,11 +27,43 @@ fn keys_of_a_summary_are_those_of_the_page() {
     let (_, listed) = page.first_columns("key").remove(0);
     assert_eq!(BTreeSet::from_iter(listed), keys(&summary, ""));
     // The second cell of a row names the keys of an object, and none that is not there.
-    for (row, pointer) in [("energy", "/energy"), ("bodies", "/bodies/0"), ("cost", "/cost")] {
-        let mut rows = page.text.lines().filter(|line| line.starts_with(&format!("| `{row}` |")));
-        let row = rows.next().unwrap().splitn(3, '|').nth(2).unwrap();
-        let named = row.split('`').skip(1).step_by(2).map(String::from);
+    for (row, pointer) in [("bodies", "/bodies/0"), ("cost", "/cost")] {
+        let named = named_in_row(&page, row);
         assert_eq!(BTreeSet::from_iter(named), keys(&summary, pointer), "{pointer}");
+    }
+}
+
+/// What is in code in the second cell of the row of a key.
+fn named_in_row(page: &Page, key: &str) -> Vec<String> {
+    let mut rows = page.text.lines().filter(|line| line.starts_with(&format!("| `{key}` |")));
+    let row = rows.next().unwrap().splitn(3, '|').nth(2).unwrap();
+    row.split('`').skip(1).step_by(2).map(String::from).collect()
+}
+
+/// The page names every account of energy in the order of the table of accounts, and a summary has
+/// them in this order; but for those that only a run has that fills them.
+#[test]
+fn energies_are_those_of_the_accounts() {
+    let (page, place) = page_and_result();
+    let named = named_in_row(&page, "energy");
+    let accounts = Account::all().map(energy_key);
+    let of_table = ["initial_j".to_string()].into_iter().chain(accounts);
+    let of_table: Vec<_> =
+        of_table.chain(["residual_j", "residual_relative"].map(String::from)).collect();
+    assert_eq!(named, of_table);
+    let is_optional = |key: &String| {
+        Account::all().any(|one| energy_key(one) == *key && one.shown() == Shown::WhereFilled)
+    };
+    let summary = place.json("runs/case/summary.json");
+    let written: Vec<&String> = summary["energy"].as_object().unwrap().keys().collect();
+    let expected: Vec<&String> =
+        named.iter().filter(|key| !is_optional(key) || written.contains(key)).collect();
+    assert_eq!(written, expected);
+    // Sweeps have a column of each.
+    let sweeps = Page::load("docs/sweeps.md");
+    for key in of_table {
+        assert!(sweeps.code().iter().any(|code| code.text == key), "docs/sweeps.md has no {key}");
+        assert!(COLUMNS.contains(&format!("energy_{key}")), "sweep.csv has no {key}");
     }
 }
 

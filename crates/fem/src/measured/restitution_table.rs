@@ -85,7 +85,8 @@ pub(super) fn read_rows(
         |name| {
             // A sweep's keys have points in their names; they are the same in all rows here.
             name.contains('.')
-                || [COLUMNS, &WRITTEN, &CONTACT_TIMES].iter().any(|known| known.contains(&name))
+                || COLUMNS.iter().any(|known| known == name)
+                || [&WRITTEN[..], &CONTACT_TIMES].iter().any(|known| known.contains(&name))
         },
     )?;
     let (mut points, mut rows) = (Vec::new(), Vec::new());

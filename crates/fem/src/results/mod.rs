@@ -1,6 +1,7 @@
 //! What is kept of a collision: names, order and units of a summary's keys, of a history's columns
 //! and of a snapshot's arrays.
 
+mod energy;
 #[cfg(feature = "files")]
 mod history;
 #[cfg(feature = "files")]
@@ -8,9 +9,10 @@ mod snapshots;
 mod summarise;
 mod summary;
 
+pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use history::{HISTORY_FILE, history_csv};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summarise::Spent;
-pub use summary::{BodySummary, CostSummary, Energy, PROGRAM, Quantities, SUMMARY_FILE, Summary};
+pub use summary::{BodySummary, CostSummary, PROGRAM, Quantities, SUMMARY_FILE, Summary};

@@ -1,9 +1,10 @@
 //! From a collision to its summary.
 
-use fem_collision::{Account, Collision};
+use fem_collision::{Book, Collision};
 use fem_laws::HertzImpact;
 
-use super::summary::{BodySummary, CostSummary, Energy, PROGRAM, Quantities, Summary};
+use super::energy::{Accounts, Energy, energy_key};
+use super::summary::{BodySummary, CostSummary, PROGRAM, Quantities, Summary};
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 
@@ -18,7 +19,7 @@ pub struct Spent {
     pub solve: f64,
     /// Threads that the run used.
     pub threads: usize,
-    /// Of the process, bytes.
+    /// Largest memory of the process, bytes.
     pub peak_memory: Option<u64>,
 }
 
@@ -120,21 +121,18 @@ fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
 }
 
 fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
-    let last = collision.history.last();
-    let in_account = |account| last.and_then(|row| row.energy(account));
-    let mut at_end = |key: &str, value: Option<f64>| numbers.finite_if_any(key, value);
+    let mut at_end =
+        |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("energy.{key}"), value);
+    let initial_j = at_end("initial_j", collision.initial_energy);
+    let accounts = collision.energies.entries().fold(Book::EMPTY, |book, (account, energy)| {
+        let finite = at_end(&energy_key(account), Some(energy));
+        finite.map_or(book, |energy| book.with(account, energy))
+    });
     Energy {
-        initial_j: at_end("energy.initial_j", collision.initial_energy),
-        kinetic_j: at_end("energy.kinetic_j", in_account(Account::Kinetic)),
-        strain_j: at_end("energy.strain_j", in_account(Account::Strain)),
-        contact_j: at_end("energy.contact_j", in_account(Account::Contact)),
-        viscous_dissipation_j: at_end(
-            "energy.viscous_dissipation_j",
-            in_account(Account::ViscousDissipation),
-        ),
-        wall_work_j: at_end("energy.wall_work_j", in_account(Account::WallWork)),
-        residual_j: at_end("energy.residual_j", last.and_then(|row| row.residual)),
-        residual_relative: at_end("energy.residual_relative", collision.residual_relative),
+        initial_j,
+        accounts: Accounts(accounts),
+        residual_j: at_end("residual_j", collision.residual),
+        residual_relative: at_end("residual_relative", collision.residual_relative),
     }
 }
 

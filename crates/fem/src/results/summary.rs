@@ -3,6 +3,7 @@
 use fem_case::CaseFile;
 use serde::Serialize;
 
+use super::energy::Energy;
 use crate::effects::Verdict;
 
 /// The name of the file.
@@ -18,7 +19,7 @@ pub struct Summary {
     pub collision: Quantities,
     /// Closed contacts, openings in between not counted.
     pub contact_episodes: u64,
-    /// The same quantities from Hertz with instantaneous moduli.
+    /// What Hertz' theory says of these quantities, with instantaneous moduli.
     pub hertz: Quantities,
     /// The ledger at the end of the run.
     pub energy: Energy,
@@ -67,27 +68,6 @@ pub struct Quantities {
     pub max_contact_radius_m: Option<f64>,
     /// Largest pressure on the axis.
     pub peak_pressure_pa: Option<f64>,
-}
-
-/// The ledger at the end of the run.
-#[derive(Clone, Debug, Serialize)]
-pub struct Energy {
-    /// At the start, walls not counted.
-    pub initial_j: Option<f64>,
-    /// Motion of the bodies, walls not counted.
-    pub kinetic_j: Option<f64>,
-    /// Held by the bodies or the law.
-    pub strain_j: Option<f64>,
-    /// Held by penalty springs.
-    pub contact_j: Option<f64>,
-    /// Lost in the bodies or the law.
-    pub viscous_dissipation_j: Option<f64>,
-    /// Work that a moving wall has done.
-    pub wall_work_j: Option<f64>,
-    /// What does not add up.
-    pub residual_j: Option<f64>,
-    /// Worst imbalance over the run / initial kinetic energy in the centre-of-mass frame.
-    pub residual_relative: Option<f64>,
 }
 
 /// One body; a wall has no mass and no vibration, a reduced model no elements.

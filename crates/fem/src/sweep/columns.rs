@@ -1,10 +1,15 @@
 //! The columns of `sweep.csv` that come from a member's summary, and what is in them.
 
+use std::sync::LazyLock;
+
+use fem_collision::{Account, Shown};
 use serde_json::Value;
 
-/// Names and order of the columns; `hertz_` and `energy_` are the summary's objects of that name.
-/// What the run took (`cost`) differs from run to run and stays in the member's summary.
-pub const COLUMNS: &[&str] = &[
+use super::row::Row;
+use crate::results::energy_key;
+
+/// Before the accounts of energy.
+const FIRST: [&str; 13] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -18,13 +23,9 @@ pub const COLUMNS: &[&str] = &[
     "hertz_max_approach_m",
     "hertz_max_contact_radius_m",
     "hertz_peak_pressure_pa",
-    "energy_initial_j",
-    "energy_kinetic_j",
-    "energy_strain_j",
-    "energy_contact_j",
-    "energy_viscous_dissipation_j",
-    "energy_wall_work_j",
-    "energy_residual_j",
+];
+/// After the accounts of energy.
+const LAST: [&str; 9] = [
     "energy_residual_relative",
     "momentum_residual_relative",
     "elements",
@@ -35,6 +36,41 @@ pub const COLUMNS: &[&str] = &[
     "stopped_because",
     "warnings",
 ];
+
+/// Names and order of all columns that a table can have; `hertz_` and `energy_` are the summary's
+/// objects of that name. What the run took (`cost`) differs from run to run and stays in the member's
+/// summary.
+pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
+    let accounts = Account::all().map(|account| column_of(&energy_key(account)));
+    let energies = [column_of("initial_j")].into_iter().chain(accounts);
+    let energies = energies.chain([column_of("residual_j")]);
+    own(&FIRST).chain(energies).chain(own(&LAST)).collect()
+});
+
+/// The columns of a table of these rows: all but those of energies that none of the rows knows of.
+pub fn columns(rows: &[Row]) -> Vec<&'static str> {
+    columns_shown(rows, Account::shown)
+}
+
+fn columns_shown(rows: &[Row], shown: fn(Account) -> Shown) -> Vec<&'static str> {
+    let is_absent = |account: Account| {
+        let key = energy_key(account);
+        shown(account) == Shown::WhereFilled
+            && rows.iter().all(|row| row.summary["energy"].get(&key).is_none())
+    };
+    let absent: Vec<String> = Account::all()
+        .filter(|account| is_absent(*account))
+        .map(|account| column_of(&energy_key(account)))
+        .collect();
+    COLUMNS.iter().filter(|column| !absent.contains(column)).map(String::as_str).collect()
+}
+
+/// The column of a key of the summary's energies.
+fn column_of(energy_key: &str) -> String {
+    format!("energy_{energy_key}")
+}
+
 /// Endings of column names and their units.
 const ENDINGS: [(&str, &str); 6] =
     [("_m_s", "m/s"), ("_pa", "Pa"), ("_n", "N"), ("_s", "s"), ("_m", "m"), ("_j", "J")];
@@ -67,4 +103,31 @@ pub fn column_words(column: &str) -> String {
 
 fn ending(column: &str) -> Option<(&'static str, &'static str)> {
     ENDINGS.into_iter().find(|(ending, _)| column.ends_with(ending))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn row(summary: Value) -> Row {
+        Row { index: 0, values: Vec::new(), identity: String::new(), summary }
+    }
+
+    /// An effect that stores what the springs of a contact do.
+    fn made_up(account: Account) -> Shown {
+        if account == Account::Contact { Shown::WhereFilled } else { account.shown() }
+    }
+
+    #[test]
+    fn an_energy_that_no_row_knows_of_has_no_column() {
+        let off = row(json!({ "energy": { "kinetic_j": 1.0 } }));
+        let on = row(json!({ "energy": { "kinetic_j": 1.0, "contact_j": 0.5 } }));
+        let has = |rows: &[Row]| columns_shown(rows, made_up).contains(&"energy_contact_j");
+        let both = [off, on];
+        assert!(!has(&[]) && !has(&both[..1]) && has(&both));
+        assert_eq!(columns_shown(&both[..1], made_up).len(), COLUMNS.len() - 1);
+        assert_eq!(columns(&[]), *COLUMNS);
+    }
 }

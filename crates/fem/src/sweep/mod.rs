@@ -25,7 +25,7 @@ mod table;
 mod variations;
 
 pub use advice::advice;
-pub use columns::{COLUMNS, column_unit, column_words};
+pub use columns::{COLUMNS, column_unit, column_words, columns};
 pub use identity::{Member, identify};
 pub use in_code::sweep;
 pub use members::Members;
@@ -36,3 +36,5 @@ pub use runner::Runner;
 #[cfg(feature = "files")]
 pub use table::{SWEEP_FILE, sweep_csv};
 pub use variations::Variations;
+
+pub use fem_case::Sweep;

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use serde_json::Value;
 
-use super::columns::COLUMNS;
+use super::columns::columns;
 use super::row::Row;
 
 /// The name of the file.
@@ -21,11 +21,12 @@ pub fn sweep_csv<'k>(
     rows: &[Row],
 ) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
-    file.write_record(keys.into_iter().chain(COLUMNS.iter().copied()).chain(["member"]))?;
+    let columns = columns(rows);
+    file.write_record(keys.into_iter().chain(columns.iter().copied()).chain(["member"]))?;
     for row in rows {
-        let columns = COLUMNS.iter().map(|column| cell(&row.value(column)));
+        let cells = columns.iter().map(|column| cell(&row.value(column)));
         let values = row.values.iter().cloned();
-        file.write_record(values.chain(columns).chain([row.identity.clone()]))?;
+        file.write_record(values.chain(cells).chain([row.identity.clone()]))?;
     }
     Ok(file.flush()?)
 }
