@@ -74,6 +74,9 @@ pub enum Stop {
     /// What the model is made of cannot be made for this collision.
     #[error("{0}")]
     NotMade(String),
+    /// There is no memory for what the model is made of.
+    #[error("{0}")]
+    OutOfMemory(String),
     /// The motion of one degree of freedom creeps on and does not end.
     #[error("{0}")]
     NotFinished(String),
@@ -98,6 +101,7 @@ impl Stop {
             | Self::NoContactState { time } => *time += delay,
             Self::ContactTooLarge { .. }
             | Self::NotMade(_)
+            | Self::OutOfMemory(_)
             | Self::NotFinished(_)
             | Self::OutsideValidity(_)
             | Self::OutOfRange(_) => {}

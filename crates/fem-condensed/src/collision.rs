@@ -146,6 +146,7 @@ impl From<CondensedError> for Stop {
     fn from(error: CondensedError) -> Self {
         match error {
             CondensedError::Stopped(stop) => stop,
+            error @ CondensedError::OutOfMemory => Self::OutOfMemory(error.to_string()),
             error => Self::NotMade(error.to_string()),
         }
     }

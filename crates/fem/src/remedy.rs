@@ -39,19 +39,25 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
         Stop::NoContactState { .. } | Stop::NotMade(_) => (
             "an imported mesh has elements that are far too distorted, or Poisson's ratio is \
              within rounding of its limits",
-            "leave sphere.mesh out, or use model fem",
+            "leave body.N.sphere.mesh out, keep material.NAME.poissons_ratio off its limits, or use \
+             model.fem",
+        ),
+        Stop::OutOfMemory(_) => (
+            "the factors of condensed bodies take more memory than there is",
+            "raise mesh.contact_element_size, or use model.fem, which keeps no factors",
         ),
         Stop::NotFinished(_) => (
             "the damping is so strong that the bodies creep back for ever",
-            "lower the damping, or end the contact earlier with end = \"zero_force\"",
+            "lower the damping, or end the contact earlier with model.law.NAME.end = \"zero_force\"",
         ),
         Stop::OutsideValidity(_) => (
             "the contact is too wide for the first-order correction of the spheres' size",
-            "write finite_size = false, or use model fem",
+            "write model.ting.finite_size = false, or use model.fem",
         ),
         Stop::OutOfRange(_) => (
             "the case is so extreme that a result leaves the range of numbers",
-            "check the model's parameters, sizes, densities and speeds, and their units",
+            "check the parameters of model.law.NAME, body.N.sphere.diameter, body.N.approach_speed, \
+             material.NAME.density and the moduli, and their units",
         ),
     };
     Some(Remedy { cause, remedy })
