@@ -9,6 +9,10 @@
 //! [`Simulation`] joins a case and its model. A method refuses a scene with a [`Refusal`] that names
 //! a key; the case knows where that stands. [`effects`] says which effects a scene calls for and what
 //! follows from what a model has of them.
+//!
+//! Without the feature `files` (on by default) nothing here touches a file: a mesh of a case's own is
+//! refused, and what writes result files is not there. Only [`Case::load`] and
+//! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given.
 
 pub mod accuracy;
 mod approach;
@@ -50,8 +54,12 @@ pub use simulation::{Simulation, collide};
 pub use stress::BodyStress;
 pub use sweep::sweep;
 
-pub use fem_case::{Case, CaseError, CaseFile, schema};
+pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
 pub use fem_collision::{
-    Account, Approach, Collision, Ending, Label, Monitor, Progress, Row, Snapshot, Stop,
-    StressField, Want, invariants,
+    Account, Approach, ApproachError, BodyFields, BodyResult, Book, Collision, Ending, Label,
+    Monitor, Phase, Progress, Row, Shown, Side, Snapshot, SnapshotRequest, Stop, StressField, Want,
+    invariants,
 };
+pub use fem_laws::HertzImpact;
+pub use fem_material::Material;
+pub use fem_mesh::SphereMesh;

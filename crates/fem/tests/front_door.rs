@@ -1,0 +1,132 @@
+//! A program that knows the crate `fem` alone: every name that it needs is here.
+
+use fem::results::{Energy, Spent, energy_key};
+use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
+use fem::sweep::{Members, Ran, Variations};
+use fem::{
+    Account, Approach, ApproachError, Body, BodyFields, BodyResult, BodyStress, Book, Case,
+    CaseError, CaseFile, Collision, Cost, Ending, HertzImpact, Label, Material, ModelChoice,
+    Monitor, Phase, Progress, Quantity, Row, Scene, Setup, Shape, Shown, Side, Simulation,
+    Snapshot, SnapshotRequest, SphereMesh, Stop, StressField, Summary, Want, invariants, remedy_of,
+};
+
+/// Notes the phases of a run, and ends it after so many reports.
+struct Panel {
+    phases: Vec<Phase>,
+    reports_left: u64,
+}
+
+impl Monitor for Panel {
+    fn enter(&mut self, phase: Phase) {
+        self.phases.push(phase);
+    }
+
+    fn report(&mut self, progress: Progress) -> bool {
+        assert!(progress.contact_force >= 0.0 && progress.fraction <= 1.0);
+        self.reports_left = self.reports_left.saturating_sub(1);
+        self.reports_left > 0
+    }
+}
+
+fn scene_of(model: ModelTable) -> Result<Case, CaseError> {
+    let rubber = MaterialTable::from_youngs_modulus_poissons_ratio("1100 kg/m^3", "10 MPa", 0.45)
+        .relaxing(ActsOn::Shear, [TermTable::with_decay_rate(0.5, "100 1/s")]);
+    let ball = BodyTable::sphere("ball", "2 cm", "rubber").approaching("10 cm/s");
+    let mut file = CaseFile::of_bodies(BodyTable::wall("floor"), ball)
+        .with_material("rubber", rubber)
+        .with_model(model);
+    file.output.get_or_insert_default().snapshots =
+        Some(fem::schema::SnapshotsValue::labels([SnapshotLabel::Maximum]));
+    // Coarse: what comes out is looked at, not measured.
+    file.mesh.get_or_insert_default().contact_element_size = Some(Quantity::from_si(4e-4));
+    Case::of(file)
+}
+
+#[test]
+fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
+    let case = scene_of(ModelTable::condensed())?;
+    let scene: &Scene = case.scene();
+    let ball: &Body = &scene.bodies()[1];
+    assert!(matches!(ball.shape(), Shape::Sphere { mesh: None, .. }));
+    let material: Option<&Material> = ball.material();
+    assert!(material.is_some() && matches!(scene.model(), ModelChoice::Condensed(_)));
+
+    let mut simulation = Simulation::new(case)?;
+    let setup: &Setup = simulation.setup();
+    assert!(matches!(setup.cost, Cost::Factors { .. }));
+    let hertz: &HertzImpact = &setup.estimate.hertz;
+    assert!(hertz.contact_time() > 0.0 && setup.approach.speed() == 0.1);
+    let want = Want { snapshots: SnapshotRequest::Labels(vec![Label::Maximum]), ..Want::history() };
+    assert_eq!(simulation.want.snapshots, want.snapshots);
+    simulation.want = want;
+
+    let mut panel = Panel { phases: Vec::new(), reports_left: u64::MAX };
+    let collision: Collision = simulation.run(&mut panel);
+    assert_eq!(panel.phases.first(), Some(&Phase::Collision));
+    assert_eq!(collision.ending, Ending::Parted);
+
+    // Bodies, and the books of energy.
+    let [floor, ball]: &[BodyResult; 2] = &collision.bodies;
+    assert!(floor.mass.is_none() && ball.velocity_after.is_some_and(|speed| speed > 0.0));
+    let book: &Book = &collision.energies;
+    let row: &Row = collision.history.last().unwrap();
+    assert!(book.has(Account::Kinetic) && row.energies.total(Side::Lost) > Some(0.0));
+    assert!(
+        Account::all().all(|account| account.shown() != Shown::WhereFilled || book.has(account))
+    );
+
+    // Fields and stress.
+    let snapshot: &Snapshot = collision.snapshot(Label::Maximum).unwrap();
+    let fields: &BodyFields = &snapshot.bodies[1];
+    let BodyStress { mesh, field } = simulation.stress(snapshot, 1).unwrap();
+    let (mesh, field): (&SphereMesh, StressField) = (mesh, field);
+    assert_eq!(fields.displacement.len(), mesh.nodes().len());
+    let pressures = field.points.iter().map(|stress| invariants(*stress).0);
+    assert!(pressures.fold(0.0, f64::max) > 0.0);
+
+    // The summary.
+    let summary: Summary =
+        Summary::of(&simulation, &collision, Spent::default(), Vec::new(), Vec::new());
+    let energy: &Energy = &summary.energy;
+    assert_eq!(energy.get(Account::Kinetic), book.get(Account::Kinetic));
+    assert_eq!(energy_key(Account::Kinetic), "kinetic_j");
+    Ok(())
+}
+
+#[test]
+fn a_run_is_ended_and_begun_elsewhere() -> Result<(), CaseError> {
+    let mut simulation = Simulation::new(scene_of(ModelTable::fem())?)?;
+    let mut panel = Panel { phases: Vec::new(), reports_left: 2 };
+    let stopped = simulation.run(&mut panel);
+    let stop: &Stop = stopped.stop().unwrap();
+    assert!(stopped.is_interrupted() && remedy_of(stop).is_none());
+
+    let refused: ApproachError = Approach::at(-1.0).unwrap_err();
+    assert!(refused.to_string().contains("-1"));
+    let mut simulation = Simulation::new(scene_of(ModelTable::ting())?)?;
+    let faster = Approach::at(0.2).unwrap();
+    let collision = simulation.model.collide(&faster, &Want::quantities(), &mut ());
+    assert_eq!(collision.approach.speed(), 0.2);
+    Ok(())
+}
+
+#[test]
+fn members_of_a_sweep_are_run() -> Result<(), CaseError> {
+    let case = scene_of(ModelTable::ting())?;
+    let members = Variations::of(&case, [0.1, 0.2], |file, speed: f64| {
+        file.body[1].approach_speed = Some(speed.into());
+    });
+    assert_eq!(members.n_members(), 2);
+    let shared = fem::Shared::default();
+    let ran: Ran = fem::sweep::Runner::new(&members, &shared).run_one(1, &mut ())?;
+    assert!(ran.summary().complete);
+    Ok(())
+}
+
+/// What this file is for.
+#[test]
+fn no_other_crate_of_the_house_is_named() {
+    let own = include_str!("front_door.rs");
+    let other = ["fem", "_"].concat();
+    assert!(own.lines().all(|line| !line.contains(&other)), "a name of a crate below");
+}
