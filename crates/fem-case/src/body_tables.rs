@@ -70,7 +70,7 @@ pub struct SphereTable {
 }
 
 impl SphereTable {
-    /// With the built-in mesh.
+    /// A sphere with the built-in mesh.
     pub fn new(diameter: impl Into<Quantity<Length>>) -> Self {
         Self { diameter: diameter.into(), mesh: None }
     }

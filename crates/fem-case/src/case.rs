@@ -35,7 +35,7 @@ struct Defaults {
 }
 
 impl Case {
-    /// Reads a case file and applies `--set` overrides (`KEY=VALUE`), left to right.
+    /// Reads a case file and applies overrides (`KEY=VALUE`), left to right.
     ///
     /// # Errors
     /// The first thing that is wrong with file, overrides or the case that they make.

@@ -1,4 +1,4 @@
-//! `--set KEY=VALUE`: one value put into the tree of a case before it is validated.
+//! An override `KEY=VALUE`: one value put into the tree of a case before it is validated.
 //!
 //! KEY is a dotted path in TOML's key syntax (`material."my glass".density`), an index from 0 in
 //! an array. VALUE is a TOML value. Keys and tables that are absent are added; array elements
@@ -32,7 +32,7 @@ pub(crate) struct Assignment<'t> {
 }
 
 impl Assignment<'_> {
-    /// The same with all of its spans moved by `start`.
+    /// This override with all of its spans moved by `start`.
     pub(crate) fn shifted(self, start: usize) -> Self {
         let move_part = |part: Spanned<String>| {
             let span = part.span();
@@ -69,7 +69,7 @@ pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> 
         span: offset + span.start..offset + span.end,
         message,
         help: "the value is in TOML syntax: 0.5, true, [1, 2], {}, and strings in quotes, which \
-               the shell must not eat: --set KEY='\"1 m/s\"'"
+               a shell must not eat: KEY='\"1 m/s\"'"
             .to_string(),
     };
     if raw.is_empty() {

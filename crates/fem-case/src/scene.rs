@@ -168,7 +168,7 @@ pub enum Shape {
     Wall,
 }
 
-/// `[mesh]`.
+/// What `[mesh]` asks for; lengths in m.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshSettings {
     /// Edge length of the elements at the contact, m, > 0.

@@ -22,7 +22,7 @@ pub struct CaseFile {
     /// What the case is about; the file's stem if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
-    /// `[material.NAME]`.
+    /// The tables `[material.NAME]`, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub material: BTreeMap<String, MaterialTable>,
     /// `[[body]]`, exactly two; the first lies below the second on the axis y.
@@ -87,7 +87,7 @@ impl CaseFile {
     }
 }
 
-/// `[start]`.
+/// `[start]`: where the bodies are at time 0.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [start]")]
 pub struct StartTable {
@@ -96,7 +96,7 @@ pub struct StartTable {
     pub gap: Option<Quantity<Length>>,
 }
 
-/// `[mesh]`.
+/// `[mesh]`: how finely the bodies are divided.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [mesh]")]
 pub struct MeshTable {
@@ -111,7 +111,7 @@ pub struct MeshTable {
     pub growth: Option<Quantity<Number>>,
 }
 
-/// `[contact]`.
+/// `[contact]`: how stiff the springs between the surfaces are.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [contact]")]
 pub struct ContactTable {
@@ -120,7 +120,7 @@ pub struct ContactTable {
     pub penalty_factor: Option<Quantity<Number>>,
 }
 
-/// `[time]`.
+/// `[time]`: how long a time step is.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [time]")]
 pub struct TimeTable {
@@ -132,7 +132,7 @@ pub struct TimeTable {
     pub mass_scaling: Option<Quantity<Number>>,
 }
 
-/// `[output]`.
+/// `[output]`: what is drawn of the collision.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [output]")]
 pub struct OutputTable {
@@ -227,7 +227,7 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
     }
 }
 
-/// `[effects]`.
+/// `[effects]`: numerical effects, forced or left to the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [effects]")]
 pub struct EffectsTable {
@@ -245,11 +245,11 @@ pub struct EffectsTable {
 keywords! {
     /// Who decides on an effect.
     Switch {
-        /// The plan.
+        /// The plan decides.
         Auto = "auto",
-        /// The case: it is on.
+        /// The case decides: the effect is on.
         On = "on",
-        /// The case: it is off.
+        /// The case decides: the effect is off.
         Off = "off",
     }
 }

@@ -268,7 +268,7 @@ fn check_overrides(sweep: &str, axes: &[Axis], overrides: &[String]) -> Result<(
                 format!("--set {key}=…"),
                 format!("{sweep} varies {}; the override has no effect", axis.key),
             );
-            return Err(error.with_help("change the list in the sweep file, or drop --set"));
+            return Err(error.with_help("change the list in the sweep file, or drop the override"));
         }
     }
     Ok(())

@@ -9,7 +9,7 @@ pub type ElementMatrix = SMatrix<f64, 8, 8>;
 /// `bulk_modulus * bulk + shear_modulus * deviatoric`, in N/m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementStiffness {
-    /// For unit bulk modulus.
+    /// Stiffness for unit bulk modulus.
     pub bulk: ElementMatrix,
     /// For unit shear modulus, hourglass stiffness included.
     pub deviatoric: ElementMatrix,

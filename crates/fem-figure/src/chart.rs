@@ -157,7 +157,7 @@ impl Chart {
         self
     }
 
-    /// With one more curve.
+    /// This chart with one more curve.
     pub fn with(mut self, curve: Curve) -> Self {
         self.curves.push(curve);
         self

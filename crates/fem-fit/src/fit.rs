@@ -26,7 +26,7 @@ use crate::problem::Problem;
 pub struct Fit {
     /// Of all parameters, free or not, in the order of the law.
     pub values: Vec<f64>,
-    /// Of the free ones.
+    /// Estimates of the free parameters.
     pub estimates: Vec<Estimate>,
     /// Correlation matrix of the free parameters' θ.
     pub correlation: Vec<Vec<f64>>,
@@ -40,7 +40,8 @@ pub struct Fit {
     pub degrees_of_freedom: usize,
     /// How many standard errors the interval reaches; `None` without degrees of freedom.
     pub quantile: Option<f64>,
-    /// Σ r² by which a profile may rise inside its interval; `None` likewise.
+    /// Σ r² by which a profile may rise inside its interval; `None` without degrees of
+    /// freedom.
     pub allowed_rise: Option<f64>,
     /// Of the Jacobian with columns scaled to 1.
     pub condition: f64,

@@ -29,7 +29,7 @@ pub struct ProfilePoint {
     pub value: f64,
     /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
-    /// Of all parameters.
+    /// Values of all parameters, SI.
     pub values: Vec<f64>,
 }
 

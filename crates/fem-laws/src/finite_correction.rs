@@ -23,10 +23,10 @@ pub(crate) struct RelaxingCorrection {
 }
 
 impl Correction {
-    /// Of half-spaces.
+    /// The correction of half-spaces: none.
     pub const NONE: Self = Self { alpha: 0.0, beta: 0.0 };
 
-    /// With `factor` times another.
+    /// Adds `factor` times another correction.
     pub fn add(&mut self, other: &Self, factor: f64) {
         self.alpha += factor * other.alpha;
         self.beta += factor * other.beta;

@@ -37,9 +37,9 @@ pub struct ImpactInstant {
     pub centre_pressure: Option<f64>,
     /// ∫F dδ since first touch: what the motion has given to the contact, J.
     pub work: f64,
-    /// What of it the contact holds, J, from the state; `None` for a model that knows it not.
+    /// What of the work the contact holds, J, from the state; `None` for a model that knows it not.
     pub strain_energy: Option<f64>,
-    /// What of it is lost, J, from the state; `None` likewise.
+    /// What of the work is lost, J, from the state; `None` for a model that knows it not.
     pub dissipated: Option<f64>,
 }
 

@@ -67,7 +67,7 @@ impl LawImpact {
         Self { pair: *pair, law, end_rule, tolerance }
     }
 
-    /// With another end of contact.
+    /// This law with another end of contact.
     pub fn with_end_rule(self, end_rule: EndRule) -> Self {
         Self { end_rule, ..self }
     }

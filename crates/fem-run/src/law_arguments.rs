@@ -32,7 +32,7 @@ pub enum End {
 }
 
 impl End {
-    /// For the law.
+    /// The end of contact that the law is given.
     pub fn rule(self) -> EndRule {
         match self {
             Self::ZeroForce => EndRule::ZeroForce,

@@ -44,7 +44,7 @@ impl Section {
 pub struct RunFile {
     /// Relative to the claim's folder.
     pub case: PathBuf,
-    /// `KEY=VALUE`, as `--set` takes them.
+    /// Overrides of the case, `KEY=VALUE` each.
     #[serde(default)]
     pub set: Vec<String>,
 }

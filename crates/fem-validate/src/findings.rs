@@ -20,7 +20,7 @@ pub struct Figure {
 pub struct Table {
     /// What the table shows.
     pub caption: String,
-    /// Of the columns.
+    /// Names of the columns.
     pub header: Vec<String>,
     /// Each as long as the header.
     pub rows: Vec<Vec<String>>,

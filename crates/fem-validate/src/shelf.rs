@@ -31,9 +31,9 @@ impl<T> Default for Slots<T> {
 /// The runs that claims share: a case is run once.
 #[derive(Debug, Default)]
 pub struct Shelf {
-    /// Of the explicit model.
+    /// Runs of the explicit model.
     pub(crate) explicit: Slots<ExplicitRun>,
-    /// Of all other models.
+    /// Runs of all other models.
     pub(crate) others: Slots<Run>,
     /// What runs at several speeds or relaxations share.
     pub(crate) shared: Shared,

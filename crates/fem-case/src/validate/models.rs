@@ -257,7 +257,7 @@ impl Keys<'_> {
         }
     }
 
-    /// `e` or `alpha`.
+    /// The damping of a law that takes `e` or `alpha`.
     fn damping(
         &self,
         restitution: Option<&Quantity<Number>>,

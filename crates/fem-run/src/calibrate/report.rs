@@ -8,7 +8,7 @@ use fem_fit::spectrum::Range;
 
 use crate::tables::{show_value, table};
 
-/// For stdout.
+/// What a calibration prints on stdout.
 pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     let mut text = heading(found);
     text += &weights(found);

@@ -9,7 +9,7 @@ use fem_laws::Family;
 
 use crate::tables::{show_value, table};
 
-/// For stdout.
+/// What a fit prints on stdout.
 pub fn fit_text(fitted: &LawFit<'_>) -> String {
     let LawFit { problem, fit, .. } = fitted;
     let (model, points) = (problem.model, problem.points);

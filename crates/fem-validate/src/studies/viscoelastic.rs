@@ -27,7 +27,7 @@ struct Parameters {
     rates: Vec<f64>,
     /// G∞/G0, at the base's decay rate.
     equilibrium: Vec<f64>,
-    /// m/s, at the base's relaxation.
+    /// Approach speeds, m/s, at the base's relaxation.
     speeds: Vec<f64>,
     /// A series of several terms: (weight, decay rate times Hertz' contact time).
     series: Vec<(f64, f64)>,

@@ -22,7 +22,7 @@ pub enum CalibrationFault {
     /// A material that no body is made of.
     #[error("no body is made of {name}")]
     OtherMaterial {
-        /// As it was asked for.
+        /// The material that was asked for.
         name: String,
         /// What the bodies are made of.
         materials: Vec<String>,

@@ -37,7 +37,7 @@ pub enum Beyond {
 }
 
 impl Beyond {
-    /// For text.
+    /// The word for it in a text.
     pub fn word(self) -> &'static str {
         match self {
             Self::Faster => "faster",

@@ -11,7 +11,7 @@ use super::maxwell::Beyond;
 /// A calibration as it is kept, SI.
 #[derive(Clone, Debug, Serialize)]
 pub struct CalibrationNumbers {
-    /// As the caller calls it.
+    /// The case, as the caller calls it.
     pub case: String,
     /// Name of the data.
     pub data: String,
@@ -47,7 +47,7 @@ pub struct CalibrationNumbers {
     pub rms: f64,
     /// Of a restitution, as the ranges assume it.
     pub error: f64,
-    /// Over the uncertainties.
+    /// Misfit over the uncertainties.
     pub misfit: Option<f64>,
     /// Data less weights that are neither 0 nor spare.
     pub degrees_of_freedom: usize,
@@ -70,9 +70,9 @@ pub struct PairNumbers {
     pub diameters_m: [Option<f64>; 2],
     /// Number of measured points.
     pub points: usize,
-    /// Across its radius.
+    /// Elements across the radius of the smallest contact.
     pub elements_across_smallest_contact: Option<f64>,
-    /// Across its radius.
+    /// Elements across the radius of the largest contact.
     pub elements_across_largest_contact: Option<f64>,
 }
 

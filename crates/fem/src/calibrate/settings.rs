@@ -60,13 +60,13 @@ impl CalibrationModel {
 /// What a caller calls the settings that texts advise to change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SettingNames {
-    /// [`Settings::n_terms`].
+    /// Name of [`Settings::n_terms`].
     pub terms: &'static str,
-    /// [`Settings::times`].
+    /// Name of [`Settings::times`].
     pub times: &'static str,
     /// The uncertainty of all restitutions.
     pub uncertainty: &'static str,
-    /// [`Settings::model`].
+    /// Name of [`Settings::model`].
     pub model: &'static str,
 }
 

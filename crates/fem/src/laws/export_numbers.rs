@@ -10,7 +10,7 @@ use super::dem_export::DemExport;
 /// An export as it is kept, SI.
 #[derive(Clone, Debug, Serialize)]
 pub struct ExportNumbers {
-    /// As the caller calls it.
+    /// The case, as the caller calls it.
     pub case: String,
     /// Whether one of the bodies is a wall.
     pub wall: bool,
@@ -28,7 +28,7 @@ pub struct ExportNumbers {
     pub contact_modulus_pa: f64,
     /// A of Kuwabara & Kono.
     pub dissipation_time_s: f64,
-    /// Of the linear law.
+    /// Contact time of the linear law.
     pub linear_contact_time_s: f64,
     /// Whether the contact times of the data are Hertz'.
     pub has_hertz_times: bool,

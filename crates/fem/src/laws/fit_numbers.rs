@@ -10,7 +10,7 @@ use super::law_fit::LawFit;
 /// A fit as it is kept, SI.
 #[derive(Clone, Debug, Serialize)]
 pub struct FitNumbers {
-    /// As the caller calls it.
+    /// The case, as the caller calls it.
     pub case: String,
     /// Name of the data.
     pub data: String,
@@ -68,7 +68,7 @@ pub struct ParameterNumbers {
 /// The least error at each value of one parameter.
 #[derive(Clone, Debug, Serialize)]
 pub struct ProfileNumbers {
-    /// Of the parameter.
+    /// Key of the parameter.
     pub key: &'static str,
     /// In the order of the grid.
     pub points: Vec<ProfilePointNumbers>,
@@ -81,7 +81,7 @@ pub struct ProfilePointNumbers {
     pub value: f64,
     /// Root mean square of the residuals, √(Σ r²/N).
     pub rms: f64,
-    /// Of all parameters.
+    /// Values of all parameters.
     pub values: Vec<f64>,
 }
 

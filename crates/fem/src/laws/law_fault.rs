@@ -27,7 +27,7 @@ pub enum LawFault {
     Missing {
         /// Name of the law.
         law: &'static str,
-        /// Of the parameter.
+        /// Key of the parameter.
         key: &'static str,
         /// What is searched for; empty if nothing more can be.
         free: Vec<&'static str>,

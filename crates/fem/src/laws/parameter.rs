@@ -11,7 +11,7 @@ pub enum ParameterError {
     Unknown {
         /// Name of the law.
         law: &'static str,
-        /// As it was written.
+        /// The key as it was written.
         key: String,
         /// The keys that there are.
         known: Vec<&'static str>,
@@ -25,9 +25,9 @@ pub enum ParameterError {
     /// A text that is no number with a unit.
     #[error("{key}: {text:?}: {error}")]
     NotANumber {
-        /// Of the parameter.
+        /// Key of the parameter.
         key: &'static str,
-        /// As it was written.
+        /// The value as it was written.
         text: String,
         /// What is wrong with it.
         error: UnitError,
@@ -35,9 +35,9 @@ pub enum ParameterError {
     /// A unit of another dimension.
     #[error("{key}: {text:?} is of another dimension")]
     OtherDimension {
-        /// Of the parameter.
+        /// Key of the parameter.
         key: &'static str,
-        /// As it was written.
+        /// The value as it was written.
         text: String,
         /// SI unit of the parameter; empty for a plain number.
         unit: &'static str,
@@ -45,9 +45,9 @@ pub enum ParameterError {
     /// A value without a meaning.
     #[error("{key}: the value is {value:?}")]
     OutOfRange {
-        /// Of the parameter.
+        /// Key of the parameter.
         key: &'static str,
-        /// SI.
+        /// Value of the parameter, SI.
         value: f64,
         /// What it must be.
         allowed: String,

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// The end of a column's name that is a unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ending {
-    /// With its underscore.
+    /// The ending with its underscore.
     pub text: &'static str,
     /// How many SI units it is.
     pub scale: f64,

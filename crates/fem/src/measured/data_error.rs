@@ -17,7 +17,7 @@ pub struct DataError {
 }
 
 impl DataError {
-    /// Of data as a whole.
+    /// An error about the data as a whole.
     pub fn new(source_name: &str, message: impl std::fmt::Display) -> Self {
         Self {
             source_name: one_line(source_name),

@@ -24,7 +24,7 @@ pub enum NotMeasured {
     /// No number of this kind.
     #[error("{text:?} is not {}", kind.words())]
     OtherKind {
-        /// As it was found.
+        /// The text as it was found.
         text: String,
         /// What it should be.
         kind: Kind,

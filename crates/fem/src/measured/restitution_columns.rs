@@ -125,7 +125,7 @@ fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError>
             let error = table.fault(row, format!("the sweep varies {header}, too"));
             return Err(error.in_column(header).with_help(
                 "a law is fitted to one pair of bodies: keep the rows of one, with their values in \
-                 the case or in --set",
+                 the case or in an override of it",
             ));
         }
     }

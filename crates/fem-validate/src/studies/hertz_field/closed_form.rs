@@ -24,7 +24,7 @@ impl Profile {
     pub const ALL: [Self; 5] =
         [Self::Pressure, Self::Axial, Self::Radial, Self::Surface, Self::Hoop];
 
-    /// As claims call it.
+    /// Its name in claims.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pressure => "pressure",
@@ -35,7 +35,7 @@ impl Profile {
         }
     }
 
-    /// As readers call it.
+    /// Its name for readers.
     pub fn label(self) -> &'static str {
         match self {
             Self::Pressure => "contact pressure",

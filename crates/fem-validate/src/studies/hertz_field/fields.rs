@@ -16,7 +16,7 @@ use crate::run::ExplicitRun;
 pub struct Sample {
     /// Distance from the axis or depth, over a.
     pub place: f64,
-    /// Over p₀.
+    /// The stress over p₀.
     pub value: f64,
     /// The closed form, over p₀.
     pub exact: f64,
@@ -27,7 +27,7 @@ pub struct Sample {
 pub struct Fields {
     /// Largest a/R of the two bodies.
     pub size: f64,
-    /// Of the sphere.
+    /// Poisson's ratio of the sphere.
     pub poissons_ratio: f64,
     profiles: [Vec<Sample>; 5],
     /// σ_rz at the nodes within the depth and the distance, in the order of the mesh.

@@ -29,7 +29,7 @@ struct Parameters {
     elements: Vec<f64>,
     /// Depth over the contact radius out to which the axis is compared.
     depth: f64,
-    /// Distance from the axis, likewise, of the surface.
+    /// Distance from the axis over the contact radius out to which the surface is compared.
     distance: f64,
     /// From which on the tension outside of the contact is fitted.
     rim: f64,

@@ -22,7 +22,7 @@ use crate::run::ExplicitRun;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Speeds {
-    /// m/s.
+    /// Approach speeds, m/s.
     speeds: Vec<f64>,
     elements_per_contact_radius: f64,
 }

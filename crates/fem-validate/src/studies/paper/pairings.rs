@@ -19,9 +19,9 @@ use crate::run::ExplicitRun;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// m, ascending.
+    /// Diameters, m, ascending.
     diameters: Vec<f64>,
-    /// m/s, ascending.
+    /// Approach speeds, m/s, ascending.
     speeds: Vec<f64>,
     elements_per_contact_radius: f64,
     /// n of the reduced law.
@@ -33,9 +33,9 @@ struct Parameters {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Fit {
-    /// m.
+    /// Diameters of both spheres, m.
     diameters: [f64; 2],
-    /// m/s.
+    /// Approach speed, m/s.
     speed: f64,
     restitution: f64,
 }
