@@ -100,8 +100,8 @@ impl Standstill {
         let initial = self.reduced_mass * self.speed * self.speed;
         let left = self.reduced_mass * now.rate * now.rate + 2.0 * now.inner_energy;
         let by_energy = |restitution: f64| left < restitution * restitution * initial;
-        let by_momentum = now.rate.abs() + now.force * now.time / self.reduced_mass;
-        let is_at_rest = by_momentum < AT_REST * self.speed && by_energy(CERTAIN);
+        let by_momentum = || now.rate.abs() + now.force * now.time / self.reduced_mass;
+        let is_at_rest = by_energy(CERTAIN) && by_momentum() < AT_REST * self.speed;
         self.since = is_at_rest.then(|| self.since.unwrap_or(now.time));
         let lasts = self.since.is_some_and(|since| now.time - since >= LASTING * now.time);
         now.is_closed && (lasts || by_energy(NOTHING_LEFT))

@@ -1,9 +1,8 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Account, Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, Losses,
-    Monitor, Progress, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill, Stop, Want,
-    worst,
+    Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, Monitor, Progress,
+    STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill, Stop, Want, worst,
 };
 
 use crate::instants::Trace;
@@ -27,10 +26,11 @@ pub(crate) struct Run<'a> {
     last_contact: f64,
     episodes: u64,
     was_closed: bool,
-    losses: Losses,
-    /// ∫F dt, N s, by the trapezoidal rule, as the steps have it.
+    /// What relaxation has taken, J, and ∫F dt, N s, by the trapezoidal rule.
+    dissipated: f64,
     impulse: f64,
     worst_residual: f64,
+    /// What the momentum that was exchanged is off the impulse, N s.
     worst_momentum: f64,
     approach: Peak,
     force: Peak,
@@ -76,7 +76,7 @@ impl<'a> Run<'a> {
             last_contact: 0.0,
             episodes: 0,
             was_closed: false,
-            losses: Losses::default(),
+            dissipated: 0.0,
             impulse: 0.0,
             worst_residual: 0.0,
             worst_momentum: 0.0,
@@ -182,17 +182,17 @@ impl<'a> Run<'a> {
             self.turned = time;
         }
         let Energies { stored, contact, power, vibration } = motion.energies();
-        self.losses.advance(motion.time_step, Book::EMPTY.with(Account::ViscousDissipation, power));
-        let dissipated =
-            self.losses.energies().get(Account::ViscousDissipation).unwrap_or_default();
+        if let Some(before) = &self.last {
+            let over_step = |before: f64, now: f64| 0.5 * (before + now) * motion.time_step;
+            self.dissipated += over_step(before.power, power);
+            self.impulse += over_step(before.contact_force, motion.force);
+        }
+        let dissipated = self.dissipated;
         let [lower, upper] = vibration;
         let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
         let residual = kinetic + stored + contact + dissipated - self.initial_energy;
         self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
-        if let Some(before) = &self.last {
-            self.impulse += 0.5 * motion.time_step * (before.contact_force + motion.force);
-        }
-        let drift = self.frame.momentum_residual(rate, self.impulse);
+        let drift = self.frame.impulse(rate) - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
             self.pair.radius_and_pressure(&motion.contact, &motion.forces);
@@ -211,6 +211,7 @@ impl<'a> Run<'a> {
             rate,
             strain: stored,
             contact,
+            power,
             dissipated,
             residual,
             vibration,
@@ -274,7 +275,7 @@ impl<'a> Run<'a> {
             energies: self.last.map_or(Book::EMPTY, |end| end.energies(frame)),
             residual: self.last.map(|end| end.residual),
             residual_relative: Some(self.worst_residual),
-            momentum_residual_relative: Some(self.worst_momentum),
+            momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
             bodies,
             time_step: Some(motion.time_step),
             steps: Some(motion.step as u64),

@@ -21,6 +21,8 @@ pub(crate) struct Sample {
     pub strain: f64,
     /// Stored in penalty springs, J.
     pub contact: f64,
+    /// That relaxation takes, W.
+    pub power: f64,
     /// J.
     pub dissipated: f64,
     /// J.
@@ -43,6 +45,7 @@ impl Sample {
             rate: mean(|sample| sample.rate),
             strain: mean(|sample| sample.strain),
             contact: mean(|sample| sample.contact),
+            power: mean(|sample| sample.power),
             dissipated: mean(|sample| sample.dissipated),
             residual: mean(|sample| sample.residual),
             vibration: [0, 1]
