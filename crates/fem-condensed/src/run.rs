@@ -13,7 +13,9 @@ use crate::sample::Sample;
 
 /// Energy that does not add up over the initial: the run is no longer one.
 const LARGEST_IMBALANCE: f64 = 0.1;
-/// Bodies may take so many times as long to part as they came closer.
+/// Rate of the approach over its first below which bodies creep; those have more time than was given.
+const CREEPING: f64 = 0.1;
+/// Creeping bodies may take so many times as long to part as they came closer.
 const SLOWEST_PARTING: f64 = 2.0;
 
 /// A collision under way.
@@ -154,7 +156,9 @@ impl<'a> Run<'a> {
             let relative = self.worst_residual;
             return Err(Stop::EnergyImbalance { time: time_of_case, relative });
         }
-        if time > self.give_up && time > (1.0 + SLOWEST_PARTING) * self.turned {
+        let creeps = self.motion.rate.abs() < CREEPING * self.frame.speed()
+            && time <= (1.0 + SLOWEST_PARTING) * self.turned;
+        if time > self.give_up && !creeps {
             return Err(Stop::NoSeparation { time: time_of_case, step });
         }
         if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
