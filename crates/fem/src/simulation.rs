@@ -109,6 +109,11 @@ impl Simulation {
         &self.resolved
     }
 
+    /// Makes the run give something else than what the case asks for.
+    pub fn ask_for(&mut self, want: Want) {
+        self.want = want;
+    }
+
     /// The resolved case with its bodies meeting in another way.
     pub fn resolved_at(&self, approach: &Approach) -> CaseFile {
         let mut file = self.resolved.clone();

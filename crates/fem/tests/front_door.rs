@@ -57,8 +57,8 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     let hertz: &HertzImpact = &setup.estimate.hertz;
     assert!(hertz.contact_time() > 0.0 && setup.approach.speed() == 0.1);
     let want = Want { snapshots: SnapshotRequest::Labels(vec![Label::Maximum]), ..Want::history() };
-    assert_eq!(simulation.want.snapshots, want.snapshots);
-    simulation.want = want;
+    assert_eq!(simulation.want().snapshots, want.snapshots);
+    simulation.ask_for(want);
 
     let mut panel = Panel { phases: Vec::new(), reports_left: u64::MAX };
     let collision: Collision = simulation.run(&mut panel);
@@ -95,7 +95,7 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
 
 #[test]
 fn a_run_is_ended_and_begun_elsewhere() -> Result<(), CaseError> {
-    let mut simulation = Simulation::new(scene_of(ModelTable::fem())?)?;
+    let simulation = Simulation::new(scene_of(ModelTable::fem())?)?;
     let mut panel = Panel { phases: Vec::new(), reports_left: 2 };
     let stopped = simulation.run(&mut panel);
     let stop: &Stop = stopped.stop().unwrap();
@@ -103,9 +103,9 @@ fn a_run_is_ended_and_begun_elsewhere() -> Result<(), CaseError> {
 
     let refused: ApproachError = Approach::at(-1.0).unwrap_err();
     assert!(refused.to_string().contains("-1"));
-    let mut simulation = Simulation::new(scene_of(ModelTable::ting())?)?;
+    let simulation = Simulation::new(scene_of(ModelTable::ting())?)?;
     let faster = Approach::at(0.2).unwrap();
-    let collision = simulation.model.collide(&faster, &Want::quantities(), &mut ());
+    let collision = simulation.model().collide(&faster, &Want::quantities(), &mut ());
     assert_eq!(collision.approach.speed(), 0.2);
     Ok(())
 }
