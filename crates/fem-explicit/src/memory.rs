@@ -43,7 +43,7 @@ impl Memory {
             log: ContactLog::new(model, &state),
             ledger: Ledger::new(model, &state),
             state,
-            observed: Observed::new(expected_steps),
+            observed: Observed::new(model, expected_steps),
             history: (want.history_rows > 0)
                 .then(|| History::new(want.history_rows, expected_steps)),
             recorder: Recorder::new(&want.snapshots, model, expected),

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use fem_collision::{Approach, BodyInput, Searched};
+use fem_collision::{Approach, BodyInput, Frame, Searched};
 use fem_contact::{ContactError, ContactInterface, Surface};
 
 use crate::body::Body;
@@ -128,16 +128,12 @@ impl Model {
 
     /// Radius out to which contact is looked for, m.
     pub fn candidate_radius(&self) -> f64 {
-        self.contact.candidate_radius()
+        self.searched().radius
     }
 
     /// Where contact is looked for.
     pub fn searched(&self) -> Searched {
-        Searched {
-            radius: self.candidate_radius(),
-            n_points: self.interface().map_or(0, ContactInterface::n_points),
-            at_nodes: false,
-        }
+        self.contact.searched()
     }
 
     /// Time step, s.
@@ -158,6 +154,13 @@ impl Model {
     /// How the bodies meet. Free flight before first touch is not stepped.
     pub fn approach(&self) -> &Approach {
         &self.approach
+    }
+
+    /// The frame of the common mass centre, mass scaling included.
+    pub(crate) fn frame(&self) -> Frame {
+        let mass = |body: &Body| body.mesh().is_some().then(|| body.total_mass());
+        let masses = self.bodies.each_ref().map(mass);
+        Frame { approach: self.approach, masses, reduced_mass: self.inverse_mass.recip() }
     }
 
     /// Number of elements of both bodies.

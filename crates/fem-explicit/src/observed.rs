@@ -4,9 +4,12 @@
 //! and end of a contact, and at an even stride that follows from the expected contact alone. Extremes,
 //! integrals and means are those of these instants, the same for any number of rows that are kept.
 
-use fem_collision::{Aftermath, Cadence, Row, Scatter, Want, worst};
+use fem_collision::{
+    Account, Aftermath, Cadence, Held, Row, Scatter, Side, Standstill, Want, worst,
+};
 use serde::{Deserialize, Serialize};
 
+use crate::model::Model;
 use crate::state::State;
 
 /// What has been observed so far.
@@ -23,11 +26,12 @@ pub(crate) struct Observed {
     pub aftermath: Option<Aftermath>,
     /// The last instant.
     pub last: Option<Row>,
+    standstill: Standstill,
 }
 
 impl Observed {
     /// Nothing yet of a contact of so many expected steps.
-    pub fn new(expected_steps: f64) -> Self {
+    pub fn new(model: &Model, expected_steps: f64) -> Self {
         Self {
             cadence: Cadence::new(Want::ROWS, expected_steps),
             max_contact_radius: 0.0,
@@ -35,6 +39,7 @@ impl Observed {
             scatter: Scatter::default(),
             aftermath: None,
             last: None,
+            standstill: Standstill::new(&model.frame()),
         }
     }
 
@@ -47,6 +52,17 @@ impl Observed {
     /// anew.
     pub fn touch(&mut self) {
         self.aftermath = Some(Aftermath::default());
+    }
+
+    /// Whether the bodies stay together, in the contact of the last instant, so long (s) after first
+    /// touch; `rate` is that of the approach, m/s.
+    pub fn stays_together(&mut self, is_closed: bool, time: f64, rate: f64) -> bool {
+        let Some(row) = &self.last else { return false };
+        let held = row.energies.total(Side::Held).unwrap_or_default();
+        let kinetic = row.energy(Account::Kinetic).unwrap_or_default();
+        let inner_energy = row.vibration.iter().sum::<f64>() + held - kinetic;
+        let force = row.contact_force;
+        self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
     }
 
     /// Takes the balance of an instant, and whether the contact is closed in it.

@@ -1,6 +1,6 @@
 //! What a run leaves, as a collision.
 
-use fem_collision::{BodyResult, Book, Collision, Ending, History};
+use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER};
 
 use crate::memory::Memory;
 use crate::model::Model;
@@ -8,12 +8,16 @@ use crate::model::Model;
 /// The collision of a run that ended like this.
 pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collision {
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
-    let is_complete = !matches!(ending, Ending::Stopped(_));
-    let velocity_after = observed.last.map(|row| row.velocity).filter(|_| is_complete);
-    let vibration_energy = observed
-        .aftermath
-        .filter(|_| is_complete)
-        .and_then(|aftermath| aftermath.vibration_energy());
+    let (is_complete, is_parted) =
+        (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
+    let velocity_after = match ending {
+        Ending::Parted => observed.last.map(|row| row.velocity),
+        // With the common mass centre.
+        Ending::Together => Some(model.frame().velocities(0.0)),
+        Ending::Stopped(_) => None,
+    };
+    let vibration_energy =
+        observed.aftermath.filter(|_| is_parted).and_then(|aftermath| aftermath.vibration_energy());
     let speed = model.approach().speed();
     let bodies = [0, 1].map(|side: usize| {
         let body = &model.bodies()[side];
@@ -28,13 +32,17 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         }
     });
     let ends = log.first_contact.zip(log.last_contact);
-    let (snapshots, warnings) = recorder.finish();
+    let (snapshots, mut warnings) = recorder.finish();
+    if is_complete && !is_parted {
+        warnings.push(STAY_TOGETHER.to_string());
+    }
     Collision {
         approach: *model.approach(),
         ending,
-        restitution: velocity_after.map(|[lower, upper]| (upper - lower) / speed),
-        // A contact that was left before its end has no duration.
-        contact_time: ends.filter(|_| is_complete).map(|(first, last)| last - first),
+        restitution: velocity_after
+            .map(|[lower, upper]| if is_parted { (upper - lower) / speed } else { 0.0 }),
+        // A contact that was left before its end has no duration, nor has one without an end.
+        contact_time: ends.filter(|_| is_parted).map(|(first, last)| last - first),
         first_contact: log.first_contact,
         last_contact: log.last_contact,
         contact_episodes: log.episodes,

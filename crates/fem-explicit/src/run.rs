@@ -150,16 +150,15 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
             return;
         }
         memory.ending = match step(model, memory, scratch) {
-            Ok(false) => None,
-            Ok(true) => Some(Ending::Parted),
+            Ok(ending) => ending,
             Err(stop) => Some(Ending::Stopped(stop)),
         };
     }
 }
 
-/// Forces of the present configuration, what is observed of it, and the motion to the next: whether
-/// the bodies have separated instead.
-fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<bool, Stop> {
+/// Forces of the present configuration, what is observed of it, and the motion to the next; or how the
+/// run has ended instead.
+fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
     let Memory { state, log, ledger, observed, history, recorder, max_time, .. } = memory;
     let contact = update_forces(model, state, scratch);
     let (time, step) = (state.time, state.step);
@@ -181,6 +180,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<boo
     };
     let is_landmark = kind != RowKind::Regular;
     let mut history = history.as_mut().filter(|history| is_landmark || history.is_due(step));
+    let mut stays_together = false;
     if is_landmark || observed.is_due(step) {
         let row = ledger.balance(model, state, scratch, &contact);
         ledger.check(&row, step)?;
@@ -188,6 +188,8 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<boo
         if let Some(history) = &mut history {
             history.push(row, kind);
         }
+        let since_touch = time - model.approach().first_touch();
+        stays_together = observed.stays_together(is_closed, since_touch, log.approach_rate);
     } else if let Some(history) = &mut history {
         // One row more than what is observed, of which nothing else knows.
         let row = ledger.clone().balance(model, state, scratch, &contact);
@@ -204,7 +206,10 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<boo
     };
     recorder.observe(model, state, scratch, now);
     if has_separated {
-        return Ok(true);
+        return Ok(Some(Ending::Parted));
+    }
+    if stays_together {
+        return Ok(Some(Ending::Together));
     }
     if contact.at_limit {
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });
@@ -215,7 +220,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<boo
     ledger.count_step(model, scratch, contact.force);
     log.advance(model, scratch);
     advance(model, state, scratch);
-    Ok(false)
+    Ok(None)
 }
 
 /// The state where the run stopped ends what is observed and the history, if it is sound.

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Pair, quantities};
-use fem_collision::{Account, BodyInput, Collision, Label, SnapshotRequest};
+use fem_collision::{Account, BodyInput, Collision, Label, Searched, SnapshotRequest};
 use fem_contact::{ContactForces, ContactInterface, Surface};
 use fem_explicit::{
     Accounts, Contact, Field, Model, ModelError, Motion, MotionMut, NodalField, NodeForce, Part,
@@ -242,8 +242,8 @@ impl Part for Counting {
 }
 
 impl Contact for Counting {
-    fn candidate_radius(&self) -> f64 {
-        self.penalty.candidate_radius()
+    fn searched(&self) -> Searched {
+        self.penalty.searched()
     }
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {

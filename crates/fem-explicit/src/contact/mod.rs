@@ -2,6 +2,7 @@
 
 mod penalty;
 
+use fem_collision::Searched;
 use fem_contact::ContactForces;
 
 use crate::part::{Field, Motion, MotionMut, NodalField, Part};
@@ -12,8 +13,8 @@ use crate::part::{Field, Motion, MotionMut, NodalField, Part};
 /// is always in balance, surfaces that turn as they deform, friction. The fields of history that it
 /// declares are kept of both bodies.
 pub trait Contact: Part {
-    /// Radius out to which contact is looked for, m.
-    fn candidate_radius(&self) -> f64;
+    /// Where contact is looked for.
+    fn searched(&self) -> Searched;
 
     /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, whatever is
     /// closed.

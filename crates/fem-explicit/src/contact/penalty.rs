@@ -1,6 +1,7 @@
 //! The penalty interface of [`fem_contact`] as a contact: springs that are closed or open, without
 //! history.
 
+use fem_collision::Searched;
 use fem_contact::{ContactForces, ContactInterface};
 
 use super::Contact;
@@ -9,8 +10,9 @@ use crate::part::{Field, Motion, NodalField, Part};
 impl Part for ContactInterface {}
 
 impl Contact for ContactInterface {
-    fn candidate_radius(&self) -> f64 {
-        self.candidate_radius()
+    fn searched(&self) -> Searched {
+        let (radius, n_points) = (self.candidate_radius(), self.n_points());
+        Searched { radius, n_points, at_nodes: false }
     }
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
