@@ -35,6 +35,8 @@ pub(crate) struct Instant {
     pub is_first_contact: bool,
     /// Closed now and open in the next step.
     pub is_last_contact: bool,
+    /// The bodies are at rest and stay together: the run ends here.
+    pub stays_together: bool,
 }
 
 /// Keeps what the request asks for.
@@ -101,7 +103,7 @@ impl Recorder {
         }
         match &self.request {
             SnapshotRequest::Labels(labels) => match self.max_approach {
-                None if now.is_closed && now.approach_rate <= 0.0 => {
+                None if now.is_closed && (now.approach_rate <= 0.0 || now.stays_together) => {
                     self.max_approach = Some(now.approach);
                     if labels.contains(&Label::Maximum) {
                         self.maximum = Some(copy(None, Some(Label::Maximum)));

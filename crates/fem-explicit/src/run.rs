@@ -203,6 +203,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
         is_closed,
         is_first_contact,
         is_last_contact,
+        stays_together,
     };
     recorder.observe(model, state, scratch, now);
     if has_separated {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Ending, Simulation};
+use fem::{Case, Ending, Label, Simulation};
 use fem_collision::STAY_TOGETHER;
 
 const GLASS: &str = include_str!("../../../cases/glass_0.5ms.toml");
@@ -38,6 +38,10 @@ fn a_collision_without_an_end_is_complete() {
                 for body in &collision.bodies {
                     let after = body.velocity_after.unwrap();
                     assert!((after / common - 1.0).abs() < 1e-3, "{name}: {after} {common}");
+                }
+                // They are closest in the end, and half as close on the way.
+                for label in [Label::MidCompression, Label::Maximum] {
+                    assert!(collision.snapshot(label).is_some(), "{name} {label:?}");
                 }
                 let summary = simulation.summary(&collision);
                 assert!(summary.complete && summary.stopped_because.is_none(), "{name}");

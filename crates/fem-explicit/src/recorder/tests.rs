@@ -42,6 +42,7 @@ fn record(
             is_closed: step > 0 && step < n_steps,
             is_first_contact: step == 1,
             is_last_contact: step == n_steps - 1,
+            stays_together: false,
         };
         recorder.observe(model, &state, &mut scratch, now);
         most = most.max(recorder.kept.len() + scratch.pool.len());
@@ -142,6 +143,7 @@ fn count_keeps_its_budget_when_the_contact_lasts_longer() {
             is_closed: true,
             is_first_contact: step == 0,
             is_last_contact: step == 5000,
+            stays_together: false,
         };
         recorder.observe(&model, &state, &mut scratch, now);
         assert!(recorder.kept.len() <= n_kept(5));
