@@ -24,8 +24,8 @@ pub enum ModelError {
     ForceOnWall,
     /// A run is to go on from the memory of another, or from a damaged one.
     #[error(
-        "the memory is of a run of another model, or damaged: its sizes, approach, time step or region \
-         of contact differ, or its parts contradict each other"
+        "the memory is of a run of another model, or damaged: its sizes, materials, approach, time \
+         step or region of contact differ, or its parts contradict each other"
     )]
     MemoryOfAnother,
 }

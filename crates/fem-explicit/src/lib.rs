@@ -43,6 +43,7 @@ mod body;
 mod contact;
 mod contact_log;
 mod error;
+mod fingerprint;
 mod forces;
 mod free_motion;
 mod ledger;

@@ -4,6 +4,7 @@ use fem_collision::{Approach, Ending, Expectation, History, Want};
 use serde::{Deserialize, Serialize};
 
 use crate::contact_log::ContactLog;
+use crate::fingerprint::fingerprint;
 use crate::ledger::Ledger;
 use crate::model::Model;
 use crate::observed::Observed;
@@ -28,8 +29,8 @@ pub struct Memory {
     pub(crate) max_time: f64,
     /// Of the model that it belongs to, as are the next.
     approach: Approach,
-    /// s.
-    time_step: f64,
+    /// See [`fingerprint`].
+    fingerprint: String,
     /// Radius out to which that looks for contact, m.
     candidate_radius: f64,
 }
@@ -51,7 +52,7 @@ impl Memory {
             expected,
             max_time: want.give_up_after * expected.contact_time,
             approach: *model.approach(),
-            time_step: model.time_step(),
+            fingerprint: fingerprint(model),
             candidate_radius: model.candidate_radius(),
         }
     }
@@ -66,6 +67,11 @@ impl Memory {
         self.state.time
     }
 
+    /// How the bodies met: those of its model must meet alike.
+    pub fn approach(&self) -> &Approach {
+        &self.approach
+    }
+
     /// Radius out to which the run looks for contact, m: its model must have the same.
     pub fn candidate_radius(&self) -> f64 {
         self.candidate_radius
@@ -76,16 +82,15 @@ impl Memory {
         self.ending.as_ref()
     }
 
-    /// Whether it can be of a run of this model: its approach, its time step, its region of contact,
-    /// fields of its sizes, and parts that do not contradict each other. Moduli and relaxation times
-    /// it does not know.
+    /// Whether it can be of a run of this model: its approach, its region of contact, its fingerprint,
+    /// fields of its sizes, and parts that do not contradict each other.
     pub(crate) fn fits(&self, model: &Model) -> bool {
         let Self { state, .. } = self;
         let history_fits = |history: &History| {
             history.is_sound() && history.rows().last().is_none_or(|row| row.time <= state.time)
         };
         self.approach == *model.approach()
-            && self.time_step.to_bits() == model.time_step().to_bits()
+            && self.fingerprint == fingerprint(model)
             && self.candidate_radius.to_bits() == model.candidate_radius().to_bits()
             && !self.max_time.is_nan()
             && state.fits(model)

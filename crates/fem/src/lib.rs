@@ -18,6 +18,7 @@ pub mod accuracy;
 mod approach;
 mod assess;
 pub mod calibrate;
+mod course;
 pub mod effects;
 mod estimate;
 pub mod laws;
@@ -38,6 +39,7 @@ pub mod sweep;
 
 pub use approach::approach_of;
 pub use assess::assess;
+pub use course::Course;
 pub use estimate::Estimate;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
@@ -60,6 +62,7 @@ pub use fem_collision::{
     Monitor, Phase, Progress, Row, Shown, Side, Snapshot, SnapshotRequest, Stop, StressField, Want,
     invariants,
 };
+pub use fem_explicit::Memory;
 pub use fem_laws::HertzImpact;
 pub use fem_material::Material;
 pub use fem_mesh::SphereMesh;

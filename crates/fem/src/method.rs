@@ -7,8 +7,10 @@ use std::fmt;
 
 use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, Want};
+use fem_explicit::Memory;
 use fem_mesh::SphereMesh;
 
+use crate::course::{Course, InOneGo};
 use crate::effects::{Answer, Decisions, Effect};
 use crate::estimate::Estimate;
 use crate::pair_cache::PairCache;
@@ -61,6 +63,22 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// Computes a collision of the scene's bodies, as far as it gets. Where the contact outgrows the
     /// region in which it is looked for, the collision is computed again with a larger one.
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision;
+
+    /// Begins a collision, as far as whoever has the course lets it go.
+    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
+        let (approach, want) = (*approach, want.clone());
+        let collide = move |monitor: &mut dyn Monitor| self.collide(&approach, &want, monitor);
+        Box::new(InOneGo::of(collide))
+    }
+
+    /// Goes on from what a course of the same model knew, to the same bits.
+    ///
+    /// # Errors
+    /// A memory of another model, or a model that goes on from none.
+    fn resume<'a>(&'a self, _: Memory, _: &Want) -> Result<Box<dyn Course + 'a>, Refusal> {
+        let message = format!("{} goes on from no memory", self.setup().description);
+        Err(Refusal::new("model", message).with_help("compute the collision anew"))
+    }
 
     /// The meshes; a wall has none, nor has a model without elements.
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

@@ -3,7 +3,9 @@
 use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, Quantity};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want};
+use fem_explicit::Memory;
 
+use crate::course::Course;
 use crate::effects::{ContactSearch, Decisions, Effect, decide};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Setup, Shared};
@@ -137,6 +139,40 @@ impl Simulation {
     /// Computes the collision.
     pub fn run(&self, monitor: &mut dyn Monitor) -> Collision {
         self.model.collide(&self.setup().approach, &self.want, monitor)
+    }
+
+    /// Begins the collision: the caller decides when it goes on.
+    ///
+    /// ```
+    /// # use fem::schema::{BodyTable, MaterialTable, MeshTable};
+    /// # use fem::{Case, CaseFile, Simulation};
+    /// # let ice = MaterialTable::from_youngs_modulus_poissons_ratio("917 kg/m^3", "9.3 GPa", 0.33);
+    /// # let ball = BodyTable::sphere("ball", "2 cm", "ice").approaching("0.2 m/s");
+    /// # let mut file = CaseFile::of_bodies(ball, BodyTable::wall("floor")).with_material("ice", ice);
+    /// # file.mesh =
+    /// #     Some(MeshTable { contact_element_size: Some("0.2 mm".into()), ..Default::default() });
+    /// # let simulation = Simulation::new(Case::of(file)?)?;
+    /// let mut course = simulation.start();
+    /// while course.progress().fraction < 0.5 && course.advance(&mut ()) {}
+    ///
+    /// // Put away, and taken up again, perhaps in another process.
+    /// let memory = serde_json::to_string(&course.memory()).unwrap();
+    /// let memory = serde_json::from_str(&memory).unwrap();
+    /// let mut resumed = simulation.resume(memory)?;
+    /// while resumed.advance(&mut ()) {}
+    /// assert_eq!(resumed.finish(), simulation.run(&mut ()));
+    /// # Ok::<(), fem::CaseError>(())
+    /// ```
+    pub fn start(&self) -> Box<dyn Course + '_> {
+        self.model.start(&self.setup().approach, &self.want)
+    }
+
+    /// Goes on from what a course of this case knew, to the same bits.
+    ///
+    /// # Errors
+    /// A memory of another case, or a model that goes on from none.
+    pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course + '_>, CaseError> {
+        self.model.resume(memory, &self.want).map_err(|refusal| refusal.in_case(&self.case))
     }
 
     /// What closed forms say of a collision of the case's bodies; none where that is no number.

@@ -3,13 +3,16 @@
 use std::sync::Arc;
 
 use fem_case::{Body, CaseFile, ModelChoice, Scene, Shape};
-use fem_collision::{Approach, BodyInput, Collision, Monitor, Stop, Want};
-use fem_explicit::{Model as Bodies, ModelError, Parts, Settings, collide};
+use fem_collision::{
+    Approach, BodyInput, Collision, Ending, Expectation, Monitor, Phase, Progress,
+    STEPS_BETWEEN_REPORTS, Stop, Want,
+};
+use fem_explicit::{Memory, Model as Bodies, ModelError, Parts, Run, Settings};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
-use super::region::until_it_fits;
 use crate::approach::approach_of;
+use crate::course::{Course, InOneGo, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
     MassScaling, MirrorSymmetry, Viscoelasticity, decide,
@@ -168,17 +171,78 @@ impl Model for Explicit {
     }
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
-        let (bodies, estimate) = match self.meeting(approach) {
-            Ok(meeting) => meeting,
-            Err(stop) => return Collision::stopped(*approach, stop),
+        monitor.enter(Phase::Collision);
+        to_the_end(self.start(approach, want), monitor)
+    }
+
+    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
+        match self.meeting(approach) {
+            Ok((bodies, estimate)) => {
+                let expected = estimate.expectation();
+                let run = Run::new(bodies, expected, want);
+                Box::new(ExplicitCourse { made: &self.made, expected, want: want.clone(), run })
+            }
+            Err(stop) => {
+                let approach = *approach;
+                let stopped = move |_: &mut dyn Monitor| Collision::stopped(approach, stop.clone());
+                Box::new(InOneGo::of(stopped))
+            }
+        }
+    }
+
+    fn resume<'a>(&'a self, memory: Memory, want: &Want) -> Result<Box<dyn Course + 'a>, Refusal> {
+        let refused = |error: &dyn std::fmt::Display| Refusal::new("model.fem", error.to_string());
+        let approach = *memory.approach();
+        let (own, estimate) = self.meeting(&approach).map_err(|stop| refused(&stop))?;
+        let bodies = match memory.candidate_radius() == own.candidate_radius() {
+            true => own,
+            false => {
+                let wider = self.made.bodies(&approach, memory.candidate_radius());
+                Arc::new(wider.map_err(|error| refused(&error))?)
+            }
         };
-        let run =
-            |bodies: &Arc<Bodies>| collide(bodies, estimate.expectation(), want, &mut *monitor);
-        until_it_fits(bodies, run, |bodies| self.made.larger(bodies).map(Arc::new).ok_or(None))
+        let run = Run::resume(bodies, memory).map_err(|error| refused(&error))?;
+        let expected = estimate.expectation();
+        Ok(Box::new(ExplicitCourse { made: &self.made, expected, want: want.clone(), run }))
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         self.bodies.bodies().each_ref().map(|body| body.mesh())
+    }
+}
+
+/// A collision of explicit elements under way: a run, begun again where the contact outgrows the region
+/// in which it is looked for.
+struct ExplicitCourse<'a> {
+    made: &'a Made,
+    expected: Expectation,
+    want: Want,
+    run: Run<Arc<Bodies>>,
+}
+
+impl Course for ExplicitCourse<'_> {
+    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
+        match self.run.advance(STEPS_BETWEEN_REPORTS) {
+            None => return true,
+            Some(Ending::Stopped(Stop::ContactBeyondCandidates { .. })) => {}
+            Some(_) => return false,
+        }
+        let Some(larger) = self.made.larger(self.run.model()) else { return false };
+        monitor.enter(Phase::Collision);
+        self.run = Run::new(Arc::new(larger), self.expected, &self.want);
+        true
+    }
+
+    fn progress(&self) -> Progress {
+        self.run.progress()
+    }
+
+    fn memory(&self) -> Option<&Memory> {
+        Some(self.run.memory())
+    }
+
+    fn finish(self: Box<Self>) -> Collision {
+        self.run.finish()
     }
 }
 

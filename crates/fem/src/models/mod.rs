@@ -6,7 +6,6 @@ mod hertz;
 mod law;
 mod law_numbers;
 mod reduced;
-mod region;
 mod ting;
 
 use fem_case::{ModelChoice, Scene};

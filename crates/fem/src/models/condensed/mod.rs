@@ -12,7 +12,6 @@ use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
-use super::region::until_it_fits;
 use crate::approach::{approach_of, frame_of};
 use crate::effects::{Answer, Effect, Vibration, decide};
 use crate::estimate::Estimate;
@@ -162,7 +161,7 @@ impl Condensed {
         want: &Want,
         monitor: &mut dyn Monitor,
     ) -> Collision {
-        let collide = |pair: &Arc<CondensedPair>| {
+        let mut collide = |pair: &CondensedPair| {
             let frame = frame_of(&self.scene, approach, pair.reduced_mass());
             match pair.collide(&frame, relaxations, n_steps, want, &mut *monitor) {
                 Ok(collision) => collision,
@@ -175,9 +174,20 @@ impl Condensed {
                 },
             }
         };
-        until_it_fits(self.pair.clone(), collide, |pair| {
-            self.larger(pair).map_err(|error| Some(stop_of(error, approach)))
-        })
+        let mut pair = self.pair.clone();
+        loop {
+            let mut collision = collide(&pair);
+            if collision.outgrown_radius().is_none() {
+                return collision;
+            }
+            match self.larger(&pair) {
+                Ok(larger) => pair = larger,
+                Err(error) => {
+                    collision.ending = Ending::Stopped(stop_of(error, approach));
+                    return collision;
+                }
+            }
+        }
     }
 
     /// The bodies condensed further out than a pair: the same for all collisions that ask for it.

@@ -1,0 +1,79 @@
+//! A collision under way, for who decides when it goes on: a generator, a frame of a page, a process
+//! that is stopped and begun again.
+
+use std::fmt;
+
+use fem_collision::{Collision, Monitor, Progress};
+use fem_explicit::Memory;
+
+/// A collision under way.
+pub trait Course {
+    /// Goes on for a while: some steps of a model that steps, all that there is of another one. Whether
+    /// there is more to compute.
+    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool;
+
+    /// How far it is.
+    fn progress(&self) -> Progress;
+
+    /// All that a restart needs, of a model that goes on from it; see
+    /// [`Model::resume`](crate::Model::resume).
+    fn memory(&self) -> Option<&Memory> {
+        None
+    }
+
+    /// What came out. A collision that is not over is interrupted here.
+    fn finish(self: Box<Self>) -> Collision;
+}
+
+/// Goes on to the end, or until `monitor` interrupts it.
+pub(crate) fn to_the_end(mut course: Box<dyn Course + '_>, monitor: &mut dyn Monitor) -> Collision {
+    while monitor.report(course.progress()) && course.advance(monitor) {}
+    course.finish()
+}
+
+/// A collision that is computed in one go.
+pub(crate) struct InOneGo<F> {
+    collide: F,
+    collision: Option<Collision>,
+}
+
+impl<F: Fn(&mut dyn Monitor) -> Collision> InOneGo<F> {
+    /// Of what computes it.
+    pub fn of(collide: F) -> Self {
+        Self { collide, collision: None }
+    }
+}
+
+impl<F> fmt::Debug for InOneGo<F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("InOneGo").field("collision", &self.collision).finish_non_exhaustive()
+    }
+}
+
+impl<F: Fn(&mut dyn Monitor) -> Collision> Course for InOneGo<F> {
+    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
+        if self.collision.is_none() {
+            self.collision = Some((self.collide)(monitor));
+        }
+        false
+    }
+
+    fn progress(&self) -> Progress {
+        let fraction = if self.collision.is_some() { 1.0 } else { 0.0 };
+        Progress { time: 0.0, step: 0, fraction, contact_force: 0.0 }
+    }
+
+    fn finish(self: Box<Self>) -> Collision {
+        let Self { collide, collision } = *self;
+        collision.unwrap_or_else(|| collide(&mut Interrupted))
+    }
+}
+
+/// Ends a collision that nobody let begin.
+struct Interrupted;
+
+impl Monitor for Interrupted {
+    fn report(&mut self, _: Progress) -> bool {
+        false
+    }
+}
