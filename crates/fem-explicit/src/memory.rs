@@ -30,7 +30,7 @@ pub struct Memory {
     /// Of the model that it belongs to, as are the next.
     approach: Approach,
     /// See [`fingerprint`].
-    fingerprint: String,
+    fingerprint: u64,
     /// Radius out to which that looks for contact, m.
     candidate_radius: f64,
 }
