@@ -1,5 +1,6 @@
 //! Nothing is allocated inside a step: the allocator itself counts, for each thread.
 
+#[path = "it/common/mod.rs"]
 mod common;
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -97,7 +97,7 @@ mod tests {
     fn coefficient_of_glass() {
         let (constant, slope) = coefficient(0.244);
         assert!((slope - 0.0519).abs() < 0.5e-4);
-        // Finite elements (tests/ting.rs) side with this value.
+        // Finite elements (tests/it/ting.rs) side with this value.
         assert!((constant + 0.5402).abs() < 0.5e-4, "{constant}");
     }
 }

@@ -13,7 +13,7 @@
 
 mod accuracy;
 mod commands;
-#[path = "../common/mod.rs"]
+#[path = "../it/common/mod.rs"]
 mod common;
 mod keys;
 mod pages;

@@ -1,0 +1,89 @@
+//! Numbers: units, range, and what is no number.
+
+use super::marked::fault;
+
+#[test]
+fn wrong_units() {
+    fault(
+        "\"22.2 mm\"",
+        "«\"22.2 kg\"»",
+        "\"22.2 kg\" is a mass; diameter wants a length, such as \"22.2 mm\"",
+        "or a bare number in m",
+    );
+    fault("\"63 GPa\"", "«\"63 Gpa\"»", "unknown unit `Gpa`", "did you mean `GPa`?");
+    fault("\"63 GPa\"", "«\"63 GN\"»", "is a force; youngs_modulus wants a pressure", "");
+    fault("\"2708 1/s\"", "«\"2708 s\"»", "is a time; decay_rate wants a rate", "\"2708 1/s\"");
+    fault("1e-3", "«\"1e3 1/s\"»", "is a rate; relaxation_time wants a time", "");
+    fault(
+        "\"0.5 m/s\"",
+        "«\"0.5\"»",
+        "has no unit; approach_speed wants a speed",
+        "a bare number in m/s",
+    );
+    fault("\"0.5 m/s\"", "«\"0,5 m/s\"»", "decimal comma", "");
+    fault("\"0.5 m/s\"", "«\"fast\"»", "does not begin with a number", "\"0.5 m/s\"");
+    fault("0.244", "«\"0.244 m\"»", "is a length; poissons_ratio wants a plain number", "");
+    fault("\"8 GB\"", "«\"8 kg\"»", "is a mass; memory wants an amount of memory", "\"8 GB\"");
+}
+
+#[test]
+fn not_finite() {
+    for (part, replacement) in [
+        ("\"22.2 mm\"", "«nan»"),
+        ("\"22.2 mm\"", "«inf»"),
+        ("\"22.2 mm\"", "«-inf»"),
+        ("0.244", "«nan»"),
+        ("weight = 0.5", "weight = «nan»"),
+        ("1e-3", "«inf»"),
+        ("\"0.5 m/s\"", "«+nan»"),
+        ("\"1 um\"", "«nan»"),
+        ("1.1", "«inf»"),
+        ("0.9", "«nan»"),
+        ("2e-4", "«nan»"),
+        ("200000", "«inf»"),
+        ("[\"mid-compression\", \"maximum\"]", "«nan»"),
+        ("[\"mid-compression\", \"maximum\"]", "[«nan»]"),
+    ] {
+        fault(part, replacement, "not finite", "");
+    }
+    fault("\"22.2 mm\"", "«\"nan mm\"»", "does not begin with a number", "");
+    fault("\"22.2 mm\"", "«\"inf mm\"»", "does not begin with a number", "");
+    fault("\"22.2 mm\"", "«\"1e400 mm\"»", "out of the range", "");
+    fault("\"22.2 mm\"", "«1e400»", "overflow", "");
+}
+
+#[test]
+fn out_of_range() {
+    for (part, bad, message) in [
+        ("\"22.2 mm\"", "«0»", "diameter is 0.0 m"),
+        ("\"22.2 mm\"", "«\"-1 mm\"»", "diameter is \"-1 mm\""),
+        ("\"2390 kg/m^3\"", "«0»", "density must be positive"),
+        ("\"2390 kg/m^3\"", "«-2390»", "density must be positive"),
+        ("\"63 GPa\"", "«0»", "youngs_modulus must be positive"),
+        ("\"63 GPa\"", "«\"-63 GPa\"»", "youngs_modulus must be positive"),
+        ("0.244", "«0.5»", "poissons_ratio must lie"),
+        ("0.244", "«-1»", "poissons_ratio must lie"),
+        ("0.244", "«24.4»", "poissons_ratio must lie"),
+        ("\"2708 1/s\"", "«0»", "decay_rate is 0.0 1/s"),
+        ("\"2708 1/s\"", "«\"-1 1/s\"»", "decay_rate is \"-1 1/s\""),
+        ("1e-3", "«0»", "relaxation_time is 0.0 s"),
+        ("1e-3", "«\"-1 ms\"»", "relaxation_time is \"-1 ms\""),
+        ("weight = 0.5", "weight = «-0.5»", "relaxation term 0: weight"),
+        ("\"1 um\"", "«-1e-6»", "gap is"),
+        ("\"14 um\"", "«0»", "contact_element_size is 0.0 m"),
+        ("\"0.3 mm\"", "«0»", "refined_radius is"),
+        ("1.1", "«1»", "growth is 1.0"),
+        ("penalty_factor = 1.0", "penalty_factor = «0»", "penalty_factor is 0.0"),
+        ("0.9", "«0»", "step_factor is"),
+        ("0.9", "«1.01»", "step_factor is"),
+        ("2e-4", "«-1e-9»", "mass_scaling is"),
+        ("2e-4", "«0.11»", "mass_scaling is"),
+        ("200000", "«0»", "elements is"),
+        ("200000", "«1.5»", "elements is"),
+        ("1e12", "«1e30»", "element_updates is"),
+        ("\"8 GB\"", "«0»", "memory is 0.0 bytes"),
+    ] {
+        fault(part, bad, message, "");
+    }
+    fault("\"22.2 mm\"", "«0»", "", "diameter must be greater than 0");
+}

@@ -1,0 +1,173 @@
+//! Materials, bodies and what is asked of their collision.
+
+use super::marked::{VALID, error_at_mark, fault, parse};
+
+#[test]
+fn moduli() {
+    fault(
+        "poissons_ratio = 0.244",
+        "shear_modulus = 1e9\npoissons_ratio = «0.244»",
+        "exactly two of youngs_modulus, shear_modulus, bulk_modulus, poissons_ratio",
+        "",
+    );
+    fault(
+        "[material.glass]\ndensity = \"2390 kg/m^3\"\nyoungs_modulus = \"63 GPa\"",
+        "«[material.glass]»\ndensity = \"2390 kg/m^3\"",
+        "exactly two",
+        "",
+    );
+    fault("poissons_ratio = 0.244", "shear_modulus = «1e9»", "implies poissons_ratio", "");
+    fault("poissons_ratio = 0.244", "bulk_modulus = «1e9»", "implies poissons_ratio", "");
+}
+
+#[test]
+fn relaxation() {
+    fault("decay_rate", "relaxation_time = «1», decay_rate", "both decay_rate and", "keep one");
+    fault(
+        "{ weight = 0.5, decay_rate = \"2708 1/s\" }",
+        "«{ weight = 0.5 }»",
+        "neither decay_rate nor",
+        "decay_rate = \"2708 1/s\"",
+    );
+    fault(
+        "[{ weight = 0.5, decay_rate = \"2708 1/s\" }, { weight = 0.25, relaxation_time = 1e-3 }]",
+        "«[]»",
+        "at least one term",
+        "",
+    );
+    fault(
+        "[{ weight = 0.5, decay_rate = \"2708 1/s\" }, { weight = 0.25, relaxation_time = 1e-3 }]",
+        "«[{ weight = 0.8, decay_rate = 1 }, { weight = 0.3, decay_rate = 2 }]»",
+        "at most 1",
+        "",
+    );
+    fault("\"2708 1/s\"", "«1e-320»", "relaxation_time must be positive and finite", "");
+}
+
+#[test]
+fn materials() {
+    fault(
+        "material = \"glass\"",
+        "material = «\"glas\"»",
+        "no material \"glas\"",
+        "did you mean `glass`? the case has glass",
+    );
+    let unused =
+        "[material.\"ice (unused)\"]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n";
+    parse(&format!("{VALID}{unused}")).unwrap();
+    let error = error_at_mark(&format!("{VALID}{}", unused.replace("= 0", "= «0.6»")));
+    assert!(error.message().contains("poissons_ratio"), "{error}");
+}
+
+#[test]
+fn bodies() {
+    let two = "[[body]]\nname = \"striker\"\nsphere = { diameter = 1 }\nmaterial = \"glass\"\n\
+               approach_speed = 1\n[[body]]\nname = \"target\"\nwall = {}\n";
+    let glass = "[material.glass]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n";
+    parse(&format!("{glass}{two}")).unwrap();
+    let is = |text: String, message: &str| {
+        let error = error_at_mark(&text);
+        assert!(error.message().contains(message), "{error}");
+    };
+    is(format!("«»{glass}"), "no [[body]]");
+    is("«»".to_string(), "no [[body]]");
+    is(
+        format!(
+            "{glass}{}",
+            two.replacen("[[body]]", "«[[body]]»", 1)
+                .split("[[body]]\nname = \"target")
+                .next()
+                .unwrap()
+        ),
+        "only one [[body]]",
+    );
+    is(format!("{glass}{two}«[[body]]»\nname = \"c\"\nwall = {{}}\n"), "the case has 3 [[body]]");
+    is(format!("{glass}{}", two.replace("speed = 1", "speed = «0»")), "receding or at rest");
+    is(format!("{glass}{}", two.replace("speed = 1", "speed = «-1»")), "receding or at rest");
+    is(
+        format!(
+            "{glass}{}",
+            two.replace("[[body]]\nname = \"target", "«[[body]]»\nname = \"target")
+                .replace("approach_speed = 1\n", "")
+        ),
+        "receding or at rest",
+    );
+    is(
+        format!(
+            "{glass}{}",
+            two.replace(
+                "wall = {}",
+                "sphere.diameter = 1\nmaterial = 'glass'\napproach_speed = «-1.0»"
+            )
+        ),
+        "add up to 0.0",
+    );
+    is(
+        format!("{glass}{}", two.replace("wall = {}", "wall = {}\napproach_speed = «-0.5»")),
+        "approach_speed is",
+    );
+    is(
+        format!("{glass}{}", two.replace("wall = {}", "wall = {}\nmaterial = «'glass'»")),
+        "no material",
+    );
+    is(
+        "[[body]]\nname = 'a'\nwall = {}\n[[body]]\nname = 'b'\nwall = «{}»".to_string(),
+        "both bodies are walls",
+    );
+    is(
+        format!("{glass}{}", two.replace("wall = {}", "wall = «{}»\nsphere.diameter = 1")),
+        "both sphere and wall",
+    );
+    is(
+        format!(
+            "{glass}{}",
+            two.replace("[[body]]\nname = \"target\"\nwall = {}", "«[[body]]»\nname = \"target\"")
+        ),
+        "neither sphere nor wall",
+    );
+    is(
+        format!("{glass}{}", two.replace("\"target\"", "«\"striker\"»")),
+        "both bodies have the name",
+    );
+    is(format!("{glass}{}", two.replace("\"target\"", "«\"the target\"»")), "not a body's name");
+    is(format!("{glass}{}", two.replace("\"target\"", "«\"\"»")), "not a body's name");
+    is(format!("{glass}{}", two.replace("\"target\"", "«'Kügel'»")), "not a body's name");
+    is(two.replace("\"glass\"", "«\"glass\"»"), "no material \"glass\"");
+    is(
+        format!("{glass}{}", two.replace("diameter = 1", "diameter = 1, mesh = «''»")),
+        "mesh is an empty path",
+    );
+    // A moving wall, and a body that recedes more slowly than the other follows, are fine.
+    parse(&format!(
+        "{glass}{}",
+        two.replace("wall = {}", "wall = {}\napproach_speed = 2")
+            .replace("speed = 1", "speed = -1")
+    ))
+    .unwrap();
+}
+
+#[test]
+fn snapshots() {
+    let list = "[\"mid-compression\", \"maximum\"]";
+    fault(list, "[\"maximum\", «\"maximun\"»]", "no label", "did you mean `maximum`?");
+    fault(list, "[\"maximum\", «\"maximum\"»]", "twice", "");
+    fault(list, "[\"maximum\", «1e-6»]", "mixes", "");
+    fault(list, "[\"1 us\", «\"maximum\"»]", "mixes", "");
+    fault(list, "[«\"1 um\"»]", "is a length; snapshots wants a time", "");
+    fault(list, "[«-1e-6»]", "snapshots is -1e-6 s", "");
+    fault(list, "[«[]»]", "snapshots.0 is an array", "");
+    fault(list, "«0»", "snapshots is 0", "a whole number");
+    fault(list, "«1.5»", "snapshots is 1.5", "a whole number");
+}
+
+#[test]
+fn models() {
+    fault(
+        "fem = {}",
+        "auto = «{}»",
+        "model `auto` is not available in this version",
+        "fem, condensed, ting, hertz and law",
+    );
+    fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "exactly one");
+    fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
+}

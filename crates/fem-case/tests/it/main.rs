@@ -1,0 +1,6 @@
+//! Cases from outside, in one program: linked once, its tests run side by side.
+
+mod faults;
+mod in_code;
+mod overrides;
+mod round_trip;

@@ -1,0 +1,11 @@
+//! A collision of condensed spheres from outside, in one program: linked once, its tests run side by side.
+
+mod common;
+mod convergence;
+mod explicit;
+mod limits;
+mod quantities;
+mod refusals;
+mod snapshots;
+mod together;
+mod unlike_meshes;

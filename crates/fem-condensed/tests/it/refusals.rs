@@ -1,0 +1,139 @@
+//! What is refused, and what is enlarged.
+
+use crate::common::{GLASS, Scene, collide, glass, material};
+use fem_collision::{BodyInput, Ending, Monitor, Progress, Stop, Want};
+use fem_condensed::{CondensedError, CondensedPair, PairSettings};
+use fem_material::ActsOn::{All, Shear};
+
+#[test]
+fn a_contact_beyond_the_candidates_is_told_and_enlarged() {
+    let scene = Scene::paper(glass(), glass());
+    let pair = scene.condensed(8.0);
+    let fast = pair.impact(5.0, [None; 2], CondensedPair::N_STEPS);
+    assert!(matches!(fast, Err(CondensedError::ContactBeyondCandidates { .. })), "{fast:?}");
+    let larger = pair.enlarge(4.0 * pair.candidate_radius()).unwrap();
+    let run = collide(&larger, 5.0);
+    // Hertz' 25.1 µs·√… less the finite size: 39.1 µs at this speed.
+    assert!(
+        (run.contact_time.unwrap() / 39.1e-6 - 1.0).abs() < 0.01,
+        "{}",
+        run.contact_time.unwrap()
+    );
+    // What the smaller one could do, the larger one does as well.
+    let (a, b) = (scene.collide(&pair), scene.collide(&larger));
+    assert!((a.contact_time.unwrap() / b.contact_time.unwrap() - 1.0).abs() < 1e-9);
+    // The hemisphere has an end.
+    let whole = larger.enlarge(1.0).unwrap();
+    assert!(matches!(
+        whole.enlarge(2.0),
+        Err(CondensedError::Stopped(Stop::ContactTooLarge { .. }))
+    ));
+}
+
+#[test]
+fn impossible_inputs_are_refused() {
+    let scene = Scene::paper(glass(), glass());
+    let pair = scene.condensed(4.0);
+    let with = |speed: f64, n_steps: usize| pair.impact(speed, [None; 2], n_steps);
+    for speed in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+        let refused = with(speed, CondensedPair::N_STEPS);
+        assert!(matches!(refused, Err(CondensedError::Approach(_))));
+    }
+    assert!(matches!(with(0.5, 3), Err(CondensedError::Setting { .. })));
+    let walls = [BodyInput::Wall, BodyInput::Wall];
+    let refused = CondensedPair::new(walls, PairSettings::new(1e-3));
+    assert!(matches!(refused, Err(CondensedError::Contact(_))));
+    for radius in [0.0, -1.0, f64::NAN] {
+        let refused = CondensedPair::new(scene.inputs(4.0), PairSettings::new(radius));
+        assert!(matches!(refused, Err(CondensedError::Contact(_))));
+    }
+}
+
+/// What relaxes completely within the contact keeps nothing that could part the bodies, whichever
+/// moduli relax: the restitution is 0, or nearly.
+#[test]
+fn bodies_that_stay_together() {
+    let scene = Scene::paper(glass(), glass());
+    let pair = scene.condensed(4.0).enlarge(4e-3).unwrap();
+    let n_steps = CondensedPair::N_STEPS;
+    for (acts_on, rate) in [(All, 1e6), (Shear, 1e6), (Shear, 3e5)] {
+        let fluid = material(GLASS, acts_on, &[(1.0, rate)]);
+        let relaxations = [fluid.relaxation(); 2];
+        let frame = pair.frame(0.5).unwrap();
+        let run = pair.collide(&frame, relaxations, n_steps, &Want::history(), &mut ()).unwrap();
+        assert!(
+            run.restitution.unwrap() < 1e-4,
+            "{acts_on:?} {rate:e} {}",
+            run.restitution.unwrap()
+        );
+        if acts_on == All {
+            assert_eq!((run.ending.clone(), run.restitution), (Ending::Together, Some(0.0)));
+        }
+        assert!(run.residual_relative.unwrap() < 1e-3, "{}", run.residual_relative.unwrap());
+        // A stiff fluid flows deeper than elastic bodies are pressed.
+        assert!(
+            run.max_approach.unwrap() > 11e-6 && run.max_approach.unwrap() < 1e-4,
+            "{}",
+            run.max_approach.unwrap()
+        );
+        assert!(run.history.len() < 5000);
+    }
+}
+
+/// A run that does not end keeps what it has.
+#[test]
+fn a_stopped_run_keeps_what_it_has() {
+    let scene = Scene::paper(glass(), glass());
+    let pair = scene.condensed(4.0);
+    struct StopAtSecond(usize);
+    impl Monitor for StopAtSecond {
+        fn report(&mut self, progress: Progress) -> bool {
+            self.0 += 1;
+            assert!(progress.fraction > 0.0 && progress.fraction < 1.0);
+            self.0 < 2
+        }
+    }
+    let collide = |want: &Want, monitor: &mut dyn Monitor| {
+        let n_steps = CondensedPair::N_STEPS;
+        pair.collide(&pair.frame(0.5).unwrap(), [None; 2], n_steps, want, monitor).unwrap()
+    };
+    let run = collide(&Want::history(), &mut StopAtSecond(0));
+    let Ending::Stopped(Stop::Interrupted { step, .. }) = run.ending else {
+        panic!("{:?}", run.ending);
+    };
+    assert!(run.steps == Some(step) && run.history.len() as u64 == step + 1);
+    assert!(run.max_approach.unwrap() > 9e-6 && run.restitution.is_none());
+    let brief = collide(&Want { give_up_after: 0.4, ..Want::history() }, &mut ());
+    assert!(matches!(brief.stop(), Some(Stop::NoSeparation { .. })), "{:?}", brief.ending);
+}
+
+/// Modes that the mesh cannot carry are left out; with those that it can, energy adds up.
+#[test]
+fn only_modes_that_the_mesh_resolves() {
+    let scene = Scene::paper(glass(), glass());
+    for (elements, most) in [(0.25, 12), (4.0, 30)] {
+        let settings = PairSettings { vibration_modes: 100, ..scene.settings() };
+        let settings = PairSettings { candidate_radius: 1.2e-3, ..settings };
+        let pair = CondensedPair::new(scene.inputs(elements), settings).unwrap();
+        let counts = pair.frequencies().map(<[f64]>::len);
+        assert!(counts.iter().all(|&n| n > 0 && n < most), "{elements}: {counts:?}");
+        let run = collide(&pair, 0.5);
+        assert!(run.restitution.unwrap() < 1.0 + 1e-6 && run.residual_relative.unwrap() < 1e-4);
+    }
+}
+
+/// One pair serves any number of threads.
+#[test]
+fn a_pair_is_shared() {
+    fn is_shared<T: Send + Sync>(_: &T) {}
+    let scene = Scene::paper(glass(), glass());
+    let pair = scene.condensed(4.0);
+    is_shared(&pair);
+    let alone = scene.collide(&pair);
+    std::thread::scope(|scope| {
+        let runs: Vec<_> = (0..4).map(|_| scope.spawn(|| scene.collide(&pair))).collect();
+        for run in runs {
+            assert_eq!(run.join().unwrap(), alone);
+        }
+    });
+}

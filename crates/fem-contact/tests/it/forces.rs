@@ -1,0 +1,247 @@
+//! Contact forces: patch test, balance, energy, the wall, the end of the candidates.
+
+use std::f64::consts::PI;
+
+use crate::common::{STIFFNESS, flat, forces, glass_pair, interface, noise, ragged, rigid, sphere};
+use fem_contact::{ContactError, ContactInterface, Surface};
+use fem_mesh::{Side, SphereMesh, segment_measures};
+
+/// Load at a node under unit pressure, ∫N 2πr dr over the plane, from the nodes alone; `None`
+/// where the candidates end.
+fn tributary_area(mesh: &SphereMesh, k: usize, limit: f64) -> Option<f64> {
+    let r = |k: usize| mesh.nodes()[mesh.surface()[k] as usize][0];
+    let mut area = segment_measures([r(k), 0.0], [r(k + 1), 0.0])[0];
+    if k > 0 {
+        area += segment_measures([r(k - 1), 0.0], [r(k), 0.0])[1];
+    }
+    (r(k + 1) <= limit * (1.0 + 1e-9)).then_some(area)
+}
+
+/// A uniform penetration makes the pressure kδ, whatever the meshes: the total is kδ times the
+/// area, and each node of each side carries its consistent share.
+#[test]
+fn uniform_penetration_passes_the_patch_test() {
+    for sizes in [[0.01, 0.01], [0.01, 0.013], [0.013, 0.01], [0.01, 0.2], [0.2, 0.01]] {
+        let meshes = [flat(sizes[0], Side::Below), flat(sizes[1], Side::Above)];
+        let interface = interface(&meshes, 0.0999);
+        let radius = interface.candidate_radius();
+        // So deep that the 5e-6 m of the surface are 5e-12 of it.
+        let depth = 1e6;
+        let u = [rigid(&meshes[0], 0.25 * depth), rigid(&meshes[1], -0.75 * depth)];
+        let (total, f) = forces(&interface, &u);
+        let pressure = STIFFNESS / (0.5 * (sizes[0] + sizes[1])) * depth;
+        // Element lengths, and with them the penalty, differ by 2.5e-9.
+        let tolerance = 1e-8;
+        assert!((total.force / (pressure * PI * radius * radius) - 1.0).abs() < tolerance);
+        assert!((total.energy / (0.5 * total.force * depth) - 1.0).abs() < tolerance);
+        assert_eq!(total.n_closed, interface.n_points());
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let mesh = &meshes[side];
+            for k in 0..mesh.surface().len() / 2 {
+                let Some(area) = tributary_area(mesh, k, radius) else { break };
+                let force = f[side][mesh.surface()[k] as usize][1];
+                assert!((force / (sign * pressure * area) - 1.0).abs() < tolerance, "{sizes:?}");
+            }
+        }
+        for (r, p) in interface.nodal_pressure([&u[0], &u[1]]) {
+            assert!((p / pressure - 1.0).abs() < tolerance, "{sizes:?}: {p} at {r}");
+        }
+    }
+}
+
+/// Against a wall the penalty is that over the length of the sphere's segment alone.
+#[test]
+fn wall_passes_the_patch_test_from_either_side() {
+    for (side, sign) in [(Side::Above, -1.0), (Side::Below, 1.0)] {
+        let mesh = flat(0.01, side);
+        let (sphere, wall) = (Surface::of_sphere(&mesh), Surface::wall());
+        let surfaces = if side == Side::Above { [wall, sphere] } else { [sphere, wall] };
+        let [lower, upper] = surfaces;
+        let interface = ContactInterface::new(lower, upper, STIFFNESS, 0.0, 0.0999).unwrap();
+        let moved = rigid(&mesh, sign * 1e6);
+        let fixed = vec![[0.0; 2]];
+        let u = if side == Side::Above { [fixed, moved] } else { [moved, fixed] };
+        let (total, f) = forces(&interface, &u);
+        let pressure = STIFFNESS / 0.01 * 1e6;
+        // As above.
+        assert!((total.force / (pressure * PI * 0.1 * 0.1) - 1.0).abs() < 1e-8);
+        assert!(
+            interface
+                .nodal_pressure([&u[0], &u[1]])
+                .all(|(_, p)| (p / pressure - 1.0).abs() < 1e-8)
+        );
+        let sum = |f: &[[f64; 2]]| f.iter().map(|f| f[1]).sum::<f64>();
+        assert!((sum(&f[0]) + sum(&f[1])).abs() < 1e-14 * total.force);
+        assert!((sum(&f[1]) / total.force - 1.0).abs() < 1e-14);
+    }
+}
+
+/// A wall is a body whose surface is flat.
+#[test]
+fn wall_is_a_plane() {
+    let size = 30e-6;
+    let upper = sphere(7.95e-3, size, 0.3e-3, Side::Above);
+    // A sphere of 8 km, with segments of the same length.
+    let lower = sphere(7.95e3, size, 0.3e-3, Side::Below);
+    let penetration = 5e-6;
+    let down = rigid(&upper, -penetration);
+    let plane =
+        ContactInterface::new(Surface::wall(), Surface::of_sphere(&upper), STIFFNESS, 0.0, 0.5e-3);
+    let (wall, _) = forces(&plane.unwrap(), &[vec![[0.0; 2]], down.clone()]);
+    let pair = [lower, upper];
+    let (flat, _) = forces(&interface(&pair, 0.5e-3), &[rigid(&pair[0], 0.0), down]);
+    assert!(wall.n_closed > 10);
+    // Segments of the sphere shrink by (r/2R)² = 3e-4 toward r = a; of the mean of both, half.
+    assert!((wall.force / flat.force - 1.0).abs() < 3e-4, "{} {}", wall.force, flat.force);
+}
+
+#[test]
+fn forces_balance_for_any_displacement() {
+    for sizes in [[30e-6, 30e-6], [30e-6, 37e-6], [15e-6, 300e-6]] {
+        let meshes = glass_pair(sizes);
+        let interface = interface(&meshes, 0.4e-3);
+        let (total, f) = forces(&interface, &ragged(&meshes, 20e-6));
+        assert!(total.n_closed > 10 && total.n_closed < interface.n_points());
+        let [lower, upper] = f.each_ref().map(|f| f.iter().map(|f| f[1]).sum::<f64>());
+        // Rounding of some hundred terms.
+        assert!((lower + total.force).abs() < 1e-13 * total.force, "{lower} {total:?}");
+        assert!((upper - total.force).abs() < 1e-13 * total.force, "{upper} {total:?}");
+        assert!(f.iter().flatten().all(|f| f[0] == 0.0), "the contact is frictionless");
+    }
+}
+
+/// Force = −∂energy/∂displacement, on both sides and with points that are open.
+#[test]
+fn force_is_minus_the_gradient_of_the_energy() {
+    for sizes in [[30e-6, 37e-6], [15e-6, 300e-6]] {
+        let meshes = glass_pair(sizes);
+        let interface = interface(&meshes, 0.4e-3);
+        let u = ragged(&meshes, 20e-6);
+        let (total, f) = forces(&interface, &u);
+        let step = 1e-10;
+        for side in 0..2 {
+            for node in interface.candidate_nodes(side) {
+                let energy = |change: f64| {
+                    let mut moved = u.clone();
+                    moved[side][node as usize][1] += change;
+                    forces(&interface, &moved).0.energy
+                };
+                let slope = (energy(step) - energy(-step)) / (2.0 * step);
+                let error = (f[side][node as usize][1] + slope).abs();
+                // The energy is quadratic, so the difference is exact but for rounding,
+                // 1e-15 · energy / step.
+                assert!(error < 1e-14 * total.energy / step, "{error:e} {:?}", total);
+            }
+        }
+    }
+}
+
+#[test]
+fn an_open_contact_does_nothing() {
+    let meshes = glass_pair([30e-6, 30e-6]);
+    let interface = interface(&meshes, 0.4e-3);
+    let u = [rigid(&meshes[0], 0.0), rigid(&meshes[1], 1e-12)];
+    let (total, f) = forces(&interface, &u);
+    assert_eq!(total, Default::default());
+    assert!(f.iter().flatten().all(|f| *f == [0.0; 2]));
+    assert_eq!(interface.contact_radius([&u[0], &u[1]]), 0.0);
+    assert_eq!(interface.centre_pressure([&u[0], &u[1]]), 0.0);
+}
+
+/// Rigid spheres that overlap by δ touch within the radius a = √(2R*δ) of the true arcs, and the
+/// penalty carries kπR*δ². Chords instead of arcs would add h²/6R*δ = 1.1 % to it.
+#[test]
+fn overlap_is_that_of_the_true_arcs() {
+    let size = 40e-6;
+    let meshes = glass_pair([size, size]);
+    let interface = interface(&meshes, 0.4e-3);
+    let (depth, effective_radius) = (5e-6, 1.0 / (1.0 / 11.1e-3 + 1.0 / 7.95e-3));
+    let u = [rigid(&meshes[0], 0.0), rigid(&meshes[1], -depth)];
+    let (total, _) = forces(&interface, &u);
+    // The gap is a parabola and taken as linear between two points s = 0.58 h apart: s²/8a² =
+    // 1.4e-3 at most.
+    let overlap_radius = (2.0 * effective_radius * depth).sqrt();
+    let radius = interface.contact_radius([&u[0], &u[1]]);
+    assert!((radius / overlap_radius - 1.0).abs() < 1.5e-3, "{radius} {overlap_radius}");
+    // Two Gauss points see the rim, a kink, to (h/a)²/10 = 0.4 %; k varies by 1e-4.
+    let force = STIFFNESS / size * PI * effective_radius * depth * depth;
+    assert!((total.force / force - 1.0).abs() < 5e-3, "{} {force}", total.force);
+}
+
+/// Rigid spheres close from the axis outward, point by point.
+#[test]
+fn limit_is_reached_when_the_outermost_point_closes() {
+    let meshes = glass_pair([30e-6, 30e-6]);
+    let interface = interface(&meshes, 0.3e-3);
+    let mut n_at_limit = 0;
+    // The last point lies at 0.31 to 0.33 mm, where the arcs are r²/2R* = 11 µm apart.
+    for k in 0..200 {
+        let u = [rigid(&meshes[0], 8e-6 + 2e-8 * f64::from(k)), rigid(&meshes[1], 0.0)];
+        let (total, _) = forces(&interface, &u);
+        assert_eq!(total.at_limit, total.n_closed == interface.n_points());
+        n_at_limit += usize::from(total.at_limit);
+    }
+    assert!(n_at_limit > 0 && n_at_limit < 150, "{n_at_limit}");
+}
+
+#[test]
+fn is_closed_agrees_with_the_forces() {
+    let meshes = glass_pair([30e-6, 37e-6]);
+    let interface = interface(&meshes, 0.4e-3);
+    let mut n_closed = 0;
+    for sample in 0..40 {
+        // The innermost point closes at 4e-9 m.
+        let depth = 4e-8 * noise(sample);
+        let u = [rigid(&meshes[0], depth), rigid(&meshes[1], 0.0)];
+        let (total, _) = forces(&interface, &u);
+        let at = |side: usize| {
+            let u = &u[side];
+            move |node: u32| u[node as usize][1]
+        };
+        let closed = interface.is_closed([at(0), at(1)]);
+        assert_eq!(closed, total.n_closed > 0);
+        n_closed += usize::from(closed);
+    }
+    assert!(n_closed > 10 && n_closed < 30, "{n_closed}");
+}
+
+#[test]
+fn candidates_end_at_the_first_node_beyond_the_radius_asked_for() {
+    let meshes = glass_pair([30e-6, 37e-6]);
+    let interface = interface(&meshes, 0.3e-3);
+    let radius = interface.candidate_radius();
+    assert!((0.3e-3..0.3e-3 + 30e-6).contains(&radius), "{radius}");
+    for side in 0..2 {
+        let r = |node: u32| meshes[side].nodes()[node as usize][0];
+        assert!(interface.candidate_nodes(side).all(|node| r(node) <= radius * (1.0 + 1e-12)));
+        let n = interface.candidate_nodes(side).count();
+        assert!(r(meshes[side].surface()[n]) > radius);
+    }
+    // However large the radius, only near hemispheres touch, as far as both reach.
+    let all = crate::common::interface(&meshes, 1.0);
+    assert!((all.candidate_radius() / 7.95e-3 - 1.0).abs() < 0.01, "{}", all.candidate_radius());
+}
+
+#[test]
+fn impossible_interfaces_are_refused() {
+    let mesh = sphere(1.0, 0.1, 0.3, Side::Above);
+    let make = |stiffness: f64, radius: f64| {
+        ContactInterface::new(Surface::wall(), Surface::of_sphere(&mesh), stiffness, 0.0, radius)
+    };
+    assert!(make(1.0, 1.0).is_ok());
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for (made, name) in
+            [(make(bad, 1.0), "penalty stiffness"), (make(1.0, bad), "candidate radius")]
+        {
+            match made {
+                Err(ContactError::NotPositive { name: found, value }) => {
+                    assert_eq!(found, name);
+                    assert_eq!(value.to_bits(), bad.to_bits());
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+    let walls = ContactInterface::new(Surface::wall(), Surface::wall(), 1.0, 0.0, 1.0);
+    assert_eq!(walls, Err(ContactError::TwoWalls));
+}

@@ -1,0 +1,6 @@
+//! The contact from outside, in one program: linked once, its tests run side by side.
+
+mod common;
+mod forces;
+mod pressure;
+mod stiffness;

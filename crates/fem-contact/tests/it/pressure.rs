@@ -1,0 +1,95 @@
+//! Contact radius and centre pressure of an imposed Hertzian contact.
+
+use std::f64::consts::PI;
+
+use crate::common::{Field, STIFFNESS, forces, glass_pair, interface, rigid};
+use fem_mesh::{SphereMesh, segment_measures};
+
+const CONTACT_RADIUS: f64 = 0.223e-3;
+const PEAK_PRESSURE: f64 = 1.027e9;
+
+/// Displacements that make the penalty pressure at the nodes Hertz', p₀ √(1 − r²/a²), and open
+/// the gap outside as steeply. Between nodes the arcs sag below the chords of the displacement;
+/// at both Gauss points by h²/12R*, which is made up for.
+fn hertzian(meshes: &[SphereMesh; 2], size: f64) -> [Field; 2] {
+    let arc = |r: f64, radius: f64| radius - (radius * radius - r * r).sqrt();
+    let displacement = |r: f64| {
+        let x = (r / CONTACT_RADIUS).powi(2) - 1.0;
+        let pressure = -PEAK_PRESSURE * x.signum() * x.abs().sqrt();
+        let sag = size * size / 12.0 * (1.0 / 11.1e-3 + 1.0 / 7.95e-3);
+        arc(r, 11.1e-3) + arc(r, 7.95e-3) - sag + pressure * size / STIFFNESS
+    };
+    let field = |mesh: &SphereMesh, share: f64| {
+        mesh.nodes()
+            .iter()
+            .map(|&[r, _]| [0.0, share * displacement(r.min(0.5e-3))])
+            .collect::<Vec<_>>()
+    };
+    [field(&meshes[0], 0.5), field(&meshes[1], -0.5)]
+}
+
+#[test]
+fn radius_force_and_centre_pressure_of_hertz_are_recovered() {
+    let exact = 2.0 / 3.0 * PI * CONTACT_RADIUS.powi(2) * PEAK_PRESSURE;
+    let errors = [40e-6, 20e-6, 10e-6].map(|size| {
+        let meshes = glass_pair([size, size]);
+        let interface = interface(&meshes, 0.45e-3);
+        let u = hertzian(&meshes, size);
+        let both = [u[0].as_slice(), u[1].as_slice()];
+        // The rim's square root is cut by straight lines between nodes: 0.14 h is measured.
+        let radius = interface.contact_radius(both);
+        assert!((radius - CONTACT_RADIUS).abs() < 0.2 * size, "{radius} at {size}");
+        let centre = interface.centre_pressure(both) / PEAK_PRESSURE - 1.0;
+        let force = forces(&interface, &u).0.force / exact - 1.0;
+        [centre, force]
+    });
+    // At 5.6, 11 and 22 elements a contact radius; measured are 0.94 and 2.9 % at the first.
+    assert!(errors[0][0].abs() < 0.01 && errors[0][1].abs() < 0.03, "{errors:?}");
+    for pair in errors.windows(2) {
+        for k in 0..2 {
+            // Second order, but that the rim falls into an element at another place each time.
+            let order = (pair[0][k] / pair[1][k]).log2();
+            assert!((1.6..2.4).contains(&order), "{order} {errors:?}");
+        }
+    }
+}
+
+/// With three nodes or fewer within 0.8 contact radii the axis node stands for the centre.
+#[test]
+fn a_contact_of_a_few_nodes_gives_the_pressure_of_the_axis_node() {
+    let meshes = glass_pair([30e-6, 30e-6]);
+    let interface = interface(&meshes, 0.4e-3);
+    for (depth, is_fitted) in [(0.5e-6, false), (2e-6, true)] {
+        let u = [rigid(&meshes[0], depth), rigid(&meshes[1], 0.0)];
+        let both = [u[0].as_slice(), u[1].as_slice()];
+        let axis = interface.nodal_pressure(both).next().unwrap();
+        assert_eq!(axis.0, 0.0);
+        assert_eq!(interface.centre_pressure(both) != axis.1, is_fitted);
+    }
+}
+
+/// Nodal pressures are nodal forces over nodal areas, so they give the force back.
+#[test]
+fn nodal_pressures_add_up_to_the_force() {
+    for sizes in [[30e-6, 30e-6], [30e-6, 37e-6], [15e-6, 100e-6]] {
+        let meshes = glass_pair(sizes);
+        let interface = interface(&meshes, 0.4e-3);
+        let u = [rigid(&meshes[0], 8e-6), rigid(&meshes[1], 0.0)];
+        let (total, f) = forces(&interface, &u);
+        let mut sum = 0.0;
+        let pressures = interface.nodal_pressure([&u[0], &u[1]]);
+        for (k, (r, p)) in pressures.enumerate() {
+            let node = meshes[0].surface()[k] as usize;
+            assert_eq!(r, meshes[0].nodes()[node][0]);
+            let r = |k: usize| [meshes[0].nodes()[meshes[0].surface()[k] as usize][0], 0.0];
+            let mut area = segment_measures(r(k), r(k + 1))[0];
+            if k > 0 {
+                area += segment_measures(r(k - 1), r(k))[1];
+            }
+            // Rounding; the contact ends well before the candidates do.
+            assert!((p * area + f[0][node][1]).abs() < 1e-13 * total.force, "{sizes:?} {k}");
+            sum += p * area;
+        }
+        assert!((sum / total.force - 1.0).abs() < 1e-13, "{sum} {total:?}");
+    }
+}

@@ -1,0 +1,6 @@
+//! The elements from outside, in one program: linked once, its tests run side by side.
+
+mod common;
+mod geometry;
+mod matrices;
+mod patch;

@@ -1,0 +1,10 @@
+//! The explicit method from outside, in one program: linked once, its tests run side by side.
+
+mod collision;
+mod common;
+mod ending;
+mod observed;
+mod outputs;
+mod parts;
+mod resume;
+mod stress;

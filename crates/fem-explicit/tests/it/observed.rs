@@ -1,0 +1,86 @@
+//! What is observed of a run does not depend on whether its rows are kept.
+
+use crate::common::{HERTZ_TIME, Pair};
+use fem_collision::{Collision, Expectation, Stop, Want};
+use fem_explicit::{Model, collide};
+use fem_material::ActsOn;
+
+/// About 1900 steps a contact and 270 elements.
+fn small() -> Pair {
+    Pair { element_size: 110e-6, candidate_radius: 0.45e-3, ..Pair::default() }
+}
+
+/// Elastic, and relaxing in shear.
+fn pairs() -> [Pair; 2] {
+    let relaxation = Some(ActsOn::Shear);
+    [small(), Pair { relaxation, terms: &[(0.3, 2e-5), (0.5, 1e-3)], ..small() }]
+}
+
+/// All but the rows; numbers are printed so that they read back to the same bits.
+fn but_rows(run: &Collision) -> String {
+    format!("{:?}", Collision { history: Vec::new(), ..run.clone() })
+}
+
+/// Runs a model for so many rows.
+fn run_for(model: &Model, expected: Expectation, want: Want, history_rows: usize) -> Collision {
+    collide(model, expected, &Want { history_rows, ..want }, &mut ())
+}
+
+#[test]
+fn quantities_are_those_of_a_run_with_history() {
+    for pair in pairs() {
+        let model = pair.model();
+        let whole = collide(&model, pair.expected(), &Want::history(), &mut ());
+        let bare = collide(&model, pair.expected(), &Want::quantities(), &mut ());
+        assert!(whole.history.len() > 1000 && bare.history.is_empty());
+        assert_eq!(but_rows(&bare), but_rows(&whole));
+        for history_rows in [1, 100, 100_000] {
+            let other = run_for(&model, pair.expected(), Want::history(), history_rows);
+            assert!(!other.history.is_empty());
+            assert_eq!(but_rows(&other), but_rows(&whole), "{history_rows} rows");
+        }
+    }
+}
+
+/// Runs that stop, and one that takes so much longer than expected that instants are given up.
+#[test]
+fn so_are_those_of_odd_runs() {
+    let outgrown = Pair { candidate_radius: 0.15e-3, ..small() };
+    let endless = Pair { max_time: 30e-6, ..small() };
+    for (pair, contact_time) in
+        [(&outgrown, HERTZ_TIME), (&endless, HERTZ_TIME), (&small(), HERTZ_TIME / 1e3)]
+    {
+        let model = pair.model();
+        let expected = Expectation { contact_time, ..pair.expected() };
+        let want = Want { give_up_after: pair.max_time / contact_time, ..Want::history() };
+        let whole = run_for(&model, expected, want.clone(), 1000);
+        assert_eq!(whole.is_complete(), contact_time < HERTZ_TIME);
+        for history_rows in [0, 30, 3000] {
+            let other = run_for(&model, expected, want.clone(), history_rows);
+            assert_eq!(but_rows(&other), but_rows(&whole), "{history_rows} rows");
+            // The state where it stopped is the last row, whenever one was due.
+            if let Some(row) = other.history.last() {
+                assert_eq!(Some(row.time), whole.history.last().map(|row| row.time));
+                assert_eq!(Some(row.residual), Some(other.residual));
+                assert_eq!(row.energies, other.energies);
+            }
+        }
+        assert!(!matches!(whole.stop(), Some(Stop::EnergyGrowth { .. })));
+    }
+}
+
+/// Rows between the instants that are observed lie on the same curves.
+#[test]
+fn more_rows_show_the_same_run() {
+    let pair = Pair { relaxation: Some(ActsOn::All), step_factor: 0.3, ..small() };
+    let model = pair.model();
+    let few = run_for(&model, pair.expected(), pair.want(), 1000).history;
+    let many = run_for(&model, pair.expected(), pair.want(), 5000).history;
+    assert!(many.len() > 3 * few.len(), "{} {}", many.len(), few.len());
+    assert!(many.windows(2).all(|two| two[0].time < two[1].time));
+    let common = few.iter().filter(|row| many.contains(row)).count();
+    // At strides of 5 and 1 steps.
+    assert_eq!(common, few.len());
+    let dissipated = |k: usize| many[k].energy(fem_collision::Account::ViscousDissipation).unwrap();
+    assert!((1..many.len()).all(|k| dissipated(k) >= dissipated(k - 1)));
+}

@@ -1,0 +1,214 @@
+//! A run that is stopped between two steps and resumed from its memory is the same run.
+
+use crate::common::{Pair, quantities};
+use fem_collision::{
+    BodyInput, Collision, Ending, Label, Monitor, Progress, SnapshotRequest, Stop,
+};
+use fem_explicit::{Memory, Model, ModelError, Run, collide};
+use fem_material::ActsOn;
+
+/// About 1900 steps a contact and 270 elements.
+fn small() -> Pair {
+    Pair { element_size: 110e-6, candidate_radius: 0.45e-3, ..Pair::default() }
+}
+
+/// Elastic, relaxing with constant Poisson's ratio, and relaxing in shear with two terms.
+fn materials() -> [Pair; 3] {
+    let shear =
+        Pair { relaxation: Some(ActsOn::Shear), terms: &[(0.3, 2e-5), (0.5, 1e-3)], ..small() };
+    [small(), Pair { relaxation: Some(ActsOn::All), ..small() }, shear]
+}
+
+fn requests() -> [SnapshotRequest; 3] {
+    let times = vec![1e-6, 30e-6, 1.0, 70e-6];
+    let labels = Label::ALL.to_vec();
+    [SnapshotRequest::Labels(labels), SnapshotRequest::Count(5), SnapshotRequest::Times(times)]
+}
+
+/// The memory as another process would have it.
+fn stored(memory: &Memory) -> Memory {
+    let bytes = postcard::to_stdvec(memory).unwrap();
+    let (read, rest) = postcard::take_from_bytes::<Memory>(&bytes).unwrap();
+    assert!(rest.is_empty());
+    assert_eq!(&read, memory);
+    read
+}
+
+/// Everything is a number, so that equality is that of the bits but for the sign of zero.
+fn assert_same(one: &Collision, other: &Collision) {
+    assert!(one.history.iter().all(|row| row.residual.unwrap().is_finite()));
+    assert_eq!(one, other);
+}
+
+/// A run in pieces of so many steps, each in a fresh [`Run`]; what is told of each memory.
+fn in_pieces(
+    pair: &Pair,
+    model: &Model,
+    n_steps: u64,
+    mut look: impl FnMut(&Memory, Progress),
+) -> Collision {
+    let mut memory = Run::new(model, pair.expected(), &pair.want()).memory().clone();
+    loop {
+        let mut run = Run::resume(model, stored(&memory)).unwrap();
+        let has_ended = run.advance(n_steps).is_some();
+        look(run.memory(), run.progress());
+        if has_ended {
+            return run.finish();
+        }
+        memory = run.memory().clone();
+    }
+}
+
+/// Whatever the body and the request: before the first force, in compression, in separation and in
+/// flight.
+#[test]
+fn a_resumed_run_is_the_same_to_the_bit() {
+    for pair in materials() {
+        for snapshots in requests() {
+            let pair = Pair { snapshots, gap: 1e-6, ..pair.clone() };
+            let model = pair.model();
+            let whole = pair.run_model(&model);
+            let last = whole.last_contact.unwrap();
+            let mut seen = [0; 4];
+            let mut force = 0.0;
+            let resumed = in_pieces(&pair, &model, 97, |memory, progress| {
+                let phase = match progress.contact_force {
+                    0.0 if memory.time() > last => 3,
+                    0.0 => 0,
+                    now => 1 + usize::from(now < force),
+                };
+                force = progress.contact_force;
+                seen[phase] += 1;
+            });
+            assert_same(&whole, &resumed);
+            assert!(seen[1..].iter().all(|&n| n >= 2), "{seen:?}");
+        }
+    }
+}
+
+/// The first steps have no force yet, the first snapshot of a gap lies before first touch.
+#[test]
+fn a_run_resumes_from_its_first_steps() {
+    let times = SnapshotRequest::Times(vec![1e-6, 2.1e-6]);
+    let pair = Pair { gap: 1e-6, snapshots: times, ..small() };
+    let model = pair.model();
+    let whole = pair.run_model(&model);
+    assert_eq!(whole.snapshots[0].time, 1e-6);
+    for n_steps in 0..5 {
+        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        assert_eq!(run.advance(n_steps), None);
+        assert_eq!(run.memory().step(), n_steps);
+        let mut resumed = Run::resume(&model, stored(run.memory())).unwrap();
+        assert_eq!(resumed.advance(u64::MAX), Some(&Ending::Parted));
+        assert_same(&whole, &resumed.finish());
+    }
+}
+
+/// A history that is thinned, a wall that moves, a contact that stops the run or does not end.
+#[test]
+fn odd_runs_resume_alike() {
+    let wall = Pair { velocities: [1.5, 1.0], ..small() };
+    let bodies = [BodyInput::Wall, wall.sphere(1)];
+    let wall_model = wall.model_of(bodies);
+    let thinned = Pair { history_rows: 16, max_time: 150e-6, ..small() };
+    let outgrown = Pair { candidate_radius: 0.15e-3, ..small() };
+    let endless = Pair { max_time: 30e-6, ..small() };
+    for (pair, model) in [
+        (&wall, &wall_model),
+        (&thinned, &thinned.model()),
+        (&outgrown, &outgrown.model()),
+        (&endless, &endless.model()),
+    ] {
+        assert_same(&pair.run_model(model), &in_pieces(pair, model, 211, |_, _| ()));
+    }
+    assert!(outgrown.run().outgrown_radius().is_some());
+    assert!(matches!(endless.run().stop(), Some(Stop::NoSeparation { .. })));
+}
+
+#[test]
+fn one_step_at_a_time_is_many_at_once() {
+    for pair in materials() {
+        let model = pair.model();
+        let new = || Run::new(&model, pair.expected(), &pair.want());
+        let (mut single, mut many) = (new(), new());
+        for n_steps in [1, 30, 400, 1000] {
+            for _ in 0..n_steps {
+                assert_eq!(single.advance(1), None);
+            }
+            assert_eq!(many.advance(n_steps), None);
+            assert_eq!(single.memory(), many.memory());
+        }
+        while single.advance(1).is_none() {}
+        assert_eq!(many.advance(u64::MAX), Some(&Ending::Parted));
+        assert_eq!(single.memory(), many.memory());
+        assert_same(&single.finish(), &many.finish());
+    }
+}
+
+/// No step is no step.
+#[test]
+fn nothing_happens_by_itself() {
+    let (pair, model) = (small(), small().model());
+    let mut run = Run::new(&model, pair.expected(), &pair.want());
+    let start = run.memory().clone();
+    assert_eq!(run.advance(0), None);
+    assert_eq!(run.memory(), &start);
+}
+
+#[test]
+fn a_memory_of_another_model_is_refused() {
+    let pair = small();
+    let model = pair.model();
+    let mut run = Run::new(&model, pair.expected(), &pair.want());
+    assert_eq!(run.advance(300), None);
+    assert!(Run::resume(&model, run.memory().clone()).is_ok());
+    let wall = pair.model_of([BodyInput::Wall, pair.sphere(1)]);
+    for (other, what) in [
+        (Pair { element_size: 100e-6, ..small() }.model(), "a finer mesh"),
+        (Pair { step_factor: 0.8, ..small() }.model(), "a shorter step"),
+        (Pair { candidate_radius: 0.6e-3, ..small() }.model(), "a larger region of contact"),
+        (Pair { relaxation: Some(ActsOn::All), ..small() }.model(), "a relaxing body"),
+        (Pair { velocities: [0.6, 0.0], ..small() }.model(), "another speed"),
+        (Pair { gap: 1e-9, ..small() }.model(), "another gap"),
+        (wall, "a wall"),
+    ] {
+        let refused = Run::resume(&other, run.memory().clone()).err();
+        assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
+    }
+}
+
+/// Stops a run once it has come to a step.
+struct StopAt(u64);
+
+impl Monitor for StopAt {
+    fn report(&mut self, progress: Progress) -> bool {
+        progress.step < self.0
+    }
+}
+
+/// Rows and snapshots as the whole run has them; the row of the stop is the last. The contact opens
+/// for a moment at its beginning, which is not the last contact of a run that is left later.
+#[test]
+fn an_interrupted_run_is_the_beginning_of_the_whole() {
+    for snapshots in requests() {
+        let pair = Pair { snapshots, ..small() };
+        let model = pair.model();
+        let whole = pair.run_model(&model);
+        let n_half = quantities(&whole).steps / 2;
+        let run = collide(&model, pair.expected(), &pair.want(), &mut StopAt(n_half));
+        assert!(run.is_interrupted());
+        let (stop, rows) = run.history.split_last().unwrap();
+        assert!(stop.time >= rows.last().unwrap().time);
+        assert_eq!(rows, &whole.history[..rows.len()]);
+        assert!(rows.len() > whole.history.len() / 3);
+        let times: Vec<_> = run.snapshots.iter().map(|snapshot| snapshot.time).collect();
+        if matches!(pair.snapshots, SnapshotRequest::Count(_)) {
+            // Evenly over the contact as far as it went.
+            assert_eq!(times.len(), 5);
+            assert!(times[4] > 0.45 * whole.last_contact.unwrap(), "{times:?}");
+        } else {
+            assert!(run.snapshots.iter().all(|snapshot| whole.snapshots.contains(snapshot)));
+            assert_eq!((times.len(), run.warnings.len()), (2, 2));
+        }
+    }
+}

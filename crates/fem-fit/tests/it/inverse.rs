@@ -1,0 +1,94 @@
+//! Inverse problems against published values and the laws themselves.
+
+use crate::common::{glass, glass_model};
+use fem_fit::{FitError, Model, Point, Problem, invert};
+use fem_laws::{EndRule, Family};
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+
+/// 0.92 at 0.5 m/s: β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
+/// project's reference calculation, by another program).
+#[test]
+fn decay_rate_of_the_glass() {
+    for (acts_on, expected) in [(ActsOn::All, 2982.0), (ActsOn::Shear, 4173.0)] {
+        let model = glass_model(Family::Ting, Some((2708.0, acts_on)));
+        let found = invert(&model, 0, &[2708.0], 0.5, 0.92).unwrap();
+        assert_eq!(found.solutions.len(), 1);
+        // Printed to a unit.
+        assert!((found.solutions[0] - expected).abs() < 0.5, "{:?}", found.solutions);
+        let rates = model.decay_rates(found.solutions[0]);
+        assert!(rates.iter().flatten().all(|rate| (rate / found.solutions[0] - 1.0).abs() < 1e-14));
+    }
+}
+
+/// Every law, every parameter that damps: what is found gives what was wanted.
+#[test]
+fn every_law_has_an_inverse() {
+    for family in Family::ALL.into_iter().filter(|family| *family != Family::Ting) {
+        // Nothing of Hertz' is lost.
+        let Some(index) = family.loss_parameter() else { continue };
+        let model = glass_model(family, None);
+        let mut values = Problem::new(&model, &[Point::new(0.5, 0.9)], &[]).unwrap().values;
+        for wanted in [0.99, 0.92, 0.5, 0.1] {
+            // Their coefficient is first order in 1 − e: the smallest e entered makes 0.66.
+            if family == Family::HuntCrossley && wanted < 0.7 {
+                let error = invert(&model, index, &values, 0.5, wanted).unwrap_err();
+                assert!(matches!(error, FitError::NoSolution { .. }));
+                continue;
+            }
+            let found = invert(&model, index, &values, 0.5, wanted).unwrap();
+            assert_eq!(found.solutions.len(), 1, "{family:?} {wanted}");
+            values[index] = found.solutions[0];
+            let e = model.outcome(&values, 0.5).unwrap().restitution;
+            // The search ends at 1e-14 of a quarter of a decade; e is computed to 1e-10.
+            assert!((e - wanted).abs() < 1e-8, "{family:?} {wanted}: {e}");
+        }
+    }
+}
+
+/// exp(−πζ/√(1−ζ²)) and α = √5 ζ.
+#[test]
+fn tsuji_is_its_closed_form() {
+    let glass = glass(None);
+    let pair = *glass_model(Family::Tsuji, None).pair();
+    let materials = [Some(glass.clone()), Some(glass)];
+    let model = Model::new(&pair, materials, Family::Tsuji, EndRule::ZeroOverlap).unwrap();
+    let found = invert(&model, 0, &[0.1], 0.5, 0.92).unwrap().solutions[0];
+    let loss = 0.92f64.ln().abs();
+    let exact = 5f64.sqrt() * loss / std::f64::consts::PI.hypot(loss);
+    assert!((found / exact - 1.0).abs() < 1e-7);
+}
+
+/// A solid that keeps half its modulus loses most at one rate: below that loss there are two rates,
+/// beyond it none.
+#[test]
+fn a_solid_has_two_rates_or_none() {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    let term = PronyTerm { weight: 0.5, relaxation_time: 1e-5 };
+    let series = PronySeries::new(vec![term], ActsOn::All).unwrap();
+    let solid = Material::new(2390.0, moduli, Some(series)).unwrap();
+    let pair = *glass_model(Family::Tsuji, None).pair();
+    let materials = [Some(solid.clone()), Some(solid)];
+    let model = Model::new(&pair, materials, Family::Ting, EndRule::ZeroForce).unwrap();
+    let found = invert(&model, 0, &[1e5], 0.5, 0.92).unwrap();
+    assert_eq!(found.solutions.len(), 2);
+    for rate in &found.solutions {
+        let e = model.outcome(&[*rate], 0.5).unwrap().restitution;
+        // Ting is good to 1e-8 at its best.
+        assert!((e - 0.92).abs() < 1e-6, "{rate}: {e}");
+    }
+    let error = invert(&model, 0, &[1e5], 0.5, 0.3).unwrap_err();
+    assert!(matches!(error, FitError::NoSolution { least, .. } if least > 0.5), "{error}");
+}
+
+#[test]
+fn impossible_wishes_are_refused() {
+    let model = glass_model(Family::KuwabaraKono, None);
+    for wanted in [0.0, 1.0, -0.5, 1.1, f64::NAN] {
+        let error = invert(&model, 0, &[1e-6], 0.5, wanted).unwrap_err();
+        assert!(matches!(error, FitError::OutOfRange { quantity: "restitution", .. }));
+    }
+    assert!(invert(&model, 0, &[1e-6], 0.0, 0.9).is_err());
+    let pair = *model.pair();
+    let elastic = Model::new(&pair, [Some(glass(None)), None], Family::Ting, EndRule::ZeroForce);
+    assert_eq!(elastic.unwrap_err(), FitError::NoRelaxation);
+}

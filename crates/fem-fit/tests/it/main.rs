@@ -1,0 +1,8 @@
+//! Fits from outside, in one program: linked once, its tests run side by side.
+
+mod common;
+mod cradle;
+mod dem;
+mod fits;
+mod inverse;
+mod spectrum;

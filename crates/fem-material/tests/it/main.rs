@@ -1,0 +1,4 @@
+//! Materials from outside, in one program: linked once, its tests run side by side.
+
+mod moduli;
+mod relaxation;

@@ -1,0 +1,326 @@
+//! `fem-run calibrate` as its users call it.
+
+use crate::common::{CASE, Place};
+
+const ICE: &str = include_str!("../../../../cases/ice_2cm.toml");
+const BRIDGES: &str = include_str!("../../../../validation/data/bridges_ice.csv");
+const GLASS_POINT: &str = include_str!("../../../../validation/data/paper_glass.csv");
+const PAIRINGS: &str = include_str!("../../../../validation/data/synthetic_pairings.csv");
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+
+/// Same elements for all speeds, for the data and for what is fitted to them.
+const MESH: [&str; 2] =
+    ["--set", "mesh={contact_element_size=\"40 um\", refined_radius=\"0.4 mm\"}"];
+
+fn number(value: &serde_json::Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn the_papers_point_determines_one_combination_of_four() {
+    let place = Place::with(GLASS);
+    place.write("glass.csv", GLASS_POINT);
+    let ran = place.succeed(&["calibrate", "case.toml", "--data", "glass.csv"]);
+    assert!(ran.stdout.contains("the data determine 1 of 4 combinations"), "{}", ran.stdout);
+    assert!(ran.stdout.contains("8.0 elements across the smallest"), "{}", ran.stdout);
+    let files = ["calibrate.json", "calibrate.svg", "relaxation.toml", "residuals.csv"];
+    assert_eq!(place.list("runs/glass_calibrate"), files);
+    let numbers = place.json("runs/glass_calibrate/calibrate.json");
+    assert_eq!(numbers["combinations_determined"], 1);
+    assert!(number(&numbers["rms"]) < 1e-5);
+    // The paper's single term, β = 2708 1/s, makes 0.9276; 0.925 wants a little more.
+    let time = number(&numbers["maxwell"]["relaxation_time_s"]);
+    assert!(340e-6 < time && time < 369e-6, "{time}");
+
+    // What is to be pasted makes the restitution in a run.
+    let (before, rest) = GLASS.split_once("[material.glass.relaxation]").unwrap();
+    let (_, after) = rest.split_once("[[body]]").unwrap();
+    let table = String::from_utf8(place.read("runs/glass_calibrate/relaxation.toml")).unwrap();
+    place.write("pasted.toml", &format!("{before}\n{table}\n[[body]]{after}"));
+    place.succeed(&["pasted.toml", "--set", "model.condensed={}", "--out", "run", "--quiet"]);
+    let restitution = number(&place.json("run/summary.json")["restitution"]);
+    assert!((restitution - 0.925).abs() < 2e-4, "{restitution}");
+
+    // A second calibration takes the place of the first.
+    let again = ["calibrate", "case.toml", "--data", "glass.csv", "--terms", "2", "--quiet"];
+    assert_eq!(place.succeed(&again).stdout, "");
+    let numbers = place.json("runs/glass_calibrate/calibrate.json");
+    assert_eq!(numbers["terms"].as_array().map(Vec::len), Some(2));
+}
+
+/// Restitutions of a known series, by the program's own sweep, come back to 1e-4 on times that are
+/// not the series'.
+#[test]
+fn a_known_series_is_reproduced() {
+    let place = Place::with(CASE);
+    place.write(
+        "sweep.toml",
+        "case = \"case.toml\"\n[vary]\n\
+         \"body.0.approach_speed\" = [\"0.05 m/s\", \"0.1 m/s\", \"0.3 m/s\", \"1 m/s\"]\n",
+    );
+    let series = "material.glass.relaxation.terms=[{weight=0.03, relaxation_time=\"20 us\"}, \
+                  {weight=0.25, relaxation_time=\"300 us\"}]";
+    let model = ["--set", "model.condensed={}", "--set", series];
+    let sweep = [&["sweep", "sweep.toml", "--out", "made", "--quiet"], &MESH[..], &model].concat();
+    place.succeed(&sweep);
+    let calibrate = ["calibrate", "case.toml", "--data", "made/sweep.csv", "--out", "found"];
+    let weak = ["--regularisation", "1e-4"];
+    let ran = place.succeed(&[&calibrate[..], &MESH, &weak].concat());
+    let numbers = place.json("found/calibrate.json");
+    let residuals = String::from_utf8(place.read("found/residuals.csv")).unwrap();
+    assert_eq!(residuals.lines().count(), 5);
+    for row in residuals.lines().skip(1) {
+        let residual: f64 = row.rsplit(',').next().unwrap().parse().unwrap();
+        assert!(residual.abs() < 1e-4, "{row}");
+    }
+    // Σ w of the truth lies in its range.
+    let range = &numbers["weight_sum"]["range"];
+    assert!(number(&range[0]) < 0.28 && 0.28 < number(&range[1]), "{range}");
+    // 2.2 elements across at 0.05 m/s: the mesh that is asked for is too coarse there.
+    assert!(
+        ran.stdout.contains("across the smallest contact radius are too few"),
+        "{}",
+        ran.stdout
+    );
+}
+
+#[test]
+fn restitutions_that_fall_get_the_sentence() {
+    let place = Place::with(ICE);
+    place.write("ice.csv", BRIDGES);
+    let ting = ["--model", "ting", "--terms", "3"];
+    let calibrate = ["calibrate", "case.toml", "--data", "ice.csv"];
+    let ran = place.succeed(&[&calibrate[..], &ting].concat());
+    for part in [
+        "restitution falls with speed",
+        "a single Maxwell term (weight 1) cannot make these data",
+        "no series of these relaxation times makes these data",
+    ] {
+        assert!(ran.stdout.contains(part), "{part}: {}", ran.stdout);
+    }
+    let svg = String::from_utf8(place.read("runs/ice_calibrate/calibrate.svg")).unwrap();
+    for label in ["slopes of any Prony series", "single Maxwell term", "best fit", "data"] {
+        assert!(svg.contains(label), "{label}");
+    }
+    // The paper's reduced law, n = 1: 1 − e ∝ v^0.6.
+    let law = |v: f64| format!("{v},{:.5}\n", 1.0 - 0.075 * (v / 0.5).powf(0.6));
+    let rows: String = [0.1, 0.2, 0.5, 1.0, 2.0].map(law).concat();
+    place.write("case.toml", GLASS);
+    place.write("law.csv", &format!("speed_m_s,restitution\n{rows}"));
+    let calibrate = ["calibrate", "case.toml", "--data", "law.csv", "--acts-on", "shear"];
+    let ran = place.succeed(&[&calibrate[..], &ting].concat());
+    assert!(ran.stdout.contains("no Prony series makes these data"), "{}", ran.stdout);
+    let exponent = &place.json("runs/law_calibrate/calibrate.json")["loss_exponent_of_speed"];
+    assert!((number(&exponent["value"]) - 0.6).abs() < 1e-3);
+}
+
+/// One series for nine pairs; the truth lies in the ranges of what the data determine.
+#[test]
+fn nine_pairings_share_a_series() {
+    let place = Place::with(GLASS);
+    place.write("nine.csv", PAIRINGS);
+    // The series' own times, 10 and 300 µs.
+    let times = ["--terms", "2", "--times", "10 us..300 us"];
+    let ran =
+        place.succeed(&[&["calibrate", "case.toml", "--data", "nine.csv"][..], &times].concat());
+    assert!(ran.stdout.contains("45 points of nine.csv, 9 pairs"), "{}", ran.stdout);
+    let numbers = place.json("runs/nine_calibrate/calibrate.json");
+    for (k, weight) in [0.02, 0.3].into_iter().enumerate() {
+        let range = &numbers["terms"][k]["range"];
+        assert!(number(&range[0]) < weight && weight < number(&range[1]), "{range}");
+        // And the range is worth having.
+        assert!(number(&range[1]) - number(&range[0]) < 0.5 * weight, "{range}");
+    }
+    let misfit = number(&numbers["misfit"]);
+    assert!(0.8 < misfit && misfit < 1.2, "{misfit}");
+}
+
+#[test]
+fn faults_are_pointed_at_and_nothing_is_written() {
+    let place = Place::new();
+    let refused = |csv: &str, more: &[&str], expected: &[&str]| {
+        place.write("bad.csv", csv);
+        let ran = place.run(&[&["calibrate", "case.toml", "--data", "bad.csv"][..], more].concat());
+        assert_eq!(ran.code, Some(2), "{csv}: {}", ran.stdout);
+        for part in expected {
+            assert!(ran.stderr.contains(part), "{csv:?} {more:?}: {}", ran.stderr);
+        }
+        assert!(!place.path("runs").exists());
+    };
+    let good = "speed_m_s,e\n0.2,0.9\n0.5,0.91\n";
+    refused(
+        good,
+        &["--regularisation", "0"],
+        &["2 measured values cannot determine 4 parameters", "lower --terms"],
+    );
+    refused(good, &["--regularisation", "-1"], &["--regularisation", "it must be at least 0"]);
+    refused(good, &["--confidence", "95"], &["--confidence", "between 0 and 1, such as 0.95"]);
+    refused(good, &["--uncertainty", "0"], &["it must be greater than 0"]);
+    refused(good, &["--uncertainty", "-1"], &["--uncertainty is -1.0", "greater than 0"]);
+    refused(good, &["--uncertainty", "5"], &["--uncertainty is 5.0", "at most 1"]);
+    refused(good, &["--material", "steel"], &["no body is made of it", "glass"]);
+    refused(good, &["--times", "1 ms..1 us"], &["at most the last"]);
+    refused(good, &["--times", "1 m..2 m"], &["is no time"]);
+    refused(good, &["--terms", "0"], &["1..=12"]);
+    refused("speed_m_s,e\n0.2,much\n", &[], &["bad.csv:2: e is \"much\""]);
+    refused(
+        "diameter_1_mm,speed_m_s,e\n10,0.2,0.9\n-3,0.2,0.9\n",
+        &[],
+        &["bad.csv:3: diameter_1_mm is -0.003"],
+    );
+    refused(
+        "speed_m_s,e,sigma\n0.2,0.9,5\n",
+        &[],
+        &["bad.csv:2: sigma is 5.0", "at most 1", "percent"],
+    );
+    refused(
+        "speed_m_s,e,restitution_uncertainy\n0.2,0.9,0.01\n",
+        &[],
+        &[
+            "bad.csv:1: unknown column restitution_uncertainy",
+            "did you mean `restitution_uncertainty`?",
+            "diameter_1, diameter_2",
+        ],
+    );
+    refused(
+        "diameter1_mm,diameter2_mm,speed_m_s,e\n10,10,0.2,0.9\n20,20,0.2,0.9\n",
+        &[],
+        &["bad.csv:1: unknown column diameter1_mm", "did you mean `diameter_1`?"],
+    );
+    refused(
+        "speed_m_s,e,uncertainty\n0.2,0.9,0.01\n",
+        &["--uncertainty", "0.01"],
+        &["has uncertainties of its own"],
+    );
+    refused(
+        "body.0.approach_speed,material.glass.density,restitution\n1,2390,0.9\n1,2400,0.8\n",
+        &[],
+        &["bad.csv:3: the sweep varies material.glass.density"],
+    );
+}
+
+/// Runs of Ting's model on the paper's spheres, the quickest there are.
+fn calibrated(csv: &str, more: &[&str]) -> (String, serde_json::Value) {
+    let place = Place::with(GLASS);
+    place.write("e.csv", csv);
+    let calibrate = ["calibrate", "case.toml", "--data", "e.csv", "--out", "found", "--terms", "2"];
+    let ting = if more.contains(&"--model") { &[][..] } else { &["--model", "ting"] };
+    let ran = place.succeed(&[&calibrate[..], ting, more].concat());
+    (ran.stdout, place.json("found/calibrate.json"))
+}
+
+#[test]
+fn a_wall_has_no_diameter_to_give() {
+    let place = Place::with(include_str!("../../../../cases/glass_on_wall.toml"));
+    place.write("nine.csv", PAIRINGS);
+    let ran = place.run(&["calibrate", "case.toml", "--data", "nine.csv"]);
+    assert_eq!(ran.code, Some(2));
+    for part in ["nine.csv:4: diameter_1_mm", "is a wall", "leave the column out"] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    assert!(!ran.stderr.contains("--set"), "{}", ran.stderr);
+}
+
+#[test]
+fn columns_that_are_not_read_are_named_and_those_of_the_program_are_not() {
+    let header = "speed_m_s,e,humidity,contact_radius_um,speed_uncertainty_m_s,member";
+    let (text, _) = calibrated(&format!("{header}\n0.2,0.9,0.4,3,0.01,a\n"), &[]);
+    let warning = "warning: columns that are not read: humidity, contact_radius_um\n";
+    assert!(text.contains(warning), "{text}");
+}
+
+#[test]
+fn given_uncertainties_and_repeats_are_the_scatter() {
+    let unknown = "their scatter is unknown";
+    let (text, numbers) = calibrated("speed_m_s,e\n0.2,0.9\n", &[]);
+    assert!(text.contains(unknown) && text.contains("error of 4.0e-4 in e"), "{text}");
+    assert!(numbers["pure_error"].is_null());
+
+    // One standard deviation is known, with no degree of freedom left.
+    let (text, numbers) = calibrated("speed_m_s,e,sigma\n0.2,0.9,0.01\n", &[]);
+    assert!(!text.contains(unknown), "{text}");
+    assert!((number(&numbers["error"]) - 0.01).abs() < 1e-15);
+
+    // Four of one collision: ±0.01 and ±0.01 about the mean over three.
+    let repeats = "speed_m_s,e\n0.2,0.91\n0.2,0.89\n0.2,0.91\n20 cm/s,0.89\n";
+    let (text, numbers) =
+        calibrated(&repeats.replace("speed_m_s", "speed").replace("0.2,", "0.2 m/s,"), &[]);
+    assert!(!text.contains(unknown), "{text}");
+    assert_eq!(numbers["degrees_of_freedom"], 3);
+    let expected = (4e-4f64 / 3.0).sqrt();
+    assert!((number(&numbers["pure_error"]) - expected).abs() < 1e-12);
+    // The regularisation keeps the fit off the mean by some 1e-5 of 0.01.
+    assert!((number(&numbers["error"]) / expected - 1.0).abs() < 1e-3, "{}", numbers["error"]);
+}
+
+#[test]
+fn the_end_of_the_maxwell_search_is_no_result() {
+    let finite = ["--model", "condensed"];
+    let (text, numbers) = calibrated("speed_m_s,e\n0.2,0\n", &finite);
+    assert!(text.contains("or faster, where the search ends"), "{text}");
+    assert_eq!(numbers["maxwell"]["beyond_search"], "faster");
+    let (text, _) = calibrated("speed_m_s,e\n0.2,1\n", &finite);
+    assert!(text.contains("or slower, where the search ends"), "{text}");
+    // Little comes back from a term a tenth as slow as the contact.
+    let (_, numbers) = calibrated("speed_m_s,e\n0.2,0.01\n", &finite);
+    assert!(numbers["maxwell"]["beyond_search"].is_null());
+    assert!(number(&numbers["maxwell"]["rms"]) < 1e-5);
+}
+
+#[test]
+fn what_is_not_looked_at_is_said() {
+    let with = |more: &[&str]| calibrated("speed_m_s,e\n0.2,0.9\n", more).0;
+    let text = with(&["--set", "model.condensed.steps=50"]);
+    assert!(
+        text.contains("model.condensed is not looked at: --model chooses, here ting"),
+        "{text}"
+    );
+    let text = with(&["--set", "model.condensed.steps=50", "--model", "condensed"]);
+    assert!(text.contains("model.condensed.steps is not looked at: calibrate takes 300"), "{text}");
+    let text = with(&["--set", "model.ting={}"]);
+    assert!(text.contains("model.ting is not looked at"), "{text}");
+    assert!(!with(&[]).contains("not looked at"));
+}
+
+#[test]
+fn speeds_in_millimetres_are_doubted_first() {
+    let fast = "speed_m_s,e\n200,0.9\n300,0.9\n";
+    let (text, numbers) = calibrated(fast, &["--model", "condensed"]);
+    let first = numbers["warnings"][0].as_str().unwrap_or_default();
+    assert!(first.contains("is the unit of the speeds right?"), "{text}");
+    assert!(!text.contains("model fem"), "{text}");
+    // Ting's contact would be too large for its spheres.
+    let place = Place::with(GLASS);
+    place.write("e.csv", fast);
+    let ran = place.run(&["calibrate", "case.toml", "--data", "e.csv", "--model", "ting"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("e.csv:3: "), "{}", ran.stderr);
+    assert!(ran.stderr.contains("is the unit of the speeds right?"), "{}", ran.stderr);
+}
+
+#[test]
+fn speeds_too_far_apart_for_one_mesh_are_told_what_to_do() {
+    let place = Place::with(GLASS);
+    place.write("e.csv", "speed_m_s,e\n1e-6,0.9\n1e3,0.9\n");
+    let ran = place.run(&["calibrate", "case.toml", "--data", "e.csv"]);
+    assert_eq!(ran.code, Some(2));
+    let parts = ["no mesh for all speeds from", "split the data by speed", "--model ting"];
+    for part in parts {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    assert!(!ran.stderr.contains("--set"), "{}", ran.stderr);
+}
+
+#[test]
+fn a_mesh_that_the_case_spoils_is_the_cases_fault() {
+    let place = Place::with(GLASS);
+    place.write("e.csv", "diameter_1_mm,speed_m_s,e\n10,0.2,0.9\n");
+    for (set, at) in [
+        ("mesh.refined_radius=0.02", "--set mesh.refined_radius=…:1:21: "),
+        ("body.0.sphere.mesh='no.vtu'", "--set body.0.sphere.mesh=…:1:20: "),
+    ] {
+        let ran = place.run(&["calibrate", "case.toml", "--data", "e.csv", "--set", set]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.starts_with(&format!("error: {at}")), "{}", ran.stderr);
+    }
+}

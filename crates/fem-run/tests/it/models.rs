@@ -1,0 +1,265 @@
+//! The same case with a cheaper model: results, files, sweeps over models.
+
+use crate::common::Place;
+use serde_json::Value;
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Runs the case with these overrides; its summary.
+fn summary(place: &Place, overrides: &[&str]) -> Value {
+    let set = overrides.iter().flat_map(|value| ["--set", *value]);
+    let arguments: Vec<&str> =
+        ["case.toml", "--out", "out", "--quiet"].into_iter().chain(set).collect();
+    place.succeed(&arguments);
+    place.json("out/summary.json")
+}
+
+fn keys(value: &Value) -> Vec<&String> {
+    value.as_object().unwrap().keys().collect()
+}
+
+const MODELS: [&str; 4] = [
+    "model.ting={}",
+    "model.hertz={}",
+    "model.ting.finite_size=true",
+    "model.law.kuwabara_kono.a='1 us'",
+];
+
+#[test]
+fn every_model_writes_the_same_keys_and_columns() {
+    let place = Place::new();
+    let fem = summary(&place, &[]);
+    let columns = String::from_utf8(place.read("out/history.csv")).unwrap();
+    for model in MODELS {
+        let reduced = summary(&place, &[model]);
+        assert_eq!(keys(&reduced), keys(&fem), "{model}");
+        for inner in ["hertz", "energy", "cost"] {
+            assert_eq!(keys(&reduced[inner]), keys(&fem[inner]), "{model} {inner}");
+        }
+        assert_eq!(keys(&reduced["bodies"][0]), keys(&fem["bodies"][0]));
+        assert_eq!(reduced["hertz"], fem["hertz"]);
+        assert_eq!(reduced["complete"], true);
+        for none in ["time_step_s", "steps", "element_updates"] {
+            assert!(reduced[none].is_null(), "{none}");
+        }
+        for body in reduced["bodies"].as_array().unwrap() {
+            assert!(body["elements"].is_null() && body["vibration_energy_j"].is_null());
+            assert!(number(&body["mass_kg"]) > 0.0);
+        }
+        // Right to a few per cent of the finite elements on a mesh this coarse.
+        for key in ["restitution", "contact_time_s", "peak_force_n", "max_approach_m"] {
+            let ratio = number(&reduced[key]) / number(&fem[key]);
+            assert!((0.85..1.15).contains(&ratio), "{model} {key}: {ratio}");
+        }
+        assert!(number(&reduced["energy"]["residual_relative"]) < 1e-8);
+        assert_eq!(place.list("out"), ["history.csv", "summary.json"]);
+        assert_eq!(reduced["files"], serde_json::json!(["summary.json", "history.csv"]));
+        let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+        assert_eq!(history.lines().next(), columns.lines().next());
+        assert_eq!(history.lines().count(), 1202);
+        // time, force and approach are always there; a law has no pressure, no model penalty springs.
+        let row: Vec<&str> = history.lines().nth(500).unwrap().split(',').collect();
+        assert!(row[0].parse::<f64>().unwrap() > 0.0 && row[1].parse::<f64>().unwrap() > 0.0);
+        assert_eq!(row[4].is_empty(), model.contains("law"), "{model}: {row:?}");
+        assert_eq!(row[9], "");
+    }
+}
+
+/// Printed digits of the closed form, and of the independent quasi-static solution.
+#[test]
+fn hertz_and_ting_are_the_published_numbers() {
+    let place = Place::new();
+    for (speed, time, approach, force, radius, pressure) in [
+        (0.1, 87.247, 2.9643, 15.513, 0.11718, 0.5394),
+        (0.25, 72.637, 6.1698, 46.581, 0.16906, 0.7782),
+        (0.5, 63.235, 10.742, 107.02, 0.22307, 1.0268),
+        (1.0, 55.049, 18.703, 245.86, 0.29435, 1.3550),
+    ] {
+        let speed = format!("body.0.approach_speed={speed}");
+        let found = summary(&place, &["model.hertz={}", &speed]);
+        for (key, unit, expected, half_digit) in [
+            ("contact_time_s", 1e6, time, 5e-4),
+            ("max_approach_m", 1e6, approach, 5e-4),
+            ("peak_force_n", 1.0, force, 5e-3),
+            ("max_contact_radius_m", 1e3, radius, 5e-6),
+            ("peak_pressure_pa", 1e-9, pressure, 5e-5),
+        ] {
+            let found = unit * number(&found[key]);
+            // Some are cut off, not rounded.
+            assert!((found - expected).abs() <= 2.0 * half_digit, "{speed} {key}: {found}");
+        }
+        assert_eq!(found["restitution"], 1.0);
+        // As a law and as Ting without relaxation it is the same to 1e-8.
+        for model in [
+            &["model.law.hertz={}"][..],
+            &[
+                "model.ting={}",
+                "material.glass={density=2390, youngs_modulus=63e9, poissons_ratio=0.244}",
+            ],
+        ] {
+            let other = summary(&place, &[model, &[speed.as_str()]].concat());
+            assert!((number(&other["restitution"]) - 1.0).abs() < 1e-9);
+            let coefficient = number(&other["contact_time_s"])
+                * (number(&other["bodies"][0]["velocity_before_m_s"]))
+                / number(&other["max_approach_m"]);
+            assert!((coefficient - 2.943_275).abs() < 1e-6, "{coefficient}");
+        }
+    }
+    for (acts_on, rate, restitution) in [
+        ("all", 2708.0, 0.9270),
+        ("shear", 2708.0, 0.9471),
+        ("all", 5966.6, 0.8470),
+        ("shear", 5966.6, 0.8881),
+    ] {
+        let relaxation = format!(
+            "material.glass.relaxation={{acts_on='{acts_on}', terms=[{{weight=1, decay_rate={rate}}}]}}"
+        );
+        let found = number(&summary(&place, &["model.ting={}", &relaxation])["restitution"]);
+        assert!((found - restitution).abs() < 1e-4, "{acts_on} {rate}: {found}");
+    }
+}
+
+#[test]
+fn laws_give_the_restitution_of_their_closed_form() {
+    let place = Place::new();
+    let (stiffness, damping, mass) = (1e7, 30.0, 3.6787e-3_f64);
+    let ratio = damping / (2.0 * (stiffness * mass).sqrt());
+    let linear = format!("model.law.linear={{k={stiffness}, c={damping}, end='zero_overlap'}}");
+    let found = number(&summary(&place, &[&linear])["restitution"]);
+    let expected = (-std::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
+    // The mass has five printed digits.
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+    for (law, end) in [
+        ("linear={e=0.9, contact_time='60 us'", "zero_force"),
+        ("linear={e=0.9, contact_time='60 us'", "zero_overlap"),
+        ("tsuji={e=0.9", "zero_force"),
+        ("tsuji={e=0.9", "zero_overlap"),
+        ("zhang_whiten={e=0.9", "zero_force"),
+    ] {
+        let value = format!("model.law.{law}, end='{end}'}}");
+        let found = summary(&place, &[&value]);
+        assert!((number(&found["restitution"]) - 0.9).abs() < 1e-7, "{value}");
+        assert_eq!(found["case"]["model"]["law"].as_object().unwrap().len(), 1);
+        if law.starts_with("linear") {
+            assert!((number(&found["contact_time_s"]) - 60e-6).abs() < 1e-11);
+            // Its exponent is not Hertz': it has no contact radius.
+            assert!(found["max_contact_radius_m"].is_null());
+        }
+    }
+}
+
+#[test]
+fn what_does_not_come_back_or_end_is_said() {
+    let place = Place::new();
+    let stuck = summary(&place, &["model.law.power={k=1e9, gamma=1.5, c=1e300, n=5}"]);
+    assert_eq!((number(&stuck["restitution"]), stuck["contact_time_s"].is_null()), (0.0, true));
+    assert!(stuck["warnings"].to_string().contains("stay together"), "{stuck}");
+    let creep = "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}";
+    let ran = place.run(&["case.toml", "--out", "out", "--set", creep]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stderr.contains("remedy: lower the damping"), "{}", ran.stderr);
+    assert_eq!(place.json("out/summary.json")["complete"], false);
+    for (value, message) in [
+        ("model.law.tsuji={}", "`e` is missing in model.law.tsuji"),
+        ("model.law.kuwabara_kono={}", "flows"),
+        ("model.auto={}", "not available"),
+    ] {
+        let ran = place.run(&["check", "case.toml", "--set", value]);
+        assert_eq!(ran.code, Some(2), "{value}: {}", ran.stderr);
+        assert!(ran.stderr.contains(message), "{}", ran.stderr);
+    }
+}
+
+#[test]
+fn check_and_the_announcement_name_the_model() {
+    let place = Place::new();
+    for (model, named) in [
+        ("model.ting={}", "model ting, one degree of freedom"),
+        ("model.law.falcon.c=300", "model law falcon"),
+    ] {
+        let checked = place.succeed(&["check", "case.toml", "--set", model]);
+        assert!(checked.stdout.contains(named), "{}", checked.stdout);
+        place.write("resolved.toml", &checked.stdout);
+        let ran = place.succeed(&["resolved.toml", "--out", "out"]);
+        assert!(ran.stderr.contains(named), "{}", ran.stderr);
+    }
+}
+
+#[test]
+fn a_sweep_runs_over_models() {
+    let place = Place::new();
+    place.write(
+        "sweep.toml",
+        "case = 'case.toml'\n[vary]\nmodel = [{ hertz = {} }, { ting = {} }, \
+         { law = { kuwabara_kono = { a = '1 us' } } }, { law = { linear = { k = 1e7, c = 1e9, \
+         end = 'zero_overlap' } } }]\n'body.0.approach_speed' = [0.1, 0.5]\n",
+    );
+    let ran = place.run(&["sweep", "sweep.toml", "--out", "out"]);
+    // Two members creep for ever; the others are done.
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stderr.contains("2 of 8 members failed"), "{}", ran.stderr);
+    let table = place.read("out/sweep.csv");
+    let mut table = csv::Reader::from_reader(table.as_slice());
+    let header = table.headers().unwrap().clone();
+    let column = |name: &str| header.iter().position(|key| key == name).unwrap();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let restitution = |row: usize| rows[row][column("restitution")].to_string();
+    assert_eq!(restitution(0), "1.0");
+    assert!(restitution(3).starts_with("0.927"));
+    assert_eq!((restitution(7), &rows[7][column("complete")]), (String::new(), "false"));
+    assert_eq!(&rows[3][column("elements")], "");
+    let again = place.run(&["sweep", "sweep.toml", "--out", "out"]);
+    assert!(again.stderr.contains("8 done before, 0 to run"), "{}", again.stderr);
+}
+
+/// Condensed finite elements write what finite elements write.
+#[test]
+fn condensed_bodies_write_all_files_of_finite_elements() {
+    let place = Place::new();
+    let fem = summary(&place, &[]);
+    let files = place.list("out");
+    let columns = String::from_utf8(place.read("out/history.csv")).unwrap();
+    let condensed = summary(&place, &["model.condensed={}"]);
+    assert_eq!(keys(&condensed), keys(&fem));
+    assert_eq!(place.list("out"), files);
+    let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+    assert_eq!(history.lines().next(), columns.lines().next());
+    assert!(condensed["element_updates"].is_null() && condensed["complete"] == true);
+    assert_eq!(condensed["bodies"][0]["elements"], fem["bodies"][0]["elements"]);
+    // The mesh is coarse, and the penalty of the explicit model soft on it.
+    for key in ["restitution", "contact_time_s", "peak_force_n", "max_approach_m"] {
+        let ratio = number(&condensed[key]) / number(&fem[key]);
+        assert!((0.97..1.03).contains(&ratio), "{key}: {ratio}");
+    }
+    assert!(number(&condensed["energy"]["residual_relative"]) < 1e-5);
+}
+
+/// What a condensed run costs, and what it says of its own errors.
+#[test]
+fn condensed_bodies_report_cost_and_doubts() {
+    let place = Place::new();
+    let good = summary(&place, &["model.condensed={}"]);
+    let cost = &good["cost"];
+    let (setup, solve) = (number(&cost["setup_s"]), number(&cost["solve_s"]));
+    assert!(setup > 0.0 && solve > 0.0 && setup + solve <= number(&cost["wall_s"]));
+    // A factor holds at least the stiffness of its body, some ten numbers an equation.
+    let nodes: f64 = (0..2).map(|k| number(&good["bodies"][k]["nodes"])).sum();
+    assert!(number(&cost["factor_bytes"]) > 80.0 * 2.0 * nodes);
+    assert!(cost["ns_per_element_update"].is_null());
+
+    let doubts = |overrides: &[&str]| {
+        let summary = summary(&place, overrides);
+        summary["warnings"].as_array().unwrap().iter().map(|w| w.to_string()).collect::<Vec<_>>()
+    };
+    let coarse = "mesh.contact_element_size=\"80 um\"";
+    let found = doubts(&["model.condensed={}", coarse]);
+    assert!(found.len() == 1 && found[0].contains("spans 2.8 elements"), "{found:?}");
+    let soft = "contact.penalty_factor=0.1";
+    let found = doubts(&["model.condensed={penalty_springs=true}", soft]);
+    assert!(found.iter().any(|text| text.contains("the surfaces overlap")), "{found:?}");
+    // Without springs there is nothing to overlap.
+    let found = doubts(&["model.condensed={}", soft]);
+    assert!(!found.iter().any(|text| text.contains("the surfaces overlap")), "{found:?}");
+}

@@ -1,0 +1,318 @@
+//! What a run writes, and what it leaves alone.
+
+use crate::common::{FAILS, Place};
+use fem_vtk::VtuFile;
+
+const KEYS: [&str; 22] = [
+    "restitution",
+    "contact_time_s",
+    "peak_force_n",
+    "max_approach_m",
+    "max_contact_radius_m",
+    "peak_pressure_pa",
+    "contact_episodes",
+    "hertz",
+    "energy",
+    "momentum_residual_relative",
+    "bodies",
+    "time_step_s",
+    "steps",
+    "element_updates",
+    "cost",
+    "effects",
+    "warnings",
+    "complete",
+    "stopped_because",
+    "program",
+    "version",
+    "case",
+];
+
+fn keys(value: &serde_json::Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+#[test]
+fn the_summary_has_the_keys_of_the_contract() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    let summary = place.json("out/summary.json");
+    let own: Vec<&str> = keys(&summary).into_iter().filter(|key| *key != "files").collect();
+    assert_eq!(own, KEYS);
+    assert_eq!(keys(&summary["hertz"]), KEYS[..6]);
+    let energy = [
+        "initial_j",
+        "kinetic_j",
+        "strain_j",
+        "contact_j",
+        "viscous_dissipation_j",
+        "wall_work_j",
+        "residual_j",
+        "residual_relative",
+    ];
+    assert_eq!(keys(&summary["energy"]), energy);
+    let body = [
+        "name",
+        "elements",
+        "nodes",
+        "mass_kg",
+        "added_mass_kg",
+        "velocity_before_m_s",
+        "velocity_after_m_s",
+        "vibration_energy_j",
+    ];
+    let cost = [
+        "wall_s",
+        "setup_s",
+        "solve_s",
+        "ns_per_element_update",
+        "threads",
+        "peak_memory_bytes",
+        "factor_bytes",
+    ];
+    assert_eq!(keys(&summary["bodies"][1]), body);
+    assert_eq!(keys(&summary["cost"]), cost);
+    assert_eq!(keys(&summary["effects"][0]), ["name", "active", "reason"]);
+    assert_eq!(summary["complete"], true);
+    assert_eq!(summary["cost"]["threads"], 1);
+    assert!(summary["stopped_because"].is_null());
+    // On a mesh this coarse: right to a few per cent.
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    for key in &KEYS[1..6] {
+        let ratio = number(&summary[key]) / number(&summary["hertz"][key]);
+        assert!((0.85..1.15).contains(&ratio), "{key}: {ratio}");
+    }
+    assert!((0.9..0.95).contains(&number(&summary["restitution"])));
+}
+
+#[test]
+fn the_folder_holds_what_the_contract_says() {
+    let place = Place::new();
+    place.succeed(&["case.toml"]);
+    assert_eq!(place.list("."), ["case.toml", "runs"]);
+    assert_eq!(place.list("runs"), ["case"]);
+    let files = [
+        "case.pvd",
+        "case.vtu.series",
+        "case_0_mid-compression.vtu",
+        "case_1_maximum.vtu",
+        "case_2_mid-separation.vtu",
+        "case_3_last-contact.vtu",
+        "history.csv",
+        "summary.json",
+    ];
+    assert_eq!(place.list("runs/case"), files);
+
+    let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+    let header = "time_s,contact_force_n,contact_radius_m,approach_m,centre_pressure_pa,\
+                  velocity_striker_m_s,velocity_target_m_s,kinetic_j,strain_j,contact_j,\
+                  viscous_dissipation_j,residual_j";
+    assert_eq!(history.lines().next(), Some(header));
+    assert!((500..4100).contains(&history.lines().count()), "{}", history.lines().count());
+
+    let maximum = VtuFile::open(place.path("runs/case/case_1_maximum.vtu")).unwrap();
+    let mesh = maximum.quad_mesh().unwrap();
+    let summary = place.json("runs/case/summary.json");
+    let total = |key: &str| -> u64 {
+        let bodies = summary["bodies"].as_array().unwrap();
+        bodies.iter().map(|body| body[key].as_u64().unwrap()).sum()
+    };
+    assert_eq!(mesh.points.len() as u64, total("nodes"));
+    assert_eq!(mesh.quads.len() as u64, total("elements"));
+    for name in ["sigma_rr", "sigma_yy", "sigma_tt", "sigma_ry", "pressure", "von_mises"] {
+        assert!(maximum.point_data(name).is_ok() && maximum.cell_data(name).is_ok(), "{name}");
+    }
+    for name in ["displacement", "velocity"] {
+        assert_eq!(maximum.point_data(name).unwrap().components, 3);
+    }
+    let body = maximum.cell_data("body").unwrap();
+    let body = body.as_integer().unwrap();
+    assert_eq!(body.iter().sum::<i64>(), summary["bodies"][1]["elements"].as_i64().unwrap());
+    // Below the middle of a Hertz contact the pressure is 2 (1 + ν) p_0 / 3 = 0.83 p_0; elements
+    // this coarse miss some of it.
+    let pressure = maximum.point_data("pressure").unwrap();
+    let largest = pressure.as_float().unwrap().iter().copied().fold(0.0, f64::max);
+    let peak = summary["hertz"]["peak_pressure_pa"].as_f64().unwrap();
+    assert!((0.4..1.2).contains(&(largest / peak)), "{}", largest / peak);
+}
+
+#[test]
+fn a_wall_has_neither_elements_nor_mass() {
+    let place = Place::new();
+    let wall = "body.1={name='floor', wall={}}";
+    place.succeed(&["case.toml", "--set", wall, "--out", "out"]);
+    let summary = place.json("out/summary.json");
+    let floor = &summary["bodies"][1];
+    assert_eq!((floor["elements"].as_u64(), floor["nodes"].as_u64()), (Some(0), Some(0)));
+    for key in ["mass_kg", "added_mass_kg", "vibration_energy_j"] {
+        assert!(floor[key].is_null(), "{key}");
+    }
+    let snapshot = VtuFile::open(place.path("out/case_1_maximum.vtu")).unwrap();
+    assert_eq!(
+        snapshot.quad_mesh().unwrap().points.len() as u64,
+        summary["bodies"][0]["nodes"].as_u64().unwrap()
+    );
+    let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+    assert!(history.starts_with("time_s,") && history.contains("velocity_floor_m_s"));
+}
+
+#[test]
+fn a_gap_parts_the_bodies_in_the_drawing() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--set", "start.gap=2e-6", "--out", "out"]);
+    let mesh = VtuFile::open(place.path("out/case_1_maximum.vtu")).unwrap().quad_mesh().unwrap();
+    let below = mesh.points.iter().filter(|p| p[1] < 0.0).map(|p| p[1]).fold(-1.0, f64::max);
+    let above = mesh.points.iter().filter(|p| p[1] > 0.0).map(|p| p[1]).fold(1.0, f64::min);
+    assert_eq!((below, above), (-1e-6, 1e-6));
+}
+
+#[test]
+fn snapshots_can_be_a_count_times_or_none() {
+    let place = Place::new();
+    let snapshots = |value: &str| {
+        let set = format!("output.snapshots={value}");
+        let ran = place.succeed(&["case.toml", "--set", &set, "--out", "out"]);
+        let names = place.list("out").into_iter().filter(|name| name.starts_with("case"));
+        (names.collect::<Vec<_>>(), ran.stdout)
+    };
+    let (files, _) = snapshots("3");
+    let even = ["case.pvd", "case.vtu.series", "case_0_even.vtu", "case_1_even.vtu"];
+    assert_eq!(files[..4], even);
+    let (files, report) = snapshots("['10 us', '1 s']");
+    assert_eq!(files, ["case.pvd", "case.vtu.series", "case_0_time.vtu"]);
+    assert!(report.contains("warning:"), "{report}");
+    let (files, _) = snapshots("[]");
+    assert!(files.is_empty(), "{files:?}");
+}
+
+#[test]
+fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    place.write("out/notes.txt", "mine");
+    std::fs::create_dir(place.path("out/plots")).unwrap();
+    place.write("out/plots/force.svg", "mine too");
+    place.write("other.toml", crate::common::CASE);
+    place.succeed(&["other.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
+    let files = [
+        "history.csv",
+        "notes.txt",
+        "other.pvd",
+        "other.vtu.series",
+        "other_0_maximum.vtu",
+        "plots",
+        "summary.json",
+    ];
+    assert_eq!(place.list("out"), files);
+    assert_eq!(place.read("out/notes.txt"), b"mine");
+    assert_eq!(place.read("out/plots/force.svg"), b"mine too");
+    assert_eq!(place.list("."), ["case.toml", "other.toml", "out"]);
+    // A file of the user's whose name is taken now.
+    place.write("out/case_0_maximum.vtu", "mine");
+    place.succeed(&["case.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
+    assert_eq!(place.read("out/case_0_maximum.vtu.kept"), b"mine");
+}
+
+#[test]
+fn folders_of_others_are_refused() {
+    let place = Place::new();
+    for (name, text) in [("notes.txt", "mine"), ("summary.json", "{\"program\": \"other\"}")] {
+        let folder = format!("folder of {name}");
+        std::fs::create_dir(place.path(&folder)).unwrap();
+        place.write(&format!("{folder}/{name}"), text);
+        let ran = place.run(&["case.toml", "--out", &folder]);
+        assert_eq!(ran.code, Some(2));
+        assert!(
+            ran.stderr.contains(&folder) && ran.stderr.contains("move this one"),
+            "{}",
+            ran.stderr
+        );
+        assert_eq!(place.list(&folder), [name]);
+    }
+    std::fs::create_dir(place.path("empty")).unwrap();
+    place.succeed(&["case.toml", "--out", "empty"]);
+    assert!(place.path("empty/summary.json").exists());
+}
+
+#[test]
+fn the_folder_one_is_in_is_refused() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    let mut command = place.command(&["../case.toml", "--out", "."]);
+    let ran: crate::common::Ran = command.current_dir(place.path("out")).output().unwrap().into();
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("you are in"), "{}", ran.stderr);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_symbolic_link_stays_and_what_it_points_at_is_replaced() {
+    use std::os::unix::fs::symlink;
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("disk/real")).unwrap();
+    symlink("disk/real", place.path("link")).unwrap();
+    for _ in 0..2 {
+        place.succeed(&["case.toml", "--out", "link"]);
+        assert!(place.path("link").symlink_metadata().unwrap().is_symlink());
+        assert!(place.path("disk/real/summary.json").exists());
+        assert_eq!(place.list("disk"), ["real"]);
+    }
+    symlink("nowhere", place.path("dangling")).unwrap();
+    let ran = place.run(&["case.toml", "--out", "dangling"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("symbolic link"), "{}", ran.stderr);
+}
+
+#[test]
+fn a_failed_run_keeps_what_it_has_marked_incomplete() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    for out in ["out", "out/", "fresh"] {
+        let ran = place.run(&[&["case.toml", "--out", out][..], &FAILS].concat());
+        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+        assert!(ran.stderr.contains("marked incomplete"), "{}", ran.stderr);
+        let summary = place.json(&format!("{}/summary.json", out.trim_end_matches('/')));
+        assert_eq!(summary["complete"], false);
+        assert!(summary["stopped_because"].is_string());
+    }
+    assert_eq!(place.list("."), ["case.toml", "fresh", "out"]);
+    place.succeed(&["case.toml", "--out", "out"]);
+    assert_eq!(place.json("out/summary.json")["complete"], true);
+}
+
+#[test]
+fn a_refused_run_leaves_an_older_result_alone() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    let before = place.read("out/summary.json");
+    let ran = place.run(&["case.toml", "--out", "out", "--set", "body.0.approach_speed=-1"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    assert_eq!(place.read("out/summary.json"), before);
+    assert_eq!(place.list("."), ["case.toml", "out"]);
+}
+
+#[test]
+fn runs_at_once_do_not_mix_their_files() {
+    let place = Place::new();
+    let labels = ["mid-compression", "maximum", "mid-separation"];
+    for _ in 0..3 {
+        let children = labels.map(|label| {
+            let set = format!("output.snapshots=['{label}']");
+            let arguments = ["case.toml", "--quiet", "--out", "out", "--set", &set];
+            place.command(&arguments).spawn().unwrap()
+        });
+        for mut child in children {
+            assert_eq!(child.wait().unwrap().code(), Some(0));
+        }
+        let summary = place.json("out/summary.json");
+        let mut listed: Vec<&str> = summary["files"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|name| name.as_str().unwrap())
+            .collect();
+        listed.sort_unstable();
+        assert_eq!(place.list("out"), listed);
+        assert_eq!(place.list("."), ["case.toml", "out"]);
+    }
+}

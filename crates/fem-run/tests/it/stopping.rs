@@ -1,0 +1,135 @@
+//! Runs that do not end by themselves.
+
+use crate::common::{FAILS, Place};
+
+#[test]
+fn a_run_that_fails_says_why_and_keeps_what_it_has() {
+    let place = Place::new();
+    let ran = place.run(&[&["case.toml"][..], &FAILS].concat());
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    for expected in ["error: ", "step", "likely cause: ", "remedy: ", "runs/case"] {
+        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    }
+    assert!(ran.stdout.contains("INCOMPLETE"), "{}", ran.stdout);
+    let summary = place.json("runs/case/summary.json");
+    assert_eq!(summary["complete"], false);
+    assert!(summary["stopped_because"].as_str().unwrap().contains("radius"));
+    for key in ["restitution", "contact_time_s"] {
+        assert!(summary[key].is_null(), "{key}");
+    }
+    assert!(summary["bodies"][0]["velocity_after_m_s"].is_null());
+    assert!(summary["peak_force_n"].as_f64().unwrap() > 0.0);
+    let warnings = summary["warnings"].to_string();
+    assert!(warnings.contains("not complete"), "{warnings}");
+    let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+    assert!(history.lines().count() > 3);
+}
+
+#[cfg(unix)]
+mod signals {
+    use std::io::{BufRead, BufReader, Read};
+    use std::process::{Child, Stdio};
+
+    use nix::sys::signal::{Signal, kill};
+    use nix::unistd::Pid;
+
+    use super::*;
+
+    /// So fine that nobody waits for its end: hours.
+    const ENDLESS: [&str; 4] =
+        ["--set", "mesh.contact_element_size=6e-6", "--set", "time.step_factor=1e-2"];
+
+    /// Starts an endless run and waits for its first line.
+    fn start(place: &Place, more: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
+        start_with(place, &[&["case.toml"][..], &ENDLESS, more].concat())
+    }
+
+    fn start_with(place: &Place, arguments: &[&str]) -> (Child, BufReader<impl Read + use<>>) {
+        let mut command = place.command(arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut stderr = BufReader::new(child.stderr.take().unwrap());
+        let mut line = String::new();
+        stderr.read_line(&mut line).unwrap();
+        assert!(line.contains("elements"), "{line}");
+        (child, stderr)
+    }
+
+    fn send(child: &Child, signal: Signal) {
+        kill(Pid::from_raw(child.id() as i32), signal).unwrap();
+    }
+
+    /// The summary of a run that a signal ended as an interrupt should.
+    fn interrupted(
+        place: &Place,
+        (mut child, mut stderr): (Child, BufReader<impl Read>),
+        signal: Signal,
+    ) -> serde_json::Value {
+        send(&child, signal);
+        let mut message = String::new();
+        stderr.read_to_string(&mut message).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
+        assert!(message.contains("interrupted at"), "{message}");
+        let summary = place.json("runs/case/summary.json");
+        assert_eq!(summary["complete"], false);
+        summary
+    }
+
+    #[test]
+    fn an_interrupted_run_keeps_what_it_has() {
+        for signal in [Signal::SIGINT, Signal::SIGTERM] {
+            let place = Place::new();
+            let summary = interrupted(&place, start(&place, &[]), signal);
+            assert!(summary["stopped_because"].as_str().unwrap().contains("interrupted"));
+            let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
+            assert!(history.lines().count() >= 2, "{history}");
+            assert_eq!(place.list("runs"), ["case"]);
+        }
+    }
+
+    #[test]
+    fn condensed_bodies_are_interrupted_too() {
+        let place = Place::new();
+        let slow = ["case.toml", "--set", "model.condensed={steps=100000, vibration_modes=30}"];
+        let fine = ["--set", "mesh.contact_element_size=20e-6"];
+        let started = start_with(&place, &[&slow[..], &fine].concat());
+        let summary = interrupted(&place, started, Signal::SIGINT);
+        assert!(summary["bodies"][0]["mass_kg"].as_f64().unwrap() > 0.0);
+    }
+
+    /// `timeout` and some shells send one signal to the process and one to its group.
+    #[test]
+    fn two_signals_at_once_are_one() {
+        for _ in 0..3 {
+            let place = Place::new();
+            let (mut child, _stderr) = start(&place, &[]);
+            send(&child, Signal::SIGINT);
+            send(&child, Signal::SIGINT);
+            assert_eq!(child.wait().unwrap().code(), Some(130));
+            assert_eq!(place.json("runs/case/summary.json")["complete"], false);
+            assert_eq!(place.list("runs"), ["case"]);
+        }
+    }
+
+    #[test]
+    fn what_an_interrupted_run_has_takes_the_place_of_an_older_result() {
+        let place = Place::new();
+        place.succeed(&["case.toml"]);
+        let (mut child, _stderr) = start(&place, &[]);
+        send(&child, Signal::SIGINT);
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        assert_eq!(place.json("runs/case/summary.json")["complete"], false);
+        assert_eq!(place.list("runs"), ["case"]);
+    }
+
+    #[test]
+    fn a_killed_run_leaves_an_older_result_alone() {
+        let place = Place::new();
+        place.succeed(&["case.toml"]);
+        let before = place.read("runs/case/summary.json");
+        let (mut child, _stderr) = start(&place, &[]);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(place.read("runs/case/summary.json"), before);
+        place.succeed(&["case.toml"]);
+    }
+}

@@ -1,0 +1,314 @@
+//! `fem-run sweep`: members, resuming, shards, failures, what is written.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::common::Place;
+
+/// Four speeds and two relaxation weights, all with all.
+const SWEEP: &str = r#"case = "case.toml"
+
+[vary]
+"body.0.approach_speed" = ["0.3 m/s", "50 cm/s", 1.0]
+material.glass.relaxation.terms.0.weight = [0.5, 1.0]
+"#;
+
+fn place(sweep: &str) -> Place {
+    let place = Place::new();
+    place.write("sweep.toml", sweep);
+    place
+}
+
+/// The rows of a table, header first.
+fn rows(place: &Place, name: &str) -> Vec<Vec<String>> {
+    let bytes = place.read(name);
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(bytes.as_slice());
+    let rows = reader.records().map(|row| row.unwrap().iter().map(str::to_string).collect());
+    rows.collect()
+}
+
+fn assert_same_result(place: &Place, a: &str, b: &str) {
+    for name in ["sweep.csv", "sweep.svg"] {
+        let same = place.read(format!("{a}/{name}")) == place.read(format!("{b}/{name}"));
+        assert!(same, "{name} differs between {a} and {b}");
+    }
+    assert_eq!(place.list(&format!("{a}/members")), place.list(&format!("{b}/members")));
+}
+
+#[test]
+fn all_lists_are_combined_in_order_and_every_column_is_there() {
+    let place = place(SWEEP);
+    let ran = place.succeed(&["sweep", "sweep.toml"]);
+    assert_eq!(place.list("runs/sweep"), ["members", "sweep.csv", "sweep.json", "sweep.svg"]);
+    let rows = rows(&place, "runs/sweep/sweep.csv");
+    let weight = "material.glass.relaxation.terms.0.weight";
+    assert_eq!(rows[0][..3], ["body.0.approach_speed", weight, "restitution"]);
+    let values: Vec<_> = rows[1..].iter().map(|row| [row[0].as_str(), &row[1]]).collect();
+    let speeds = ["0.3 m/s", "50 cm/s", "1.0"];
+    let expected = speeds.map(|speed| [[speed, "0.5"], [speed, "1.0"]]);
+    assert_eq!(values, expected.as_flattened());
+
+    // The row is the member's summary, and the member is the case alone.
+    let set = ["--set", "body.0.approach_speed='50 cm/s'", "--set", &format!("{weight}=0.5")];
+    place.succeed(&[&["case.toml", "--out", "alone"][..], &set].concat());
+    let alone = place.json("alone/summary.json");
+    let member =
+        place.json(&format!("runs/sweep/members/{}/summary.json", rows[3].last().unwrap()));
+    assert_eq!(alone["case"], member["case"]);
+    let cell = |name: &str| rows[3][rows[0].iter().position(|key| key == name).unwrap()].as_str();
+    let mut n_checked = 0;
+    let mut check = |column: String, value: &serde_json::Value| {
+        let expected = match value {
+            serde_json::Value::Null => String::new(),
+            serde_json::Value::String(text) => text.clone(),
+            value => value.to_string(),
+        };
+        assert_eq!(cell(&column), expected, "{column}");
+        n_checked += 1;
+    };
+    for (key, value) in alone.as_object().unwrap() {
+        match key.as_str() {
+            "cost" | "case" | "bodies" | "effects" | "files" | "program" | "version" => {}
+            "warnings" => check(key.clone(), &value.as_array().unwrap().len().into()),
+            "hertz" | "energy" => value
+                .as_object()
+                .unwrap()
+                .iter()
+                .for_each(|(inner, value)| check(format!("{key}_{inner}"), value)),
+            _ => check(key.clone(), value),
+        }
+    }
+    assert!(n_checked > 20);
+    let elements = alone["bodies"].as_array().unwrap().iter().map(|body| &body["elements"]);
+    assert_eq!(cell("elements"), elements.map(|n| n.as_u64().unwrap()).sum::<u64>().to_string());
+    for expected in ["50 cm/s", "/ Hertz", "Result: runs/sweep/sweep.csv"] {
+        assert!(ran.stdout.contains(expected), "{}", ran.stdout);
+    }
+    assert!(ran.stderr.contains("[6/6] body.0.approach_speed = "), "{}", ran.stderr);
+    let svg = String::from_utf8(place.read("runs/sweep/sweep.svg")).unwrap();
+    for expected in ["[m/s]", "contact time [µs]", "Hertz", "weight 0.5"] {
+        assert!(svg.contains(expected), "{expected}");
+    }
+}
+
+#[test]
+fn paired_lists_run_side_by_side() {
+    let place = place(
+        "case = 'case.toml'\ncombine = 'paired'\n[vary]\n'body.0.approach_speed' = [0.3, 0.5]\n\
+         'body.1.sphere.diameter' = ['16 mm', '18 mm']\n",
+    );
+    place.succeed(&["sweep", "sweep.toml", "--out", "out", "--quiet"]);
+    let rows = rows(&place, "out/sweep.csv");
+    assert_eq!(
+        rows[1..].iter().map(|row| &row[..2]).collect::<Vec<_>>(),
+        [["0.3", "16 mm"], ["0.5", "18 mm"]]
+    );
+}
+
+#[test]
+fn whole_results_are_kept_on_demand_and_those_without_are_computed_again() {
+    let place = place("case = 'case.toml'\n[vary]\nbody.0.approach_speed = [0.3]\n");
+    place.succeed(&["sweep", "sweep.toml"]);
+    let member = place.list("runs/sweep/members").remove(0);
+    let folder = format!("runs/sweep/members/{member}");
+    assert_eq!(place.list(&folder), ["summary.json"]);
+    place.write(
+        "sweep.toml",
+        "case = 'case.toml'\nkeep = 'all'\n[vary]\nbody.0.approach_speed = [0.3]\n",
+    );
+    place.succeed(&["sweep", "sweep.toml"]);
+    let files = place.list(&folder);
+    for expected in ["history.csv", "summary.json", &format!("{member}.pvd")] {
+        assert!(files.iter().any(|name| name == expected), "{files:?}");
+    }
+}
+
+#[test]
+fn threads_and_shards_give_the_same_bytes() {
+    let place = place(SWEEP);
+    place.succeed(&["sweep", "sweep.toml", "--out", "one", "--threads", "1"]);
+    place.succeed(&["sweep", "sweep.toml", "--out", "two", "--threads", "2"]);
+    assert_same_result(&place, "one", "two");
+    place.succeed(&["sweep", "sweep.toml", "--out", "shards", "--shard", "3/4"]);
+    let done: Vec<_> = rows(&place, "shards/sweep.csv").into_iter().skip(1).collect();
+    assert_eq!(done.len(), 1);
+    assert_eq!(done[0][..2], ["50 cm/s", "0.5"]);
+    // The others at the same time.
+    let start = |shard| {
+        let arguments = ["sweep", "sweep.toml", "--out", "shards", "--quiet", "--shard", shard];
+        place.command(&arguments).spawn().unwrap()
+    };
+    for mut child in ["1/4", "2/4", "4/4"].map(start) {
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+    }
+    assert_same_result(&place, "one", "shards");
+}
+
+/// Many members, so that one is done long before the last.
+const LONG: &str = "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.30, 0.31, 0.32, 0.33, \
+                    0.34, 0.35, 0.36, 0.37, 0.38, 0.39, 0.40, 0.41]\n";
+const FINE: [&str; 2] = ["--set", "mesh.contact_element_size=60e-6"];
+
+/// Starts the long sweep and waits until a member is done.
+fn start_long(place: &Place, out: &str) -> Child {
+    let arguments = [&["sweep", "sweep.toml", "--threads", "1", "--out", out][..], &FINE].concat();
+    let mut command = place.command(&arguments);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    #[allow(clippy::disallowed_methods, reason = "a test that waits for another process")]
+    let began = Instant::now();
+    while n_done(place, out) == 0 {
+        assert!(began.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    child
+}
+
+/// Members that are done; one in a hidden folder is still being written.
+fn n_done(place: &Place, out: &str) -> usize {
+    let members = fs::read_dir(place.path(format!("{out}/members"))).into_iter().flatten();
+    let folders = members.map(|entry| entry.unwrap().path());
+    let is_hidden = |folder: &Path| folder.file_name().unwrap().to_string_lossy().starts_with('.');
+    folders.filter(|folder| !is_hidden(folder) && folder.join("summary.json").exists()).count()
+}
+
+#[test]
+fn a_killed_sweep_goes_on_where_it_was() {
+    let place = place(LONG);
+    let mut child = start_long(&place, "killed");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let n_kept = n_done(&place, "killed");
+    assert!((1..12).contains(&n_kept), "{n_kept}");
+    let again = [&["sweep", "sweep.toml", "--out", "killed"][..], &FINE].concat();
+    let ran = place.succeed(&again);
+    let expected = format!("12 members; {n_kept} done before, {} to run", 12 - n_kept);
+    assert!(ran.stderr.contains(&expected), "{}", ran.stderr);
+    place.succeed(&[&["sweep", "sweep.toml", "--out", "whole"][..], &FINE].concat());
+    for name in ["sweep.csv", "sweep.svg"] {
+        assert!(place.read(format!("killed/{name}")) == place.read(format!("whole/{name}")));
+    }
+    // A finished sweep has nothing to do; a changed list takes what it can.
+    let ran = place.succeed(&again);
+    assert!(ran.stderr.contains("12 done before, 0 to run"), "{}", ran.stderr);
+    place.write("sweep.toml", &LONG.replace("0.30, 0.31,", "0.29,").replace("0.35", "'35 cm/s'"));
+    let ran = place.succeed(&again);
+    assert!(ran.stderr.contains("11 members; 10 done before, 1 to run"), "{}", ran.stderr);
+    assert_eq!(rows(&place, "killed/sweep.csv").len(), 12);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_keeps_its_members_and_says_how_to_go_on() {
+    use nix::sys::signal::{Signal, kill};
+    use nix::unistd::Pid;
+    let place = place(LONG);
+    let child = start_long(&place, "out");
+    kill(Pid::from_raw(child.id().cast_signed()), Signal::SIGINT).unwrap();
+    let ran: crate::common::Ran = child.wait_with_output().unwrap().into();
+    assert_eq!(ran.code, Some(130), "{}", ran.stderr);
+    assert!(ran.stderr.contains("of 12 members are done"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("the same command goes on"), "{}", ran.stderr);
+    let rows = rows(&place, "out/sweep.csv");
+    assert!((2..13).contains(&rows.len()));
+    assert_eq!(rows.len() - 1, n_done(&place, "out"));
+    assert_eq!(place.list("out/members").len(), n_done(&place, "out"), "nothing half-done");
+}
+
+#[test]
+fn a_failing_member_is_named_and_the_others_go_on() {
+    // Soft and fast: the contact outgrows the sphere.
+    let place = place(
+        "case = 'case.toml'\ncombine = 'paired'\n[vary]\n'material.glass' = [\n\
+         { density = 2390, youngs_modulus = 1e6, poissons_ratio = 0.244 },\n\
+         { density = 2390, youngs_modulus = 63e9, poissons_ratio = 0.244 }]\n\
+         'body.0.approach_speed' = [30, 0.5]\nmesh.contact_element_size = [0.5e-3, 90e-6]\n",
+    );
+    for _ in 0..2 {
+        let ran = place.run(&["sweep", "sweep.toml"]);
+        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+        assert!(ran.stderr.contains("error: 1 of 2 members failed"), "{}", ran.stderr);
+        assert!(ran.stderr.contains("body.0.approach_speed = 30"), "{}", ran.stderr);
+        let rows = rows(&place, "runs/sweep/sweep.csv");
+        let column = |name: &str| rows[0].iter().position(|key| key == name).unwrap();
+        let complete = column("complete");
+        assert_eq!((rows[1][complete].as_str(), rows[2][complete].as_str()), ("false", "true"));
+        assert!(rows[1][column("stopped_because")].contains("contact"), "{:?}", rows[1]);
+    }
+}
+
+#[test]
+fn only_a_new_folder_or_a_sweep_is_written_into() {
+    let place = place(SWEEP);
+    place.succeed(&["case.toml", "--out", "result", "--quiet"]);
+    place.write("file", "mine");
+    fs::create_dir(place.path("mine")).unwrap();
+    place.write("mine/notes.txt", "mine");
+    for out in ["result", "file", "mine", "file/below", "."] {
+        let ran = place.run(&["sweep", "sweep.toml", "--out", out]);
+        assert_eq!(ran.code, Some(2), "{out}: {}", ran.stderr);
+        assert!(ran.stderr.contains(&format!("--out {out}")), "{}", ran.stderr);
+    }
+    assert_eq!(place.list("mine"), ["notes.txt"]);
+    // Nor does a run take a sweep's place.
+    place.succeed(&["sweep", "sweep.toml", "--out", "out", "--shard", "6/6", "--quiet"]);
+    assert_eq!(place.run(&["case.toml", "--out", "out"]).code, Some(2));
+}
+
+#[test]
+fn the_shipped_sweep_is_sound() {
+    let place = Place::new();
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sweep_speed.toml");
+    // The first member alone: the slowest speed, on a coarse mesh.
+    let arguments = ["sweep", file, "--shard", "1/12", "--set", "mesh.contact_element_size=20e-6"];
+    let ran = place.succeed(&arguments);
+    assert!(ran.stdout.contains("1 of 12 members are done"), "{}", ran.stdout);
+}
+
+#[test]
+fn the_page_on_sweeps_is_true() {
+    let page = include_str!("../../../../docs/sweeps.md");
+    let place = Place::new();
+    // An empty shard checks all members and computes none.
+    let arguments = ["sweep", "sweep.toml", "--out", "out", "--shard", "9999/9999"];
+    let examples: Vec<_> = page.split("```toml\n").skip(1).collect();
+    assert!(examples.len() > 1);
+    for example in examples {
+        let example = &example[..example.find("```").unwrap()];
+        place.write("sweep.toml", &example.replace("glass_0.5ms.toml", "case.toml"));
+        place.succeed(&arguments);
+    }
+    for column in &rows(&place, "out/sweep.csv")[0] {
+        let is_varied = column.contains('.');
+        let bare = column.trim_start_matches("hertz_").trim_start_matches("energy_");
+        assert!(is_varied || page.contains(bare), "{column} is not on the page");
+    }
+}
+
+/// Condensed members share a factor if the case gives the mesh; that is said where it does not.
+#[test]
+fn condensed_members_are_told_how_to_share_a_factor() {
+    let vary = "[vary]\nbody.0.approach_speed = [0.2, 0.3]\n\
+                material.glass.relaxation.terms.0.decay_rate = [1000, 2000]\n";
+    let place = place(&format!("case = 'case.toml'\n{vary}"));
+    let condensed = ["sweep", "sweep.toml", "--set", "model.condensed={}"];
+    let hint = "give mesh.contact_element_size and mesh.refined_radius";
+    let stderr = place.succeed(&[&condensed[..], &["--out", "open"]].concat()).stderr;
+    assert_eq!(stderr.matches(hint).count(), 1, "{stderr}");
+    let given = ["--set", "mesh.refined_radius='0.4 mm'", "--out", "given"];
+    let stderr = place.succeed(&[&condensed[..], &given].concat()).stderr;
+    assert!(!stderr.contains(hint), "{stderr}");
+    // A member is the case alone, but for the files that are not kept.
+    let rows = rows(&place, "given/sweep.csv");
+    let member = format!("given/members/{}/summary.json", rows[4].last().unwrap());
+    let speed = ["case.toml", "--out", "alone", "--set", "body.0.approach_speed=0.3"];
+    let rate = ["--set", "material.glass.relaxation.terms.0.decay_rate=2000"];
+    place.succeed(&[&speed[..], &rate, &condensed[2..], &given[..2]].concat());
+    let [mut alone, mut member] = ["alone/summary.json", &member].map(|name| place.json(name));
+    for summary in [&mut alone, &mut member] {
+        let summary = summary.as_object_mut().unwrap();
+        summary.retain(|key, _| !["cost", "files"].contains(&key.as_str()));
+    }
+    assert_eq!(alone, member);
+}

@@ -1,0 +1,98 @@
+//! What goes to stdout and what to stderr.
+
+use std::process::Stdio;
+
+use crate::common::Place;
+
+#[test]
+fn stdout_carries_the_result_and_stderr_the_rest() {
+    let place = Place::new();
+    let ran = place.succeed(&["case.toml"]);
+    for expected in [
+        "A pair",
+        "restitution",
+        "contact time",
+        "µs",
+        "Hertz",
+        "ratio",
+        "momentum",
+        "viscoelasticity",
+        "off  gravity",
+        "warning:",
+        "Result: runs/case",
+    ] {
+        assert!(ran.stdout.contains(expected), "{expected}: {}", ran.stdout);
+    }
+    assert!(ran.stderr.starts_with("case.toml: "), "{}", ran.stderr);
+    assert!(!ran.stdout.contains('\u{1b}') && !ran.stderr.contains('\u{1b}'));
+}
+
+#[test]
+fn a_coarse_mesh_is_warned_of() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "out"]);
+    let warnings = place.json("out/summary.json")["warnings"].to_string();
+    assert!(warnings.contains("elements; below 4"), "{warnings}");
+}
+
+#[test]
+fn quiet_means_silent_but_for_errors() {
+    let place = Place::new();
+    let ran = place.succeed(&["case.toml", "--quiet"]);
+    assert_eq!((ran.stdout.as_str(), ran.stderr.as_str()), ("", ""));
+    assert!(place.path("runs/case/summary.json").exists());
+    let ran = place.run(&["missing.toml", "--quiet"]);
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
+    assert!(ran.stderr.contains("missing.toml"));
+}
+
+#[test]
+fn a_title_cannot_command_the_terminal() {
+    let place = Place::with(&crate::common::CASE.replace("A pair", "\\u001b[2J\\n# x = 1"));
+    let ran = place.succeed(&["case.toml"]);
+    assert!(!ran.stdout.contains('\u{1b}'), "{:?}", ran.stdout);
+    let checked = place.succeed(&["check", "case.toml"]).stdout;
+    assert!(checked.parse::<toml::Table>().is_ok(), "{checked}");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_fault() {
+    let place = Place::new();
+    for arguments in [&["check", "case.toml"][..], &["case.toml"], &["completions", "bash"]] {
+        let mut command = place.command(arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let ran: crate::common::Ran = child.wait_with_output().unwrap().into();
+        assert_eq!(ran.code, Some(0), "{arguments:?}: {}", ran.stderr);
+    }
+    // Nor is a stderr that is closed.
+    let mut command = place.command(&["case.toml"]);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}
+
+#[test]
+fn help_version_and_completions_are_there() {
+    let place = Place::new();
+    let help = place.succeed(&["--help"]).stdout;
+    for expected in ["check", "mesh", "completions", "--set", "--threads", "130"] {
+        assert!(help.contains(expected), "{expected}: {help}");
+    }
+    assert!(place.succeed(&["--version"]).stdout.starts_with("fem-run "));
+    for command in ["check", "mesh", "completions"] {
+        place.succeed(&[command, "--help"]);
+    }
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = place.succeed(&["completions", shell]).stdout;
+        assert!(script.contains("fem-run"), "{shell}");
+    }
+}
+
+#[test]
+fn a_case_named_like_a_command_runs_with_its_folder() {
+    let place = Place::new();
+    place.write("check", crate::common::CASE);
+    place.succeed(&["./check"]);
+    assert!(place.path("runs/check/check.pvd").exists());
+}

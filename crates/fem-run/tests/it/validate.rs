@@ -1,0 +1,173 @@
+//! `fem-run validate`: verdicts, exit statuses, the page, and the committed table.
+
+use std::path::Path;
+
+use crate::common::Place;
+
+const CHECK: &str = r#"
+[[check]]
+quantity = "pair.restitution"
+label = "restitution"
+kind = "published"
+source = "nobody"
+reference = 0.93
+absolute = 0.01
+reason = "a coarse mesh"
+"#;
+
+/// A claim about [`crate::common::CASE`] with these checks.
+fn claim(checks: &str) -> String {
+    format!(
+        "title = 'A claim'\nsection = 'paper'\nclaim = 'It is so.'\nstudy = 'summary'\n\
+         [run.pair]\ncase = '../../case.toml'\n{checks}"
+    )
+}
+
+fn place(checks: &str) -> Place {
+    let place = Place::new();
+    std::fs::create_dir_all(place.path("validation/mine")).unwrap();
+    place.write("validation/mine/claim.toml", &claim(checks));
+    place
+}
+
+#[test]
+fn a_claim_that_holds_is_shown_with_its_reference() {
+    let place = place(CHECK);
+    let ran = place.succeed(&["validate"]);
+    for expected in ["Against the paper", "mine", "restitution", "0.93", "0.01", "pass"] {
+        assert!(ran.stdout.contains(expected), "wants {expected}\n{}", ran.stdout);
+    }
+    assert!(ran.stderr.contains("[1/1] pass  mine"), "{}", ran.stderr);
+    assert_eq!(
+        place.list("runs/validation"),
+        ["checks.csv", "index.html", "summary.json"].map(String::from)
+    );
+    assert_eq!(place.json("runs/validation/summary.json")["passed"], true);
+    // Again, over the old page.
+    place.succeed(&["validate", "mine", "--quiet"]);
+}
+
+#[test]
+fn a_claim_that_fails_ends_with_status_1_and_keeps_the_page() {
+    let place = place(&CHECK.replace("0.93", "0.99"));
+    let ran = place.run(&["validate"]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.contains("FAIL"), "{}", ran.stdout);
+    assert!(ran.stderr.contains("1 of 1 claims fail: mine"), "{}", ran.stderr);
+    let page = String::from_utf8(place.read("runs/validation/index.html")).unwrap();
+    assert!(page.contains("FAIL") && page.contains("It is so."));
+    assert_eq!(place.json("runs/validation/summary.json")["passed"], false);
+}
+
+#[test]
+fn a_quantity_that_the_study_does_not_measure_fails() {
+    let place = place(&CHECK.replace("pair.restitution", "pair.colour"));
+    let ran = place.run(&["validate"]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.contains("not measured"), "{}", ran.stdout);
+}
+
+#[test]
+fn a_run_that_fails_is_a_claim_that_fails() {
+    let place = place(CHECK);
+    let sets: Vec<_> = crate::common::FAILS.iter().skip(1).step_by(2).collect();
+    let text = claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = {sets:?}\n"));
+    place.write("validation/mine/claim.toml", &text);
+    let ran = place.run(&["validate"]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.contains("mine") && ran.stdout.contains("FAIL"), "{}", ran.stdout);
+}
+
+#[test]
+fn a_claim_may_have_any_model() {
+    for model in ["model.condensed={}", "model.ting={}"] {
+        let place = place(CHECK);
+        let text =
+            claim(CHECK).replace("case.toml'\n", &format!("case.toml'\nset = ['{model}']\n"));
+        assert!(text.contains(model));
+        place.write("validation/mine/claim.toml", &text);
+        place.succeed(&["validate", "--quiet"]);
+    }
+}
+
+#[test]
+fn bad_claims_are_refused_before_anything_runs() {
+    let no_tolerance = CHECK.replace("absolute = 0.01\n", "");
+    let no_reference = CHECK.replace("reference = 0.93\n", "");
+    let line = |text: &str, word: &str| {
+        let before = text.find(word).unwrap();
+        format!("claim.toml:{}:", text[..before].matches('\n').count() + 1)
+    };
+    for (checks, place_of, message) in [
+        (no_tolerance.as_str(), "[[check]]", "exactly one of relative"),
+        (no_reference.as_str(), "[[check]]", "need a reference"),
+        (&CHECK.replace("label", "labl"), "labl", "unknown field `labl`"),
+        (&CHECK.replace("published", "hearsay"), "\"hearsay", "unknown variant"),
+    ] {
+        let place = place(checks);
+        let ran = place.run(&["validate"]);
+        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+        let position = line(&claim(checks), place_of);
+        assert!(ran.stderr.contains(&position), "wants {position}\n{}", ran.stderr);
+        assert!(ran.stderr.contains(message), "wants {message}\n{}", ran.stderr);
+        assert!(!place.path("runs").exists());
+    }
+    let place = place(CHECK);
+    for (arguments, message) in [
+        (&["validate", "yours"][..], "there is no claim `yours`; the claims are mine"),
+        (&["validate", "--claims", "nowhere"], "nowhere"),
+        (&["validate", "mine", "--table", "t.md"], "--table"),
+    ] {
+        let ran = place.run(arguments);
+        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+        assert!(ran.stderr.contains(message), "wants {message}\n{}", ran.stderr);
+    }
+    let sumary = claim(CHECK).replace("'summary'", "'sumary'");
+    place.write("validation/mine/claim.toml", &sumary);
+    let ran = place.run(&["validate"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    let message = "claim.toml:1:1: there is no study `sumary`; the studies are balances, ";
+    assert!(ran.stderr.contains(message), "{}", ran.stderr);
+    place.write("validation/mine/claim.toml", &claim(CHECK));
+    place.write("case.toml", &crate::common::CASE.replace("density", "densty"));
+    let ran = place.run(&["validate"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    assert!(ran.stderr.contains("case.toml:4:1: "), "{}", ran.stderr);
+}
+
+/// The page needs nothing else: it names no other place to load from.
+#[test]
+fn the_page_is_self_contained() {
+    let place = place(CHECK);
+    place.succeed(&["validate", "--quiet"]);
+    let page = String::from_utf8(place.read("runs/validation/index.html")).unwrap();
+    for outside in ["<script", "<link", "@import", "src=\"http", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    for source in page.split("src=\"").skip(1) {
+        assert!(source.starts_with("data:image/svg+xml;base64,"));
+    }
+}
+
+/// docs/validation.md was made from the claims as they are: same claims, checks, references and
+/// tolerances, and all of them held.
+#[test]
+fn the_committed_table_is_that_of_the_claims() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let claims = fem_validate::load_claims(&root.join("validation"), &[]).unwrap();
+    let table = std::fs::read_to_string(root.join("docs/validation.md")).unwrap();
+    let mut rows = table.lines().filter(|line| line.ends_with("| pass |"));
+    for claim in &claims {
+        for check in &claim.checks {
+            let row = rows.next().unwrap_or_default();
+            let cells: Vec<&str> = row.split(" | ").collect();
+            // A bar would end the cell.
+            let label = check.label.replace('|', "\\|");
+            assert_eq!(cells.get(1), Some(&label.as_str()), "{}", claim.name);
+            assert_eq!(cells.get(3), Some(&check.reference_text().as_str()), "{}", claim.name);
+            assert_eq!(cells.get(6), Some(&check.tolerance_text().as_str()), "{}", claim.name);
+        }
+    }
+    assert_eq!(rows.next(), None);
+    assert!(!table.contains("FAIL"));
+}

@@ -1,0 +1,277 @@
+//! `[model] condensed`: its keys, its results in the collision that all models share, pairs that
+//! cases share.
+
+use std::path::Path;
+
+use fem::{Condensed, Model, PairCache, Shared, Simulation};
+use fem_case::{Case, CondensedOptions, ModelChoice};
+use fem_collision::{Account, Collision};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+
+fn parse(overrides: &[&str]) -> Result<Case, fem_case::CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse("glass.toml", GLASS, Path::new("."), &overrides)
+}
+
+fn simulation(overrides: &[&str]) -> Simulation {
+    Simulation::new(parse(overrides).unwrap()).unwrap()
+}
+
+fn run(overrides: &[&str]) -> Collision {
+    simulation(overrides).run(&mut ())
+}
+
+const CONDENSED: &str = "model.condensed={}";
+
+#[test]
+fn keys_are_read_and_checked() {
+    let model = |value: &str| parse(&[value]).map(|case| case.scene().model().clone());
+    assert_eq!(model(CONDENSED).unwrap(), ModelChoice::Condensed(CondensedOptions::default()));
+    let all = "model.condensed={vibration_modes=12, steps=200, penalty_springs=true}";
+    let expected = CondensedOptions { vibration_modes: 12, steps: 200, penalty_springs: true };
+    assert_eq!(model(all).unwrap(), ModelChoice::Condensed(expected));
+    for (value, message) in [
+        ("model.condensed.vibration_modes=-1", "vibration_modes is -1"),
+        ("model.condensed.vibration_modes=1.5", "vibration_modes is 1.5"),
+        ("model.condensed.steps=10", "steps is 10"),
+        ("model.condensed.mesh=1", "mesh"),
+    ] {
+        let error = model(value).unwrap_err();
+        assert!(error.message().contains(message), "{error}");
+    }
+}
+
+/// The case as the explicit model reads it: both readings, a wall, a gap.
+#[test]
+fn results_are_those_of_the_explicit_model() {
+    for extra in [&[][..], &["start.gap='1 um'", "body.1.approach_speed='0.2 m/s'"]] {
+        // The case's own relaxation, on a mesh of some hundred elements.
+        let coarse = ["mesh.contact_element_size='60 um'"];
+        let overrides: Vec<&str> = coarse.iter().chain(extra).copied().collect();
+        let fem = run(&overrides);
+        let overrides: Vec<&str> = overrides.into_iter().chain([CONDENSED]).collect();
+        let condensed = run(&overrides);
+        assert!(condensed.is_complete());
+        let close = |a: Option<f64>, b: Option<f64>, relative: f64| {
+            let error = a.unwrap() / b.unwrap() - 1.0;
+            assert!(error.abs() < relative, "{a:?} {b:?} {error:e}");
+        };
+        // Less than four elements across the contact: the difference is the penalty's.
+        close(condensed.restitution, fem.restitution, 2e-3);
+        close(condensed.contact_time, fem.contact_time, 1e-2);
+        close(condensed.peak_force, fem.peak_force, 2e-2);
+        close(condensed.max_approach, fem.max_approach, 1e-2);
+        // Mass scaling adds up to 2e-4 of the mass to the explicit bodies.
+        close(condensed.initial_energy, fem.initial_energy, 2e-4);
+        for (a, b) in condensed.bodies.iter().zip(&fem.bodies) {
+            assert_eq!((a.elements, a.nodes), (b.elements, b.nodes));
+            close(a.mass, b.mass, 1e-9);
+            assert!((a.velocity_after.unwrap() - b.velocity_after.unwrap()).abs() < 1e-3);
+        }
+        let labels = |collision: &Collision| -> Vec<_> {
+            collision.snapshots.iter().map(|snapshot| snapshot.label).collect()
+        };
+        assert_eq!(labels(&condensed), labels(&fem));
+        for (a, b) in condensed.snapshots.iter().zip(&fem.snapshots) {
+            assert!((a.time - b.time).abs() < 1e-6, "{} {}", a.time, b.time);
+        }
+        assert!(condensed.residual_relative.unwrap() < 1e-5);
+        assert!(condensed.momentum_residual_relative.unwrap() < 1e-12);
+        let rows = &condensed.history;
+        assert!(rows.windows(2).all(|two| two[0].time < two[1].time));
+        assert!((1000..1400).contains(&rows.len()));
+    }
+}
+
+#[test]
+fn a_wall_at_rest_and_a_moving_one() {
+    let relative = |first: &str, second: &str| {
+        run(&[
+            "body.1={name='floor', wall={}}",
+            &format!("body.0.approach_speed={first}"),
+            &format!("body.1.approach_speed={second}"),
+            CONDENSED,
+        ])
+    };
+    let (ball, floor) = (relative("0.5", "0"), relative("0.1", "0.4"));
+    assert!((ball.restitution.unwrap() - floor.restitution.unwrap()).abs() < 1e-9);
+    assert_eq!(floor.bodies[1].velocity_after, Some(-0.4));
+    let last = floor.history.last().unwrap();
+    // Kinetic energy and the work of the wall, against the loss in the frame of the wall.
+    assert!(
+        last.energy(Account::WallWork).unwrap() > 0.0 && floor.residual_relative.unwrap() < 1e-5
+    );
+}
+
+#[test]
+fn a_resolved_case_computes_the_same() {
+    for value in [CONDENSED, "model.condensed={vibration_modes=4, penalty_springs=true, steps=300}"]
+    {
+        let first = simulation(&[value, "mesh.contact_element_size='50 um'"]);
+        let text = first.resolved().to_toml().unwrap();
+        let case = Case::parse("again.toml", &text, Path::new("."), &[]).unwrap();
+        let again = Simulation::new(case).unwrap();
+        assert_eq!(again.resolved().to_toml().unwrap(), text);
+        let expected = run(&[value, "mesh.contact_element_size='50 um'"]);
+        assert_eq!(again.run(&mut ()).history, expected.history);
+    }
+}
+
+/// Speeds and relaxations on one mesh share a factor, to the same bits.
+#[test]
+fn cases_share_a_pair() {
+    let mesh = ["mesh.contact_element_size='50 um'", "mesh.refined_radius='0.4 mm'", CONDENSED];
+    let shared = Shared::default();
+    let cache = &shared.pairs;
+    let condensed_of = |extra: &str| {
+        let overrides: Vec<&str> = mesh.iter().copied().chain([extra]).collect();
+        let case = parse(&overrides).unwrap();
+        let condensed = Condensed::new(case.scene(), &shared).unwrap();
+        let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
+        let collision = condensed.collide(&approach, &want, &mut ());
+        assert_eq!(collision.history, run(&overrides).history);
+        condensed
+    };
+    let first = condensed_of("body.0.approach_speed=0.5");
+    for extra in [
+        "body.0.approach_speed=0.2",
+        "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, decay_rate=1e4}]}",
+    ] {
+        assert!(std::ptr::eq(first.pair(), condensed_of(extra).pair()), "{extra}");
+    }
+    assert_eq!(cache.n_made(), 1);
+    // Another density is another pair.
+    assert!(!std::ptr::eq(first.pair(), condensed_of("material.glass.density=2000").pair()));
+    assert_eq!(cache.n_made(), 2);
+    // So are other elements, bodies, sides, and another way of condensing.
+    let others = [
+        "mesh.contact_element_size='60 um'",
+        "mesh.growth=1.5",
+        "body.1.sphere.diameter='16 mm'",
+        "material.glass.poissons_ratio=0.25",
+        "model.condensed.penalty_springs=true",
+        "model.condensed.vibration_modes=1",
+    ];
+    for (k, extra) in others.into_iter().enumerate() {
+        condensed_of(extra);
+        assert_eq!(cache.n_made(), 3 + k, "{extra}");
+    }
+}
+
+/// Bodies of a few hundred elements; the contact stays within them.
+const COARSE: [&str; 3] =
+    ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.4 mm'", CONDENSED];
+
+/// Two speeds of nine pairings, the speed running slowest, or fastest.
+fn nine_pairings(speed_is_slow: bool) -> Vec<Case> {
+    let case = |speed: usize, pairing: usize| {
+        let [first, second] = [pairing / 3, pairing % 3];
+        let speed = format!("body.0.approach_speed={}", [0.1, 0.3][speed]);
+        let first = format!("body.0.sphere.diameter='{} mm'", 20 + first);
+        let second = format!("body.1.sphere.diameter='{} mm'", 15 + second);
+        parse(&[&COARSE[..], &[&speed, &first, &second]].concat()).unwrap()
+    };
+    let index = |k: usize| if speed_is_slow { (k / 9, k % 9) } else { (k % 2, k / 2) };
+    (0..18).map(index).map(|(speed, pairing)| case(speed, pairing)).collect()
+}
+
+fn restitution(case: Case, shared: &Shared) -> f64 {
+    Simulation::sharing(case, shared).unwrap().run(&mut ()).restitution.unwrap()
+}
+
+/// A pairing is factored once, whatever the order, and the order changes no bit.
+#[test]
+fn nine_pairings_take_nine_factors_in_any_order() {
+    let run = |speed_is_slow: bool, shared: &Shared| -> Vec<f64> {
+        nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, shared)).collect()
+    };
+    let [slow, fast] = [Shared::default(), Shared::default()];
+    let tight = Shared { pairs: PairCache::with_max_bytes(1) };
+    let (by_speed, by_pairing) = (run(true, &slow), run(false, &fast));
+    assert_eq!((slow.pairs.n_made(), fast.pairs.n_made()), (9, 9));
+    assert_eq!(slow.pairs.n_kept(), 9);
+    let reordered: Vec<f64> = (0..18).map(|k| by_pairing[2 * (k % 9) + k / 9]).collect();
+    assert_eq!(by_speed, reordered);
+    // A cache with room for nothing keeps the last pair, and gives the same.
+    assert_eq!(run(false, &tight), by_pairing);
+    assert_eq!((tight.pairs.n_made(), tight.pairs.n_kept()), (9, 1));
+    assert_eq!(run(true, &tight), by_speed);
+    assert_eq!(tight.pairs.n_made(), 9 + 18);
+}
+
+/// Threads that want the same pair wait for the one that makes it.
+#[test]
+fn threads_do_not_factor_a_pair_twice() {
+    let shared = Shared::default();
+    let barrier = std::sync::Barrier::new(4);
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| {
+                let case = parse(&COARSE).unwrap();
+                barrier.wait();
+                Simulation::sharing(case, &shared).unwrap();
+            });
+        }
+    });
+    assert_eq!(shared.pairs.n_made(), 1);
+}
+
+/// A contact beyond the condensed region enlarges the pair of that case alone.
+#[test]
+fn an_enlarged_pair_is_not_put_back() {
+    let shared = Shared::default();
+    let soft = |weight: f64| {
+        let terms = format!(
+            "material.glass.relaxation={{acts_on='all', terms=[{{weight={weight}, \
+             decay_rate=1e6}}]}}"
+        );
+        let fine = ["mesh.contact_element_size='0.1 mm'", "body.0.approach_speed=1.2", &terms];
+        parse(&[&COARSE[1..], &fine].concat()).unwrap()
+    };
+    let condensed = |case: Case| {
+        let condensed = Condensed::new(case.scene(), &shared).unwrap();
+        let (approach, want) = (condensed.setup().approach, condensed.setup().want.clone());
+        condensed.collide(&approach, &want, &mut ()).searched.unwrap().radius
+    };
+    let small = condensed(soft(0.0));
+    // It sinks in so much deeper that the region does not reach.
+    let large = condensed(soft(0.95));
+    assert!(large > small, "{large} {small}");
+    assert_eq!(condensed(soft(0.0)), small);
+    assert_eq!(shared.pairs.n_made(), 1);
+}
+
+/// Without snapshots all else keeps its bits.
+#[test]
+fn snapshots_are_skipped_on_demand() {
+    for model in [CONDENSED, "model.fem={}", "model.ting={}"] {
+        let overrides = ["mesh.contact_element_size='90 um'", model];
+        let mut skipping = simulation(&overrides);
+        skipping.skip_snapshots();
+        let (skipped, whole) = (skipping.run(&mut ()), run(&overrides));
+        assert!(skipped.snapshots.is_empty());
+        assert_eq!(whole.snapshots.is_empty(), model.contains("ting"));
+        assert_eq!(skipped.history, whole.history);
+        assert_eq!(skipped.restitution, whole.restitution);
+        assert_eq!(skipped.bodies, whole.bodies);
+        assert_eq!(skipping.resolved(), simulation(&overrides).resolved());
+    }
+}
+
+/// What the model does not read or know is said.
+#[test]
+fn limits_are_told() {
+    let warned = |overrides: &[&str], words: &str| {
+        let warnings = simulation(overrides).setup().warnings().join("\n");
+        assert!(warnings.contains(words), "{warnings}");
+    };
+    assert!(simulation(&[CONDENSED]).setup().warnings().is_empty());
+    warned(&[CONDENSED, "time.step_factor=0.5"], "time.step_factor has no effect");
+    warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
+    warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");
+    warned(&[CONDENSED, "body.0.approach_speed=30"], "small-strain");
+    let tight = parse(&[CONDENSED, "limits.memory=1000"]).unwrap();
+    let error = Simulation::new(tight).unwrap_err();
+    assert!(error.help().is_some_and(|help| help.contains("limits.memory")), "{error}");
+}

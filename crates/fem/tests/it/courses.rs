@@ -1,0 +1,94 @@
+//! A collision in pieces is the collision in one go.
+
+use std::path::Path;
+
+use fem::{Approach, Case, Collision, Ending, METHODS, Memory, Simulation, Stop, Want};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+
+fn simulation(method: &str, more: &[&str]) -> Simulation {
+    let model = match method {
+        "law" => "model.law.falcon.c=300".to_string(),
+        name => format!("model.{name}={{}}"),
+    };
+    let mesh = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
+    let overrides = mesh.iter().chain(more).map(ToString::to_string).chain([model]);
+    let overrides: Vec<String> = overrides.collect();
+    Simulation::new(Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()).unwrap()
+}
+
+#[test]
+fn pieces_make_the_whole() {
+    for method in METHODS {
+        let simulation = simulation(method.name(), &[]);
+        let whole = simulation.run(&mut ());
+        let mut course = simulation.start();
+        let mut n_pieces = 0;
+        while course.advance(&mut ()) {
+            n_pieces += 1;
+        }
+        assert_eq!(n_pieces > 10, method.name() == "fem", "{}", method.name());
+        // What is over stays so.
+        assert!(!course.advance(&mut ()));
+        assert_eq!(course.finish(), whole, "{}", method.name());
+    }
+}
+
+#[test]
+fn a_course_that_is_left_is_interrupted() {
+    for method in ["fem", "condensed"] {
+        let simulation = simulation(method, &[]);
+        let mut course = simulation.start();
+        if method == "fem" {
+            assert!(course.advance(&mut ()));
+        }
+        let left = course.finish();
+        let Ending::Stopped(Stop::Interrupted { .. }) = left.ending else { panic!("{left:?}") };
+        assert_eq!(left.restitution, None);
+    }
+}
+
+/// Put away after so many pieces, through text, and taken up again.
+fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Collision {
+    let (model, want) = (simulation.model(), Want::history());
+    let mut course = model.start(approach, &want);
+    for _ in 0..n_pieces {
+        course.advance(&mut ());
+    }
+    let text = serde_json::to_string(course.memory().unwrap()).unwrap();
+    let memory: Memory = serde_json::from_str(&text).unwrap();
+    let mut resumed = model.resume(memory, &want).unwrap();
+    while resumed.advance(&mut ()) {}
+    resumed.finish()
+}
+
+/// Also of a contact that has outgrown the region in which it was looked for, before it was put away
+/// or after.
+#[test]
+fn a_course_goes_on_from_its_memory() {
+    let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
+                    decay_rate=2e4}]}";
+    let simulation = simulation("fem", &[relaxing]);
+    for approach in [Approach::at(0.5), Approach::new([4.0, -2.0], 1e-6)] {
+        let approach = approach.unwrap();
+        let whole = simulation.model().collide(&approach, &Want::history(), &mut ());
+        for n_pieces in [0, 1, 12, 40, 1000] {
+            assert_eq!(in_two(&simulation, &approach, n_pieces), whole, "{n_pieces}");
+        }
+    }
+}
+
+#[test]
+fn a_memory_of_another_case_is_refused() {
+    let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
+                    decay_rate=2e4}]}";
+    let memory = simulation("fem", &[]).start().memory().unwrap().clone();
+    for other in [
+        simulation("fem", &["mesh.contact_element_size='0.12 mm'"]),
+        simulation("fem", &[relaxing]),
+        simulation("condensed", &[]),
+    ] {
+        let refused = other.resume(memory.clone()).map(|_| ()).unwrap_err();
+        assert!(refused.message().contains("memory"), "{refused}");
+    }
+}

@@ -1,0 +1,55 @@
+//! `[effects]`: what the case forces and no model has.
+
+use std::path::Path;
+
+use fem::Simulation;
+use fem::effects::EFFECTS;
+use fem_case::{Case, EffectsTable, Switch};
+use serde_json::json;
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+
+#[test]
+fn an_effect_that_is_forced_on_and_lacking_is_refused_at_its_switch() {
+    for model in ["fem={}", "condensed={}", "ting={}", "hertz={}", "law.falcon.c=300"] {
+        for effect in ["finite_strain", "mirror_symmetry", "bulk_viscosity"] {
+            let switched = |switch: &str| {
+                let text = format!("{GLASS}\n[effects]\n{effect} = \"{switch}\"\n");
+                let set = [format!("model.{model}")];
+                (Case::parse("glass.toml", &text, Path::new("."), &set).unwrap(), text)
+            };
+            let (forced, text) = switched("on");
+            let error = Simulation::new(forced).unwrap_err();
+            assert!(error.message().contains("is not available"), "{error}");
+            assert_eq!(error.key(), Some(format!("effects.{effect}").as_str()));
+            assert!(error.help().unwrap().contains("\"off\""), "{error}");
+            // It underlines the value, in the last line.
+            assert_eq!(&text[error.span().unwrap()], "\"on\"", "{error}");
+            assert_eq!(error.line(), Some(text.lines().count()), "{error}");
+            assert_eq!(error.source_text(), Some(text.as_str()));
+            for switch in ["off", "auto"] {
+                Simulation::new(switched(switch).0).unwrap();
+            }
+        }
+    }
+}
+
+/// Every key of `[effects]` is the switch of one effect, whose name is the key with spaces.
+#[test]
+fn every_switch_has_its_effect() {
+    let on = EffectsTable {
+        finite_strain: Some(Switch::On),
+        mirror_symmetry: Some(Switch::On),
+        bulk_viscosity: Some(Switch::On),
+    };
+    let tree = serde_json::to_value(on).unwrap();
+    let keys: Vec<&String> = tree.as_object().unwrap().keys().collect();
+    for key in &keys {
+        let alone: EffectsTable = serde_json::from_value(json!({ key.as_str(): "on" })).unwrap();
+        let switched = EFFECTS.iter().filter(|effect| effect.switch(&alone) == Some(Switch::On));
+        let names: Vec<String> = switched.map(|effect| effect.name().replace(' ', "_")).collect();
+        assert_eq!(names, [key.as_str()]);
+    }
+    let switched = EFFECTS.iter().filter(|effect| effect.switch(&on).is_some());
+    assert_eq!(switched.count(), keys.len(), "a switch that is no key");
+}

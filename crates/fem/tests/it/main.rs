@@ -1,0 +1,18 @@
+//! The library from outside, in one program: linked once, its tests run side by side.
+
+mod approaches;
+mod calibrate;
+mod condensed;
+mod courses;
+mod effects;
+mod front_door;
+mod laws;
+mod measured;
+mod models;
+mod paper;
+mod plan;
+mod refusals_in_code;
+mod remedies;
+mod stress;
+mod sweep;
+mod together;

@@ -1,0 +1,341 @@
+//! `[model]`: what it takes, what it refuses and where, how overrides choose, what is resolved.
+
+use std::path::Path;
+
+use fem::{Explicit, Simulation};
+use fem_case::{Case, CaseError, Dashpot, Dissipation, Law, ModelChoice};
+use fem_collision::{Account, Collision};
+use fem_laws::EndRule;
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+
+fn parse(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse("glass.toml", text, Path::new("."), &overrides)
+}
+
+fn model(value: &str) -> ModelChoice {
+    parse(&format!("{GLASS}\n[model]\n{value}\n"), &[]).unwrap().scene().model().clone()
+}
+
+fn law(value: &str) -> Law {
+    match model(&format!("law = {{ {value} }}")) {
+        ModelChoice::Law { law, .. } => law,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The case with this `[model]`, in which «» enclose what must be underlined, has this fault.
+#[track_caller]
+fn fault(marked: &str, message: &str, help: &str) {
+    let (before, rest) = marked.split_once('«').expect("a mark");
+    let (culprit, after) = rest.split_once('»').expect("the mark's end");
+    let text = format!("{GLASS}\n[model]\n{before}{culprit}{after}\n");
+    let made = parse(&text, &[]).and_then(Simulation::new);
+    let error = made.map(|_| ()).expect_err("a fault");
+    assert!(error.message().contains(message), "{error}");
+    assert!(error.help().unwrap_or("").contains(help), "{error}");
+    assert_eq!(&text[error.span().unwrap()], culprit, "{error}");
+    assert_eq!(error.line(), Some(text.lines().count()), "{error}");
+}
+
+fn run(overrides: &[&str]) -> Collision {
+    Simulation::new(parse(GLASS, overrides).unwrap()).unwrap().run(&mut ())
+}
+
+#[test]
+fn every_model_and_law_is_read() {
+    assert_eq!(model("fem = {}"), ModelChoice::Fem);
+    assert_eq!(model("hertz = {}"), ModelChoice::Hertz { finite_size: false });
+    let ting = ModelChoice::Ting { finite_size: true, tolerance: 1e-6 };
+    assert_eq!(model("ting = { finite_size = true, tolerance = 1e-6 }"), ting);
+    let expected = ModelChoice::Law {
+        law: Law::KuwabaraKono(Dissipation::Time(1e-6)),
+        end_rule: EndRule::ZeroForce,
+        tolerance: 1e-8,
+    };
+    assert_eq!(model("law = { kuwabara_kono = { a = \"1 us\" } }"), expected);
+    let expected =
+        ModelChoice::Law { law: Law::Hertz, end_rule: EndRule::ZeroOverlap, tolerance: 1e-5 };
+    let inner = "law = { hertz = { end = \"zero_overlap\", tolerance = 1e-5 } }";
+    let outer = "law = { hertz = {}, end = \"zero_overlap\", tolerance = 1e-5 }";
+    assert_eq!([model(inner), model(outer)], [expected.clone(), expected]);
+    for (value, expected) in [
+        (
+            "linear = { k = \"10 N/um\", c = \"30 N s/m\" }",
+            Law::Linear { stiffness: 1e7, damping: 30.0 },
+        ),
+        ("linear = { k = 1e7 }", Law::Linear { stiffness: 1e7, damping: 0.0 }),
+        (
+            "linear = { e = 0.9, contact_time = \"60 us\" }",
+            Law::LinearFromRestitution { restitution: 0.9, contact_time: 60e-6 },
+        ),
+        (
+            "power = { k = 3e9, gamma = 1.5, c = 1e4, n = 0.5 }",
+            Law::Power {
+                stiffness: 3e9,
+                elastic_exponent: 1.5,
+                damping: 1e4,
+                damping_exponent: 0.5,
+            },
+        ),
+        (
+            "kuwabara_kono = { eta_1 = \"1 kPa s\", eta_2 = 0 }",
+            Law::KuwabaraKono(Dissipation::Viscosities { shear: 1e3, bulk: 0.0 }),
+        ),
+        ("kuwabara_kono = {}", Law::KuwabaraKono(Dissipation::Relaxation)),
+        ("hunt_crossley = { e = 0.9 }", Law::HuntCrossley { restitution: 0.9, speed: None }),
+        ("tsuji = { e = 0.9 }", Law::Tsuji(Dashpot::Restitution(0.9))),
+        ("zhang_whiten = { alpha = 0.1 }", Law::ZhangWhiten(Dashpot::Coefficient(0.1))),
+        ("falcon = { c = 500 }", Law::Falcon { damping: 500.0 }),
+        ("mishra_murty = { k = 1e10, c = 1 }", Law::MishraMurty { stiffness: 1e10, damping: 1.0 }),
+        ("schwager_poeschel = { a = 1e-6 }", Law::SchwagerPoeschel(Dissipation::Time(1e-6))),
+        (
+            "morgado_oppenheim = { eta_1 = \"10 kPa s\", eta_2 = 0.2 }",
+            Law::MorgadoOppenheim { eta_1: 1e4, eta_2: 0.2 },
+        ),
+        (
+            "bordbar_hyppanen = { a = \"1 us\", n = 0.65 }",
+            Law::BordbarHyppanen { dissipation_time: 1e-6, damping_exponent: 0.65 },
+        ),
+    ] {
+        assert_eq!(law(value), expected);
+    }
+}
+
+#[test]
+fn faults_point_at_their_key() {
+    fault("law = { kuwabara_kono = { a = «\"1 um\"» } }", "a wants a time", "10 us");
+    fault("law = { linear = { k = «\"1 Pa\"» } }", "is a pressure; k wants a stiffness", "N/m");
+    fault("law = { power = { k = «\"1 N/m\"», gamma = 1 } }", "k wants a plain number", "");
+    fault("law = { kuwabara_kono = { «b» = 1 } }", "unknown key `b`", "a, eta_1, eta_2, end");
+    fault("law = { «kuwabara» = {} }", "unknown key `kuwabara`", "did you mean `kuwabara_kono`");
+    fault("law = { bordbar_hyppanen = «{ a = 1e-6 }» }", "`n` is missing", "n = ");
+    fault("law = { linear = «{ c = 1 }» }", "`k` is missing", "N/m");
+    fault("law = { linear = «{ e = 0.9 }» }", "`contact_time` is missing", "10 us");
+    fault("law = { linear = { k = 1, e = «0.9» } }", "mixes", "e and contact_time");
+    fault("law = { power = «{ k = 1, gamma = 1, c = 1 }» }", "`n` is missing", "");
+    fault("law = { tsuji = { e = 0.9, alpha = «1» } }", "both e and alpha", "one of the two");
+    fault("law = { tsuji = { e = «1.1» } }", "e is 1.1", "at most 1");
+    fault("law = { kuwabara_kono = { a = «-1» } }", "a is -1", "0 or greater");
+    fault("law = { kuwabara_kono = { a = «1», eta_1 = 1 } }", "both a and viscosities", "");
+    fault("law = { kuwabara_kono = «{ eta_1 = 1 }» }", "`eta_2` is missing", "Pa s");
+    fault("law = { hertz = { end = «\"zero\"» } }", "none of its values", "zero_force");
+    fault("law = { hertz = { tolerance = «0» } }", "tolerance is 0", "1e-10");
+    fault("law = { hertz = { tolerance = 1e-5 }, tolerance = «1e-6» }", "given twice", "keep");
+    fault("law = { zhang_whiten = { e = 0.9, end = «\"zero_overlap\"» } }", "zero force", "tsuji");
+    fault("law = { hertz = {}, tsuji = «{ e = 1 }» }", "the keys hertz and tsuji", "exactly one");
+    fault("law = «{}»", "names no law", "kuwabara_kono");
+    fault("law = { hertz = «[]» }", "is an array", "table");
+    fault("hertz = { finite_size = «1» }", "finite_size is an integer", "boolean");
+    fault("ting = { tolerance = «\"1 m\"» }", "wants a plain number", "");
+    fault("auto = «{}»", "not available", "fem, condensed, ting, hertz and law");
+    fault("condensed = { vibration_modes = «101» }", "vibration_modes is 101", "whole number");
+    fault("condensed = { steps = «49.0» }", "steps is 49", "whole number");
+    fault("condensed = { steps = «\"many\"» }", "not a whole number", "such as 12");
+    // Only the relaxation that is there has a slow limit, and this glass flows.
+    fault("law = { kuwabara_kono = «{}» }", "flows", "give a");
+}
+
+#[test]
+fn an_override_of_another_model_takes_the_place_of_the_first() {
+    let with_model = format!("{GLASS}\n[model.law.kuwabara_kono]\na = 1e-6\n");
+    for text in [GLASS, &with_model] {
+        let chosen = |overrides: &[&str]| parse(text, overrides).unwrap().scene().model().clone();
+        assert!(matches!(chosen(&["model.ting={}"]), ModelChoice::Ting { .. }));
+        assert!(matches!(
+            chosen(&["model.ting.finite_size=true"]),
+            ModelChoice::Ting { finite_size: true, .. }
+        ));
+        assert_eq!(chosen(&["model.ting={}", "model.fem={}"]), ModelChoice::Fem);
+        assert_eq!(chosen(&["model={hertz={}}"]), ModelChoice::Hertz { finite_size: false });
+        let tsuji = chosen(&["model.law.tsuji.e=0.9", "model.law.end='zero_overlap'"]);
+        assert!(
+            matches!(
+                &tsuji,
+                ModelChoice::Law { law: Law::Tsuji(_), end_rule: EndRule::ZeroOverlap, .. }
+            ),
+            "{tsuji:?}"
+        );
+    }
+    let kept = parse(&with_model, &["model.law.kuwabara_kono.tolerance=1e-4"]).unwrap();
+    assert!(matches!(
+        kept.scene().model(),
+        ModelChoice::Law { law: Law::KuwabaraKono(Dissipation::Time(_)), tolerance: 1e-4, .. }
+    ));
+}
+
+#[test]
+fn a_resolved_case_computes_the_same() {
+    for value in [
+        "model.ting={}",
+        "model.hertz={finite_size=true}",
+        "model.law.hunt_crossley.e=0.9",
+        "model.law={tsuji={e=0.9}, end='zero_overlap', tolerance=1e-6}",
+        "model.law.linear={e=0.9, contact_time='60 us'}",
+    ] {
+        let simulation = Simulation::new(parse(GLASS, &[value]).unwrap()).unwrap();
+        let text = simulation.resolved().to_toml().unwrap();
+        let again = Simulation::new(parse(&text, &[]).unwrap()).unwrap();
+        assert_eq!(again.resolved().to_toml().unwrap(), text);
+        let (found, expected) = (again.run(&mut ()), run(&[value]));
+        assert_eq!(found.restitution, expected.restitution);
+        assert_eq!(found.history, expected.history);
+        // Nothing of finite elements is decided.
+        assert!(!text.contains("[mesh]") && !text.contains("[time]"), "{text}");
+    }
+}
+
+#[test]
+fn finite_elements_are_for_the_model_fem() {
+    let case = parse(GLASS, &["model.ting={}"]).unwrap();
+    let refusal = Explicit::new(case.scene()).unwrap_err();
+    assert_eq!(refusal.key, "model.ting");
+    assert!(refusal.message.contains("is not `fem`"), "{refusal}");
+}
+
+#[test]
+fn the_slow_limit_of_the_materials() {
+    // A tenth of the modulus decays in 0.1 µs: slow is the contact of 60 µs.
+    let slow = "material.glass.relaxation.terms=[{weight=0.1, relaxation_time='0.1 us'}]";
+    let kelvin = run(&[slow, "model.law.kuwabara_kono={}"]);
+    let ting = run(&[slow, "model.ting={}"]);
+    let loss = |collision: &Collision| 1.0 - collision.restitution.unwrap();
+    // Next order: τ/T.
+    assert!((loss(&kelvin) / loss(&ting) - 1.0).abs() < 5e-3);
+    let times = [&kelvin, &ting].map(|collision| collision.contact_time.unwrap());
+    assert!((times[0] / times[1] - 1.0).abs() < 1e-4, "{times:?}");
+    // From viscosities as from the series: G∞ = 0.9 G, so η = ΣG_k τ_k of relaxed moduli.
+    let viscosities = [
+        "material.glass={density=2390, youngs_modulus=56.7e9, poissons_ratio=0.244}",
+        "model.law.kuwabara_kono={eta_1=253.215434, eta_2=410.15625}",
+    ];
+    let given = run(&viscosities);
+    assert!(
+        (loss(&given) / loss(&kelvin) - 1.0).abs() < 1e-6,
+        "{} {}",
+        loss(&given),
+        loss(&kelvin)
+    );
+}
+
+#[test]
+fn energies_velocities_and_walls() {
+    let frames = [
+        &["body.0.approach_speed=0.5"][..],
+        &["body.0.approach_speed=0.2", "body.1.approach_speed=0.3"],
+        &["body.1={name='wall', wall={}}"],
+        &["body.0={name='wall', wall={}, approach_speed=0.5}", "body.1.approach_speed=0"],
+        &["body.1.sphere.diameter='9 m'"],
+    ];
+    for model in ["model.ting={}", "model.hertz={}", "model.law.kuwabara_kono.a=2e-6"] {
+        for frame in frames {
+            let collision = run(&[&[model][..], frame].concat());
+            let e = collision.restitution.unwrap();
+            let after = collision.bodies.map(|body| body.velocity_after.unwrap());
+            assert!((after[1] - after[0] - 0.5 * e).abs() < 1e-12, "{frame:?}");
+            let last = *collision.history.last().unwrap();
+            assert!((last.velocity[0] - after[0]).abs() < 1e-12);
+            assert!(collision.residual_relative.unwrap() < 1e-8, "{model} {frame:?}");
+            // Both velocities are made from one: nothing that could fail.
+            assert_eq!(collision.momentum_residual_relative, None);
+            let energy = |account| last.energy(account).unwrap_or_default();
+            let lost = energy(Account::ViscousDissipation) + energy(Account::Strain);
+            let work = energy(Account::WallWork);
+            let balance =
+                energy(Account::Kinetic) + lost - collision.initial_energy.unwrap() - work;
+            let scale = collision.initial_energy.unwrap() + work.abs();
+            assert!(balance.abs() < 1e-8 * scale, "{model} {frame:?}: {balance:e}");
+            // About a thousand rows over the contact, both ends among them.
+            let contact_time = collision.contact_time.unwrap();
+            let is_contact = |time: f64| time <= contact_time * (1.0 + 1e-12);
+            assert_eq!(collision.history.iter().filter(|row| is_contact(row.time)).count(), 1001);
+            assert!(collision.history.iter().any(|row| row.time == contact_time));
+        }
+    }
+}
+
+#[test]
+fn bodies_may_change_places() {
+    let swapped = [
+        "body.0={name='target', sphere={diameter='15.9 mm'}, material='glass'}",
+        "body.1={name='striker', sphere={diameter='22.2 mm'}, material='glass', approach_speed=0.5}",
+    ];
+    for model in ["model.ting={}", "model.hertz={finite_size=true}", "model.law.falcon.c=300"] {
+        let (there, back) = (run(&[model]), run(&[&[model][..], &swapped].concat()));
+        assert_eq!(there.restitution, back.restitution, "{model}");
+        assert_eq!(there.contact_time, back.contact_time, "{model}");
+        assert_eq!(there.peak_force, back.peak_force, "{model}");
+        let after =
+            |collision: &Collision| collision.bodies.map(|body| body.velocity_after.unwrap());
+        assert_eq!(after(&there)[0], -after(&back)[1]);
+    }
+}
+
+#[test]
+fn what_the_model_leaves_out_is_said() {
+    let said = |overrides: &[&str]| {
+        let simulation = Simulation::new(parse(GLASS, overrides).unwrap()).unwrap();
+        (simulation.setup().decisions.verdicts.clone(), simulation.setup().warnings().join("\n"))
+    };
+    for model in ["model.hertz={}", "model.law.falcon.c=300"] {
+        let (effects, warnings) = said(&[model]);
+        assert!(effects.iter().any(|e| e.name == "viscoelasticity" && !e.active));
+        assert!(warnings.contains("does not know it"), "{warnings}");
+    }
+    let (effects, warnings) = said(&["model.ting={}"]);
+    assert!(effects.iter().any(|e| e.name == "viscoelasticity" && e.active));
+    assert!(effects.iter().any(|e| e.name == "finite size" && !e.active));
+    assert_eq!(warnings, "");
+    let (effects, warnings) = said(&["model.ting.finite_size=true", "output.snapshots=3"]);
+    assert!(effects.iter().any(|e| e.name == "finite size" && e.active));
+    assert!(warnings.contains("output.snapshots has no effect"), "{warnings}");
+}
+
+#[test]
+fn a_creep_without_end_is_a_reason() {
+    // Twice: 100 000 steps take their time.
+    for model in [
+        "model.law.tsuji={alpha=1e4, end='zero_overlap'}",
+        "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}",
+    ] {
+        let collision = run(&[model]);
+        assert_eq!((collision.restitution, collision.history.len()), (None, 0));
+        assert!(collision.stop().unwrap().to_string().contains("no end of contact"));
+    }
+}
+
+#[test]
+fn extremes_give_numbers_or_a_reason() {
+    let models = [
+        "model.ting={}",
+        "model.hertz={}",
+        "model.law.kuwabara_kono.a=0",
+        "model.law.kuwabara_kono.a=1e3",
+        "model.law.bordbar_hyppanen={a=1e-6, n=1e-12}",
+        "model.law.linear={k=1e7, c=1e12}",
+        "model.law.power={k=1e-300, gamma=1e3, c=1e300, n=1e3}",
+    ];
+    for model in models {
+        for speed in ["1e-9", "1", "1e3"] {
+            // 1.2e-12 kg, 10 g and 1.2e6 kg.
+            for diameter in ["1e-5", "0.02", "10"] {
+                let speed = format!("body.0.approach_speed={speed}");
+                let diameter = format!("body.0.sphere.diameter={diameter}");
+                let case = parse(GLASS, &[model, &speed, &diameter]).unwrap();
+                let Ok(simulation) = Simulation::new(case) else { continue };
+                let collision = simulation.run(&mut ());
+                let Some(restitution) = collision.restitution else {
+                    assert!(!collision.is_complete(), "{model} {speed} {diameter}");
+                    continue;
+                };
+                assert!((0.0..=1.0 + 1e-7).contains(&restitution), "{model}: {restitution}");
+                for row in &collision.history {
+                    let kinetic = row.energy(Account::Kinetic).unwrap();
+                    let numbers = [row.time, row.contact_force, row.approach, kinetic];
+                    assert!(numbers.iter().all(|x| x.is_finite()), "{model} {speed}: {row:?}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The plan and the model made of it: defaults, limits, effects, imported meshes.
+
+use std::path::Path;
+
+use fem::{Explicit, Model, Plan, Setup, Simulation};
+use fem_case::schema::LawTable;
+use fem_case::{Case, CaseError};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+
+fn case(overrides: &[&str]) -> Case {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Case::parse("glass.toml", GLASS, Path::new("."), &overrides).expect("a valid case")
+}
+
+fn refusal(overrides: &[&str]) -> CaseError {
+    Simulation::new(case(overrides)).expect_err("the case must be refused")
+}
+
+#[test]
+fn defaults_follow_from_hertz() {
+    let plan = Plan::of_case(&case(&[])).unwrap();
+    // Printed digits of the closed form for this pair at 0.5 m/s.
+    assert!((plan.estimate.hertz.contact_time() * 1e6 - 63.235).abs() < 5e-4);
+    assert!((plan.contact_element_size * 8.0 * 1e3 - 0.22307).abs() < 5e-6);
+    assert_eq!(plan.mass_scaling, 2e-4);
+    assert_eq!(plan.step_factor, 0.9);
+    assert!((plan.contact_stiffness / 33.494e9 - 20.0).abs() < 1e-3);
+}
+
+#[test]
+fn relaxation_widens_the_expected_contact() {
+    let text = include_str!("../../../../cases/glass_0.5ms.toml");
+    let relaxing = Case::parse("glass.toml", text, Path::new("."), &[]).unwrap();
+    let [relaxing, elastic] =
+        [relaxing, case(&[])].map(|case| Simulation::new(case).unwrap().setup().clone());
+    assert!(relaxing.estimate.contact_radius > elastic.estimate.contact_radius);
+    // 1 − exp(−2708/s · 64 µs) = 16 %.
+    assert!((relaxing.estimate.relaxed - 0.16).abs() < 0.005);
+    assert!(relaxing.decisions.verdicts.iter().any(|e| e.name == "viscoelasticity" && e.active));
+    assert!(elastic.decisions.verdicts.iter().any(|e| e.name == "viscoelasticity" && !e.active));
+}
+
+#[test]
+fn the_resolved_case_makes_the_same_problem() {
+    let first = case(&["mesh.contact_element_size='60 um'"]);
+    let text = Simulation::resolve(&first).unwrap().to_toml().unwrap();
+    let again = Case::parse("resolved.toml", &text, Path::new("."), &[]).unwrap();
+    assert_eq!(Simulation::resolve(&again).unwrap().to_toml().unwrap(), text);
+    let [first, again] = [first, again].map(|case| Explicit::new(case.scene()).unwrap());
+    let plan = |explicit: &Explicit| explicit.setup().elements.as_ref().unwrap().plan.clone();
+    assert_eq!(plan(&again), plan(&first));
+    assert_eq!(again.bodies().time_step(), first.bodies().time_step());
+}
+
+#[test]
+fn what_is_too_dear_is_refused_with_the_estimate() {
+    // Two million, and more than can be numbered at all.
+    for size in ["0.2 um", "5 nm"] {
+        let error = refusal(&[&format!("mesh.contact_element_size='{size}'")]);
+        assert_eq!(error.source_name(), "--set mesh.contact_element_size=…");
+        assert!(error.message().contains("elements"), "{error}");
+        assert!(error.help().unwrap().contains("contact_element_size"), "{error}");
+    }
+    let error = refusal(&["limits.elements=1000"]);
+    assert_eq!(error.source_name(), "--set limits.elements=…");
+    assert!(error.message().contains("2620 elements"), "{error}");
+    assert!(error.help().unwrap().contains("limits.elements"), "{error}");
+    let error = refusal(&["limits.memory='1 MB'"]);
+    assert_eq!(error.source_name(), "--set limits.memory=…");
+    assert!(error.message().contains("4.2 MB of memory"), "{error}");
+    let error = refusal(&["output.snapshots=100000"]);
+    assert_eq!(error.source_name(), "--set output.snapshots=…");
+    assert!(error.help().unwrap().contains("fewer output.snapshots"), "{error}");
+    let error = refusal(&["limits.element_updates=1e6"]);
+    assert!(error.message().contains("steps"), "{error}");
+    assert!(error.help().unwrap().contains("mass_scaling"), "{error}");
+}
+
+#[test]
+fn elements_and_blocks_that_do_not_fit_are_refused() {
+    assert!(refusal(&["mesh.contact_element_size='50 mm'"]).message().contains("too large"));
+    let error = refusal(&["mesh.refined_radius='6 mm'"]);
+    assert_eq!(error.source_name(), "--set mesh.refined_radius=…");
+    assert!(refusal(&["mesh.growth=3"]).message().contains("growth"));
+}
+
+#[test]
+fn scenes_beyond_the_model_are_warned_about() {
+    let warnings = |overrides: &[&str]| {
+        Simulation::new(case(overrides)).unwrap().setup().warnings().join("\n")
+    };
+    let fast = warnings(&["body.0.approach_speed=20"]);
+    assert!(fast.contains("small-strain"), "{fast}");
+    let faster = warnings(&["body.0.approach_speed=100"]);
+    assert!(faster.contains("shear wave speed"), "{faster}");
+    assert_eq!(warnings(&[]), "");
+}
+
+#[test]
+fn extreme_scenes_plan_or_are_refused() {
+    for speed in ["1e-9", "1e-6", "1e3"] {
+        for diameter in ["1e-6", "1e-3", "10", "1e6"] {
+            let speed = format!("body.0.approach_speed={speed}");
+            let diameter = format!("body.0.sphere.diameter={diameter}");
+            // Either a plan with finite numbers or an error; never a panic.
+            if let Ok(plan) = Plan::of_case(&case(&[&speed, &diameter])) {
+                assert!(plan.contact_element_size > 0.0 && plan.contact_element_size.is_finite());
+                assert!(plan.candidate_radius > 0.0 && plan.candidate_radius.is_finite());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_mesh_that_is_not_there_points_at_its_key() {
+    let error = refusal(&["body.1.sphere.mesh='nowhere.vtu'"]);
+    assert_eq!(error.source_name(), "--set body.1.sphere.mesh=…");
+    assert!(error.message().contains("nowhere.vtu"), "{error}");
+    assert!(error.help().unwrap().contains("fem-run mesh"), "{error}");
+}
+
+#[test]
+fn a_contact_that_outgrows_the_searched_region_is_run_again() {
+    let case = case(&["mesh.contact_element_size='60 um'"]);
+    let mut plan = Plan::of_case(&case).unwrap();
+    // Half of the largest contact radius, 0.223 mm.
+    plan.candidate_radius = 0.11e-3;
+    let explicit = Explicit::with_plan(case.scene(), plan).unwrap();
+    let Setup { approach, want, .. } = explicit.setup().clone();
+    let collision = explicit.collide(&approach, &want, &mut ());
+    assert!(collision.is_complete());
+    assert!(collision.searched.unwrap().radius > 0.223e-3);
+    // The model stays as it was built.
+    assert!(explicit.bodies().candidate_radius() < 0.12e-3);
+    assert!((collision.restitution.unwrap() - 1.0).abs() < 1e-3);
+}
+
+/// Every TOML example of the case reference is a valid case.
+#[test]
+fn the_case_reference_is_true() {
+    let reference = include_str!("../../../../docs/cases.md");
+    let examples: Vec<&str> =
+        reference.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert_eq!(examples.len(), 4);
+    for example in examples {
+        let case = Case::parse("cases.md", example, Path::new("."), &[]);
+        let case = case.unwrap_or_else(|error| panic!("{error}"));
+        Simulation::resolve(&case).unwrap_or_else(|error| panic!("{error}"));
+    }
+    for law in LawTable::NAMES {
+        assert!(reference.contains(&format!("| `{law}` |")), "{law}");
+    }
+}
