@@ -89,6 +89,7 @@ impl Book {
     pub const EMPTY: Self = Self([None; LINES.len()]);
 
     /// Puts energy (J) into an account beside what is there.
+    #[inline]
     pub fn add(&mut self, account: Account, energy: f64) {
         let entry = &mut self.0[account as usize];
         *entry = Some(entry.map_or(energy, |there| there + energy));
@@ -96,6 +97,7 @@ impl Book {
 
     /// This book with an energy (J) put into an account beside what is there.
     #[must_use]
+    #[inline]
     pub fn with(mut self, account: Account, energy: f64) -> Self {
         self.add(account, energy);
         self

@@ -32,6 +32,7 @@ impl Frame {
     }
 
     /// Velocities of both bodies (m/s) at a rate of the approach, m/s.
+    #[inline]
     pub fn velocities(&self, rate: f64) -> [f64; 2] {
         let before = self.approach.velocities();
         let change = |side: usize| self.masses[side].map_or(0.0, |m| self.impulse(rate) / m);
@@ -39,6 +40,7 @@ impl Frame {
     }
 
     /// Kinetic energy of the spheres (J) at a rate of the approach, m/s.
+    #[inline]
     pub fn kinetic(&self, rate: f64) -> f64 {
         let bodies = self.masses.into_iter().zip(self.velocities(rate));
         bodies.filter_map(|(mass, velocity)| Some(0.5 * mass? * velocity * velocity)).sum()

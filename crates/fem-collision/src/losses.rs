@@ -13,6 +13,7 @@ pub struct Losses {
 
 impl Losses {
     /// Takes the powers (W) at an instant, so long after the last one (s).
+    #[inline]
     pub fn advance(&mut self, time: f64, power: Book) {
         for (account, now) in power.entries() {
             let lost = match &self.power {

@@ -17,6 +17,7 @@ pub struct ElementStiffness {
 
 impl ElementStiffness {
     /// Stiffness for the given moduli (Pa), N/m.
+    #[inline]
     pub fn combine(&self, bulk_modulus: f64, shear_modulus: f64) -> ElementMatrix {
         self.bulk * bulk_modulus + self.deviatoric * shear_modulus
     }

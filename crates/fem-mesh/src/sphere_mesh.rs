@@ -60,6 +60,7 @@ impl SphereMesh {
     }
 
     /// Corner positions of an element, (r, y) in m.
+    #[inline]
     pub fn corners(&self, element: usize) -> [[f64; 2]; 4] {
         self.quads[element].map(|node| self.nodes[node as usize])
     }
