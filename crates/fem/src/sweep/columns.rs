@@ -5,7 +5,6 @@ use std::sync::LazyLock;
 use fem_collision::{Account, Shown};
 use serde_json::Value;
 
-use super::row::Row;
 use crate::results::energy_key;
 
 /// Before the accounts of energy.
@@ -48,16 +47,22 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     own(&FIRST).chain(energies).chain(own(&LAST)).collect()
 });
 
-/// The columns of a table of these rows: all but those of energies that none of the rows knows of.
-pub fn columns(rows: &[Row]) -> Vec<&'static str> {
-    columns_shown(rows, Account::shown)
+/// The columns of a table of these summaries, as JSON: all but those of energies that none of them
+/// knows of.
+pub fn columns<'s>(
+    summaries: impl IntoIterator<Item = &'s Value, IntoIter: Clone>,
+) -> Vec<&'static str> {
+    columns_shown(summaries.into_iter(), Account::shown)
 }
 
-fn columns_shown(rows: &[Row], shown: fn(Account) -> Shown) -> Vec<&'static str> {
+fn columns_shown<'s>(
+    summaries: impl Iterator<Item = &'s Value> + Clone,
+    shown: fn(Account) -> Shown,
+) -> Vec<&'static str> {
     let is_absent = |account: Account| {
         let key = energy_key(account);
         shown(account) == Shown::WhereFilled
-            && rows.iter().all(|row| row.summary["energy"].get(&key).is_none())
+            && summaries.clone().all(|summary| summary["energy"].get(&key).is_none())
     };
     let absent: Vec<String> = Account::all()
         .filter(|account| is_absent(*account))
@@ -111,10 +116,6 @@ mod tests {
 
     use super::*;
 
-    fn row(summary: Value) -> Row {
-        Row { index: 0, values: Vec::new(), identity: String::new(), summary }
-    }
-
     /// An effect that stores what the springs of a contact do.
     fn made_up(account: Account) -> Shown {
         if account == Account::Contact { Shown::WhereFilled } else { account.shown() }
@@ -122,12 +123,13 @@ mod tests {
 
     #[test]
     fn an_energy_that_no_row_knows_of_has_no_column() {
-        let off = row(json!({ "energy": { "kinetic_j": 1.0 } }));
-        let on = row(json!({ "energy": { "kinetic_j": 1.0, "contact_j": 0.5 } }));
-        let has = |rows: &[Row]| columns_shown(rows, made_up).contains(&"energy_contact_j");
+        let off = json!({ "energy": { "kinetic_j": 1.0 } });
+        let on = json!({ "energy": { "kinetic_j": 1.0, "contact_j": 0.5 } });
+        let shown = |summaries: &[Value]| columns_shown(summaries.iter(), made_up);
+        let has = |summaries: &[Value]| shown(summaries).contains(&"energy_contact_j");
         let both = [off, on];
         assert!(!has(&[]) && !has(&both[..1]) && has(&both));
-        assert_eq!(columns_shown(&both[..1], made_up).len(), COLUMNS.len() - 1);
+        assert_eq!(shown(&both[..1]).len(), COLUMNS.len() - 1);
         assert_eq!(columns(&[]), *COLUMNS);
     }
 }

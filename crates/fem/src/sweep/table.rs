@@ -21,7 +21,7 @@ pub fn sweep_csv<'k>(
     rows: &[Row],
 ) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
-    let columns = columns(rows);
+    let columns = columns(rows.iter().map(|row| &row.summary));
     file.write_record(keys.into_iter().chain(columns.iter().copied()).chain(["member"]))?;
     for row in rows {
         let cells = columns.iter().map(|column| cell(&row.value(column)));
