@@ -57,6 +57,8 @@ pub struct Collision {
     pub bodies: [BodyResult; 2],
     /// Of a model that steps in time with a fixed step, s.
     pub time_step: Option<f64>,
+    /// What that step would be without mass scaling, of a model that has it, s.
+    pub plain_time_step: Option<f64>,
     /// Steps done by such a model.
     pub steps: Option<u64>,
     /// Elements times steps, of a model that computes each element at each step.
@@ -114,6 +116,7 @@ impl Collision {
             momentum_residual_relative: None,
             bodies: [BodyResult::default(); 2],
             time_step: None,
+            plain_time_step: None,
             steps: None,
             element_updates: None,
             factor_bytes: None,

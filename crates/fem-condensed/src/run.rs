@@ -282,6 +282,7 @@ impl<'a> Run<'a> {
             momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
             bodies,
             time_step: Some(motion.time_step),
+            plain_time_step: None,
             steps: Some(motion.step as u64),
             element_updates: None,
             factor_bytes: Some(self.pair.factor_bytes() as u64),

@@ -59,6 +59,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         momentum_residual_relative: Some(ledger.worst_momentum),
         bodies,
         time_step: Some(model.time_step()),
+        plain_time_step: Some(model.plain_time_step()),
         steps: Some(state.step),
         element_updates: Some(state.step.saturating_mul(model.n_elements() as u64)),
         factor_bytes: None,

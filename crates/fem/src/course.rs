@@ -1,9 +1,7 @@
 //! A collision under way, for who decides when it goes on: a generator, a frame of a page, a process
 //! that is stopped and begun again.
 
-use std::fmt;
-
-use fem_collision::{Collision, Monitor, Progress};
+use fem_collision::{Approach, Collision, Monitor, Progress, Stop};
 use fem_explicit::Memory;
 
 /// A collision under way.
@@ -33,20 +31,15 @@ pub(crate) fn to_the_end(mut course: Box<dyn Course + '_>, monitor: &mut dyn Mon
 
 /// A collision that is computed in one go.
 pub(crate) struct InOneGo<F> {
+    approach: Approach,
     collide: F,
     collision: Option<Collision>,
 }
 
 impl<F: Fn(&mut dyn Monitor) -> Collision> InOneGo<F> {
-    /// Of what computes it.
-    pub fn of(collide: F) -> Self {
-        Self { collide, collision: None }
-    }
-}
-
-impl<F> fmt::Debug for InOneGo<F> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("InOneGo").field("collision", &self.collision).finish_non_exhaustive()
+    /// Of bodies that meet like this, and what computes it.
+    pub fn of(approach: Approach, collide: F) -> Self {
+        Self { approach, collide, collision: None }
     }
 }
 
@@ -64,16 +57,7 @@ impl<F: Fn(&mut dyn Monitor) -> Collision> Course for InOneGo<F> {
     }
 
     fn finish(self: Box<Self>) -> Collision {
-        let Self { collide, collision } = *self;
-        collision.unwrap_or_else(|| collide(&mut Interrupted))
-    }
-}
-
-/// Ends a collision that nobody let begin.
-struct Interrupted;
-
-impl Monitor for Interrupted {
-    fn report(&mut self, _: Progress) -> bool {
-        false
+        let not_begun = Stop::Interrupted { time: 0.0, step: 0 };
+        self.collision.unwrap_or_else(|| Collision::stopped(self.approach, not_begun))
     }
 }

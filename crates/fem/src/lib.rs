@@ -58,11 +58,12 @@ pub use sweep::sweep;
 
 pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
 pub use fem_collision::{
-    Account, Approach, ApproachError, BodyFields, BodyResult, Book, Collision, Ending, Label,
-    Monitor, Phase, Progress, Row, Shown, Side, Snapshot, SnapshotRequest, Stop, StressField, Want,
-    invariants,
+    Account, Approach, ApproachError, BodyFields, BodyResult, Book, Collision, Ending, Expectation,
+    Label, Monitor, Phase, Progress, Row, Searched, Shown, Side, Snapshot, SnapshotRequest, Stop,
+    StressField, Want, invariants,
 };
-pub use fem_explicit::Memory;
-pub use fem_laws::HertzImpact;
-pub use fem_material::Material;
+pub use fem_condensed::CondensedPair;
+pub use fem_explicit::{Memory, Model as ExplicitBodies, ModelError};
+pub use fem_laws::{HertzImpact, Impact, LawError, Pair};
+pub use fem_material::{Material, PronySeries};
 pub use fem_mesh::SphereMesh;

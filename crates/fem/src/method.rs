@@ -28,8 +28,8 @@ pub trait Method: Sync {
     /// A scene that the method cannot compute, or not within the scene's limits.
     fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal>;
 
-    /// Element updates to come, what runs are ordered by, of a scene that could run: nothing dear is
-    /// made, and what takes milliseconds counts as nothing.
+    /// Element updates to come, what runs are ordered by, of a scene that could run: meshes are made
+    /// and no factors, and what takes milliseconds counts as nothing.
     ///
     /// # Errors
     /// As [`Method::build`], but for what only the making shows.
@@ -68,7 +68,7 @@ pub trait Model: fmt::Debug + Send + Sync {
     fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
         let (approach, want) = (*approach, want.clone());
         let collide = move |monitor: &mut dyn Monitor| self.collide(&approach, &want, monitor);
-        Box::new(InOneGo::of(collide))
+        Box::new(InOneGo::of(approach, collide))
     }
 
     /// Goes on from what a course of the same model knew, to the same bits.

@@ -82,8 +82,7 @@ impl Plan {
             .mesh()
             .refined_radius
             .unwrap_or((REFINED_OVER_CONTACT * contact_radius).min(half_radius));
-        let candidate_radius =
-            (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size);
+        let candidate_radius = candidate_radius(&estimate, contact_element_size);
         let penalty_factor = scene.penalty_factor().unwrap_or(1.0);
         let made_here = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: None, .. });
         let makes_meshes = scene.bodies().iter().any(made_here);
@@ -166,6 +165,13 @@ impl Plan {
         });
         file
     }
+}
+
+/// Radius out to which explicit elements of this size (m) look for the contact of an estimate at
+/// first, m.
+pub(crate) fn candidate_radius(estimate: &Estimate, contact_element_size: f64) -> f64 {
+    let contact_radius = estimate.contact_radius.min(0.5 * estimate.smallest_radius);
+    (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size)
 }
 
 fn request(snapshots: Option<&Snapshots>) -> SnapshotRequest {

@@ -6,7 +6,7 @@ use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want};
 use fem_explicit::Memory;
 
 use crate::course::Course;
-use crate::effects::{ContactSearch, Decisions, Effect, decide};
+use crate::effects::{Decisions, Effect, decide};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Setup, Shared};
 use crate::models::method_of;
@@ -194,13 +194,7 @@ impl Simulation {
             decide(self.case.scene(), &estimate, has).ok()
         });
         let mut decisions = decided.unwrap_or_else(|| setup.decisions.clone());
-        if let Some(searched) = &collision.searched {
-            for verdict in &mut decisions.verdicts {
-                if verdict.name == ContactSearch::NAME {
-                    verdict.reason = ContactSearch::reason(searched);
-                }
-            }
-        }
+        decisions.take_what_was_found(self.case.scene(), collision);
         decisions
     }
 }

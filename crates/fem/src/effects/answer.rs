@@ -2,7 +2,7 @@
 
 use fem_case::Switch;
 
-use super::effect::Need;
+use super::need::Need;
 
 /// What a model has of an effect.
 #[derive(Clone, Debug, PartialEq)]

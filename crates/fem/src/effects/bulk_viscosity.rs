@@ -4,7 +4,8 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::effect::{Effect, Need};
+use super::effect::Effect;
+use super::need::Need;
 use super::speed::{MACH_LIMIT, above, number};
 use crate::estimate::Estimate;
 

@@ -1,6 +1,7 @@
 //! Contact is looked for near the axis only, and free flight is not stepped: a decision of the plan.
 
-use fem_collision::Searched;
+use fem_case::Scene;
+use fem_collision::{Collision, Searched};
 
 use super::answer::Answer;
 use super::effect::Effect;
@@ -15,19 +16,20 @@ impl ContactSearch {
 
     /// What a model has of it that looks for contact here.
     pub(crate) fn within(searched: &Searched) -> Answer {
-        Answer::is(true, Self::reason(searched))
-    }
-
-    /// Where contact is looked for, in words.
-    pub(crate) fn reason(searched: &Searched) -> String {
         let Searched { radius, n_points, at_nodes } = searched;
         let points = if *at_nodes { "points" } else { "integration points" };
-        format!("{n_points} {points} within {radius:.4e} m of the axis; free flight is not stepped")
+        let flight = "free flight is not stepped";
+        Answer::is(true, format!("{n_points} {points} within {radius:.4e} m of the axis; {flight}"))
     }
 }
 
 impl Effect for ContactSearch {
     fn name(&self) -> &'static str {
         Self::NAME
+    }
+
+    /// The region may have been made larger on the way.
+    fn found(&self, _: &Scene, collision: &Collision) -> Option<Answer> {
+        collision.searched.as_ref().map(Self::within)
     }
 }

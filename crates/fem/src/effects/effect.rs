@@ -1,8 +1,10 @@
-//! What an effect is, and what a scene needs of it.
+//! What an effect is.
 
 use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
+use super::answer::Answer;
+use super::need::Need;
 use crate::estimate::Estimate;
 
 /// Something that a collision may show, or that a computation may need.
@@ -20,28 +22,14 @@ pub trait Effect: Sync {
         None
     }
 
+    /// What a collision tells of it better than what was decided before: of an effect that depends on
+    /// the bodies as they were computed in the end.
+    fn found(&self, _: &Scene, _: &Collision) -> Option<Answer> {
+        None
+    }
+
     /// What a collision shows of it that the user should know, and that nothing foretold.
     fn after(&self, _: &Scene, _: &Estimate, _: &Collision) -> Vec<String> {
         Vec::new()
     }
-}
-
-/// What a scene needs of an effect.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Need {
-    /// Whether the scene calls for it.
-    pub is_called_for: bool,
-    /// The number that decides, in words.
-    pub number: String,
-    /// What follows where it is not called for.
-    pub otherwise: String,
-    /// What stays open in a model that lacks it.
-    pub left_open: String,
-    /// What a user should know of a model that lacks it.
-    pub warning: Option<String>,
-}
-
-/// A share in per cent.
-pub(crate) fn percent(share: f64) -> String {
-    format!("{:.2} %", 100.0 * share)
 }

@@ -5,7 +5,8 @@
 use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
-use super::effect::{Effect, Need, percent};
+use super::effect::Effect;
+use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
 /// Above this a/R the small-strain model is in doubt: that of a glass impact at 3 m/s.

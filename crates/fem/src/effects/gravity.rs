@@ -2,7 +2,8 @@
 
 use fem_case::Scene;
 
-use super::effect::{Effect, Need};
+use super::effect::Effect;
+use super::need::Need;
 use crate::estimate::Estimate;
 
 /// Weight of the bodies.

@@ -3,6 +3,7 @@
 use fem_case::Scene;
 use fem_collision::Collision;
 
+use super::answer::Answer;
 use super::effect::Effect;
 use crate::estimate::Estimate;
 
@@ -16,11 +17,34 @@ pub struct MassScaling;
 impl MassScaling {
     /// Its name in results.
     pub const NAME: &'static str = "mass scaling";
+
+    /// What a model has of it that adds these shares to the masses of bodies, by name, and whose time
+    /// step is so many times longer for it. A wall's share is no number.
+    pub(crate) fn of<'a>(shares: impl Iterator<Item = (&'a str, f64)>, longer: f64) -> Answer {
+        let added = shares.filter(|(_, share)| *share > 0.0);
+        let added: Vec<String> =
+            added.map(|(name, share)| format!("{share:.1e} of the mass of {name}")).collect();
+        match added.is_empty() {
+            true => Answer::is(false, "no mass is added"),
+            false => {
+                let added = added.join(" and ");
+                Answer::is(true, format!("adds {added} for a {longer:.1} times longer step"))
+            }
+        }
+    }
 }
 
 impl Effect for MassScaling {
     fn name(&self) -> &'static str {
         Self::NAME
+    }
+
+    fn found(&self, scene: &Scene, collision: &Collision) -> Option<Answer> {
+        let longer = collision.time_step? / collision.plain_time_step?;
+        let both = collision.bodies.iter().zip(scene.bodies());
+        let shares =
+            both.filter_map(|(body, named)| Some((named.name(), body.added_mass? / body.mass?)));
+        Some(Self::of(shares, longer))
     }
 
     fn after(&self, scene: &Scene, _: &Estimate, collision: &Collision) -> Vec<String> {

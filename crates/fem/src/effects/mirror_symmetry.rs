@@ -3,7 +3,8 @@
 
 use fem_case::{EffectsTable, Scene, Switch};
 
-use super::effect::{Effect, Need};
+use super::effect::Effect;
+use super::need::Need;
 use crate::estimate::Estimate;
 
 /// Two identical bodies as one against a rigid plane.

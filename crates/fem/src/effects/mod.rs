@@ -21,12 +21,14 @@ mod gravity;
 mod hourglass_control;
 mod mass_scaling;
 mod mirror_symmetry;
+mod need;
 mod penalty_springs;
 mod speed;
 mod vibration;
 mod viscoelasticity;
 
 use fem_case::{Scene, Switch};
+use fem_collision::Collision;
 use serde::Serialize;
 
 use crate::estimate::Estimate;
@@ -36,13 +38,14 @@ pub use answer::Answer;
 pub use bulk_viscosity::BulkViscosity;
 pub use contact_search::ContactSearch;
 pub use dashpot::DashpotEffect;
-pub use effect::{Effect, Need};
+pub use effect::Effect;
 pub use finite_size::FiniteSizeEffect;
 pub use finite_strain::FiniteStrain;
 pub use gravity::Gravity;
 pub use hourglass_control::HourglassControl;
 pub use mass_scaling::MassScaling;
 pub use mirror_symmetry::MirrorSymmetry;
+pub use need::Need;
 pub use penalty_springs::PenaltySprings;
 pub(crate) use speed::QUASI_STATIC_LIMIT;
 pub use vibration::Vibration;
@@ -82,6 +85,19 @@ pub struct Decisions {
     pub verdicts: Vec<Verdict>,
     /// What the user should know of them, in the same order.
     pub warnings: Vec<String>,
+}
+
+impl Decisions {
+    /// Puts what a collision tells of effects better in place of what was decided before.
+    pub(crate) fn take_what_was_found(&mut self, scene: &Scene, collision: &Collision) {
+        for verdict in &mut self.verdicts {
+            let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name);
+            let found = effect.and_then(|effect| effect.found(scene, collision));
+            if let Some(Answer::Is { active, reason, .. }) = found {
+                (verdict.active, verdict.reason) = (active, reason);
+            }
+        }
+    }
 }
 
 /// Decides on all effects of a scene, of which a model `has` an answer to some.

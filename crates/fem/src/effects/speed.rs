@@ -1,6 +1,6 @@
 //! The approach speed next to that of shear waves: the number that several effects go by.
 
-use super::effect::percent;
+use super::need::percent;
 use crate::estimate::Estimate;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than

@@ -7,7 +7,8 @@ use fem_case::Scene;
 use fem_collision::Collision;
 
 use super::answer::Answer;
-use super::effect::{Effect, Need};
+use super::effect::Effect;
+use super::need::Need;
 use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
 

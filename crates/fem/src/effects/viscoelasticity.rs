@@ -4,7 +4,8 @@
 
 use fem_case::Scene;
 
-use super::effect::{Effect, Need, percent};
+use super::effect::Effect;
+use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
 /// Relaxation of the materials.

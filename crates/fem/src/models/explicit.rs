@@ -21,7 +21,7 @@ use crate::estimate::Estimate;
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::meshes::build_meshes;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
-use crate::plan::Plan;
+use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
 
 /// Growth of the searched region when the contact leaves it.
@@ -66,6 +66,8 @@ pub struct Explicit {
 struct Made {
     scene: Scene,
     settings: Settings,
+    /// m.
+    contact_element_size: f64,
     inputs: [BodyInput; 2],
 }
 
@@ -89,7 +91,9 @@ impl Explicit {
         }
         let inputs = inputs(scene, build_meshes(scene, &plan)?);
         let approach = approach_of(scene)?;
-        let made = Made { scene: scene.clone(), settings: settings(&plan), inputs };
+        let contact_element_size = plan.contact_element_size;
+        let settings = settings(&plan);
+        let made = Made { scene: scene.clone(), settings, contact_element_size, inputs };
         let bodies = made
             .bodies(&approach, plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
@@ -136,13 +140,11 @@ impl Explicit {
         if *approach == self.setup.approach {
             return Ok((self.bodies.clone(), self.setup.estimate));
         }
-        let not_made = |error: &dyn std::fmt::Display| Stop::NotMade(error.to_string());
-        let estimate = Estimate::at(&self.made.scene, approach.speed());
-        let bodies = self.made.bodies(approach, self.made.settings.candidate_radius);
-        Ok((
-            Arc::new(bodies.map_err(|error| not_made(&error))?),
-            estimate.map_err(|error| not_made(&error))?,
-        ))
+        let estimate = Estimate::at(&self.made.scene, approach.speed())
+            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let radius = candidate_radius(&estimate, self.made.contact_element_size);
+        let bodies = self.made.bodies(approach, radius);
+        Ok((Arc::new(bodies.map_err(|error| Stop::NotMade(error.to_string()))?), estimate))
     }
 }
 
@@ -185,7 +187,7 @@ impl Model for Explicit {
             Err(stop) => {
                 let approach = *approach;
                 let stopped = move |_: &mut dyn Monitor| Collision::stopped(approach, stop.clone());
-                Box::new(InOneGo::of(stopped))
+                Box::new(InOneGo::of(approach, stopped))
             }
         }
     }
@@ -320,21 +322,7 @@ fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
 
 /// Whether mass is added, and to whom.
 fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> Answer {
-    let ratio = model.time_step() / model.plain_time_step();
-    let added: Vec<String> = model
-        .bodies()
-        .iter()
-        .zip(bodies)
-        .filter(|(body, _)| body.added_mass() > 0.0)
-        .map(|(body, named)| {
-            format!("{:.1e} of the mass of {}", body.added_mass() / body.mass(), named.name())
-        })
-        .collect();
-    match added.is_empty() {
-        true => Answer::is(false, "no mass is added"),
-        false => {
-            let added = added.join(" and ");
-            Answer::is(true, format!("adds {added} for a {ratio:.1} times longer step"))
-        }
-    }
+    let both = model.bodies().iter().zip(bodies);
+    let shares = both.map(|(body, named)| (named.name(), body.added_mass() / body.mass()));
+    MassScaling::of(shares, model.time_step() / model.plain_time_step())
 }

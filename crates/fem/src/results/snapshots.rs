@@ -29,7 +29,7 @@ impl<'a> Drawing<'a> {
         Self {
             meshes: simulation.model().meshes(),
             materials: simulation.case().scene().bodies().each_ref().map(|body| body.material()),
-            gap: simulation.setup().approach.gap(),
+            gap: collision.approach.gap(),
             request: &simulation.want().snapshots,
             snapshots: &collision.snapshots,
             is_complete: collision.is_complete(),

@@ -53,3 +53,72 @@ fn every_switch_has_its_effect() {
     let switched = EFFECTS.iter().filter(|effect| effect.switch(&on).is_some());
     assert_eq!(switched.count(), keys.len(), "a switch that is no key");
 }
+
+/// Every model has an answer to every effect, or it means nothing to it: a new effect has to be put
+/// into one of the two columns of each model.
+#[test]
+fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
+    let reduced =
+        ["viscoelasticity", "dashpot", "finite size", "finite strain", "vibration", "gravity"];
+    for (model, answered, foreign) in [
+        (
+            "fem={}",
+            &[
+                "viscoelasticity",
+                "finite strain",
+                "mirror symmetry",
+                "hourglass control",
+                "bulk viscosity",
+                "gravity",
+                "contact search",
+                "mass scaling",
+            ][..],
+            // Elements have inertia wherever they are; the surfaces are always kept apart by springs.
+            &["dashpot", "finite size", "vibration", "penalty springs"][..],
+        ),
+        (
+            "condensed={}",
+            &[
+                "viscoelasticity",
+                "finite strain",
+                "vibration",
+                "penalty springs",
+                "gravity",
+                "contact search",
+            ],
+            &[
+                "dashpot",
+                "finite size",
+                "mirror symmetry",
+                "hourglass control",
+                // Told by the modes of vibration, which carry no shocks.
+                "bulk viscosity",
+                "mass scaling",
+            ],
+        ),
+        ("hertz={}", &reduced, NO_ELEMENTS),
+        ("ting={}", &reduced, NO_ELEMENTS),
+        ("law.falcon.c=300", &reduced, NO_ELEMENTS),
+    ] {
+        let set = [format!("model.{model}")];
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
+        let simulation = Simulation::new(case).unwrap();
+        let verdicts = simulation.setup().decisions.verdicts.iter();
+        let found: Vec<&str> = verdicts.map(|verdict| verdict.name).collect();
+        assert_eq!(found, answered, "{model}");
+        for effect in EFFECTS {
+            let name = effect.name();
+            assert!(answered.contains(&name) != foreign.contains(&name), "{model}: {name}");
+        }
+    }
+}
+
+/// What means nothing to a model without elements.
+const NO_ELEMENTS: &[&str] = &[
+    "mirror symmetry",
+    "hourglass control",
+    "bulk viscosity",
+    "penalty springs",
+    "contact search",
+    "mass scaling",
+];

@@ -78,8 +78,8 @@ pub struct Condensed {
     setup: Setup,
     scene: Scene,
     pair: Arc<CondensedPair>,
-    /// The same bodies condensed further and further out, as far as a contact has asked for.
-    larger: Mutex<Vec<Arc<CondensedPair>>>,
+    /// The same bodies condensed out to other radii, as collisions have asked for them.
+    others: Mutex<Vec<Arc<CondensedPair>>>,
     options: CondensedOptions,
 }
 
@@ -119,7 +119,7 @@ impl Condensed {
                 plan,
             }),
         };
-        Ok(Self { setup, scene: scene.clone(), pair, larger: Mutex::default(), options })
+        Ok(Self { setup, scene: scene.clone(), pair, others: Mutex::default(), options })
     }
 
     /// Those of the warnings that the speed causes.
@@ -174,7 +174,10 @@ impl Condensed {
                 },
             }
         };
-        let mut pair = self.pair.clone();
+        let mut pair = match self.pair_at(approach) {
+            Ok(pair) => pair,
+            Err(stop) => return Collision::stopped(*approach, stop),
+        };
         loop {
             let mut collision = collide(&pair);
             if collision.outgrown_radius().is_none() {
@@ -190,15 +193,43 @@ impl Condensed {
         }
     }
 
-    /// The bodies condensed further out than a pair: the same for all collisions that ask for it.
+    /// The bodies condensed as far out as an approach asks for at first.
+    fn pair_at(&self, approach: &Approach) -> Result<Arc<CondensedPair>, Stop> {
+        let own = self.pair.settings().candidate_radius;
+        let Some(elements) = &self.setup.elements else { return Ok(self.pair.clone()) };
+        if *approach == self.setup.approach {
+            return Ok(self.pair.clone());
+        }
+        let estimate = Estimate::at(&self.scene, approach.speed())
+            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let radius = candidate_radius(&elements.plan, &estimate);
+        if radius == own {
+            return Ok(self.pair.clone());
+        }
+        self.other(radius, |settings| CondensedPair::new(self.pair.inputs().clone(), settings))
+            .map_err(|error| stop_of(error, approach))
+    }
+
+    /// The bodies condensed further out than a pair.
     fn larger(&self, pair: &CondensedPair) -> Result<Arc<CondensedPair>, CondensedError> {
-        let mut larger = self.larger.lock().unwrap_or_else(PoisonError::into_inner);
-        let radius = pair.candidate_radius();
-        if let Some(known) = larger.iter().find(|known| known.candidate_radius() > radius) {
+        let radius = CANDIDATE_GROWTH * pair.candidate_radius();
+        self.other(radius, |settings| pair.enlarge(settings.candidate_radius))
+    }
+
+    /// The bodies condensed out to another radius, m: the same for all collisions that ask for it.
+    fn other(
+        &self,
+        candidate_radius: f64,
+        make: impl FnOnce(PairSettings) -> Result<CondensedPair, CondensedError>,
+    ) -> Result<Arc<CondensedPair>, CondensedError> {
+        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_it =
+            |other: &&Arc<CondensedPair>| other.settings().candidate_radius == candidate_radius;
+        if let Some(known) = others.iter().find(is_it) {
             return Ok(known.clone());
         }
-        let made = Arc::new(pair.enlarge(CANDIDATE_GROWTH * radius)?);
-        larger.push(made.clone());
+        let made = Arc::new(make(PairSettings { candidate_radius, ..*self.pair.settings() })?);
+        others.push(made.clone());
         Ok(made)
     }
 }
@@ -272,13 +303,17 @@ fn inputs(key: &PairKey) -> Result<[BodyInput; 2], Refusal> {
 
 /// The condensed region goes by the fine block, so that all speeds that share a mesh share a
 /// factor; a contact that is expected further out doubles it.
-fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
-    let needed = (CANDIDATES_OVER_CONTACT * plan.estimate.hertz.max_contact_radius())
+fn candidate_radius(plan: &Plan, estimate: &Estimate) -> f64 {
+    let needed = (CANDIDATES_OVER_CONTACT * estimate.hertz.max_contact_radius())
         .max(CANDIDATE_ELEMENTS * plan.contact_element_size);
     let mut candidate_radius = CANDIDATES_OVER_REFINED * plan.refined_radius;
     while candidate_radius < needed {
         candidate_radius *= CANDIDATE_GROWTH;
     }
+    candidate_radius
+}
+
+fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
     let contact = if options.penalty_springs {
         ContactModel::Springs(plan.contact_stiffness)
     } else {
@@ -287,7 +322,7 @@ fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
     PairSettings {
         contact,
         vibration_modes: options.vibration_modes,
-        ..PairSettings::new(candidate_radius)
+        ..PairSettings::new(candidate_radius(plan, &plan.estimate))
     }
 }
 

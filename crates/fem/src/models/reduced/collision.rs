@@ -52,6 +52,7 @@ pub(super) fn of_impact(
             ..BodyResult::default()
         }),
         time_step: None,
+        plain_time_step: None,
         steps: None,
         element_updates: None,
         factor_bytes: None,
