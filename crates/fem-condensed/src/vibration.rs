@@ -11,9 +11,10 @@ use crate::body::CondensedBody;
 use crate::dense::symmetric_eigen;
 use crate::error::CondensedError;
 
-/// Lanczos vectors a mode: enough for the frequencies of the modes kept to settle to 1e-6.
+/// Lanczos vectors a mode: with [`VECTORS_MORE`], enough for the frequencies of the modes kept to
+/// settle to 1e-6.
 const VECTORS_PER_MODE: usize = 3;
-/// And as many more.
+/// Lanczos vectors beside those of [`VECTORS_PER_MODE`], whatever the number of modes.
 const VECTORS_MORE: usize = 20;
 /// Largest residual of a mode's flexibility, over it, that counts as settled.
 const SETTLED: f64 = 1e-3;

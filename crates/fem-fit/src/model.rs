@@ -94,7 +94,8 @@ impl Model {
     /// The whole collision at an approach speed, m/s.
     ///
     /// # Errors
-    /// Those of the law.
+    /// Values or a speed that the law cannot take, a collision outside of what it describes, or one
+    /// that it cannot follow to its end.
     pub fn impact(&self, values: &[f64], speed: f64) -> Result<Impact, LawError> {
         match (self.family.law(&self.pair, values), values) {
             (Some(law), _) => {
@@ -118,7 +119,7 @@ impl Model {
     /// leaves a restitution below 1e-8, is one that never ends.
     ///
     /// # Errors
-    /// Those of the law.
+    /// Values or a speed that the law cannot take, or a collision outside of what it describes.
     pub fn outcome(&self, values: &[f64], speed: f64) -> Result<Outcome, LawError> {
         match self.impact(values, speed) {
             Ok(impact) => {

@@ -18,9 +18,9 @@ pub struct Estimate {
     pub hertz: HertzImpact,
     /// Contact time with the moduli relaxed to the middle of the contact, s.
     pub contact_time: f64,
-    /// Largest approach, likewise, m.
+    /// Largest approach with the moduli relaxed to the middle of the contact, m.
     pub approach: f64,
-    /// Largest contact radius, likewise, m.
+    /// Largest contact radius with the moduli relaxed to the middle of the contact, m.
     pub contact_radius: f64,
     /// Smallest radius of a sphere of the scene, m.
     pub smallest_radius: f64,

@@ -115,7 +115,7 @@ pub(crate) fn check_updates(
         element_updates as f64
     );
     Err(Refusal::new(key, found).with_help(format!(
-        "at most {:.1e} are allowed; use a larger contact_element_size or more \
+        "at most {:.1e} are allowed; use a larger mesh.contact_element_size or more \
          time.mass_scaling, or raise limits.element_updates",
         plan.max_element_updates as f64
     )))

@@ -58,7 +58,7 @@ pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
     };
     let refusal = Refusal::new(key, error.to_string());
     match error {
-        MeshError::TooLarge(_) => refusal.with_help("use a larger contact_element_size"),
+        MeshError::TooLarge(_) => refusal.with_help("use a larger mesh.contact_element_size"),
         _ => refusal,
     }
 }

@@ -9,11 +9,12 @@ use super::energy::{energy_key, in_history};
 
 /// The name of the file.
 pub const HISTORY_FILE: &str = "history.csv";
+
 /// Writes a history, a row an instant; accounts of effects that are on come last. Numbers are the
 /// shortest that read back as the same, what the model does not know is blank.
 ///
 /// # Errors
-/// Those of `to`.
+/// `to` cannot be written to.
 pub fn history_csv(to: impl Write, scene: &Scene, rows: &[Row]) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
     let velocities = scene.bodies().each_ref().map(|body| format!("velocity_{}_m_s", body.name()));

@@ -14,7 +14,7 @@ pub const SWEEP_FILE: &str = "sweep.csv";
 /// without a value is empty.
 ///
 /// # Errors
-/// Those of `to`.
+/// `to` cannot be written to.
 pub fn sweep_csv<'k>(
     to: impl Write,
     keys: impl IntoIterator<Item = &'k str>,

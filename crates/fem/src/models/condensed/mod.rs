@@ -22,12 +22,13 @@ use crate::pair_cache::PairKey;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
-/// Growth of the condensed region when the contact leaves it.
+/// Growth of the condensed region where the contact needs a larger one.
 const CANDIDATE_GROWTH: f64 = 2.0;
 /// Half-width of the condensed region over that of the fine block.
 const CANDIDATES_OVER_REFINED: f64 = 1.125;
-/// And at least so much over the contact radius that Hertz expects, and so many elements.
+/// Least half-width of the condensed region over the contact radius that Hertz expects.
 const CANDIDATES_OVER_CONTACT: f64 = 1.3;
+/// Least half-width of the condensed region, in elements of the contact.
 const CANDIDATE_ELEMENTS: f64 = 3.0;
 /// Bytes an element takes: factor, assembly, a share of fields.
 const BYTES_PER_ELEMENT: u64 = 8_000;
