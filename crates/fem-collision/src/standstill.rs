@@ -10,9 +10,15 @@
 //! e^2 \le \frac{\tfrac12 m^*\dot\delta^2 + T + U}{\tfrac12 m^*v^2} .
 //! ```
 //!
-//! This holds of any bodies that no one outside does work on. It can be far too large: a bulk modulus
-//! that keeps its elasticity beside a shear modulus that relaxes to nothing leaves energy stored that
-//! no longer presses on the contact.
+//! This holds while no one outside does work on the bodies. A wall that moves is at rest in the frame
+//! of the relative motion and does none there; gravity, or any other force on the bodies from outside,
+//! would have to bring its potential into U.
+//!
+//! It can be far too large where energy stays stored that no longer presses on the contact. A shear
+//! modulus that relaxes to nothing beside an elastic bulk modulus leaves none in nature: the body flows
+//! until its pressure is gone, and explicit elements end with 1e-9 of the energy of approach. A
+//! condensed body keeps 1e-7, and up to 2e-2 where Poisson's ratio is small or negative: the reduced
+//! basis of its relaxing shear cannot flow to zero pressure.
 //!
 //! **By momentum.** What parts them is ∫F dt. A force that stays what it is, for as long as they have
 //! touched already, t, makes at most
@@ -93,6 +99,12 @@ impl Standstill {
     /// Of bodies that are about to touch.
     pub fn new(frame: &Frame) -> Self {
         Self { speed: frame.speed(), reduced_mass: frame.reduced_mass, since: None }
+    }
+
+    /// Whether it can be of bodies that meet like this.
+    pub fn is_of(&self, frame: &Frame) -> bool {
+        Self { since: None, ..*self } == Self::new(frame)
+            && self.since.is_none_or(|since| since >= 0.0)
     }
 
     /// Takes the next instant; whether the bodies stay together. What is no number never says so.
@@ -187,6 +199,23 @@ mod tests {
                 let found = found.expect("it parts or stays");
                 assert!((found - exact).abs() < AT_REST, "{spring} {time}: {found} for {exact}");
             }
+        }
+    }
+
+    /// Whatever it has seen, it knows whose it is.
+    #[test]
+    fn another_speed_or_mass_is_of_other_bodies() {
+        let frame = frame();
+        let mut standstill = Standstill::new(&frame);
+        let held = Held { time: 1.0, is_closed: true, force: 0.0, rate: 0.0, inner_energy: 0.0 };
+        assert!(standstill.is_of(&frame) && standstill.observe(&held) && standstill.is_of(&frame));
+        for other in [
+            Standstill { speed: 2.0, ..standstill },
+            Standstill { reduced_mass: 2.0, ..standstill },
+            Standstill { speed: f64::NAN, ..standstill },
+            Standstill { since: Some(-1.0), ..standstill },
+        ] {
+            assert!(!other.is_of(&frame), "{other:?}");
         }
     }
 
