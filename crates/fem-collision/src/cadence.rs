@@ -31,7 +31,7 @@ impl Cadence {
     /// Counts an instant, a due one or another. Of too many every second one is forgotten and the
     /// stride doubled: whether it was.
     pub fn count(&mut self) -> bool {
-        self.n += 1;
+        self.n = self.n.saturating_add(1);
         let too_many = self.n > self.most;
         if too_many {
             self.n = self.n.div_ceil(2);

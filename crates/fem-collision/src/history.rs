@@ -16,6 +16,9 @@ pub enum RowKind {
     LastContact,
 }
 
+/// Rows for which there is room from the beginning, if so many are asked for.
+const MOST_RESERVED: usize = 1 << 16;
+
 /// Rows at an even stride that adapts to the length of the contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct History {
@@ -35,9 +38,10 @@ impl History {
     /// For about `n_rows` rows over `expected_steps` steps; at most four times as many.
     pub fn new(n_rows: usize, expected_steps: f64) -> Self {
         let cadence = Cadence::new(n_rows, expected_steps);
+        let capacity = cadence.most().saturating_add(1).min(MOST_RESERVED);
         Self {
-            rows: Vec::with_capacity(cadence.most() + 1),
-            essential: Vec::with_capacity(cadence.most() + 1),
+            rows: Vec::with_capacity(capacity),
+            essential: Vec::with_capacity(capacity),
             last_contact: None,
             cadence,
             skipped: None,
@@ -186,6 +190,20 @@ mod tests {
                 let stride = history.cadence.stride();
                 assert!(steps.windows(2).all(|pair| pair[1] - pair[0] <= 2 * stride), "{steps:?}");
                 assert_eq!(history.rows.capacity(), capacity, "a row was allocated");
+            }
+        }
+    }
+
+    /// No number of rows is too large to begin with; all steps are kept.
+    #[test]
+    fn any_number_of_rows_can_be_asked_for() {
+        for n_rows in [1_000_000, usize::MAX / 4, usize::MAX] {
+            for expected_steps in [0.0, 1e3, f64::INFINITY, f64::NAN] {
+                let mut history = History::new(n_rows, expected_steps);
+                assert!(history.rows.capacity() <= MOST_RESERVED);
+                let steps = run(&mut history, 20, [3, 17]);
+                assert!(history.is_sound());
+                assert!(expected_steps.is_infinite() || steps.len() == 21, "{steps:?}");
             }
         }
     }

@@ -61,5 +61,5 @@ pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
 pub use standstill::{Held, Standstill};
 pub use stop::Stop;
 pub use stress::{StressField, StressRecovery, invariants};
-pub use want::{Expectation, Want};
+pub use want::{Expectation, Want, WantError};
 pub use worst::worst;

@@ -1,10 +1,21 @@
 //! What a run is asked for.
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use crate::snapshot::SnapshotRequest;
 
 /// What a run is asked for.
+///
+/// ```
+/// use fem_collision::{Want, WantError};
+///
+/// assert_eq!(Want::history().check(), Ok(()));
+/// let endless = Want { give_up_after: f64::INFINITY, ..Want::history() };
+/// assert_eq!(endless.check(), Ok(()));
+/// let none = Want { give_up_after: 0.0, ..Want::history() };
+/// assert_eq!(none.check(), Err(WantError::GiveUpAfter(0.0)));
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Want {
     /// Rows of the history over the expected contact; 0 for none.
@@ -15,11 +26,32 @@ pub struct Want {
     pub give_up_after: f64,
 }
 
+/// Why nothing can be asked for like this.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum WantError {
+    /// More rows than any memory holds.
+    #[error("{0} rows of a history; allowed are at most {most}", most = Want::MOST_ROWS)]
+    HistoryRows(usize),
+    /// More snapshots than any memory holds.
+    #[error("{0} snapshots; allowed are at most {most}", most = Want::MOST_SNAPSHOTS)]
+    Snapshots(usize),
+    /// Before the start of the case, or no instant at all.
+    #[error("a snapshot at {0} s; allowed is at least 0, and finite")]
+    SnapshotTime(f64),
+    /// A run that gives up before it begins, or never knows.
+    #[error("to give up after {0} expected contact times; allowed is above 0")]
+    GiveUpAfter(f64),
+}
+
 impl Want {
     /// Rows over the contact that draw every curve smoothly.
     pub const ROWS: usize = 1000;
     /// Expected contact times after which no body that relaxes parts from another.
     pub const GIVE_UP_AFTER: f64 = 50.0;
+    /// The most rows that can be asked for.
+    pub const MOST_ROWS: usize = 1_000_000;
+    /// The most snapshots that can be asked for.
+    pub const MOST_SNAPSHOTS: usize = 1_000_000;
 
     /// The quantities of the collision and its history, no snapshots.
     pub fn history() -> Self {
@@ -34,6 +66,35 @@ impl Want {
     pub fn quantities() -> Self {
         Self { history_rows: 0, ..Self::history() }
     }
+
+    /// Whether a run can be asked for this.
+    ///
+    /// # Errors
+    /// More than [`Want::MOST_ROWS`] rows or [`Want::MOST_SNAPSHOTS`] snapshots, a snapshot at a time
+    /// that is negative or not finite, a `give_up_after` that is not positive; it may be infinite.
+    pub fn check(&self) -> Result<(), WantError> {
+        if self.history_rows > Self::MOST_ROWS {
+            return Err(WantError::HistoryRows(self.history_rows));
+        }
+        let n_snapshots = match &self.snapshots {
+            SnapshotRequest::Labels(labels) => labels.len(),
+            SnapshotRequest::Count(n) => *n,
+            SnapshotRequest::Times(times) => times.len(),
+        };
+        if n_snapshots > Self::MOST_SNAPSHOTS {
+            return Err(WantError::Snapshots(n_snapshots));
+        }
+        if let SnapshotRequest::Times(times) = &self.snapshots
+            && let Some(&time) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0))
+        {
+            return Err(WantError::SnapshotTime(time));
+        }
+        if self.give_up_after > 0.0 {
+            Ok(())
+        } else {
+            Err(WantError::GiveUpAfter(self.give_up_after))
+        }
+    }
 }
 
 /// What to expect of a collision, from closed forms.
@@ -43,4 +104,49 @@ pub struct Expectation {
     pub contact_time: f64,
     /// Largest approach, m.
     pub approach: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn snapshots(snapshots: SnapshotRequest) -> Want {
+        Want { snapshots, ..Want::history() }
+    }
+
+    #[test]
+    fn the_most_is_allowed_and_one_more_is_not() {
+        let rows = |history_rows| Want { history_rows, ..Want::history() };
+        assert_eq!(rows(Want::MOST_ROWS).check(), Ok(()));
+        for n in [Want::MOST_ROWS + 1, usize::MAX] {
+            assert_eq!(rows(n).check(), Err(WantError::HistoryRows(n)));
+        }
+        let (count, times) = (SnapshotRequest::Count, |n| SnapshotRequest::Times(vec![0.0; n]));
+        let most = Want::MOST_SNAPSHOTS;
+        for request in [count(0), count(most), times(0), times(most)] {
+            assert_eq!(snapshots(request).check(), Ok(()));
+        }
+        for (request, n) in [
+            (count(most + 1), most + 1),
+            (count(usize::MAX), usize::MAX),
+            (times(most + 1), most + 1),
+        ] {
+            assert_eq!(snapshots(request).check(), Err(WantError::Snapshots(n)));
+        }
+    }
+
+    /// What is wrong is told with its value.
+    #[test]
+    fn times_are_times() {
+        for wrong in [-1e-9, f64::INFINITY, f64::NAN] {
+            let request = SnapshotRequest::Times(vec![0.0, 1e-6, wrong]);
+            let error = snapshots(request).check().unwrap_err();
+            assert!(matches!(error, WantError::SnapshotTime(_)), "{error:?}");
+            assert!(error.to_string().contains(&wrong.to_string()), "{error}");
+        }
+        for wrong in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+            let error = Want { give_up_after: wrong, ..Want::history() }.check().unwrap_err();
+            assert!(matches!(error, WantError::GiveUpAfter(_)), "{error:?}");
+        }
+    }
 }

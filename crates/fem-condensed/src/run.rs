@@ -18,6 +18,9 @@ const CREEPING: f64 = 0.1;
 /// Creeping bodies may take so many times as long to part as they came closer.
 const SLOWEST_PARTING: f64 = 2.0;
 
+/// Steps for whose trace there is room from the beginning.
+const MOST_RESERVED: usize = 1 << 16;
+
 /// A collision under way.
 pub(crate) struct Run<'a> {
     pair: &'a CondensedPair,
@@ -94,7 +97,7 @@ impl<'a> Run<'a> {
                 .then(|| History::new(want.history_rows, n_steps as f64)),
             last: None,
             opening: None,
-            trace: Vec::with_capacity(2 * n_steps),
+            trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MOST_RESERVED)),
             motion,
         }
     }
