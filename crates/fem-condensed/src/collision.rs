@@ -82,7 +82,9 @@ impl CondensedPair {
         let mut collision = finished.collision;
         if want.snapshots != SnapshotRequest::none() {
             monitor.enter(Phase::Fields);
-            match self.snapshots(frame, relaxations, time_step, &finished.trace, &want.snapshots) {
+            let (trace, ending) = (&finished.trace, &collision.ending);
+            let request = &want.snapshots;
+            match self.snapshots(frame, relaxations, time_step, trace, ending, request) {
                 Ok((snapshots, missing)) => {
                     collision.snapshots = snapshots;
                     collision.warnings.splice(0..0, missing);

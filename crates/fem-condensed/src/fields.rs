@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, Par};
-use fem_collision::{BodyFields, Frame, Snapshot, SnapshotRequest};
+use fem_collision::{BodyFields, Ending, Frame, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::error::CondensedError;
@@ -50,7 +50,7 @@ struct Steps {
 
 impl CondensedPair {
     /// The snapshots of a collision in the order of time, and what could not be had. `trace` is what
-    /// a run with this time step (s), speed and relaxations left of every step.
+    /// a run with this time step (s), speed, relaxations and ending left of every step.
     ///
     /// # Errors
     /// As [`CondensedPair::collide`].
@@ -60,10 +60,11 @@ impl CondensedPair {
         relaxations: [Option<&PronySeries>; 2],
         time_step: f64,
         trace: &[Trace],
+        ending: &Ending,
         request: &SnapshotRequest,
     ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
         let approach = &frame.approach;
-        let (chosen, missing) = choose(trace, time_step, request, approach.first_touch());
+        let (chosen, missing) = choose(trace, time_step, request, approach.first_touch(), ending);
         let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
         let steps = Steps { time_step, last: trace.len() - 1 };
         let states = self.states(frame.speed(), relaxations, steps, &instants)?;

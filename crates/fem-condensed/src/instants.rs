@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fem_collision::{Label, SnapshotRequest, did_not_occur, evenly, fewer_than_asked};
+use fem_collision::{Ending, Label, SnapshotRequest, did_not_occur, evenly, fewer_than_asked};
 
 /// What is remembered of every step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,12 +33,13 @@ impl Instant {
 }
 
 /// Instants of the snapshots that are asked for, in the order of time, and what cannot be had.
-/// Times are those of the case, s.
+/// Times are those of the case, s. Bodies that stay together have no last contact.
 pub(crate) fn choose(
     trace: &[Trace],
     time_step: f64,
     request: &SnapshotRequest,
     first_touch: f64,
+    ending: &Ending,
 ) -> (Vec<(Instant, Option<Label>)>, Vec<String>) {
     let mut missing = Vec::new();
     let last = trace.iter().rposition(|step| step.is_closed).unwrap_or(0);
@@ -66,7 +67,9 @@ pub(crate) fn choose(
                     Label::MidCompression => passes(trace, 0..top, half),
                     Label::Maximum => Some(Instant::at(top)),
                     Label::MidSeparation => passes(trace, top..end, half),
-                    Label::LastContact => Some(Instant::at(last)),
+                    Label::LastContact => {
+                        (*ending != Ending::Together).then_some(Instant::at(last))
+                    }
                 };
                 match found {
                     Some(instant) => chosen.push((instant, Some(*label))),

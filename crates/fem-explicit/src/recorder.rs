@@ -90,7 +90,10 @@ impl Recorder {
             snapshot
         };
         let wants_last = match &self.request {
-            SnapshotRequest::Labels(labels) => labels.contains(&Label::LastContact),
+            // Bodies that stay together have none.
+            SnapshotRequest::Labels(labels) => {
+                labels.contains(&Label::LastContact) && !now.stays_together
+            }
             SnapshotRequest::Count(_) => true,
             SnapshotRequest::Times(_) => false,
         };

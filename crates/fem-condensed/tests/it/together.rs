@@ -1,7 +1,9 @@
 //! Bodies that stay together, and those that only take their time.
 
 use crate::common::{GLASS, Scene, material};
-use fem_collision::{Collision, Ending, STAY_TOGETHER, Stop, Want};
+use fem_collision::{
+    Collision, Ending, Label, STAY_TOGETHER, SnapshotRequest, Stop, Want, did_not_occur,
+};
 use fem_condensed::CondensedPair;
 use fem_material::ActsOn::{self, All, Shear};
 
@@ -76,4 +78,21 @@ fn bodies_that_are_too_slow_have_not_separated() {
     // 23 elastic contact times.
     let (_, run) = collide(All, 0.9999, 3e-6, 5.0);
     assert!(matches!(run.stop(), Some(Stop::NoSeparation { .. })), "{:?}", run.ending);
+}
+
+/// What is still in contact has no last contact; the other instants are those of any run.
+#[test]
+fn bodies_that_stay_have_no_last_contact() {
+    let relaxing = material(GLASS, All, &[(1.0, 1e7)]);
+    let scene = Scene::paper(relaxing.clone(), relaxing);
+    let pair = scene.condensed(4.0).enlarge(2e-3).unwrap();
+    let frame = pair.frame(scene.speed).unwrap();
+    let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let want = Want { snapshots, ..Want::quantities() };
+    let n_steps = CondensedPair::N_STEPS;
+    let run = pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap();
+    assert_eq!(run.ending, Ending::Together);
+    let labels: Vec<_> = run.snapshots.iter().filter_map(|snapshot| snapshot.label).collect();
+    assert_eq!(labels, [Label::MidCompression, Label::Maximum]);
+    assert!(run.warnings.contains(&did_not_occur(Label::LastContact)), "{:?}", run.warnings);
 }

@@ -92,6 +92,29 @@ fn labels_that_do_not_occur_are_named() {
     assert!(missing.is_empty());
 }
 
+/// Still in contact at their end.
+#[test]
+fn bodies_that_stay_together_have_no_last_contact() {
+    let model = model();
+    let request = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let mut recorder = Recorder::new(&request, &model, expectation(1.0, CONTACT_TIME));
+    let state = State::at_first_touch(&model);
+    // It would open in the next step.
+    let now = Instant {
+        approach: 1.0,
+        approach_rate: 1e-9,
+        is_closed: true,
+        is_first_contact: false,
+        is_last_contact: true,
+        stays_together: true,
+    };
+    recorder.observe(&model, &state, &mut Scratch::new(&model), now);
+    let (snapshots, missing) = recorder.finish();
+    let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
+    assert_eq!(labels, [Label::Maximum]);
+    assert!(missing.contains(&did_not_occur(Label::LastContact)), "{missing:?}");
+}
+
 /// So coarse that no state lies near half of the maximum: left out, not passed off.
 #[test]
 fn a_rung_too_far_from_half_is_left_out() {
