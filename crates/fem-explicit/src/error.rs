@@ -22,10 +22,10 @@ pub enum ModelError {
     /// A wall keeps its velocity, whatever acts on it.
     #[error("a force acts on the nodes of a wall, which keeps its velocity")]
     ForceOnWall,
-    /// A run is to go on from the memory of another, or from a damaged one.
+    /// A run is to go on from the memory of another, or from one whose parts contradict each other.
     #[error(
-        "the memory is of a run of another model, or damaged: its sizes, materials, approach, time \
-         step or region of contact differ, or its parts contradict each other"
+        "the memory is of a run of another model or version: its meshes, masses, materials, forces, \
+         contact, approach or time step differ; or its parts contradict each other"
     )]
     MemoryOfAnother,
 }

@@ -297,6 +297,11 @@ fn a_contact_with_history_takes_the_place_of_the_penalty() {
         assert_eq!(n_bytes(&pair, &other), n_bytes(&pair, &plain) + 16 * n_nodes + 2 * 2);
         // A memory with more fields is of another model.
         let memory = Run::new(&other, pair.expected(), &pair.want()).memory().clone();
-        assert_eq!(Run::resume(&plain, memory).err(), Some(ModelError::MemoryOfAnother));
+        assert_eq!(Run::resume(&plain, memory.clone()).err(), Some(ModelError::MemoryOfAnother));
+        // So is one of the same fields, of a contact with another number inside.
+        let later = Counting { first_touch: 1e-9, ..Counting::of(&pair) };
+        let later = Parts { contact: Some(Box::new(later)), ..Parts::default() };
+        let refused = Run::resume(&model(&pair, later), memory).err();
+        assert_eq!(refused, Some(ModelError::MemoryOfAnother));
     }
 }

@@ -1,11 +1,12 @@
 //! A run that is stopped between two steps and resumed from its memory is the same run.
 
-use crate::common::{Pair, quantities};
+use crate::common::{CONTACT_MODULUS, Pair, quantities};
 use fem_collision::{
     BodyInput, Collision, Ending, Label, Monitor, Progress, SnapshotRequest, Stop,
 };
-use fem_explicit::{Memory, Model, ModelError, Run, collide};
+use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
 use fem_material::ActsOn;
+use fem_mesh::SphereMesh;
 
 /// About 1900 steps a contact and 270 elements.
 fn small() -> Pair {
@@ -173,6 +174,41 @@ fn a_memory_of_another_model_is_refused() {
         (wall, "a wall"),
     ] {
         let refused = Run::resume(&other, run.memory().clone()).err();
+        assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
+    }
+}
+
+/// What leaves sizes, step and approach as they are, and still makes other numbers.
+#[test]
+fn a_memory_of_a_model_that_differs_in_little_is_refused() {
+    let pair = small();
+    let soft =
+        Settings { contact_stiffness: CONTACT_MODULUS, mass_scaling: 0.0, ..pair.settings() };
+    // The mesh with the node that is nearest to a place moved outward, m.
+    let moved = |mesh: &SphereMesh, [r, y]: [f64; 2], by: f64| {
+        let mut nodes = mesh.nodes().to_vec();
+        let distance = |node: &[f64; 2]| (node[0] - r).hypot(node[1] - y);
+        nodes.iter_mut().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()[0] += by;
+        SphereMesh::import(mesh.radius(), nodes, mesh.quads().to_vec()).unwrap()
+    };
+    // A narrow element two layers below the surface sets the step, not the springs.
+    let upper = moved(pair.sphere(1).mesh().unwrap(), [0.1e-3, 0.22e-3], 60e-6);
+    let model = |mesh: &SphereMesh, settings: &Settings| {
+        let sphere = BodyInput::Sphere { mesh: mesh.clone(), material: pair.material() };
+        Model::new([BodyInput::Wall, sphere], pair.approach(), settings).unwrap()
+    };
+    let plain = model(&upper, &soft);
+    let mut run = Run::new(&plain, pair.expected(), &pair.want());
+    assert_eq!(run.advance(300), None);
+    assert!(Run::resume(&model(&upper, &soft), stored(run.memory())).is_ok());
+
+    let stiffness = 1.001 * soft.contact_stiffness;
+    let stiffer = model(&upper, &Settings { contact_stiffness: stiffness, ..soft });
+    let other_mesh = model(&moved(&upper, [3e-3, 8e-3], 1e-7), &soft);
+    for (other, what) in [(stiffer, "stiffer springs"), (other_mesh, "another mesh")] {
+        assert_eq!(other.time_step().to_bits(), plain.time_step().to_bits(), "{what}");
+        assert_eq!(other.n_elements(), plain.n_elements());
+        let refused = Run::resume(&other, stored(run.memory())).err();
         assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
     }
 }
