@@ -25,8 +25,8 @@ pub struct Memory {
     pub(crate) ending: Option<Ending>,
     /// What closed forms expect.
     pub(crate) expected: Expectation,
-    /// The run gives up this long after first touch, s.
-    pub(crate) max_time: f64,
+    /// What the run was asked for.
+    want: Want,
     /// Of the model that it belongs to, as are the next.
     approach: Approach,
     /// See [`fingerprint`].
@@ -50,7 +50,7 @@ impl Memory {
             recorder: Recorder::new(&want.snapshots, model, expected),
             ending: None,
             expected,
-            max_time: want.give_up_after * expected.contact_time,
+            want: want.clone(),
             approach: *model.approach(),
             fingerprint: fingerprint(model),
             candidate_radius: model.candidate_radius(),
@@ -77,13 +77,29 @@ impl Memory {
         self.candidate_radius
     }
 
+    /// What the run was asked for when it began.
+    pub fn want(&self) -> &Want {
+        &self.want
+    }
+
+    /// What closed forms expected when it began.
+    pub fn expected(&self) -> Expectation {
+        self.expected
+    }
+
     /// How the run ended; `None` while it is under way.
     pub fn ending(&self) -> Option<&Ending> {
         self.ending.as_ref()
     }
 
+    /// The run gives up this long after first touch, s.
+    pub(crate) fn max_time(&self) -> f64 {
+        self.want.give_up_after * self.expected.contact_time
+    }
+
     /// Whether it can be of a run of this model: its approach, its region of contact, its fingerprint,
-    /// fields of its sizes, and parts that do not contradict each other.
+    /// fields of its sizes, and parts that do not contradict each other. What was computed is not
+    /// computed again: another number in its place is seen only where it contradicts something.
     pub(crate) fn fits(&self, model: &Model) -> bool {
         let Self { state, .. } = self;
         let history_fits = |history: &History| {
@@ -92,13 +108,14 @@ impl Memory {
         self.approach == *model.approach()
             && self.fingerprint == fingerprint(model)
             && self.candidate_radius.to_bits() == model.candidate_radius().to_bits()
-            && !self.max_time.is_nan()
+            && !self.max_time().is_nan()
             && state.fits(model)
             && self.log.fits(state)
             && self.ledger.fits(model, state)
-            && self.observed.fits(state)
+            && self.observed.fits(model, state)
+            && self.history.is_some() == (self.want.history_rows > 0)
             && self.history.as_ref().is_none_or(history_fits)
-            && self.recorder.fits(model)
+            && self.recorder.fits(model, &self.want.snapshots)
     }
 }
 

@@ -77,8 +77,10 @@ impl Observed {
         self.last = Some(row);
     }
 
-    /// Whether it can be of a run at this state.
-    pub fn fits(&self, state: &State) -> bool {
-        self.cadence.is_sound() && self.last.is_none_or(|row| row.time <= state.time)
+    /// Whether it can be of a run of this model at this state.
+    pub fn fits(&self, model: &Model, state: &State) -> bool {
+        self.cadence.is_sound()
+            && self.standstill.is_of(&model.frame())
+            && self.last.is_none_or(|row| row.time <= state.time)
     }
 }

@@ -7,7 +7,7 @@
 //! an even spacing that doubles whenever there are too many.
 
 use fem_collision::{
-    Expectation, Label, Snapshot, SnapshotRequest, did_not_occur, evenly, fewer_than_asked,
+    Expectation, Label, Snapshot, SnapshotRequest, Want, did_not_occur, evenly, fewer_than_asked,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,9 +20,6 @@ use crate::state::{Scratch, State};
 const RUNG_RATIO: f64 = 1.03;
 /// Share of the expected approach at which the ladder begins.
 const LADDER_START: f64 = 0.02;
-
-/// More evenly spaced states than any memory holds.
-const MOST_STATES: usize = 1 << 20;
 
 /// What the recorder is told of a step.
 #[derive(Debug, Clone, Copy)]
@@ -57,10 +54,9 @@ pub(crate) struct Recorder {
 
 impl Recorder {
     pub fn new(request: &SnapshotRequest, model: &Model, expected: Expectation) -> Self {
-        let mut request = request.clone();
+        let request = in_order(request);
         let mut kept = Vec::new();
-        if let SnapshotRequest::Times(times) = &mut request {
-            times.sort_by(f64::total_cmp);
+        if let SnapshotRequest::Times(times) = &request {
             let in_flight = times.iter().take_while(|&&time| time < model.approach().first_touch());
             kept.extend(in_flight.map(|&time| in_free_flight(model, time)));
         }
@@ -174,14 +170,15 @@ impl Recorder {
         self.spacing *= 2.0;
     }
 
-    /// Whether it can be of a run of this model.
-    pub fn fits(&self, model: &Model) -> bool {
-        let request_fits = match &self.request {
-            SnapshotRequest::Labels(_) => true,
-            SnapshotRequest::Count(n) => *n <= MOST_STATES,
-            SnapshotRequest::Times(times) => {
-                self.next_time == self.kept.len() && self.next_time <= times.len()
+    /// Whether it can be of a run of this model that is asked for these.
+    pub fn fits(&self, model: &Model, asked: &SnapshotRequest) -> bool {
+        let request_fits = match (&self.request, &in_order(asked)) {
+            (SnapshotRequest::Times(times), SnapshotRequest::Times(asked)) => {
+                times.iter().map(|time| time.to_bits()).eq(asked.iter().map(|time| time.to_bits()))
+                    && self.next_time == self.kept.len()
+                    && self.next_time <= times.len()
             }
+            (request, asked) => request == asked,
         };
         let singles = [&self.maximum, &self.mid_separation, &self.last_contact];
         request_fits
@@ -235,6 +232,16 @@ impl Recorder {
     }
 }
 
+/// The request with its times in order; what is no number comes last and is never due.
+fn in_order(request: &SnapshotRequest) -> SnapshotRequest {
+    let mut request = request.clone();
+    if let SnapshotRequest::Times(times) = &mut request {
+        let by_kind = |one: &f64, other: &f64| one.is_nan().cmp(&other.is_nan());
+        times.sort_by(|one, other| by_kind(one, other).then(one.total_cmp(other)));
+    }
+    request
+}
+
 /// The `n` states nearest to an even spacing between the first and the last.
 fn nearest_to_even(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) -> Vec<Snapshot> {
     if let Some(last) = last {
@@ -245,20 +252,18 @@ fn nearest_to_even(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) ->
         return kept;
     };
     let (start, length) = (first.time, end.time - first.time);
-    let mut chosen: Vec<usize> = evenly(n, start, length)
-        .into_iter()
-        .filter_map(|time| {
-            (0..kept.len()).min_by(|&a, &b| {
-                (kept[a].time - time).abs().total_cmp(&(kept[b].time - time).abs())
-            })
-        })
-        .collect();
-    chosen.dedup();
-    let mut position = 0;
-    kept.retain(|_| {
-        position += 1;
-        chosen.contains(&(position - 1))
-    });
+    let nearest = |time: f64| {
+        let after = kept.partition_point(|snapshot| snapshot.time < time).min(kept.len() - 1);
+        let before = after.saturating_sub(1);
+        let is_before = time - kept[before].time <= kept[after].time - time;
+        if is_before { before } else { after }
+    };
+    // So many choose every state there is.
+    let times = evenly(n.min(Want::MOST_SNAPSHOTS), start, length);
+    let mut is_chosen = vec![false; kept.len()];
+    times.into_iter().for_each(|time| is_chosen[nearest(time)] = true);
+    let mut chosen = is_chosen.into_iter();
+    kept.retain(|_| chosen.next().unwrap_or_default());
     kept
 }
 

@@ -89,8 +89,8 @@ impl<M: Deref<Target = Model>> Run<M> {
     /// Goes on from a memory of a run of the same model; a run that had ended has ended.
     ///
     /// # Errors
-    /// A memory of another model: other sizes, approach, time step or region of contact. One whose
-    /// parts contradict each other.
+    /// A memory of another model or version: other meshes, masses, materials, forces, contact, approach
+    /// or time step. One whose parts contradict each other.
     pub fn resume(model: M, memory: Memory) -> Result<Self, ModelError> {
         if !memory.fits(&model) {
             return Err(ModelError::MemoryOfAnother);
@@ -159,7 +159,8 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 /// Forces of the present configuration, what is observed of it, and the motion to the next; or how the
 /// run has ended instead.
 fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
-    let Memory { state, log, ledger, observed, history, recorder, max_time, .. } = memory;
+    let max_time = memory.max_time();
+    let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
     let contact = update_forces(model, state, scratch);
     let (time, step) = (state.time, state.step);
     let is_closed = contact.n_closed > 0;
@@ -215,7 +216,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     if contact.at_limit {
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });
     }
-    if time - model.approach().first_touch() > *max_time {
+    if time - model.approach().first_touch() > max_time {
         return Err(Stop::NoSeparation { time, step });
     }
     ledger.count_step(model, scratch, contact.force);

@@ -110,6 +110,28 @@ fn a_damaged_memory_is_refused_or_runs() {
     assert!(n_refused > 100 && n_run > 100, "{n_refused} {n_run}");
 }
 
+/// Told twice, or following from the model: one that says otherwise is seen.
+#[test]
+fn parts_that_contradict_each_other_are_refused() {
+    let model = model();
+    let whole = memory(&model, SnapshotRequest::Times(vec![3.0, 0.5]), 100);
+    assert!(whole.fits(&model));
+    let mut text = serde_json::to_value(&whole).unwrap();
+    for (place, other) in [
+        ("/observed/standstill/speed", 0.02.into()),
+        ("/observed/standstill/reduced_mass", 1.0.into()),
+        ("/want/history_rows", 0.into()),
+        ("/want/snapshots/Times/0", 0.25.into()),
+        ("/recorder/request/Times/0", 0.25.into()),
+    ] {
+        let before = std::mem::replace(text.pointer_mut(place).unwrap(), other);
+        let memory: Memory = serde_json::from_value(text.clone()).unwrap();
+        assert!(!memory.fits(&model), "{place}");
+        *text.pointer_mut(place).unwrap() = before;
+    }
+    assert!(serde_json::from_value::<Memory>(text).unwrap().fits(&model));
+}
+
 /// What JSON cannot say.
 #[test]
 fn a_time_that_is_no_number_is_refused() {
@@ -119,7 +141,7 @@ fn a_time_that_is_no_number_is_refused() {
     type Damage = (&'static str, fn(&mut Memory));
     let damages: [Damage; 5] = [
         ("time", |memory| memory.state.time = f64::NAN),
-        ("longest time", |memory| memory.max_time = f64::NAN),
+        ("longest time", |memory| memory.want.give_up_after = f64::NAN),
         ("first contact", |memory| memory.log.first_contact = Some(f64::NAN)),
         ("last row", |memory| memory.observed.last.as_mut().unwrap().time = f64::NAN),
         ("approach", |memory| memory.approach = Approach::at(0.02).unwrap()),

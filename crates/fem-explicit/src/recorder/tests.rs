@@ -115,6 +115,23 @@ fn bodies_that_stay_together_have_no_last_contact() {
     assert!(missing.contains(&did_not_occur(Label::LastContact)), "{missing:?}");
 }
 
+/// What no check has refused: every state is kept, every time that is one has its snapshot.
+#[test]
+fn no_request_is_too_much() {
+    let model = model();
+    for n in [Want::MOST_SNAPSHOTS, usize::MAX] {
+        let (recorder, _) = record(&SnapshotRequest::Count(n), &model, 1.0, 1.0, 200);
+        assert!(recorder.fits(&model, &SnapshotRequest::Count(n)));
+        let (snapshots, missing) = recorder.finish();
+        assert_eq!((snapshots.len(), missing.len()), (199, 1));
+    }
+    let times = SnapshotRequest::Times(vec![1.0, f64::NAN, 0.1, -f64::NAN, 1.5]);
+    let (recorder, _) = record(&times, &model, 1.0, 1.0, 200);
+    assert!(recorder.fits(&model, &times));
+    let (snapshots, missing) = recorder.finish();
+    assert_eq!((snapshots.len(), missing.len()), (3, 2));
+}
+
 /// So coarse that no state lies near half of the maximum: left out, not passed off.
 #[test]
 fn a_rung_too_far_from_half_is_left_out() {

@@ -152,6 +152,7 @@ fn nothing_happens_by_itself() {
     let (pair, model) = (small(), small().model());
     let mut run = Run::new(&model, pair.expected(), &pair.want());
     let start = run.memory().clone();
+    assert_eq!((start.want(), start.expected()), (&pair.want(), pair.expected()));
     assert_eq!(run.advance(0), None);
     assert_eq!(run.memory(), &start);
 }
