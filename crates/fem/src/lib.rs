@@ -60,7 +60,7 @@ pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene
 pub use fem_collision::{
     Account, Approach, ApproachError, BodyFields, BodyResult, Book, Collision, Ending, Expectation,
     Label, Monitor, Phase, Progress, Row, Searched, Shown, Side, Snapshot, SnapshotRequest, Stop,
-    StressField, Want, invariants,
+    StressField, Want, WantError, invariants,
 };
 pub use fem_condensed::CondensedPair;
 pub use fem_explicit::{Memory, Model as ExplicitBodies, ModelError};

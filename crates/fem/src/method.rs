@@ -60,8 +60,9 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// that means nothing to it.
     fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer>;
 
-    /// Computes a collision of the scene's bodies, as far as it gets. Where the contact outgrows the
-    /// region in which it is looked for, the collision is computed again with a larger one.
+    /// Computes a collision of the scene's bodies, as far as it gets; one that asks for what no run
+    /// keeps ([`Want::check`]) does not begin. Where the contact outgrows the region in which it is
+    /// looked for, the collision is computed again with a larger one.
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision;
 
     /// Begins a collision, as far as whoever has the course lets it go.
@@ -71,11 +72,11 @@ pub trait Model: fmt::Debug + Send + Sync {
         Box::new(InOneGo::of(approach, collide))
     }
 
-    /// Goes on from what a course of the same model knew, to the same bits.
+    /// Goes on from what a course of the same model knew and was asked for, to the same bits.
     ///
     /// # Errors
     /// A memory of another model, or a model that goes on from none.
-    fn resume<'a>(&'a self, _: Memory, _: &Want) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume<'a>(&'a self, _: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
         let message = format!("{} goes on from no memory", self.setup().description);
         Err(Refusal::new("model", message).with_help("compute the collision anew"))
     }

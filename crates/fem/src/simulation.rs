@@ -2,7 +2,7 @@
 
 use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, Quantity};
-use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want};
+use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 use fem_explicit::Memory;
 
 use crate::course::Course;
@@ -112,8 +112,13 @@ impl Simulation {
     }
 
     /// Makes the run give something else than what the case asks for.
-    pub fn ask_for(&mut self, want: Want) {
+    ///
+    /// # Errors
+    /// More rows or snapshots than a run keeps, times that are no times.
+    pub fn ask_for(&mut self, want: Want) -> Result<(), WantError> {
+        want.check()?;
         self.want = want;
+        Ok(())
     }
 
     /// The resolved case with its bodies meeting in another way.
@@ -167,12 +172,12 @@ impl Simulation {
         self.model.start(&self.setup().approach, &self.want)
     }
 
-    /// Goes on from what a course of this case knew, to the same bits.
+    /// Goes on from what a course of this case knew and was asked for, to the same bits.
     ///
     /// # Errors
     /// A memory of another case, or a model that goes on from none.
     pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course + '_>, CaseError> {
-        self.model.resume(memory, &self.want).map_err(|refusal| refusal.in_case(&self.case))
+        self.model.resume(memory).map_err(|refusal| refusal.in_case(&self.case))
     }
 
     /// What closed forms say of a collision of the case's bodies; none where that is no number.

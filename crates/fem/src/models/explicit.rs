@@ -178,7 +178,8 @@ impl Model for Explicit {
     }
 
     fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
-        match self.meeting(approach) {
+        let checked = want.check().map_err(|error| Stop::NotMade(error.to_string()));
+        match checked.and_then(|()| self.meeting(approach)) {
             Ok((bodies, estimate)) => {
                 let expected = estimate.expectation();
                 let run = Run::new(bodies, expected, want);
@@ -192,10 +193,11 @@ impl Model for Explicit {
         }
     }
 
-    fn resume<'a>(&'a self, memory: Memory, want: &Want) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
         let refused = |error: &dyn std::fmt::Display| Refusal::new("model.fem", error.to_string());
-        let approach = *memory.approach();
-        let (own, estimate) = self.meeting(&approach).map_err(|stop| refused(&stop))?;
+        let (approach, expected) = (*memory.approach(), memory.expected());
+        let want = memory.want().clone();
+        let (own, _) = self.meeting(&approach).map_err(|stop| refused(&stop))?;
         let bodies = match memory.candidate_radius() == own.candidate_radius() {
             true => own,
             false => {
@@ -204,8 +206,7 @@ impl Model for Explicit {
             }
         };
         let run = Run::resume(bodies, memory).map_err(|error| refused(&error))?;
-        let expected = estimate.expectation();
-        Ok(Box::new(ExplicitCourse { made: &self.made, expected, want: want.clone(), run }))
+        Ok(Box::new(ExplicitCourse { made: &self.made, expected, want, run }))
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Approach, Case, Collision, METHODS, Simulation, Want};
+use fem::{Approach, Case, Collision, METHODS, Simulation, SnapshotRequest, Stop, Want};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 /// A mesh that serves both approaches.
@@ -60,7 +60,7 @@ fn a_summary_is_of_the_collision_that_was_computed() {
             let resolved = slow.resolved_at(&approach).to_toml().unwrap();
             let case = Case::parse("again.toml", &resolved, Path::new("."), &[]).unwrap();
             let mut again = Simulation::new(case).unwrap();
-            again.ask_for(Want::history());
+            again.ask_for(Want::history()).unwrap();
             let expected = again.run(&mut ());
             assert_eq!(plain(&collision), plain(&expected), "{name}");
             let told = |simulation: &Simulation, collision: &Collision| {
@@ -72,6 +72,24 @@ fn a_summary_is_of_the_collision_that_was_computed() {
             }
             let strain = slow.warnings(&collision).iter().any(|w| w.contains("small-strain"));
             assert_eq!(strain, approach == fast(), "{name}");
+        }
+    }
+}
+
+/// What no run could keep does not begin, and is said.
+#[test]
+fn a_want_beyond_measure_is_refused() {
+    for method in METHODS {
+        let mut simulation = simulation(method.name(), &[]);
+        for want in [
+            Want { history_rows: usize::MAX, ..Want::history() },
+            Want { snapshots: SnapshotRequest::Count(usize::MAX), ..Want::history() },
+            Want { snapshots: SnapshotRequest::Times(vec![f64::NAN]), ..Want::history() },
+        ] {
+            let approach = simulation.setup().approach;
+            let collision = simulation.model().collide(&approach, &want, &mut ());
+            assert!(matches!(collision.stop(), Some(Stop::NotMade(_))), "{}", method.name());
+            assert!(simulation.ask_for(want).is_err());
         }
     }
 }

@@ -57,7 +57,7 @@ fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Coll
     }
     let text = serde_json::to_string(course.memory().unwrap()).unwrap();
     let memory: Memory = serde_json::from_str(&text).unwrap();
-    let mut resumed = model.resume(memory, &want).unwrap();
+    let mut resumed = model.resume(memory).unwrap();
     while resumed.advance(&mut ()) {}
     resumed.finish()
 }

@@ -58,7 +58,7 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     assert!(hertz.contact_time() > 0.0 && setup.approach.speed() == 0.1);
     let want = Want { snapshots: SnapshotRequest::Labels(vec![Label::Maximum]), ..Want::history() };
     assert_eq!(simulation.want().snapshots, want.snapshots);
-    simulation.ask_for(want);
+    simulation.ask_for(want).unwrap();
 
     let mut panel = Panel { phases: Vec::new(), reports_left: u64::MAX };
     let collision: Collision = simulation.run(&mut panel);

@@ -175,7 +175,8 @@ impl Condensed {
                 },
             }
         };
-        let mut pair = match self.pair_at(approach) {
+        let checked = want.check().map_err(|error| Stop::NotMade(error.to_string()));
+        let mut pair = match checked.and_then(|()| self.pair_at(approach)) {
             Ok(pair) => pair,
             Err(stop) => return Collision::stopped(*approach, stop),
         };

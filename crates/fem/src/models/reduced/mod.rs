@@ -120,6 +120,9 @@ impl Model for Reduced {
 
     /// Closed forms and short integrations: nobody needs to look on.
     fn collide(&self, approach: &Approach, want: &Want, _: &mut dyn Monitor) -> Collision {
+        if let Err(error) = want.check() {
+            return Collision::stopped(*approach, Stop::NotMade(error.to_string()));
+        }
         match self.impact(approach.speed()) {
             Ok(impact) => {
                 let frame = frame_of(&self.scene, approach, self.pair.effective_mass());
