@@ -23,6 +23,9 @@ pub struct MaterialTable {
     /// Poisson's ratio ν, between −1 and 1/2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<Quantity<Number>>,
+    /// Yield strength in uniaxial tension, > 0. It feeds a warning: no model here flows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yield_strength: Option<Quantity<Stress>>,
     /// A Prony series; absent: elastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<RelaxationTable>,
@@ -68,6 +71,7 @@ impl MaterialTable {
             shear_modulus: None,
             bulk_modulus: None,
             poissons_ratio: None,
+            yield_strength: None,
             relaxation: None,
         }
     }

@@ -86,6 +86,24 @@ impl Scene {
         self.bodies[0].velocity - self.bodies[1].velocity
     }
 
+    /// Half of a scene whose bodies are identical, in the frame of their mass centre: the lower body
+    /// against a rigid plane at rest, which the upper one mirrors. `None` of bodies that differ or have
+    /// a mesh of their own.
+    pub fn half(&self) -> Option<Self> {
+        let [lower, upper] = &self.bodies;
+        let is_made_here = matches!(lower.shape, Shape::Sphere { mesh: None, .. });
+        if !is_made_here || lower.shape != upper.shape {
+            return None;
+        }
+        let mut half = self.clone();
+        half.bodies[0].velocity = 0.5 * self.approach_speed();
+        half.bodies[1].velocity = 0.0;
+        half.bodies[1].shape = Shape::Wall;
+        half.gap = self.gap.map(|gap| 0.5 * gap);
+        half.effects.mirror_symmetry = None;
+        Some(half)
+    }
+
     /// The bodies as a pair, moduli instantaneous.
     ///
     /// # Errors
@@ -117,6 +135,7 @@ pub struct Body {
     pub(crate) name: String,
     pub(crate) shape: Shape,
     pub(crate) velocity: f64,
+    pub(crate) yield_strength: Option<f64>,
 }
 
 impl Body {
@@ -133,6 +152,11 @@ impl Body {
     /// Along +y at time 0, m/s.
     pub fn velocity(&self) -> f64 {
         self.velocity
+    }
+
+    /// Yield strength of its material, Pa, > 0, if the case gives one.
+    pub fn yield_strength(&self) -> Option<f64> {
+        self.yield_strength
     }
 
     /// Its material; a wall has none.

@@ -60,9 +60,27 @@ impl Check<'_> {
         // Sums with 0, so that a body at rest has the velocity 0, never -0.
         let (lower_velocity, upper_velocity) = (0.0 + lower_speed, 0.0 - upper_speed);
         Ok([
-            Body { name: lower.name.clone(), shape: lower_shape, velocity: lower_velocity },
-            Body { name: upper.name.clone(), shape: upper_shape, velocity: upper_velocity },
+            Body {
+                name: lower.name.clone(),
+                shape: lower_shape,
+                velocity: lower_velocity,
+                yield_strength: self.yield_strength(file, lower)?,
+            },
+            Body {
+                name: upper.name.clone(),
+                shape: upper_shape,
+                velocity: upper_velocity,
+                yield_strength: self.yield_strength(file, upper)?,
+            },
         ])
+    }
+
+    /// Yield strength of the material that a body names, Pa.
+    fn yield_strength(&self, file: &CaseFile, body: &BodyTable) -> Result<Option<f64>, CaseError> {
+        let Some(name) = &body.material else { return Ok(None) };
+        let path = join(&join("material", &quote_key(name)), "yield_strength");
+        let given = file.material.get(name).and_then(|table| table.yield_strength.as_ref());
+        self.optional(&path, given, POSITIVE)
     }
 
     /// Shape and approach speed.

@@ -1,11 +1,23 @@
-//! Identical bodies that meet are each other's mirror image: half of the scene, against a rigid
-//! plane, would be the whole. A transformation of the scene.
+//! Identical bodies that meet are each other's mirror image: one of them, against a rigid plane at
+//! rest, is the whole collision. A transformation of the scene.
+//!
+//! In the frame of the mass centre the bodies come with v/2 each, the plane between them does not
+//! move, and neither surface passes it. With ' for the half scene
+//!
+//! ```math
+//! T = T', \quad F = F', \quad p = p', \quad \delta = 2\delta', \quad E = 2E' + \tfrac12 (2m) V^2,
+//! ```
+//!
+//! V the velocity of the mass centre. The pair's contact modulus is half of that of a body on a rigid
+//! plane, so penalty springs are twice as stiff over half of the overlap.
 
 use fem_case::{EffectsTable, Scene, Switch};
 
+use super::answer::Answer;
 use super::effect::Effect;
 use super::need::Need;
 use crate::estimate::Estimate;
+use crate::refusal::Refusal;
 
 /// Two identical bodies as one against a rigid plane.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +26,33 @@ pub struct MirrorSymmetry;
 impl MirrorSymmetry {
     /// Its name in results.
     pub const NAME: &'static str = "mirror symmetry";
+
+    /// Half of a scene whose bodies are identical: the lower one, against a rigid plane. `None` of a
+    /// scene that has none, or that is to be computed whole.
+    ///
+    /// # Errors
+    /// Bodies that differ, where the case forces the symmetry.
+    pub(crate) fn half_of(scene: &Scene) -> Result<Option<Scene>, Refusal> {
+        let switch = scene.effects().mirror_symmetry;
+        match scene.half() {
+            Some(half) => Ok((switch != Some(Switch::Off)).then_some(half)),
+            None if switch == Some(Switch::On) => {
+                let message = "mirror_symmetry is \"on\", and the bodies differ";
+                Err(Refusal::new("effects.mirror_symmetry", message).with_help(
+                    "it wants two spheres of one diameter, one material and the built-in mesh; \
+                     write \"auto\" or \"off\"",
+                ))
+            }
+            None => Ok(None),
+        }
+    }
+
+    /// What a model has of it that computes half of a scene.
+    pub(crate) fn of_half() -> Answer {
+        let reason = "the bodies are identical: one is computed, against a rigid plane at rest \
+                      between them";
+        Answer::is(true, reason)
+    }
 }
 
 impl Effect for MirrorSymmetry {
@@ -27,14 +66,9 @@ impl Effect for MirrorSymmetry {
 
     /// It saves work and changes nothing: a scene may allow it, none calls for it.
     fn need(&self, scene: &Scene, _: &Estimate) -> Option<Need> {
-        let [first, second] = &scene.bodies();
-        let are_identical = match (first.diameter(), second.diameter()) {
-            (Some(a), Some(b)) => a == b && first.material() == second.material(),
-            _ => false,
-        };
-        let number = match are_identical {
-            true => "the bodies are identical; both are computed all the same",
-            false => "the bodies differ",
+        let number = match scene.half() {
+            Some(_) => "the bodies are identical; both are computed all the same",
+            None => "the bodies differ",
         };
         Some(Need { number: number.to_string(), ..Need::default() })
     }

@@ -22,7 +22,9 @@ mod hourglass_control;
 mod mass_scaling;
 mod mirror_symmetry;
 mod need;
+mod partner_waves;
 mod penalty_springs;
+mod plastic_yield;
 mod speed;
 mod vibration;
 mod viscoelasticity;
@@ -46,17 +48,21 @@ pub use hourglass_control::HourglassControl;
 pub use mass_scaling::MassScaling;
 pub use mirror_symmetry::MirrorSymmetry;
 pub use need::Need;
+pub use partner_waves::PartnerWaves;
 pub use penalty_springs::PenaltySprings;
+pub use plastic_yield::PlasticYield;
 pub(crate) use speed::QUASI_STATIC_LIMIT;
 pub use vibration::Vibration;
 pub use viscoelasticity::Viscoelasticity;
 
 /// All effects, in the order in which results show them.
-pub const EFFECTS: [&dyn Effect; 12] = [
+pub const EFFECTS: [&dyn Effect; 14] = [
     &Viscoelasticity,
     &DashpotEffect,
     &FiniteSizeEffect,
     &FiniteStrain,
+    &PlasticYield,
+    &PartnerWaves,
     &MirrorSymmetry,
     &Vibration,
     &HourglassControl,

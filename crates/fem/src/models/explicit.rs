@@ -11,11 +11,12 @@ use fem_explicit::{Memory, Model as Bodies, ModelError, Parts, Run, Settings};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
+use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::approach_of;
 use crate::course::{Course, InOneGo, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MirrorSymmetry, Viscoelasticity, decide,
+    MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, Viscoelasticity, decide,
 };
 use crate::estimate::Estimate;
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
@@ -37,11 +38,16 @@ impl Method for ExplicitMethod {
     }
 
     fn build(&self, scene: &Scene, _: &Shared) -> Result<Box<dyn Model>, Refusal> {
-        Ok(Box::new(Explicit::new(scene)?))
+        let Some(half) = MirrorSymmetry::half_of(scene)? else {
+            return Ok(Box::new(Explicit::new(scene)?));
+        };
+        let plan = Plan::of(scene)?;
+        let model = Explicit::with_plan(&half, plan_of_half(&plan, &half)?)?;
+        Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
     fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
-        match Explicit::new(scene)?.setup.cost {
+        match self.build(scene, &Shared::default())?.setup().cost {
             Cost::Steps { element_updates, .. } => Ok(element_updates),
             _ => Ok(0),
         }
@@ -314,9 +320,12 @@ fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
         }
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
         MassScaling::NAME => mass_scaling(model, scene.bodies()),
-        FiniteStrain::NAME | MirrorSymmetry::NAME | BulkViscosity::NAME | Gravity::NAME => {
-            Answer::Lacks
-        }
+        PartnerWaves::NAME => Answer::Computes { idle: "" },
+        FiniteStrain::NAME
+        | PlasticYield::NAME
+        | MirrorSymmetry::NAME
+        | BulkViscosity::NAME
+        | Gravity::NAME => Answer::Lacks,
         _ => return None,
     })
 }

@@ -5,6 +5,7 @@ mod explicit;
 mod hertz;
 mod law;
 mod law_numbers;
+mod mirrored;
 mod reduced;
 mod ting;
 

@@ -4,8 +4,8 @@ use fem_case::{CondensedOptions, Scene};
 use fem_condensed::CondensedPair;
 
 use crate::effects::{
-    Answer, ContactSearch, Effect, FiniteStrain, Gravity, PenaltySprings, Vibration,
-    Viscoelasticity,
+    Answer, ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves,
+    PenaltySprings, PlasticYield, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -28,7 +28,11 @@ pub(super) fn has(
             false => Answer::is(false, "the surfaces do not overlap at the nodes"),
         },
         ContactSearch::NAME => ContactSearch::within(&pair.searched()),
-        FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
+        FiniteStrain::NAME
+        | PlasticYield::NAME
+        | PartnerWaves::NAME
+        | MirrorSymmetry::NAME
+        | Gravity::NAME => Answer::Lacks,
         _ => return None,
     })
 }

@@ -12,8 +12,9 @@ use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
+use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::{approach_of, frame_of};
-use crate::effects::{Answer, Effect, Vibration, decide};
+use crate::effects::{Answer, Effect, MirrorSymmetry, Vibration, decide};
 use crate::estimate::Estimate;
 use crate::mesh_source::{MeshSource, mesh_refusal};
 use crate::meshes::mesh_sources;
@@ -46,7 +47,12 @@ impl Method for CondensedMethod {
         if !matches!(scene.model(), ModelChoice::Condensed(_)) {
             return Err(Refusal::chose_another(scene, "condensed"));
         }
-        Ok(Box::new(Condensed::new(scene, shared)?))
+        let Some(half) = MirrorSymmetry::half_of(scene)? else {
+            return Ok(Box::new(Condensed::new(scene, shared)?));
+        };
+        let plan = Plan::of(scene)?;
+        let model = Condensed::with_plan(&half, plan_of_half(&plan, &half)?, shared)?;
+        Ok(Box::new(Mirrored::new(model, scene, plan)?))
     }
 
     fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
@@ -92,8 +98,12 @@ impl Condensed {
     /// What the plan refuses; meshes that cannot be made or read; more elements or memory than the
     /// limits allow; a stiffness that cannot be factored.
     pub fn new(scene: &Scene, shared: &Shared) -> Result<Self, Refusal> {
+        Self::with_plan(scene, Plan::of(scene)?, shared)
+    }
+
+    /// Meshes and condenses by a plan that may have been changed.
+    fn with_plan(scene: &Scene, plan: Plan, shared: &Shared) -> Result<Self, Refusal> {
         let options = options(scene);
-        let plan = Plan::of(scene)?;
         let sources = mesh_sources(scene, &plan)?;
         check_memory(&plan, &sources)?;
         let key = PairKey { bodies: bodies(scene, sources), settings: settings(&plan, options) };

@@ -3,8 +3,8 @@
 use fem_case::{ModelChoice, Scene};
 
 use crate::effects::{
-    Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, Vibration,
-    Viscoelasticity,
+    Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
+    PlasticYield, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -48,7 +48,9 @@ pub(super) fn has(
             Answer::is(is_finite, reason)
         }
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        FiniteStrain::NAME | Gravity::NAME => Answer::Lacks,
+        FiniteStrain::NAME | PlasticYield::NAME | PartnerWaves::NAME | Gravity::NAME => {
+            Answer::Lacks
+        }
         _ => return None,
     })
 }

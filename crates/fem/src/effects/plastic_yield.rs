@@ -1,0 +1,92 @@
+//! Plastic flow, which no model here has: where it would begin, and how far it matters.
+//!
+//! Decided by the peak pressure of Hertz over that of first yield ([`FirstYield`]). Without a yield
+//! strength the strength that would be reached is told, and a peak pressure that few materials bear
+//! is warned about.
+
+use fem_case::{Body, Scene};
+use fem_laws::{FirstYield, largest_von_mises};
+
+use super::effect::Effect;
+use super::need::Need;
+use crate::estimate::Estimate;
+
+/// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do
+/// not yield: glass at 0.5 m/s is at 1/32, steel at 5 m/s at 1/13.
+const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
+
+/// Plastic flow.
+#[derive(Clone, Copy, Debug)]
+pub struct PlasticYield;
+
+impl PlasticYield {
+    /// Its name in results.
+    pub const NAME: &'static str = "plastic yield";
+}
+
+impl Effect for PlasticYield {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
+        let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
+        let first = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure));
+        Some(match first {
+            Some((body, first)) => of_strength(body, &first, estimate),
+            None => without_strength(scene, estimate),
+        })
+    }
+}
+
+fn first_yield<'a>(body: &'a Body, estimate: &Estimate) -> Option<(&'a Body, FirstYield)> {
+    let poissons_ratio = body.material()?.instantaneous().poissons_ratio();
+    Some((body, FirstYield::new(&estimate.hertz, body.yield_strength()?, poissons_ratio)))
+}
+
+fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
+    let (ratio, name) = (first.ratio(), body.name());
+    let is_called_for = ratio > 1.0;
+    let (low, high) = first.restitutions();
+    let warning = is_called_for.then(|| {
+        format!(
+            "{name} yields from {:.2e} m/s on, and meets at {:.2e} m/s: closed forms of plastic \
+             impact give a restitution from {low:.2} to {high:.2}, and no model here flows",
+            first.speed,
+            estimate.hertz.approach_speed(),
+        )
+    });
+    Need {
+        is_called_for,
+        number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
+        otherwise: format!("it yields from {:.2e} m/s on", first.speed),
+        left_open: format!("the restitution is from {low:.2} to {high:.2}"),
+        warning,
+    }
+}
+
+fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
+    let peak = estimate.hertz.peak_pressure();
+    let share = peak / estimate.hertz.pair().contact_modulus();
+    let reached = |body: &Body| {
+        let nu = body.material()?.instantaneous().poissons_ratio();
+        Some(format!("{} {:.2e} Pa", body.name(), largest_von_mises(nu) * peak))
+    };
+    let reached: Vec<String> = scene.bodies().iter().filter_map(reached).collect();
+    let reached = reached.join(", ");
+    let warning = (share > PRESSURE_LIMIT).then(|| {
+        format!(
+            "the peak pressure is 1/{:.0} of the contact modulus, which few materials bear without \
+             plastic flow: the stress reaches {reached}; give material.NAME.yield_strength to see \
+             what follows",
+            1.0 / share
+        )
+    });
+    Need {
+        is_called_for: false,
+        number: format!("peak pressure / contact modulus = {share:.3}"),
+        otherwise: format!("what yields below its stress would flow: {reached}"),
+        left_open: String::new(),
+        warning,
+    }
+}

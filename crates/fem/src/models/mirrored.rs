@@ -1,0 +1,208 @@
+//! A collision of identical bodies from that of one of them with a rigid plane: see
+//! [`MirrorSymmetry`](crate::effects::MirrorSymmetry).
+
+use fem_case::Scene;
+use fem_collision::{
+    Account, Approach, BodyFields, BodyResult, Book, Collision, Monitor, Progress, Row, Snapshot,
+    Stop, Want,
+};
+use fem_explicit::Memory;
+use fem_mesh::{Side, SphereMesh};
+
+use crate::approach::approach_of;
+use crate::course::{Course, InOneGo};
+use crate::effects::{Answer, Effect, MirrorSymmetry, decide};
+use crate::estimate::Estimate;
+use crate::method::{ElementSetup, Model, Setup};
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// The whole of a scene of which half is computed.
+#[derive(Debug)]
+pub(super) struct Mirrored<M> {
+    half: M,
+    setup: Setup,
+    image: Option<SphereMesh>,
+}
+
+/// The plan of the half of a scene: meshes, snapshots and limits of the whole.
+pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Refusal> {
+    let Plan { estimate, contact_stiffness, gap, .. } = Plan::of(half)?;
+    Ok(Plan { estimate, contact_stiffness, gap, ..whole.clone() })
+}
+
+impl<M: Model> Mirrored<M> {
+    /// Of the model of the lower half, a sphere against a rigid plane, and the plan of the whole.
+    ///
+    /// # Errors
+    /// An effect that the case forces on and the half's model lacks.
+    pub fn new(half: M, scene: &Scene, plan: Plan) -> Result<Self, Refusal> {
+        let image = half.meshes()[0].map(|mesh| mesh.clone().on_side(Side::Above));
+        let own = half.setup().clone();
+        let estimate = plan.estimate;
+        let decisions = decide(scene, &estimate, |effect| has(effect, &half, &estimate))?;
+        let elements = own.elements.map(|elements| ElementSetup { plan, ..elements });
+        let approach = approach_of(scene)?;
+        let setup = Setup { approach, estimate, decisions, elements, ..own };
+        Ok(Self { half, setup, image })
+    }
+}
+
+/// What the whole has of an effect: what the half has, and the symmetry.
+fn has(effect: &dyn Effect, half: &impl Model, estimate: &Estimate) -> Option<Answer> {
+    match effect.name() {
+        MirrorSymmetry::NAME => Some(MirrorSymmetry::of_half()),
+        _ => half.has(effect, estimate),
+    }
+}
+
+impl<M: Model> Model for Mirrored<M> {
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
+        has(effect, &self.half, estimate)
+    }
+
+    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+        match half_of(approach) {
+            Ok(half) => Whole::of(approach).collision(self.half.collide(&half, want, monitor)),
+            Err(stop) => Collision::stopped(*approach, stop),
+        }
+    }
+
+    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
+        let whole = Whole::of(approach);
+        match half_of(approach) {
+            Ok(half) => Box::new(MirroredCourse { half: self.half.start(&half, want), whole }),
+            Err(stop) => {
+                let approach = *approach;
+                let stopped = move |_: &mut dyn Monitor| Collision::stopped(approach, stop.clone());
+                Box::new(InOneGo::of(approach, stopped))
+            }
+        }
+    }
+
+    /// The half does not know how fast the mass centre moves: as the scene's, if the bodies met like
+    /// that, and else not at all.
+    fn resume<'a>(&'a self, memory: Memory, want: &Want) -> Result<Box<dyn Course + 'a>, Refusal> {
+        let own = self.setup.approach;
+        let met = *memory.approach();
+        let at_rest = || Approach::new([met.speed(), -met.speed()], 2.0 * met.gap());
+        let whole = match half_of(&own) {
+            Ok(half) if half == met => own,
+            _ => at_rest().map_err(|error| Refusal::new("body", error.to_string()))?,
+        };
+        let half = self.half.resume(memory, want)?;
+        Ok(Box::new(MirroredCourse { half, whole: Whole::of(&whole) }))
+    }
+
+    fn meshes(&self) -> [Option<&SphereMesh>; 2] {
+        [self.half.meshes()[0], self.image.as_ref()]
+    }
+}
+
+/// How the lower body meets the plane between both.
+fn half_of(approach: &Approach) -> Result<Approach, Stop> {
+    // Half of a speed that is positive and finite is so, or has vanished.
+    Approach::new([0.5 * approach.speed(), 0.0], 0.5 * approach.gap())
+        .map_err(|error| Stop::NotMade(error.to_string()))
+}
+
+/// The whole of a collision of which half is under way.
+struct MirroredCourse<'a> {
+    half: Box<dyn Course + 'a>,
+    whole: Whole,
+}
+
+impl Course for MirroredCourse<'_> {
+    fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
+        self.half.advance(monitor)
+    }
+
+    fn progress(&self) -> Progress {
+        self.half.progress()
+    }
+
+    fn memory(&self) -> Option<&Memory> {
+        self.half.memory()
+    }
+
+    fn finish(self: Box<Self>) -> Collision {
+        self.whole.collision(self.half.finish())
+    }
+}
+
+/// From the half to the whole.
+struct Whole {
+    approach: Approach,
+    /// Velocity of the mass centre along +y, m/s.
+    velocity: f64,
+}
+
+impl Whole {
+    fn of(approach: &Approach) -> Self {
+        let [lower, upper] = approach.velocities();
+        Self { approach: *approach, velocity: 0.5 * (lower + upper) }
+    }
+
+    fn collision(&self, half: Collision) -> Collision {
+        let body = half.bodies[0];
+        // Of both bodies in the frame in which the half was computed, 2 m V²/2.
+        let of_centre = (body.mass.unwrap_or(0.0) + body.added_mass.unwrap_or(0.0))
+            * self.velocity
+            * self.velocity;
+        let after = |side: usize| BodyResult {
+            velocity_after: body.velocity_after.map(|v| self.velocities(v)[side]),
+            ..body
+        };
+        let energies = twice(&half.energies).with(Account::Kinetic, of_centre);
+        Collision {
+            approach: self.approach,
+            energies,
+            residual: half.residual.map(|residual| 2.0 * residual),
+            max_approach: half.max_approach.map(|approach| 2.0 * approach),
+            initial_energy: half.initial_energy.map(|energy| 2.0 * energy + of_centre),
+            bodies: [after(0), after(1)],
+            history: half.history.iter().map(|row| self.row(row, of_centre)).collect(),
+            snapshots: half.snapshots.into_iter().map(|s| self.snapshot(s)).collect(),
+            ..half
+        }
+    }
+
+    /// Velocities of both bodies of that of the lower one relative to the plane, m/s.
+    fn velocities(&self, lower: f64) -> [f64; 2] {
+        [self.velocity + lower, self.velocity - lower]
+    }
+
+    fn row(&self, half: &Row, of_centre: f64) -> Row {
+        Row {
+            approach: 2.0 * half.approach,
+            velocity: self.velocities(half.velocity[0]),
+            energies: twice(&half.energies).with(Account::Kinetic, of_centre),
+            residual: half.residual.map(|residual| 2.0 * residual),
+            vibration: [half.vibration[0]; 2],
+            ..*half
+        }
+    }
+
+    fn snapshot(&self, half: Snapshot) -> Snapshot {
+        let [lower, _] = half.bodies;
+        let shift = self.velocity * half.time;
+        let moved = |field: &[[f64; 2]], sign: f64, by: f64| {
+            field.iter().map(|[r, y]| [*r, sign * y + by]).collect()
+        };
+        let body = |sign: f64| BodyFields {
+            displacement: moved(&lower.displacement, sign, shift),
+            velocity: moved(&lower.velocity, sign, self.velocity),
+            effective: moved(&lower.effective, sign, shift),
+        };
+        Snapshot { approach: 2.0 * half.approach, bodies: [body(1.0), body(-1.0)], ..half }
+    }
+}
+
+/// What both bodies have of what is in the accounts of one.
+fn twice(book: &Book) -> Book {
+    book.and(book)
+}

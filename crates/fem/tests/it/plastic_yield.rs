@@ -1,0 +1,91 @@
+//! Materials that would yield: what the plan says of them, in every model.
+
+use std::path::Path;
+
+use fem::Simulation;
+use fem::effects::Verdict;
+use fem_case::Case;
+
+/// 5 mm steel spheres at 5 m/s: real steel yields at some cm/s.
+const STEEL: &str = r#"
+[material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+
+[[body]]
+name = "lower"
+sphere = { diameter = "5 mm" }
+material = "steel"
+approach_speed = "5 m/s"
+
+[[body]]
+name = "upper"
+sphere = { diameter = "5 mm" }
+material = "steel"
+"#;
+
+const MODELS: [&str; 5] = [
+    "model.fem={}",
+    "model.condensed={}",
+    "model.ting={}",
+    "model.hertz={}",
+    "model.law.falcon.c=0",
+];
+
+fn told(text: &str, overrides: &[&str]) -> (Verdict, String) {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let case = Case::parse("pair.toml", text, Path::new("."), &overrides).unwrap();
+    let simulation = Simulation::new(case).unwrap();
+    let setup = simulation.setup();
+    let verdict =
+        setup.decisions.verdicts.iter().find(|verdict| verdict.name == "plastic yield").unwrap();
+    (verdict.clone(), setup.warnings().join("\n"))
+}
+
+#[test]
+fn a_pressure_that_no_steel_bears_is_warned_about() {
+    for model in MODELS {
+        let (verdict, warnings) = told(STEEL, &[model]);
+        // 9 GPa, a thirteenth of E*; 0.62 of it is the stress.
+        assert!(warnings.contains("1/13 of the contact modulus"), "{model}: {warnings}");
+        assert!(warnings.contains("yield_strength"), "{warnings}");
+        assert!(!verdict.active && verdict.reason.contains("Pa"), "{}", verdict.reason);
+    }
+}
+
+#[test]
+fn a_yield_strength_gives_the_speed_and_the_range() {
+    for model in MODELS {
+        let (verdict, warnings) = told(STEEL, &[model, "material.steel.yield_strength='1 GPa'"]);
+        // Johnson's ½mv² = 53 R³Y⁵/E*⁴ is 0.067 m/s; then Thornton and Johnson at 72 times that.
+        assert!(warnings.contains("yields from 6.91e-2 m/s"), "{model}: {warnings}");
+        assert!(warnings.contains("from 0.41 to 0.78"), "{warnings}");
+        assert!(verdict.reason.contains("not available"), "{}", verdict.reason);
+    }
+}
+
+#[test]
+fn what_does_not_yield_is_not_warned_about() {
+    let glass = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+    for overrides in [&[][..], &["material.glass.yield_strength='3 GPa'"]] {
+        let (verdict, warnings) = told(glass, overrides);
+        assert_eq!(warnings, "");
+        assert!(!verdict.active);
+    }
+    let slow = ["material.steel.yield_strength='1 GPa'", "body.0.approach_speed='1 cm/s'"];
+    let (verdict, warnings) = told(STEEL, &slow);
+    assert_eq!(warnings, "");
+    assert!(verdict.reason.contains("it yields from"), "{}", verdict.reason);
+}
+
+/// The weaker of two bodies decides.
+#[test]
+fn the_body_that_yields_first_is_named() {
+    let soft = "material.soft={density=7850, youngs_modulus=210e9, poissons_ratio=0.3, \
+                yield_strength=1e8}";
+    let overrides = ["material.steel.yield_strength=1e9", soft, "body.1.material='soft'"];
+    let (_, warnings) = told(STEEL, &overrides);
+    assert!(warnings.contains("upper yields from"), "{warnings}");
+    assert!(!warnings.contains("lower yields"), "{warnings}");
+}
