@@ -70,6 +70,7 @@ impl Random {
         if self.below(20) == 0 {
             material.youngs_modulus = None;
         }
+        material.yield_strength = self.maybe(|random| random.quantity(&[1e9]));
         let n = self.below(3);
         let mut term = || TermTable {
             weight: self.quantity(&[0.3, 0.6]),
