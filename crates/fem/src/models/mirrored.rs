@@ -14,7 +14,7 @@ use crate::course::{Course, InOneGo};
 use crate::effects::{Answer, Effect, MirrorSymmetry, decide};
 use crate::estimate::Estimate;
 use crate::method::{ElementSetup, Model, Setup};
-use crate::plan::Plan;
+use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
 
 /// The whole of a scene of which half is computed.
@@ -28,7 +28,8 @@ pub(super) struct Mirrored<M> {
 /// The plan of the half of a scene: meshes, snapshots and limits of the whole.
 pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Refusal> {
     let Plan { estimate, contact_stiffness, gap, .. } = Plan::of(half)?;
-    Ok(Plan { estimate, contact_stiffness, gap, ..whole.clone() })
+    let candidate_radius = candidate_radius(&estimate, whole.contact_element_size);
+    Ok(Plan { estimate, contact_stiffness, gap, candidate_radius, ..whole.clone() })
 }
 
 impl<M: Model> Mirrored<M> {
@@ -86,7 +87,7 @@ impl<M: Model> Model for Mirrored<M> {
 
     /// The half does not know how fast the mass centre moves: as the scene's, if the bodies met like
     /// that, and else not at all.
-    fn resume<'a>(&'a self, memory: Memory, want: &Want) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
         let own = self.setup.approach;
         let met = *memory.approach();
         let at_rest = || Approach::new([met.speed(), -met.speed()], 2.0 * met.gap());
@@ -94,7 +95,7 @@ impl<M: Model> Model for Mirrored<M> {
             Ok(half) if half == met => own,
             _ => at_rest().map_err(|error| Refusal::new("body", error.to_string()))?,
         };
-        let half = self.half.resume(memory, want)?;
+        let half = self.half.resume(memory)?;
         Ok(Box::new(MirroredCourse { half, whole: Whole::of(&whole) }))
     }
 

@@ -51,11 +51,12 @@ fn a_collision_does_not_depend_on_those_before_it() {
 /// of its summary makes all of it again, to the same bits.
 #[test]
 fn a_summary_is_of_the_collision_that_was_computed() {
-    for method in METHODS {
-        let slow = simulation(method.name(), &[]);
+    let twins = &["body.1.sphere.diameter='22.2 mm'"][..];
+    for (method, more) in METHODS.iter().flat_map(|method| [(method, &[][..]), (method, twins)]) {
+        let slow = simulation(method.name(), more);
         for approach in [Approach::new([1.0, -0.5], 1e-6), Approach::at(0.05), Ok(fast())] {
             let approach = approach.unwrap();
-            let name = format!("{} {approach:?}", method.name());
+            let name = format!("{} {more:?} {approach:?}", method.name());
             let collision = slow.model().collide(&approach, &Want::history(), &mut ());
             let resolved = slow.resolved_at(&approach).to_toml().unwrap();
             let case = Case::parse("again.toml", &resolved, Path::new("."), &[]).unwrap();

@@ -92,3 +92,17 @@ fn a_memory_of_another_case_is_refused() {
         assert!(refused.message().contains("memory"), "{refused}");
     }
 }
+
+/// Of identical bodies half is computed, put away and taken up again.
+#[test]
+fn the_half_of_a_scene_goes_on_from_its_memory() {
+    let twins = ["body.1.sphere.diameter='22.2 mm'", "body.1.approach_speed=0.2"];
+    let simulation = simulation("fem", &twins);
+    let whole = simulation.run(&mut ());
+    assert_eq!(whole.bodies[0].elements, whole.bodies[1].elements);
+    let mut course = simulation.start();
+    assert!((0..10).all(|_| course.advance(&mut ())));
+    let mut resumed = simulation.resume(course.memory().unwrap().clone()).unwrap();
+    while resumed.advance(&mut ()) {}
+    assert_eq!(resumed.finish(), whole);
+}
