@@ -145,7 +145,12 @@ fn check_occupant(out: &Path, target: &Path) -> Result<(), Failure> {
 fn put_in_place(staging: &Path, target: &Path, shown: &Path) -> io::Result<PathBuf> {
     let (mut target, mut shown) = (target.to_path_buf(), shown.to_path_buf());
     for _ in 0..TRIES {
-        match Occupant::of(&target)? {
+        let occupant = match Occupant::of(&target) {
+            // Another run took it away while it was looked at.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            occupant => occupant?,
+        };
+        match occupant {
             Occupant::Absent | Occupant::Empty => {
                 // Renaming onto a folder that is not empty fails: another run was faster.
                 match fs::rename(staging, &target) {
