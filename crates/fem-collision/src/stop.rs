@@ -65,6 +65,20 @@ pub enum Stop {
         /// Number of the step.
         step: u64,
     },
+    /// The run has taken as much as it was allowed.
+    #[error(
+        "at {time:.4e} s (step {step}) the run had taken {updates:.1e} element updates, as many as it \
+         may, and the bodies had not separated",
+        updates = *element_updates as f64
+    )]
+    TooManyUpdates {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// Elements times steps.
+        element_updates: u64,
+    },
     /// The contact problem of a step has no solution within reach.
     #[error("at {time:.4e} s no contact state without tension and overlap was found")]
     NoContactState {
@@ -98,6 +112,7 @@ impl Stop {
             | Self::EnergyGrowth { time, .. }
             | Self::EnergyImbalance { time, .. }
             | Self::NoSeparation { time, .. }
+            | Self::TooManyUpdates { time, .. }
             | Self::NoContactState { time } => *time += delay,
             Self::ContactTooLarge { .. }
             | Self::NotMade(_)

@@ -24,6 +24,8 @@ pub struct Want {
     pub snapshots: SnapshotRequest,
     /// The run gives up after so many expected contact times.
     pub give_up_after: f64,
+    /// A run that computes each element at each step ends after so many elements times steps.
+    pub most_element_updates: u64,
 }
 
 /// Why nothing can be asked for like this.
@@ -59,6 +61,7 @@ impl Want {
             history_rows: Self::ROWS,
             snapshots: SnapshotRequest::none(),
             give_up_after: Self::GIVE_UP_AFTER,
+            most_element_updates: u64::MAX,
         }
     }
 

@@ -159,7 +159,7 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 /// Forces of the present configuration, what is observed of it, and the motion to the next; or how the
 /// run has ended instead.
 fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
-    let max_time = memory.max_time();
+    let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
     let contact = update_forces(model, state, scratch);
     let (time, step) = (state.time, state.step);
@@ -218,6 +218,10 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     }
     if time - model.approach().first_touch() > max_time {
         return Err(Stop::NoSeparation { time, step });
+    }
+    let element_updates = step.saturating_mul(model.n_elements() as u64);
+    if element_updates >= most_updates {
+        return Err(Stop::TooManyUpdates { time, step, element_updates });
     }
     ledger.count_step(model, scratch, contact.force);
     log.advance(model, scratch);

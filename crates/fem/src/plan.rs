@@ -128,7 +128,11 @@ impl Plan {
 
     /// What a run is asked for.
     pub fn want(&self) -> Want {
-        Want { snapshots: self.snapshots.clone(), ..Want::history() }
+        Want {
+            snapshots: self.snapshots.clone(),
+            most_element_updates: self.max_element_updates,
+            ..Want::history()
+        }
     }
 
     /// The case as written with every default filled in; it runs again to the same bits.

@@ -32,6 +32,11 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
             "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
              their units: the weights' sum below 1 leaves a lasting stiffness",
         ),
+        Stop::TooManyUpdates { .. } => (
+            "the bodies take far longer to part, or to come to rest, than closed forms expect: the \
+             material relaxes nearly all",
+            "raise limits.element_updates, use a larger mesh.contact_element_size, or model condensed",
+        ),
         Stop::EnergyImbalance { .. } => (
             "modes of vibration that the mesh does not resolve, or steps that are too long for them",
             "lower model.condensed.vibration_modes, or raise model.condensed.steps",

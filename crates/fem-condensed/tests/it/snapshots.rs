@@ -138,7 +138,12 @@ fn fields_are_the_explicit_ones() {
     let request = SnapshotRequest::Labels(vec![Label::Maximum]);
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let want = Want { history_rows: 100, snapshots: request.clone(), give_up_after: 20.0 };
+    let want = Want {
+        history_rows: 100,
+        snapshots: request.clone(),
+        give_up_after: 20.0,
+        ..Want::history()
+    };
     let reference = fem_explicit::collide(&model, expected, &want, &mut ());
     let settings = PairSettings {
         contact: ContactModel::Springs(stiffness),

@@ -29,7 +29,7 @@ fn requests() -> [SnapshotRequest; 3] {
 }
 
 fn want(snapshots: SnapshotRequest) -> Want {
-    Want { history_rows: 20, snapshots, give_up_after: 5.0 }
+    Want { history_rows: 20, snapshots, give_up_after: 5.0, ..Want::history() }
 }
 
 /// After so many steps, or at the end of the run.

@@ -19,7 +19,12 @@ fn model() -> Model {
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
 
 fn want(snapshots: SnapshotRequest) -> Want {
-    Want { history_rows: 100, snapshots, give_up_after: 100.0 / EXPECTED.contact_time }
+    Want {
+        history_rows: 100,
+        snapshots,
+        give_up_after: 100.0 / EXPECTED.contact_time,
+        ..Want::history()
+    }
 }
 
 /// Multiplies the velocities of the lower body between two steps.

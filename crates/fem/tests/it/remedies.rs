@@ -18,6 +18,7 @@ fn stops() -> Vec<Stop> {
         Stop::EnergyGrowth { time, step, ratio: 2.0 },
         Stop::EnergyImbalance { time, relative: 0.1 },
         Stop::NoSeparation { time, step },
+        Stop::TooManyUpdates { time, step, element_updates: 1000 },
         Stop::NoContactState { time },
         Stop::NotMade(why()),
         Stop::OutOfMemory(why()),
@@ -34,6 +35,7 @@ fn stops() -> Vec<Stop> {
             | Stop::EnergyGrowth { .. }
             | Stop::EnergyImbalance { .. }
             | Stop::NoSeparation { .. }
+            | Stop::TooManyUpdates { .. }
             | Stop::NoContactState { .. }
             | Stop::NotMade(_)
             | Stop::OutOfMemory(_)

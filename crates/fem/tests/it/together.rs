@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Ending, Label, Simulation};
+use fem::{Case, Cost, Ending, Label, Simulation, Stop};
 use fem_collision::STAY_TOGETHER;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -49,6 +49,28 @@ fn a_collision_without_an_end_is_complete() {
             }
         }
     }
+}
+
+/// The limit of a case is kept while the run goes: bodies that creep to rest take far more steps than
+/// closed forms expect.
+#[test]
+fn a_run_ends_at_its_limit() {
+    let simulation = simulation("fem", "all", 1.0, "0.1 us");
+    let Cost::Steps { element_updates: expected, .. } = simulation.setup().cost else { panic!() };
+    let limited = simulation.case().edited(|file| {
+        let limit = 2.0 * expected as f64;
+        file.limits.get_or_insert_default().element_updates = Some(limit.floor().into());
+    });
+    let limited = Simulation::new(limited.unwrap()).unwrap();
+    let collision = limited.run(&mut ());
+    assert!(
+        matches!(collision.stop(), Some(Stop::TooManyUpdates { .. })),
+        "{:?}",
+        collision.ending
+    );
+    let (taken, elements) = (collision.element_updates.unwrap(), collision.bodies[0].elements);
+    assert!(taken >= 2 * expected && taken < 2 * expected + 2 * elements.unwrap() as u64 + 1000);
+    assert!(!limited.summary(&collision).complete);
 }
 
 /// A little that lasts parts them.

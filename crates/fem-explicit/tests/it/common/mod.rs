@@ -113,6 +113,7 @@ impl Pair {
             history_rows: self.history_rows,
             snapshots: self.snapshots.clone(),
             give_up_after: self.max_time / HERTZ_TIME,
+            ..Want::history()
         }
     }
 
