@@ -86,13 +86,18 @@ impl Scene {
         self.bodies[0].velocity - self.bodies[1].velocity
     }
 
+    /// Whether the bodies are spheres of one size and stuff, on meshes that are made here.
+    pub fn has_identical_bodies(&self) -> bool {
+        let [lower, upper] = &self.bodies;
+        let is_made_here = matches!(lower.shape, Shape::Sphere { mesh: None, .. });
+        is_made_here && lower.shape == upper.shape
+    }
+
     /// Half of a scene whose bodies are identical, in the frame of their mass centre: the lower body
     /// against a rigid plane at rest, which the upper one mirrors. `None` of bodies that differ or have
     /// a mesh of their own.
     pub fn half(&self) -> Option<Self> {
-        let [lower, upper] = &self.bodies;
-        let is_made_here = matches!(lower.shape, Shape::Sphere { mesh: None, .. });
-        if !is_made_here || lower.shape != upper.shape {
+        if !self.has_identical_bodies() {
             return None;
         }
         let mut half = self.clone();

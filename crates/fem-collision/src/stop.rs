@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::want::WantError;
+
 /// Why a run ended early. Times are those of the case, s.
 #[derive(Clone, Debug, PartialEq, Error, Serialize, Deserialize)]
 pub enum Stop {
@@ -100,6 +102,12 @@ pub enum Stop {
     /// A result leaves the range of numbers.
     #[error("{0}")]
     OutOfRange(String),
+}
+
+impl From<WantError> for Stop {
+    fn from(error: WantError) -> Self {
+        Self::NotMade(error.to_string())
+    }
 }
 
 impl Stop {

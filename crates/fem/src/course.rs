@@ -29,6 +29,11 @@ pub(crate) fn to_the_end(mut course: Box<dyn Course + '_>, monitor: &mut dyn Mon
     course.finish()
 }
 
+/// A collision that cannot begin, and why.
+pub(crate) fn stopped<'a>(approach: Approach, stop: Stop) -> Box<dyn Course + 'a> {
+    Box::new(InOneGo::of(approach, move |_| Collision::stopped(approach, stop.clone())))
+}
+
 /// A collision that is computed in one go.
 pub(crate) struct InOneGo<F> {
     approach: Approach,

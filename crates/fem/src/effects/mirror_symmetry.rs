@@ -66,9 +66,9 @@ impl Effect for MirrorSymmetry {
 
     /// It saves work and changes nothing: a scene may allow it, none calls for it.
     fn need(&self, scene: &Scene, _: &Estimate) -> Option<Need> {
-        let number = match scene.half() {
-            Some(_) => "the bodies are identical; both are computed all the same",
-            None => "the bodies differ",
+        let number = match scene.has_identical_bodies() {
+            true => "the bodies are identical; both are computed all the same",
+            false => "the bodies differ",
         };
         Some(Need { number: number.to_string(), ..Need::default() })
     }

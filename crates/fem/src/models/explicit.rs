@@ -13,7 +13,7 @@ use fem_mesh::SphereMesh;
 
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::approach_of;
-use crate::course::{Course, InOneGo, to_the_end};
+use crate::course::{Course, stopped, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
     MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, Viscoelasticity, decide,
@@ -133,12 +133,16 @@ impl Explicit {
     /// # Errors
     /// A collision of other bodies.
     pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<Bodies>, ModelError> {
-        let own = self.bodies.searched();
-        let searched = collision.searched.unwrap_or(own);
-        if collision.approach == self.setup.approach && searched == own {
+        let searched = collision.searched.unwrap_or(self.bodies.searched());
+        self.bodies_at(&collision.approach, searched.radius)
+    }
+
+    /// Bodies that meet like this and look for contact out to a radius, m: the model's own if they do.
+    fn bodies_at(&self, approach: &Approach, radius: f64) -> Result<Arc<Bodies>, ModelError> {
+        if *approach == self.setup.approach && radius == self.bodies.candidate_radius() {
             return Ok(self.bodies.clone());
         }
-        self.made.bodies(&collision.approach, searched.radius).map(Arc::new)
+        self.made.bodies(approach, radius).map(Arc::new)
     }
 
     /// The bodies that meet in another way, and what closed forms say of it.
@@ -184,34 +188,22 @@ impl Model for Explicit {
     }
 
     fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
-        let checked = want.check().map_err(|error| Stop::NotMade(error.to_string()));
-        match checked.and_then(|()| self.meeting(approach)) {
+        match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, estimate)) => {
                 let expected = estimate.expectation();
                 let run = Run::new(bodies, expected, want);
                 Box::new(ExplicitCourse { made: &self.made, expected, want: want.clone(), run })
             }
-            Err(stop) => {
-                let approach = *approach;
-                let stopped = move |_: &mut dyn Monitor| Collision::stopped(approach, stop.clone());
-                Box::new(InOneGo::of(approach, stopped))
-            }
+            Err(stop) => stopped(*approach, stop),
         }
     }
 
     fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
-        let refused = |error: &dyn std::fmt::Display| Refusal::new("model.fem", error.to_string());
+        let refused = |error: ModelError| Refusal::new("model.fem", error.to_string());
         let (approach, expected) = (*memory.approach(), memory.expected());
         let want = memory.want().clone();
-        let (own, _) = self.meeting(&approach).map_err(|stop| refused(&stop))?;
-        let bodies = match memory.candidate_radius() == own.candidate_radius() {
-            true => own,
-            false => {
-                let wider = self.made.bodies(&approach, memory.candidate_radius());
-                Arc::new(wider.map_err(|error| refused(&error))?)
-            }
-        };
-        let run = Run::resume(bodies, memory).map_err(|error| refused(&error))?;
+        let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
+        let run = Run::resume(bodies, memory).map_err(refused)?;
         Ok(Box::new(ExplicitCourse { made: &self.made, expected, want, run }))
     }
 

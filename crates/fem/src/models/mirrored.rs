@@ -10,7 +10,7 @@ use fem_explicit::Memory;
 use fem_mesh::{Side, SphereMesh};
 
 use crate::approach::approach_of;
-use crate::course::{Course, InOneGo};
+use crate::course::{Course, stopped};
 use crate::effects::{Answer, Effect, MirrorSymmetry, decide};
 use crate::estimate::Estimate;
 use crate::method::{ElementSetup, Model, Setup};
@@ -77,11 +77,7 @@ impl<M: Model> Model for Mirrored<M> {
         let whole = Whole::of(approach);
         match half_of(approach) {
             Ok(half) => Box::new(MirroredCourse { half: self.half.start(&half, want), whole }),
-            Err(stop) => {
-                let approach = *approach;
-                let stopped = move |_: &mut dyn Monitor| Collision::stopped(approach, stop.clone());
-                Box::new(InOneGo::of(approach, stopped))
-            }
+            Err(stop) => stopped(*approach, stop),
         }
     }
 

@@ -4,19 +4,7 @@ use std::path::Path;
 
 use fem::{Approach, Case, Collision, METHODS, Simulation, SnapshotRequest, Stop, Want};
 
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-/// A mesh that serves both approaches.
-const COARSE: [&str; 2] = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
-
-fn simulation(method: &str, more: &[&str]) -> Simulation {
-    let model = match method {
-        "law" => "model.law.falcon.c=300".to_string(),
-        name => format!("model.{name}={{}}"),
-    };
-    let overrides = COARSE.iter().chain(more).map(ToString::to_string).chain([model]).collect();
-    let overrides: Vec<String> = overrides;
-    Simulation::new(Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()).unwrap()
-}
+use crate::coarse::simulation;
 
 /// So fast that the contact leaves the region in which it is looked for at first.
 fn fast() -> Approach {

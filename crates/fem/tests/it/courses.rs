@@ -1,21 +1,8 @@
 //! A collision in pieces is the collision in one go.
 
-use std::path::Path;
+use fem::{Approach, Collision, Ending, METHODS, Memory, Simulation, Stop, Want};
 
-use fem::{Approach, Case, Collision, Ending, METHODS, Memory, Simulation, Stop, Want};
-
-const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
-
-fn simulation(method: &str, more: &[&str]) -> Simulation {
-    let model = match method {
-        "law" => "model.law.falcon.c=300".to_string(),
-        name => format!("model.{name}={{}}"),
-    };
-    let mesh = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
-    let overrides = mesh.iter().chain(more).map(ToString::to_string).chain([model]);
-    let overrides: Vec<String> = overrides.collect();
-    Simulation::new(Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()).unwrap()
-}
+use crate::coarse::simulation;
 
 #[test]
 fn pieces_make_the_whole() {

@@ -2,6 +2,7 @@
 
 mod approaches;
 mod calibrate;
+mod coarse;
 mod condensed;
 mod courses;
 mod effects;

@@ -185,7 +185,7 @@ impl Condensed {
                 },
             }
         };
-        let checked = want.check().map_err(|error| Stop::NotMade(error.to_string()));
+        let checked = want.check().map_err(Stop::from);
         let mut pair = match checked.and_then(|()| self.pair_at(approach)) {
             Ok(pair) => pair,
             Err(stop) => return Collision::stopped(*approach, stop),

@@ -121,7 +121,7 @@ impl Model for Reduced {
     /// Closed forms and short integrations: nobody needs to look on.
     fn collide(&self, approach: &Approach, want: &Want, _: &mut dyn Monitor) -> Collision {
         if let Err(error) = want.check() {
-            return Collision::stopped(*approach, Stop::NotMade(error.to_string()));
+            return Collision::stopped(*approach, error.into());
         }
         match self.impact(approach.speed()) {
             Ok(impact) => {

@@ -1,0 +1,20 @@
+//! The glass pair on a coarse mesh, by any method.
+
+use std::path::Path;
+
+use fem::{Case, Simulation};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+/// A mesh that serves all approaches.
+const MESH: [&str; 2] = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
+
+/// The pair by a method, with more overrides.
+pub fn simulation(method: &str, more: &[&str]) -> Simulation {
+    let model = match method {
+        "law" => "model.law.falcon.c=300".to_string(),
+        name => format!("model.{name}={{}}"),
+    };
+    let overrides = MESH.iter().chain(more).map(ToString::to_string).chain([model]);
+    let overrides: Vec<String> = overrides.collect();
+    Simulation::new(Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()).unwrap()
+}
