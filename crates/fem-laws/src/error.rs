@@ -18,6 +18,14 @@ pub enum LawError {
     #[error("a collision needs at least one sphere, found two walls")]
     TwoWalls,
 
+    /// Two half-spaces, or one and a wall.
+    #[error("a collision needs at least one sphere, found two bodies without a radius")]
+    NoSphere,
+
+    /// Two bodies that do not deform.
+    #[error("a collision needs at least one body that deforms, found two rigid ones")]
+    TwoRigidBodies,
+
     /// A negative, infinite or NaN value where 0 or a positive number has a meaning.
     #[error("{quantity} must be at least 0 and finite, found {value:?}")]
     Negative {
@@ -70,6 +78,11 @@ pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, LawErr
     } else {
         Err(LawError::NotPositive { quantity, value })
     }
+}
+
+/// `value` if it is positive, be it infinite.
+pub(crate) fn positive_or_infinite(quantity: &'static str, value: f64) -> Result<f64, LawError> {
+    if value > 0.0 { Ok(value) } else { Err(LawError::NotPositive { quantity, value }) }
 }
 
 /// `value` if it is at least 0 and finite.

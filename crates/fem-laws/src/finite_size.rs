@@ -41,7 +41,8 @@ impl FiniteSize {
     /// Largest a/R of either sphere for which the first order is taken to hold.
     pub const MAX_CONTACT_RATIO: f64 = 0.1;
 
-    /// Of the radius, m, and the material of each body; `None` is the rigid wall.
+    /// Of the radius, m, and the material of each body; `None` is a body that adds nothing to Hertz'
+    /// half-space: the rigid wall, a half-space, a rigid sphere.
     ///
     /// # Errors
     /// A radius that is not positive and finite; relaxation times that leave the range of f64.

@@ -5,24 +5,30 @@
 //! \frac1{E^*} = \frac{1-\nu_1^2}{E_1}+\frac{1-\nu_2^2}{E_2}
 //! ```
 //!
-//! Bordbar & Hyppänen (2007), eqs. 15–17; moduli are the instantaneous ones. A rigid wall is the
-//! limit of infinite radius, mass and modulus and drops out of all three sums.
+//! Bordbar & Hyppänen (2007), eqs. 15–17; moduli are the instantaneous ones. What is infinite drops
+//! out of its sum: radius, mass and modulus of a rigid wall, radius and mass of a half-space, the
+//! modulus of a rigid sphere.
 
 use std::f64::consts::PI;
 
 use fem_material::Material;
 
-use crate::error::{LawError, positive};
+use crate::error::{LawError, positive, positive_or_infinite};
 
 /// One of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Partner {
-    /// An elastic sphere.
+    /// A sphere.
     Sphere {
         /// Radius R, m.
         radius: f64,
         /// Mass m, kg.
         mass: f64,
+        /// Plane strain modulus E/(1−ν²), Pa; infinite if the sphere is rigid.
+        plane_strain_modulus: f64,
+    },
+    /// A block that never ends, at rest: flat and immovable as a wall, but not rigid.
+    HalfSpace {
         /// Plane strain modulus E/(1−ν²), Pa.
         plane_strain_modulus: f64,
     },
@@ -40,14 +46,23 @@ impl Partner {
         }
     }
 
-    /// Radius, mass and modulus; infinite for the wall.
+    /// A half-space of a material.
+    pub fn half_space(material: &Material) -> Self {
+        Self::HalfSpace { plane_strain_modulus: material.instantaneous().plane_strain_modulus() }
+    }
+
+    /// Radius, mass and modulus.
     fn checked(&self) -> Result<[f64; 3], LawError> {
         match *self {
             Self::Sphere { radius, mass, plane_strain_modulus } => Ok([
                 positive("radius", radius)?,
                 positive("mass", mass)?,
-                positive("plane_strain_modulus", plane_strain_modulus)?,
+                positive_or_infinite("plane_strain_modulus", plane_strain_modulus)?,
             ]),
+            Self::HalfSpace { plane_strain_modulus } => {
+                let modulus = positive("plane_strain_modulus", plane_strain_modulus)?;
+                Ok([f64::INFINITY, f64::INFINITY, modulus])
+            }
             Self::Wall => Ok([f64::INFINITY; 3]),
         }
     }
@@ -70,12 +85,19 @@ impl Pair {
     /// Of two bodies in either order, to the same bits.
     ///
     /// # Errors
-    /// Two walls; a radius, mass or modulus that is not positive and finite.
+    /// Two walls; no sphere; two rigid bodies; a radius or mass that is not positive and finite, a
+    /// modulus that is not positive.
     pub fn new(first: Partner, second: Partner) -> Result<Self, LawError> {
         if first == Partner::Wall && second == Partner::Wall {
             return Err(LawError::TwoWalls);
         }
         let ([r1, m1, e1], [r2, m2, e2]) = (first.checked()?, second.checked()?);
+        if r1.min(r2).is_infinite() {
+            return Err(LawError::NoSphere);
+        }
+        if e1.min(e2).is_infinite() {
+            return Err(LawError::TwoRigidBodies);
+        }
         Ok(Self {
             effective_radius: in_series(r1, r2),
             effective_mass: in_series(m1, m2),

@@ -33,7 +33,7 @@ pub struct PairRelaxation {
 }
 
 impl PairRelaxation {
-    /// Of the materials of two bodies in either order; `None` is the rigid wall.
+    /// Of the materials of two bodies in either order; `None` is a rigid body.
     ///
     /// # Errors
     /// Two walls; relaxation times so short or long that a rate leaves the range of f64.

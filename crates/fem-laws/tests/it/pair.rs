@@ -52,14 +52,54 @@ fn impossible_partners_are_refused_by_name() {
         for (partner, quantity) in [
             (sphere(bad, 1.0, 1.0), "radius"),
             (sphere(1.0, bad, 1.0), "mass"),
-            (sphere(1.0, 1.0, bad), "plane_strain_modulus"),
+            (Partner::HalfSpace { plane_strain_modulus: bad }, "plane_strain_modulus"),
         ] {
             let expected = LawError::NotPositive { quantity, value: bad };
             assert_eq!(Pair::new(partner, Partner::Wall), Err(expected.clone()));
             assert_eq!(Pair::new(sphere(1.0, 1.0, 1.0), partner), Err(expected));
         }
     }
+    for bad in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+        assert!(Pair::new(sphere(1.0, 1.0, bad), sphere(1.0, 1.0, 1.0)).is_err());
+    }
     assert!(Pair::new(sphere(f64::NAN, 1.0, 1.0), Partner::Wall).is_err());
     assert!(Pair::new(Partner::Wall, sphere(1.0, f64::NAN, 1.0)).is_err());
     assert!(Pair::new(Partner::Wall, sphere(1.0, 1.0, f64::NAN)).is_err());
+}
+
+/// A half-space drops out of radius and mass, a rigid sphere out of the modulus; binary fractions.
+#[test]
+fn what_is_infinite_drops_out() {
+    let block = Partner::HalfSpace { plane_strain_modulus: 20.0 };
+    let pair = Pair::new(block, sphere(0.25, 3.0, 5.0)).unwrap();
+    assert_eq!(pair.effective_radius(), 0.25);
+    assert_eq!(pair.effective_mass(), 3.0);
+    assert_eq!(pair.contact_modulus(), 4.0);
+    assert_eq!(Pair::new(sphere(0.25, 3.0, 5.0), block).unwrap(), pair);
+
+    let rigid = sphere(3.0, 3.0, f64::INFINITY);
+    let pair = Pair::new(sphere(1.0, 6.0, 20.0), rigid).unwrap();
+    assert_eq!(pair.effective_radius(), 0.75);
+    assert_eq!(pair.effective_mass(), 2.0);
+    assert_eq!(pair.contact_modulus(), 20.0);
+    assert_eq!(Pair::new(rigid, block).unwrap().contact_modulus(), 20.0);
+}
+
+#[test]
+fn half_space_of_a_material_has_its_modulus() {
+    // E/(1 − ν²) = 63/0.75 at ν = 1/2; the nearest that is stable is 1e-9 off.
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.499_999_999).unwrap();
+    let glass = Material::new(2390.0, moduli, None).unwrap();
+    let Partner::HalfSpace { plane_strain_modulus } = Partner::half_space(&glass) else { panic!() };
+    assert!((plane_strain_modulus / 84e9 - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn something_round_must_meet_something_that_deforms() {
+    let block = Partner::HalfSpace { plane_strain_modulus: 20.0 };
+    let rigid = sphere(1.0, 1.0, f64::INFINITY);
+    assert_eq!(Pair::new(block, block), Err(LawError::NoSphere));
+    assert_eq!(Pair::new(Partner::Wall, block), Err(LawError::NoSphere));
+    assert_eq!(Pair::new(rigid, rigid), Err(LawError::TwoRigidBodies));
+    assert_eq!(Pair::new(rigid, Partner::Wall), Err(LawError::TwoRigidBodies));
 }
