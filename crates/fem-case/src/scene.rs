@@ -93,6 +93,20 @@ impl Scene {
         is_made_here && lower.shape == upper.shape
     }
 
+    /// This scene with other bodies in the places of its own, which move as they do.
+    pub fn with_shapes(mut self, shapes: [Shape; 2]) -> Self {
+        for (body, shape) in self.bodies.iter_mut().zip(shapes) {
+            body.shape = shape;
+        }
+        self
+    }
+
+    /// This scene with other effects forced on or off.
+    pub fn with_effects(mut self, effects: EffectsTable) -> Self {
+        self.effects = effects;
+        self
+    }
+
     /// Half of a scene whose bodies are identical, in the frame of their mass centre: the lower body
     /// against a rigid plane at rest, which the upper one mirrors. `None` of bodies that differ or have
     /// a mesh of their own.
@@ -169,6 +183,16 @@ impl Body {
         match &self.shape {
             Shape::Sphere { material, .. } => Some(material),
             Shape::Wall => None,
+        }
+    }
+
+    /// Its shape, made of another material; a wall stays one.
+    pub fn shape_of(&self, material: Material) -> Shape {
+        match &self.shape {
+            Shape::Sphere { diameter, mesh, .. } => {
+                Shape::Sphere { diameter: *diameter, mesh: mesh.clone(), material }
+            }
+            Shape::Wall => Shape::Wall,
         }
     }
 

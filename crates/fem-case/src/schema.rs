@@ -231,15 +231,47 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [effects]")]
 pub struct EffectsTable {
+    /// Relaxation of the materials, a term at a time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub viscoelasticity: Option<Switch>,
     /// Large rotations and strains.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub finite_strain: Option<Switch>,
+    /// Surfaces of unlike materials that slip on each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_slip: Option<Switch>,
+    /// What waves take along that do not come back within the contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub partner_waves: Option<Switch>,
     /// Two identical bodies as one against a rigid plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mirror_symmetry: Option<Switch>,
+    /// The stiffer body as a rigid one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rigid_partner: Option<Switch>,
+    /// Stiffness of the modes that a mean stress does not see.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hourglass_control: Option<Switch>,
     /// Artificial viscosity against shocks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bulk_viscosity: Option<Switch>,
+}
+
+impl EffectsTable {
+    /// This table with what it leaves open left to the plan in words.
+    pub fn filled(self) -> Self {
+        let auto = |switch: Option<Switch>| switch.or(Some(Switch::Auto));
+        Self {
+            viscoelasticity: auto(self.viscoelasticity),
+            finite_strain: auto(self.finite_strain),
+            surface_slip: auto(self.surface_slip),
+            partner_waves: auto(self.partner_waves),
+            mirror_symmetry: auto(self.mirror_symmetry),
+            rigid_partner: auto(self.rigid_partner),
+            hourglass_control: auto(self.hourglass_control),
+            bulk_viscosity: auto(self.bulk_viscosity),
+        }
+    }
 }
 
 keywords! {

@@ -40,7 +40,11 @@ pub fn report(summary: &Summary, place: &Path) -> String {
     }
     let _ = writeln!(text, "\n{}", bodies(&summary.bodies));
     text += &balances(summary);
-    let _ = writeln!(text, "\nEffects\n{}", effects(&summary.effects));
+    let _ = writeln!(
+        text,
+        "\nEffects\n{}",
+        effects(summary.effects.iter().map(|effect| &effect.verdict))
+    );
     text += &warnings(&summary.warnings);
     let _ = writeln!(text, "\nResult: {}", one_line(&place.display().to_string()));
     text
@@ -143,12 +147,16 @@ fn price(summary: &Summary) -> String {
 }
 
 /// On or off, and why.
-pub fn effects(effects: &[Verdict]) -> String {
+pub fn effects<'a>(effects: impl Iterator<Item = &'a Verdict>) -> String {
     let row = |effect: &Verdict| {
-        let switch = if effect.active { "on" } else { "off" };
-        [switch.to_string(), effect.name.to_string(), effect.reason.clone()]
+        [on_or_off(effect).to_string(), effect.name.to_string(), effect.reason.clone()]
     };
-    table(&[Left, Left, Left], effects.iter().map(row))
+    table(&[Left, Left, Left], effects.map(row))
+}
+
+/// Whether an effect is there, in a word.
+pub fn on_or_off(effect: &Verdict) -> &'static str {
+    if effect.active { "on" } else { "off" }
 }
 
 /// A line a warning.

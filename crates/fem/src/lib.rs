@@ -30,6 +30,7 @@ mod method;
 mod models;
 mod pair_cache;
 mod plan;
+mod quasi_static;
 mod refusal;
 mod remedy;
 pub mod results;
@@ -45,10 +46,11 @@ pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
     Condensed, CondensedMethod, Explicit, ExplicitMethod, HertzMethod, LawMethod, METHODS, Reduced,
-    TingMethod, method_of, ting_impact,
+    TingMethod, method_of, model_of,
 };
 pub use pair_cache::PairCache;
 pub use plan::Plan;
+pub use quasi_static::ting_impact;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};
 pub use results::Summary;

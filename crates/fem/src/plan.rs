@@ -1,8 +1,8 @@
 //! The plan of finite elements: every number that the case leaves open.
 
 use fem_case::schema::{
-    ContactTable, EffectsTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable,
-    SnapshotsValue, StartTable, Switch, TimeTable,
+    ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
+    StartTable, TimeTable,
 };
 use fem_case::{Body, Case, CaseError, CaseFile, Quantity, Scene, Shape, Snapshots};
 use fem_collision::{Label, SnapshotRequest, Want};
@@ -155,12 +155,7 @@ impl Plan {
             SnapshotsValue::List(Label::ALL.into_iter().map(text).collect())
         };
         file.output = Some(OutputTable { snapshots: Some(given.unwrap_or_else(labels)) });
-        let given = file.effects.unwrap_or_default();
-        file.effects = Some(EffectsTable {
-            finite_strain: Some(given.finite_strain.unwrap_or(Switch::Auto)),
-            mirror_symmetry: Some(given.mirror_symmetry.unwrap_or(Switch::Auto)),
-            bulk_viscosity: Some(given.bulk_viscosity.unwrap_or(Switch::Auto)),
-        });
+        file.effects = Some(file.effects.unwrap_or_default().filled());
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {
             elements: Some(Quantity::from_si(self.max_elements as f64)),

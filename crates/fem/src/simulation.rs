@@ -6,10 +6,10 @@ use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantErr
 use fem_explicit::Memory;
 
 use crate::course::Course;
-use crate::effects::{Decisions, Effect, decide};
+use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
-use crate::method::{Method, Model, Setup, Shared};
-use crate::models::method_of;
+use crate::method::{Model, Setup, Shared};
+use crate::models::{model_of, price_of, resolved};
 
 /// The collision of a case, by the model that it asks for.
 ///
@@ -63,9 +63,8 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::new`].
     pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
-        let method = method_of(case.scene());
-        let model = method.build(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
-        let resolved = resolve(method, &case)?;
+        let model = model_of(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
+        let resolved = Self::resolve(&case)?;
         let want = model.setup().want.clone();
         Ok(Self { case, model, want, resolved })
     }
@@ -75,7 +74,7 @@ impl Simulation {
     /// # Errors
     /// What the method refuses before it makes anything.
     pub fn resolve(case: &Case) -> Result<CaseFile, CaseError> {
-        resolve(method_of(case.scene()), case)
+        resolved(case.scene(), case.file().clone()).map_err(|refusal| refusal.in_case(case))
     }
 
     /// Element updates to come; see [`Method::price`].
@@ -83,7 +82,7 @@ impl Simulation {
     /// # Errors
     /// As [`Method::price`].
     pub fn price(case: &Case) -> Result<u64, CaseError> {
-        method_of(case.scene()).price(case.scene()).map_err(|refusal| refusal.in_case(case))
+        price_of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
 
     /// The case.
@@ -189,6 +188,12 @@ impl Simulation {
         }
     }
 
+    /// By how much the numbers of a collision of which closed forms say this change without an effect.
+    pub fn left_out(&self, verdict: &Verdict, estimate: &Estimate) -> Option<LeftOut> {
+        let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
+        effect.left_out(self.case.scene(), estimate)
+    }
+
     /// Which effects were on in a collision of the case's bodies, and why; and what was to be known
     /// of them before it.
     pub fn decisions(&self, collision: &Collision) -> Decisions {
@@ -202,8 +207,4 @@ impl Simulation {
         decisions.take_what_was_found(self.case.scene(), collision);
         decisions
     }
-}
-
-fn resolve(method: &dyn Method, case: &Case) -> Result<CaseFile, CaseError> {
-    method.resolve(case.scene(), case.file().clone()).map_err(|refusal| refusal.in_case(case))
 }

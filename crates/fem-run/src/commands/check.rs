@@ -1,9 +1,10 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
-use comfy_table::CellAlignment::Left;
+use comfy_table::CellAlignment::{Left, Right};
+use fem::effects::LeftOut;
 use fem::{Cost, ForceLaw, Simulation};
-use fem_case::Case;
 use fem_case::engineering::show;
+use fem_case::{Case, EffectsTable};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::CaseArguments;
@@ -60,10 +61,54 @@ fn expect(simulation: &Simulation) -> String {
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
     format!(
-        "{model}\nHertz, instantaneous moduli\n{closed_form}\nEffects\n{}\n{}",
-        report::effects(&setup.decisions.verdicts),
+        "{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and what changes without them\n\
+         {}\n{}",
+        unforced(simulation),
+        effects(simulation),
         report::warnings(&setup.warnings()),
     )
+}
+
+/// What is on, why, and by how much the numbers change without it.
+fn effects(simulation: &Simulation) -> String {
+    let setup = simulation.setup();
+    let header = ["", "", "restitution", "contact time", "peak force", ""].map(String::from);
+    let rows = setup.decisions.verdicts.iter().map(|verdict| {
+        let left_out = simulation.left_out(verdict, &setup.estimate).unwrap_or_default();
+        let [restitution, time, force] = changes(&left_out);
+        let switch = report::on_or_off(verdict).to_string();
+        [switch, verdict.name.to_string(), restitution, time, force, verdict.reason.clone()]
+    });
+    let alignments = [Left, Left, Right, Right, Right, Left];
+    table(&alignments, std::iter::once(header).chain(rows))
+}
+
+fn changes(left_out: &LeftOut) -> [String; 3] {
+    let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
+    let text = |change: Option<f64>, show: &dyn Fn(f64) -> String| match change {
+        None => "?".to_string(),
+        Some(0.0) => "0".to_string(),
+        Some(change) => show(change),
+    };
+    [
+        text(restitution, &|change| format!("{change:.1e}")),
+        text(contact_time_s, &|change| show(change, "s")),
+        text(peak_force_n, &|change| show(change, "N")),
+    ]
+}
+
+/// What the run would take if the plan decided on all effects; nothing where it does.
+fn unforced(simulation: &Simulation) -> String {
+    let forced = simulation.case().scene().effects();
+    let is_forced = forced.filled() != EffectsTable::default().filled();
+    let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
+    match planned.and_then(Result::ok).map(Simulation::new) {
+        Some(Ok(planned)) => {
+            let costs = costs(&planned.setup().cost);
+            format!("\nCost if the plan decided on all effects\n{costs}")
+        }
+        _ => String::new(),
+    }
 }
 
 fn costs(cost: &Cost) -> String {

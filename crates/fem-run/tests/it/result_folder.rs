@@ -72,7 +72,7 @@ fn the_summary_has_the_keys_of_the_contract() {
     ];
     assert_eq!(keys(&summary["bodies"][1]), body);
     assert_eq!(keys(&summary["cost"]), cost);
-    assert_eq!(keys(&summary["effects"][0]), ["name", "active", "reason"]);
+    assert_eq!(keys(&summary["effects"][0]), ["name", "active", "reason", "error_if_left_out"]);
     assert_eq!(summary["complete"], true);
     assert_eq!(summary["cost"]["threads"], 1);
     assert!(summary["stopped_because"].is_null());

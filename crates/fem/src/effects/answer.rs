@@ -12,6 +12,11 @@ pub enum Answer {
         /// Said after the number of a scene that does not call for it; may be empty.
         idle: &'static str,
     },
+    /// It has the effect wherever a scene calls for it, and cannot leave it out.
+    Inherent {
+        /// Said after the number of a scene that does not call for it; may be empty.
+        idle: &'static str,
+    },
     /// It lacks the effect; a scene that calls for it is warned about.
     Lacks,
     /// It decides by itself.
@@ -40,6 +45,11 @@ impl Answer {
         self
     }
 
+    /// Whether the case's switch decides.
+    pub(super) fn obeys(&self) -> bool {
+        matches!(self, Self::Computes { .. })
+    }
+
     /// Whether the effect is on, why, and what the user should know.
     pub(super) fn of(self, need: Need, switch: Option<Switch>) -> (bool, String, Vec<String>) {
         let Need { is_called_for, number, otherwise, left_open, warning } = need;
@@ -47,14 +57,17 @@ impl Answer {
         match self {
             Self::Is { active, reason, warnings } => (active, reason, warnings),
             Self::Computes { .. } if is_called_for && switch == Some(Switch::Off) => {
-                let warnings = warning.into_iter().collect();
-                (false, joined([&number, "called for, but switched off", &left_open]), warnings)
+                (false, joined([&number, "called for, but switched off", &left_open]), none())
             }
-            Self::Computes { .. } if is_called_for => (true, number, none()),
+            Self::Computes { .. } | Self::Inherent { .. } if is_called_for => {
+                (true, number, none())
+            }
             Self::Computes { .. } if switch == Some(Switch::On) => {
                 (true, joined([&number, &otherwise, "forced on"]), none())
             }
-            Self::Computes { idle } => (false, joined([&number, &otherwise, idle]), none()),
+            Self::Computes { idle } | Self::Inherent { idle } => {
+                (false, joined([&number, &otherwise, idle]), none())
+            }
             Self::Lacks if is_called_for => {
                 let lacking = "called for, but not available in this version";
                 let warnings = warning.into_iter().collect();
@@ -113,7 +126,7 @@ mod tests {
         assert!(active && reason.contains("forced on") && warnings.is_empty());
         let (active, reason, warnings) = of(true, Switch::Off);
         assert!(!active && reason.contains("switched off") && reason.contains("all of it"));
-        assert_eq!(warnings, ["x is large"]);
+        assert!(warnings.is_empty(), "who decides on all effects warns, with the number");
         assert!(!of(false, Switch::Off).0 && of(true, Switch::On).0);
     }
 }

@@ -5,6 +5,8 @@ use fem_collision::{Collision, Searched};
 
 use super::answer::Answer;
 use super::effect::Effect;
+use super::left_out::LeftOut;
+use crate::estimate::Estimate;
 
 /// Where contact is looked for.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +28,10 @@ impl ContactSearch {
 impl Effect for ContactSearch {
     fn name(&self) -> &'static str {
         Self::NAME
+    }
+
+    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
+        Some(LeftOut::NOTHING)
     }
 
     /// The region may have been made larger on the way.

@@ -4,8 +4,11 @@ use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
 use super::answer::Answer;
+use super::left_out::LeftOut;
 use super::need::Need;
+use super::transformed::Transformed;
 use crate::estimate::Estimate;
+use crate::refusal::Refusal;
 
 /// Something that a collision may show, or that a computation may need.
 pub trait Effect: Sync {
@@ -19,6 +22,21 @@ pub trait Effect: Sync {
 
     /// Whether a scene calls for it. `None` of one that only the built model can tell.
     fn need(&self, _: &Scene, _: &Estimate) -> Option<Need> {
+        None
+    }
+
+    /// The scene as it has it computed; `None` where it leaves it as it is. The estimate is of the scene
+    /// as it is given.
+    ///
+    /// # Errors
+    /// A switch that the scene's bodies do not allow.
+    fn transform(&self, _: &Scene, _: &Estimate) -> Result<Option<Transformed>, Refusal> {
+        Ok(None)
+    }
+
+    /// By how much the numbers of a collision change without it, whether or not it is called for;
+    /// `None` where closed forms do not tell.
+    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
         None
     }
 

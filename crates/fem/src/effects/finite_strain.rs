@@ -1,4 +1,5 @@
-//! Large strains and rotations, and contact between moved surfaces: all models here are linear.
+//! Large strains and rotations: all models here are linear. What they change depends on the law of the
+//! material beyond Hooke's, which is seldom known.
 //!
 //! Decided by the contact radius over the effective radius, the size of the strain.
 
@@ -6,14 +7,17 @@ use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
 use super::effect::Effect;
+use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
 /// Above this a/R the small-strain model is in doubt: that of a glass impact at 3 m/s.
 const SMALL_STRAIN_LIMIT: f64 = 0.1;
-/// Share of the contact time that small strain leaves open, over a/R: what contact along each body's
-/// own normal instead of the common one changes, 0.2 % at a/R = 0.048 and 1.4 % at 0.30 (glass).
-const OPEN_SHARE: f64 = 0.045;
+/// Share of the contact time that small strain leaves open, over a/R*: that of the law that departs
+/// most, St Venant and Kirchhoff's, on glass; of neo-Hooke's it is a seventh, of Hencky's a fortieth.
+const OPEN_SHARE: f64 = 0.09;
+/// The same of the peak force.
+const OPEN_FORCE_SHARE: f64 = 0.11;
 
 /// Large strains and rotations.
 #[derive(Clone, Copy, Debug)]
@@ -40,7 +44,7 @@ impl Effect for FiniteStrain {
         let warning = is_called_for.then(|| {
             format!(
                 "the contact radius is {} of the effective radius; above {} the small-strain model \
-                 is in doubt (about {open} of the contact time), and finite strain is not available \
+                 is in doubt (up to {open} of the contact time), and finite strain is not available \
                  in this version",
                 percent(strain),
                 percent(SMALL_STRAIN_LIMIT),
@@ -49,10 +53,16 @@ impl Effect for FiniteStrain {
         Some(Need {
             is_called_for,
             number: format!("contact radius / effective radius = {strain:.3}"),
-            otherwise: format!("small strain leaves about {open} of the contact time open"),
+            otherwise: format!("small strain leaves up to {open} of the contact time open"),
             left_open: format!("{open} of the contact time is open"),
             warning,
         })
+    }
+
+    fn left_out(&self, _: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        let strain = estimate.strain;
+        let open = LeftOut::shares(estimate, OPEN_SHARE * strain, OPEN_FORCE_SHARE * strain);
+        Some(LeftOut { restitution: None, ..open })
     }
 
     /// The estimate warns of what it expects; this is what came.

@@ -1,5 +1,7 @@
 //! Elements with one mean stress need a stiffness of their own against the modes that this does not see.
 
+use fem_case::{EffectsTable, Switch};
+
 use super::effect::Effect;
 
 /// Stiffness of the modes that a mean stress does not see.
@@ -14,5 +16,9 @@ impl HourglassControl {
 impl Effect for HourglassControl {
     fn name(&self) -> &'static str {
         Self::NAME
+    }
+
+    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
+        effects.hourglass_control
     }
 }

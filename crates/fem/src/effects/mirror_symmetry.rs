@@ -15,6 +15,7 @@ use fem_case::{EffectsTable, Scene, Switch};
 
 use super::answer::Answer;
 use super::effect::Effect;
+use super::left_out::LeftOut;
 use super::need::Need;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
@@ -71,5 +72,9 @@ impl Effect for MirrorSymmetry {
             false => "the bodies differ",
         };
         Some(Need { number: number.to_string(), ..Need::default() })
+    }
+
+    fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {
+        Some(LeftOut::NOTHING)
     }
 }

@@ -19,13 +19,17 @@ mod finite_size;
 mod finite_strain;
 mod gravity;
 mod hourglass_control;
+mod left_out;
 mod mass_scaling;
 mod mirror_symmetry;
 mod need;
 mod partner_waves;
 mod penalty_springs;
 mod plastic_yield;
+mod rigid_partner;
 mod speed;
+mod surface_slip;
+mod transformed;
 mod vibration;
 mod viscoelasticity;
 
@@ -45,25 +49,32 @@ pub use finite_size::FiniteSizeEffect;
 pub use finite_strain::FiniteStrain;
 pub use gravity::Gravity;
 pub use hourglass_control::HourglassControl;
+pub use left_out::LeftOut;
 pub use mass_scaling::MassScaling;
 pub use mirror_symmetry::MirrorSymmetry;
 pub use need::Need;
 pub use partner_waves::PartnerWaves;
 pub use penalty_springs::PenaltySprings;
 pub use plastic_yield::PlasticYield;
+pub use rigid_partner::RigidPartner;
 pub(crate) use speed::QUASI_STATIC_LIMIT;
+pub use surface_slip::SurfaceSlip;
+pub(crate) use transformed::Computed;
+pub use transformed::Transformed;
 pub use vibration::Vibration;
 pub use viscoelasticity::Viscoelasticity;
 
 /// All effects, in the order in which results show them.
-pub const EFFECTS: [&dyn Effect; 14] = [
+pub const EFFECTS: [&dyn Effect; 16] = [
     &Viscoelasticity,
     &DashpotEffect,
     &FiniteSizeEffect,
     &FiniteStrain,
+    &SurfaceSlip,
     &PlasticYield,
     &PartnerWaves,
     &MirrorSymmetry,
+    &RigidPartner,
     &Vibration,
     &HourglassControl,
     &BulkViscosity,
@@ -109,7 +120,7 @@ impl Decisions {
 /// Decides on all effects of a scene, of which a model `has` an answer to some.
 ///
 /// # Errors
-/// An effect that the case forces on and the model lacks.
+/// An effect that the case forces on and the model lacks, or forces off and the model cannot leave out.
 pub fn decide(
     scene: &Scene,
     estimate: &Estimate,
@@ -120,23 +131,47 @@ pub fn decide(
         let answer = has(effect);
         let switch = effect.switch(scene.effects());
         if switch == Some(Switch::On) && matches!(answer, None | Some(Answer::Lacks)) {
-            return Err(lacking(effect));
+            return Err(lacking(scene, effect));
         }
         let Some(answer) = answer else { continue };
         let need = effect.need(scene, estimate).unwrap_or_default();
+        let obeys = answer.obeys();
+        let is_called_for = need.is_called_for;
         let (active, reason, warnings) = answer.of(need, switch);
+        if switch == Some(Switch::Off) && active {
+            return Err(inherent(scene, effect, &reason));
+        }
         decisions.verdicts.push(Verdict { name: effect.name(), active, reason });
         decisions.warnings.extend(warnings);
+        if switch == Some(Switch::Off) && obeys && is_called_for {
+            let left_out = effect.left_out(scene, estimate).unwrap_or_default();
+            decisions.warnings.push(left_out.warning(effect.name()));
+        }
     }
     Ok(decisions)
 }
 
 /// An effect that is forced on must be one that the model computes.
-fn lacking(effect: &dyn Effect) -> Refusal {
-    let key = effect.name().replace(' ', "_");
-    let message = format!("effect `{key}` is not available in this version");
+fn lacking(scene: &Scene, effect: &dyn Effect) -> Refusal {
+    let key = key_of(effect);
+    let model = scene.model().name();
+    let message = format!("effect `{key}` is not available in model {model} of this version");
     Refusal::new(format!("effects.{key}"), message)
         .with_help("write \"auto\" or \"off\", or leave it out")
+}
+
+/// An effect that is forced off must be one that the model can leave out.
+fn inherent(scene: &Scene, effect: &dyn Effect, reason: &str) -> Refusal {
+    let key = key_of(effect);
+    let model = scene.model().name();
+    let message = format!("model {model} cannot leave out effect `{key}` ({reason})");
+    Refusal::new(format!("effects.{key}"), message)
+        .with_help("write \"auto\" or \"on\", or leave it out")
+}
+
+/// The key of an effect in `[effects]`.
+fn key_of(effect: &dyn Effect) -> String {
+    effect.name().replace(' ', "_")
 }
 
 #[cfg(test)]

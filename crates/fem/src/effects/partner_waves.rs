@@ -4,10 +4,11 @@
 //! Decided by the contact time over the time that shear waves take through a body, T c_s/D. The loss is
 //! that of a half-space ([`radiated_share`]).
 
-use fem_case::{Body, Scene};
+use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_laws::radiated_share;
 
 use super::effect::Effect;
+use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
@@ -30,15 +31,15 @@ impl Effect for PartnerWaves {
         Self::NAME
     }
 
+    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
+        effects.partner_waves
+    }
+
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
-        let passages =
-            scene.bodies().iter().filter_map(|body| Some((body, passage(body, estimate)?)));
-        let passages: Vec<(&Body, f64)> = passages.collect();
+        let passages = passages(scene, estimate);
         let (largest, least) = passages.iter().copied().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-        let large = passages.iter().filter(|(_, passage)| *passage < RETURN_LIMIT);
-        let material = large.filter_map(|(body, _)| body.material());
-        let loss: f64 = material.map(|m| radiated_share(&estimate.hertz, m)).sum();
-        let lost = 1.0 - (1.0 - loss).max(0.0).sqrt();
+        let share = radiated(&passages, estimate);
+        let lost = lost(share);
         let name = largest.name();
         let warning = (lost > SMALL_LOSS).then(|| {
             format!(
@@ -46,7 +47,7 @@ impl Effect for PartnerWaves {
                  time × shear wave speed / diameter = {least:.2}, below {RETURN_LIMIT}): they take \
                  {} of the energy, {lost:.1e} of the restitution, which this model leaves out; model \
                  fem has them",
-                percent(loss)
+                percent(share)
             )
         });
         Some(Need {
@@ -57,6 +58,29 @@ impl Effect for PartnerWaves {
             warning,
         })
     }
+
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        let share = radiated(&passages(scene, estimate), estimate);
+        (share > 0.0).then(|| LeftOut::restitution(lost(share)))
+    }
+}
+
+/// T c_s/D of the bodies that have one.
+fn passages<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<(&'a Body, f64)> {
+    let passage = |body: &'a Body| Some((body, passage(body, estimate)?));
+    scene.bodies().iter().filter_map(passage).collect()
+}
+
+/// Share of the energy that bodies take along from which nothing comes back in time.
+fn radiated(passages: &[(&Body, f64)], estimate: &Estimate) -> f64 {
+    let large = passages.iter().filter(|(_, passage)| *passage < RETURN_LIMIT);
+    let materials = large.filter_map(|(body, _)| body.material());
+    materials.map(|material| radiated_share(&estimate.hertz, material)).sum()
+}
+
+/// Restitution that a share of the energy is worth.
+fn lost(share: f64) -> f64 {
+    1.0 - (1.0 - share).max(0.0).sqrt()
 }
 
 /// T c_s/D; a wall has none.

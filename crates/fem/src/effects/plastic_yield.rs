@@ -8,6 +8,7 @@ use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 
 use super::effect::Effect;
+use super::left_out::LeftOut;
 use super::need::Need;
 use crate::estimate::Estimate;
 
@@ -36,6 +37,17 @@ impl Effect for PlasticYield {
             Some((body, first)) => of_strength(body, &first, estimate),
             None => without_strength(scene, estimate),
         })
+    }
+
+    /// The middle of what closed forms give.
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        let yields = scene.bodies().iter().filter_map(|body| first_yield(body, estimate));
+        let (_, first) = yields.min_by(|(_, a), (_, b)| a.pressure.total_cmp(&b.pressure))?;
+        if first.ratio() <= 1.0 {
+            return Some(LeftOut::NOTHING);
+        }
+        let (low, high) = first.restitutions();
+        Some(LeftOut::restitution(1.0 - 0.5 * (low + high)))
     }
 }
 

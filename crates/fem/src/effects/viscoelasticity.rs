@@ -2,11 +2,21 @@
 //!
 //! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)).
 
-use fem_case::Scene;
+use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_laws::Ting;
+use fem_material::Material;
 
+use super::answer::Answer;
 use super::effect::Effect;
+use super::left_out::LeftOut;
 use super::need::{Need, percent};
+use super::transformed::Transformed;
 use crate::estimate::Estimate;
+use crate::quasi_static::ting_of;
+use crate::refusal::Refusal;
+
+/// Accuracy of the impacts that foretell what relaxation changes.
+const ESTIMATE_TOLERANCE: f64 = 1e-5;
 
 /// Relaxation of the materials.
 #[derive(Clone, Copy, Debug)]
@@ -22,12 +32,12 @@ impl Effect for Viscoelasticity {
         Self::NAME
     }
 
+    fn switch(&self, effects: &EffectsTable) -> Option<Switch> {
+        effects.viscoelasticity
+    }
+
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
-        let bodies = scene.bodies().iter();
-        let relaxing: Vec<&str> = bodies
-            .filter(|body| body.material().is_some_and(|m| m.relaxation().is_some()))
-            .map(|body| body.name())
-            .collect();
+        let relaxing = relaxing(scene);
         if relaxing.is_empty() {
             return Some(Need { number: "no material relaxes".to_string(), ..Need::default() });
         }
@@ -39,4 +49,43 @@ impl Effect for Viscoelasticity {
         );
         Some(Need { is_called_for: true, number, ..Need::default() })
     }
+
+    /// What is switched off is not there: the materials are elastic.
+    fn transform(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+    ) -> Result<Option<Transformed>, Refusal> {
+        if scene.effects().viscoelasticity != Some(Switch::Off) || relaxing(scene).is_empty() {
+            return Ok(None);
+        }
+        let elastic = scene.bodies().each_ref().map(|body| match body.material() {
+            Some(material) => body.shape_of(material.without_relaxation()),
+            None => body.shape().clone(),
+        });
+        let need = self.need(scene, estimate).unwrap_or_default();
+        let left_out = self.left_out(scene, estimate).unwrap_or_default();
+        let answer = Answer::is(false, format!("{}; switched off", need.number))
+            .warning([left_out.warning(Self::NAME)]);
+        Ok(Some(Transformed { scene: scene.clone().with_shapes(elastic), answer }))
+    }
+
+    /// The difference of Ting's impacts of relaxing and of elastic half-spaces.
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        if relaxing(scene).is_empty() {
+            return Some(LeftOut::NOTHING);
+        }
+        let hertz = &estimate.hertz;
+        let impact = |ting: Ting| {
+            ting.with_tolerance(ESTIMATE_TOLERANCE).ok()?.impact(hertz.approach_speed()).ok()
+        };
+        let with = impact(ting_of(scene, hertz.pair(), true, None).ok()?)?;
+        Some(LeftOut::between(&with, &hertz.impact()))
+    }
+}
+
+/// Names of the bodies that relax.
+fn relaxing(scene: &Scene) -> Vec<&str> {
+    let relaxes = |body: &&Body| body.material().and_then(Material::relaxation).is_some();
+    scene.bodies().iter().filter(relaxes).map(Body::name).collect()
 }

@@ -16,7 +16,8 @@ use crate::approach::approach_of;
 use crate::course::{Course, stopped, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
-    MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, Viscoelasticity, decide,
+    MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, SurfaceSlip,
+    Viscoelasticity, decide,
 };
 use crate::estimate::Estimate;
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
@@ -305,18 +306,20 @@ fn n_branches(body: &Body) -> u64 {
 /// What explicit elements have of each effect.
 fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
     Some(match effect.name() {
-        Viscoelasticity::NAME => Answer::Computes { idle: "no history is kept" },
+        Viscoelasticity::NAME => Answer::Inherent { idle: "no history is kept" },
         HourglassControl::NAME => {
             let why = "elements with one mean stress need the stiffness of their bending modes";
             Answer::is(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
         MassScaling::NAME => mass_scaling(model, scene.bodies()),
-        PartnerWaves::NAME => Answer::Computes { idle: "" },
+        PartnerWaves::NAME => Answer::Inherent { idle: "" },
         FiniteStrain::NAME
+        | SurfaceSlip::NAME
         | PlasticYield::NAME
         | MirrorSymmetry::NAME
         | BulkViscosity::NAME
+        | RigidPartner::NAME
         | Gravity::NAME => Answer::Lacks,
         _ => return None,
     })

@@ -7,19 +7,23 @@ mod law;
 mod law_numbers;
 mod mirrored;
 mod reduced;
+mod simplified;
 mod ting;
 
-use fem_case::{ModelChoice, Scene};
+use fem_case::{CaseFile, ModelChoice, Scene};
 
-use crate::method::Method;
+use crate::effects::Computed;
+use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
+
+use simplified::Simplified;
 
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
 pub use hertz::HertzMethod;
 pub use law::LawMethod;
 pub use reduced::Reduced;
-pub use ting::{TingMethod, ting_impact};
+pub use ting::TingMethod;
 
 /// All methods, from the cheapest to the dearest.
 pub const METHODS: [&dyn Method; 5] =
@@ -34,6 +38,35 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
         ModelChoice::Condensed(_) => &CondensedMethod,
         ModelChoice::Fem => &ExplicitMethod,
     }
+}
+
+/// Makes the model of a scene, of which effects may leave less to compute.
+///
+/// # Errors
+/// What effects and the scene's method refuse.
+pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
+    let Computed { scene: computed, answers } = Computed::of(scene)?;
+    let model = method_of(scene).build(&computed, shared)?;
+    match answers.is_empty() {
+        true => Ok(model),
+        false => Ok(Box::new(Simplified::new(model, scene, answers)?)),
+    }
+}
+
+/// Element updates to come; see [`Method::price`].
+///
+/// # Errors
+/// As [`Method::price`].
+pub(crate) fn price_of(scene: &Scene) -> Result<u64, Refusal> {
+    method_of(scene).price(&Computed::of(scene)?.scene)
+}
+
+/// The case as written with every default of its method filled in.
+///
+/// # Errors
+/// As [`Method::resolve`].
+pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+    method_of(scene).resolve(&Computed::of(scene)?.scene, file)
 }
 
 impl Reduced {

@@ -1,14 +1,14 @@
 //! Ting's quasi-static viscoelastic half-spaces, with the spheres' finite size if asked for.
 
 use fem_case::schema::{ModelTable, TingTable};
-use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
-use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
-use fem_material::Material;
+use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
+use fem_laws::{Impact, LawError, Ting};
 
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
+use crate::quasi_static::ting_of;
 use crate::refusal::Refusal;
 
 /// Ting, `[model] ting = {}`.
@@ -95,34 +95,4 @@ pub(super) fn motion(
     }
     let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(refuse)?;
     Ok(Box::new(ting.with_tolerance(tolerance).map_err(refuse)?))
-}
-
-/// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
-/// however large the contact.
-///
-/// # Errors
-/// Numbers that the law refuses.
-pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impact, LawError> {
-    let size = finite_size.then(|| scene.finite_size()).transpose()?;
-    ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
-}
-
-fn ting_of(
-    scene: &Scene,
-    pair: &Pair,
-    relaxes: bool,
-    size: Option<FiniteSize>,
-) -> Result<Ting, LawError> {
-    let [first, second] = scene.bodies().each_ref().map(Body::material);
-    let elastic = |material: Option<&Material>| material.map(Material::without_relaxation);
-    let relaxation = if relaxes {
-        PairRelaxation::new(first, second)?
-    } else {
-        PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())?
-    };
-    let ting = Ting::new(pair, relaxation);
-    Ok(match size {
-        Some(size) => ting.with_finite_size(size),
-        None => ting,
-    })
 }

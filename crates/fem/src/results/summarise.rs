@@ -4,7 +4,8 @@ use fem_collision::{Book, Collision};
 use fem_laws::HertzImpact;
 
 use super::energy::{Accounts, Energy, energy_key};
-use super::summary::{BodySummary, CostSummary, PROGRAM, Quantities, Summary};
+use super::summary::{BodySummary, CostSummary, EffectSummary, PROGRAM, Quantities, Summary};
+use crate::effects::Verdict;
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 
@@ -55,7 +56,7 @@ impl Summary {
                 peak_memory_bytes: spent.peak_memory,
                 factor_bytes: collision.factor_bytes,
             },
-            effects: simulation.decisions(collision).verdicts,
+            effects: effects(simulation, collision),
             complete: collision.is_complete(),
             stopped_because: collision.stop().map(ToString::to_string),
             program: PROGRAM,
@@ -72,6 +73,16 @@ impl Simulation {
     pub fn summary(&self, collision: &Collision) -> Summary {
         Summary::of(self, collision, Spent::default(), self.warnings(collision), Vec::new())
     }
+}
+
+fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary> {
+    let estimate = simulation.estimate(collision);
+    let worth = |verdict: Verdict| {
+        let left_out =
+            estimate.as_ref().and_then(|estimate| simulation.left_out(&verdict, estimate));
+        EffectSummary { verdict, error_if_left_out: left_out }
+    };
+    simulation.decisions(collision).verdicts.into_iter().map(worth).collect()
 }
 
 /// Keeps numbers that are not finite out of the summary.

@@ -4,7 +4,7 @@ use fem_case::CaseFile;
 use serde::Serialize;
 
 use super::energy::Energy;
-use crate::effects::Verdict;
+use crate::effects::{LeftOut, Verdict};
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
@@ -35,8 +35,8 @@ pub struct Summary {
     pub element_updates: Option<u64>,
     /// What the run took.
     pub cost: CostSummary,
-    /// Which effects were on, and why.
-    pub effects: Vec<Verdict>,
+    /// Which effects were on, why, and what they are worth.
+    pub effects: Vec<EffectSummary>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Whether the run ended by itself.
@@ -51,6 +51,16 @@ pub struct Summary {
     pub files: Vec<String>,
     /// The resolved case.
     pub case: CaseFile,
+}
+
+/// An effect: whether the run had it, why, and by how much the numbers change without it.
+#[derive(Clone, Debug, Serialize)]
+pub struct EffectSummary {
+    /// Whether it is on, and why.
+    #[serde(flatten)]
+    pub verdict: Verdict,
+    /// As closed forms foretell it; nothing where they do not.
+    pub error_if_left_out: Option<LeftOut>,
 }
 
 /// What a collision is known by.

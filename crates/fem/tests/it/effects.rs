@@ -38,8 +38,13 @@ fn an_effect_that_is_forced_on_and_lacking_is_refused_at_its_switch() {
 #[test]
 fn every_switch_has_its_effect() {
     let on = EffectsTable {
+        viscoelasticity: Some(Switch::On),
         finite_strain: Some(Switch::On),
+        surface_slip: Some(Switch::On),
+        partner_waves: Some(Switch::On),
         mirror_symmetry: Some(Switch::On),
+        rigid_partner: Some(Switch::On),
+        hourglass_control: Some(Switch::On),
         bulk_viscosity: Some(Switch::On),
     };
     let tree = serde_json::to_value(on).unwrap();
@@ -63,8 +68,10 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
         "dashpot",
         "finite size",
         "finite strain",
+        "surface slip",
         "plastic yield",
         "partner waves",
+        "rigid partner",
         "vibration",
         "gravity",
     ];
@@ -74,9 +81,11 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
             &[
                 "viscoelasticity",
                 "finite strain",
+                "surface slip",
                 "plastic yield",
                 "partner waves",
                 "mirror symmetry",
+                "rigid partner",
                 "hourglass control",
                 "bulk viscosity",
                 "gravity",
@@ -91,9 +100,11 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
             &[
                 "viscoelasticity",
                 "finite strain",
+                "surface slip",
                 "plastic yield",
                 "partner waves",
                 "mirror symmetry",
+                "rigid partner",
                 "vibration",
                 "penalty springs",
                 "gravity",

@@ -8,6 +8,7 @@ mod courses;
 mod effects;
 mod front_door;
 mod laws;
+mod left_out;
 mod measured;
 mod mirror_symmetry;
 mod models;

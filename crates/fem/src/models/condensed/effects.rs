@@ -5,7 +5,7 @@ use fem_condensed::CondensedPair;
 
 use crate::effects::{
     Answer, ContactSearch, Effect, FiniteStrain, Gravity, MirrorSymmetry, PartnerWaves,
-    PenaltySprings, PlasticYield, Vibration, Viscoelasticity,
+    PenaltySprings, PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -18,7 +18,7 @@ pub(super) fn has(
     options: CondensedOptions,
 ) -> Option<Answer> {
     Some(match effect.name() {
-        Viscoelasticity::NAME => Answer::Computes { idle: "" },
+        Viscoelasticity::NAME => Answer::Inherent { idle: "" },
         Vibration::NAME => {
             let spheres = modes_of_spheres(scene, pair);
             Vibration::of_modes(estimate, options.vibration_modes, &spheres)
@@ -29,9 +29,11 @@ pub(super) fn has(
         },
         ContactSearch::NAME => ContactSearch::within(&pair.searched()),
         FiniteStrain::NAME
+        | SurfaceSlip::NAME
         | PlasticYield::NAME
         | PartnerWaves::NAME
         | MirrorSymmetry::NAME
+        | RigidPartner::NAME
         | Gravity::NAME => Answer::Lacks,
         _ => return None,
     })

@@ -4,7 +4,7 @@ use fem_case::{ModelChoice, Scene};
 
 use crate::effects::{
     Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
-    PlasticYield, Vibration, Viscoelasticity,
+    PlasticYield, RigidPartner, SurfaceSlip, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 
@@ -48,9 +48,12 @@ pub(super) fn has(
             Answer::is(is_finite, reason)
         }
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
-        FiniteStrain::NAME | PlasticYield::NAME | PartnerWaves::NAME | Gravity::NAME => {
-            Answer::Lacks
-        }
+        FiniteStrain::NAME
+        | SurfaceSlip::NAME
+        | PlasticYield::NAME
+        | PartnerWaves::NAME
+        | RigidPartner::NAME
+        | Gravity::NAME => Answer::Lacks,
         _ => return None,
     })
 }
@@ -68,11 +71,11 @@ pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
 fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Answer {
     let need = Viscoelasticity.need(scene, estimate).unwrap_or_default();
     if !need.is_called_for {
-        return Answer::Computes { idle: "" };
+        return Answer::Inherent { idle: "" };
     }
     let reason = need.number;
     match has {
-        Relaxation::Whole => Answer::Computes { idle: "" },
+        Relaxation::Whole => Answer::Inherent { idle: "" },
         Relaxation::SlowLimit => {
             let reason =
                 format!("{reason}; the law has its slow limit, relaxed moduli and viscosities");

@@ -1,0 +1,95 @@
+//! What a result loses without an effect.
+
+use std::fmt;
+
+use fem_laws::Impact;
+use serde::Serialize;
+
+use crate::estimate::Estimate;
+
+/// By how much a collision's numbers change where an effect is left out, as closed forms foretell it;
+/// magnitudes, `None` where they do not.
+///
+/// Good within a factor of three, which is what tests hold it to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// Of the restitution.
+    pub restitution: Option<f64>,
+    /// Of the contact time, s.
+    pub contact_time_s: Option<f64>,
+    /// Of the peak force, N.
+    pub peak_force_n: Option<f64>,
+}
+
+impl LeftOut {
+    /// Nothing changes.
+    pub const NOTHING: Self =
+        Self { restitution: Some(0.0), contact_time_s: Some(0.0), peak_force_n: Some(0.0) };
+
+    /// Shares of the contact time and of the peak force of an estimate, and a restitution that stays.
+    pub(crate) fn shares(estimate: &Estimate, contact_time: f64, peak_force: f64) -> Self {
+        Self {
+            restitution: Some(0.0),
+            contact_time_s: finite(contact_time * estimate.hertz.contact_time()),
+            peak_force_n: finite(peak_force * estimate.hertz.peak_force()),
+        }
+    }
+
+    /// What is said where the case switches off an effect that it calls for.
+    pub(crate) fn warning(&self, effect: &str) -> String {
+        format!("{effect} is called for, but switched off, which leaves out {self}")
+    }
+
+    /// Of the restitution alone.
+    pub(crate) fn restitution(change: f64) -> Self {
+        Self { restitution: finite(change), ..Self::default() }
+    }
+
+    /// Between two impacts. Bodies that stay together have no contact time.
+    pub(crate) fn between(with: &Impact, without: &Impact) -> Self {
+        let times = with.contact_time.zip(without.contact_time);
+        Self {
+            restitution: finite(with.restitution - without.restitution),
+            contact_time_s: times.and_then(|(with, without)| finite(with - without)),
+            peak_force_n: finite(with.peak_force - without.peak_force),
+        }
+    }
+}
+
+/// The size of a number that is one.
+fn finite(change: f64) -> Option<f64> {
+    change.is_finite().then_some(change.abs())
+}
+
+/// "0.012 of the restitution, 1.3e-6 s of the contact time".
+impl fmt::Display for LeftOut {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = [
+            (self.restitution, "of the restitution"),
+            (self.contact_time_s, "s of the contact time"),
+            (self.peak_force_n, "N of the peak force"),
+        ];
+        let parts: Vec<String> = parts
+            .into_iter()
+            .filter_map(|(change, what)| Some(format!("{:.1e} {what}", change?)))
+            .collect();
+        match parts.is_empty() {
+            true => write!(f, "an amount that closed forms do not tell"),
+            false => write!(f, "about {}", parts.join(", ")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_name_what_is_known() {
+        assert_eq!(LeftOut::restitution(-0.0123).to_string(), "about 1.2e-2 of the restitution");
+        assert_eq!(LeftOut::restitution(f64::NAN), LeftOut::default());
+        assert!(LeftOut::default().to_string().contains("do not tell"));
+        let all = LeftOut::NOTHING.to_string();
+        assert!(all.contains("s of the contact time, 0.0e0 N"), "{all}");
+    }
+}

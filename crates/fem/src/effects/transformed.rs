@@ -1,0 +1,45 @@
+//! Effects that act on the scene: the model is made of what they leave of it.
+
+use fem_case::Scene;
+
+use super::EFFECTS;
+use super::answer::Answer;
+use crate::estimate::Estimate;
+use crate::refusal::Refusal;
+
+/// A scene as an effect has it computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transformed {
+    /// What is computed.
+    pub scene: Scene,
+    /// What the effect has of it: [`Answer::Is`].
+    pub answer: Answer,
+}
+
+/// A scene as all effects have it computed, and which of them say what of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Computed {
+    /// What is computed.
+    pub scene: Scene,
+    /// Names and answers of the effects that changed the scene; none where it is as it was.
+    pub answers: Vec<(&'static str, Answer)>,
+}
+
+impl Computed {
+    /// Of a scene as it is given.
+    ///
+    /// # Errors
+    /// A switch that the scene's bodies do not allow; a scene whose closed-form estimates are not
+    /// finite.
+    pub fn of(given: &Scene) -> Result<Self, Refusal> {
+        let estimate = Estimate::checked(given)?;
+        let mut computed = Self { scene: given.clone(), answers: Vec::new() };
+        for effect in EFFECTS {
+            if let Some(next) = effect.transform(&computed.scene, &estimate)? {
+                computed.scene = next.scene;
+                computed.answers.push((effect.name(), next.answer));
+            }
+        }
+        Ok(computed)
+    }
+}
