@@ -23,6 +23,9 @@ pub struct BodyTable {
     /// A rigid plane of infinite mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall: Option<EmptyTable>,
+    /// A block that never ends.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub half_space: Option<EmptyTable>,
 }
 
 impl BodyTable {
@@ -38,6 +41,7 @@ impl BodyTable {
             approach_speed: None,
             sphere: Some(SphereTable::new(diameter)),
             wall: None,
+            half_space: None,
         }
     }
 
@@ -49,6 +53,19 @@ impl BodyTable {
             approach_speed: None,
             sphere: None,
             wall: Some(EmptyTable {}),
+            half_space: None,
+        }
+    }
+
+    /// A block that never ends, at rest, made of `[material.NAME]`.
+    pub fn half_space(name: impl Into<String>, material: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            material: Some(material.into()),
+            approach_speed: None,
+            sphere: None,
+            wall: None,
+            half_space: Some(EmptyTable {}),
         }
     }
 

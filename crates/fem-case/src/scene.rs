@@ -31,7 +31,7 @@ impl Scene {
         &self.title
     }
 
-    /// The lower body, then the upper one. They approach each other; at most one is a wall.
+    /// The lower body, then the upper one. They approach each other; at least one is a sphere.
     pub fn bodies(&self) -> &[Body; 2] {
         &self.bodies
     }
@@ -130,6 +130,12 @@ impl Scene {
     pub fn pair(&self) -> Result<Pair, LawError> {
         let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
             Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
+            Shape::HalfSpace { material } => Partner::half_space(material),
+            Shape::Rigid { diameter, mass } => Partner::Sphere {
+                radius: 0.5 * diameter,
+                mass: *mass,
+                plane_strain_modulus: f64::INFINITY,
+            },
             Shape::Wall => Partner::Wall,
         });
         Pair::new(first, second)
@@ -140,9 +146,9 @@ impl Scene {
     /// # Errors
     /// Two walls; moduli without one.
     pub fn finite_size(&self) -> Result<FiniteSize, LawError> {
-        let [first, second] = self.bodies.each_ref().map(|body| {
-            let radius = body.diameter().map(|diameter| 0.5 * diameter);
-            radius.zip(body.material())
+        let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
+            Shape::Sphere { diameter, material, .. } => Some((0.5 * diameter, material)),
+            Shape::HalfSpace { .. } | Shape::Rigid { .. } | Shape::Wall => None,
         });
         FiniteSize::new(first, second)
     }
@@ -178,29 +184,41 @@ impl Body {
         self.yield_strength
     }
 
-    /// Its material; a wall has none.
+    /// Its material; a rigid body has none.
     pub fn material(&self) -> Option<&Material> {
         match &self.shape {
-            Shape::Sphere { material, .. } => Some(material),
-            Shape::Wall => None,
+            Shape::Sphere { material, .. } | Shape::HalfSpace { material } => Some(material),
+            Shape::Rigid { .. } | Shape::Wall => None,
         }
     }
 
-    /// Its shape, made of another material; a wall stays one.
+    /// Its shape, made of another material; a rigid body stays one.
     pub fn shape_of(&self, material: Material) -> Shape {
         match &self.shape {
             Shape::Sphere { diameter, mesh, .. } => {
                 Shape::Sphere { diameter: *diameter, mesh: mesh.clone(), material }
             }
-            Shape::Wall => Shape::Wall,
+            Shape::HalfSpace { .. } => Shape::HalfSpace { material },
+            Shape::Rigid { .. } | Shape::Wall => self.shape.clone(),
         }
     }
 
-    /// Its diameter, m; a wall has none.
+    /// Its mass, kg; that of a wall and of a half-space has no end.
+    pub fn mass(&self) -> Option<f64> {
+        match &self.shape {
+            Shape::Sphere { diameter, material, .. } => {
+                Some(fem_laws::sphere_mass(*diameter, material.density()))
+            }
+            Shape::Rigid { mass, .. } => Some(*mass),
+            Shape::HalfSpace { .. } | Shape::Wall => None,
+        }
+    }
+
+    /// Its diameter, m; a wall has none, nor has a half-space.
     pub fn diameter(&self) -> Option<f64> {
         match self.shape {
-            Shape::Sphere { diameter, .. } => Some(diameter),
-            Shape::Wall => None,
+            Shape::Sphere { diameter, .. } | Shape::Rigid { diameter, .. } => Some(diameter),
+            Shape::HalfSpace { .. } | Shape::Wall => None,
         }
     }
 }
@@ -216,6 +234,18 @@ pub enum Shape {
         mesh: Option<PathBuf>,
         /// What it is made of.
         material: Material,
+    },
+    /// A block that never ends.
+    HalfSpace {
+        /// What it is made of.
+        material: Material,
+    },
+    /// A solid sphere that does not deform: no case writes it, an effect makes it of a stiff one.
+    Rigid {
+        /// Diameter, m, > 0.
+        diameter: f64,
+        /// Mass, kg, > 0.
+        mass: f64,
     },
     /// A rigid plane of infinite mass.
     Wall,

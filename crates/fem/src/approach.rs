@@ -18,10 +18,5 @@ pub fn approach_of(scene: &Scene) -> Result<Approach, Refusal> {
 /// The frame of the mass centre of solid spheres that meet like this; `reduced_mass` (kg) is that of
 /// the motion.
 pub(crate) fn frame_of(scene: &Scene, approach: &Approach, reduced_mass: f64) -> Frame {
-    Frame { approach: *approach, masses: scene.bodies().each_ref().map(mass_of), reduced_mass }
-}
-
-/// The mass of a solid sphere, kg; a wall has none.
-fn mass_of(body: &Body) -> Option<f64> {
-    Some(fem_laws::sphere_mass(body.diameter()?, body.material()?.density()))
+    Frame { approach: *approach, masses: scene.bodies().each_ref().map(Body::mass), reduced_mass }
 }

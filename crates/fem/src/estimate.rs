@@ -3,7 +3,7 @@
 use fem_case::{Body, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, LawError, Pair, Partner};
-use fem_material::ElasticModuli;
+use fem_material::{ElasticModuli, Material};
 
 use crate::refusal::Refusal;
 
@@ -101,14 +101,26 @@ fn pair(scene: &Scene, time: f64) -> Result<Pair, LawError> {
     let [first, second] = scene.bodies().each_ref().map(|body| match body.shape() {
         Shape::Sphere { diameter, material, .. } => {
             let mass = fem_laws::sphere_mass(*diameter, material.density());
-            let now = material.instantaneous();
-            let bulk = material.bulk_modulus_at(time).max(LEAST_MODULUS * now.bulk_modulus());
-            let shear = material.shear_modulus_at(time).max(LEAST_MODULUS * now.shear_modulus());
-            let modulus = ElasticModuli::from_bulk_shear(bulk, shear)
-                .map_or(0.0, |moduli| moduli.plane_strain_modulus());
-            Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus: modulus }
+            let plane_strain_modulus = modulus_at(material, time);
+            Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus }
         }
+        Shape::HalfSpace { material } => {
+            Partner::HalfSpace { plane_strain_modulus: modulus_at(material, time) }
+        }
+        Shape::Rigid { diameter, mass } => Partner::Sphere {
+            radius: 0.5 * diameter,
+            mass: *mass,
+            plane_strain_modulus: f64::INFINITY,
+        },
         Shape::Wall => Partner::Wall,
     });
     Pair::new(first, second)
+}
+
+/// E/(1 − ν²), Pa, of a material `time` (s) after a sudden load.
+fn modulus_at(material: &Material, time: f64) -> f64 {
+    let now = material.instantaneous();
+    let bulk = material.bulk_modulus_at(time).max(LEAST_MODULUS * now.bulk_modulus());
+    let shear = material.shear_modulus_at(time).max(LEAST_MODULUS * now.shear_modulus());
+    ElasticModuli::from_bulk_shear(bulk, shear).map_or(0.0, |moduli| moduli.plane_strain_modulus())
 }

@@ -31,12 +31,20 @@ pub(crate) fn mesh_sources(scene: &Scene, plan: &Plan) -> Result<[Option<MeshSou
     check_size(scene, plan)?;
     let mut sources = [None, None];
     for (k, body) in scene.bodies().iter().enumerate() {
-        if let Shape::Sphere { diameter, mesh, .. } = body.shape() {
-            sources[k] = Some(match mesh {
-                Some(path) => MeshSource::File(import(k, *diameter, path)?),
-                None => MeshSource::HalfDisc(half_disc(plan, *diameter)),
-            });
-        }
+        sources[k] = match body.shape() {
+            Shape::Sphere { diameter, mesh: Some(path), .. } => {
+                Some(MeshSource::File(import(k, *diameter, path)?))
+            }
+            Shape::Sphere { diameter, mesh: None, .. } => {
+                Some(MeshSource::HalfDisc(half_disc(plan, *diameter)))
+            }
+            Shape::HalfSpace { .. } => {
+                let message = "a half-space has no elements in this version";
+                return Err(Refusal::new(format!("body.{k}.half_space"), message)
+                    .with_help("use model hertz, ting or a law"));
+            }
+            Shape::Rigid { .. } | Shape::Wall => None,
+        };
     }
     Ok(sources)
 }

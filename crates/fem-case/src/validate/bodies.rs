@@ -9,7 +9,7 @@ use crate::error::CaseError;
 use crate::explain::{listed, near};
 use crate::key_path::{is_bare, join, quote_key};
 use crate::scene::{Body, Shape};
-use crate::schema::{BodyTable, CaseFile};
+use crate::schema::{BodyTable, CaseFile, SphereTable};
 
 impl Check<'_> {
     pub(super) fn bodies(&self, file: &CaseFile) -> Result<[Body; 2], CaseError> {
@@ -28,7 +28,7 @@ impl Check<'_> {
             };
             return Err(self.error(path, message).with_help(
                 "exactly two bodies collide, the first below the second; a rigid plane is a body \
-                 with wall = {}",
+                 with wall = {}, a block that never ends one with half_space = {}",
             ));
         };
         let (lower_shape, lower_speed) = self.body("body.0", lower, &materials)?;
@@ -39,10 +39,16 @@ impl Check<'_> {
                 .conflict("body.1.name", &["body.0.name"], message)
                 .with_help("give each its own name"));
         }
-        if lower_shape == Shape::Wall && upper_shape == Shape::Wall {
-            return Err(self
-                .conflict("body.1.wall", &["body.0.wall"], "both bodies are walls")
-                .with_help("at most one is; write sphere = { diameter = \"22.2 mm\" } here"));
+        if let (Some(below), Some(above)) = (endless(lower), endless(upper)) {
+            let message = match (below, above) {
+                ("wall", "wall") => "both bodies are walls",
+                ("half_space", "half_space") => "both bodies are half-spaces",
+                _ => "one body is a wall and the other a half-space",
+            };
+            let keys = [join("body.0", below), join("body.1", above)];
+            return Err(self.conflict(&keys[1], &[&keys[0]], message).with_help(
+                "one must be a sphere; write sphere = { diameter = \"22.2 mm\" } here",
+            ));
         }
         if lower_speed + upper_speed <= 0.0 {
             let keys = ["body.0.approach_speed", "body.1.approach_speed"];
@@ -96,8 +102,8 @@ impl Check<'_> {
                 .error(&at("name"), format!("\"{}\" is not a body's name", table.name))
                 .with_help("a name is made of letters A-Z a-z, digits, _ and -"));
         }
-        let shape = match (&table.sphere, &table.wall) {
-            (Some(sphere), None) => {
+        let shape = match self.shape_key(path, table)? {
+            Key::Sphere(sphere) => {
                 let at_sphere = at("sphere");
                 let diameter =
                     self.number(&join(&at_sphere, "diameter"), &sphere.diameter, POSITIVE)?;
@@ -109,32 +115,53 @@ impl Check<'_> {
                 let material = self.material_of(path, table, materials)?;
                 Shape::Sphere { diameter, mesh, material }
             }
-            (None, Some(_)) => {
+            Key::HalfSpace => {
+                Shape::HalfSpace { material: self.material_of(path, table, materials)? }
+            }
+            Key::Wall => {
                 if table.material.is_some() {
                     let error =
                         self.conflict(&at("material"), &[&at("wall")], "a wall has no material");
-                    return Err(error.with_help("it is rigid; leave the key out"));
+                    let help = "it is rigid; leave the key out, or write half_space = {}";
+                    return Err(error.with_help(help));
                 }
                 Shape::Wall
             }
-            (Some(_), Some(_)) => {
-                return Err(self
-                    .conflict(
-                        &at("wall"),
-                        &[&at("sphere.diameter"), &at("sphere")],
-                        format!("\"{}\" is both sphere and wall", table.name),
-                    )
-                    .with_help("keep one of the two"));
-            }
-            (None, None) => {
-                return Err(self
-                    .error(path, format!("\"{}\" is neither sphere nor wall", table.name))
-                    .with_help("write sphere = { diameter = \"22.2 mm\" } or wall = {}"));
-            }
         };
-        let allowed = if shape == Shape::Wall { NOT_NEGATIVE } else { ANY };
+        let allowed = if endless(table).is_some() { NOT_NEGATIVE } else { ANY };
         let speed = self.optional(&at("approach_speed"), table.approach_speed.as_ref(), allowed)?;
         Ok((shape, speed.unwrap_or(0.0)))
+    }
+
+    /// The one shape that a body is given.
+    fn shape_key<'t>(&self, path: &str, table: &'t BodyTable) -> Result<Key<'t>, CaseError> {
+        let given: Vec<(&str, Key)> = [
+            table.sphere.as_ref().map(|sphere| ("sphere", Key::Sphere(sphere))),
+            table.wall.map(|_| ("wall", Key::Wall)),
+            table.half_space.map(|_| ("half_space", Key::HalfSpace)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let name = &table.name;
+        match given.as_slice() {
+            [(_, key)] => Ok(*key),
+            [] => Err(self
+                .error(path, format!("\"{name}\" is neither sphere, wall nor half_space"))
+                .with_help(
+                    "write sphere = { diameter = \"22.2 mm\" }, wall = {} or half_space = {}",
+                )),
+            [(first, _), .., (last, _)] => {
+                let keys = [join(path, last), join(path, "sphere.diameter"), join(path, first)];
+                Err(self
+                    .conflict(
+                        &keys[0],
+                        &[&keys[1], &keys[2]],
+                        format!("\"{name}\" is both {first} and {last}"),
+                    )
+                    .with_help("keep one of the two"))
+            }
+        }
     }
 
     fn material_of(
@@ -158,4 +185,18 @@ impl Check<'_> {
             error.with_help(format!("{}{known}", near(name, &names)))
         })
     }
+}
+
+/// The shape that a body is given.
+#[derive(Clone, Copy)]
+enum Key<'t> {
+    Sphere(&'t SphereTable),
+    Wall,
+    HalfSpace,
+}
+
+/// The key of a body without an end.
+fn endless(table: &BodyTable) -> Option<&'static str> {
+    let wall = table.wall.map(|_| "wall");
+    wall.or(table.half_space.map(|_| "half_space"))
 }

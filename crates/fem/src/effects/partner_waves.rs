@@ -83,7 +83,8 @@ fn lost(share: f64) -> f64 {
     1.0 - (1.0 - share).max(0.0).sqrt()
 }
 
-/// T c_s/D; a wall has none.
+/// T c_s/D; nothing comes back from a half-space, and a rigid body has no waves.
 fn passage(body: &Body, estimate: &Estimate) -> Option<f64> {
-    Some(estimate.contact_time * body.material()?.shear_wave_speed() / body.diameter()?)
+    let way = estimate.contact_time * body.material()?.shear_wave_speed();
+    Some(body.diameter().map_or(0.0, |diameter| way / diameter))
 }

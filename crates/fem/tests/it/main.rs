@@ -7,6 +7,7 @@ mod condensed;
 mod courses;
 mod effects;
 mod front_door;
+mod half_space;
 mod laws;
 mod left_out;
 mod measured;

@@ -115,15 +115,45 @@ fn bodies() {
         "both bodies are walls",
     );
     is(
+        "[[body]]\nname = 'a'\nwall = {}\n[material.g]\ndensity = 1\nyoungs_modulus = 1\n\
+         poissons_ratio = 0\n[[body]]\nname = 'b'\nhalf_space = «{}»\nmaterial = 'g'"
+            .to_string(),
+        "one body is a wall and the other a half-space",
+    );
+    is(
         format!("{glass}{}", two.replace("wall = {}", "wall = «{}»\nsphere.diameter = 1")),
         "both sphere and wall",
+    );
+    is(
+        format!("{glass}{}", two.replace("wall = {}", "wall = {}\nhalf_space = «{}»")),
+        "both wall and half_space",
+    );
+    is(
+        format!(
+            "{glass}{}",
+            two.replace(
+                "[[body]]\nname = \"target\"\nwall = {}",
+                "«[[body]]»\nname = \"target\"\nhalf_space = {}"
+            )
+        ),
+        "the key `material` is missing",
+    );
+    is(
+        format!(
+            "{glass}{}",
+            two.replace(
+                "wall = {}",
+                "half_space = {}\nmaterial = 'glass'\napproach_speed = «-0.5»"
+            )
+        ),
+        "approach_speed is -0.5",
     );
     is(
         format!(
             "{glass}{}",
             two.replace("[[body]]\nname = \"target\"\nwall = {}", "«[[body]]»\nname = \"target\"")
         ),
-        "neither sphere nor wall",
+        "neither sphere, wall nor half_space",
     );
     is(
         format!("{glass}{}", two.replace("\"target\"", "«\"striker\"»")),

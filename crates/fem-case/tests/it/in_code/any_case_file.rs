@@ -42,19 +42,21 @@ impl Random {
         }
     }
 
-    /// A sphere or a wall, seldom both or neither.
+    /// A sphere, a wall or a half-space, seldom two of them or none.
     fn body(&mut self, name: &str) -> BodyTable {
         let is_sphere = self.below(5) > 0;
         let is_sound = self.below(20) > 0;
+        let is_block = self.below(2) > 0;
         BodyTable {
             name: self.name(&[name]),
-            material: (is_sphere == is_sound).then(|| self.name(&["glass"])),
+            material: ((is_sphere || is_block) == is_sound).then(|| self.name(&["glass"])),
             approach_speed: (name != "b").then(|| self.quantity(&[0.5, 0.5, 0.5, -0.1])),
             sphere: is_sphere.then(|| SphereTable {
                 diameter: self.quantity(&[0.02]),
                 mesh: self.maybe(|random| random.name(&["ball.vtu"])),
             }),
-            wall: (is_sphere != is_sound).then_some(EmptyTable {}),
+            wall: (is_sphere != is_sound && !is_block).then_some(EmptyTable {}),
+            half_space: (!is_sphere && is_block).then_some(EmptyTable {}),
         }
     }
 

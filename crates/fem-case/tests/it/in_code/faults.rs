@@ -107,8 +107,16 @@ const FAULTS: &[(Change, &str, &str)] = &[
         "body.1.wall",
         "both bodies are walls",
     ),
+    (
+        |file| {
+            let blocks = ["a", "b"].map(|name| BodyTable::half_space(name, "glass"));
+            file.body = blocks.to_vec();
+        },
+        "body.1.half_space",
+        "both bodies are half-spaces",
+    ),
     (|file| file.body[1].wall = Some(EmptyTable {}), "body.1.wall", "both sphere and wall"),
-    (|file| file.body[1].sphere = None, "body.1", "neither sphere nor wall"),
+    (|file| file.body[1].sphere = None, "body.1", "neither sphere, wall nor half_space"),
     (|file| file.body[1].material = None, "body.1", "the key `material` is missing"),
     (|file| file.body[1].material = Some("ice".into()), "body.1.material", "no material \"ice\""),
     (

@@ -76,7 +76,7 @@ fn titles_and_folders_have_defaults() {
     };
     let found = |scene: &Scene| match &scene.bodies()[0].shape() {
         Shape::Sphere { mesh, .. } => mesh.clone().unwrap(),
-        Shape::Wall => panic!("a sphere"),
+        _ => panic!("a sphere"),
     };
     let current = std::env::current_dir().unwrap();
     assert_eq!(found(case.edited(mesh).unwrap().scene()), current.join("a/b.vtu"));

@@ -1,0 +1,74 @@
+//! A ball on a block that never ends.
+
+use std::path::Path;
+
+use fem::{Case, Collision, Simulation};
+
+const BALL: &str = r#"
+[material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+
+[material.polymer]
+density = "1200 kg/m^3"
+youngs_modulus = "3 GPa"
+poissons_ratio = 0.4
+
+[[body]]
+name = "block"
+half_space = {}
+material = "polymer"
+
+[[body]]
+name = "ball"
+sphere = { diameter = "10 mm" }
+material = "steel"
+approach_speed = "0.1 m/s"
+"#;
+
+fn simulation(set: &[&str]) -> Simulation {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();
+    Simulation::new(case).unwrap()
+}
+
+fn run(set: &[&str]) -> Collision {
+    simulation(set).run(&mut ())
+}
+
+/// Hertz by hand: R* is the ball's radius, m* its mass, 1/E* = 0.91/210 GPa + 0.84/3 GPa.
+#[test]
+fn it_gives_way_as_hertz_says() {
+    let contact_modulus: f64 = (0.91 / 210e9 + 0.84 / 3e9f64).recip();
+    let (radius, speed) = (5e-3f64, 0.1f64);
+    let mass = 7850.0 * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
+    let time = 2.868_265 * (mass * mass / (radius * contact_modulus.powi(2) * speed)).powf(0.2);
+    for model in ["model.hertz={}", "model.ting={}", "model.law.hertz={}"] {
+        let found = run(&[model]).contact_time.unwrap();
+        assert!((found / time - 1.0).abs() < 1e-5, "{model}: {found:e} {time:e}");
+    }
+}
+
+/// A sphere a hundred thousand times larger is as good as a half-space, and finite size is none of it.
+#[test]
+fn a_sphere_without_end_is_one() {
+    let sphere = ["body.0.sphere.diameter='1 km'"];
+    let without = BALL.replace("half_space = {}\n", "");
+    for model in ["model.hertz={}", "model.ting.finite_size=true"] {
+        let set: Vec<String> = [model, sphere[0]].map(str::to_string).to_vec();
+        let case = Case::parse("ball.toml", &without, Path::new("."), &set).unwrap();
+        let large = Simulation::new(case).unwrap().run(&mut ()).contact_time.unwrap();
+        let block = run(&[model]).contact_time.unwrap();
+        assert!((large / block - 1.0).abs() < 1e-4, "{model}: {large:e} {block:e}");
+    }
+}
+
+/// It can only be struck or strike: its mass has no end, its velocity stays.
+#[test]
+fn it_moves_on() {
+    let found = run(&["model.hertz={}", "body.0.approach_speed=0.2"]);
+    assert_eq!(found.bodies[0].mass, None);
+    assert_eq!(found.bodies[0].velocity_after, Some(0.2));
+    assert!((found.bodies[1].velocity_after.unwrap() - 0.5).abs() < 1e-12);
+}
