@@ -49,6 +49,7 @@
 //! # Ok::<(), fem_case::CaseError>(())
 //! ```
 
+mod accuracy_table;
 mod body_tables;
 mod case;
 mod document;
@@ -82,7 +83,7 @@ pub use quantity::{
     Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind,
     Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use scene::{Body, Limits, MeshSettings, Scene, Shape, Snapshots};
+pub use scene::{Accuracy, Body, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};

@@ -8,6 +8,8 @@ pub enum ModelChoice {
     /// Explicit finite elements.
     #[default]
     Fem,
+    /// The cheapest of the others that serves what the case asks for.
+    Auto,
     /// Linear finite elements condensed to their contact nodes.
     Condensed(CondensedOptions),
     /// Elastic half-spaces.
@@ -38,6 +40,7 @@ impl ModelChoice {
     pub fn name(&self) -> &'static str {
         match self {
             ModelChoice::Fem => "fem",
+            ModelChoice::Auto => "auto",
             ModelChoice::Condensed(_) => "condensed",
             ModelChoice::Hertz { .. } => "hertz",
             ModelChoice::Ting { .. } => "ting",

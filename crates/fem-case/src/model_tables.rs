@@ -30,7 +30,7 @@ pub struct ModelTable {
     pub law: Option<LawTable>,
     /// The cheapest that serves.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub auto: Option<toml::Table>,
+    pub auto: Option<EmptyTable>,
 }
 
 /// Models with their defaults. A table with keys becomes a model by `into()`.
@@ -50,6 +50,11 @@ impl ModelTable {
     /// Explicit finite elements.
     pub fn fem() -> Self {
         Self { fem: Some(EmptyTable {}), ..Self::default() }
+    }
+
+    /// The cheapest that serves.
+    pub fn auto() -> Self {
+        Self { auto: Some(EmptyTable {}), ..Self::default() }
     }
 
     /// Linear bodies condensed to their contact nodes.

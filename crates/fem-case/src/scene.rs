@@ -21,6 +21,7 @@ pub struct Scene {
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
     pub(crate) model: ModelChoice,
+    pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
     pub(crate) limits: Limits,
 }
@@ -71,6 +72,11 @@ impl Scene {
         &self.model
     }
 
+    /// How far results may be off.
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
     /// Effects that the case forces on or off.
     pub fn effects(&self) -> &EffectsTable {
         &self.effects
@@ -98,6 +104,12 @@ impl Scene {
         for (body, shape) in self.bodies.iter_mut().zip(shapes) {
             body.shape = shape;
         }
+        self
+    }
+
+    /// This scene, computed by another model.
+    pub fn with_model(mut self, model: ModelChoice) -> Self {
+        self.model = model;
         self
     }
 
@@ -271,6 +283,34 @@ pub enum Snapshots {
     Count(usize),
     /// s, ≥ 0, ascending.
     Times(Vec<f64>),
+}
+
+/// `[accuracy]`: how far results may be off. All > 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Of the restitution, absolute.
+    pub restitution: f64,
+    /// Of the contact time, relative.
+    pub contact_time: f64,
+    /// Of the peak force, relative.
+    pub peak_force: f64,
+    /// Of the peak pressure, relative.
+    pub peak_pressure: f64,
+}
+
+impl Accuracy {
+    /// What a case that says nothing asks for.
+    pub const DEFAULT_TOLERANCE: f64 = 0.01;
+
+    /// One share for all, and three times that for the peak pressure.
+    pub fn within(tolerance: f64) -> Self {
+        Self {
+            restitution: tolerance,
+            contact_time: tolerance,
+            peak_force: tolerance,
+            peak_pressure: 3.0 * tolerance,
+        }
+    }
 }
 
 /// `[limits]`: what the case says in place of this program's own limits. All ≥ 1.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::keyword::keywords;
 use crate::quantity::{Bytes, Count, Length, Number, Quantity, QuantityKind, Time};
 
+pub use crate::accuracy_table::*;
 pub use crate::body_tables::*;
 pub use crate::empty_table::EmptyTable;
 pub use crate::material_tables::*;
@@ -46,6 +47,9 @@ pub struct CaseFile {
     /// Which model computes the collision.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelTable>,
+    /// How far results may be off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<AccuracyTable>,
     /// Numerical effects, forced or left to the plan.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub effects: Option<EffectsTable>,

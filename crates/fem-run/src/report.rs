@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::effects::Verdict;
+use fem::Considered;
+use fem::effects::{LeftOut, Verdict};
 use fem::results::{BodySummary, Quantities, Summary};
 use fem_case::engineering::{Unit, show};
 use fem_collision::{Shown, Side};
@@ -40,6 +41,9 @@ pub fn report(summary: &Summary, place: &Path) -> String {
     }
     let _ = writeln!(text, "\n{}", bodies(&summary.bodies));
     text += &balances(summary);
+    if let Some(considered) = &summary.models_considered {
+        let _ = writeln!(text, "\nModels, and what they are off by\n{}", models(considered));
+    }
     let _ = writeln!(
         text,
         "\nEffects\n{}",
@@ -144,6 +148,34 @@ fn price(summary: &Summary) -> String {
         if cost.threads == 1 { "" } else { "s" },
         factors.unwrap_or_default(),
     )
+}
+
+/// Which models were considered, what they are expected to be off by, and why one was chosen.
+pub fn models(considered: &[Considered]) -> String {
+    let header = ["", "model", "restitution", "contact time", "peak force", ""].map(String::from);
+    let row = |considered: &Considered| {
+        let [restitution, time, force] = changes(&considered.error);
+        let mark = if considered.chosen { "takes" } else { "" };
+        let model = considered.model.to_string();
+        [mark.to_string(), model, restitution, time, force, considered.reason.clone()]
+    };
+    let rows = std::iter::once(header).chain(considered.iter().map(row));
+    table(&[Left, Left, Right, Right, Right, Left], rows)
+}
+
+/// Changes of restitution, contact time and peak force.
+pub fn changes(changes: &LeftOut) -> [String; 3] {
+    let LeftOut { restitution, contact_time_s, peak_force_n } = *changes;
+    let text = |change: Option<f64>, show: &dyn Fn(f64) -> String| match change {
+        None => "?".to_string(),
+        Some(0.0) => "0".to_string(),
+        Some(change) => show(change),
+    };
+    [
+        text(restitution, &|change| format!("{change:.1e}")),
+        text(contact_time_s, &|change| show(change, "s")),
+        text(peak_force_n, &|change| show(change, "N")),
+    ]
 }
 
 /// On or off, and why.

@@ -45,8 +45,8 @@ pub use estimate::Estimate;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
-    Condensed, CondensedMethod, Explicit, ExplicitMethod, HertzMethod, LawMethod, METHODS, Reduced,
-    TingMethod, method_of, model_of,
+    AutoMethod, Condensed, CondensedMethod, Considered, Explicit, ExplicitMethod, HertzMethod,
+    LawMethod, METHODS, Reduced, TingMethod, method_of, model_of,
 };
 pub use pair_cache::PairCache;
 pub use plan::Plan;

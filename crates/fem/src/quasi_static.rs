@@ -4,6 +4,11 @@ use fem_case::{Body, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
+use crate::estimate::Estimate;
+
+/// Accuracy of the impacts that foretell what effects change.
+const ESTIMATE_TOLERANCE: f64 = 1e-5;
+
 /// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
 /// however large the contact.
 ///
@@ -37,4 +42,16 @@ pub(crate) fn ting_of(
         Some(size) => ting.with_finite_size(size),
         None => ting,
     })
+}
+
+/// Ting's impact at the speed of an estimate, as accurate as a forecast needs; nothing where it has none.
+pub(crate) fn estimated(
+    scene: &Scene,
+    estimate: &Estimate,
+    relaxes: bool,
+    size: Option<FiniteSize>,
+) -> Option<Impact> {
+    let hertz = &estimate.hertz;
+    let ting = ting_of(scene, hertz.pair(), relaxes, size).ok()?;
+    ting.with_tolerance(ESTIMATE_TOLERANCE).ok()?.impact(hertz.approach_speed()).ok()
 }

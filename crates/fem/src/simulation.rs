@@ -9,7 +9,7 @@ use crate::course::Course;
 use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
 use crate::method::{Model, Setup, Shared};
-use crate::models::{model_of, price_of, resolved};
+use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 
 /// The collision of a case, by the model that it asks for.
 ///
@@ -44,6 +44,7 @@ pub fn collide(case: &Case) -> Result<Collision, CaseError> {
 pub struct Simulation {
     case: Case,
     model: Box<dyn Model>,
+    chosen: Option<Chosen>,
     want: Want,
     resolved: CaseFile,
 }
@@ -65,8 +66,9 @@ impl Simulation {
     pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
         let model = model_of(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
         let resolved = Self::resolve(&case)?;
+        let chosen = chosen(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
         let want = model.setup().want.clone();
-        Ok(Self { case, model, want, resolved })
+        Ok(Self { case, model, chosen, want, resolved })
     }
 
     /// The case with every default filled in, without the cost of building its model.
@@ -93,6 +95,21 @@ impl Simulation {
     /// What computes it.
     pub fn model(&self) -> &dyn Model {
         self.model.as_ref()
+    }
+
+    /// Which models were considered, from the cheapest to the dearest; none where the case names its own.
+    pub fn considered(&self) -> &[Considered] {
+        self.chosen.as_ref().map_or(&[], |chosen| &chosen.considered)
+    }
+
+    /// What the user should know before the run.
+    pub fn warnings_before(&self) -> Vec<String> {
+        self.choice_warning().into_iter().chain(self.setup().warnings()).collect()
+    }
+
+    /// That no model is known to serve, where the case leaves the choice open.
+    pub(crate) fn choice_warning(&self) -> Option<String> {
+        self.chosen.as_ref()?.warning.clone()
     }
 
     /// What was decided on the case as it is.

@@ -1,6 +1,7 @@
 //! From the case as written to a scene: units converted, limits checked, names resolved, each
 //! fault pointed at.
 
+mod accuracy;
 mod bodies;
 mod materials;
 mod models;
@@ -84,6 +85,7 @@ pub(crate) fn validate(
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
         model: check.model(file.model.as_ref())?,
+        accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),
         limits: Limits {
             elements: count("limits.elements", limits.elements.as_ref())?,

@@ -10,8 +10,6 @@ use crate::model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 use crate::model_tables::{CondensedTable, End, LawTable, ModelTable};
 use crate::quantity::{Count, Number, Quantity, QuantityKind};
 
-/// A model whose name `[model]` knows and that cannot be had yet.
-const UNAVAILABLE: &str = "auto";
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
 const MODES: Allowed =
@@ -34,11 +32,9 @@ impl Check<'_> {
             ("auto", auto.is_some()),
         ];
         let given: Vec<_> = given.into_iter().filter(|(_, is)| *is).map(|(name, _)| name).collect();
-        let name = self.exactly_one("model", &given, "model", "fem = {}, or leave [model] out")?;
-        if name == UNAVAILABLE {
-            let message = format!("model `{name}` is not available in this version");
-            let error = self.error(&join("model", name), message);
-            return Err(error.with_help("the models here are fem, condensed, ting, hertz and law"));
+        self.exactly_one("model", &given, "model", "fem = {}, or leave [model] out")?;
+        if auto.is_some() {
+            return Ok(ModelChoice::Auto);
         }
         if let Some(condensed) = condensed {
             return self.condensed_model(condensed);

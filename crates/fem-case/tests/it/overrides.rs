@@ -114,7 +114,7 @@ fn faults_in_the_value() {
     fault("material.glass", "material.glass={«densty»=1}", "unknown key `densty`");
     fault("body", "body=«[]»", "no [[body]]");
     fault("mesh", "mesh=«3»", "mesh is an integer");
-    fault("model.auto", "model.auto=«{}»", "not available");
+    fault("accuracy.tolerance", "accuracy.tolerance=«0»", "tolerance is 0");
     fault("model.ting", "model.ting={«finite»=true}", "unknown key `finite` in model.ting");
 }
 
@@ -170,7 +170,7 @@ fn of_keys_that_contradict_each_other_the_override_is_to_blame() {
         ("body.0.name", "'b'"),
         ("body.1.name", "'a'"),
         ("body.1.approach_speed", "-1"),
-        ("model.auto", "{}"),
+        ("accuracy.tolerance.peak_force", "-1"),
     ] {
         let error = parse(&[format!("{key}={value}"), "start.gap=0".to_string()]).unwrap_err();
         assert_eq!(error.source_name(), format!("--set {key}=…"), "{error}");

@@ -1,7 +1,6 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::effects::LeftOut;
 use fem::{Cost, ForceLaw, Simulation};
 use fem_case::engineering::show;
 use fem_case::{Case, EffectsTable};
@@ -61,12 +60,21 @@ fn expect(simulation: &Simulation) -> String {
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
     format!(
-        "{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and what changes without them\n\
+        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and what changes without them\n\
          {}\n{}",
+        models(simulation),
         unforced(simulation),
         effects(simulation),
-        report::warnings(&setup.warnings()),
+        report::warnings(&simulation.warnings_before()),
     )
+}
+
+/// Which models were considered; nothing where the case names its own.
+fn models(simulation: &Simulation) -> String {
+    match simulation.considered() {
+        [] => String::new(),
+        considered => format!("Models, and what they are off by\n{}\n", report::models(considered)),
+    }
 }
 
 /// What is on, why, and by how much the numbers change without it.
@@ -75,26 +83,12 @@ fn effects(simulation: &Simulation) -> String {
     let header = ["", "", "restitution", "contact time", "peak force", ""].map(String::from);
     let rows = setup.decisions.verdicts.iter().map(|verdict| {
         let left_out = simulation.left_out(verdict, &setup.estimate).unwrap_or_default();
-        let [restitution, time, force] = changes(&left_out);
+        let [restitution, time, force] = report::changes(&left_out);
         let switch = report::on_or_off(verdict).to_string();
         [switch, verdict.name.to_string(), restitution, time, force, verdict.reason.clone()]
     });
     let alignments = [Left, Left, Right, Right, Right, Left];
     table(&alignments, std::iter::once(header).chain(rows))
-}
-
-fn changes(left_out: &LeftOut) -> [String; 3] {
-    let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
-    let text = |change: Option<f64>, show: &dyn Fn(f64) -> String| match change {
-        None => "?".to_string(),
-        Some(0.0) => "0".to_string(),
-        Some(change) => show(change),
-    };
-    [
-        text(restitution, &|change| format!("{change:.1e}")),
-        text(contact_time_s, &|change| show(change, "s")),
-        text(peak_force_n, &|change| show(change, "N")),
-    ]
 }
 
 /// What the run would take if the plan decided on all effects; nothing where it does.

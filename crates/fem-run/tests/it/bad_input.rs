@@ -57,7 +57,7 @@ fn unknown_and_missing_keys_are_refused() {
     check("poissons_ratio", "poisson_ratio", "did you mean");
     check("approach_speed", "speed", "speed");
     check("density = \"2390 kg/m^3\"\n", "", "density");
-    check("sphere = { diameter = \"22.2 mm\" }\n", "", "neither sphere nor wall");
+    check("sphere = { diameter = \"22.2 mm\" }\n", "", "neither sphere, wall nor half_space");
 }
 
 #[test]

@@ -164,7 +164,7 @@ fn what_does_not_come_back_or_end_is_said() {
     for (value, message) in [
         ("model.law.tsuji={}", "`e` is missing in model.law.tsuji"),
         ("model.law.kuwabara_kono={}", "flows"),
-        ("model.auto={}", "not available"),
+        ("model.auto={best=true}", "unknown key `best`"),
     ] {
         let ran = place.run(&["check", "case.toml", "--set", value]);
         assert_eq!(ran.code, Some(2), "{value}: {}", ran.stderr);

@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 22] = [
+const KEYS: [&str; 23] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -20,6 +20,7 @@ const KEYS: [&str; 22] = [
     "element_updates",
     "cost",
     "effects",
+    "models_considered",
     "warnings",
     "complete",
     "stopped_because",

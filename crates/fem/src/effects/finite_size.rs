@@ -1,6 +1,11 @@
 //! A sphere is stiffer than the half-space of Hertz: its own compliance, in series, to first order.
 
+use fem_case::Scene;
+
 use super::effect::Effect;
+use super::left_out::LeftOut;
+use crate::estimate::Estimate;
+use crate::quasi_static::estimated;
 
 /// The spheres' own compliance.
 #[derive(Clone, Copy, Debug)]
@@ -14,5 +19,11 @@ impl FiniteSizeEffect {
 impl Effect for FiniteSizeEffect {
     fn name(&self) -> &'static str {
         Self::NAME
+    }
+
+    /// Of elastic bodies.
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        let with = estimated(scene, estimate, false, scene.finite_size().ok())?;
+        Some(LeftOut::between(&with, &estimate.hertz.impact()))
     }
 }

@@ -3,7 +3,6 @@
 //! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)).
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
-use fem_laws::Ting;
 use fem_material::Material;
 
 use super::answer::Answer;
@@ -12,11 +11,8 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::transformed::Transformed;
 use crate::estimate::Estimate;
-use crate::quasi_static::ting_of;
+use crate::quasi_static::estimated;
 use crate::refusal::Refusal;
-
-/// Accuracy of the impacts that foretell what relaxation changes.
-const ESTIMATE_TOLERANCE: f64 = 1e-5;
 
 /// Relaxation of the materials.
 #[derive(Clone, Copy, Debug)]
@@ -75,12 +71,8 @@ impl Effect for Viscoelasticity {
         if relaxing(scene).is_empty() {
             return Some(LeftOut::NOTHING);
         }
-        let hertz = &estimate.hertz;
-        let impact = |ting: Ting| {
-            ting.with_tolerance(ESTIMATE_TOLERANCE).ok()?.impact(hertz.approach_speed()).ok()
-        };
-        let with = impact(ting_of(scene, hertz.pair(), true, None).ok()?)?;
-        Some(LeftOut::between(&with, &hertz.impact()))
+        let with = estimated(scene, estimate, true, None)?;
+        Some(LeftOut::between(&with, &estimate.hertz.impact()))
     }
 }
 

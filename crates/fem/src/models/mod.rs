@@ -1,5 +1,6 @@
 //! The methods, one file or folder each, and which of them a scene chooses.
 
+mod auto;
 mod condensed;
 mod explicit;
 mod hertz;
@@ -18,6 +19,8 @@ use crate::refusal::Refusal;
 
 use simplified::Simplified;
 
+pub(crate) use auto::Chosen;
+pub use auto::{AutoMethod, Considered};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
 pub use hertz::HertzMethod;
@@ -25,9 +28,9 @@ pub use law::LawMethod;
 pub use reduced::Reduced;
 pub use ting::TingMethod;
 
-/// All methods, from the cheapest to the dearest.
-pub const METHODS: [&dyn Method; 5] =
-    [&HertzMethod, &LawMethod, &TingMethod, &CondensedMethod, &ExplicitMethod];
+/// All methods, from the cheapest to the dearest, and the one that chooses among them.
+pub const METHODS: [&dyn Method; 6] =
+    [&HertzMethod, &LawMethod, &TingMethod, &CondensedMethod, &ExplicitMethod, &AutoMethod];
 
 /// The method that a scene chooses.
 pub fn method_of(scene: &Scene) -> &'static dyn Method {
@@ -37,6 +40,7 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
         ModelChoice::Ting { .. } => &TingMethod,
         ModelChoice::Condensed(_) => &CondensedMethod,
         ModelChoice::Fem => &ExplicitMethod,
+        ModelChoice::Auto => &AutoMethod,
     }
 }
 
@@ -50,6 +54,17 @@ pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusa
     match answers.is_empty() {
         true => Ok(model),
         false => Ok(Box::new(Simplified::new(model, scene, answers)?)),
+    }
+}
+
+/// The model that a scene chooses, which models were considered, and what is to be known of it.
+///
+/// # Errors
+/// What effects refuse; a scene whose closed-form estimates are not finite.
+pub(crate) fn chosen(scene: &Scene) -> Result<Option<Chosen>, Refusal> {
+    match scene.model() {
+        ModelChoice::Auto => Chosen::of(&Computed::of(scene)?.scene).map(Some),
+        _ => Ok(None),
     }
 }
 
@@ -80,7 +95,7 @@ impl Reduced {
             ModelChoice::Hertz { .. } => hertz::build(scene),
             ModelChoice::Law { .. } => law::build(scene),
             ModelChoice::Ting { .. } => ting::build(scene),
-            ModelChoice::Condensed(_) | ModelChoice::Fem => {
+            ModelChoice::Condensed(_) | ModelChoice::Fem | ModelChoice::Auto => {
                 Err(Refusal::new("model", "finite elements are no reduced model"))
             }
         }

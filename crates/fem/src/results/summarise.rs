@@ -57,6 +57,8 @@ impl Summary {
                 factor_bytes: collision.factor_bytes,
             },
             effects: effects(simulation, collision),
+            models_considered: Some(simulation.considered().to_vec())
+                .filter(|considered| !considered.is_empty()),
             complete: collision.is_complete(),
             stopped_because: collision.stop().map(ToString::to_string),
             program: PROGRAM,

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::energy::Energy;
 use crate::effects::{LeftOut, Verdict};
+use crate::models::Considered;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
@@ -37,6 +38,8 @@ pub struct Summary {
     pub cost: CostSummary,
     /// Which effects were on, why, and what they are worth.
     pub effects: Vec<EffectSummary>,
+    /// Where the case leaves the model open: which were considered, from the cheapest to the dearest.
+    pub models_considered: Option<Vec<Considered>>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Whether the run ended by itself.

@@ -90,7 +90,7 @@ impl Random {
         let mut model = ModelTable::default();
         for _ in 0..=self.below(15) / 14 {
             let given = match self.below(15) {
-                0 => ModelTable { auto: Some(toml::Table::new()), ..Default::default() },
+                0 => ModelTable::auto(),
                 1 => CondensedTable {
                     vibration_modes: self.maybe(|random| random.quantity(&[12.0])),
                     steps: self.maybe(|random| random.quantity(&[300.0])),
@@ -167,6 +167,16 @@ impl Random {
             }),
             output: self.maybe(|random| OutputTable { snapshots: random.maybe(Self::snapshots) }),
             model: self.maybe(Self::model),
+            accuracy: self.maybe(|random| AccuracyTable {
+                tolerance: random.maybe(|random| match random.below(2) {
+                    0 => ToleranceValue::Share(random.quantity(&[0.01])),
+                    _ => ToleranceValue::Table(ToleranceTable {
+                        restitution: random.maybe(|random| random.quantity(&[0.01])),
+                        peak_pressure: random.maybe(|random| random.quantity(&[0.01])),
+                        ..Default::default()
+                    }),
+                }),
+            }),
             effects: self.maybe(|random| EffectsTable {
                 mirror_symmetry: random.maybe(|random| match random.below(4) {
                     0 => Switch::On,

@@ -146,11 +146,11 @@ const FAULTS: &[(Change, &str, &str)] = &[
     ),
     (
         |file| {
-            let auto = Some(toml::Table::new());
-            file.model = Some(ModelTable { auto, ..Default::default() });
+            let tolerance = Some(ToleranceValue::Share("2".into()));
+            file.accuracy = Some(AccuracyTable { tolerance });
         },
-        "model.auto",
-        "not available",
+        "accuracy.tolerance",
+        "tolerance is \"2\"",
     ),
     (
         |file| file.model = Some(ModelTable::law(LawTable::default())),

@@ -1,0 +1,296 @@
+//! The cheapest model that serves, `[model] auto = {}`.
+//!
+//! What a case asks for is in `[output]` (fields, or none) and in `[accuracy]`. What a model is off by
+//! is estimated before anything is computed: what the effects are worth that the scene calls for and
+//! the model lacks ([`Effect::left_out`]), and what its own approximations are known to cost. Effects
+//! that no model has choose none; the plan warns of them.
+
+use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots};
+use fem_laws::Ting;
+use serde::Serialize;
+
+use super::method_of;
+use crate::effects::{Effect, FiniteSizeEffect, LeftOut, PartnerWaves, Vibration, Viscoelasticity};
+use crate::estimate::Estimate;
+use crate::method::{Method, Model, Shared};
+use crate::refusal::Refusal;
+
+/// The cheapest that serves, `[model] auto = {}`.
+#[derive(Clone, Copy, Debug)]
+pub struct AutoMethod;
+
+impl Method for AutoMethod {
+    fn name(&self) -> &'static str {
+        "auto"
+    }
+
+    fn build(&self, scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
+        let chosen = left_open(scene)?;
+        method_of(&chosen).build(&chosen, shared)
+    }
+
+    fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
+        let chosen = left_open(scene)?;
+        method_of(&chosen).price(&chosen)
+    }
+
+    /// The case names the model that was chosen.
+    fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
+        let chosen = left_open(scene)?;
+        method_of(&chosen).resolve(&chosen, file)
+    }
+}
+
+/// A scene that leaves its model open, with the one that serves.
+fn left_open(scene: &Scene) -> Result<Scene, Refusal> {
+    match scene.model() {
+        ModelChoice::Auto => Ok(Chosen::of(scene)?.scene),
+        _ => Err(Refusal::chose_another(scene, "auto")),
+    }
+}
+
+/// A model that was considered for a case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Considered {
+    /// The model, as `[model]` would say it.
+    pub model: &'static str,
+    /// Whether it computes the collision.
+    pub chosen: bool,
+    /// What it is expected to be off by.
+    pub error: LeftOut,
+    /// Why it serves or does not.
+    pub reason: String,
+}
+
+/// A scene with the model that computes it.
+#[derive(Clone, Debug)]
+pub(crate) struct Chosen {
+    /// The scene, of which the model is no longer open.
+    pub scene: Scene,
+    /// All models, from the cheapest to the dearest; none where the case named its own.
+    pub considered: Vec<Considered>,
+    /// That none serves.
+    pub warning: Option<String>,
+}
+
+impl Chosen {
+    /// Chooses, where the case leaves it open.
+    ///
+    /// # Errors
+    /// A scene whose closed-form estimates are not finite.
+    pub fn of(scene: &Scene) -> Result<Self, Refusal> {
+        if *scene.model() != ModelChoice::Auto {
+            return Ok(Self { scene: scene.clone(), considered: Vec::new(), warning: None });
+        }
+        let estimate = Estimate::checked(scene)?;
+        let judged = CANDIDATES.map(|candidate| candidate.judge(scene, &estimate));
+        let serves = judged.iter().position(|judged| judged.unfit.is_none());
+        let best = serves.unwrap_or_else(|| closest(&judged));
+        let excess = judged[best].excess;
+        let considered = judged.into_iter().zip(CANDIDATES).enumerate();
+        let considered: Vec<Considered> = considered
+            .map(|(k, (judged, candidate))| Considered {
+                model: candidate.name,
+                chosen: k == best,
+                error: judged.error,
+                reason: match judged.unfit {
+                    Some(why) if k == best => format!("{why}; it comes closest"),
+                    Some(why) => why,
+                    None if k == best => "the cheapest that serves".to_string(),
+                    None => "serves, and costs more".to_string(),
+                },
+            })
+            .collect();
+        let scene = scene.clone().with_model(CANDIDATES[best].choice());
+        let warning = serves.is_none().then(|| {
+            format!(
+                "no model is known to be within the tolerance of the case: {} comes closest, with {:.1} times it",
+                considered[best].model, excess
+            )
+        });
+        Ok(Self { scene, considered, warning })
+    }
+}
+
+/// A model as it could compute a scene.
+#[derive(Clone, Copy)]
+struct Candidate {
+    name: &'static str,
+    choice: fn() -> ModelChoice,
+    /// Effects that it lacks and others have.
+    lacks: &'static [&'static dyn Effect],
+    /// Whether it has fields.
+    has_fields: bool,
+    /// Whether it has the spheres' own compliance to first order in the contact's size.
+    is_first_order: bool,
+    /// What its approximations are known to cost at default settings: of the restitution, of the
+    /// contact time and of the peak force.
+    own: [f64; 3],
+}
+
+/// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
+/// finite size is within 0.02 % of finite elements at a/R* = 0.05.
+const SECOND_ORDER: f64 = 0.1;
+
+/// From the cheapest to the dearest. A contact law is none of them: its numbers are the user's.
+const CANDIDATES: [Candidate; 6] = [
+    Candidate {
+        name: "hertz = {}",
+        choice: || ModelChoice::Hertz { finite_size: false },
+        lacks: &[&Viscoelasticity, &FiniteSizeEffect, &PartnerWaves, &Vibration],
+        has_fields: false,
+        is_first_order: false,
+        own: [0.0; 3],
+    },
+    Candidate {
+        name: "hertz = { finite_size = true }",
+        choice: || ModelChoice::Hertz { finite_size: true },
+        lacks: &[&Viscoelasticity, &PartnerWaves, &Vibration],
+        has_fields: false,
+        is_first_order: true,
+        own: [0.0; 3],
+    },
+    Candidate {
+        name: "ting = { finite_size = true }",
+        choice: || ModelChoice::Ting { finite_size: true, tolerance: Ting::DEFAULT_TOLERANCE },
+        lacks: &[&PartnerWaves, &Vibration],
+        has_fields: false,
+        is_first_order: true,
+        own: [2e-4, 2e-4, 2e-4],
+    },
+    Candidate {
+        name: "condensed = {}",
+        choice: || ModelChoice::Condensed(CondensedOptions::default()),
+        lacks: &[&PartnerWaves, &Vibration],
+        has_fields: true,
+        is_first_order: false,
+        own: [1e-4, 5e-4, 2e-3],
+    },
+    Candidate {
+        name: "condensed = { vibration_modes = 12 }",
+        choice: || {
+            let options = CondensedOptions { vibration_modes: 12, ..CondensedOptions::default() };
+            ModelChoice::Condensed(options)
+        },
+        lacks: &[&PartnerWaves],
+        has_fields: true,
+        is_first_order: false,
+        own: [1e-4, 5e-4, 3e-3],
+    },
+    Candidate {
+        name: "fem = {}",
+        choice: || ModelChoice::Fem,
+        lacks: &[],
+        has_fields: true,
+        is_first_order: false,
+        own: [2e-4, 1.5e-3, 3e-3],
+    },
+];
+
+/// What a candidate is expected to be off by.
+struct Judged {
+    error: LeftOut,
+    /// The worst of it, in tolerances.
+    excess: f64,
+    /// Whether it can be had at all.
+    is_possible: bool,
+    /// Why it does not serve.
+    unfit: Option<String>,
+}
+
+/// The candidate that is off by least, of those that can be had.
+fn closest(judged: &[Judged]) -> usize {
+    let possible = judged.iter().enumerate().filter(|(_, judged)| judged.is_possible);
+    let closest = possible.min_by(|(_, a), (_, b)| a.excess.total_cmp(&b.excess));
+    closest.map_or(judged.len() - 1, |(k, _)| k)
+}
+
+impl Candidate {
+    fn choice(&self) -> ModelChoice {
+        (self.choice)()
+    }
+
+    fn judge(&self, scene: &Scene, estimate: &Estimate) -> Judged {
+        let hertz = &estimate.hertz;
+        let scales = [1.0, hertz.contact_time(), hertz.peak_force()];
+        let second = if self.is_first_order { SECOND_ORDER * estimate.strain.powi(2) } else { 0.0 };
+        let own = [self.own[0], self.own[1] + second, self.own[2] + second];
+        let mut error = Sum::default();
+        for ((sum, own), scale) in error.0.iter_mut().zip(own).zip(scales) {
+            *sum += own * scale;
+        }
+        let mut worst: Option<(&str, f64)> = None;
+        let accuracy = scene.accuracy();
+        let allowed = [accuracy.restitution, accuracy.contact_time, accuracy.peak_force];
+        let share = |changes: [f64; 3]| {
+            let shares = changes.into_iter().zip(scales).zip(allowed);
+            shares.map(|((change, scale), allowed)| change / scale / allowed).fold(0.0, f64::max)
+        };
+        for effect in self.lacks {
+            let Some(left_out) = effect.left_out(scene, estimate) else { continue };
+            let changes = Sum::of(&left_out);
+            error.add(changes);
+            let part = share(changes.0);
+            if worst.is_none_or(|(_, most)| part > most) {
+                worst = Some((effect.name(), part));
+            }
+        }
+        let excess = share(error.0);
+        let impossible = self.impossible(scene, estimate);
+        let off = || format!("{excess:.1} times the tolerance");
+        let unfit = match (&impossible, excess > 1.0, worst) {
+            (Some(why), ..) => Some(why.clone()),
+            (None, true, Some((name, part))) if part > 0.5 * excess => {
+                Some(format!("lacks {name}: {}", off()))
+            }
+            (None, true, _) => Some(format!("is off by {}", off())),
+            (None, false, _) => None,
+        };
+        Judged { error: error.left_out(), excess, is_possible: impossible.is_none(), unfit }
+    }
+
+    /// What keeps it from a scene whatever the tolerance.
+    fn impossible(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
+        if !self.has_fields && asks_for_fields(scene) {
+            return Some("has no fields to draw".to_string());
+        }
+        let size = self.is_first_order.then(|| scene.finite_size().ok()).flatten()?;
+        size.check(estimate.hertz.max_contact_radius()).err().map(|error| error.to_string())
+    }
+}
+
+/// Restitution, contact time and peak force, in SI.
+#[derive(Clone, Copy, Default)]
+struct Sum([f64; 3]);
+
+impl Sum {
+    fn of(left_out: &LeftOut) -> Self {
+        let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
+        Self([restitution, contact_time_s, peak_force_n].map(Option::unwrap_or_default))
+    }
+
+    fn add(&mut self, other: Self) {
+        for (sum, more) in self.0.iter_mut().zip(other.0) {
+            *sum += more;
+        }
+    }
+
+    fn left_out(self) -> LeftOut {
+        let [restitution, contact_time, peak_force] = self.0;
+        LeftOut {
+            restitution: Some(restitution),
+            contact_time_s: Some(contact_time),
+            peak_force_n: Some(peak_force),
+        }
+    }
+}
+
+/// Whether the case asks for snapshots.
+fn asks_for_fields(scene: &Scene) -> bool {
+    match scene.snapshots() {
+        None => false,
+        Some(Snapshots::Labels(labels)) => !labels.is_empty(),
+        Some(Snapshots::Count(_)) => true,
+        Some(Snapshots::Times(times)) => !times.is_empty(),
+    }
+}

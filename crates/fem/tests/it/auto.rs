@@ -1,0 +1,168 @@
+//! `[model] auto = {}`: which model a scene takes, why, and that its answer is within the tolerance of a
+//! dearer one.
+
+use std::path::Path;
+
+use fem::{Case, Collision, Simulation};
+
+/// Two spheres, the first of which strikes the second.
+fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {
+    let [striker, target] = diameters;
+    format!(
+        r#"
+{material}
+[[body]]
+name = "striker"
+sphere = {{ diameter = "{striker}" }}
+material = "stuff"
+approach_speed = "{speed}"
+
+[[body]]
+name = "target"
+sphere = {{ diameter = "{target}" }}
+material = "stuff"
+"#
+    )
+}
+
+const GLASS: &str = r#"[material.stuff]
+density = "2390 kg/m^3"
+youngs_modulus = "63 GPa"
+poissons_ratio = 0.244
+"#;
+
+const RELAXING: &str = r#"[material.stuff]
+density = "2390 kg/m^3"
+youngs_modulus = "63 GPa"
+poissons_ratio = 0.244
+[material.stuff.relaxation]
+acts_on = "shear"
+terms = [{ weight = 0.6, decay_rate = "2708 1/s" }]
+"#;
+
+const RUBBER: &str = r#"[material.stuff]
+density = "1100 kg/m^3"
+youngs_modulus = "10 MPa"
+poissons_ratio = 0.45
+[material.stuff.relaxation]
+acts_on = "all"
+terms = [{ weight = 0.4, relaxation_time = "0.5 ms" }]
+"#;
+
+fn simulation(text: &str, set: &[&str]) -> Simulation {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    Simulation::new(Case::parse("scene.toml", text, Path::new("."), &set).unwrap()).unwrap()
+}
+
+/// Restitution (absolute), contact time and peak force (relative) within the tolerance.
+fn within(tolerance: f64, found: &Collision, reference: &Collision, what: &str) {
+    let restitution = found.restitution.unwrap() - reference.restitution.unwrap();
+    let time = found.contact_time.unwrap() / reference.contact_time.unwrap() - 1.0;
+    let force = found.peak_force.unwrap() / reference.peak_force.unwrap() - 1.0;
+    for (change, name) in [(restitution, "e"), (time, "T"), (force, "F")] {
+        assert!(change.abs() < tolerance, "{what}: {name} is off by {change:e}");
+    }
+}
+
+/// Scene, what else it asks for, the model that it must take, why the one before it does not serve, and
+/// the tolerance.
+type Row = (String, &'static [&'static str], &'static str, &'static str, f64);
+
+fn table() -> Vec<Row> {
+    let pair = ["22.2 mm", "15.9 mm"];
+    vec![
+        (scene(GLASS, pair, "0.5 m/s"), &[], "hertz = {}", "", 0.01),
+        (
+            scene(GLASS, pair, "0.5 m/s"),
+            &["accuracy.tolerance='0.2 %'"],
+            "hertz = { finite_size = true }",
+            "lacks finite size",
+            0.002,
+        ),
+        (
+            scene(RELAXING, pair, "0.5 m/s"),
+            &[],
+            "ting = { finite_size = true }",
+            "lacks viscoelasticity",
+            0.01,
+        ),
+        (
+            scene(RELAXING, pair, "0.5 m/s"),
+            &["output.snapshots=[\"maximum\"]"],
+            "condensed = {}",
+            "has no fields to draw",
+            0.01,
+        ),
+        // What relaxes changes the force by 3 %, the restitution by 5 %.
+        (scene(RELAXING, pair, "0.5 m/s"), &["accuracy.tolerance='20 %'"], "hertz = {}", "", 0.2),
+        (
+            scene(GLASS, ["100 um", "80 um"], "2 mm/s"),
+            &["accuracy.tolerance='0.5 %'"],
+            "hertz = {}",
+            "",
+            0.005,
+        ),
+        // The contact is larger than a tenth of the spheres: their compliance is no correction any more.
+        (scene(RUBBER, ["20 mm", "20 mm"], "0.5 m/s"), &[], "condensed = {}", "outside", 0.01),
+        (
+            scene(RUBBER, ["20 mm", "20 mm"], "1 cm/s"),
+            &["accuracy.tolerance='2 %'"],
+            "ting = { finite_size = true }",
+            "lacks viscoelasticity",
+            0.02,
+        ),
+        // Inertia of the spheres' own deformation.
+        (
+            scene(GLASS, ["10 mm", "10 mm"], "40 m/s"),
+            &["accuracy.tolerance='0.6 %'"],
+            "condensed = { vibration_modes = 12 }",
+            "lacks vibration",
+            0.006,
+        ),
+    ]
+}
+
+#[test]
+fn each_scene_takes_the_cheapest_that_serves() {
+    for (text, set, expected, why, tolerance) in table() {
+        let set: Vec<&str> = set.iter().copied().chain(["model.auto={}"]).collect();
+        let simulation = simulation(&text, &set);
+        let considered = simulation.considered();
+        let chosen = considered.iter().position(|considered| considered.chosen).unwrap();
+        let told: Vec<String> =
+            considered.iter().map(|c| format!("{}: {}", c.model, c.reason)).collect();
+        assert_eq!(considered[chosen].model, expected, "{told:#?}");
+        if chosen > 0 {
+            let before = &considered[chosen - 1].reason;
+            assert!(before.contains(why), "{expected}: {before}");
+        }
+        assert!(simulation.warnings_before().iter().all(|w| !w.contains("tolerance")), "{told:#?}");
+        let found = simulation.run(&mut ());
+        let reference = reference(&text);
+        within(tolerance, &found, &reference, expected);
+        // The resolved case names the model, and gives the same.
+        let again = Simulation::new(Case::of(simulation.resolved().clone()).unwrap()).unwrap();
+        assert!(again.considered().is_empty());
+        assert_eq!(again.run(&mut ()), found, "{expected}");
+    }
+}
+
+/// The condensed model with modes, on elements twice as fine as by default.
+fn reference(text: &str) -> Collision {
+    let model = "model.condensed={vibration_modes=12}";
+    let size =
+        simulation(text, &[model]).setup().elements.as_ref().unwrap().plan.contact_element_size;
+    let size = format!("mesh.contact_element_size={}", 0.5 * size);
+    simulation(text, &[model, &size, "output.snapshots=[]"]).run(&mut ())
+}
+
+#[test]
+fn what_no_model_is_known_to_reach_is_told() {
+    let text = scene(RELAXING, ["22.2 mm", "15.9 mm"], "0.5 m/s");
+    let simulation = simulation(&text, &["model.auto={}", "accuracy.tolerance=1e-5"]);
+    let warnings = simulation.warnings_before();
+    assert!(warnings[0].contains("no model is known"), "{warnings:?}");
+    let chosen = simulation.considered().iter().find(|considered| considered.chosen).unwrap();
+    assert_eq!(chosen.model, "ting = { finite_size = true }");
+    assert!(chosen.reason.contains("comes closest"), "{}", chosen.reason);
+}
