@@ -49,6 +49,17 @@ impl Correction {
 
     /// u, and ∂u/∂δ there, at δ (an open contact: 0), with the `remembered` Σ M_k (α_k − β_k ln u).
     pub fn hertz_approach(&self, approach: f64, remembered: &Self) -> (f64, f64) {
+        // From an error of 1e-2: 1e-4, 1e-8, 1e-16.
+        self.hertz_approach_after(4, approach, remembered)
+    }
+
+    /// The same after a number of iterations of Newton's method.
+    pub fn hertz_approach_after(
+        &self,
+        n_iterations: usize,
+        approach: f64,
+        remembered: &Self,
+    ) -> (f64, f64) {
         if approach <= remembered.alpha.max(0.0) {
             return (0.0, 1.0);
         }
@@ -57,8 +68,7 @@ impl Correction {
         }
         let mut hertz = approach;
         let mut slope = 1.0;
-        // Newton's method from an error of 1e-2: 1e-4, 1e-8, 1e-16.
-        for _ in 0..4 {
+        for _ in 0..n_iterations {
             let (root, log) = (hertz.sqrt(), hertz.ln());
             let factor = self.alpha - self.beta * log;
             let stiffening = root * (1.5 * factor - self.beta) - remembered.beta / hertz;

@@ -80,6 +80,7 @@ impl HertzImpact {
                 work: strain_energy,
                 strain_energy: Some(strain_energy),
                 dissipated: Some(0.0),
+                radiated: None,
             }
         });
         Impact {

@@ -39,8 +39,19 @@ pub struct ImpactInstant {
     pub work: f64,
     /// What of the work the contact holds, J, from the state; `None` for a model that knows it not.
     pub strain_energy: Option<f64>,
-    /// What of the work is lost, J, from the state; `None` for a model that knows it not.
+    /// What of the work is lost in the bodies, J, from the state; `None` for a model that knows it
+    /// not.
     pub dissipated: Option<f64>,
+    /// What of the work has left as waves, J, from the state; `None` for a model without radiation.
+    /// Where all three are known they add up to the work.
+    pub radiated: Option<f64>,
+}
+
+impl Impact {
+    /// What has left as waves, J; `None` for a model without radiation.
+    pub fn radiated(&self) -> Option<f64> {
+        self.history.last()?.radiated
+    }
 }
 
 impl ImpactInstant {
@@ -56,6 +67,7 @@ impl ImpactInstant {
             work: 0.0,
             strain_energy: energies.then_some(0.0),
             dissipated: energies.then_some(0.0),
+            radiated: None,
         }
     }
 }

@@ -68,6 +68,9 @@ impl<'a> ImpactPath<'a> {
             cubic(s, length, [value(a), value(b)], slopes)
         };
         let power = [a, b].map(|instant| instant.force * instant.approach_rate);
+        let radiated = |instant: &ImpactInstant| instant.radiated.unwrap_or_default();
+        let leaving = [self.slope(k, radiated), self.slope(k + 1, radiated)];
+        let kept = [power[0] - leaving[0], power[1] - leaving[1]];
         let of_law = self.law.map(|law| {
             let lost = [a, b].map(|instant| {
                 let spring = law.force(instant.approach, 0.0);
@@ -87,7 +90,7 @@ impl<'a> ImpactPath<'a> {
             Some((force, strain, lost)) => (force, Some(strain), Some(lost), strain + lost),
             None => (
                 from_instants(|instant| instant.force),
-                both(|instant| instant.strain_energy, power),
+                both(|instant| instant.strain_energy, kept),
                 both(|instant| instant.dissipated, [0.0; 2]),
                 cubic(s, length, [a.work, b.work], power),
             ),
@@ -108,6 +111,7 @@ impl<'a> ImpactPath<'a> {
             work,
             strain_energy,
             dissipated,
+            radiated: both(|instant| instant.radiated, leaving),
         }
     }
 

@@ -119,6 +119,7 @@ impl LawImpact {
                 work: strain_energy + energy * lost,
                 strain_energy: Some(strain_energy),
                 dissipated: Some(energy * lost),
+                radiated: None,
             }
         });
         Ok(Impact {

@@ -56,6 +56,8 @@ mod plastic_yield;
 mod radiation;
 mod sphere_compliance;
 mod ting;
+mod ting_collision;
+mod ting_radiation;
 mod ting_record;
 mod ting_step;
 
@@ -72,5 +74,5 @@ pub use law_impact::LawImpact;
 pub use pair::{Pair, Partner, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, largest_von_mises};
-pub use radiation::{radiated_share, radiation_coefficient};
+pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};
 pub use ting::Ting;

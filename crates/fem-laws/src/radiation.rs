@@ -78,15 +78,34 @@ fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     step * (0..POINTS).map(point).sum::<f64>()
 }
 
+/// γ of a half-space of this material, m s/N: of the radiated energy W = γ ∫Ḟ² dt, and of the
+/// displacement −γ Ḟ beside what the force at rest would make,
+///
+/// ```math
+/// \gamma = \frac{C(\nu)}{\mu c_s},
+/// ```
+///
+/// with the instantaneous moduli. A material that relaxes within the contact radiates more: by up to
+/// (G₀/G∞)^(3/2) at a given force, where all of it is over long before the contact ends. Moduli
+/// without such terms are [`crate::Folded`].
+pub fn radiation_damping(material: &Material) -> f64 {
+    let moduli = material.instantaneous();
+    let impedance = moduli.shear_modulus() * material.shear_wave_speed();
+    radiation_coefficient(moduli.poissons_ratio()) / impedance
+}
+
 /// Share of the energy of approach that an elastic impact radiates into a body of this material, as if
 /// it never ended.
 pub fn radiated_share(hertz: &HertzImpact, material: &Material) -> f64 {
-    let moduli = material.instantaneous();
+    share_of_damping(hertz, radiation_damping(material))
+}
+
+/// The same of γ, m s/N.
+pub(crate) fn share_of_damping(hertz: &HertzImpact, damping: f64) -> f64 {
     let (force, speed) = (hertz.peak_force(), hertz.approach_speed());
     let squared_rates = 1.8 * beta(0.8, 1.5) * force * force * speed / hertz.max_approach();
-    let impedance = moduli.shear_modulus() * material.shear_wave_speed();
     let energy = 0.5 * hertz.pair().effective_mass() * speed * speed;
-    radiation_coefficient(moduli.poissons_ratio()) / impedance * squared_rates / energy
+    damping * squared_rates / energy
 }
 
 #[cfg(test)]

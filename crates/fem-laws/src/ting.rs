@@ -31,34 +31,26 @@
 //! since t₁. Keeping it makes the restitution of glass, from 0.1 to 2 m/s and of whatever loss, too
 //! small by up to 4e-4, found by direct integration; finite elements agree.
 //!
-//! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8 is returned as
-//! bodies that stay together.
+//! With bodies that radiate, −γ Ḟ of each comes beside them in δ: [`crate::radiation_damping`], in the
+//! passive form of `ting_radiation.rs`, by the force itself, in loading and unloading. The contact then is
+//! largest a little before the approach is, and t₁ looks back from there.
+//!
+//! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8, with waves
+//! 1e-6, is returned as bodies that stay together.
 
-use std::f64::consts::PI;
+use fem_material::Material;
 
-use crate::bisection::last_where;
-use crate::collocation::{Interpolation, N, POINTS, evaluate};
-use crate::error::{LawError, tolerance as checked_tolerance};
+use crate::error::{LawError, positive, tolerance as checked_tolerance};
 use crate::finite_correction::RelaxingCorrection;
 use crate::finite_size::FiniteSize;
 use crate::hertz::HertzImpact;
-use crate::impact::{Impact, ImpactInstant};
+use crate::impact::Impact;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
-use crate::ting_record::{Contact, Element, Record, peak};
-use crate::ting_step::{Solved, State, Stepper};
-
-/// Local error of the rate over the tolerance. A collision takes some tens of steps.
-const LOCAL_SHARE: f64 = 0.1;
-
-/// Restitution that is none; also of the energy that could still come back, its root.
-const STUCK: f64 = 1e-8;
-
-/// Far above the some hundreds that the most viscous contacts take.
-const MAX_STEPS: usize = 20_000;
-
-/// Index of the Gauss point at θ = 1/2.
-const MIDDLE: usize = N / 2;
+use crate::radiation::{radiation_damping, share_of_damping};
+use crate::ting_collision::{Collision, Units};
+use crate::ting_radiation::Radiation;
+use crate::ting_record::{Contact, Element};
 
 /// Faster relaxation leaves a force of 1e-15.
 const MAX_RATE: f64 = 1e15;
@@ -69,6 +61,8 @@ pub struct Ting {
     pair: Pair,
     relaxation: PairRelaxation,
     finite_size: Option<FiniteSize>,
+    /// γ of all bodies that radiate, m s/N.
+    radiation_damping: Option<f64>,
     tolerance: f64,
 }
 
@@ -76,9 +70,19 @@ impl Ting {
     /// Accuracy of restitution, time and force that [`Ting::new`] asks for.
     pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 
+    /// Largest share of the energy, as [`crate::radiated_share`] foretells it, for which the first
+    /// order of low frequencies is taken to hold.
+    pub const MAX_RADIATED_SHARE: f64 = 0.2;
+
     /// Of a pair, whose modulus is the instantaneous one, and its relaxation.
     pub fn new(pair: &Pair, relaxation: PairRelaxation) -> Self {
-        Self { pair: *pair, relaxation, finite_size: None, tolerance: Self::DEFAULT_TOLERANCE }
+        Self {
+            pair: *pair,
+            relaxation,
+            finite_size: None,
+            radiation_damping: None,
+            tolerance: Self::DEFAULT_TOLERANCE,
+        }
     }
 
     /// With another tolerance, 1e-10 to 1e-2.
@@ -94,11 +98,26 @@ impl Ting {
         Self { finite_size: Some(finite_size), ..self }
     }
 
+    /// With the loss by waves into each body so large that they do not come back, given by its
+    /// material; none without such a body. Its instantaneous moduli are taken.
+    ///
+    /// # Errors
+    /// Moduli so extreme that γ leaves the range of f64.
+    pub fn with_radiation<'a>(
+        self,
+        bodies: impl IntoIterator<Item = &'a Material>,
+    ) -> Result<Self, LawError> {
+        let damping = bodies.into_iter().map(radiation_damping).reduce(|sum, own| sum + own);
+        let radiation_damping =
+            damping.map(|damping| positive("radiation damping", damping)).transpose()?;
+        Ok(Self { radiation_damping, ..self })
+    }
+
     /// The collision at an approach speed, m/s.
     ///
     /// # Errors
     /// Those of [`HertzImpact::new`]; a contact too large for the finite-size correction; a
-    /// motion that does not end.
+    /// radiated share too large; a motion that does not end.
     pub fn impact(&self, approach_speed: f64) -> Result<Impact, LawError> {
         let hertz = HertzImpact::new(&self.pair, approach_speed)?;
         let units = Units::of(&hertz);
@@ -119,209 +138,23 @@ impl Ting {
             equilibrium: self.relaxation.equilibrium_weight(),
             elements: elements.collect(),
             correction: corrections.equilibrium,
+            radiation: None,
         };
-        Collision::new(&contact, self.finite_size.as_ref(), self.tolerance).run(&units)
-    }
-}
-
-/// What a dimensionless 1 stands for.
-struct Units {
-    time: f64,
-    length: f64,
-    speed: f64,
-    force: f64,
-    radius: f64,
-    pressure: f64,
-    energy: f64,
-}
-
-impl Units {
-    fn of(hertz: &HertzImpact) -> Self {
-        let (pair, speed) = (hertz.pair(), hertz.approach_speed());
-        // Hertz' energy balance is u^(5/2) = 5/4 at the largest approach.
-        let length = hertz.max_approach() / 1.25f64.powf(0.4);
-        Self {
-            time: length / speed,
-            length,
-            speed,
-            force: hertz.force(length),
-            radius: pair.effective_radius().sqrt() * length.sqrt(),
-            pressure: 2.0 / PI * pair.contact_modulus() * (length / pair.effective_radius()).sqrt(),
-            energy: pair.effective_mass() * speed * speed,
-        }
-    }
-}
-
-/// The dimensionless motion and what is gathered along it.
-struct Collision<'a> {
-    contact: &'a Contact,
-    finite_size: Option<&'a FiniteSize>,
-    interpolation: Interpolation,
-    local_tolerance: f64,
-    state: State,
-    length: f64,
-    work: f64,
-    n_steps: usize,
-    peak_force: f64,
-    peak_pressure: f64,
-    history: Vec<ImpactInstant>,
-}
-
-impl<'a> Collision<'a> {
-    fn new(contact: &'a Contact, finite_size: Option<&'a FiniteSize>, tolerance: f64) -> Self {
-        let fastest = contact.elements.iter().map(|element| element.rate).fold(1.0, f64::max);
-        let memory = vec![[0.0; 3]; contact.elements.len()];
-        Self {
-            contact,
-            finite_size,
-            interpolation: Interpolation::new(),
-            local_tolerance: LOCAL_SHARE * tolerance,
-            state: State { time: 0.0, approach: 0.0, rate: 1.0, force: 0.0, memory },
-            // δ^(3/2) is not smooth at first touch: begin far below all time scales.
-            length: 1e-5 / fastest,
-            work: 0.0,
-            n_steps: 0,
-            peak_force: 0.0,
-            peak_pressure: 0.0,
-            history: vec![ImpactInstant::first_touch(1.0, true, contact.elements.is_empty())],
-        }
-    }
-
-    fn run(mut self, units: &Units) -> Result<Impact, LawError> {
-        let record = self.load(units)?;
-        let turned = self.state.clone();
-        if let Some(record) = &record {
-            self.unload(record, units)?;
-        }
-        let parted = -self.state.rate > STUCK;
-        let hertz = self.contact.hertz_approach(turned.approach, &turned.memory);
-        Ok(Impact {
-            restitution: if parted { -self.state.rate } else { 0.0 },
-            contact_time: parted.then_some(self.state.time * units.time),
-            peak_force: self.peak_force * units.force,
-            max_approach: turned.approach * units.length,
-            max_contact_radius: hertz.sqrt() * units.radius,
-            peak_pressure: Some(self.peak_pressure * units.pressure),
-            history: self.history.iter().map(|instant| units.dimensional(instant)).collect(),
-        })
-    }
-
-    /// Up to the largest approach; `None` if the bodies stay there.
-    fn load(&mut self, units: &Units) -> Result<Option<Record>, LawError> {
-        let mut steps = Vec::new();
-        loop {
-            let solved = self.step(None, units)?;
-            let turn = if solved.step.rate_at(1.0) > 0.0 {
-                1.0
-            } else {
-                last_where(0.0, 1.0, |theta| solved.step.rate_at(theta) > 0.0)
-            };
-            let pressure = self.interpolation.coefficients(&solved.pressure);
-            self.peak_force = self.peak_force.max(peak(&solved.step.force, turn));
-            self.peak_pressure = self.peak_pressure.max(peak(&pressure, turn));
-            self.advance(&solved, turn);
-            if let (Some(size), Some(last)) = (self.finite_size, self.history.last()) {
-                size.check(last.contact_radius * units.radius)?;
-            }
-            steps.push(solved.step);
-            if turn < 1.0 {
-                return Ok(Some(Record { steps, end: self.state.time }));
-            }
-            if self.state.rate < STUCK && self.state.force * self.state.approach < STUCK * STUCK {
-                return Ok(None);
-            }
-        }
-    }
-
-    /// Down to the end of contact.
-    fn unload(&mut self, record: &Record, units: &Units) -> Result<(), LawError> {
-        loop {
-            let solved = self.step(Some(record), units)?;
-            let touches = |theta: f64| solved.step.surface_at(self.contact, theta) > 0.0;
-            let end = if touches(1.0) { 1.0 } else { last_where(0.0, 1.0, touches) };
-            self.advance(&solved, end);
-            if end < 1.0 {
-                self.state.force = 0.0;
-                if let Some(last) = self.history.last_mut() {
-                    (last.force, last.contact_radius) = (0.0, 0.0);
-                    last.centre_pressure = Some(0.0);
-                    // A surface without load gives nothing back.
-                    last.dissipated.get_or_insert(last.work);
-                }
-                return Ok(());
-            }
-        }
-    }
-
-    /// One step within the tolerance; the size of the next is chosen.
-    fn step(&mut self, record: Option<&Record>, units: &Units) -> Result<Solved, LawError> {
-        let (contact, interpolation) = (self.contact, &self.interpolation);
-        let stepper = Stepper { contact, interpolation, record };
-        while self.n_steps < MAX_STEPS {
-            self.n_steps += 1;
-            let Some(solved) = stepper.solve(&self.state, self.length) else {
-                self.length *= 0.4;
-                continue;
-            };
-            // The finest detail falls with the fifth power of the step.
-            let factor = (0.9 * (self.local_tolerance / solved.error).powf(0.2)).clamp(0.2, 2.0);
-            // Many iterations say that the step nears the limit of contraction.
-            self.length *= if solved.n_iterations > 14 { factor.min(0.8) } else { factor };
-            if solved.error <= self.local_tolerance {
-                return Ok(solved);
-            }
-        }
-        let time = self.state.time * units.time;
-        Err(LawError::NotFinished { model: "ting", n_steps: self.n_steps, time })
-    }
-
-    /// The state at θ of a step becomes the present one.
-    fn advance(&mut self, solved: &Solved, theta: f64) {
-        let step = &solved.step;
-        let radii = self.interpolation.coefficients(&solved.contact_approach);
-        let pressures = self.interpolation.coefficients(&solved.pressure);
-        let is_elastic = self.contact.elements.is_empty();
-        let instant = |theta: f64| {
-            let hertz = evaluate(&radii, theta).max(0.0);
-            ImpactInstant {
-                time: step.start + theta * step.length,
-                approach: step.approach_at(theta),
-                approach_rate: step.rate_at(theta),
-                force: evaluate(&step.force, theta),
-                contact_radius: hertz.sqrt(),
-                centre_pressure: Some(evaluate(&pressures, theta).max(0.0)),
-                work: self.work + step.work_until(&self.interpolation, theta),
-                strain_energy: is_elastic.then(|| self.contact.correction.strain_energy(hertz)),
-                dissipated: is_elastic.then_some(0.0),
-            }
+        let run = |contact: &Contact| {
+            Collision::new(contact, self.finite_size.as_ref(), self.tolerance).run(&units)
         };
-        let middle = (POINTS[MIDDLE] < theta).then(|| instant(POINTS[MIDDLE]));
-        let last = instant(theta);
-        self.history.extend(middle);
-        self.history.push(last);
-        self.work = last.work;
-        self.state = State {
-            time: last.time,
-            approach: last.approach,
-            rate: last.approach_rate,
-            force: last.force,
-            memory: step.memories(self.contact, theta),
-        };
-    }
-}
-
-impl Units {
-    fn dimensional(&self, instant: &ImpactInstant) -> ImpactInstant {
-        ImpactInstant {
-            time: instant.time * self.time,
-            approach: instant.approach * self.length,
-            approach_rate: instant.approach_rate * self.speed,
-            force: instant.force * self.force,
-            contact_radius: instant.contact_radius * self.radius,
-            centre_pressure: instant.centre_pressure.map(|pressure| pressure * self.pressure),
-            work: instant.work * self.energy,
-            strain_energy: instant.strain_energy.map(|energy| energy * self.energy),
-            dissipated: instant.dissipated.map(|energy| energy * self.energy),
+        let Some(damping) = self.radiation_damping else { return run(&contact) };
+        let (value, limit) = (share_of_damping(&hertz, damping), Self::MAX_RADIATED_SHARE);
+        if value > limit {
+            let quantity = "radiated energy / energy of approach";
+            return Err(LawError::OutsideValidity { quantity, value, limit });
         }
+        let without = run(&contact)?;
+        let radiation = Radiation::new(
+            damping * units.force / (units.length * units.time),
+            (without.max_contact_radius / units.radius).powi(2),
+            without.contact_time.unwrap_or(hertz.contact_time()) / units.time,
+        );
+        run(&Contact { radiation: Some(radiation), ..contact })
     }
 }

@@ -9,6 +9,7 @@ use crate::collocation::{
     Interpolation, POINTS, Vector, double_integral, evaluate, fading_moments, integral,
 };
 use crate::finite_correction::Correction;
+use crate::ting_radiation::Radiation;
 
 /// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
 pub(crate) type Memory = [f64; 3];
@@ -37,6 +38,8 @@ pub(crate) struct Contact {
     pub elements: Vec<Element>,
     /// Finite size: of u^(3/2) itself.
     pub correction: Correction,
+    /// Waves that leave, if they do.
+    pub radiation: Option<Radiation>,
 }
 
 impl Contact {
@@ -66,6 +69,8 @@ pub(crate) struct Step {
     /// At the start, of each element.
     pub memory: Vec<Memory>,
     pub force: Vector,
+    /// At the start; 0 without radiation.
+    pub slow_force: f64,
     /// Time derivatives of u^(3/2), u and √u.
     pub drives: [Vector; 3],
 }
@@ -78,6 +83,53 @@ impl Step {
 
     pub fn rate_at(&self, theta: f64) -> f64 {
         self.rate - self.length * integral(&self.force, theta)
+    }
+
+    /// What of δ is the contact's own.
+    pub fn contact_approach_at(&self, contact: &Contact, theta: f64) -> f64 {
+        let approach = self.approach_at(theta);
+        match &contact.radiation {
+            None => approach,
+            Some(radiation) => {
+                let slow_force = self.slow_force_at(radiation, theta);
+                approach - radiation.approach(evaluate(&self.force, theta), slow_force)
+            }
+        }
+    }
+
+    /// u̇ where the contact has this ∂u/∂δ, but for the creep of the finite size, some per cent of a
+    /// per cent.
+    pub fn hertz_rate_at(&self, contact: &Contact, compression: f64, theta: f64) -> f64 {
+        match contact.radiation {
+            None => compression * self.rate_at(theta),
+            Some(_) => evaluate(&self.drives[SURFACE], theta),
+        }
+    }
+
+    /// Whether the contact grows.
+    pub fn grows_at(&self, contact: &Contact, theta: f64) -> bool {
+        self.hertz_rate_at(contact, 1.0, theta) > 0.0
+    }
+
+    /// f.
+    pub fn slow_force_at(&self, radiation: &Radiation, theta: f64) -> f64 {
+        let z = radiation.rate * self.length;
+        (-z * theta).exp() * self.slow_force + z * dot(&fading_moments(theta, z), &self.force)
+    }
+
+    /// γ ∫ḟ² dt from the start to θ.
+    pub fn radiated_until(
+        &self,
+        radiation: &Radiation,
+        interpolation: &Interpolation,
+        theta: f64,
+    ) -> f64 {
+        let power = POINTS.map(|point| {
+            let point = point * theta;
+            let slow_force = self.slow_force_at(radiation, point);
+            radiation.power(evaluate(&self.force, point), slow_force)
+        });
+        self.length * theta * integral(&interpolation.coefficients(&power), 1.0)
     }
 
     /// ∫F dδ from the start to θ, exactly.
@@ -108,16 +160,17 @@ impl Step {
     pub fn surface_at(&self, contact: &Contact, theta: f64) -> f64 {
         let memories = self.memories(contact, theta);
         let remembered = contact.elements.iter().zip(&memories);
-        contact.equilibrium * contact.hertz_approach(self.approach_at(theta), &memories)
+        contact.equilibrium
+            * contact.hertz_approach(self.contact_approach_at(contact, theta), &memories)
             + remembered.map(|(element, memory)| element.weight * memory[SURFACE]).sum::<f64>()
     }
 }
 
-/// The steps of loading, up to the largest approach.
+/// The steps of loading, up to the largest contact.
 #[derive(Debug, Clone)]
 pub(crate) struct Record {
     pub steps: Vec<Step>,
-    /// Time of the largest approach.
+    /// Time of the largest contact: of the largest approach, unless waves leave.
     pub end: f64,
 }
 
@@ -169,7 +222,7 @@ impl Record {
         let theta = (t1 - step.start) / step.length;
         let memories = step.memories(contact, theta);
         let remembered = contact.remembered(&memories);
-        let approach = step.approach_at(theta);
+        let approach = step.contact_approach_at(contact, theta);
         let (hertz, compression) = contact.correction.hertz_approach(approach, &remembered);
         let mut surface = contact.equilibrium * hertz;
         let mut force = contact.equilibrium * hertz * hertz.sqrt();
@@ -182,8 +235,10 @@ impl Record {
             pressure += faded * memory[PRESSURE];
             relaxation += faded;
         }
-        // But for the creep of the finite size, some per cent of a per cent.
-        let slope = relaxation * compression * step.rate_at(theta);
+        let slope = match contact.radiation {
+            None => relaxation * compression * step.rate_at(theta),
+            Some(_) => relaxation * step.hertz_rate_at(contact, compression, theta),
+        };
         (surface, slope, Shrunk { equivalent_time: t1, force, hertz_approach: hertz, pressure })
     }
 }

@@ -10,6 +10,7 @@ use crate::collocation::{
     integral_moments,
 };
 use crate::finite_correction::Correction;
+use crate::ting_radiation::SlowForce;
 use crate::ting_record::{Contact, FORCE, Memory, PRESSURE, Record, SURFACE, Step};
 
 /// Where the motion stands.
@@ -19,6 +20,8 @@ pub(crate) struct State {
     pub approach: f64,
     pub rate: f64,
     pub force: f64,
+    /// 0 without radiation.
+    pub slow_force: f64,
     pub memory: Vec<Memory>,
 }
 
@@ -42,6 +45,7 @@ struct Kernel {
     creep: [Fading; 2],
     /// Of α_k b_k and β_k b_k.
     creep_decay: [Fading; 2],
+    radiation: Option<SlowForce>,
 }
 
 /// Of one combination of the elements.
@@ -75,6 +79,17 @@ pub(crate) struct Stepper<'a> {
     pub record: Option<&'a Record>,
 }
 
+impl Contact {
+    /// Hertz' approach u of a state.
+    pub fn hertz_approach_of(&self, state: &State) -> f64 {
+        let own = match &self.radiation {
+            None => state.approach,
+            Some(radiation) => state.approach - radiation.approach(state.force, state.slow_force),
+        };
+        self.hertz_approach(own, &state.memory)
+    }
+}
+
 impl Kernel {
     /// What the finite size remembers at point `i`, and its rate, of a drive.
     fn creep_at(&self, drives: &[Vector; 3], i: usize) -> (Correction, Correction) {
@@ -101,16 +116,29 @@ impl Stepper<'_> {
         };
         let mut force = [state.force; N];
         let mut drives = [[0.0; N]; 3];
+        let mut hertz = match self.contact.radiation {
+            None => [0.0; N],
+            Some(_) => [self.contact.hertz_approach_of(state); N],
+        };
         for n_iterations in 1..=MAX_ITERATIONS {
             let coefficients = self.interpolation.coefficients(&force);
-            let mut hertz = [0.0; N];
+            let waves = kernel.radiation.as_ref().map(|slow| {
+                slow.waves(self.interpolation, length, self.contact.correction, &force, &hertz)
+            });
             let creep: [_; N] = std::array::from_fn(|i| kernel.creep_at(&drives, i));
             for i in 0..N {
                 let rate = state.rate - length * dot(&coefficients, &singles[i]);
                 let lost = length * dot(&coefficients, &doubles[i]);
                 let approach = state.approach + length * (state.rate * POINTS[i] - lost);
                 let (remembered, creeping) = &creep[i];
-                let (u, slope) = self.contact.correction.hertz_approach(approach, remembered);
+                let (u, slope, rate) = match &waves {
+                    None => {
+                        let correction = &self.contact.correction;
+                        let (u, slope) = correction.hertz_approach(approach, remembered);
+                        (u, slope, rate)
+                    }
+                    Some(waves) => waves.hertz_approach(i, approach, rate, remembered),
+                };
                 hertz[i] = u;
                 let rate = rate - creeping.at(u);
                 drives[SURFACE][i] = slope * rate;
@@ -150,7 +178,14 @@ impl Stepper<'_> {
 
     fn kernel(&self, state: &State, length: f64) -> Kernel {
         let none = [Fading::NONE; 2];
-        let mut kernel = Kernel { force: Fading::NONE, creep: none, creep_decay: none };
+        let radiation = self.contact.radiation.map(|radiation| {
+            let elements = self.contact.elements.iter();
+            let keeps =
+                elements.map(|element| element.weight / (1.0 + 0.5 * element.rate * length));
+            let response = self.contact.equilibrium + keeps.sum::<f64>();
+            SlowForce::new(radiation, self.interpolation, length, state.slow_force, response)
+        });
+        let mut kernel = Kernel { force: Fading::NONE, creep: none, creep_decay: none, radiation };
         for (element, memory) in self.contact.elements.iter().zip(&state.memory) {
             let z = element.rate * length;
             let decay = POINTS.map(|theta| (-z * theta).exp());
@@ -206,13 +241,13 @@ impl Stepper<'_> {
             rate: state.rate,
             memory: state.memory.clone(),
             force: self.interpolation.coefficients(force),
+            slow_force: state.slow_force,
             drives: drives.map(|drive| self.interpolation.coefficients(&drive)),
         };
         // d√u is singular at first touch; its integral over the step is known all the same.
-        let root =
-            |approach: f64, memory: &[Memory]| self.contact.hertz_approach(approach, memory).sqrt();
         let end = step.memories(self.contact, 1.0);
-        let gained = root(step.approach_at(1.0), &end) - root(state.approach, &state.memory);
+        let hertz = self.contact.hertz_approach(step.contact_approach_at(self.contact, 1.0), &end);
+        let gained = hertz.sqrt() - self.contact.hertz_approach_of(state).sqrt();
         let drive = &mut step.drives[PRESSURE];
         drive[0] += gained / length - dot(drive, &integral_moments(1.0));
         step

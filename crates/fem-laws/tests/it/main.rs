@@ -11,3 +11,4 @@ mod pair_relaxation;
 mod ramirez;
 mod ting;
 mod ting_finite_size;
+mod ting_radiation;

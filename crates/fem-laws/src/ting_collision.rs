@@ -1,0 +1,278 @@
+//! The dimensionless motion of [`crate::Ting`], step by step: loading, unloading, what is gathered.
+
+use std::f64::consts::PI;
+
+use crate::bisection::last_where;
+use crate::collocation::{Interpolation, N, POINTS, evaluate};
+use crate::error::LawError;
+use crate::finite_size::FiniteSize;
+use crate::hertz::HertzImpact;
+use crate::impact::{Impact, ImpactInstant};
+use crate::ting_record::{Contact, Record, peak};
+use crate::ting_step::{Solved, State, Stepper};
+
+/// Local error of the rate over the tolerance. A collision takes some tens of steps.
+const LOCAL_SHARE: f64 = 0.1;
+
+/// Restitution that is none; also of the energy that could still come back, its root.
+const STUCK: f64 = 1e-8;
+
+/// Restitution that may come out as none where waves leave.
+const RESTING: f64 = 1e-6;
+
+/// Far above the some hundreds that the most viscous contacts take.
+const MAX_STEPS: usize = 20_000;
+
+/// Index of the Gauss point at θ = 1/2.
+const MIDDLE: usize = N / 2;
+
+/// What a dimensionless 1 stands for.
+pub(crate) struct Units {
+    pub time: f64,
+    pub length: f64,
+    pub speed: f64,
+    pub force: f64,
+    pub radius: f64,
+    pub pressure: f64,
+    pub energy: f64,
+}
+
+impl Units {
+    pub fn of(hertz: &HertzImpact) -> Self {
+        let (pair, speed) = (hertz.pair(), hertz.approach_speed());
+        // Hertz' energy balance is u^(5/2) = 5/4 at the largest approach.
+        let length = hertz.max_approach() / 1.25f64.powf(0.4);
+        Self {
+            time: length / speed,
+            length,
+            speed,
+            force: hertz.force(length),
+            radius: pair.effective_radius().sqrt() * length.sqrt(),
+            pressure: 2.0 / PI * pair.contact_modulus() * (length / pair.effective_radius()).sqrt(),
+            energy: pair.effective_mass() * speed * speed,
+        }
+    }
+}
+
+/// The dimensionless motion and what is gathered along it.
+pub(crate) struct Collision<'a> {
+    contact: &'a Contact,
+    finite_size: Option<&'a FiniteSize>,
+    interpolation: Interpolation,
+    local_tolerance: f64,
+    state: State,
+    length: f64,
+    work: f64,
+    radiated: f64,
+    n_steps: usize,
+    peak_force: f64,
+    peak_pressure: f64,
+    /// Of unloading, where waves leave.
+    max_approach: f64,
+    history: Vec<ImpactInstant>,
+}
+
+impl<'a> Collision<'a> {
+    pub fn new(contact: &'a Contact, finite_size: Option<&'a FiniteSize>, tolerance: f64) -> Self {
+        let fastest = contact.elements.iter().map(|element| element.rate).fold(1.0, f64::max);
+        let memory = vec![[0.0; 3]; contact.elements.len()];
+        Self {
+            contact,
+            finite_size,
+            interpolation: Interpolation::new(),
+            local_tolerance: LOCAL_SHARE * tolerance,
+            state: State {
+                time: 0.0,
+                approach: 0.0,
+                rate: 1.0,
+                force: 0.0,
+                slow_force: 0.0,
+                memory,
+            },
+            // δ^(3/2) is not smooth at first touch: begin far below all time scales.
+            length: 1e-5 / fastest,
+            work: 0.0,
+            radiated: 0.0,
+            n_steps: 0,
+            peak_force: 0.0,
+            peak_pressure: 0.0,
+            max_approach: 0.0,
+            history: vec![ImpactInstant {
+                radiated: contact.radiation.map(|_| 0.0),
+                ..ImpactInstant::first_touch(1.0, true, contact.elements.is_empty())
+            }],
+        }
+    }
+
+    pub fn run(mut self, units: &Units) -> Result<Impact, LawError> {
+        let record = self.load(units)?;
+        let turned = self.state.clone();
+        if let Some(record) = &record {
+            self.unload(record, units)?;
+        }
+        let parted = -self.state.rate > STUCK;
+        let hertz = self.contact.hertz_approach_of(&turned);
+        Ok(Impact {
+            restitution: if parted { -self.state.rate } else { 0.0 },
+            contact_time: parted.then_some(self.state.time * units.time),
+            peak_force: self.peak_force * units.force,
+            max_approach: turned.approach.max(self.max_approach) * units.length,
+            max_contact_radius: hertz.sqrt() * units.radius,
+            peak_pressure: Some(self.peak_pressure * units.pressure),
+            history: self.history.iter().map(|instant| units.dimensional(instant)).collect(),
+        })
+    }
+
+    /// Up to the largest contact; `None` if the bodies stay there.
+    fn load(&mut self, units: &Units) -> Result<Option<Record>, LawError> {
+        let mut steps = Vec::new();
+        loop {
+            let solved = self.step(None, units)?;
+            let grows = |theta: f64| solved.step.grows_at(self.contact, theta);
+            let turn = if grows(1.0) || self.rests_among_waves() {
+                1.0
+            } else {
+                last_where(0.0, 1.0, grows)
+            };
+            let pressure = self.interpolation.coefficients(&solved.pressure);
+            self.peak_force = self.peak_force.max(peak(&solved.step.force, turn));
+            self.peak_pressure = self.peak_pressure.max(peak(&pressure, turn));
+            self.advance(&solved, turn);
+            if let (Some(size), Some(last)) = (self.finite_size, self.history.last()) {
+                size.check(last.contact_radius * units.radius)?;
+            }
+            steps.push(solved.step);
+            if turn < 1.0 && !self.rests_among_waves() {
+                return Ok(Some(Record { steps, end: self.state.time }));
+            }
+            if self.state.rate < STUCK && self.state.force * self.state.approach < STUCK * STUCK {
+                return Ok(None);
+            }
+        }
+    }
+
+    /// Whether nothing moves but the rounding of u̇, which is no turn: with waves only.
+    fn rests_among_waves(&self) -> bool {
+        self.contact.radiation.is_some()
+            && self.state.rate < STUCK
+            && self.state.force * self.state.approach < RESTING * RESTING
+    }
+
+    /// Down to the end of contact.
+    fn unload(&mut self, record: &Record, units: &Units) -> Result<(), LawError> {
+        loop {
+            let solved = self.step(Some(record), units)?;
+            let touches = |theta: f64| solved.step.surface_at(self.contact, theta) > 0.0;
+            let end = if touches(1.0) { 1.0 } else { last_where(0.0, 1.0, touches) };
+            if self.contact.radiation.is_some() {
+                let top = last_where(0.0, end, |theta| solved.step.rate_at(theta) > 0.0);
+                self.max_approach = self.max_approach.max(solved.step.approach_at(top));
+            }
+            self.advance(&solved, end);
+            if end < 1.0 {
+                self.state.force = 0.0;
+                if let Some(last) = self.history.last_mut() {
+                    (last.force, last.contact_radius) = (0.0, 0.0);
+                    last.centre_pressure = Some(0.0);
+                    if let (Some(radiation), Some(radiated)) =
+                        (&self.contact.radiation, &mut last.radiated)
+                    {
+                        // What is left of the slow force goes.
+                        let held = radiation.held(0.0, self.state.slow_force);
+                        *radiated += held;
+                        last.strain_energy = last.strain_energy.map(|energy| energy - held);
+                    }
+                    // A surface without load gives nothing back.
+                    last.dissipated.get_or_insert(last.work - last.radiated.unwrap_or_default());
+                }
+                return Ok(());
+            }
+        }
+    }
+
+    /// One step within the tolerance; the size of the next is chosen.
+    fn step(&mut self, record: Option<&Record>, units: &Units) -> Result<Solved, LawError> {
+        let (contact, interpolation) = (self.contact, &self.interpolation);
+        let stepper = Stepper { contact, interpolation, record };
+        while self.n_steps < MAX_STEPS {
+            self.n_steps += 1;
+            let Some(solved) = stepper.solve(&self.state, self.length) else {
+                self.length *= 0.4;
+                continue;
+            };
+            // The finest detail falls with the fifth power of the step.
+            let factor = (0.9 * (self.local_tolerance / solved.error).powf(0.2)).clamp(0.2, 2.0);
+            // Many iterations say that the step nears the limit of contraction.
+            self.length *= if solved.n_iterations > 14 { factor.min(0.8) } else { factor };
+            if solved.error <= self.local_tolerance {
+                return Ok(solved);
+            }
+        }
+        let time = self.state.time * units.time;
+        Err(LawError::NotFinished { model: "ting", n_steps: self.n_steps, time })
+    }
+
+    /// The state at θ of a step becomes the present one.
+    fn advance(&mut self, solved: &Solved, theta: f64) {
+        let step = &solved.step;
+        let radii = self.interpolation.coefficients(&solved.contact_approach);
+        let pressures = self.interpolation.coefficients(&solved.pressure);
+        let is_elastic = self.contact.elements.is_empty();
+        let instant = |theta: f64| {
+            let hertz = evaluate(&radii, theta).max(0.0);
+            let force = evaluate(&step.force, theta);
+            let mut strain_energy =
+                is_elastic.then(|| self.contact.correction.strain_energy(hertz));
+            let radiated = self.contact.radiation.map(|radiation| {
+                let slow_force = step.slow_force_at(&radiation, theta);
+                strain_energy =
+                    strain_energy.map(|energy| energy + radiation.held(force, slow_force));
+                self.radiated + step.radiated_until(&radiation, &self.interpolation, theta)
+            });
+            ImpactInstant {
+                time: step.start + theta * step.length,
+                approach: step.approach_at(theta),
+                approach_rate: step.rate_at(theta),
+                force,
+                contact_radius: hertz.sqrt(),
+                centre_pressure: Some(evaluate(&pressures, theta).max(0.0)),
+                work: self.work + step.work_until(&self.interpolation, theta),
+                strain_energy,
+                dissipated: is_elastic.then_some(0.0),
+                radiated,
+            }
+        };
+        let middle = (POINTS[MIDDLE] < theta).then(|| instant(POINTS[MIDDLE]));
+        let last = instant(theta);
+        self.history.extend(middle);
+        self.history.push(last);
+        self.work = last.work;
+        self.radiated = last.radiated.unwrap_or_default();
+        let slow_force = |radiation| step.slow_force_at(&radiation, theta);
+        self.state = State {
+            time: last.time,
+            approach: last.approach,
+            rate: last.approach_rate,
+            force: last.force,
+            slow_force: self.contact.radiation.map_or(0.0, slow_force),
+            memory: step.memories(self.contact, theta),
+        };
+    }
+}
+
+impl Units {
+    fn dimensional(&self, instant: &ImpactInstant) -> ImpactInstant {
+        ImpactInstant {
+            time: instant.time * self.time,
+            approach: instant.approach * self.length,
+            approach_rate: instant.approach_rate * self.speed,
+            force: instant.force * self.force,
+            contact_radius: instant.contact_radius * self.radius,
+            centre_pressure: instant.centre_pressure.map(|pressure| pressure * self.pressure),
+            work: instant.work * self.energy,
+            strain_energy: instant.strain_energy.map(|energy| energy * self.energy),
+            dissipated: instant.dissipated.map(|energy| energy * self.energy),
+            radiated: instant.radiated.map(|energy| energy * self.energy),
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Waves that leave, as a compliance in series with a contact.
+//!
+//! A body so large that they do not come back moves by u = S F − γ Ḟ ([`crate::radiation_damping`]):
+//! the far field comes nearer by −γ Ḟ than the contact alone lets it. That is the first order of low
+//! frequencies; taken at its word it runs away. The passive body that agrees with it to that order is
+//!
+//! ```math
+//! -\gamma s\;\to\;\frac{-\gamma s}{1+\tau s}, \qquad
+//! \delta = u + \ldots + \frac\gamma\tau\,(f-F), \qquad \tau\dot f = F-f,
+//! ```
+//!
+//! with the slow force f. Its work splits exactly into what is gone and what is held,
+//!
+//! ```math
+//! \int F\,\mathrm d\Bigl[\tfrac\gamma\tau(f-F)\Bigr]
+//! = \gamma\int\dot f^2\,\mathrm dt + \frac{\gamma}{2\tau}(f^2-F^2),
+//! ```
+//!
+//! (ḟ = (F−f)/τ) so that what is radiated is never negative. The contact is stiffer by what is held, and
+//! stays stable while γ F′(u) < τ. Taken is τ = max([`STIFFNESS_TIMES`] γ F′(u_max), [`SHARE_OF_CONTACT`]
+//! T): the first is a few times that of waves across the contact, a/c_s, which is what a half-space itself
+//! remembers. The loss is off by the order of (τ/T)² of itself.
+//!
+//! Everything is dimensionless; see [`crate::ting`].
+
+use crate::collocation::{Interpolation, N, POINTS, Vector, derivative, dot, fading_moments};
+use crate::finite_correction::Correction;
+
+/// Times γ F′(u_max) that τ is at least.
+pub(crate) const STIFFNESS_TIMES: f64 = 2.5;
+
+/// Share of the contact time that τ is at least: steps are some tenths of τ.
+pub(crate) const SHARE_OF_CONTACT: f64 = 0.0025;
+
+/// The constants of waves that leave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Radiation {
+    /// γ/τ.
+    pub compliance: f64,
+    /// 1/τ.
+    pub rate: f64,
+}
+
+impl Radiation {
+    /// Of γ, the largest Hertz approach u and the contact time of the same collision without waves.
+    pub fn new(damping: f64, largest: f64, contact_time: f64) -> Self {
+        let stiffness = 1.5 * largest.sqrt();
+        let time = (STIFFNESS_TIMES * damping * stiffness).max(SHARE_OF_CONTACT * contact_time);
+        Self { compliance: damping / time, rate: time.recip() }
+    }
+
+    /// What the approach has beside the contact's, at a force and a slow force.
+    pub fn approach(&self, force: f64, slow_force: f64) -> f64 {
+        self.compliance * (slow_force - force)
+    }
+
+    /// ḟ.
+    pub fn slow_rate(&self, force: f64, slow_force: f64) -> f64 {
+        self.rate * (force - slow_force)
+    }
+
+    /// γ ḟ².
+    pub fn power(&self, force: f64, slow_force: f64) -> f64 {
+        self.compliance * self.rate * (force - slow_force).powi(2)
+    }
+
+    /// Energy that the body near the contact holds: negative while the force is above the slow one.
+    pub fn held(&self, force: f64, slow_force: f64) -> f64 {
+        0.5 * self.compliance * (slow_force - force) * (slow_force + force)
+    }
+}
+
+/// What a step of a length knows of the slow force before it knows the force.
+pub(crate) struct SlowForce {
+    radiation: Radiation,
+    /// At the points, of the past.
+    faded: Vector,
+    weights: [Vector; N],
+    /// Share of a change of u^(3/2) within the step that the force shows, about.
+    response: f64,
+}
+
+/// What waves do at the points of a step, by the last iteration of its force.
+pub(crate) struct Waves {
+    /// Of the force that follows u at once.
+    correction: Correction,
+    /// Part of the approach, and of its rate, by the slow force and by what of the force lags behind.
+    approach: Vector,
+    rate: Vector,
+}
+
+/// From a fifth to rounding.
+const NEWTON_ITERATIONS: usize = 6;
+
+impl SlowForce {
+    pub fn new(
+        radiation: Radiation,
+        interpolation: &Interpolation,
+        length: f64,
+        start: f64,
+        response: f64,
+    ) -> Self {
+        let z = radiation.rate * length;
+        let faded = POINTS.map(|theta| (-z * theta).exp() * start);
+        let weights = POINTS
+            .map(|theta| interpolation.weights(&fading_moments(theta, z)).map(|weight| z * weight));
+        Self { radiation, faded, weights, response }
+    }
+
+    /// At forces and Hertz' approaches at the points.
+    pub fn waves(
+        &self,
+        interpolation: &Interpolation,
+        length: f64,
+        correction: Correction,
+        force: &Vector,
+        hertz: &Vector,
+    ) -> Waves {
+        let Radiation { compliance, .. } = self.radiation;
+        let lag: Vector =
+            std::array::from_fn(|i| force[i] - self.response * hertz[i] * hertz[i].sqrt());
+        let lag_polynomial = interpolation.coefficients(&lag);
+        let slow: Vector = std::array::from_fn(|i| self.faded[i] + dot(&self.weights[i], force));
+        Waves {
+            correction: Correction {
+                alpha: correction.alpha - compliance * self.response,
+                ..correction
+            },
+            approach: std::array::from_fn(|i| compliance * (slow[i] - lag[i])),
+            rate: std::array::from_fn(|i| {
+                let lag_rate = derivative(&lag_polynomial, POINTS[i]) / length;
+                compliance * (self.radiation.slow_rate(force[i], slow[i]) - lag_rate)
+            }),
+        }
+    }
+}
+
+impl Waves {
+    /// u and ∂u/∂δ at point `i`, and what of the rate is the contact's own.
+    pub fn hertz_approach(
+        &self,
+        i: usize,
+        approach: f64,
+        rate: f64,
+        remembered: &Correction,
+    ) -> (f64, f64, f64) {
+        let own = approach - self.approach[i];
+        let (hertz, slope) =
+            self.correction.hertz_approach_after(NEWTON_ITERATIONS, own, remembered);
+        (hertz, slope, rate - self.rate[i])
+    }
+}
