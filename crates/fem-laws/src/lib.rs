@@ -5,11 +5,13 @@
 //!
 //! - [`HertzImpact`]: elastic, closed forms;
 //! - [`Ting`]: viscoelastic, with the [`PairRelaxation`] of the two materials and, if wanted, the
-//!   [`FiniteSize`] of the spheres;
+//!   [`FiniteSize`] of the spheres and the waves that a half-space takes away;
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
-//! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. One law a
-//! file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and pressures of a closed contact are positive, stresses are positive in tension.
+//! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. What leaving
+//! something out costs is a [`Difference`] of two impacts, or a [`RelativeError`] in closed form: of
+//! relaxation that is not followed in time ([`Folded`]), of a [`rigid_partner`], of [`finite_strain`].
+//! One law a file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and pressures of a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
 //! use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};
@@ -36,12 +38,15 @@
 
 pub mod bisection;
 mod collocation;
+mod difference;
 mod end_rule;
 mod error;
 mod family;
 mod finite_coefficient;
 mod finite_correction;
 mod finite_size;
+mod finite_strain;
+mod folded;
 mod hertz;
 mod hertz_history;
 mod hertz_pressure;
@@ -54,6 +59,7 @@ mod pair;
 mod pair_relaxation;
 mod plastic_yield;
 mod radiation;
+mod rigid_partner;
 mod sphere_compliance;
 mod ting;
 mod ting_collision;
@@ -61,10 +67,13 @@ mod ting_radiation;
 mod ting_record;
 mod ting_step;
 
+pub use difference::{Difference, RelativeError};
 pub use end_rule::EndRule;
 pub use error::LawError;
 pub use family::{Family, Parameter, Role};
 pub use finite_size::FiniteSize;
+pub use finite_strain::finite_strain;
+pub use folded::Folded;
 pub use hertz::{HertzImpact, contact_time_coefficient};
 pub use hertz_history::HertzInstant;
 pub use hertz_pressure::{AxisStress, HertzPressure};
@@ -75,4 +84,5 @@ pub use pair::{Pair, Partner, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, largest_von_mises};
 pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};
+pub use rigid_partner::rigid_partner;
 pub use ting::Ting;

@@ -51,6 +51,15 @@ impl Partner {
         Self::HalfSpace { plane_strain_modulus: material.instantaneous().plane_strain_modulus() }
     }
 
+    /// Plane strain modulus E/(1−ν²), Pa; infinite for a rigid body.
+    pub fn plane_strain_modulus(&self) -> f64 {
+        match *self {
+            Self::Sphere { plane_strain_modulus, .. }
+            | Self::HalfSpace { plane_strain_modulus } => plane_strain_modulus,
+            Self::Wall => f64::INFINITY,
+        }
+    }
+
     /// Radius, mass and modulus.
     fn checked(&self) -> Result<[f64; 3], LawError> {
         match *self {

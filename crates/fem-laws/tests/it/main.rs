@@ -1,11 +1,13 @@
 //! The laws from outside, in one program: linked once, its tests run side by side.
 
 mod direct;
+mod folded;
 mod hertz;
 mod hertz_pressure;
 mod impact_path;
 mod kelvin_limit;
 mod laws;
+mod left_out;
 mod pair;
 mod pair_relaxation;
 mod ramirez;
