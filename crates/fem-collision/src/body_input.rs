@@ -13,24 +13,31 @@ pub enum BodyInput {
         /// Its material.
         material: Material,
     },
+    /// A sphere that does not deform: one degree of freedom, its motion along y.
+    Rigid {
+        /// Of the sphere, m.
+        radius: f64,
+        /// kg.
+        mass: f64,
+    },
     /// A rigid plane of infinite mass that keeps its velocity.
     Wall,
 }
 
 impl BodyInput {
-    /// Its mesh; a wall has none.
+    /// Its mesh; a rigid body has none.
     pub fn mesh(&self) -> Option<&SphereMesh> {
         match self {
             Self::Sphere { mesh, .. } => Some(mesh),
-            Self::Wall => None,
+            Self::Rigid { .. } | Self::Wall => None,
         }
     }
 
-    /// Its material; a wall has none.
+    /// Its material; a rigid body has none.
     pub fn material(&self) -> Option<&Material> {
         match self {
             Self::Sphere { material, .. } => Some(material),
-            Self::Wall => None,
+            Self::Rigid { .. } | Self::Wall => None,
         }
     }
 }

@@ -49,7 +49,7 @@ impl SnapshotRequest {
     }
 }
 
-/// Nodal fields of one body; empty for a wall.
+/// Nodal fields of one body; empty for a rigid body.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BodyFields {
     /// Total displacement (r, y), m.

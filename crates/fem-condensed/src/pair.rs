@@ -2,7 +2,7 @@
 
 use faer::Mat;
 use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, Frame, Searched, Stop};
-use fem_contact::{ContactPoint, Surface};
+use fem_contact::{ContactError, ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
 use crate::curve::{ElasticCurve, ElasticImpact};
@@ -26,7 +26,10 @@ const STRONG_BLOCKS: usize = 4;
 pub struct CondensedPair {
     inputs: [BodyInput; 2],
     settings: PairSettings,
+    /// None of a rigid body.
     pub(crate) sides: [Option<PairSide>; 2],
+    /// None of a wall, kg.
+    masses: [Option<f64>; 2],
     pub(crate) points: Vec<ContactPoint>,
     /// The side whose nodes the points are; `None` for Gauss points.
     pub(crate) nodal_side: Option<usize>,
@@ -42,23 +45,27 @@ impl CondensedPair {
     /// Factors and condenses both bodies; the first lies below the second.
     ///
     /// # Errors
-    /// Two walls, settings out of range, a stiffness without Cholesky factor, missing memory.
+    /// Two rigid bodies, settings or a rigid sphere's mass out of range, a stiffness without Cholesky factor, missing memory.
     pub fn new(inputs: [BodyInput; 2], settings: PairSettings) -> Result<Self, CondensedError> {
         if settings.shear_blocks == 0 {
             let (name, allowed) = ("number of shear blocks", "at least 1");
             return Err(CondensedError::Setting { name, value: 0.0, allowed });
         }
-        let surfaces = inputs
-            .each_ref()
-            .map(|input| input.mesh().map_or_else(Surface::wall, Surface::of_sphere));
+        let [lower, upper] = &inputs;
+        let surfaces = [surface(lower)?, surface(upper)?];
         let Points { points, nodal_side, feet } = Points::new(&surfaces, &settings)?;
-        let mut sides = [None, None];
+        let (mut sides, mut masses) = ([None, None], [None, None]);
         for (side, (input, feet)) in inputs.iter().zip(feet).enumerate() {
-            if let BodyInput::Sphere { mesh, material } = input {
-                let nodes = surfaces[side].nodes_within(f64::INFINITY);
-                let side_made =
-                    PairSide::new(mesh, material, nodes, feet, settings.vibration_modes)?;
-                sides[side] = Some(side_made);
+            match input {
+                BodyInput::Sphere { mesh, material } => {
+                    let nodes = surfaces[side].nodes_within(f64::INFINITY);
+                    let side_made =
+                        PairSide::new(mesh, material, nodes, feet, settings.vibration_modes)?;
+                    masses[side] = Some(side_made.body.mass);
+                    sides[side] = Some(side_made);
+                }
+                BodyInput::Rigid { mass, .. } => masses[side] = Some(check_mass(*mass)?),
+                BodyInput::Wall => {}
             }
         }
         let spring_compliance: Vec<f64> =
@@ -76,11 +83,12 @@ impl CondensedPair {
         let gaps: Vec<f64> = points.iter().map(|point| point.initial_gap).collect();
         let curve =
             ElasticCurve::new(&compliance, &gaps).ok_or(CondensedError::NotPositiveDefinite)?;
-        let inverse_mass: f64 = sides.iter().flatten().map(|side| side.body.mass.recip()).sum();
+        let inverse_mass: f64 = masses.iter().flatten().map(|mass| mass.recip()).sum();
         Ok(Self {
             inputs,
             settings,
             sides,
+            masses,
             points,
             nodal_side,
             nodes,
@@ -121,7 +129,11 @@ impl CondensedPair {
 
     /// Radius of the smaller sphere, m.
     pub fn smallest_radius(&self) -> f64 {
-        let radii = self.sides.iter().flatten().map(|side| side.body.mesh.radius());
+        let radii = self.inputs.iter().filter_map(|input| match input {
+            BodyInput::Sphere { mesh, .. } => Some(mesh.radius()),
+            BodyInput::Rigid { radius, .. } => Some(*radius),
+            BodyInput::Wall => None,
+        });
         radii.fold(f64::INFINITY, f64::min)
     }
 
@@ -132,7 +144,7 @@ impl CondensedPair {
 
     /// Masses, kg; infinite for a wall.
     pub fn masses(&self) -> [f64; 2] {
-        self.sides.each_ref().map(|side| side.as_ref().map_or(f64::INFINITY, |s| s.body.mass))
+        self.masses.map(|mass| mass.unwrap_or(f64::INFINITY))
     }
 
     /// The lower body strikes the upper one at rest at this speed, m/s.
@@ -140,8 +152,8 @@ impl CondensedPair {
     /// # Errors
     /// A speed that is not positive and finite.
     pub fn frame(&self, speed: f64) -> Result<Frame, ApproachError> {
-        let masses = self.sides.each_ref().map(|side| side.as_ref().map(|s| s.body.mass));
-        Ok(Frame { approach: Approach::at(speed)?, masses, reduced_mass: self.reduced_mass })
+        let approach = Approach::at(speed)?;
+        Ok(Frame { approach, masses: self.masses, reduced_mass: self.reduced_mass })
     }
 
     /// What is known of the bodies before they collide.
@@ -152,13 +164,13 @@ impl CondensedPair {
                 elements: Some(mesh.map_or(0, |mesh| mesh.quads().len())),
                 nodes: Some(mesh.map_or(0, |mesh| mesh.nodes().len())),
                 mass: frame.masses[side],
-                added_mass: mesh.map(|_| 0.0),
+                added_mass: frame.masses[side].map(|_| 0.0),
                 ..BodyResult::default()
             }
         })
     }
 
-    /// Lumped masses of a body's nodes, kg; none for a wall.
+    /// Lumped masses of a body's nodes, kg; none for a rigid body.
     pub fn nodal_masses(&self, side: usize) -> &[f64] {
         self.sides[side].as_ref().map_or(&[], |side| &side.body.nodal_mass)
     }
@@ -173,7 +185,7 @@ impl CondensedPair {
         &self.settings
     }
 
-    /// ω² of each body's modes of vibration, rising, 1/s²; none for a wall or without modes.
+    /// ω² of each body's modes of vibration, rising, 1/s²; none for a rigid body or without modes.
     pub fn frequencies(&self) -> [&[f64]; 2] {
         self.sides.each_ref().map(|side| {
             let vibrations = side.as_ref().and_then(|side| side.vibrations.as_ref());
@@ -242,4 +254,22 @@ impl CondensedPair {
             .impact(self.reduced_mass, speed)
             .ok_or(CondensedError::ContactBeyondCandidates { radius: self.candidate_radius() })
     }
+}
+
+/// The touching side of a body.
+fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
+    match input {
+        BodyInput::Sphere { mesh, .. } => Ok(Surface::of_sphere(mesh)),
+        BodyInput::Rigid { radius, .. } => Surface::rigid_sphere(*radius),
+        BodyInput::Wall => Ok(Surface::wall()),
+    }
+}
+
+/// The mass of a rigid sphere (kg), by which it can be divided.
+fn check_mass(mass: f64) -> Result<f64, CondensedError> {
+    if mass > 0.0 && mass.is_normal() {
+        return Ok(mass);
+    }
+    let (name, allowed) = ("mass of a rigid sphere", "positive and finite, in kg");
+    Err(CondensedError::Setting { name, value: mass, allowed })
 }

@@ -28,7 +28,7 @@ impl Points {
     /// Nodes for exact contact, Gauss points for springs.
     ///
     /// # Errors
-    /// Two walls; a radius that is not positive and finite.
+    /// Two rigid bodies; a radius that is not positive and finite.
     pub fn new(surfaces: &[Surface; 2], settings: &PairSettings) -> Result<Self, CondensedError> {
         let [lower, upper] = surfaces;
         match settings.contact {

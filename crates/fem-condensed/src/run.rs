@@ -250,8 +250,8 @@ impl<'a> Run<'a> {
         let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);
-            let is_sphere = self.pair.inputs()[side].mesh().is_some();
-            body.vibration_energy = vibration_energy.filter(|_| is_sphere).map(|both| both[side]);
+            let has_mass = frame.masses[side].is_some();
+            body.vibration_energy = vibration_energy.filter(|_| has_mass).map(|both| both[side]);
         }
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;

@@ -6,8 +6,8 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ContactError {
     /// Neither body can deform.
-    #[error("two rigid walls cannot be in contact; one body must be a sphere")]
-    TwoWalls,
+    #[error("two rigid bodies cannot be in contact; one of them must deform")]
+    BothRigid,
     /// A number that must be positive and finite is not.
     #[error("{name} is {value}; it must be positive and finite")]
     NotPositive {

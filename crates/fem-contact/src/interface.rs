@@ -26,6 +26,9 @@ pub struct ContactInterface {
     pub(crate) points: Vec<ContactPoint>,
     pub(crate) surfaces: [Surface; 2],
     candidate_radius: f64,
+    /// How many times a spring counts at the nodes of the lower and of the upper body, if it is
+    /// always closed; see [`ContactInterface::add_stiffness_bound`].
+    springs: [f64; 2],
 }
 
 /// How many times the penalty springs enter the critical time step. A closed
@@ -44,7 +47,7 @@ impl ContactInterface {
     /// segments at a point. `gap` (m) separates the poles.
     ///
     /// # Errors
-    /// Two walls; a radius or a stiffness that is not positive and finite.
+    /// Two rigid bodies; a radius or a stiffness that is not positive and finite.
     pub fn new(
         lower: Surface,
         upper: Surface,
@@ -52,8 +55,8 @@ impl ContactInterface {
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        if lower.is_wall() && upper.is_wall() {
-            return Err(ContactError::TwoWalls);
+        if lower.is_rigid() && upper.is_rigid() {
+            return Err(ContactError::BothRigid);
         }
         for (name, value) in
             [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
@@ -82,7 +85,26 @@ impl ContactInterface {
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];
-        Ok(Self { points, surfaces, candidate_radius })
+        let springs = [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 });
+        Ok(Self { points, surfaces, candidate_radius, springs })
+    }
+
+    /// With the bound of the stiffness shared between a rigid sphere and the other body by their
+    /// masses, so that a heavy one shortens the time step no more than a wall does: `ratio` is its
+    /// mass over that of the other body, > 0. Of bodies that both deform nothing changes, nor of a
+    /// wall.
+    #[must_use]
+    pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
+        for side in 0..2 {
+            let surface = &self.surfaces[side];
+            if surface.is_rigid() && !surface.is_wall() {
+                // Beyond the upper limit it is a wall to rounding.
+                let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
+                self.springs[side] = 1.0 + ratio;
+                self.springs[1 - side] = 1.0 + ratio.recip();
+            }
+        }
+        self
     }
 
     /// Radius out to which contact is looked for, m.
@@ -109,13 +131,14 @@ impl ContactInterface {
     /// (0 lower, 1 upper): the penalty springs are at most this diagonal,
     /// whichever of them are closed.
     ///
-    /// A spring between two bodies, k (a − b)², is at most 2 k a² + 2 k b², and
-    /// a² of interpolated a is at most Σ N a_i² (Jensen). Against a wall the
-    /// first factor is 1. The whole is taken four times, for opening and closing.
+    /// A spring between two bodies, k (a − b)², is at most (1 + θ) k a² + (1 + 1/θ) k b² for any
+    /// θ > 0, and a² of interpolated a is at most Σ N a_i² (Jensen). θ is 1; against a wall it is 0,
+    /// against a rigid sphere at most 1 and otherwise its own mass m_a over the sphere's m_b (see
+    /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
+    /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
-        let springs = if self.surfaces[1 - side].is_wall() { 1.0 } else { 2.0 };
         for point in &self.points {
-            let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
+            let stiffness = OPENING_SAFETY * self.springs[side] * point.stiffness * point.area;
             let foot = &point.feet[side];
             for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
                 bound[node as usize] += stiffness * shape;
@@ -141,11 +164,11 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
     radii
 }
 
-/// Mean length of the segments at a point, a wall's not counted.
+/// Mean length of the segments at a point, a rigid body's not counted.
 fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
     let lengths = [0, 1].map(|side| {
         let surface = &surfaces[side];
-        (!surface.is_wall()).then(|| surface.segment_length(segments[side]))
+        (!surface.is_rigid()).then(|| surface.segment_length(segments[side]))
     });
     match lengths {
         [Some(a), Some(b)] => 0.5 * (a + b),

@@ -31,7 +31,7 @@ pub struct NodalContact {
     /// The side whose nodes they are: 0 lower, 1 upper.
     pub side: usize,
     /// Of each point the nodes of the other surface, counted from the axis outward, and their
-    /// shares, 1 in sum; none for a wall.
+    /// shares, 1 in sum; none for a rigid body.
     pub shares: Vec<Vec<(usize, f64)>>,
 }
 
@@ -39,20 +39,20 @@ impl NodalContact {
     /// Points out to `candidate_radius` (m); `gap` (m) separates the poles.
     ///
     /// # Errors
-    /// Two walls; a radius that is not positive and finite.
+    /// Two rigid bodies; a radius that is not positive and finite.
     pub fn new(
         surfaces: [&Surface; 2],
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        if surfaces.iter().all(|surface| surface.is_wall()) {
-            return Err(ContactError::TwoWalls);
+        if surfaces.iter().all(|surface| surface.is_rigid()) {
+            return Err(ContactError::BothRigid);
         }
         if !(candidate_radius > 0.0 && candidate_radius.is_finite()) {
             let (name, value) = ("candidate radius", candidate_radius);
             return Err(ContactError::NotPositive { name, value });
         }
-        let n_nodes = surfaces.map(|surface| match surface.is_wall() {
+        let n_nodes = surfaces.map(|surface| match surface.is_rigid() {
             true => usize::MAX,
             false => surface.nodes_within(candidate_radius).len(),
         });
@@ -73,7 +73,7 @@ impl NodalContact {
                 feet: surfaces.map(|surface| surface.foot(surface.locate(radius))),
             }
         });
-        let shares = (0..n).map(|k| match other.is_wall() {
+        let shares = (0..n).map(|k| match other.is_rigid() {
             true => Vec::new(),
             false => project(&own.radii, k, &other.radii),
         });

@@ -34,7 +34,7 @@ impl ContactInterface {
         &'a self,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + 'a {
-        let side = usize::from(self.surfaces[0].is_wall());
+        let side = usize::from(self.surfaces[0].is_rigid());
         let surface = &self.surfaces[side];
         let mut points = self.points.iter().zip(self.signed_pressure(u)).peekable();
         // Force and area that the segment inside of a node has given to it.
@@ -64,7 +64,7 @@ impl ContactInterface {
     /// their areas are, and √α returned; with fewer than four nodes there, or
     /// a fit that rises outward from nothing, the axis node's own value.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let side = usize::from(self.surfaces[0].is_wall());
+        let side = usize::from(self.surfaces[0].is_rigid());
         let spacing = self.surfaces[side].segment_length(0);
         centre_pressure(self.nodal_pressure(u), self.contact_radius(u), spacing)
     }

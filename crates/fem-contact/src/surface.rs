@@ -2,6 +2,8 @@
 
 use fem_mesh::SphereMesh;
 
+use crate::error::ContactError;
+
 /// One body's end of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
@@ -14,9 +16,9 @@ pub struct Foot {
 /// The touching side of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// Nodes from the axis outward; a wall has its one node twice.
+    /// Nodes from the axis outward; a rigid body has its one node twice.
     pub(crate) nodes: Vec<u32>,
-    /// Their distances from the axis, m; a wall's second is infinite.
+    /// Their distances from the axis, m; a rigid body's second is where it ends, of a plane infinite.
     pub(crate) radii: Vec<f64>,
     /// 1 / radius of the arc, 1/m; 0 for a plane.
     pub(crate) curvature: f64,
@@ -42,14 +44,34 @@ impl Surface {
         Self { nodes: vec![0, 0], radii: vec![0.0, f64::INFINITY], curvature: 0.0 }
     }
 
-    /// Whether this is the rigid plane.
-    pub fn is_wall(&self) -> bool {
-        self.curvature == 0.0
+    /// The near hemisphere of a rigid sphere: a body of one node, number 0, that moves as a whole.
+    ///
+    /// # Errors
+    /// A radius (m) that is not positive and finite.
+    pub fn rigid_sphere(radius: f64) -> Result<Self, ContactError> {
+        // The curvature has to be finite too.
+        if !(radius > 0.0 && radius.is_normal()) {
+            return Err(ContactError::NotPositive {
+                name: "radius of a rigid sphere",
+                value: radius,
+            });
+        }
+        Ok(Self { nodes: vec![0, 0], radii: vec![0.0, radius], curvature: radius.recip() })
     }
 
-    /// Nodes with r ≤ `radius` (m), from the axis outward; a wall has one.
+    /// Whether this is of a body that moves as a whole: the rigid plane or a rigid sphere.
+    pub fn is_rigid(&self) -> bool {
+        self.nodes.get(1) == self.nodes.first()
+    }
+
+    /// Whether this is the rigid plane, which nothing moves.
+    pub fn is_wall(&self) -> bool {
+        self.is_rigid() && self.curvature == 0.0
+    }
+
+    /// Nodes with r ≤ `radius` (m), from the axis outward; a rigid body has one.
     pub fn nodes_within(&self, radius: f64) -> &[u32] {
-        let n = if self.is_wall() {
+        let n = if self.is_rigid() {
             1
         } else {
             self.radii.partition_point(|&r| r <= radius * (1.0 + 1e-12))
@@ -75,7 +97,7 @@ impl Surface {
 
     /// Segment that contains r: (index of its inner node, share of its outer node).
     pub(crate) fn locate(&self, r: f64) -> (usize, f64) {
-        if self.is_wall() {
+        if self.is_rigid() {
             return (0, 0.0);
         }
         let outer = self.radii.partition_point(|&x| x < r).clamp(1, self.radii.len() - 1);

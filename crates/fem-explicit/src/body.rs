@@ -7,14 +7,15 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 
 use crate::forces::NodeForce;
-use crate::lumped::LumpedSphere;
+use crate::lumped::{LumpedSphere, RigidSphere};
 use crate::part::{Accounts, Field, Motion, NodalField, Placed};
 use crate::stress::Stress;
 
-/// A body, constant over a run. A wall is a body of one node without parts and with infinite mass.
+/// A body, constant over a run. A rigid sphere is a body of one node, which has all of its mass; a
+/// wall is one with infinite mass and without parts.
 #[derive(Debug, Clone)]
 pub struct Body {
-    /// A wall has none.
+    /// A rigid body has none.
     pub(crate) stress: Option<Placed<dyn Stress>>,
     pub(crate) node_forces: Vec<Placed<dyn NodeForce>>,
     /// Fields of history of all its parts.
@@ -47,6 +48,22 @@ impl Body {
         }
     }
 
+    /// A rigid sphere at the given time step (s).
+    pub(crate) fn rigid(sphere: RigidSphere, velocity: f64, time_step: f64) -> Self {
+        let RigidSphere { node_forces, bound } = sphere;
+        let mass = bound.mass.iter().sum::<f64>();
+        let mut n_history = 0;
+        let node_forces = place(node_forces, &mut n_history, time_step);
+        Self {
+            node_forces,
+            n_history,
+            inverse_mass: vec![[0.0, mass.recip()]],
+            nodal_mass: bound.mass,
+            mass,
+            ..Self::wall(velocity)
+        }
+    }
+
     /// A sphere whose nodes carry `nodal_mass` (kg), `added_mass` of it by mass
     /// scaling, at the given time step (s).
     pub(crate) fn of_sphere(
@@ -64,11 +81,7 @@ impl Body {
         let mut n_history = 0;
         stress.set_time_step(time_step);
         let stress = Some(Placed::behind(&mut n_history, Arc::from(stress)));
-        let place = |mut force: Box<dyn NodeForce>| {
-            force.set_time_step(time_step);
-            Placed::behind(&mut n_history, Arc::from(force))
-        };
-        let node_forces = node_forces.into_iter().map(place).collect();
+        let node_forces = place(node_forces, &mut n_history, time_step);
         let mass = nodal_mass.iter().sum::<f64>() - added_mass;
         Self {
             stress,
@@ -98,22 +111,28 @@ impl Body {
         resultant
     }
 
-    /// Its mesh; a wall has none.
+    /// Whether it is a wall, which nothing moves.
+    pub fn is_wall(&self) -> bool {
+        self.mesh.is_none() && self.mass.is_infinite()
+    }
+
+    /// Its mesh; a rigid body has none.
     pub fn mesh(&self) -> Option<&SphereMesh> {
         self.mesh.as_ref()
     }
 
-    /// Lumped masses of the nodes, mass scaling included, kg; a wall's one node has none.
+    /// Lumped masses of the nodes, mass scaling included, kg; all of a rigid sphere's is that of its
+    /// one node, and a wall's has none.
     pub fn nodal_mass(&self) -> &[f64] {
         &self.nodal_mass
     }
 
-    /// Its material; a wall has none.
+    /// Its material; a rigid body has none.
     pub fn material(&self) -> Option<&Material> {
         self.material.as_ref()
     }
 
-    /// Stress of its fields; a wall has none.
+    /// Stress of its fields; a rigid body has none.
     pub fn stress(&self, fields: &BodyFields) -> StressField {
         match (&self.mesh, &self.material) {
             (Some(mesh), Some(material)) => StressField::of(mesh, material, fields),
@@ -136,7 +155,7 @@ impl Body {
         self.mesh.as_ref().map_or(0, |mesh| mesh.quads().len())
     }
 
-    /// Number of nodes that carry the body; a wall has none to show.
+    /// Number of nodes of its mesh: a rigid body has none to show.
     pub fn n_nodes(&self) -> usize {
         self.mesh.as_ref().map_or(0, |mesh| mesh.nodes().len())
     }
@@ -184,4 +203,17 @@ impl Body {
             force.part.add_energies(motion, force.of(history), accounts);
         }
     }
+}
+
+/// The forces on a body's nodes, told the time step (s), behind so many fields of other parts.
+fn place(
+    node_forces: Vec<Box<dyn NodeForce>>,
+    n_history: &mut usize,
+    time_step: f64,
+) -> Vec<Placed<dyn NodeForce>> {
+    let place = |mut force: Box<dyn NodeForce>| {
+        force.set_time_step(time_step);
+        Placed::behind(n_history, Arc::from(force))
+    };
+    node_forces.into_iter().map(place).collect()
 }

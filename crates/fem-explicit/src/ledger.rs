@@ -60,7 +60,7 @@ struct BodyBalance {
 impl Ledger {
     /// At first touch.
     pub fn new(model: &Model, state: &State) -> Self {
-        let moving = || model.bodies().iter().filter(|body| body.mesh().is_some());
+        let moving = || model.bodies().iter().filter(|body| !body.is_wall());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
         let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
         let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
@@ -73,7 +73,7 @@ impl Ledger {
             }
         };
         let states = model.bodies().iter().zip(&state.bodies);
-        let spheres = states.filter(|(body, _)| body.mesh().is_some());
+        let spheres = states.filter(|(body, _)| !body.is_wall());
         // A wall can bring all of the motion to a body at rest.
         let momentum_of_approach = sum(&Body::total_mass) * model.approach().speed();
         Self {
@@ -170,9 +170,9 @@ impl Ledger {
     fn wall_work(&self, model: &Model, force: f64) -> f64 {
         let impulse = self.impulse + 0.5 * model.time_step() * force;
         let [lower, upper] = model.bodies();
-        match (lower.mesh(), upper.mesh()) {
-            (None, _) => impulse * lower.velocity,
-            (_, None) => -impulse * upper.velocity,
+        match (lower.is_wall(), upper.is_wall()) {
+            (true, _) => impulse * lower.velocity,
+            (_, true) => -impulse * upper.velocity,
             _ => 0.0,
         }
     }
@@ -180,9 +180,9 @@ impl Ledger {
     /// Balances the momentum of the spheres at t_n − Δt/2, N s.
     fn balance_momentum(&mut self, model: &Model, momentum: f64) {
         let [lower, upper] = model.bodies();
-        let from_wall = match (lower.mesh(), upper.mesh()) {
-            (None, _) => self.impulse,
-            (_, None) => -self.impulse,
+        let from_wall = match (lower.is_wall(), upper.is_wall()) {
+            (true, _) => self.impulse,
+            (_, true) => -self.impulse,
             _ => 0.0,
         };
         let drift = (momentum - (self.given_momentum + from_wall)) / self.momentum_scale;
@@ -196,7 +196,7 @@ fn balance_body(
     state: &BodyState,
     forces: &[[f64; 2]],
 ) -> BodyBalance {
-    if body.mesh().is_none() {
+    if body.is_wall() {
         return BodyBalance {
             kinetic: 0.0,
             vibration: 0.0,
@@ -219,9 +219,11 @@ fn balance_body(
     let mass = body.total_mass();
     let before = momentum / mass;
     let after = before + time_step * total_force / mass;
+    let vibration = 0.5 * (twice_kinetic - mass * before * after);
     BodyBalance {
         kinetic: 0.5 * twice_kinetic,
-        vibration: 0.5 * (twice_kinetic - mass * before * after),
+        // What a single node has is rounding.
+        vibration: if body.mesh().is_some() { vibration } else { 0.0 },
         momentum,
         velocity: 0.5 * (before + after),
         displacement: first_moment / mass,

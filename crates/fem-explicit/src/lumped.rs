@@ -1,15 +1,25 @@
-//! A sphere before its time step is known.
+//! A body before its time step is known.
 
+use fem_collision::BodyInput;
 use fem_element::QuadGeometry;
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
+use crate::body::Body;
+use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::stress::{self, Stress};
 use crate::time_step::NodalBound;
 
-/// A sphere with its parts, its masses and a bound of its stiffness: what the time step is chosen
-/// from.
+/// A body that contact and forces move, with its masses and a bound of the stiffness that pulls at
+/// them: what the time step is chosen from.
+#[derive(Debug)]
+pub(crate) enum LumpedBody {
+    Sphere(Box<LumpedSphere>),
+    Rigid(RigidSphere),
+}
+
+/// A sphere with its parts.
 #[derive(Debug)]
 pub(crate) struct LumpedSphere {
     pub mesh: SphereMesh,
@@ -18,6 +28,78 @@ pub(crate) struct LumpedSphere {
     pub node_forces: Vec<Box<dyn NodeForce>>,
     /// Without contact.
     pub bound: NodalBound,
+}
+
+/// A rigid sphere: one node that carries its mass.
+#[derive(Debug)]
+pub(crate) struct RigidSphere {
+    pub node_forces: Vec<Box<dyn NodeForce>>,
+    /// Without contact.
+    pub bound: NodalBound,
+}
+
+impl LumpedBody {
+    /// `None` for a wall, which nothing moves.
+    ///
+    /// # Errors
+    /// A rigid sphere's mass that is not positive and finite; forces on a wall.
+    pub fn new(
+        input: BodyInput,
+        node_forces: Vec<Box<dyn NodeForce>>,
+    ) -> Result<Option<Self>, ModelError> {
+        match input {
+            BodyInput::Sphere { mesh, material } => {
+                let sphere = LumpedSphere::new(mesh, material, node_forces);
+                Ok(Some(Self::Sphere(Box::new(sphere))))
+            }
+            BodyInput::Rigid { mass, .. } => {
+                Ok(Some(Self::Rigid(RigidSphere::new(mass, node_forces)?)))
+            }
+            BodyInput::Wall if node_forces.is_empty() => Ok(None),
+            BodyInput::Wall => Err(ModelError::ForceOnWall),
+        }
+    }
+
+    fn bound(&self) -> &NodalBound {
+        match self {
+            Self::Sphere(sphere) => &sphere.bound,
+            Self::Rigid(sphere) => &sphere.bound,
+        }
+    }
+
+    /// The bound of its nodes' stiffness, N/m, to which contact adds its own.
+    pub fn stiffness_mut(&mut self) -> &mut [f64] {
+        match self {
+            Self::Sphere(sphere) => &mut sphere.bound.stiffness,
+            Self::Rigid(sphere) => &mut sphere.bound.stiffness,
+        }
+    }
+
+    /// Critical time step without mass scaling, s.
+    pub fn critical_time_step(&self) -> f64 {
+        self.bound().critical_time_step()
+    }
+
+    /// Longest critical time step (s) within a budget of added mass, given as a fraction of the
+    /// body's mass. No mass is added to a rigid sphere, which has no light nodes.
+    pub fn scaled_time_step(&self, fraction: f64) -> f64 {
+        match self {
+            Self::Sphere(sphere) => sphere.bound.scaled_time_step(fraction),
+            Self::Rigid(sphere) => sphere.bound.critical_time_step(),
+        }
+    }
+
+    /// The body for a velocity (m/s), with the masses that a critical time step (s) asks for, at a
+    /// time step, s.
+    pub fn into_body(self, velocity: f64, critical: f64, time_step: f64) -> Body {
+        match self {
+            Self::Sphere(sphere) => {
+                let (nodal_mass, added_mass) = sphere.bound.scale_mass(critical);
+                Body::of_sphere(*sphere, velocity, nodal_mass, added_mass, time_step)
+            }
+            Self::Rigid(sphere) => Body::rigid(sphere, velocity, time_step),
+        }
+    }
 }
 
 impl LumpedSphere {
@@ -33,5 +115,24 @@ impl LumpedSphere {
             force.add_stiffness_bound(&mut bound.stiffness);
         }
         Self { mesh, material, stress, node_forces, bound }
+    }
+}
+
+impl RigidSphere {
+    /// Of a mass, kg.
+    ///
+    /// # Errors
+    /// A mass that is not positive and finite.
+    fn new(mass: f64, node_forces: Vec<Box<dyn NodeForce>>) -> Result<Self, ModelError> {
+        // What it is divided by has to be finite too.
+        if !(mass > 0.0 && mass.is_normal()) {
+            let (name, allowed) = ("mass of a rigid sphere", "positive and finite, in kg");
+            return Err(ModelError::Setting { name, value: mass, allowed });
+        }
+        let mut bound = NodalBound { mass: vec![mass], stiffness: vec![0.0] };
+        for force in &node_forces {
+            force.add_stiffness_bound(&mut bound.stiffness);
+        }
+        Ok(Self { node_forces, bound })
     }
 }

@@ -1,6 +1,7 @@
 //! The whole problem, constant over a run.
 
 use std::any::Any;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use fem_collision::{Approach, BodyInput, Frame, Searched};
@@ -10,8 +11,7 @@ use crate::body::Body;
 use crate::contact::Contact;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
-use crate::lumped::LumpedSphere;
-use crate::time_step::NodalBound;
+use crate::lumped::LumpedBody;
 
 /// Numerical settings of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,7 +53,8 @@ impl Model {
     /// Lumps masses, pairs the surfaces, chooses the time step.
     ///
     /// # Errors
-    /// Settings out of range, two walls.
+    /// Settings out of range, two rigid bodies, a rigid sphere's radius or mass that is not positive
+    /// and finite.
     pub fn new(
         inputs: [BodyInput; 2],
         approach: Approach,
@@ -79,26 +80,23 @@ impl Model {
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
-        let mut spheres = [lump(lower, forces_on_lower)?, lump(upper, forces_on_upper)?];
-        for (side, sphere) in spheres.iter_mut().enumerate() {
-            if let Some(sphere) = sphere {
-                contact.add_stiffness_bound(side, &mut sphere.bound.stiffness);
+        let mut movable =
+            [LumpedBody::new(lower, forces_on_lower)?, LumpedBody::new(upper, forces_on_upper)?];
+        for (side, body) in movable.iter_mut().enumerate() {
+            if let Some(body) = body {
+                contact.add_stiffness_bound(side, body.stiffness_mut());
             }
         }
-        let smallest = |step: &dyn Fn(&NodalBound) -> f64| {
-            let steps = spheres.iter().flatten().map(|sphere| step(&sphere.bound));
-            steps.fold(f64::INFINITY, f64::min)
+        let smallest = |step: &dyn Fn(&LumpedBody) -> f64| {
+            movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
         };
-        let plain = smallest(&NodalBound::critical_time_step);
-        let critical = smallest(&|bound| bound.scaled_time_step(settings.mass_scaling));
+        let plain = smallest(&LumpedBody::critical_time_step);
+        let critical = smallest(&|body| body.scaled_time_step(settings.mass_scaling));
         let time_step = settings.step_factor * critical;
         contact.set_time_step(time_step);
-        let mut spheres = spheres.into_iter();
-        let bodies = approach.velocities().map(|velocity| match spheres.next().flatten() {
-            Some(sphere) => {
-                let (nodal_mass, added_mass) = sphere.bound.scale_mass(critical);
-                Body::of_sphere(sphere, velocity, nodal_mass, added_mass, time_step)
-            }
+        let mut movable = movable.into_iter();
+        let bodies = approach.velocities().map(|velocity| match movable.next().flatten() {
+            Some(body) => body.into_body(velocity, critical, time_step),
             None => Body::wall(velocity),
         });
         Ok(Self {
@@ -158,7 +156,7 @@ impl Model {
 
     /// The frame of the common mass centre, mass scaling included.
     pub(crate) fn frame(&self) -> Frame {
-        let mass = |body: &Body| body.mesh().is_some().then(|| body.total_mass());
+        let mass = |body: &Body| (!body.is_wall()).then(|| body.total_mass());
         let masses = self.bodies.each_ref().map(mass);
         Frame { approach: self.approach, masses, reduced_mass: self.inverse_mass.recip() }
     }
@@ -175,23 +173,32 @@ fn penalty(
     gap: f64,
     settings: &Settings,
 ) -> Result<ContactInterface, ContactError> {
-    let [lower, upper] =
-        inputs.each_ref().map(|input| input.mesh().map_or_else(Surface::wall, Surface::of_sphere));
+    let [lower, upper] = inputs;
+    let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
     let &Settings { contact_stiffness, candidate_radius, .. } = settings;
-    ContactInterface::new(lower, upper, contact_stiffness, gap, candidate_radius)
+    let interface = ContactInterface::new(
+        lower_surface,
+        upper_surface,
+        contact_stiffness,
+        gap,
+        candidate_radius,
+    )?;
+    Ok(match (lower, upper) {
+        (BodyInput::Rigid { mass, .. }, BodyInput::Sphere { mesh, material })
+        | (BodyInput::Sphere { mesh, material }, BodyInput::Rigid { mass, .. }) => {
+            let volume = 4.0 / 3.0 * PI * mesh.radius().powi(3);
+            interface.with_rigid_mass(mass / (material.density() * volume))
+        }
+        _ => interface,
+    })
 }
 
-/// A sphere with its parts and masses; `None` for a wall.
-fn lump(
-    input: BodyInput,
-    node_forces: Vec<Box<dyn NodeForce>>,
-) -> Result<Option<LumpedSphere>, ModelError> {
+/// The touching side of a body.
+fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     match input {
-        BodyInput::Sphere { mesh, material } => {
-            Ok(Some(LumpedSphere::new(mesh, material, node_forces)))
-        }
-        BodyInput::Wall if node_forces.is_empty() => Ok(None),
-        BodyInput::Wall => Err(ModelError::ForceOnWall),
+        BodyInput::Sphere { mesh, .. } => Ok(Surface::of_sphere(mesh)),
+        BodyInput::Rigid { radius, .. } => Surface::rigid_sphere(*radius),
+        BodyInput::Wall => Ok(Surface::wall()),
     }
 }
 

@@ -21,14 +21,14 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
     let speed = model.approach().speed();
     let bodies = [0, 1].map(|side: usize| {
         let body = &model.bodies()[side];
-        let is_sphere = body.mesh().is_some();
+        let has_mass = !body.is_wall();
         BodyResult {
             elements: Some(body.n_elements()),
             nodes: Some(body.n_nodes()),
-            mass: is_sphere.then(|| body.mass()),
-            added_mass: is_sphere.then(|| body.added_mass()),
+            mass: has_mass.then(|| body.mass()),
+            added_mass: has_mass.then(|| body.added_mass()),
             velocity_after: velocity_after.map(|both| both[side]),
-            vibration_energy: vibration_energy.filter(|_| is_sphere).map(|both| both[side]),
+            vibration_energy: vibration_energy.filter(|_| has_mass).map(|both| both[side]),
         }
     });
     let ends = log.first_contact.zip(log.last_contact);

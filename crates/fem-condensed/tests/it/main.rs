@@ -6,6 +6,7 @@ mod explicit;
 mod limits;
 mod quantities;
 mod refusals;
+mod rigid;
 mod snapshots;
 mod together;
 mod unlike_meshes;

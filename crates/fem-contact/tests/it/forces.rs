@@ -243,5 +243,5 @@ fn impossible_interfaces_are_refused() {
         }
     }
     let walls = ContactInterface::new(Surface::wall(), Surface::wall(), 1.0, 0.0, 1.0);
-    assert_eq!(walls, Err(ContactError::TwoWalls));
+    assert_eq!(walls, Err(ContactError::BothRigid));
 }

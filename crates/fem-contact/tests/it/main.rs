@@ -3,4 +3,5 @@
 mod common;
 mod forces;
 mod pressure;
+mod rigid;
 mod stiffness;

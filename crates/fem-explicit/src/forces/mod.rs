@@ -6,7 +6,8 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 ///
 /// The place of effects that act on a body from outside or by its motion: gravity, a drag, a
 /// prescribed load. A body has a list of them, empty by default ([`Parts`](crate::Parts)); they add
-/// up in its order. A wall has none. Flight before first touch is not stepped and knows no force.
+/// up in its order. A rigid sphere is one node with all of its mass; a wall has no forces. Flight before
+/// first touch is not stepped and knows no force.
 ///
 /// ```
 /// use fem_collision::Account;

@@ -7,4 +7,5 @@ mod observed;
 mod outputs;
 mod parts;
 mod resume;
+mod rigid;
 mod stress;

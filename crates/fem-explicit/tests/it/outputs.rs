@@ -260,5 +260,5 @@ fn settings_out_of_range_are_refused() {
     let refused = model(approach, &Settings { contact_stiffness: 0.0, ..good }).unwrap_err();
     assert!(matches!(refused, ModelError::Contact(ContactError::NotPositive { .. })));
     let walls = Model::new([BodyInput::Wall, BodyInput::Wall], approach, &good).unwrap_err();
-    assert_eq!(walls, ModelError::Contact(ContactError::TwoWalls));
+    assert_eq!(walls, ModelError::Contact(ContactError::BothRigid));
 }

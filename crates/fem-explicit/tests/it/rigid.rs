@@ -1,0 +1,225 @@
+//! A rigid sphere as partner: one degree of freedom in place of a mesh.
+
+use crate::common::{CONTACT_MODULUS, Pair, quantities};
+use fem_collision::{Approach, BodyInput, Collision, Expectation, SnapshotRequest};
+use fem_contact::ContactError;
+use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
+use fem_material::{ActsOn, ElasticModuli, Material};
+
+/// Of the glass of a whole sphere, kg.
+const MASSES: [f64; 2] = [13.6921e-3, 5.0303e-3];
+
+fn coarse() -> Pair {
+    Pair { element_size: 80e-6, candidate_radius: 0.45e-3, ..Pair::default() }
+}
+
+/// A pair one of whose bodies is rigid, with the mass of its glass times a factor.
+fn bodies_of(pair: &Pair, rigid: usize, factor: f64) -> [BodyInput; 2] {
+    let mut bodies = [0, 1].map(|body| pair.sphere(body));
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * pair.radii[rigid].powi(3);
+    bodies[rigid] = BodyInput::Rigid { radius: pair.radii[rigid], mass: factor * 2390.0 * volume };
+    bodies
+}
+
+fn model(pair: &Pair, rigid: usize) -> Model {
+    pair.model_of(bodies_of(pair, rigid, 1.0))
+}
+
+/// Hertz with R* and m* of both bodies, E* of the one that deforms alone: contact time, largest force
+/// and approach.
+fn hertz(modulus: f64, speed: f64) -> [f64; 3] {
+    let radius: f64 = 1.0 / (1.0 / 11.1e-3 + 1.0 / 7.95e-3);
+    let mass = 1.0 / (1.0 / MASSES[0] + 1.0 / MASSES[1]);
+    let stiffness = 4.0 / 3.0 * modulus * radius.sqrt();
+    let approach = (1.25 * mass * speed * speed / stiffness).powf(0.4);
+    [2.943_275 * approach / speed, stiffness * approach.powf(1.5), approach]
+}
+
+/// Either body rigid, at rest or moving; the finite size of the sphere that deforms takes some
+/// thousandths, the mesh of five elements a contact radius as much (see `collision.rs`).
+#[test]
+fn a_rigid_partner_is_hertz_with_one_modulus() {
+    let [time, force, approach] = hertz(2.0 * CONTACT_MODULUS, 0.5);
+    for (rigid, velocities) in
+        [(0, [0.5, 0.0]), (0, [0.0, -0.5]), (1, [0.5, 0.0]), (1, [0.0, -0.5]), (1, [1.5, 1.0])]
+    {
+        let pair = Pair { velocities, element_size: 35e-6, history_rows: 0, ..coarse() };
+        let model = model(&pair, rigid);
+        let run = pair.run_model(&model);
+        let found = quantities(&run);
+        let close = |a: f64, b: f64, what: &str| {
+            assert!((a / b - 1.0).abs() < 0.01, "{rigid} {velocities:?} {what}: {a:e} {b:e}");
+        };
+        close(found.contact_time, time, "time");
+        close(found.peak_force, force, "force");
+        close(found.max_approach, approach, "approach");
+        // As of two glass spheres.
+        assert!((found.restitution - 1.0).abs() < 1e-4, "{}", found.restitution);
+        assert!(found.residual < 2e-6, "{}", found.residual);
+        assert!(found.momentum_residual < 1e-13, "{}", found.momentum_residual);
+        // The laws of elastic collision.
+        let total: f64 = MASSES.iter().sum();
+        for side in 0..2 {
+            let sign = [-1.0, 1.0][side];
+            let share = MASSES[1 - side] / total;
+            let after = velocities[side] + sign * share * (1.0 + found.restitution) * 0.5;
+            let off = found.velocity_after[side] - after;
+            // The mesh of the other one holds 2e-4 less mass than its sphere.
+            assert!(off.abs() < 2e-4 * after.abs().max(0.5), "{off:e} of {after}");
+        }
+        let body = run.bodies[rigid];
+        assert_eq!((body.elements, body.nodes), (Some(0), Some(0)));
+        assert!((body.mass.unwrap() / MASSES[rigid] - 1.0).abs() < 1e-4);
+        assert_eq!((body.added_mass, body.vibration_energy), (Some(0.0), Some(0.0)));
+        assert!(run.bodies[1 - rigid].vibration_energy.unwrap() > 0.0);
+    }
+}
+
+/// Difference of two runs in what does not scatter from step to step.
+fn differences(a: &Collision, b: &Collision) -> [f64; 5] {
+    let [a, b] = [a, b].map(quantities);
+    let off = |a: f64, b: f64| (a / b - 1.0).abs();
+    [
+        off(a.restitution, b.restitution),
+        off(a.contact_time, b.contact_time),
+        off(a.peak_force, b.peak_force),
+        off(a.max_approach, b.max_approach),
+        off(a.peak_pressure, b.peak_pressure),
+    ]
+}
+
+/// Without end and with all the mass, at the same time step to rounding. The mass lets it yield by
+/// 1e-12.
+#[test]
+fn an_enormous_rigid_sphere_is_a_wall() {
+    for wall in 0..2 {
+        let mut pair = coarse();
+        pair.velocities[wall] = 0.0;
+        pair.velocities[1 - wall] = [0.5, -0.5][1 - wall];
+        let mut bodies = [0, 1].map(|body| pair.sphere(body));
+        bodies[wall] = BodyInput::Wall;
+        let plane = pair.model_of(bodies.clone());
+        bodies[wall] = BodyInput::Rigid { radius: 1e10, mass: 1e10 };
+        let round = pair.model_of(bodies);
+        assert!((round.time_step() / plane.time_step() - 1.0).abs() < 1e-10);
+        let [plane, round] = [plane, round].map(|model| pair.run_model(&model));
+        let differences = differences(&plane, &round);
+        assert!(differences.iter().all(|off| *off < 1e-9), "{differences:?}");
+        // It takes twice the other's momentum.
+        let after = round.bodies[wall].velocity_after.unwrap();
+        let given = 2.0 * 0.5 * MASSES[1 - wall] / 1e10;
+        assert!((after.abs() / given - 1.0).abs() < 1e-3, "{after:e}");
+        assert!(quantities(&round).residual < 2e-6);
+    }
+}
+
+#[test]
+fn swapped_bodies_collide_in_the_mirror() {
+    let plain = coarse();
+    let mirrored = Pair { radii: [7.95e-3, 11.1e-3], velocities: [0.0, -0.5], ..coarse() };
+    let [one, other] =
+        [(&plain, 1), (&mirrored, 0)].map(|(pair, rigid)| pair.run_model(&model(pair, rigid)));
+    // Rounding, as of two meshes.
+    assert!(differences(&one, &other).iter().all(|off| *off < 1e-11));
+    for side in 0..2 {
+        let [a, b] = [&one, &other].map(|run| quantities(run).velocity_after);
+        assert!((a[side] + b[1 - side]).abs() < 1e-12, "{a:?} {b:?}");
+    }
+}
+
+/// A partner so many times stiffer, of the same mass and of the same wave speed, takes its share of
+/// the approach: T ~ E*^(−2/5), F ~ E*^(2/5) (Hertz).
+#[test]
+fn a_stiff_partner_comes_to_the_rigid_one_as_foretold() {
+    let pair = Pair { history_rows: 0, velocities: [0.0, -0.5], ..coarse() };
+    for (ratio, tolerance) in [(30.0, 0.06), (1e4, 0.2)] {
+        let moduli =
+            ElasticModuli::from_youngs_modulus_poissons_ratio(63e9 * ratio, 0.244).unwrap();
+        let material = Material::new(2390.0 * ratio, moduli, None).unwrap();
+        let BodyInput::Sphere { mesh, .. } = pair.sphere(0) else { panic!("a sphere") };
+        let stiff = pair.model_of([BodyInput::Sphere { mesh, material }, pair.sphere(1)]);
+        let mass = stiff.bodies()[0].mass();
+        let rigid = BodyInput::Rigid { radius: pair.radii[0], mass };
+        let rigid = pair.model_of([rigid, pair.sphere(1)]);
+        let [stiff, rigid] = [stiff, rigid].map(|model| pair.run_model(&model));
+        let foretold = (1.0 + 1.0 / ratio).powf(0.4) - 1.0;
+        let approach = stiff.max_approach.unwrap() / rigid.max_approach.unwrap() - 1.0;
+        assert!(
+            (approach / foretold - 1.0).abs() < tolerance,
+            "{ratio}: {approach:e} {foretold:e}"
+        );
+    }
+}
+
+/// A bead of a thousandth of the mass sets the step no more than it has to, and keeps its energy.
+#[test]
+fn a_light_rigid_bead_is_stable() {
+    let speed = 0.5;
+    let pair = Pair { radii: [1e-3, 7.95e-3], element_size: 20e-6, ..coarse() };
+    let bodies = bodies_of(&pair, 0, 1.0);
+    let settings = Settings { candidate_radius: 60e-6, ..pair.settings() };
+    let light = Model::new(bodies, Approach::at(speed).unwrap(), &settings).unwrap();
+    let expected = Expectation { contact_time: 6e-6, approach: 1e-6 };
+    let run = collide(&light, expected, &pair.want(), &mut ());
+    let found = quantities(&run);
+    assert!(found.residual < 1e-5, "{}", found.residual);
+    assert!((found.restitution - 1.0).abs() < 5e-3, "{}", found.restitution);
+}
+
+/// The memory as another process would have it.
+fn stored(memory: &Memory) -> Memory {
+    postcard::from_bytes(&postcard::to_stdvec(memory).unwrap()).unwrap()
+}
+
+#[test]
+fn a_resumed_run_is_the_same_to_the_bit() {
+    for rigid in 0..2 {
+        let relaxation = Some(ActsOn::Shear);
+        let snapshots = SnapshotRequest::Count(3);
+        let pair = Pair { element_size: 110e-6, relaxation, gap: 1e-6, snapshots, ..coarse() };
+        let model = model(&pair, rigid);
+        let whole = pair.run_model(&model);
+        assert_eq!(whole.snapshots.len(), 3);
+        assert!(whole.snapshots.iter().all(|s| s.bodies[rigid].displacement.is_empty()));
+        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        while run.advance(97).is_none() {
+            run = Run::resume(&model, stored(run.memory())).unwrap();
+        }
+        assert_eq!(run.finish(), whole);
+
+        let mut run = Run::new(&model, pair.expected(), &pair.want());
+        assert_eq!(run.advance(300), None);
+        let mut larger = bodies_of(&pair, rigid, 1.0);
+        if let BodyInput::Rigid { radius, .. } = &mut larger[rigid] {
+            *radius *= 1.0 + 1e-9;
+        }
+        let mut wall = bodies_of(&pair, rigid, 1.0);
+        wall[rigid] = BodyInput::Wall;
+        let heavier = bodies_of(&pair, rigid, 1.0 + 1e-9);
+        for (other, what) in [(larger, "radius"), (heavier, "mass"), (wall, "a wall")] {
+            let refused = Run::resume(&pair.model_of(other), stored(run.memory())).err();
+            assert_eq!(refused, Some(ModelError::MemoryOfAnother), "{what}");
+        }
+    }
+}
+
+#[test]
+fn impossible_bodies_are_refused() {
+    let pair = coarse();
+    let new = |radius: f64, mass: f64| {
+        let bodies = [BodyInput::Rigid { radius, mass }, pair.sphere(1)];
+        Model::new(bodies, pair.approach(), &pair.settings()).err()
+    };
+    assert_eq!(new(1e-2, 1.0), None);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-310] {
+        let refused = new(bad, 1.0).unwrap();
+        assert!(matches!(refused, ModelError::Contact(ContactError::NotPositive { .. })));
+        let refused = new(1e-2, bad).unwrap();
+        assert!(refused.to_string().starts_with("mass of a rigid sphere is"), "{refused}");
+    }
+    let rigid = || BodyInput::Rigid { radius: 1e-2, mass: 1.0 };
+    for bodies in [[rigid(), BodyInput::Wall], [rigid(), rigid()]] {
+        let refused = Model::new(bodies, pair.approach(), &pair.settings()).unwrap_err();
+        assert_eq!(refused, ModelError::Contact(ContactError::BothRigid));
+    }
+}
