@@ -19,6 +19,9 @@
 //! beside an elastic bulk modulus (`shear`). Modes of free vibration bring back the inertia that
 //! the quasi-static body lacks (`vibration`).
 //!
+//! A rigid sphere has no compliance: its curvature is in the gap and its mass in the reduced mass. A
+//! wall has neither.
+//!
 //! Sign convention: approach, forces and inward displacements are positive in compression. SI.
 //! Limits: small strain (a/R some per cent), linear materials, frictionless contact, no gravity;
 //! without modes of vibration, speeds far below the wave speeds.

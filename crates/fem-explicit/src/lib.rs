@@ -35,6 +35,10 @@
 //! dissipates to [`Accounts`], which the ledger balances. What is off is absent: an elastic body has
 //! no history, an empty list costs nothing.
 //!
+//! A rigid sphere is a body of one node that carries its mass, without stress: contact gives it the sum
+//! of its forces, its list of forces acts on it as on any node, and it has no elements. A wall is the
+//! same with infinite mass and no forces.
+//!
 //! [`collide`] runs a [`Model`] from first touch until the bodies have separated and returns a
 //! [`Collision`](fem_collision::Collision): history with energy ledger, snapshots, and the quantities
 //! of the collision; [`Run`] is the same in steps. [`FreeMotion`] is one body without contact.

@@ -103,3 +103,37 @@ fn the_account_of_a_force_closes_the_ledger() {
     // Momentum is what was given.
     assert!(ledger.worst_momentum < 1e-13, "{}", ledger.worst_momentum);
 }
+
+/// A rigid sphere falls as one: in closed form, its energy and momentum balanced, while the body below
+/// is far away.
+#[test]
+fn a_rigid_sphere_falls_too() {
+    let sphere = BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Below), material: unit_glass() };
+    let bodies = [sphere, BodyInput::Rigid { radius: 0.5, mass: 3.0 }];
+    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
+    let pull: Box<dyn NodeForce> = Box::new(Pull(ACCELERATION));
+    let parts = Parts { node_forces: [Vec::new(), vec![pull]], contact: None };
+    let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
+    let mut state = State::at_first_touch(&model);
+    // Back from first touch to the start.
+    state.bodies[0].displacement.fill([0.0; 2]);
+    let mut scratch = Scratch::new(&model);
+    let mut ledger = Ledger::new(&model, &state);
+    let time_step = model.time_step();
+    for n in 0..=200 {
+        let contact = update_forces(&model, &state, &mut scratch);
+        assert_eq!(scratch.resultants, [0.0, 3.0 * ACCELERATION]);
+        let row = ledger.balance(&model, &state, &scratch, &contact);
+        let time = f64::from(n) * time_step;
+        let work = 3.0 * ACCELERATION * (0.5 * ACCELERATION * time * time);
+        // Roundings of equal increments, as above; and of the other body's energy.
+        assert!((row.energy(Account::WallWork).unwrap() - work).abs() <= 1e-12 * work);
+        assert!((row.velocity[1] - ACCELERATION * time).abs() <= 1e-12);
+        let short = 0.125 * 3.0 * (ACCELERATION * time_step).powi(2);
+        assert!((row.residual.unwrap() + short).abs() < 1e-13 * ledger.initial, "{n}");
+        assert_eq!(row.vibration[1], 0.0);
+        ledger.count_step(&model, &scratch, contact.force);
+        advance(&model, &mut state, &scratch);
+    }
+    assert!(ledger.worst_momentum < 1e-13, "{}", ledger.worst_momentum);
+}

@@ -44,7 +44,7 @@ const HOUSE: [(&str, &str, &[&str]); 15] = [
     ),
     (
         "fem-contact",
-        "Frictionless penalty contact between two axisymmetric boundaries or a boundary and a rigid wall",
+        "Frictionless penalty contact between two axisymmetric boundaries or a boundary and a rigid body",
         &["fem-mesh"],
     ),
     (
