@@ -77,7 +77,7 @@ impl Ledger {
         // A wall can bring all of the motion to a body at rest.
         let momentum_of_approach = sum(&Body::total_mass) * model.approach().speed();
         Self {
-            initial: sum(&|body| 0.5 * body.total_mass() * body.velocity.powi(2)),
+            initial: sum(&kinetic_before),
             initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
             worst_momentum: 0.0,
@@ -124,13 +124,22 @@ impl Ledger {
         self.losses.advance(state.time - self.last_time, accounts.powers);
         self.last_time = state.time;
 
-        let energies = accounts
-            .energies
-            .and(&self.losses.energies())
-            .with(Account::Kinetic, lower.kinetic + upper.kinetic)
-            .with(Account::Contact, contact.energy)
-            .with(Account::WallWork, self.wall_work(model, contact.force));
-        let residual = energies.residual(self.initial);
+        let with_kinetic = |kinetic: f64| {
+            accounts
+                .energies
+                .and(&self.losses.energies())
+                .with(Account::Kinetic, kinetic)
+                .with(Account::Contact, contact.energy)
+                .with(Account::WallWork, self.wall_work(model, contact.force))
+        };
+        let energies = with_kinetic(lower.kinetic + upper.kinetic);
+        let residual = match self.gained_by_rigid(model, contact.force) {
+            Some((side, gained)) => {
+                let (other, kinetic) = (&bodies[1 - side], [&lower, &upper][1 - side].kinetic);
+                with_kinetic(kinetic + gained).residual(kinetic_before(other))
+            }
+            None => energies.residual(self.initial),
+        };
         self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
         self.balance_momentum(model, lower.momentum + upper.momentum);
 
@@ -177,6 +186,23 @@ impl Ledger {
         }
     }
 
+    /// The side of a rigid sphere that the contact alone moves, and the kinetic energy that it has
+    /// gained since first touch up to t_n, J.
+    ///
+    /// With the impulses J of the contact up to t_n ∓ Δt/2, ½ M v₋v₊ − ½ M v² = ½ v (J₋ + J₊) +
+    /// J₋J₊/2M, without the cancellation that would leave of a heavy sphere's energy no more than
+    /// rounding.
+    fn gained_by_rigid(&self, model: &Model, force: f64) -> Option<(usize, f64)> {
+        let is_moved =
+            |body: &Body| body.mesh().is_none() && !body.is_wall() && body.node_forces.is_empty();
+        let side = model.bodies().iter().position(is_moved)?;
+        let (body, sign) = (&model.bodies()[side], [-1.0, 1.0][side]);
+        let before = sign * self.impulse;
+        let after = before + sign * model.time_step() * force;
+        let gained = body.velocity * (before + after) + before * after / body.total_mass();
+        Some((side, 0.5 * gained))
+    }
+
     /// Balances the momentum of the spheres at t_n − Δt/2, N s.
     fn balance_momentum(&mut self, model: &Model, momentum: f64) {
         let [lower, upper] = model.bodies();
@@ -188,6 +214,11 @@ impl Ledger {
         let drift = (momentum - (self.given_momentum + from_wall)) / self.momentum_scale;
         self.worst_momentum = worst(self.worst_momentum, drift);
     }
+}
+
+/// Kinetic energy at the start, J.
+fn kinetic_before(body: &Body) -> f64 {
+    0.5 * body.total_mass() * body.velocity.powi(2)
 }
 
 fn balance_body(

@@ -58,9 +58,10 @@ impl Observed {
     /// touch; `rate` is that of the approach, m/s.
     pub fn stays_together(&mut self, is_closed: bool, time: f64, rate: f64) -> bool {
         let Some(row) = &self.last else { return false };
-        let held = row.energies.total(Side::Held).unwrap_or_default();
-        let kinetic = row.energy(Account::Kinetic).unwrap_or_default();
-        let inner_energy = row.vibration.iter().sum::<f64>() + held - kinetic;
+        let is_stored =
+            |account: Account| account.side() == Side::Held && account != Account::Kinetic;
+        let stored = row.energies.entries().filter(|(account, _)| is_stored(*account));
+        let inner_energy = row.vibration.into_iter().chain(stored.map(|(_, energy)| energy)).sum();
         let force = row.contact_force;
         self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{CONTACT_MODULUS, Pair, quantities};
-use fem_collision::{Approach, BodyInput, Collision, Expectation, SnapshotRequest};
+use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, SnapshotRequest};
 use fem_contact::ContactError;
 use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
 use fem_material::{ActsOn, ElasticModuli, Material};
@@ -114,6 +114,46 @@ fn an_enormous_rigid_sphere_is_a_wall() {
         let given = 2.0 * 0.5 * masses()[1 - wall] / 1e10;
         assert!((after.abs() / given - 1.0).abs() < 1e-3, "{after:e}");
         assert!(quantities(&round).residual < 2e-6);
+    }
+}
+
+/// A heavy body that moves has M/m (V/v)² of the energy that the collision is about, here 4e14: of its
+/// own, rounding would leave nothing that could be balanced.
+#[test]
+fn a_heavy_rigid_sphere_that_moves_is_balanced() {
+    let run = |velocities: [f64; 2]| {
+        let pair = Pair { velocities, history_rows: 0, ..coarse() };
+        let heavy = bodies_of(&pair, 0, 1e12);
+        pair.run_model(&pair.model_of(heavy))
+    };
+    let (plain, moving) = (run([0.5, 0.0]), run([10.5, 10.0]));
+    // As of other bodies, see `a_common_velocity_does_not_matter`; displacements are larger.
+    assert!(differences(&plain, &moving).iter().all(|off| *off < 1e-9));
+    for run in [plain, moving] {
+        let found = quantities(&run);
+        assert!(found.residual < 2e-6, "{}", found.residual);
+        assert!(found.momentum_residual < 1e-12, "{}", found.momentum_residual);
+    }
+}
+
+/// A body that relaxes at once sticks to a heavy rigid one that moves, and goes on with it: both keep
+/// the velocity of their mass centre.
+#[test]
+fn what_relaxes_to_nothing_stays_with_a_rigid_sphere() {
+    let relaxation = Some(ActsOn::All);
+    for (factor, velocities) in [(1.0, [0.5, 0.0]), (1e13, [10.5, 10.0])] {
+        let pair = Pair { relaxation, terms: &[(1.0, 1e-6)], velocities, ..coarse() };
+        let pair = Pair { candidate_radius: 1.5e-3, max_time: 2e-3, ..pair };
+        let run = pair.run_model(&pair.model_of(bodies_of(&pair, 0, factor)));
+        assert_eq!((run.ending.clone(), run.restitution), (Ending::Together, Some(0.0)));
+        let masses = [factor * masses()[0], masses()[1]];
+        let momentum = masses[0] * velocities[0] + masses[1] * velocities[1];
+        for body in run.bodies {
+            let off = body.velocity_after.unwrap() - momentum / (masses[0] + masses[1]);
+            // Mass scaling.
+            assert!(off.abs() < 1e-4 * 0.5, "{factor:e}: {off:e}");
+        }
+        assert!(run.residual_relative.unwrap() < 1e-3, "{}", run.residual_relative.unwrap());
     }
 }
 
