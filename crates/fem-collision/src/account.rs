@@ -23,6 +23,8 @@ pub enum Account {
     ViscousDissipation,
     /// Work of a moving wall.
     WallWork,
+    /// Artificial viscosity of elements.
+    BulkViscosity,
 }
 
 /// On which side of the balance an account stands.
@@ -56,6 +58,7 @@ const LINES: &[(Account, &str, Side, Shown)] = &[
     (Account::Contact, "contact", Side::Held, Shown::Always),
     (Account::ViscousDissipation, "viscous_dissipation", Side::Lost, Shown::Always),
     (Account::WallWork, "wall_work", Side::Given, Shown::InSummary),
+    (Account::BulkViscosity, "bulk_viscosity", Side::Lost, Shown::WhereFilled),
 ];
 
 impl Account {

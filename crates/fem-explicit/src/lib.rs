@@ -14,8 +14,8 @@
 //! ```text
 //! a step                     Stress                NodeForce             Contact
 //!                            of each body          list of each body     of both bodies
-//!                            elastic               (empty)               penalty springs
-//!                            constant_poisson
+//!                            elastic               bulk viscosity,       penalty springs
+//!                            constant_poisson      or none
 //!                            relaxing_shear
 //!
 //! update forces              subtract_forces       add_forces            add_forces
@@ -27,6 +27,7 @@
 //!   what parts remember      advance               advance
 //!
 //! when the model is built    largest_eigenvalue    add_stiffness_bound   add_stiffness_bound
+//!                                                  add_damping_bound
 //!                            set_time_step         set_time_step         set_time_step
 //! ```
 //!
@@ -73,7 +74,7 @@ mod time_step;
 pub use body::Body;
 pub use contact::Contact;
 pub use error::ModelError;
-pub use forces::NodeForce;
+pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients};
 pub use free_motion::FreeMotion;
 pub use memory::Memory;
 pub use model::{Model, Parts, Settings};

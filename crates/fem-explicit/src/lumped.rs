@@ -113,6 +113,7 @@ impl LumpedSphere {
             NodalBound::of_elements(&mesh, &geometries, material.density(), stress.as_ref());
         for force in &node_forces {
             force.add_stiffness_bound(&mut bound.stiffness);
+            force.add_damping_bound(&mut bound.damping);
         }
         Self { mesh, material, stress, node_forces, bound }
     }

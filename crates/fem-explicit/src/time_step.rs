@@ -14,6 +14,20 @@
 //! once every node has m_i ≥ κ_i Δt²/4, so the lightest nodes, which are the
 //! stiffest and hold almost none of the mass, are filled up to that and the step
 //! is the longest for which the added mass stays within its budget.
+//!
+//! Forces of damping C take the velocity of half a step before, which is the same as
+//! the mean velocity at the mass M − ½ Δt C. So with C bounded by a diagonal γ_i the
+//! condition is
+//!
+//! ```math
+//! \Delta t^2 \kappa_i + 2 \Delta t\, \gamma_i \le 4 m_i
+//!   \quad\Leftrightarrow\quad
+//!   \Delta t \le 2 \sqrt{m_i/\kappa_i}\, (\sqrt{1 + \xi_i^2} - \xi_i), \qquad
+//!   \xi_i = \frac{\gamma_i}{2 \sqrt{\kappa_i m_i}},
+//! ```
+//!
+//! the step of an oscillator of damping ratio ξ (Belytschko, Liu & Moran 2000, eq. 6.2.30). Without
+//! damping it is the step above, to the bit.
 
 use fem_element::QuadGeometry;
 use fem_mesh::{SphereMesh, lump_mass};
@@ -27,6 +41,8 @@ pub(crate) struct NodalBound {
     pub mass: Vec<f64>,
     /// κ_i, N/m.
     pub stiffness: Vec<f64>,
+    /// γ_i, N s/m.
+    pub damping: Vec<f64>,
 }
 
 impl NodalBound {
@@ -48,24 +64,31 @@ impl NodalBound {
         }
         let nodal_volumes: Vec<_> =
             geometries.iter().map(|geometry| geometry.nodal_volumes).collect();
-        Self { mass: lump_mass(mesh, density, &nodal_volumes), stiffness }
+        let damping = vec![0.0; mesh.nodes().len()];
+        Self { mass: lump_mass(mesh, density, &nodal_volumes), stiffness, damping }
+    }
+
+    /// Mass (kg), stiffness (N/m) and damping (N s/m) of each node.
+    fn nodes(&self) -> impl Iterator<Item = [f64; 3]> {
+        let bounds = self.stiffness.iter().zip(&self.damping);
+        self.mass
+            .iter()
+            .zip(bounds)
+            .map(|(&mass, (&stiffness, &damping))| [mass, stiffness, damping])
     }
 
     /// Critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
-        self.mass
-            .iter()
-            .zip(&self.stiffness)
-            .map(|(mass, stiffness)| 2.0 * (mass / stiffness).sqrt())
-            .fold(f64::INFINITY, f64::min)
+        let step = |[mass, stiffness, damping]: [f64; 3]| {
+            let ratio = 0.5 * damping / (stiffness * mass).sqrt();
+            2.0 * (mass / stiffness).sqrt() * ((1.0 + ratio * ratio).sqrt() - ratio)
+        };
+        self.nodes().map(step).fold(f64::INFINITY, f64::min)
     }
 
     /// Mass that a critical time step (s) asks for beyond what is there, kg.
     fn missing_mass(&self, time_step: f64) -> f64 {
-        let missing = |(mass, stiffness): (&f64, &f64)| {
-            (0.25 * time_step * time_step * stiffness - mass).max(0.0)
-        };
-        self.mass.iter().zip(&self.stiffness).map(missing).sum()
+        self.nodes().map(|node| (needed_mass(time_step, node) - node[0]).max(0.0)).sum()
     }
 
     /// Longest critical time step (s) within a budget of added mass, given as a
@@ -95,12 +118,17 @@ impl NodalBound {
     /// what was added, kg.
     pub fn scale_mass(&self, time_step: f64) -> (Vec<f64>, f64) {
         let mut added = 0.0;
-        let filled = |(&mass, stiffness): (&f64, &f64)| {
-            let needed = 0.25 * time_step * time_step * stiffness;
-            added += (needed - mass).max(0.0);
-            mass.max(needed)
+        let filled = |node: [f64; 3]| {
+            let needed = needed_mass(time_step, node);
+            added += (needed - node[0]).max(0.0);
+            node[0].max(needed)
         };
-        let masses = self.mass.iter().zip(&self.stiffness).map(filled).collect();
+        let masses = self.nodes().map(filled).collect();
         (masses, added)
     }
+}
+
+/// Mass (kg) with which a node of this stiffness and damping is stable at a time step, s.
+fn needed_mass(time_step: f64, [_, stiffness, damping]: [f64; 3]) -> f64 {
+    0.25 * time_step * time_step * stiffness + 0.5 * time_step * damping
 }

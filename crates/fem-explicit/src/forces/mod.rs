@@ -1,13 +1,17 @@
 //! Forces on the nodes of a body beside stress and contact: the port; one file a force.
 
+mod bulk_viscosity;
+
+pub use bulk_viscosity::{BulkViscosity, ViscosityCoefficients};
+
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// A force on the nodes of a body, from first touch on.
 ///
 /// The place of effects that act on a body from outside or by its motion: gravity, a drag, a
-/// prescribed load. A body has a list of them, empty by default ([`Parts`](crate::Parts)); they add
-/// up in its order. A rigid sphere is one node with all of its mass; a wall has no forces. Flight before
-/// first touch is not stepped and knows no force.
+/// prescribed load, bulk viscosity. A body has a list of them, empty by default
+/// ([`Parts`](crate::Parts)); they add up in its order. A rigid sphere is one node with all of its mass; a
+/// wall has no forces. Flight before first touch is not stepped and knows no force.
 ///
 /// ```
 /// use fem_collision::Account;
@@ -50,4 +54,8 @@ pub trait NodeForce: Part {
     /// Adds a bound of its stiffness at each node, N/m; a force that does not depend on the
     /// displacement has none.
     fn add_stiffness_bound(&self, _bound: &mut [f64]) {}
+
+    /// Adds a bound of its damping at each node, N s/m; a force that does not depend on the velocity
+    /// has none.
+    fn add_damping_bound(&self, _bound: &mut [f64]) {}
 }

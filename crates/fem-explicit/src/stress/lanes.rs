@@ -16,6 +16,12 @@ pub(crate) trait Lanes:
     /// The same number in all lanes.
     fn splat(value: f64) -> Self;
 
+    /// The larger of both, lane by lane; `other` where one is no number.
+    fn max(self, other: Self) -> Self;
+
+    /// The smaller of both, lane by lane; `other` where one is no number.
+    fn min(self, other: Self) -> Self;
+
     /// The numbers of an array.
     fn load(values: &[f64; LANES]) -> Self;
 
@@ -91,6 +97,20 @@ impl Lanes for Plain {
     }
 
     #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let larger =
+            |lane: usize| if self.0[lane] > other.0[lane] { self.0[lane] } else { other.0[lane] };
+        Self([larger(0), larger(1), larger(2), larger(3)])
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        let smaller =
+            |lane: usize| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] };
+        Self([smaller(0), smaller(1), smaller(2), smaller(3)])
+    }
+
+    #[inline(always)]
     fn load(values: &[f64; LANES]) -> Self {
         Self(*values)
     }
@@ -125,8 +145,9 @@ pub(crate) use avx2::Avx2;
 mod avx2 {
     use std::arch::x86_64::{
         __m256d, _mm_loadu_pd, _mm_storeu_pd, _mm_sub_pd, _mm256_add_pd, _mm256_castpd256_pd128,
-        _mm256_extractf128_pd, _mm256_loadu_pd, _mm256_mul_pd, _mm256_set_m128d, _mm256_set1_pd,
-        _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
+        _mm256_extractf128_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_mul_pd,
+        _mm256_set_m128d, _mm256_set1_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd,
+        _mm256_unpacklo_pd,
     };
     use std::ops::{Add, Mul, Sub};
 
@@ -160,6 +181,18 @@ mod avx2 {
         fn splat(value: f64) -> Self {
             // SAFETY: the type's contract.
             Self(unsafe { _mm256_set1_pd(value) })
+        }
+
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            // SAFETY: the type's contract.
+            Self(unsafe { _mm256_max_pd(self.0, other.0) })
+        }
+
+        #[inline(always)]
+        fn min(self, other: Self) -> Self {
+            // SAFETY: the type's contract.
+            Self(unsafe { _mm256_min_pd(self.0, other.0) })
         }
 
         #[inline(always)]

@@ -14,7 +14,7 @@ mod block;
 mod constant_poisson;
 mod elastic;
 mod kernel;
-mod lanes;
+pub(crate) mod lanes;
 mod port;
 mod prony;
 mod relaxing_shear;

@@ -6,8 +6,7 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// The stress of a body: internal forces, what it stores and dissipates, and how stiff it is.
 ///
-/// The place of effects that depend on strain and its past: another material law, finite strain,
-/// bulk viscosity.
+/// The place of effects that depend on strain and its past: another material law, finite strain.
 pub trait Stress: Part {
     /// Largest eigenvalue (s⁻²) of an element's stiffness against its lumped masses (kg), its
     /// corners `on_axis` free along y alone; or a bound of it.

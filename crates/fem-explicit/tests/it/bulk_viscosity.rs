@@ -1,0 +1,107 @@
+//! Bulk viscosity in collisions: what it smooths, what it takes, what it keeps.
+
+use fem_collision::{Account, Collision, Row};
+use fem_explicit::{
+    BulkViscosity, Model, ModelError, NodeForce, Parts, Run, ViscosityCoefficients,
+};
+
+use crate::common::{Pair, quantities};
+
+fn model(pair: &Pair, coefficients: ViscosityCoefficients) -> Model {
+    let bodies = [pair.sphere(0), pair.sphere(1)];
+    let node_forces = bodies.each_ref().map(|body| {
+        let (mesh, drop) = (body.mesh().unwrap(), pair.approach().speed());
+        let part = BulkViscosity::new(mesh, &pair.material(), coefficients, drop).unwrap();
+        vec![Box::new(part) as Box<dyn NodeForce>]
+    });
+    let parts = Parts { node_forces, ..Parts::default() };
+    Model::with_parts(bodies, pair.approach(), &pair.settings(), parts).unwrap()
+}
+
+fn viscous(pair: &Pair) -> Collision {
+    pair.run_model(&model(pair, ViscosityCoefficients::default()))
+}
+
+/// A twentieth of the shear wave speed, two elements a contact radius.
+fn fast() -> Pair {
+    let (velocities, element_size, candidate_radius) = ([150.0, 0.0], 180e-6, 3.5e-3);
+    Pair { velocities, element_size, candidate_radius, ..Pair::default() }
+}
+
+/// What viscosity took over the kinetic energy in the frame of the mass centre.
+fn loss(run: &Collision) -> f64 {
+    let [lower, upper] = run.bodies.map(|body| body.mass.unwrap());
+    let reduced_mass = lower * upper / (lower + upper);
+    let initial = 0.5 * reduced_mass * run.approach.speed().powi(2);
+    run.energies.get(Account::BulkViscosity).unwrap() / initial
+}
+
+/// Ups and downs over one rise and one fall.
+fn variation(run: &Collision, value: impl Fn(&Row) -> f64) -> f64 {
+    let values: Vec<f64> = run.history.iter().map(value).collect();
+    let sum: f64 = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+    0.5 * sum / values.iter().copied().fold(0.0, f64::max)
+}
+
+#[test]
+fn a_fast_impact_rings_less_and_balances() {
+    let (bare, viscous) = (fast().run(), viscous(&fast()));
+    let ups_and_downs = [&bare, &viscous].map(|run| {
+        let pressure = variation(run, |row| row.centre_pressure.unwrap());
+        [pressure, variation(run, |row| row.contact_force)]
+    });
+    // 15.8 and 5.2 were found, and 4.4 and 1.3 with viscosity: nodes that join the contact one by one
+    // still hit the surface of the other body.
+    for k in 0..2 {
+        assert!(ups_and_downs[1][k] < ups_and_downs[0][k] / 3.0, "{ups_and_downs:?}");
+    }
+    let [without, with] = [&bare, &viscous].map(quantities);
+    // What springs leave that open and close between two steps, 9e-6 without viscosity.
+    assert!(with.residual < 2e-5, "{:e}", with.residual);
+    assert!(with.momentum_residual < 1e-12, "{:e}", with.momentum_residual);
+    // It takes what would be vibration, too: the bodies lose less of their motion than it has taken.
+    let fall = without.restitution.powi(2) - with.restitution.powi(2);
+    assert!(fall > 0.0 && fall < loss(&viscous), "{fall:e} {:e}", loss(&viscous));
+    // What it damps needs a shorter step.
+    assert!(with.steps > without.steps && viscous.time_step < bare.time_step);
+    assert_eq!(bare.energies.get(Account::BulkViscosity), None);
+}
+
+/// Its pressure falls with the size of elements, and so does what it takes.
+#[test]
+fn what_it_takes_of_a_slow_pair_is_little_and_of_first_order() {
+    let [coarse, fine] = [90e-6, 45e-6].map(|element_size| {
+        let pair = Pair { element_size, history_rows: 0, ..Pair::default() };
+        loss(&viscous(&pair))
+    });
+    // Five elements a contact radius; the default has eight.
+    assert!(fine < 1e-4, "{fine:e}");
+    let order = (coarse / fine).log2();
+    // 1.00 was found, and 1.07 from here to the next size.
+    assert!((0.8..1.2).contains(&order), "{order}");
+}
+
+#[test]
+fn it_is_resumed_and_another_is_refused() {
+    let pair = Pair { velocities: [5.0, 0.0], history_rows: 0, ..fast() };
+    let (bare, usual) = (pair.model(), model(&pair, ViscosityCoefficients::default()));
+    let n_bytes = |model: &Model| {
+        let run = Run::new(model, pair.expected(), &pair.want());
+        postcard::to_stdvec(run.memory()).unwrap().len()
+    };
+    let n_nodes: usize = bare.bodies().iter().map(|body| body.n_nodes()).sum();
+    // Its force and its work, pairs of eight bytes, and the lengths of two fields of each body.
+    assert_eq!(n_bytes(&usual), n_bytes(&bare) + 2 * 16 * n_nodes + 2 * 2);
+    let mut run = Run::new(&usual, pair.expected(), &pair.want());
+    assert_eq!(run.advance(200), None);
+    let bytes = postcard::to_stdvec(run.memory()).unwrap();
+    let memory = || postcard::from_bytes(&bytes).unwrap();
+    let mut resumed = Run::resume(&usual, memory()).unwrap();
+    for run in [&mut run, &mut resumed] {
+        assert_eq!(run.advance(200), None);
+    }
+    assert_eq!(run.memory(), resumed.memory());
+    let linear = ViscosityCoefficients { linear: 0.061, ..ViscosityCoefficients::default() };
+    let other = model(&pair, linear);
+    assert_eq!(Run::resume(&other, memory()).err(), Some(ModelError::MemoryOfAnother));
+}
