@@ -77,7 +77,6 @@ impl Estimate {
         let smallest_radius = 0.5 * spheres().fold(f64::INFINITY, f64::min);
         let contact_radius = relaxed_impact.max_contact_radius();
         let materials = || scene.bodies().iter().filter_map(Body::material);
-        let slowest = materials().map(|m| m.shear_wave_speed()).fold(f64::INFINITY, f64::min);
         let contact_time = relaxed_impact.contact_time();
         let relaxed = materials()
             .filter_map(|material| material.relaxation())
@@ -90,10 +89,16 @@ impl Estimate {
             contact_radius,
             smallest_radius,
             strain: contact_radius / hertz.pair().effective_radius(),
-            mach: speed / slowest,
+            mach: mach(scene, speed),
             relaxed,
         })
     }
+}
+
+/// A speed (m/s) over the slowest shear wave speed of a scene's bodies.
+pub(crate) fn mach(scene: &Scene, speed: f64) -> f64 {
+    let materials = scene.bodies().iter().filter_map(Body::material);
+    speed / materials.map(|m| m.shear_wave_speed()).fold(f64::INFINITY, f64::min)
 }
 
 /// The pair with moduli as they are `time` after a sudden load.

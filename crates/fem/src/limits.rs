@@ -3,6 +3,8 @@
 use fem_case::{Scene, Shape};
 use fem_explicit::n_states;
 
+use crate::effects::BulkViscosity;
+use crate::estimate::mach;
 use crate::mesh_source::{half_disc, mesh_refusal};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
@@ -16,10 +18,16 @@ const BYTES_PER_BRANCH: u64 = 40;
 /// effective displacement.
 const BYTES_PER_STATE: u64 = 48;
 
+/// Bytes that bulk viscosity takes an element: its blocks, force and work.
+const BYTES_PER_VISCOUS_ELEMENT: u64 = 150;
+
 /// Bytes of a run of explicit finite elements; `branches` is the sum over the elements of the Prony
 /// terms that each has.
-pub(crate) fn explicit_memory(plan: &Plan, elements: u64, branches: u64) -> u64 {
-    let fields = elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH;
+pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branches: u64) -> u64 {
+    let whole = mach(scene, scene.approach_speed() / plan.speed_share);
+    let is_viscous = BulkViscosity::is_on(scene, whole);
+    let viscous = if is_viscous { elements * BYTES_PER_VISCOUS_ELEMENT } else { 0 };
+    let fields = elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH + viscous;
     state_memory(plan, elements).saturating_add(fields)
 }
 
@@ -37,7 +45,7 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
         }
     }
     check_elements(scene, plan, elements)?;
-    check_memory(scene, plan, elements, explicit_memory(plan, elements, branches))
+    check_memory(scene, plan, elements, explicit_memory(scene, plan, elements, branches))
 }
 
 fn state_memory(plan: &Plan, elements: u64) -> u64 {

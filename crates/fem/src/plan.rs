@@ -33,6 +33,9 @@ const MAX_MEMORY: u64 = 8_000_000_000;
 pub struct Plan {
     /// What closed forms say.
     pub estimate: Estimate,
+    /// Share of the scene's approach speed with which the computed bodies meet: ½ where half of a scene
+    /// is computed.
+    pub speed_share: f64,
     /// Distance of the surfaces at time 0, m.
     pub gap: f64,
     /// Edge length of the elements at the contact, m.
@@ -97,6 +100,7 @@ impl Plan {
         let warnings = unread.map(|(key, _)| warning(key)).into_iter().collect();
         let limits = scene.limits();
         Ok(Self {
+            speed_share: 1.0,
             gap: scene.gap().unwrap_or(0.0),
             contact_element_size,
             refined_radius,

@@ -107,8 +107,7 @@ impl Vibration {
         }
         if estimate.mach > MACH_LIMIT {
             warnings.push(format!(
-                "{} shocks form that no mode of vibration carries: use model fem, which warns of \
-                 them as well",
+                "{} steep fronts form that no mode of vibration carries: use model fem",
                 above(estimate, MACH_LIMIT)
             ));
         }

@@ -7,7 +7,9 @@ use fem_collision::{
     Approach, BodyInput, Collision, Ending, Expectation, Monitor, Phase, Progress,
     STEPS_BETWEEN_REPORTS, Stop, Want,
 };
-use fem_explicit::{Memory, Model as Bodies, ModelError, Parts, Run, Settings};
+use fem_explicit::{
+    Memory, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients,
+};
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
@@ -19,7 +21,7 @@ use crate::effects::{
     MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, SurfaceSlip,
     Viscoelasticity, decide,
 };
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, mach};
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::meshes::build_meshes;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
@@ -75,6 +77,8 @@ struct Made {
     settings: Settings,
     /// m.
     contact_element_size: f64,
+    /// See [`Plan::speed_share`].
+    speed_share: f64,
     inputs: [BodyInput; 2],
 }
 
@@ -99,8 +103,9 @@ impl Explicit {
         let inputs = inputs(scene, build_meshes(scene, &plan)?);
         let approach = approach_of(scene)?;
         let contact_element_size = plan.contact_element_size;
-        let settings = settings(&plan);
-        let made = Made { scene: scene.clone(), settings, contact_element_size, inputs };
+        let (settings, speed_share) = (settings(&plan), plan.speed_share);
+        let made =
+            Made { scene: scene.clone(), settings, contact_element_size, speed_share, inputs };
         let bodies = made
             .bodies(&approach, plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
@@ -163,7 +168,8 @@ impl Made {
     /// Bodies that look for contact out to a radius, m, with the parts that effects ask for.
     fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
-        Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts(&self.scene))
+        let parts = parts(&self.scene, &self.inputs, approach.speed() / self.speed_share)?;
+        Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
     /// The same bodies with a larger searched region, if there is one.
@@ -248,9 +254,23 @@ impl Course for ExplicitCourse<'_> {
     }
 }
 
-/// What effects of the scene put into the step, beside stress and contact.
-fn parts(_: &Scene) -> Parts {
-    Parts::default()
+/// What effects of the scene put into the step, beside stress and contact, of bodies that meet at this
+/// speed (m/s) in the whole scene.
+fn parts(scene: &Scene, inputs: &[BodyInput; 2], speed: f64) -> Result<Parts, ModelError> {
+    let mut parts = Parts::default();
+    if BulkViscosity::is_on(scene, mach(scene, speed)) {
+        for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
+            forces.extend(bulk_viscosity(input, speed)?);
+        }
+    }
+    Ok(parts)
+}
+
+/// Of a sphere's elements, none of which is compressed faster than the bodies approach, m/s.
+fn bulk_viscosity(input: &BodyInput, speed: f64) -> Result<Option<Box<dyn NodeForce>>, ModelError> {
+    let BodyInput::Sphere { mesh, material } = input else { return Ok(None) };
+    let usual = ViscosityCoefficients::default();
+    Ok(Some(Box::new(fem_explicit::BulkViscosity::new(mesh, material, usual, speed)?)))
 }
 
 fn inputs(scene: &Scene, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
@@ -281,7 +301,7 @@ fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
         .sum();
     let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
     let element_updates = (steps * elements as f64) as u64;
-    let memory = explicit_memory(plan, elements, branches);
+    let memory = explicit_memory(scene, plan, elements, branches);
     check_elements(scene, plan, elements)?;
     check_memory(scene, plan, elements, memory)?;
     check_updates(scene, plan, steps as u64, elements, element_updates)?;
@@ -314,11 +334,11 @@ fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
         MassScaling::NAME => mass_scaling(model, scene.bodies()),
         PartnerWaves::NAME => Answer::Inherent { idle: "" },
+        BulkViscosity::NAME => Answer::Computes { idle: "" },
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
         | MirrorSymmetry::NAME
-        | BulkViscosity::NAME
         | RigidPartner::NAME
         | Gravity::NAME => Answer::Lacks,
         _ => return None,

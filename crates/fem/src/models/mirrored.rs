@@ -29,7 +29,8 @@ pub(super) struct Mirrored<M> {
 pub(super) fn plan_of_half(whole: &Plan, half: &Scene) -> Result<Plan, Refusal> {
     let Plan { estimate, contact_stiffness, gap, .. } = Plan::of(half)?;
     let candidate_radius = candidate_radius(&estimate, whole.contact_element_size);
-    Ok(Plan { estimate, contact_stiffness, gap, candidate_radius, ..whole.clone() })
+    let speed_share = 0.5 * whole.speed_share;
+    Ok(Plan { estimate, speed_share, contact_stiffness, gap, candidate_radius, ..whole.clone() })
 }
 
 impl<M: Model> Mirrored<M> {

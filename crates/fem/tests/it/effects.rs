@@ -13,6 +13,9 @@ const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 fn an_effect_that_is_forced_on_and_lacking_is_refused_at_its_switch() {
     for model in ["fem={}", "condensed={}", "ting={}", "hertz={}", "law.falcon.c=300"] {
         for effect in ["finite_strain", "bulk_viscosity"] {
+            if (model, effect) == ("fem={}", "bulk_viscosity") {
+                continue;
+            }
             let switched = |switch: &str| {
                 let text = format!("{GLASS}\n[effects]\n{effect} = \"{switch}\"\n");
                 let set = [format!("model.{model}")];
@@ -114,7 +117,7 @@ fn every_model_answers_for_every_effect_or_has_nothing_to_do_with_it() {
                 "dashpot",
                 "finite size",
                 "hourglass control",
-                // Told by the modes of vibration, which carry no shocks.
+                // Told by the modes of vibration, which carry no fronts.
                 "bulk viscosity",
                 "mass scaling",
             ],

@@ -2,6 +2,7 @@
 
 mod approaches;
 mod auto;
+mod bulk_viscosity;
 mod calibrate;
 mod coarse;
 mod condensed;

@@ -1,0 +1,104 @@
+//! Bulk viscosity as a case asks for it, and where a scene calls for it.
+
+use fem::{Approach, Simulation, Want};
+use fem_collision::Account;
+
+use crate::coarse::simulation;
+
+/// 65 m/s is the limit, a fiftieth of the shear wave speed.
+const SLOW: &str = "body.0.approach_speed='60 m/s'";
+const FAST: &str = "body.0.approach_speed='80 m/s'";
+const ON: &str = "effects.bulk_viscosity='on'";
+const OFF: &str = "effects.bulk_viscosity='off'";
+/// A coarse mesh for such speeds.
+const MESH: &str = "mesh={contact_element_size='0.4 mm', refined_radius='1.6 mm'}";
+/// Two bodies of which one is computed.
+const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
+
+fn fem(overrides: &[&str]) -> Simulation {
+    simulation("fem", &[&[MESH], overrides].concat())
+}
+
+/// Whether it is on, and why.
+fn verdict(simulation: &Simulation) -> (bool, String) {
+    let verdicts = &simulation.setup().decisions.verdicts;
+    let own = verdicts.iter().find(|verdict| verdict.name == "bulk viscosity").unwrap();
+    (own.active, own.reason.clone())
+}
+
+/// What it took, J; `None` where it is absent.
+fn work(simulation: &Simulation) -> Option<f64> {
+    simulation.run(&mut ()).energies.get(Account::BulkViscosity)
+}
+
+#[test]
+fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
+    for (speed, switch, expected, reason) in [
+        (SLOW, "effects={}", false, "no steep fronts"),
+        (FAST, "effects={}", true, "2.5e-2"),
+        (SLOW, ON, true, "forced on"),
+        (FAST, OFF, false, "switched off"),
+    ] {
+        for bodies in ["start={}", TWINS] {
+            let simulation = fem(&[speed, switch, bodies]);
+            let (active, said) = verdict(&simulation);
+            assert_eq!(active, expected, "{speed} {switch} {bodies}: {said}");
+            assert!(said.contains(reason), "{said}");
+            let warnings = simulation.setup().warnings();
+            let warned = warnings.iter().any(|warning| warning.contains("steep fronts ring"));
+            assert_eq!(warned, (speed, switch) == (FAST, OFF), "{warnings:?}");
+            let work = work(&simulation);
+            assert_eq!(work.is_some(), expected, "{speed} {switch} {bodies}");
+            assert!(work.is_none_or(|work| work > 0.0), "{work:?}");
+        }
+    }
+}
+
+/// A model that meets at another speed decides on it anew, as what is told of that collision does.
+#[test]
+fn another_approach_is_decided_anew() {
+    for bodies in ["start={}", TWINS] {
+        let simulation = fem(&[SLOW, bodies]);
+        let want = Want { snapshots: fem_collision::SnapshotRequest::none(), ..Want::quantities() };
+        for (speed, expected) in [(60.0, false), (80.0, true)] {
+            let approach = Approach::at(speed).unwrap();
+            let collision = simulation.model().collide(&approach, &want, &mut ());
+            assert_eq!(collision.energies.has(Account::BulkViscosity), expected, "{speed}");
+            let decisions = simulation.decisions(&collision);
+            let own = decisions.verdicts.iter().find(|verdict| verdict.name == "bulk viscosity");
+            assert_eq!(own.unwrap().active, expected);
+        }
+    }
+}
+
+/// Half of a scene has the same viscosity at half of the speed.
+#[test]
+fn half_of_the_work_gives_the_whole() {
+    let whole = fem(&[FAST, TWINS, "effects.mirror_symmetry='off'"]).run(&mut ());
+    let mirrored = fem(&[FAST, TWINS]).run(&mut ());
+    assert_eq!(mirrored.steps, whole.steps);
+    assert_eq!(mirrored.element_updates.map(|n| 2 * n), whole.element_updates);
+    let [a, b] = [&mirrored, &whole].map(|c| c.energies.get(Account::BulkViscosity).unwrap());
+    // Rounding, which contact that opens and closes enlarges.
+    assert!((a / b - 1.0).abs() < 1e-6, "{a:e} {b:e}");
+    let [a, b] = [&mirrored, &whole].map(|collision| collision.restitution.unwrap());
+    assert!((a - b).abs() < 1e-6, "{a} {b}");
+}
+
+/// Off is the same bits as absent, and no word in summary and history.
+#[test]
+fn off_is_absent() {
+    let [absent, off, on] = ["effects={}", OFF, ON].map(|switch| {
+        let simulation = fem(&[SLOW, switch]);
+        let collision = simulation.run(&mut ());
+        let energy = serde_json::to_value(simulation.summary(&collision).energy).unwrap();
+        let (mut history, scene) = (Vec::new(), simulation.case().scene());
+        fem::results::history_csv(&mut history, scene, &collision.history).unwrap();
+        let header = String::from_utf8(history).unwrap().lines().next().unwrap().to_string();
+        let has_key = energy.get("bulk_viscosity_j").is_some_and(|work| work.as_f64() > Some(0.0));
+        (collision, has_key, header.ends_with(",bulk_viscosity_j"))
+    });
+    assert_eq!(absent, off);
+    assert!(!off.1 && !off.2 && on.1 && on.2);
+    assert!(on.0.steps > off.0.steps);
+}
