@@ -1,9 +1,10 @@
 //! A rigid sphere as partner: its curvature in the gap, its mass in the reduced mass, and no more.
 
-use crate::common::{GLASS, Scene, assert_close, collide, glass, material};
-use fem_collision::{BodyInput, Collision, Frame, SnapshotRequest, Want};
+use crate::common::{GLASS, Scene, assert_close, collide, collide_in, glass, material};
+use fem_collision::{Approach, BodyInput, Collision, Expectation, Frame, SnapshotRequest, Want};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_contact::ContactError;
+use fem_explicit::{Model, Settings};
 use fem_laws::{FiniteSize, HertzImpact, Pair, PairRelaxation, Partner, Ting, sphere_mass};
 use fem_material::ActsOn::{All, Shear};
 use fem_material::Material;
@@ -148,6 +149,43 @@ fn a_stiff_partner_comes_to_the_rigid_one_as_foretold() {
         assert_close("time", off(|run| run.contact_time), share, 0.05);
         assert_close("approach", off(|run| run.max_approach), share, 0.05);
         assert_close("force", off(|run| run.peak_force), -share, 0.05);
+    }
+}
+
+/// The same elements and penalty springs step by step; see `explicit.rs` for the tolerances.
+#[test]
+fn a_rigid_partner_is_the_explicit_one() {
+    let soft = material(GLASS, All, &[(0.8, 5e3)]);
+    let hertz = HertzImpact::new(&pair_of(&soft), 0.5).unwrap();
+    let stiffness = 5.0 * pair_of(&soft).contact_modulus();
+    let candidate_radius = 1.5 * hertz.max_contact_radius();
+    for rigid in 0..2 {
+        let inputs = condensed(&soft, rigid, 0.5, 5.0).inputs().clone();
+        let settings = Settings {
+            contact_stiffness: stiffness,
+            candidate_radius,
+            step_factor: 0.9,
+            mass_scaling: 3e-5,
+        };
+        let model = Model::new(inputs.clone(), Approach::at(0.5).unwrap(), &settings).unwrap();
+        let expected =
+            Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
+        let explicit = fem_explicit::collide(&model, expected, &Want::quantities(), &mut ());
+        let contact = ContactModel::Springs(stiffness);
+        let settings =
+            PairSettings { contact, vibration_modes: 12, ..PairSettings::new(candidate_radius) };
+        let run = collide_in(&CondensedPair::new(inputs, settings).unwrap(), 0.5, 1000);
+        let off = run.restitution.unwrap() - explicit.restitution.unwrap();
+        assert!(off.abs() < 5e-5, "{off:e}");
+        assert_close("approach", run.max_approach.unwrap(), explicit.max_approach.unwrap(), 3e-5);
+        assert_close("force", run.peak_force.unwrap(), explicit.peak_force.unwrap(), 3e-3);
+        for side in 0..2 {
+            let [found, reference] = [&run, &explicit].map(|run| run.bodies[side]);
+            let off = found.velocity_after.unwrap() - reference.velocity_after.unwrap();
+            assert!(off.abs() < 5e-5, "{off:e}");
+            assert_eq!((found.nodes, found.elements), (reference.nodes, reference.elements));
+            assert!((found.mass.unwrap() / reference.mass.unwrap() - 1.0).abs() < 1e-12);
+        }
     }
 }
 
