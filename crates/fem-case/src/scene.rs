@@ -140,16 +140,7 @@ impl Scene {
     /// # Errors
     /// Numbers so extreme that they leave the range of f64.
     pub fn pair(&self) -> Result<Pair, LawError> {
-        let [first, second] = self.bodies.each_ref().map(|body| match &body.shape {
-            Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
-            Shape::HalfSpace { material } => Partner::half_space(material),
-            Shape::Rigid { diameter, mass } => Partner::Sphere {
-                radius: 0.5 * diameter,
-                mass: *mass,
-                plane_strain_modulus: f64::INFINITY,
-            },
-            Shape::Wall => Partner::Wall,
-        });
+        let [first, second] = self.bodies.each_ref().map(Body::partner);
         Pair::new(first, second)
     }
 
@@ -212,6 +203,31 @@ impl Body {
             }
             Shape::HalfSpace { .. } => Shape::HalfSpace { material },
             Shape::Rigid { .. } | Shape::Wall => self.shape.clone(),
+        }
+    }
+
+    /// What it is to closed forms, moduli instantaneous.
+    pub fn partner(&self) -> Partner {
+        match &self.shape {
+            Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
+            Shape::HalfSpace { material } => Partner::half_space(material),
+            Shape::Rigid { diameter, mass } => Partner::Sphere {
+                radius: 0.5 * diameter,
+                mass: *mass,
+                plane_strain_modulus: f64::INFINITY,
+            },
+            Shape::Wall => Partner::Wall,
+        }
+    }
+
+    /// Its shape as it is where it does not deform: of a sphere with its mass, of a half-space a wall.
+    pub fn rigid(&self) -> Shape {
+        match (&self.shape, self.mass()) {
+            (Shape::Sphere { diameter, .. }, Some(mass)) => {
+                Shape::Rigid { diameter: *diameter, mass }
+            }
+            (Shape::HalfSpace { .. }, _) => Shape::Wall,
+            (shape, _) => shape.clone(),
         }
     }
 

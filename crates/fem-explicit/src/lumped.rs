@@ -130,9 +130,10 @@ impl RigidSphere {
             let (name, allowed) = ("mass of a rigid sphere", "positive and finite, in kg");
             return Err(ModelError::Setting { name, value: mass, allowed });
         }
-        let mut bound = NodalBound { mass: vec![mass], stiffness: vec![0.0] };
+        let mut bound = NodalBound { mass: vec![mass], stiffness: vec![0.0], damping: vec![0.0] };
         for force in &node_forces {
             force.add_stiffness_bound(&mut bound.stiffness);
+            force.add_damping_bound(&mut bound.damping);
         }
         Ok(Self { node_forces, bound })
     }

@@ -41,13 +41,13 @@ pub fn show_value(value: f64, unit: &str) -> String {
     }
 }
 
-/// Size and quality of each mesh; a wall has none.
+/// Size and quality of each mesh; a rigid body has none.
 pub fn mesh_table(scene: &Scene, meshes: [Option<&SphereMesh>; 2]) -> String {
     let header =
         ["body", "elements", "nodes", "smallest scaled Jacobian", "largest aspect", "edges"];
     let row = |name: &str, mesh: Option<&SphereMesh>| {
         let Some(mesh) = mesh else {
-            return [name, "-", "-", "-", "-", "rigid wall"].map(String::from);
+            return [name, "-", "-", "-", "-", "rigid"].map(String::from);
         };
         let quality = Quality::of(mesh);
         [

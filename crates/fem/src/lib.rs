@@ -17,6 +17,7 @@
 pub mod accuracy;
 mod approach;
 mod assess;
+mod body_source;
 pub mod calibrate;
 mod course;
 pub mod effects;

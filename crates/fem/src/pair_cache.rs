@@ -7,9 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use fem_condensed::{CondensedPair, PairSettings};
-use fem_material::Material;
 
-use crate::mesh_source::MeshSource;
+use crate::body_source::BodySource;
 
 /// Bytes that all pairs of a cache may take.
 const MAX_BYTES: usize = 1_000_000_000;
@@ -19,8 +18,8 @@ const NUMBERS_PER_EQUATION: usize = 32;
 /// What a pair is made from; equal ones make equal pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PairKey {
-    /// Mesh and material, without its relaxation; none for a wall.
-    pub bodies: [Option<(MeshSource, Material)>; 2],
+    /// Lower and upper body, without relaxation.
+    pub bodies: [BodySource; 2],
     /// How it is condensed.
     pub settings: PairSettings,
 }

@@ -136,7 +136,7 @@ pub fn decide(
         let Some(answer) = answer else { continue };
         let need = effect.need(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
-        let is_called_for = need.is_called_for;
+        let (is_called_for, doubt) = (need.is_called_for, need.warning.clone());
         let (active, reason, warnings) = answer.of(need, switch);
         if switch == Some(Switch::Off) && active {
             return Err(inherent(scene, effect, &reason));
@@ -145,7 +145,11 @@ pub fn decide(
         decisions.warnings.extend(warnings);
         if switch == Some(Switch::Off) && obeys && is_called_for {
             let left_out = effect.left_out(scene, estimate).unwrap_or_default();
-            decisions.warnings.push(left_out.warning(effect.name()));
+            let mut warning = left_out.warning(effect.name());
+            if let Some(doubt) = doubt {
+                warning += &format!(": {doubt}");
+            }
+            decisions.warnings.push(warning);
         }
     }
     Ok(decisions)

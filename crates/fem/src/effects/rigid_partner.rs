@@ -2,18 +2,18 @@
 //! degree of freedom in place of its elements. A transformation of the scene.
 //!
 //! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Leaving it out
-//! makes the contact modulus larger by 1/(1 − s), so that in Hertz' theory
-//!
-//! ```math
-//! \frac{\Delta T}{T} = -\tfrac25\,s, \qquad \frac{\Delta F}{F} = \tfrac25\,s .
-//! ```
+//! makes the contact modulus larger by 1/(1 − s), and what that changes Hertz' powers say
+//! ([`fem_laws::rigid_partner`]). A half-space that hardly gives way is a wall.
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
+use super::answer::Answer;
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::Need;
+use super::transformed::Transformed;
 use crate::estimate::Estimate;
+use crate::refusal::Refusal;
 
 /// Share of the compliance below which a body is rigid: 4e-5 of the contact time.
 const RIGID_SHARE: f64 = 1e-4;
@@ -38,27 +38,93 @@ impl Effect for RigidPartner {
 
     /// It saves work and changes next to nothing: a scene may allow it, none calls for it.
     fn need(&self, scene: &Scene, _: &Estimate) -> Option<Need> {
-        let number = match stiffer(scene) {
-            Some((body, share)) => format!("{} has {share:.1e} of the compliance", body.name()),
-            None => "the partner is a wall".to_string(),
-        };
+        let number =
+            stiffer(scene).map_or_else(|| "the partner is rigid".to_string(), |s| s.number());
         Some(Need { number, ..Need::default() })
     }
 
-    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let Some((_, share)) = stiffer(scene).filter(|(_, share)| *share <= RIGID_SHARE) else {
-            return Some(LeftOut::NOTHING);
+    fn transform(
+        &self,
+        scene: &Scene,
+        estimate: &Estimate,
+    ) -> Result<Option<Transformed>, Refusal> {
+        let is_forced = scene.effects().rigid_partner == Some(Switch::On);
+        let stiffer = stiffer(scene).filter(|_| scene.effects().rigid_partner != Some(Switch::Off));
+        let Some(stiffer) = stiffer.filter(|stiffer| is_forced || stiffer.is_rigid()) else {
+            return match is_forced {
+                true => Err(refused("rigid_partner is \"on\", and there is a wall already")),
+                false => Ok(None),
+            };
         };
-        Some(LeftOut::shares(estimate, 0.4 * share, 0.4 * share))
+        if is_forced && scene.effects().mirror_symmetry == Some(Switch::On) {
+            return Err(refused("rigid_partner and mirror_symmetry are both \"on\""));
+        }
+        let number = stiffer.number();
+        let mut answer = Answer::is(true, format!("{number}: it is rigid, with its own mass"));
+        if !stiffer.is_rigid() {
+            let change = stiffer.change(estimate);
+            let warning = format!("{number}, and is forced to be rigid, which changes {change}");
+            answer = answer.warning([warning]);
+        }
+        let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
+        shapes[stiffer.side] = stiffer.body.rigid();
+        let effects = EffectsTable { rigid_partner: None, ..*scene.effects() };
+        let scene = scene.clone().with_shapes(shapes).with_effects(effects);
+        Ok(Some(Transformed { scene, answer }))
+    }
+
+    /// Of a body that is taken as rigid.
+    fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        let switch = scene.effects().rigid_partner;
+        let taken = stiffer(scene).filter(|stiffer| match switch {
+            Some(Switch::On) => true,
+            Some(Switch::Off) => false,
+            _ => stiffer.is_rigid(),
+        });
+        Some(taken.map_or(LeftOut::NOTHING, |stiffer| stiffer.change(estimate)))
     }
 }
 
-/// The body that gives way less, and its share of the compliance; none beside a wall.
-fn stiffer(scene: &Scene) -> Option<(&Body, f64)> {
+fn refused(message: &str) -> Refusal {
+    Refusal::new("effects.rigid_partner", message)
+        .with_help("write \"auto\" or \"off\", or leave it out")
+}
+
+/// The body that gives way less.
+struct Stiffer<'a> {
+    body: &'a Body,
+    side: usize,
+    /// Of the compliance.
+    share: f64,
+}
+
+/// None beside a rigid body.
+fn stiffer(scene: &Scene) -> Option<Stiffer<'_>> {
     let [lower, upper] = scene.bodies();
-    let compliance =
-        |body: &Body| Some(body.material()?.instantaneous().plane_strain_modulus().recip());
-    let (below, above) = (compliance(lower)?, compliance(upper)?);
-    let (stiffer, least) = if below < above { (lower, below) } else { (upper, above) };
-    Some((stiffer, least / (below + above)))
+    let [below, above] = [lower, upper].map(|body| body.partner().plane_strain_modulus());
+    if below.is_infinite() || above.is_infinite() {
+        return None;
+    }
+    let (side, stiffest) = if below > above { (0, below) } else { (1, above) };
+    // 1/E* is the sum of both bodies' 1/E'.
+    let share = stiffest.recip() / (below.recip() + above.recip());
+    Some(Stiffer { body: &scene.bodies()[side], side, share })
+}
+
+impl Stiffer<'_> {
+    fn is_rigid(&self) -> bool {
+        self.share <= RIGID_SHARE
+    }
+
+    /// The number that decides, in words.
+    fn number(&self) -> String {
+        format!("{} has {:.1e} of the compliance", self.body.name(), self.share)
+    }
+
+    /// What taking it as rigid changes.
+    fn change(&self, estimate: &Estimate) -> LeftOut {
+        let error = fem_laws::rigid_partner(estimate.hertz.pair(), &self.body.partner());
+        let error = error.unwrap_or_default();
+        LeftOut::shares(estimate, error.contact_time, error.peak_force)
+    }
 }

@@ -1,8 +1,11 @@
 //! Relaxation of the materials: a part of the step of models that have fields, and of Ting's.
 //!
-//! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)).
+//! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)), and a term at
+//! a time: one that is over before the force has risen, or has not begun when the contact ends, is folded
+//! into the moduli ([`Folded`]).
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_laws::{Folded, RelativeError};
 use fem_material::Material;
 
 use super::answer::Answer;
@@ -13,6 +16,14 @@ use super::transformed::Transformed;
 use crate::estimate::Estimate;
 use crate::quasi_static::estimated;
 use crate::refusal::Refusal;
+
+/// What terms that are not followed may change, all together, of restitution (absolute), contact time and
+/// peak force: a hundredth of the usual tolerance.
+const LARGEST_FOLDED: f64 = 1e-4;
+/// The same over what relaxation takes of the restitution, so that small losses stay right themselves.
+const SHARE_OF_LOSS: f64 = 0.01;
+/// Nobody asks for less.
+const LEAST_FOLDED: f64 = 1e-7;
 
 /// Relaxation of the materials.
 #[derive(Clone, Copy, Debug)]
@@ -46,24 +57,33 @@ impl Effect for Viscoelasticity {
         Some(Need { is_called_for: true, number, ..Need::default() })
     }
 
-    /// What is switched off is not there: the materials are elastic.
+    /// What is switched off is not there: the materials are elastic. What is left to the plan follows
+    /// only the terms that matter within the contact.
     fn transform(
         &self,
         scene: &Scene,
         estimate: &Estimate,
     ) -> Result<Option<Transformed>, Refusal> {
-        if scene.effects().viscoelasticity != Some(Switch::Off) || relaxing(scene).is_empty() {
+        if relaxing(scene).is_empty() {
             return Ok(None);
         }
-        let elastic = scene.bodies().each_ref().map(|body| match body.material() {
-            Some(material) => body.shape_of(material.without_relaxation()),
-            None => body.shape().clone(),
-        });
         let need = self.need(scene, estimate).unwrap_or_default();
-        let left_out = self.left_out(scene, estimate).unwrap_or_default();
-        let answer = Answer::is(false, format!("{}; switched off", need.number))
-            .warning([left_out.warning(Self::NAME)]);
-        Ok(Some(Transformed { scene: scene.clone().with_shapes(elastic), answer }))
+        Ok(match scene.effects().viscoelasticity {
+            Some(Switch::On) => None,
+            Some(Switch::Off) => {
+                let elastic =
+                    materials(scene).map(|material| material.map(Material::without_relaxation));
+                let left_out = self.left_out(scene, estimate).unwrap_or_default();
+                let answer = Answer::is(false, format!("{}; switched off", need.number))
+                    .warning([left_out.warning(Self::NAME)]);
+                Some(Transformed { scene: made_of(scene, elastic), answer })
+            }
+            Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
+                let n_kept: usize = folded.materials.iter().map(n_terms).sum();
+                let answer = Answer::is(n_kept > 0, in_words(&need, &folded, estimate, n_kept));
+                Transformed { scene: made_of(scene, folded.materials), answer }
+            }),
+        })
     }
 
     /// The difference of Ting's impacts of relaxing and of elastic half-spaces.
@@ -74,6 +94,61 @@ impl Effect for Viscoelasticity {
         let with = estimated(scene, estimate, true, None)?;
         Some(LeftOut::between(&with, &estimate.hertz.impact()))
     }
+}
+
+impl Viscoelasticity {
+    /// The materials without the terms that need not be followed; nothing where all are.
+    fn folded(&self, scene: &Scene, estimate: &Estimate) -> Option<Folded> {
+        let fold = |share: f64| {
+            let tolerance =
+                RelativeError { restitution: share, contact_time: share, peak_force: share };
+            let contact_time = estimate.hertz.contact_time();
+            let folded = Folded::new(materials(scene), contact_time, &tolerance).ok()?;
+            let n_folded: usize = folded.n_fast.into_iter().chain(folded.n_slow).sum();
+            (n_folded > 0).then_some(folded)
+        };
+        // What relaxation is worth takes a while to tell, and most scenes have nothing to fold.
+        fold(LARGEST_FOLDED)?;
+        let loss = self.left_out(scene, estimate)?.restitution?;
+        fold((SHARE_OF_LOSS * loss).clamp(LEAST_FOLDED, LARGEST_FOLDED))
+    }
+}
+
+/// How many terms are followed, and what the others are worth.
+fn in_words(need: &Need, folded: &Folded, estimate: &Estimate, n_kept: usize) -> String {
+    let sum = |counts: [usize; 2]| counts.iter().sum::<usize>();
+    let (n_fast, n_slow) = (sum(folded.n_fast), sum(folded.n_slow));
+    let RelativeError { restitution, contact_time, peak_force } = folded.error;
+    let error = LeftOut {
+        restitution: Some(restitution.abs()),
+        ..LeftOut::shares(estimate, contact_time, peak_force)
+    };
+    format!(
+        "{}; {n_kept} of {} terms followed in time, {n_fast} over before the contact and {n_slow} too \
+         slow for it, which changes {error}",
+        need.number,
+        n_kept + n_fast + n_slow
+    )
+}
+
+fn n_terms(material: &Option<Material>) -> usize {
+    let series = material.as_ref().and_then(Material::relaxation);
+    series.map_or(0, |series| series.terms().len())
+}
+
+fn materials(scene: &Scene) -> [Option<&Material>; 2] {
+    scene.bodies().each_ref().map(Body::material)
+}
+
+/// The scene with bodies of other materials.
+fn made_of(scene: &Scene, materials: [Option<Material>; 2]) -> Scene {
+    let [first, second] = scene.bodies();
+    let [lower, upper] = materials;
+    let shape = |body: &Body, material: Option<Material>| match material {
+        Some(material) => body.shape_of(material),
+        None => body.shape().clone(),
+    };
+    scene.clone().with_shapes([shape(first, lower), shape(second, upper)])
 }
 
 /// Names of the bodies that relax.

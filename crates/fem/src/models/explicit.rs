@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fem_case::{Body, CaseFile, ModelChoice, Scene, Shape};
+use fem_case::{Body, CaseFile, ModelChoice, Scene};
 use fem_collision::{
     Approach, BodyInput, Collision, Ending, Expectation, Monitor, Phase, Progress,
     STEPS_BETWEEN_REPORTS, Stop, Want,
@@ -15,6 +15,7 @@ use fem_mesh::SphereMesh;
 
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::approach_of;
+use crate::body_source::BodySource;
 use crate::course::{Course, stopped, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
@@ -23,7 +24,6 @@ use crate::effects::{
 };
 use crate::estimate::{Estimate, mach};
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
-use crate::meshes::build_meshes;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
@@ -100,7 +100,7 @@ impl Explicit {
         if *scene.model() != ModelChoice::Fem {
             return Err(Refusal::chose_another(scene, "fem"));
         }
-        let inputs = inputs(scene, build_meshes(scene, &plan)?);
+        let inputs = inputs(scene, &plan)?;
         let approach = approach_of(scene)?;
         let contact_element_size = plan.contact_element_size;
         let (settings, speed_share) = (settings(&plan), plan.speed_share);
@@ -273,14 +273,9 @@ fn bulk_viscosity(input: &BodyInput, speed: f64) -> Result<Option<Box<dyn NodeFo
     Ok(Some(Box::new(fem_explicit::BulkViscosity::new(mesh, material, usual, speed)?)))
 }
 
-fn inputs(scene: &Scene, meshes: [Option<SphereMesh>; 2]) -> [BodyInput; 2] {
-    let mut meshes = meshes.into_iter();
-    scene.bodies().each_ref().map(|body| match (body.shape(), meshes.next().flatten()) {
-        (Shape::Sphere { material, .. }, Some(mesh)) => {
-            BodyInput::Sphere { mesh, material: material.clone() }
-        }
-        _ => BodyInput::Wall,
-    })
+fn inputs(scene: &Scene, plan: &Plan) -> Result<[BodyInput; 2], Refusal> {
+    let [lower, upper] = BodySource::of_scene(scene, plan)?;
+    Ok([lower.build(0)?, upper.build(1)?])
 }
 
 fn settings(plan: &Plan) -> Settings {

@@ -92,7 +92,6 @@ fn what_cannot_be_left_out_is_refused() {
     for (set, key, why) in [
         (["model.fem={}", "effects.hourglass_control=\"off\""], "hourglass_control", "stiffness"),
         (["model.hertz={}", "effects.hourglass_control=\"on\""], "hourglass_control", "hertz"),
-        (["model.fem={}", "effects.rigid_partner=\"on\""], "rigid_partner", "fem"),
     ] {
         let set = set.map(str::to_string);
         let case = Case::parse("scene.toml", GLASS, Path::new("."), &set).unwrap();

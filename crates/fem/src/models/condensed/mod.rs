@@ -9,15 +9,14 @@ use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, Stop, Want};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
-use fem_material::{Material, PronySeries};
+use fem_material::PronySeries;
 use fem_mesh::SphereMesh;
 
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::{approach_of, frame_of};
+use crate::body_source::BodySource;
 use crate::effects::{Answer, Effect, MirrorSymmetry, Vibration, decide};
 use crate::estimate::Estimate;
-use crate::mesh_source::{MeshSource, mesh_refusal};
-use crate::meshes::mesh_sources;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::pair_cache::PairKey;
 use crate::plan::Plan;
@@ -57,7 +56,7 @@ impl Method for CondensedMethod {
 
     fn price(&self, scene: &Scene) -> Result<u64, Refusal> {
         let plan = Plan::of(scene)?;
-        check_memory(&plan, &mesh_sources(scene, &plan)?).map(|()| 0)
+        check_memory(&plan, &BodySource::of_scene(scene, &plan)?).map(|()| 0)
     }
 
     /// Tables that the model does not read stay as they are.
@@ -104,9 +103,11 @@ impl Condensed {
     /// Meshes and condenses by a plan that may have been changed.
     fn with_plan(scene: &Scene, plan: Plan, shared: &Shared) -> Result<Self, Refusal> {
         let options = options(scene);
-        let sources = mesh_sources(scene, &plan)?;
+        let sources = BodySource::of_scene(scene, &plan)?;
         check_memory(&plan, &sources)?;
-        let key = PairKey { bodies: bodies(scene, sources), settings: settings(&plan, options) };
+        // Only the collision reads relaxations.
+        let bodies = sources.map(BodySource::without_relaxation);
+        let key = PairKey { bodies, settings: settings(&plan, options) };
         let pair = shared.pairs.pair(key, |key| {
             CondensedPair::new(inputs(key)?, key.settings)
                 .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
@@ -293,24 +294,9 @@ fn cost_of(pair: &CondensedPair, n_steps: usize) -> Cost {
     }
 }
 
-/// Bodies without their relaxations, which only the collision reads.
-fn bodies(scene: &Scene, sources: [Option<MeshSource>; 2]) -> [Option<(MeshSource, Material)>; 2] {
-    let mut sources = sources.into_iter();
-    scene.bodies().each_ref().map(|body| {
-        let source = sources.next().flatten()?;
-        Some((source, body.material()?.without_relaxation()))
-    })
-}
-
 fn inputs(key: &PairKey) -> Result<[BodyInput; 2], Refusal> {
-    let input = |k: usize| match &key.bodies[k] {
-        Some((source, material)) => {
-            let mesh = source.build(k).map_err(|error| mesh_refusal(&error))?;
-            Ok(BodyInput::Sphere { mesh, material: material.clone() })
-        }
-        None => Ok(BodyInput::Wall),
-    };
-    Ok([input(0)?, input(1)?])
+    let [lower, upper] = &key.bodies;
+    Ok([lower.build(0)?, upper.build(1)?])
 }
 
 /// The condensed region goes by the fine block, so that all speeds that share a mesh share a
@@ -338,11 +324,8 @@ fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
     }
 }
 
-fn check_memory(plan: &Plan, sources: &[Option<MeshSource>; 2]) -> Result<(), Refusal> {
-    let mut elements = 0;
-    for source in sources.iter().flatten() {
-        elements += source.n_elements().map_err(|error| mesh_refusal(&error))?;
-    }
+fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
+    let elements = sources[0].n_elements()? + sources[1].n_elements()?;
     let bytes = BYTES_PER_ELEMENT.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
         return Ok(());

@@ -1,0 +1,91 @@
+//! What a body of a scene is made of, for a model with meshes, before any mesh is made.
+
+use fem_case::{Scene, Shape};
+use fem_collision::BodyInput;
+use fem_material::Material;
+
+use crate::mesh_source::{MeshSource, mesh_refusal};
+use crate::meshes::mesh_sources;
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// What a body is made of; equal ones make equal bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum BodySource {
+    /// A meshed body.
+    Meshed {
+        /// What its mesh is made from.
+        mesh: MeshSource,
+        /// Its material.
+        material: Material,
+    },
+    /// A rigid sphere.
+    Rigid {
+        /// m.
+        radius: f64,
+        /// kg.
+        mass: f64,
+    },
+    /// A rigid plane of infinite mass.
+    Wall,
+}
+
+impl BodySource {
+    /// Of both bodies of a scene. Mesh files are read.
+    ///
+    /// # Errors
+    /// As [`mesh_sources`].
+    pub fn of_scene(scene: &Scene, plan: &Plan) -> Result<[Self; 2], Refusal> {
+        let [lower, upper] = mesh_sources(scene, plan)?;
+        let [first, second] = scene.bodies();
+        Ok([Self::of(first.shape(), lower), Self::of(second.shape(), upper)])
+    }
+
+    fn of(shape: &Shape, mesh: Option<MeshSource>) -> Self {
+        match (shape, mesh) {
+            (Shape::Sphere { material, .. } | Shape::HalfSpace { material }, Some(mesh)) => {
+                Self::Meshed { mesh, material: material.clone() }
+            }
+            (Shape::Rigid { diameter, mass }, _) => {
+                Self::Rigid { radius: 0.5 * diameter, mass: *mass }
+            }
+            _ => Self::Wall,
+        }
+    }
+
+    /// The same body of a material that does not relax.
+    pub fn without_relaxation(self) -> Self {
+        match self {
+            Self::Meshed { mesh, material } => {
+                Self::Meshed { mesh, material: material.without_relaxation() }
+            }
+            other => other,
+        }
+    }
+
+    /// How many elements it has, without making them.
+    ///
+    /// # Errors
+    /// A mesh that cannot be made.
+    pub fn n_elements(&self) -> Result<usize, Refusal> {
+        match self {
+            Self::Meshed { mesh, .. } => mesh.n_elements().map_err(|error| mesh_refusal(&error)),
+            Self::Rigid { .. } | Self::Wall => Ok(0),
+        }
+    }
+
+    /// The lower body, 0, or the upper one, 1.
+    ///
+    /// # Errors
+    /// A mesh that cannot be made.
+    pub fn build(&self, side: usize) -> Result<BodyInput, Refusal> {
+        Ok(match self {
+            Self::Meshed { mesh, material } => {
+                let mesh = mesh.build(side).map_err(|error| mesh_refusal(&error))?;
+                BodyInput::Sphere { mesh, material: material.clone() }
+            }
+            Self::Rigid { radius, mass } => BodyInput::Rigid { radius: *radius, mass: *mass },
+            Self::Wall => BodyInput::Wall,
+        })
+    }
+}

@@ -1,0 +1,117 @@
+//! A partner that hardly gives way, as a rigid one.
+
+use std::path::Path;
+
+use fem::effects::Verdict;
+use fem::{Case, CaseError, Collision, Simulation};
+
+/// A soft ball between elastic and relaxing, and a steel one: 1 to 4e4 in stiffness.
+const SOFT: &str = r#"
+[material.gel]
+density = "1050 kg/m^3"
+youngs_modulus = "5 MPa"
+poissons_ratio = 0.3
+relaxation = { acts_on = "all", terms = [{ weight = 0.3, relaxation_time = "1 ms" }] }
+
+[material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+
+[[body]]
+name = "anvil"
+sphere = { diameter = "30 mm" }
+material = "steel"
+
+[[body]]
+name = "ball"
+sphere = { diameter = "20 mm" }
+material = "gel"
+approach_speed = "0.2 m/s"
+
+[output]
+snapshots = []
+"#;
+
+const MODELS: [&str; 3] = ["model.fem={}", "model.condensed={}", "model.ting={}"];
+
+fn simulation(set: &[&str]) -> Result<Simulation, CaseError> {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    Simulation::new(Case::parse("soft.toml", SOFT, Path::new("."), &set).unwrap())
+}
+
+fn run(set: &[&str]) -> Collision {
+    simulation(set).unwrap().run(&mut ())
+}
+
+fn verdict(simulation: &Simulation) -> &Verdict {
+    let verdicts = &simulation.setup().decisions.verdicts;
+    verdicts.iter().find(|verdict| verdict.name == "rigid partner").unwrap()
+}
+
+/// Against the bodies as they are: a compliance of 2.4e-5 is worth 1e-5 of the contact time.
+#[test]
+fn what_hardly_gives_way_is_rigid_and_the_answer_stays() {
+    for model in MODELS {
+        let set = [model, "mesh.contact_element_size='0.3 mm'"];
+        let plain = simulation(&set).unwrap();
+        let is_rigid = verdict(&plain);
+        assert!(is_rigid.active && is_rigid.reason.contains("anvil"), "{}", is_rigid.reason);
+        let warnings = plain.setup().warnings().join("\n");
+        assert!(!warnings.contains("rigid"), "{warnings}");
+        let whole = run(&[set[0], set[1], "effects.rigid_partner='off'"]);
+        let rigid = plain.run(&mut ());
+        // Explicit elements have three a contact radius, and springs between two meshes or one.
+        let is_coarse = model == MODELS[0];
+        let close = |a: Option<f64>, b: Option<f64>, coarse: f64, what: &str| {
+            let change = a.unwrap() / b.unwrap() - 1.0;
+            let allowed = if is_coarse { coarse } else { 2e-4 };
+            assert!(change.abs() < allowed, "{model}: {what} {change:e}");
+        };
+        close(rigid.restitution, whole.restitution, 2e-3, "e");
+        close(rigid.contact_time, whole.contact_time, 5e-3, "T");
+        close(rigid.peak_force, whole.peak_force, 1.5e-2, "F");
+        let [ours, theirs] = [&rigid, &whole].map(|c| c.bodies[0].mass.unwrap());
+        assert!((ours / theirs - 1.0).abs() < 1e-14, "{model}: {ours:e} {theirs:e}");
+        let [ours, theirs] = [&rigid, &whole].map(|c| c.bodies[0].velocity_after);
+        close(ours, theirs, 2e-3, "velocity of the anvil");
+        if model == MODELS[0] {
+            let updates = |collision: &Collision| collision.element_updates.unwrap();
+            // Steel is stiff: its elements alone make the step 30 times shorter.
+            assert!(10 * updates(&rigid) < updates(&whole), "{}", updates(&rigid));
+        }
+    }
+}
+
+/// A rigid body of a stiffness that matters is told, with what it changes; and that is what it changes.
+#[test]
+fn what_is_forced_changes_what_is_foretold() {
+    for model in MODELS {
+        let stiff = "material.steel.youngs_modulus='200 MPa'";
+        let set = [model, stiff, "mesh.contact_element_size='0.3 mm'"];
+        assert!(!verdict(&simulation(&set).unwrap()).active);
+        let forced = simulation(&[set[0], set[1], set[2], "effects.rigid_partner='on'"]).unwrap();
+        let warnings = forced.setup().warnings().join("\n");
+        assert!(warnings.contains("forced to be rigid"), "{model}: {warnings}");
+        let setup = forced.setup();
+        let foretold = forced.left_out(verdict(&forced), &setup.estimate).unwrap();
+        let (rigid, whole) = (forced.run(&mut ()), run(&set));
+        let found = (rigid.contact_time.unwrap() - whole.contact_time.unwrap()).abs();
+        let ratio = found / foretold.contact_time_s.unwrap();
+        assert!((1.0 / 3.0..3.0).contains(&ratio), "{model}: T {ratio}");
+        let found = (rigid.peak_force.unwrap() - whole.peak_force.unwrap()).abs();
+        let ratio = found / foretold.peak_force_n.unwrap();
+        assert!((1.0 / 3.0..3.0).contains(&ratio), "{model}: F {ratio}");
+    }
+}
+
+#[test]
+fn switches_that_contradict_the_scene_are_refused() {
+    let wall = ["body.0={ name = 'floor', wall = {} }", "effects.rigid_partner='on'"];
+    let error = simulation(&wall).unwrap_err();
+    assert_eq!(error.key(), Some("effects.rigid_partner"));
+    assert!(error.message().contains("a wall already"), "{error}");
+    let both = ["effects.rigid_partner='on'", "effects.mirror_symmetry='on'"];
+    let error = simulation(&both).unwrap_err();
+    assert!(error.message().contains("both \"on\""), "{error}");
+}
