@@ -25,6 +25,8 @@ pub enum Account {
     WallWork,
     /// Artificial viscosity of elements.
     BulkViscosity,
+    /// Waves that have left a body for good.
+    Radiated,
 }
 
 /// On which side of the balance an account stands.
@@ -59,6 +61,7 @@ const LINES: &[(Account, &str, Side, Shown)] = &[
     (Account::ViscousDissipation, "viscous_dissipation", Side::Lost, Shown::Always),
     (Account::WallWork, "wall_work", Side::Given, Shown::InSummary),
     (Account::BulkViscosity, "bulk_viscosity", Side::Lost, Shown::WhereFilled),
+    (Account::Radiated, "radiated", Side::Lost, Shown::WhereFilled),
 ];
 
 impl Account {

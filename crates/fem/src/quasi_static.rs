@@ -44,14 +44,21 @@ pub(crate) fn ting_of(
     })
 }
 
+/// What an impact that foretells has beside elastic half-spaces.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Terms<'a> {
+    /// Whether the materials relax.
+    pub relaxes: bool,
+    /// The spheres' own compliance.
+    pub size: Option<FiniteSize>,
+    /// Materials of bodies that radiate.
+    pub radiating: [Option<&'a Material>; 2],
+}
+
 /// Ting's impact at the speed of an estimate, as accurate as a forecast needs; nothing where it has none.
-pub(crate) fn estimated(
-    scene: &Scene,
-    estimate: &Estimate,
-    relaxes: bool,
-    size: Option<FiniteSize>,
-) -> Option<Impact> {
+pub(crate) fn estimated(scene: &Scene, estimate: &Estimate, terms: Terms<'_>) -> Option<Impact> {
     let hertz = &estimate.hertz;
-    let ting = ting_of(scene, hertz.pair(), relaxes, size).ok()?;
+    let ting = ting_of(scene, hertz.pair(), terms.relaxes, terms.size).ok()?;
+    let ting = ting.with_radiation(terms.radiating.into_iter().flatten()).ok()?;
     ting.with_tolerance(ESTIMATE_TOLERANCE).ok()?.impact(hertz.approach_speed()).ok()
 }

@@ -5,7 +5,7 @@ use fem_case::Scene;
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use crate::estimate::Estimate;
-use crate::quasi_static::estimated;
+use crate::quasi_static::{Terms, estimated};
 
 /// The spheres' own compliance.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,11 @@ impl Effect for FiniteSizeEffect {
 
     /// Of elastic bodies.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let with = estimated(scene, estimate, false, scene.finite_size().ok())?;
+        let with = estimated(
+            scene,
+            estimate,
+            Terms { size: scene.finite_size().ok(), ..Terms::default() },
+        )?;
         Some(LeftOut::between(&with, &estimate.hertz.impact()))
     }
 }

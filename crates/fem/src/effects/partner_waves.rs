@@ -1,16 +1,19 @@
 //! Waves that a contact sends into a body so large that they do not come back within the contact: they
-//! take energy along. Elements have them; closed forms and quasi-static bodies do not.
+//! take energy along. Elements have them; Ting's model and condensed bodies have the loss as a term of their
+//! own; closed forms and laws have not.
 //!
 //! Decided by the contact time over the time that shear waves take through a body, T c_s/D. The loss is
 //! that of a half-space ([`radiated_share`]).
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_laws::radiated_share;
+use fem_material::Material;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use crate::estimate::Estimate;
+use crate::quasi_static::{Terms, estimated};
 
 /// Below this T c_s/D nothing comes back in time.
 const RETURN_LIMIT: f64 = 2.0;
@@ -24,6 +27,32 @@ pub struct PartnerWaves;
 impl PartnerWaves {
     /// Its name in results.
     pub const NAME: &'static str = "partner waves";
+
+    /// The materials of bodies that radiate, of a model that has their loss as a term: those whose waves do
+    /// not come back within the contact, and the largest body in any case where the case forces it.
+    pub(crate) fn radiating<'a>(
+        scene: &'a Scene,
+        estimate: &Estimate,
+    ) -> [Option<&'a Material>; 2] {
+        match scene.effects().partner_waves {
+            Some(Switch::Off) => [None; 2],
+            Some(Switch::On) => {
+                let passages = passages(scene, estimate);
+                let least =
+                    passages.iter().map(|(_, passage)| *passage).fold(f64::INFINITY, f64::min);
+                large(scene, estimate, RETURN_LIMIT.max(least.next_up()))
+            }
+            Some(Switch::Auto) | None => large(scene, estimate, RETURN_LIMIT),
+        }
+    }
+}
+
+/// The materials of bodies with a T c_s/D below a limit.
+fn large<'a>(scene: &'a Scene, estimate: &Estimate, limit: f64) -> [Option<&'a Material>; 2] {
+    scene.bodies().each_ref().map(|body| {
+        let is_large = passage(body, estimate).is_some_and(|passage| passage < limit);
+        body.material().filter(|_| is_large)
+    })
 }
 
 impl Effect for PartnerWaves {
@@ -59,9 +88,22 @@ impl Effect for PartnerWaves {
         })
     }
 
+    /// The difference of Ting's impacts with and without; where the loss is no correction any more,
+    /// what a half-space takes.
+    /// The difference of Ting's impacts with and without; where the loss is no correction any more,
+    /// what a half-space takes.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let share = radiated(&passages(scene, estimate), estimate);
-        (share > 0.0).then(|| LeftOut::restitution(lost(share)))
+        let radiating = match scene.effects().partner_waves {
+            Some(Switch::On) => Self::radiating(scene, estimate),
+            _ => large(scene, estimate, RETURN_LIMIT),
+        };
+        if radiating == [None; 2] {
+            return None;
+        }
+        let with = estimated(scene, estimate, Terms { radiating, ..Terms::default() });
+        let difference = with.map(|with| LeftOut::between(&with, &estimate.hertz.impact()));
+        let share = || radiated(&passages(scene, estimate), estimate);
+        Some(difference.unwrap_or_else(|| LeftOut::restitution(lost(share()))))
     }
 }
 

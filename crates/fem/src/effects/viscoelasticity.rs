@@ -14,7 +14,7 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::transformed::Transformed;
 use crate::estimate::Estimate;
-use crate::quasi_static::estimated;
+use crate::quasi_static::{Terms, estimated};
 use crate::refusal::Refusal;
 
 /// What terms that are not followed may change, all together, of restitution (absolute), contact time and
@@ -91,7 +91,7 @@ impl Effect for Viscoelasticity {
         if relaxing(scene).is_empty() {
             return Some(LeftOut::NOTHING);
         }
-        let with = estimated(scene, estimate, true, None)?;
+        let with = estimated(scene, estimate, Terms { relaxes: true, ..Terms::default() })?;
         Some(LeftOut::between(&with, &estimate.hertz.impact()))
     }
 }

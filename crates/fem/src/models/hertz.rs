@@ -59,13 +59,14 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     // Elastic bodies under Ting are Hertz', and Ting knows their size.
     let motion: Box<dyn Motion> = match finite_size {
         false => Box::new(ClosedForm(estimate.hertz)),
-        true => ting::motion(scene, &estimate, false, true, Ting::DEFAULT_TOLERANCE)?,
+        true => Box::new(ting::motion(scene, &estimate, false, true, Ting::DEFAULT_TOLERANCE)?),
     };
     let description = match finite_size {
         false => "model hertz, a closed form",
         true => "model hertz, one degree of freedom",
     };
     let traits = Traits {
+        waves: false,
         relaxation: Relaxation::Nothing,
         dashpot: None,
         finite_size: ting::finite_size(finite_size),

@@ -98,6 +98,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let impact = impact.with_tolerance(tolerance).map_err(refuse)?;
     let motion = Box::new(LawMotion { impact, law, numbers });
     let traits = Traits {
+        waves: false,
         relaxation: match takes_slow_limit {
             true => Relaxation::SlowLimit,
             false => Relaxation::Nothing,

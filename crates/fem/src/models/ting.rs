@@ -6,6 +6,7 @@ use fem_laws::{Impact, LawError, Ting};
 
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
+use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::quasi_static::ting_of;
@@ -46,6 +47,21 @@ impl Motion for Ting {
     }
 }
 
+/// Ting's model with the waves that do not come back at the speed at which bodies meet.
+#[derive(Debug)]
+struct WithWaves {
+    ting: Ting,
+    scene: Scene,
+}
+
+impl Motion for WithWaves {
+    fn impact(&self, speed: f64) -> Result<Impact, LawError> {
+        let estimate = Estimate::at(&self.scene, speed)?;
+        let radiating = PartnerWaves::radiating(&self.scene, &estimate);
+        self.ting.clone().with_radiation(radiating.into_iter().flatten())?.impact(speed)
+    }
+}
+
 /// Builds the model of a scene.
 ///
 /// # Errors
@@ -55,8 +71,10 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
         return Err(Refusal::chose_another(scene, "ting"));
     };
     let estimate = Estimate::checked(scene)?;
-    let motion = motion(scene, &estimate, true, finite_size, tolerance)?;
+    let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
+    let motion = Box::new(WithWaves { ting, scene: scene.clone() });
     let traits = Traits {
+        waves: true,
         relaxation: Relaxation::Whole,
         dashpot: None,
         finite_size: self::finite_size(finite_size),
@@ -84,7 +102,7 @@ pub(super) fn motion(
     relaxes: bool,
     finite_size: bool,
     tolerance: f64,
-) -> Result<Box<dyn Motion>, Refusal> {
+) -> Result<Ting, Refusal> {
     let refuse = |error: LawError| refused(scene, &error);
     let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
     if let Some(size) = &size {
@@ -94,5 +112,5 @@ pub(super) fn motion(
         })?;
     }
     let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(refuse)?;
-    Ok(Box::new(ting.with_tolerance(tolerance).map_err(refuse)?))
+    ting.with_tolerance(tolerance).map_err(refuse)
 }

@@ -86,12 +86,15 @@ impl Rows<'_> {
     fn row(&self, instant: &ImpactInstant) -> Row {
         let (frame, rate) = (self.frame, instant.approach_rate);
         let accounted = match (instant.strain_energy, instant.dissipated) {
-            (Some(strain), Some(dissipated)) => strain + dissipated,
+            (Some(strain), Some(dissipated)) => {
+                strain + dissipated + instant.radiated.unwrap_or(0.0)
+            }
             _ => instant.work,
         };
         let known = [
             (Account::Strain, instant.strain_energy),
             (Account::ViscousDissipation, instant.dissipated),
+            (Account::Radiated, instant.radiated),
         ];
         let mut energies = Book::EMPTY
             .with(Account::Kinetic, frame.kinetic(rate))

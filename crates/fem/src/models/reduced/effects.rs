@@ -15,6 +15,8 @@ pub(in crate::models) struct Traits {
     pub relaxation: Relaxation,
     /// Its dashpot, in words; none where it has none.
     pub dashpot: Option<String>,
+    /// Whether it has the waves that do not come back, as a term of its own.
+    pub waves: bool,
     /// Whether it has the spheres' own compliance, and why.
     pub finite_size: (bool, &'static str),
 }
@@ -47,6 +49,7 @@ pub(super) fn has(
             let (is_finite, reason) = traits.finite_size;
             Answer::is(is_finite, reason)
         }
+        PartnerWaves::NAME if traits.waves => Answer::Computes { idle: "" },
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
         FiniteStrain::NAME
         | SurfaceSlip::NAME
