@@ -16,10 +16,16 @@
 //! = \gamma\int\dot f^2\,\mathrm dt + \frac{\gamma}{2\tau}(f^2-F^2),
 //! ```
 //!
-//! (ḟ = (F−f)/τ) so that what is radiated is never negative. The contact is stiffer by what is held, and
-//! stays stable while γ F′(u) < τ. Taken is τ = max([`STIFFNESS_TIMES`] γ F′(u_max), [`SHARE_OF_CONTACT`]
-//! T): the first is a few times that of waves across the contact, a/c_s, which is what a half-space itself
-//! remembers. The loss is off by the order of (τ/T)² of itself.
+//! (ḟ = (F−f)/τ) so that what is radiated is never negative. Loaded fast the contact is the stiffer, and it
+//! stays stable while γ F′(u) < τ. Taken is
+//!
+//! ```math
+//! \tau = \max\bigl(2.5\,\gamma F'(u_{\max}),\; 0.0025\,T\bigr):
+//! ```
+//!
+//! the first is some a/c_s, which is what a half-space itself remembers; the loss is too small by the order of
+//! (τ/T)², 4e-4 of itself by the second. Waves back and forth in the contact itself, of the next order in a/(c_s T),
+//! are left out.
 //!
 //! Everything is dimensionless; see [`crate::ting`].
 
@@ -27,10 +33,10 @@ use crate::collocation::{Interpolation, N, POINTS, Vector, derivative, dot, fadi
 use crate::finite_correction::Correction;
 
 /// Times γ F′(u_max) that τ is at least.
-pub(crate) const STIFFNESS_TIMES: f64 = 2.5;
+const STIFFNESS_TIMES: f64 = 2.5;
 
-/// Share of the contact time that τ is at least: steps are some tenths of τ.
-pub(crate) const SHARE_OF_CONTACT: f64 = 0.0025;
+/// Share of the contact time that τ is at least. As many steps as without waves are enough.
+const SHARE_OF_CONTACT: f64 = 0.0025;
 
 /// The constants of waves that leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
