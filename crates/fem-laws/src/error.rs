@@ -26,6 +26,10 @@ pub enum LawError {
     #[error("a collision needs at least one body that deforms, found two rigid ones")]
     TwoRigidBodies,
 
+    /// Two infinite masses.
+    #[error("a collision needs at least one body that moves, found two of infinite mass")]
+    NothingMoves,
+
     /// A negative, infinite or NaN value where 0 or a positive number has a meaning.
     #[error("{quantity} must be at least 0 and finite, found {value:?}")]
     Negative {

@@ -80,7 +80,7 @@ pub use hertz_pressure::{AxisStress, HertzPressure};
 pub use impact::{Impact, ImpactInstant};
 pub use impact_path::ImpactPath;
 pub use law_impact::LawImpact;
-pub use pair::{Pair, Partner, sphere_mass};
+pub use pair::{Pair, Partner, restitution_of_mass_centres, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, largest_von_mises};
 pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};

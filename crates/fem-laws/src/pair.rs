@@ -22,7 +22,8 @@ pub enum Partner {
     Sphere {
         /// Radius R, m.
         radius: f64,
-        /// Mass m, kg.
+        /// Mass m, kg; infinite if it does not move as a whole within the contact: held, or so large
+        /// that waves do not come back ([`restitution_of_mass_centres`]).
         mass: f64,
         /// Plane strain modulus E/(1−ν²), Pa; infinite if the sphere is rigid.
         plane_strain_modulus: f64,
@@ -65,7 +66,7 @@ impl Partner {
         match *self {
             Self::Sphere { radius, mass, plane_strain_modulus } => Ok([
                 positive("radius", radius)?,
-                positive("mass", mass)?,
+                positive_or_infinite("mass", mass)?,
                 positive_or_infinite("plane_strain_modulus", plane_strain_modulus)?,
             ]),
             Self::HalfSpace { plane_strain_modulus } => {
@@ -82,6 +83,16 @@ pub fn sphere_mass(diameter: f64, density: f64) -> f64 {
     density * PI * diameter.powi(3) / 6.0
 }
 
+/// The restitution of the mass centres of a body and a large partner, of the mass ratio m/M, from that of
+/// the body alone, e′.
+///
+/// Until waves come back the partner is a half-space to the contact: it moves nowhere as a whole, and the
+/// body's collision is that with an infinite mass. Its mass centre has the impulse m v (1+e′) all the
+/// same, so that e = e′ + (1+e′) m/M. What moves it is part of the waves' energy.
+pub fn restitution_of_mass_centres(restitution: f64, mass_ratio: f64) -> f64 {
+    restitution + (1.0 + restitution) * mass_ratio
+}
+
 /// Effective radius, mass and modulus of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
@@ -94,8 +105,8 @@ impl Pair {
     /// Of two bodies in either order, to the same bits.
     ///
     /// # Errors
-    /// Two walls; no sphere; two rigid bodies; a radius or mass that is not positive and finite, a
-    /// modulus that is not positive.
+    /// Two walls; no sphere; two rigid bodies; two that cannot move; a radius that is not positive and
+    /// finite, a mass or modulus that is not positive.
     pub fn new(first: Partner, second: Partner) -> Result<Self, LawError> {
         if first == Partner::Wall && second == Partner::Wall {
             return Err(LawError::TwoWalls);
@@ -106,6 +117,9 @@ impl Pair {
         }
         if e1.min(e2).is_infinite() {
             return Err(LawError::TwoRigidBodies);
+        }
+        if m1.min(m2).is_infinite() {
+            return Err(LawError::NothingMoves);
         }
         Ok(Self {
             effective_radius: in_series(r1, r2),

@@ -1,6 +1,6 @@
 //! Effective radius, mass and modulus.
 
-use fem_laws::{LawError, Pair, Partner, sphere_mass};
+use fem_laws::{LawError, Pair, Partner, restitution_of_mass_centres, sphere_mass};
 use fem_material::{ElasticModuli, Material};
 
 fn sphere(radius: f64, mass: f64, plane_strain_modulus: f64) -> Partner {
@@ -51,7 +51,6 @@ fn impossible_partners_are_refused_by_name() {
     for bad in [0.0, -1.0, f64::INFINITY] {
         for (partner, quantity) in [
             (sphere(bad, 1.0, 1.0), "radius"),
-            (sphere(1.0, bad, 1.0), "mass"),
             (Partner::HalfSpace { plane_strain_modulus: bad }, "plane_strain_modulus"),
         ] {
             let expected = LawError::NotPositive { quantity, value: bad };
@@ -61,6 +60,7 @@ fn impossible_partners_are_refused_by_name() {
     }
     for bad in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
         assert!(Pair::new(sphere(1.0, 1.0, bad), sphere(1.0, 1.0, 1.0)).is_err());
+        assert!(Pair::new(sphere(1.0, bad, 1.0), sphere(1.0, 1.0, 1.0)).is_err());
     }
     assert!(Pair::new(sphere(f64::NAN, 1.0, 1.0), Partner::Wall).is_err());
     assert!(Pair::new(Partner::Wall, sphere(1.0, f64::NAN, 1.0)).is_err());
@@ -76,6 +76,10 @@ fn what_is_infinite_drops_out() {
     assert_eq!(pair.effective_mass(), 3.0);
     assert_eq!(pair.contact_modulus(), 4.0);
     assert_eq!(Pair::new(sphere(0.25, 3.0, 5.0), block).unwrap(), pair);
+
+    let held = sphere(3.0, f64::INFINITY, 5.0);
+    let pair = Pair::new(sphere(1.0, 6.0, 20.0), held).unwrap();
+    assert_eq!((pair.effective_radius(), pair.effective_mass()), (0.75, 6.0));
 
     let rigid = sphere(3.0, 3.0, f64::INFINITY);
     let pair = Pair::new(sphere(1.0, 6.0, 20.0), rigid).unwrap();
@@ -102,4 +106,13 @@ fn something_round_must_meet_something_that_deforms() {
     assert_eq!(Pair::new(Partner::Wall, block), Err(LawError::NoSphere));
     assert_eq!(Pair::new(rigid, rigid), Err(LawError::TwoRigidBodies));
     assert_eq!(Pair::new(rigid, Partner::Wall), Err(LawError::TwoRigidBodies));
+    let held = sphere(1.0, f64::INFINITY, 1.0);
+    assert_eq!(Pair::new(held, held), Err(LawError::NothingMoves));
+    assert_eq!(Pair::new(held, Partner::Wall), Err(LawError::NothingMoves));
+}
+
+/// Momentum: a ball of 1 kg comes at 4 m/s and leaves at 2; the block of 8 kg has 6 kg m/s.
+#[test]
+fn a_large_partner_has_the_impulse() {
+    assert_eq!(restitution_of_mass_centres(0.5, 0.125), (2.0 + 6.0 / 8.0) / 4.0);
 }
