@@ -107,6 +107,18 @@ impl Scene {
         self
     }
 
+    /// This scene with a half-space of the same material in the place of a sphere, 0 the lower one; a
+    /// rigid body stays as it is.
+    pub fn with_half_space(&self, side: usize) -> Self {
+        let mut scene = self.clone();
+        if let Some(body) = scene.bodies.get_mut(side)
+            && let Some(material) = body.material().cloned()
+        {
+            body.shape = Shape::HalfSpace { material };
+        }
+        scene
+    }
+
     /// This scene, computed by another model.
     pub fn with_model(mut self, model: ModelChoice) -> Self {
         self.model = model;

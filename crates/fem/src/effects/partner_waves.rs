@@ -15,8 +15,12 @@ use super::need::{Need, percent};
 use crate::estimate::Estimate;
 use crate::quasi_static::{Terms, estimated};
 
-/// Below this T c_s/D nothing comes back in time.
+/// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;
+/// Below this T c_s/D nothing comes back in time: pressure waves, the first, take c_s/c_p of twice the
+/// passage, 1.15 at ν = 1/4. Ting's model with what a half-space takes is within 4 % of the loss of elements
+/// below 0.6, and within 12 % at 0.93.
+const RADIATION_LIMIT: f64 = 1.0;
 /// Restitution that waves take and that is worth a warning.
 const SMALL_LOSS: f64 = 1e-4;
 
@@ -40,9 +44,9 @@ impl PartnerWaves {
                 let passages = passages(scene, estimate);
                 let least =
                     passages.iter().map(|(_, passage)| *passage).fold(f64::INFINITY, f64::min);
-                large(scene, estimate, RETURN_LIMIT.max(least.next_up()))
+                large(scene, estimate, RADIATION_LIMIT.max(least.next_up()))
             }
-            Some(Switch::Auto) | None => large(scene, estimate, RETURN_LIMIT),
+            Some(Switch::Auto) | None => large(scene, estimate, RADIATION_LIMIT),
         }
     }
 }
@@ -95,10 +99,11 @@ impl Effect for PartnerWaves {
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         let radiating = match scene.effects().partner_waves {
             Some(Switch::On) => Self::radiating(scene, estimate),
-            _ => large(scene, estimate, RETURN_LIMIT),
+            _ => large(scene, estimate, RADIATION_LIMIT),
         };
         if radiating == [None; 2] {
-            return None;
+            let share = radiated(&passages(scene, estimate), estimate);
+            return (share > 0.0).then(|| LeftOut::restitution(lost(share)));
         }
         let with = estimated(scene, estimate, Terms { radiating, ..Terms::default() });
         let difference = with.map(|with| LeftOut::between(&with, &estimate.hertz.impact()));
@@ -116,8 +121,15 @@ fn passages<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<(&'a Body, f64)> {
 /// Share of the energy that bodies take along from which nothing comes back in time.
 fn radiated(passages: &[(&Body, f64)], estimate: &Estimate) -> f64 {
     let large = passages.iter().filter(|(_, passage)| *passage < RETURN_LIMIT);
-    let materials = large.filter_map(|(body, _)| body.material());
-    materials.map(|material| radiated_share(&estimate.hertz, material)).sum()
+    let share = |(body, passage): &(&Body, f64)| {
+        Some(radiated_share(&estimate.hertz, body.material()?) * kept(*passage))
+    };
+    large.filter_map(share).sum()
+}
+
+/// Share of what a half-space takes that a body keeps: elements lost 1/3 of it at T c_s/D = 1.5.
+fn kept(passage: f64) -> f64 {
+    passage.max(RADIATION_LIMIT).powi(-3)
 }
 
 /// Restitution that a share of the energy is worth.

@@ -4,6 +4,7 @@ mod auto;
 mod condensed;
 mod explicit;
 mod hertz;
+mod large_partner;
 mod law;
 mod law_numbers;
 mod mirrored;

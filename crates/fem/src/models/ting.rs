@@ -1,9 +1,10 @@
 //! Ting's quasi-static viscoelastic half-spaces, with the spheres' finite size if asked for.
 
 use fem_case::schema::{ModelTable, TingTable};
-use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
+use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{Impact, LawError, Ting};
 
+use super::large_partner::of_mass_centres;
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::effects::PartnerWaves;
@@ -50,15 +51,45 @@ impl Motion for Ting {
 /// Ting's model with the waves that do not come back at the speed at which bodies meet.
 #[derive(Debug)]
 struct WithWaves {
+    /// Without them.
     ting: Ting,
     scene: Scene,
+    finite_size: bool,
+    tolerance: f64,
 }
 
 impl Motion for WithWaves {
     fn impact(&self, speed: f64) -> Result<Impact, LawError> {
         let estimate = Estimate::at(&self.scene, speed)?;
         let radiating = PartnerWaves::radiating(&self.scene, &estimate);
-        self.ting.clone().with_radiation(radiating.into_iter().flatten())?.impact(speed)
+        let n_radiating = radiating.iter().flatten().count();
+        if n_radiating == 0 {
+            return self.ting.impact(speed);
+        }
+        // Of one sphere that radiates, the other one moves alone.
+        let [lower, upper] = self.scene.bodies();
+        let large =
+            [lower, upper].into_iter().zip(radiating).find(|(_, material)| material.is_some());
+        let masses = [lower, upper].map(Body::mass);
+        let alone = match (large, masses) {
+            (Some((large, _)), [Some(below), Some(above)]) if n_radiating == 1 => {
+                let is_lower = std::ptr::eq(large, lower);
+                let (mass, its) = if is_lower { (above, below) } else { (below, above) };
+                Some((is_lower, mass, mass / its))
+            }
+            _ => None,
+        };
+        let scene = match alone {
+            Some((is_lower, ..)) => self.scene.with_half_space(usize::from(!is_lower)),
+            None => self.scene.clone(),
+        };
+        let size = self.finite_size.then(|| scene.finite_size()).transpose()?;
+        let ting = ting_of(&scene, &scene.pair()?, true, size)?.with_tolerance(self.tolerance)?;
+        let impact = ting.with_radiation(radiating.into_iter().flatten())?.impact(speed)?;
+        Ok(match alone {
+            Some((_, mass, mass_ratio)) => of_mass_centres(impact, mass, mass_ratio, speed),
+            None => impact,
+        })
     }
 }
 
@@ -72,7 +103,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     };
     let estimate = Estimate::checked(scene)?;
     let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
-    let motion = Box::new(WithWaves { ting, scene: scene.clone() });
+    let motion = Box::new(WithWaves { ting, scene: scene.clone(), finite_size, tolerance });
     let traits = Traits {
         waves: true,
         relaxation: Relaxation::Whole,

@@ -49,7 +49,12 @@ pub(super) fn has(
             let (is_finite, reason) = traits.finite_size;
             Answer::is(is_finite, reason)
         }
-        PartnerWaves::NAME if traits.waves => Answer::Computes { idle: "" },
+        // Between waves that never come back and waves that all do there is no term.
+        PartnerWaves::NAME
+            if traits.waves && PartnerWaves::radiating(scene, estimate) != [None; 2] =>
+        {
+            Answer::Computes { idle: "" }
+        }
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
         FiniteStrain::NAME
         | SurfaceSlip::NAME
