@@ -9,12 +9,14 @@
 //! printed   that are run, and what they print and leave
 //! keys      names in a result folder
 //! accuracy  the table of what accuracy costs
+//! effects   the table of what effects cost
 //! ```
 
 mod accuracy;
 mod commands;
 #[path = "../it/common/mod.rs"]
 mod common;
+mod effects;
 mod keys;
 mod pages;
 mod pointers;

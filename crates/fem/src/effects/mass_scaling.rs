@@ -9,6 +9,8 @@ use crate::estimate::Estimate;
 
 /// Added mass over a body's mass.
 const LARGEST_ADDED_MASS: f64 = 1e-3;
+/// Added mass over a body's mass up to which it is a rounding of the node that decides on the step.
+const ROUNDING: f64 = 1e-12;
 
 /// Mass added for a longer time step.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +23,7 @@ impl MassScaling {
     /// What a model has of it that adds these shares to the masses of bodies, by name, and whose time
     /// step is so many times longer for it. A wall's share is no number.
     pub(crate) fn of<'a>(shares: impl Iterator<Item = (&'a str, f64)>, longer: f64) -> Answer {
-        let added = shares.filter(|(_, share)| *share > 0.0);
+        let added = shares.filter(|(_, share)| *share > ROUNDING);
         let added: Vec<String> =
             added.map(|(name, share)| format!("{share:.1e} of the mass of {name}")).collect();
         match added.is_empty() {

@@ -177,8 +177,7 @@ impl NodeForce for BulkViscosity {
     fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
         let [force, work] = history else { return };
         let half_step = 0.5 * self.time_step;
-        add_work(half_step, motion.velocity, force, work);
-        force.fill([0.0; 2]);
+        take_work(half_step, motion.velocity, force, work);
         self.elements.subtract_forces(motion.velocity, force);
         add_work(half_step, motion.velocity, force, work);
     }
@@ -198,6 +197,16 @@ impl NodeForce for BulkViscosity {
 fn add(q: &Field, f: &mut Field) {
     for (f, q) in f.as_flattened_mut().iter_mut().zip(q.as_flattened()) {
         *f += q;
+    }
+}
+
+/// w ← w − t v q, q ← 0.
+#[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
+fn take_work(t: f64, v: &Field, q: &mut Field, w: &mut Field) {
+    let (w, q) = (w.as_flattened_mut(), q.as_flattened_mut());
+    for ((w, q), v) in w.iter_mut().zip(q).zip(v.as_flattened()) {
+        *w -= t * v * *q;
+        *q = 0.0;
     }
 }
 

@@ -1,0 +1,134 @@
+//! What effects cost: for each the time of a step, the work and the bytes of state, off and on. Writes
+//! the table of docs/effects.md.
+//!
+//! `cargo run --release -p fem-run --example effects -- docs/effects.md`
+//!
+//! Times are medians of runs that take turns, so that what else the machine does meets both. Updates
+//! and bytes are counters: the same on every machine.
+
+#![allow(
+    clippy::disallowed_macros,
+    clippy::disallowed_methods,
+    reason = "a benchmark has the clock and prints what it found"
+)]
+
+#[path = "effects/rows.rs"]
+mod rows;
+
+use std::fmt::Write;
+use std::time::Instant;
+
+use rows::{Kept, ROWS, Row, Side, n_bytes};
+
+/// Runs of each side.
+const N_RUNS: usize = 9;
+/// Between these lines of the page stands the table.
+const MARKS: [&str; 2] = ["<!-- table -->\n", "<!-- end of table -->\n"];
+
+/// What a run took.
+struct Cost {
+    /// Of the solution, ns an element update.
+    time: f64,
+    element_updates: u64,
+    bytes: usize,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let table = ROWS.iter().map(|row| line(row)).collect::<String>();
+    let table = format!("{}\n{HEAD}{table}\n", machine());
+    let Some(path) = std::env::args().nth(1) else {
+        print!("{table}");
+        return Ok(());
+    };
+    let page = std::fs::read_to_string(&path)?;
+    let parts = page
+        .split_once(MARKS[0])
+        .and_then(|(before, rest)| rest.split_once(MARKS[1]).map(|(_, after)| [before, after]));
+    let [before, after] = parts.ok_or("the page has no place for the table")?;
+    let [begin, end] = MARKS;
+    Ok(std::fs::write(path, format!("{before}{begin}\n{table}{end}{after}"))?)
+}
+
+const HEAD: &str = "\
+| effect | kind | ns an update, off | on | ratio | element updates, off | on | bytes of state, off | on |
+|---|---|---|---|---|---|---|---|---|
+";
+
+/// What kind of machine the times are of.
+fn machine() -> String {
+    #[cfg(target_arch = "x86_64")]
+    let lanes = if std::arch::is_x86_feature_detected!("avx2") { " with AVX2" } else { "" };
+    #[cfg(not(target_arch = "x86_64"))]
+    let lanes = "";
+    let machine = std::env::consts::ARCH;
+    format!(
+        "On {machine}{lanes}, one thread: medians of {N_RUNS} runs of each side, which take turns.\n"
+    )
+}
+
+/// A line of the table.
+fn line(row: &Row) -> String {
+    let sides: Vec<Side> = row.off.into_iter().chain([row.on]).collect();
+    let simulations: Vec<_> = sides.iter().map(Side::simulation).collect();
+    let mut costs: Vec<Vec<Cost>> = sides.iter().map(|_| Vec::new()).collect();
+    for _ in 0..N_RUNS {
+        for ((side, simulation), costs) in sides.iter().zip(&simulations).zip(&mut costs) {
+            costs.push(cost(side, simulation));
+        }
+    }
+    let times: Vec<f64> =
+        costs.iter().map(|costs| median(costs.iter().map(|cost| cost.time))).collect();
+    let first: Vec<&Cost> = costs.iter().map(|costs| &costs[0]).collect();
+    let mut line = format!("| `{}` | {} |", row.name, row.kind);
+    let (on_time, on) = (times[times.len() - 1], first[first.len() - 1]);
+    let _ = match row.off {
+        None => writeln!(
+            line,
+            " – | {on_time:.1} | – | – | {} | – | {} |",
+            on.element_updates, on.bytes
+        ),
+        Some(_) => {
+            let ratios = costs[0].iter().zip(&costs[1]).map(|(off, on)| on.time / off.time);
+            writeln!(
+                line,
+                " {:.1} | {on_time:.1} | {:.2} | {} | {} | {} | {} |",
+                times[0],
+                median(ratios),
+                first[0].element_updates,
+                on.element_updates,
+                first[0].bytes,
+                on.bytes
+            )
+        }
+    };
+    eprint!("{line}");
+    line
+}
+
+/// A run from first touch to its end.
+fn cost(side: &Side, simulation: &fem::Simulation) -> Cost {
+    let begin = Instant::now();
+    let mut course = simulation.start();
+    while course.advance(&mut ()) {}
+    let mut spent = begin.elapsed();
+    let bytes = n_bytes(course.as_ref());
+    let begin = Instant::now();
+    let collision = course.finish();
+    if side.kept == Kept::Stress {
+        for snapshot in &collision.snapshots {
+            for side in 0..2 {
+                let stress = simulation.stress(snapshot, side);
+                std::hint::black_box(stress.is_some());
+            }
+        }
+    }
+    spent += begin.elapsed();
+    let element_updates = collision.element_updates.expect("explicit elements");
+    Cost { time: 1e9 * spent.as_secs_f64() / element_updates as f64, element_updates, bytes }
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

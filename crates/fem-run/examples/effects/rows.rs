@@ -1,0 +1,128 @@
+//! The rows of the table of what effects cost: a line an effect, off and on.
+
+use fem::{Case, Course, Label, Simulation, SnapshotRequest, Want};
+use std::path::Path;
+
+/// The glass pair without relaxation, at default settings.
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+/// Two like bodies: the smaller becomes the larger.
+const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
+
+/// What a run keeps beside the quantities of the collision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kept {
+    /// Nothing.
+    Quantities,
+    /// A thousand rows.
+    History,
+    /// The states at the four instants that have a name.
+    Snapshots,
+    /// Those, and their stress.
+    Stress,
+}
+
+/// A run: what it changes of the glass pair, and what it keeps.
+#[derive(Clone, Copy, Debug)]
+pub struct Side {
+    /// As `--set` writes them.
+    pub overrides: &'static [&'static str],
+    /// What it keeps.
+    pub kept: Kept,
+}
+
+/// An effect, or what a run keeps only where it is asked to.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Its name in results.
+    pub name: &'static str,
+    /// Which of its kinds.
+    pub kind: &'static str,
+    /// Without it; `None` of what every run of explicit elements has.
+    pub off: Option<Side>,
+    /// With it.
+    pub on: Side,
+}
+
+const BARE: Side = of(&[]);
+
+/// The glass pair with these changes; nothing is kept.
+const fn of(overrides: &'static [&'static str]) -> Side {
+    Side { overrides, kept: Kept::Quantities }
+}
+
+const fn keeping(kept: Kept) -> Side {
+    Side { kept, ..BARE }
+}
+
+const fn row(name: &'static str, kind: &'static str, off: Side, on: Side) -> Row {
+    Row { name, kind, off: Some(off), on }
+}
+
+const fn always(name: &'static str, kind: &'static str) -> Row {
+    Row { name, kind, off: None, on: BARE }
+}
+
+/// All rows, in the order of the page.
+pub const ROWS: &[Row] = &[
+    row(
+        "viscoelasticity",
+        "all moduli, one term",
+        BARE,
+        of(&["material.glass.relaxation={acts_on='all', terms=[{weight=1.0, decay_rate=2708}]}"]),
+    ),
+    row(
+        "viscoelasticity",
+        "all moduli, three terms",
+        BARE,
+        of(&["material.glass.relaxation={acts_on='all', terms=[{weight=0.2, decay_rate=1e3}, \
+              {weight=0.2, decay_rate=1e4}, {weight=0.2, decay_rate=1e5}]}"]),
+    ),
+    row(
+        "viscoelasticity",
+        "shear modulus, one term",
+        BARE,
+        of(&["material.glass.relaxation={acts_on='shear', terms=[{weight=1.0, decay_rate=2708}]}"]),
+    ),
+    row(
+        "mirror symmetry",
+        "like bodies",
+        of(&[TWINS, "effects.mirror_symmetry='off'"]),
+        of(&[TWINS, "effects.mirror_symmetry='on'"]),
+    ),
+    row("bulk viscosity", "forced on", BARE, of(&["effects.bulk_viscosity='on'"])),
+    row("mass scaling", "2e-4 of the mass", of(&["time.mass_scaling=0"]), BARE),
+    row("history", "1000 rows", BARE, keeping(Kept::History)),
+    row("snapshots", "four", BARE, keeping(Kept::Snapshots)),
+    row("stress recovery", "of four snapshots", keeping(Kept::Snapshots), keeping(Kept::Stress)),
+    always("partner waves", "elements carry them"),
+    always("hourglass control", "in the elements' own loop"),
+    always("contact search", "points that can touch"),
+];
+
+impl Side {
+    /// Its scene, ready to be computed.
+    pub fn simulation(&self) -> Simulation {
+        let overrides: Vec<String> = self.overrides.iter().map(ToString::to_string).collect();
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides);
+        let mut simulation = Simulation::new(case.expect("a case")).expect("a scene");
+        simulation.ask_for(self.want()).expect("a run");
+        simulation
+    }
+
+    fn want(&self) -> Want {
+        match self.kept {
+            Kept::Quantities => Want::quantities(),
+            Kept::History => Want::history(),
+            Kept::Snapshots | Kept::Stress => {
+                let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
+                Want { snapshots, ..Want::quantities() }
+            }
+        }
+    }
+}
+
+/// Bytes of all that a run knows between two steps: what a restart needs.
+pub fn n_bytes(course: &dyn Course) -> usize {
+    let memory = course.memory().expect("explicit elements have a memory");
+    postcard::to_stdvec(memory).expect("a memory is bytes").len()
+}
