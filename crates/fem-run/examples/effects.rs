@@ -34,7 +34,7 @@ struct Cost {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let table = ROWS.iter().map(|row| line(row)).collect::<String>();
+    let table = ROWS.iter().map(line).collect::<String>();
     let table = format!("{}\n{HEAD}{table}\n", machine());
     let Some(path) = std::env::args().nth(1) else {
         print!("{table}");
