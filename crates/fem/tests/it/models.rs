@@ -240,7 +240,9 @@ fn energies_velocities_and_walls() {
             // Both velocities are made from one: nothing that could fail.
             assert_eq!(collision.momentum_residual_relative, None);
             let energy = |account| last.energy(account).unwrap_or_default();
-            let lost = energy(Account::ViscousDissipation) + energy(Account::Strain);
+            let lost = energy(Account::ViscousDissipation)
+                + energy(Account::Strain)
+                + energy(Account::Radiated);
             let work = energy(Account::WallWork);
             let balance =
                 energy(Account::Kinetic) + lost - collision.initial_energy.unwrap() - work;
