@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// A place where the energy of a collision can be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Account {
-    /// Motion of the bodies, walls not counted.
+    /// Motion of the bodies, walls not counted; of a half-space relative to what is far away.
     Kinetic,
     /// Deformation of the bodies, or the spring of a contact law.
     Strain,
@@ -21,11 +21,11 @@ pub enum Account {
     Contact,
     /// Relaxation of the bodies, or the dashpot of a contact law.
     ViscousDissipation,
-    /// Work of a moving wall.
+    /// Work of a moving wall, or of a half-space that moves far away.
     WallWork,
     /// Artificial viscosity of elements.
     BulkViscosity,
-    /// Waves that have left a body for good.
+    /// Waves that leave a body for good, of a model without the body's own waves.
     Radiated,
 }
 

@@ -41,7 +41,7 @@ pub struct Collision {
     pub force_scatter: Option<f64>,
     /// Where contact was looked for in the end, of a model that does not look everywhere.
     pub searched: Option<Searched>,
-    /// Kinetic energy at the start, walls not counted, J.
+    /// Kinetic energy at the start, walls and half-spaces not counted, J.
     pub initial_energy: Option<f64>,
     /// What is in each account of energy at the end, J.
     pub energies: Book,
@@ -82,13 +82,13 @@ pub struct BodyResult {
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// Mass without what scaling adds, kg; a wall has none.
+    /// Mass without what scaling adds, kg; a wall or a half-space has none.
     pub mass: Option<f64>,
     /// Added by mass scaling, kg.
     pub added_mass: Option<f64>,
-    /// Velocity of the mass centre along +y, m/s.
+    /// Velocity of the mass centre along +y, m/s; of a half-space far away.
     pub velocity_after: Option<f64>,
-    /// Energy left in its vibrations, J.
+    /// Energy left in its vibrations, J; of a half-space that of the waves that go out.
     pub vibration_energy: Option<f64>,
 }
 

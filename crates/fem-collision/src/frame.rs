@@ -5,7 +5,8 @@
 //! v_2 = v_2(0) + \frac{m^*}{m_2}\,(v - \dot\delta).
 //! ```
 //!
-//! A wall has an infinite mass, keeps its velocity, and takes the momentum m*(v − δ̇).
+//! A wall, or a half-space far away, has an infinite mass, keeps its velocity, and takes the momentum
+//! m*(v − δ̇).
 
 use crate::approach::Approach;
 
@@ -14,7 +15,7 @@ use crate::approach::Approach;
 pub struct Frame {
     /// How they meet.
     pub approach: Approach,
-    /// Masses of the lower and the upper body, kg; a wall has none.
+    /// Masses of the lower and the upper body, kg; a wall or a half-space has none.
     pub masses: [Option<f64>; 2],
     /// m₁m₂/(m₁+m₂), kg.
     pub reduced_mass: f64,

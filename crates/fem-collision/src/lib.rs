@@ -13,6 +13,8 @@
 //! * [`Cadence`] says at which steps of a run something is observed, [`Aftermath`] and [`Scatter`]
 //!   what follows from it beside extremes.
 //! * [`Frame`] leads from the relative motion of two bodies to each of them.
+//! * [`far_radius_of_waves`] and [`far_radius_at_rest`] say how far the mesh of a half-space has to
+//!   reach.
 //! * [`Standstill`] tells bodies that stay together from those that are slow to part.
 //! * [`StressField`] is the stress recovered from a body's fields, [`StressRecovery`] the same for
 //!   many fields of one mesh.
@@ -26,6 +28,7 @@ mod body_input;
 mod cadence;
 mod collision;
 mod ending;
+mod far_radius;
 mod frame;
 mod history;
 mod instants;
@@ -49,6 +52,7 @@ pub use body_input::BodyInput;
 pub use cadence::Cadence;
 pub use collision::{BodyResult, Collision, STAY_TOGETHER};
 pub use ending::Ending;
+pub use far_radius::{far_radius_at_rest, far_radius_of_waves};
 pub use frame::Frame;
 pub use history::{History, RowKind};
 pub use instants::{did_not_occur, evenly, fewer_than_asked};

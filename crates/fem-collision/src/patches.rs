@@ -33,7 +33,7 @@ impl Patches {
             })
             .collect();
         let mut on_boundary = vec![false; n_nodes];
-        for &node in mesh.axis().iter().chain(mesh.surface()) {
+        for &node in mesh.axis().iter().chain(mesh.surface()).chain(mesh.far_boundary()) {
             on_boundary[node as usize] = true;
         }
         let mut patches = Self { starts: vec![0], weights: Vec::with_capacity(5 * n_nodes) };

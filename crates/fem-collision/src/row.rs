@@ -13,7 +13,8 @@ pub struct Row {
     pub contact_force: f64,
     /// Where the contact pressure falls to zero, m.
     pub contact_radius: Option<f64>,
-    /// Decrease of the distance of the mass centres since first touch, m.
+    /// Decrease of the distance of the mass centres since first touch, m; the place of a half-space is
+    /// that of what is far away.
     pub approach: f64,
     /// Contact pressure on the axis, Pa.
     pub centre_pressure: Option<f64>,
@@ -23,7 +24,7 @@ pub struct Row {
     pub energies: Book,
     /// What the energies do not account for, J.
     pub residual: Option<f64>,
-    /// Kinetic energy of each body relative to its mass centre, J.
+    /// Kinetic energy of each body relative to its mass centre, or to what is far away, J.
     pub vibration: [f64; 2],
 }
 

@@ -14,6 +14,8 @@
 //! and B̂ᵀ takes the mean motion out of the displacements. C (m/N) is the inward displacement of the
 //! contact nodes relative to the mass centre. With the contact unknowns last in the factor,
 //! C_pin = (L₂₂L₂₂ᵀ)⁻¹, L₂₂ the trailing block: no solution with a right-hand side a node.
+//!
+//! A half-space is held where it ends and has infinite mass: nothing moves it, C = C_pin.
 
 use faer::sparse::SymbolicSparseColMat;
 use faer::{ColRef, Mat};
@@ -26,7 +28,7 @@ use crate::error::CondensedError;
 use crate::factor::Factor;
 use crate::numbering::{FIXED, Numbering};
 
-/// A sphere's mesh, factor and contact compliance; instantaneous moduli.
+/// A body's mesh, factor and contact compliance; instantaneous moduli.
 #[derive(Debug)]
 pub(crate) struct CondensedBody {
     pub mesh: SphereMesh,
@@ -42,6 +44,7 @@ pub(crate) struct CondensedBody {
     pub mass_of_equation: Vec<f64>,
     /// Whether an equation, the ground's last, is along the axis.
     pub is_axial: Vec<bool>,
+    /// kg; infinite for a half-space.
     pub mass: f64,
     /// +1 if inward is +y, for the upper body, −1 for the lower.
     pub inward: f64,
@@ -79,7 +82,10 @@ impl CondensedBody {
                 }
             }
         }
-        let mass = nodal_mass.iter().sum();
+        let mass = match mesh.is_half_space() {
+            true => f64::INFINITY,
+            false => nodal_mass.iter().sum(),
+        };
         let inward = match mesh.side() {
             Side::Above => 1.0,
             Side::Below => -1.0,
@@ -109,6 +115,9 @@ impl CondensedBody {
     /// w over all equations, K⁻¹M1.
     fn respond_to_inertia(&self) -> Vec<f64> {
         let n = self.numbering.n_equations;
+        if self.mass.is_infinite() {
+            return vec![0.0; n];
+        }
         let mut response = Mat::from_fn(n, 1, |i, _| self.mass * self.inertia_share(i));
         self.factor.solve(response.as_mut());
         response.col(0).iter().copied().collect()
@@ -117,9 +126,12 @@ impl CondensedBody {
     fn condense(&self) -> Mat<f64> {
         let (n_contact, first) = (self.numbering.n_contact, self.numbering.first_contact());
         let (w, m) = (&self.inertia_response, self.mass);
-        let weighted: f64 = w.iter().enumerate().map(|(i, w)| m * self.inertia_share(i) * w).sum();
         let inverse = invert_lower(&self.factor.trailing(n_contact));
         let pinned = inverse.transpose() * &inverse;
+        if m.is_infinite() {
+            return pinned;
+        }
+        let weighted: f64 = w.iter().enumerate().map(|(i, w)| m * self.inertia_share(i) * w).sum();
         Mat::from_fn(n_contact, n_contact, |i, j| {
             pinned[(i, j)] - (w[first + i] + w[first + j]) / m + weighted / (m * m)
         })

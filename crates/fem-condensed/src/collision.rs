@@ -1,8 +1,8 @@
 //! A collision from first touch until the bodies have parted.
 
 use fem_collision::{Collision, Ending, Frame, Monitor, Phase, SnapshotRequest, Stop, Want};
-use fem_material::PronySeries;
 
+use crate::damping::Damping;
 use crate::error::CondensedError;
 use crate::motion::Motion;
 use crate::pair::CondensedPair;
@@ -23,21 +23,22 @@ impl CondensedPair {
     /// Steps over the elastic contact time that give a restitution to 4e-5.
     pub const N_STEPS: usize = 200;
 
-    /// The quantities of the collision at a relative speed (m/s) with the given relaxations of the
-    /// bodies, lower first; `None` is elastic. `n_steps` steps over the elastic contact time.
+    /// The quantities of the collision at a relative speed (m/s) with what takes energy from
+    /// the bodies: relaxations, lower first, `None` is elastic; or more ([`Damping`]). `n_steps` steps
+    /// over the elastic contact time.
     ///
     /// # Errors
     /// As [`CondensedPair::collide`]; a speed that is not positive and finite; whatever stops a
     /// collision before its end: a contact beyond the condensed region, bodies that neither part nor
     /// come to rest within the time.
-    pub fn impact(
+    pub fn impact<'a>(
         &self,
         speed: f64,
-        relaxations: [Option<&PronySeries>; 2],
+        damping: impl Into<Damping<'a>>,
         n_steps: usize,
     ) -> Result<Collision, CondensedError> {
         let frame = self.frame(speed)?;
-        let collision = self.collide(&frame, relaxations, n_steps, &Want::quantities(), &mut ())?;
+        let collision = self.collide(&frame, damping, n_steps, &Want::quantities(), &mut ())?;
         match collision.ending {
             Ending::Stopped(stop) => Err(stop.into()),
             _ => Ok(collision),
@@ -47,21 +48,22 @@ impl CondensedPair {
     /// The collision of bodies that meet like this, as far as it gets.
     ///
     /// # Errors
-    /// Too few steps, a contact that is beyond the condensed region already without relaxation.
-    pub fn collide(
+    /// Too few steps, a radiation that is negative or not finite, a contact that is beyond the condensed region already without relaxation.
+    pub fn collide<'a>(
         &self,
         frame: &Frame,
-        relaxations: [Option<&PronySeries>; 2],
+        damping: impl Into<Damping<'a>>,
         n_steps: usize,
         want: &Want,
         monitor: &mut dyn Monitor,
     ) -> Result<Collision, CondensedError> {
-        let speed = frame.speed();
+        let (speed, damping) = (frame.speed(), damping.into());
+        damping.check()?;
         if n_steps < FEWEST_STEPS {
             let (name, value) = ("number of steps", n_steps as f64);
             return Err(CondensedError::Setting { name, value, allowed: "at least 8" });
         }
-        self.prepare(speed, relaxations)?;
+        self.prepare(speed, damping.relaxations)?;
         monitor.enter(Phase::Collision);
         let elastic = self.elastic_impact(speed)?;
         let reach = REACH * self.points[elastic.n_closed - 1].radius;
@@ -69,7 +71,7 @@ impl CondensedPair {
         let n_near = (self.points.partition_point(|point| point.radius <= reach) + 2).min(n_all);
         let time_step = self.time_step(elastic.contact_time / n_steps as f64);
         let mut run = |n_points: usize| {
-            let motion = Motion::new(self, speed, relaxations, time_step, n_points)?;
+            let motion = Motion::new(self, speed, damping, time_step, n_points)?;
             Ok::<_, CondensedError>(
                 Run::new(self, motion, frame, want, n_steps, elastic.contact_time)
                     .until_parted(monitor),
@@ -84,7 +86,7 @@ impl CondensedPair {
             monitor.enter(Phase::Fields);
             let (trace, ending) = (&finished.trace, &collision.ending);
             let request = &want.snapshots;
-            match self.snapshots(frame, relaxations, time_step, trace, ending, request) {
+            match self.snapshots(frame, damping, time_step, trace, ending, request) {
                 Ok((snapshots, missing)) => {
                     collision.snapshots = snapshots;
                     collision.warnings.splice(0..0, missing);
@@ -109,15 +111,17 @@ impl CondensedPair {
     ///
     /// # Errors
     /// As [`CondensedPair::impact`].
-    pub fn collide_until(
+    pub fn collide_until<'a>(
         &self,
         speed: f64,
-        relaxations: [Option<&PronySeries>; 2],
+        damping: impl Into<Damping<'a>>,
         time: f64,
     ) -> Result<ContactState, CondensedError> {
         let elastic = self.elastic_impact(speed)?;
         let time_step = self.time_step(elastic.contact_time / Self::N_STEPS as f64);
-        let mut motion = Motion::new(self, speed, relaxations, time_step, self.points.len())?;
+        let damping = damping.into();
+        damping.check()?;
+        let mut motion = Motion::new(self, speed, damping, time_step, self.points.len())?;
         while motion.time() + 0.5 * time_step < time {
             motion.advance()?;
         }

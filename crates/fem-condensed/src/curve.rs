@@ -60,6 +60,11 @@ impl ElasticCurve {
         Some(Self { touch, stiffness })
     }
 
+    /// Stiffness of all points in contact, as under a rigid punch, N/m.
+    pub fn punch_stiffness(&self) -> f64 {
+        self.stiffness.iter().sum()
+    }
+
     /// The collision of a reduced mass (kg) at a speed (m/s); `None` if the contact would reach
     /// the last point.
     pub fn impact(&self, mass: f64, speed: f64) -> Option<ElasticImpact> {

@@ -3,7 +3,7 @@
 //! A body's displacement is linear in a few coordinates: the forces at its contact nodes if it is
 //! elastic, the displacements of its springs if it relaxes, and those of its modes of vibration.
 //! A field costs one solution a body, all snapshots' in one go; its velocity is the difference of the
-//! coordinates over the steps around.
+//! coordinates over the steps around. Waves that have left a body are not drawn.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,6 +12,7 @@ use faer::{Mat, Par};
 use fem_collision::{BodyFields, Ending, Frame, Snapshot, SnapshotRequest};
 use fem_material::{ActsOn, PronySeries};
 
+use crate::damping::Damping;
 use crate::error::CondensedError;
 use crate::instants::{Instant, Trace, choose};
 use crate::motion::{Motion, SideState};
@@ -50,14 +51,14 @@ struct Steps {
 
 impl CondensedPair {
     /// The snapshots of a collision in the order of time, and what could not be had. `trace` is what
-    /// a run with this time step (s), speed, relaxations and ending left of every step.
+    /// a run with this time step (s), speed, damping and ending left of every step.
     ///
     /// # Errors
     /// As [`CondensedPair::collide`].
     pub(crate) fn snapshots(
         &self,
         frame: &Frame,
-        relaxations: [Option<&PronySeries>; 2],
+        damping: Damping<'_>,
         time_step: f64,
         trace: &[Trace],
         ending: &Ending,
@@ -67,7 +68,8 @@ impl CondensedPair {
         let (chosen, missing) = choose(trace, time_step, request, approach.first_touch(), ending);
         let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
         let steps = Steps { time_step, last: trace.len() - 1 };
-        let states = self.states(frame.speed(), relaxations, steps, &instants)?;
+        let states = self.states(frame.speed(), damping, steps, &instants)?;
+        let relaxations = damping.relaxations;
         let time = |instant: Instant| approach.first_touch() + instant.position() * time_step;
         let mut snapshots: Vec<Snapshot> = chosen
             .iter()
@@ -115,7 +117,7 @@ impl CondensedPair {
     fn states(
         &self,
         speed: f64,
-        relaxations: [Option<&PronySeries>; 2],
+        damping: Damping<'_>,
         steps: Steps,
         instants: &[Instant],
     ) -> Result<Vec<[State; 2]>, CondensedError> {
@@ -125,7 +127,7 @@ impl CondensedPair {
         };
         let needed: BTreeSet<usize> =
             instants.iter().flat_map(|&i| [around(i)[0], i.step, around(i)[1]]).collect();
-        let mut motion = Motion::new(self, speed, relaxations, steps.time_step, self.points.len())?;
+        let mut motion = Motion::new(self, speed, damping, steps.time_step, self.points.len())?;
         let mut kept: BTreeMap<usize, (State, f64)> = BTreeMap::new();
         for step in needed {
             while motion.step < step {

@@ -17,7 +17,8 @@
 //! without iteration (`disc`). Relaxing bodies are chains of scalar springs (`chain`): as many as
 //! contact nodes for constant Poisson's ratio, a Galerkin basis of twice that for a relaxing shear
 //! beside an elastic bulk modulus (`shear`). Modes of free vibration bring back the inertia that
-//! the quasi-static body lacks (`vibration`).
+//! the quasi-static body lacks (`vibration`); of a body so large that its waves do not come back within
+//! the contact, a half-space say, what they take is an element of its own (`radiation`).
 //!
 //! A rigid sphere has no compliance: its curvature is in the gap and its mass in the reduced mass. A
 //! wall has neither.
@@ -59,6 +60,7 @@ mod chain;
 mod collision;
 mod complementarity;
 mod curve;
+mod damping;
 mod dense;
 mod deviatoric;
 mod disc;
@@ -72,6 +74,7 @@ mod pair;
 mod peak;
 mod points;
 mod pressure;
+mod radiation;
 mod run;
 mod sample;
 mod settings;
@@ -81,6 +84,7 @@ mod vibration;
 
 pub use collision::ContactState;
 pub use curve::ElasticImpact;
+pub use damping::Damping;
 pub use error::CondensedError;
 pub use pair::CondensedPair;
 pub use settings::{ContactModel, PairSettings};

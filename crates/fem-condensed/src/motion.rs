@@ -14,9 +14,11 @@ use fem_collision::Stop;
 use fem_material::{ActsOn, PronySeries};
 
 use crate::chain::{BETA, Chain, Memory};
+use crate::damping::Damping;
 use crate::disc::{Disc, DiscSolver};
 use crate::error::CondensedError;
 use crate::pair::CondensedPair;
+use crate::radiation::Waves;
 use crate::side::PairSide;
 
 /// What acts on one body beside its elastic compliance.
@@ -38,6 +40,8 @@ pub(crate) struct Motion<'a> {
     pub rate: f64,
     acceleration: f64,
     pub sides: [SideState; 2],
+    /// What leaves the bodies as waves, if anything does.
+    waves: Option<Waves>,
     solver: DiscSolver,
     overlap: Vec<f64>,
     /// Forces at the points, N.
@@ -54,10 +58,11 @@ impl<'a> Motion<'a> {
     pub fn new(
         pair: &'a CondensedPair,
         speed: f64,
-        relaxations: [Option<&PronySeries>; 2],
+        damping: Damping<'_>,
         time_step: f64,
         n_points: usize,
     ) -> Result<Self, CondensedError> {
+        let relaxations = damping.relaxations;
         let mut compliance = faer::Mat::zeros(n_points, n_points);
         let inertia = BETA * time_step * time_step / pair.reduced_mass;
         for i in 0..n_points {
@@ -79,8 +84,17 @@ impl<'a> Motion<'a> {
                 chain.add_compliance(&mut compliance);
             }
         }
+        let waves = Waves::new(damping.radiation, pair.curve.punch_stiffness(), time_step);
+        if let Some(waves) = &waves {
+            for i in 0..n_points {
+                for j in 0..n_points {
+                    compliance[(i, j)] += waves.compliance();
+                }
+            }
+        }
         Ok(Self {
             pair,
+            waves,
             time_step,
             step: 0,
             approach: 0.0,
@@ -123,6 +137,10 @@ impl<'a> Motion<'a> {
                 chain.subtract_past(&mut self.overlap);
             }
         }
+        if let Some(waves) = &self.waves {
+            let displacement = waves.past_displacement();
+            self.overlap.iter_mut().for_each(|overlap| *overlap -= displacement);
+        }
         self.contact = self
             .solver
             .solve(&self.overlap, &mut self.forces)
@@ -138,6 +156,9 @@ impl<'a> Motion<'a> {
             }
         }
         self.force = self.forces.iter().sum();
+        if let Some(waves) = &mut self.waves {
+            waves.advance(self.force);
+        }
         let acceleration = -self.force / self.pair.reduced_mass;
         self.approach = predicted + BETA * dt * dt * acceleration;
         self.rate += 0.5 * dt * (self.acceleration + acceleration);
@@ -147,7 +168,7 @@ impl<'a> Motion<'a> {
     }
 
     /// Energy stored in the bodies (J), in penalty springs (J), power that relaxation takes (W),
-    /// and kinetic energy of the vibrations of each body (J).
+    /// kinetic energy of the vibrations of each body (J), and what waves take.
     pub fn energies(&self) -> Energies {
         let n = self.contact.n_closed;
         let forces = &self.forces[..n];
@@ -169,6 +190,10 @@ impl<'a> Motion<'a> {
                 *vibration += chain.kinetic();
             }
         }
+        if let Some(waves) = &self.waves {
+            energies.stored += waves.stored();
+            energies.radiated_power = Some(waves.power());
+        }
         energies.contact = forces
             .iter()
             .zip(&self.pair.spring_compliance)
@@ -185,6 +210,8 @@ pub(crate) struct Energies {
     pub contact: f64,
     pub power: f64,
     pub vibration: [f64; 2],
+    /// Power that waves take out of each body, W, if they do.
+    pub radiated_power: Option<[f64; 2]>,
 }
 
 impl SideState {

@@ -1,7 +1,8 @@
 //! The order in which a body's degrees of freedom are eliminated.
 //!
 //! Fixed is u_r on the axis; u_y of the far pole, the ground, is held and not eliminated, which makes
-//! the stiffness of a free body positive definite. The interior comes first,
+//! the stiffness of a free body positive definite. A half-space is held at its far boundary instead, and
+//! has no ground. The interior comes first,
 //! in the order of approximate minimum degree (Amestoy, Davis & Duff 1996) of the graph of nodes;
 //! then u_r of the contact nodes; last their u_y, from the axis outward, so that the trailing block
 //! of the Cholesky factor is all that contact needs.
@@ -20,7 +21,8 @@ pub(crate) const FIXED: u32 = u32::MAX;
 /// Equation numbers of the degrees of freedom.
 #[derive(Debug, Clone)]
 pub(crate) struct Numbering {
-    /// Equations of (u_r, u_y) of each node, or [`FIXED`]; the ground comes after all equations.
+    /// Equations of (u_r, u_y) of each node, or [`FIXED`]; the ground comes after all equations, if there
+    /// is one.
     pub equations: Vec<[u32; 2]>,
     /// Equations that are solved, the ground not counted.
     pub n_equations: usize,
@@ -40,6 +42,9 @@ impl Numbering {
         }
         let ground = mesh.axis()[mesh.axis().len() - 1] as usize;
         equations[ground][1] = FIXED;
+        for &node in mesh.far_boundary() {
+            equations[node as usize] = [FIXED; 2];
+        }
         let mut interior = vec![0; n_nodes];
         for &node in contact_nodes {
             interior[node as usize] = FIXED;
@@ -55,7 +60,9 @@ impl Numbering {
                 n_equations += 1;
             }
         }
-        equations[ground][1] = n_equations;
+        if !mesh.is_half_space() {
+            equations[ground][1] = n_equations;
+        }
         Ok(Self { equations, n_equations: n_equations as usize, n_contact: contact_nodes.len() })
     }
 

@@ -45,7 +45,8 @@ impl CondensedPair {
     /// Factors and condenses both bodies; the first lies below the second.
     ///
     /// # Errors
-    /// Two rigid bodies, settings or a rigid sphere's mass out of range, a stiffness without Cholesky factor, missing memory.
+    /// Two rigid bodies or planes, settings or a rigid sphere's mass out of range, a stiffness without
+    /// Cholesky factor, missing memory.
     pub fn new(inputs: [BodyInput; 2], settings: PairSettings) -> Result<Self, CondensedError> {
         if settings.shear_blocks == 0 {
             let (name, allowed) = ("number of shear blocks", "at least 1");
@@ -57,11 +58,13 @@ impl CondensedPair {
         let (mut sides, mut masses) = ([None, None], [None, None]);
         for (side, (input, feet)) in inputs.iter().zip(feet).enumerate() {
             match input {
-                BodyInput::Sphere { mesh, material } => {
+                BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
                     let nodes = surfaces[side].nodes_within(f64::INFINITY);
-                    let side_made =
-                        PairSide::new(mesh, material, nodes, feet, settings.vibration_modes)?;
-                    masses[side] = Some(side_made.body.mass);
+                    // Waves in a half-space do not come back: it has no modes.
+                    let is_endless = mesh.is_half_space();
+                    let n_modes = if is_endless { 0 } else { settings.vibration_modes };
+                    let side_made = PairSide::new(mesh, material, nodes, feet, n_modes)?;
+                    masses[side] = (!is_endless).then_some(side_made.body.mass);
                     sides[side] = Some(side_made);
                 }
                 BodyInput::Rigid { mass, .. } => masses[side] = Some(check_mass(*mass)?),
@@ -132,7 +135,7 @@ impl CondensedPair {
         let radii = self.inputs.iter().filter_map(|input| match input {
             BodyInput::Sphere { mesh, .. } => Some(mesh.radius()),
             BodyInput::Rigid { radius, .. } => Some(*radius),
-            BodyInput::Wall => None,
+            BodyInput::HalfSpace { .. } | BodyInput::Wall => None,
         });
         radii.fold(f64::INFINITY, f64::min)
     }
@@ -142,7 +145,7 @@ impl CondensedPair {
         self.reduced_mass
     }
 
-    /// Masses, kg; infinite for a wall.
+    /// Masses, kg; infinite for a wall or a half-space.
     pub fn masses(&self) -> [f64; 2] {
         self.masses.map(|mass| mass.unwrap_or(f64::INFINITY))
     }
@@ -259,7 +262,9 @@ impl CondensedPair {
 /// The touching side of a body.
 fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     match input {
-        BodyInput::Sphere { mesh, .. } => Ok(Surface::of_sphere(mesh)),
+        BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
+            Ok(Surface::of_sphere(mesh))
+        }
         BodyInput::Rigid { radius, .. } => Surface::rigid_sphere(*radius),
         BodyInput::Wall => Ok(Surface::wall()),
     }

@@ -33,6 +33,8 @@ pub(crate) struct Run<'a> {
     was_closed: bool,
     /// What relaxation has taken, J, and ∫F dt, N s, by the trapezoidal rule.
     dissipated: f64,
+    /// What waves have taken out of each body, J, if any leave it.
+    radiated: Option<[f64; 2]>,
     impulse: f64,
     worst_residual: f64,
     /// What the momentum that was exchanged is off the impulse, N s.
@@ -82,6 +84,7 @@ impl<'a> Run<'a> {
             episodes: 0,
             was_closed: false,
             dissipated: 0.0,
+            radiated: None,
             impulse: 0.0,
             worst_residual: 0.0,
             worst_momentum: 0.0,
@@ -188,16 +191,25 @@ impl<'a> Run<'a> {
         if rate > 0.0 {
             self.turned = time;
         }
-        let Energies { stored, contact, power, vibration } = motion.energies();
+        let Energies { stored, contact, power, vibration, radiated_power } = motion.energies();
         if let Some(before) = &self.last {
             let over_step = |before: f64, now: f64| 0.5 * (before + now) * motion.time_step;
             self.dissipated += over_step(before.power, power);
             self.impulse += over_step(before.contact_force, motion.force);
         }
+        if let Some(now) = radiated_power {
+            let gone = self.radiated.get_or_insert([0.0; 2]);
+            let before = self.last.and_then(|last| last.radiated_power).unwrap_or_default();
+            for side in 0..2 {
+                gone[side] += 0.5 * (before[side] + now[side]) * motion.time_step;
+            }
+        }
         let dissipated = self.dissipated;
         let [lower, upper] = vibration;
         let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
-        let residual = kinetic + stored + contact + dissipated - self.initial_energy;
+        let radiated = self.radiated.map(|[lower, upper]| lower + upper);
+        let lost = radiated.map_or(dissipated, |radiated| dissipated + radiated);
+        let residual = kinetic + stored + contact + lost - self.initial_energy;
         self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
         let drift = self.frame.impulse(rate) - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
@@ -220,6 +232,8 @@ impl<'a> Run<'a> {
             contact,
             power,
             dissipated,
+            radiated_power,
+            radiated,
             residual,
             vibration,
         };
@@ -250,8 +264,11 @@ impl<'a> Run<'a> {
         let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);
-            let has_mass = frame.masses[side].is_some();
-            body.vibration_energy = vibration_energy.filter(|_| has_mass).map(|both| both[side]);
+            // Of waves a half-space has some, and no mass; a wall has neither.
+            let is_wall = frame.masses[side].is_none() && self.pair.inputs()[side].mesh().is_none();
+            let in_waves = self.radiated.map_or(0.0, |both| both[side]);
+            body.vibration_energy =
+                vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;

@@ -25,6 +25,10 @@ pub(crate) struct Sample {
     pub power: f64,
     /// J.
     pub dissipated: f64,
+    /// That waves take out of each body, W, if any leave it.
+    pub radiated_power: Option<[f64; 2]>,
+    /// Gone with waves, J.
+    pub radiated: Option<f64>,
     /// J.
     pub residual: f64,
     /// Kinetic energy of each body relative to its mass centre, J.
@@ -47,6 +51,8 @@ impl Sample {
             contact: mean(|sample| sample.contact),
             power: mean(|sample| sample.power),
             dissipated: mean(|sample| sample.dissipated),
+            radiated_power: after.radiated_power,
+            radiated: before.radiated.zip(after.radiated).map(|(a, b)| (1.0 - part) * a + part * b),
             residual: mean(|sample| sample.residual),
             vibration: [0, 1]
                 .map(|side| (1.0 - part) * before.vibration[side] + part * after.vibration[side]),
@@ -56,12 +62,16 @@ impl Sample {
     /// What is in each account, J.
     pub fn energies(&self, frame: &Frame) -> Book {
         let [lower, upper] = self.vibration;
-        Book::EMPTY
+        let book = Book::EMPTY
             .with(Account::Kinetic, frame.kinetic(self.rate) + lower + upper)
             .with(Account::Strain, self.strain)
             .with(Account::Contact, self.contact)
             .with(Account::ViscousDissipation, self.dissipated)
-            .with(Account::WallWork, frame.wall_work(self.rate))
+            .with(Account::WallWork, frame.wall_work(self.rate));
+        match self.radiated {
+            Some(radiated) => book.with(Account::Radiated, radiated),
+            None => book,
+        }
     }
 
     /// The same of both bodies.

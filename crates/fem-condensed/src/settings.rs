@@ -20,7 +20,7 @@ pub struct PairSettings {
     /// Least blocks of the basis for a relaxing shear beside an elastic bulk modulus; 2 is the
     /// default. A modulus that falls to nearly nothing gets more.
     pub shear_blocks: usize,
-    /// Modes of free vibration of each body; 0 is quasi-static.
+    /// Modes of free vibration of each sphere; 0 is quasi-static.
     pub vibration_modes: usize,
 }
 

@@ -47,7 +47,7 @@ impl ContactInterface {
     /// segments at a point. `gap` (m) separates the poles.
     ///
     /// # Errors
-    /// Two rigid bodies; a radius or a stiffness that is not positive and finite.
+    /// Two rigid bodies or planes; a radius or a stiffness that is not positive and finite.
     pub fn new(
         lower: Surface,
         upper: Surface,
@@ -55,9 +55,7 @@ impl ContactInterface {
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        if lower.is_rigid() && upper.is_rigid() {
-            return Err(ContactError::BothRigid);
-        }
+        check([&lower, &upper])?;
         for (name, value) in
             [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
         {
@@ -145,6 +143,17 @@ impl ContactInterface {
             }
         }
     }
+}
+
+/// Whether two surfaces can be in contact.
+pub(crate) fn check(surfaces: [&Surface; 2]) -> Result<(), ContactError> {
+    if surfaces.iter().all(|surface| surface.is_rigid()) {
+        return Err(ContactError::BothRigid);
+    }
+    if surfaces.iter().all(|surface| surface.is_plane()) {
+        return Err(ContactError::TwoPlanes);
+    }
+    Ok(())
 }
 
 /// Radii of all nodes of both surfaces out to the limit, and the first beyond.

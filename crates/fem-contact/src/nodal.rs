@@ -20,7 +20,7 @@ use std::f64::consts::PI;
 use fem_mesh::segment_measures;
 
 use crate::error::ContactError;
-use crate::interface::ContactPoint;
+use crate::interface::{ContactPoint, check};
 use crate::surface::Surface;
 
 /// Points at the nodes of one of two surfaces.
@@ -39,15 +39,13 @@ impl NodalContact {
     /// Points out to `candidate_radius` (m); `gap` (m) separates the poles.
     ///
     /// # Errors
-    /// Two rigid bodies; a radius that is not positive and finite.
+    /// Two rigid bodies or planes; a radius that is not positive and finite.
     pub fn new(
         surfaces: [&Surface; 2],
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        if surfaces.iter().all(|surface| surface.is_rigid()) {
-            return Err(ContactError::BothRigid);
-        }
+        check(surfaces)?;
         if !(candidate_radius > 0.0 && candidate_radius.is_finite()) {
             let (name, value) = ("candidate radius", candidate_radius);
             return Err(ContactError::NotPositive { name, value });

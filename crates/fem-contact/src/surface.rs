@@ -25,7 +25,7 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The near hemisphere of a sphere.
+    /// The near hemisphere of a sphere, or the plane of a half-space.
     pub fn of_sphere(mesh: &SphereMesh) -> Self {
         let (mut nodes, mut radii) = (Vec::new(), Vec::new());
         for &node in mesh.surface() {
@@ -67,6 +67,11 @@ impl Surface {
     /// Whether this is the rigid plane, which nothing moves.
     pub fn is_wall(&self) -> bool {
         self.is_rigid() && self.curvature == 0.0
+    }
+
+    /// Whether this is a plane, a wall's or a half-space's.
+    pub fn is_plane(&self) -> bool {
+        self.curvature == 0.0
     }
 
     /// Nodes with r ≤ `radius` (m), from the axis outward; a rigid body has one.

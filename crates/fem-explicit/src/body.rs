@@ -7,12 +7,13 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 
 use crate::forces::NodeForce;
-use crate::lumped::{LumpedSphere, RigidSphere};
+use crate::lumped::{LumpedMesh, RigidSphere};
 use crate::part::{Accounts, Field, Motion, NodalField, Placed};
 use crate::stress::Stress;
 
 /// A body, constant over a run. A rigid sphere is a body of one node, which has all of its mass; a
-/// wall is one with infinite mass and without parts.
+/// wall is one with infinite mass and without parts. A half-space has infinite mass too, and its far
+/// boundary keeps its velocity.
 #[derive(Debug, Clone)]
 pub struct Body {
     /// A rigid body has none.
@@ -64,25 +65,31 @@ impl Body {
         }
     }
 
-    /// A sphere whose nodes carry `nodal_mass` (kg), `added_mass` of it by mass
+    /// A sphere or a half-space whose nodes carry `nodal_mass` (kg), `added_mass` of it by mass
     /// scaling, at the given time step (s).
-    pub(crate) fn of_sphere(
-        sphere: LumpedSphere,
+    pub(crate) fn of_mesh(
+        lumped: LumpedMesh,
         velocity: f64,
         nodal_mass: Vec<f64>,
         added_mass: f64,
         time_step: f64,
     ) -> Self {
-        let LumpedSphere { mesh, material, mut stress, node_forces, .. } = sphere;
+        let LumpedMesh { mesh, material, mut stress, node_forces, .. } = lumped;
         let mut inverse_mass: Vec<_> = nodal_mass.iter().map(|m| [m.recip(); 2]).collect();
         for &node in mesh.axis() {
             inverse_mass[node as usize][0] = 0.0;
+        }
+        for &node in mesh.far_boundary() {
+            inverse_mass[node as usize] = [0.0; 2];
         }
         let mut n_history = 0;
         stress.set_time_step(time_step);
         let stress = Some(Placed::behind(&mut n_history, Arc::from(stress)));
         let node_forces = place(node_forces, &mut n_history, time_step);
-        let mass = nodal_mass.iter().sum::<f64>() - added_mass;
+        let mass = match mesh.is_half_space() {
+            true => f64::INFINITY,
+            false => nodal_mass.iter().sum::<f64>() - added_mass,
+        };
         Self {
             stress,
             node_forces,
@@ -140,7 +147,7 @@ impl Body {
         }
     }
 
-    /// Mass without mass scaling, kg; infinite for a wall.
+    /// Mass without mass scaling, kg; infinite for a wall or a half-space.
     pub fn mass(&self) -> f64 {
         self.mass
     }
@@ -171,10 +178,25 @@ impl Body {
         self.mass + self.added_mass
     }
 
-    /// Mass-weighted mean of a field's y component.
+    /// Whether its mass centre moves: a wall and a half-space keep their velocity.
+    pub(crate) fn is_free(&self) -> bool {
+        self.mass.is_finite()
+    }
+
+    /// A node that keeps the velocity of a body that is not free.
+    pub(crate) fn held_node(&self) -> usize {
+        self.held_nodes().first().map_or(0, |&node| node as usize)
+    }
+
+    /// Nodes of a half-space that keep its velocity.
+    pub(crate) fn held_nodes(&self) -> &[u32] {
+        self.mesh.as_ref().map_or(&[], SphereMesh::far_boundary)
+    }
+
+    /// Mass-weighted mean of a field's y component; its value far away for a body that is not free.
     pub(crate) fn centre(&self, field: &Field) -> f64 {
-        if self.mesh.is_none() {
-            return field[0][1];
+        if !self.is_free() {
+            return field[self.held_node()][1];
         }
         self.sum_mass(field) / self.total_mass()
     }

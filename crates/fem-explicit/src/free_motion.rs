@@ -9,7 +9,7 @@ use fem_mesh::SphereMesh;
 
 use crate::body::Body;
 use crate::error::ModelError;
-use crate::lumped::LumpedSphere;
+use crate::lumped::LumpedMesh;
 use crate::model::check_step_factor;
 use crate::part::Accounts;
 use crate::state::BodyState;
@@ -64,10 +64,10 @@ impl FreeMotion {
         step_factor: f64,
     ) -> Result<Self, ModelError> {
         check_step_factor(step_factor)?;
-        let sphere = LumpedSphere::new(mesh, material.clone(), Vec::new());
+        let sphere = LumpedMesh::new(mesh, material.clone(), Vec::new());
         let time_step = step_factor * sphere.bound.critical_time_step();
         let nodal_mass = sphere.bound.mass.clone();
-        let body = Body::of_sphere(sphere, 0.0, nodal_mass, 0.0, time_step);
+        let body = Body::of_mesh(sphere, 0.0, nodal_mass, 0.0, time_step);
         let state = BodyState::in_flight(&body, 0, 0.0);
         let forces = vec![[0.0; 2]; body.n_nodes()];
         Ok(Self { body, time_step, n_steps: 0, state, forces })

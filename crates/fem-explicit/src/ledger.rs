@@ -11,6 +11,10 @@
 //! are given and dissipate, their parts tell of the state; what does not add up is
 //! the residual, which can fail. Powers are integrated by the trapezoidal rule over
 //! the instants that are observed.
+//!
+//! A half-space has infinite mass and keeps its velocity V far away, as a wall does: its kinetic energy
+//! and momentum are those of its nodes relative to V, and what holds its far boundary gives it momentum
+//! and, seen from there, no energy.
 
 use fem_collision::{Account, Losses, Row, Stop, worst};
 use fem_contact::ContactForces;
@@ -27,7 +31,7 @@ const ENERGY_LIMIT: f64 = 1.05;
 /// Running sums and worst imbalances.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Ledger {
-    /// Kinetic energy at the start, walls not counted, J.
+    /// Kinetic energy at the start, walls and half-spaces not counted, J.
     pub initial: f64,
     /// The same in the frame of the centre of mass, J.
     pub initial_relative: f64,
@@ -36,8 +40,8 @@ pub(crate) struct Ledger {
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
-    /// What the spheres have had at first and been given since by forces on their nodes, up to
-    /// t_n − Δt/2, N s.
+    /// What the bodies have had at first and been given since by forces on their nodes and by what
+    /// holds the far boundary of a half-space, up to t_n − Δt/2, N s.
     given_momentum: f64,
     momentum_scale: f64,
     /// ∫ F dt up to t_n − Δt/2, N s.
@@ -47,7 +51,7 @@ pub(crate) struct Ledger {
     last_time: f64,
 }
 
-/// Kinetic energies, momentum and centre of one body.
+/// Kinetic energies, momentum and centre of one body; of a half-space relative to what is far away.
 struct BodyBalance {
     kinetic: f64,
     vibration: f64,
@@ -60,20 +64,20 @@ struct BodyBalance {
 impl Ledger {
     /// At first touch.
     pub fn new(model: &Model, state: &State) -> Self {
-        let moving = || model.bodies().iter().filter(|body| !body.is_wall());
+        let moving = || model.bodies().iter().filter(|body| body.is_free());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
         let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
         let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
         let momentum_before = |(body, state): (&Body, &BodyState)| {
-            if body.node_forces.is_empty() {
-                body.total_mass() * body.velocity
-            } else {
+            match (body.is_free(), body.node_forces.is_empty()) {
+                (true, true) => body.total_mass() * body.velocity,
                 // Half a step before first touch the forces had done less.
-                body.sum_mass(&state.velocity)
+                (true, false) => body.sum_mass(&state.velocity),
+                (false, _) => momentum_relative_to(body.velocity, body, state),
             }
         };
         let states = model.bodies().iter().zip(&state.bodies);
-        let spheres = states.filter(|(body, _)| !body.is_wall());
+        let moved = states.filter(|(body, _)| !body.is_wall());
         // A wall can bring all of the motion to a body at rest.
         let momentum_of_approach = sum(&Body::total_mass) * model.approach().speed();
         Self {
@@ -81,7 +85,7 @@ impl Ledger {
             initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
             worst_momentum: 0.0,
-            given_momentum: spheres.map(momentum_before).sum(),
+            given_momentum: moved.map(momentum_before).sum(),
             momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
             impulse: 0.0,
             losses: Losses::default(),
@@ -92,9 +96,12 @@ impl Ledger {
     /// Counts the impulses of the step from t_n to t_n+1, whose forces are in `scratch`.
     pub fn count_step(&mut self, model: &Model, scratch: &Scratch, force: f64) {
         self.impulse += model.time_step() * force;
-        for (body, resultant) in model.bodies().iter().zip(scratch.resultants) {
+        for (side, body) in model.bodies().iter().enumerate() {
             if !body.node_forces.is_empty() {
-                self.given_momentum += model.time_step() * resultant;
+                self.given_momentum += model.time_step() * scratch.resultants[side];
+            }
+            for &node in body.held_nodes() {
+                self.given_momentum -= model.time_step() * scratch.forces[side][node as usize][1];
             }
         }
     }
@@ -175,13 +182,13 @@ impl Ledger {
         constants(self) == constants(&Self::new(model, state)) && self.last_time <= state.time
     }
 
-    /// Work of a moving wall on the other body up to t_n, J.
+    /// Work of a moving wall, or half-space, on the other body up to t_n, J.
     fn wall_work(&self, model: &Model, force: f64) -> f64 {
         let impulse = self.impulse + 0.5 * model.time_step() * force;
         let [lower, upper] = model.bodies();
-        match (lower.is_wall(), upper.is_wall()) {
-            (true, _) => impulse * lower.velocity,
-            (_, true) => -impulse * upper.velocity,
+        match (lower.is_free(), upper.is_free()) {
+            (false, _) => impulse * lower.velocity,
+            (_, false) => -impulse * upper.velocity,
             _ => 0.0,
         }
     }
@@ -203,7 +210,7 @@ impl Ledger {
         Some((side, 0.5 * gained))
     }
 
-    /// Balances the momentum of the spheres at t_n − Δt/2, N s.
+    /// Balances the momentum of the bodies, walls not counted, at t_n − Δt/2, N s.
     fn balance_momentum(&mut self, model: &Model, momentum: f64) {
         let [lower, upper] = model.bodies();
         let from_wall = match (lower.is_wall(), upper.is_wall()) {
@@ -219,6 +226,12 @@ impl Ledger {
 /// Kinetic energy at the start, J.
 fn kinetic_before(body: &Body) -> f64 {
     0.5 * body.total_mass() * body.velocity.powi(2)
+}
+
+/// Momentum of a body's nodes relative to a velocity (m/s), N s.
+fn momentum_relative_to(velocity: f64, body: &Body, state: &BodyState) -> f64 {
+    let nodes = body.nodal_mass.iter().zip(&state.velocity);
+    nodes.map(|(mass, v)| mass * (v[1] - velocity)).sum()
 }
 
 fn balance_body(
@@ -240,12 +253,24 @@ fn balance_body(
     let (mut first_moment, mut momentum) = (-0.0, -0.0);
     let (mut twice_kinetic, mut total_force) = (0.0, 0.0);
     let motion = state.displacement.iter().zip(&state.velocity);
+    // Nothing is taken from the velocities of a free body.
+    let far_velocity = if body.is_free() { 0.0 } else { body.velocity };
     for ((mass, (u, v)), f) in body.nodal_mass.iter().zip(motion).zip(forces) {
+        let v = [v[0], v[1] - far_velocity];
         first_moment += mass * u[1];
         momentum += mass * v[1];
         twice_kinetic +=
             mass * (v[0] * v[0] + v[1] * v[1]) + time_step * (v[0] * f[0] + v[1] * f[1]);
         total_force += f[1];
+    }
+    if !body.is_free() {
+        return BodyBalance {
+            kinetic: 0.5 * twice_kinetic,
+            vibration: 0.5 * twice_kinetic,
+            momentum,
+            velocity: body.velocity,
+            displacement: state.displacement[body.held_node()][1],
+        };
     }
     let mass = body.total_mass();
     let before = momentum / mass;

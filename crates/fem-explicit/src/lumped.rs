@@ -15,13 +15,13 @@ use crate::time_step::NodalBound;
 /// them: what the time step is chosen from.
 #[derive(Debug)]
 pub(crate) enum LumpedBody {
-    Sphere(Box<LumpedSphere>),
+    Meshed(Box<LumpedMesh>),
     Rigid(RigidSphere),
 }
 
-/// A sphere with its parts.
+/// A sphere or a half-space with its parts.
 #[derive(Debug)]
-pub(crate) struct LumpedSphere {
+pub(crate) struct LumpedMesh {
     pub mesh: SphereMesh,
     pub material: Material,
     pub stress: Box<dyn Stress>,
@@ -48,9 +48,9 @@ impl LumpedBody {
         node_forces: Vec<Box<dyn NodeForce>>,
     ) -> Result<Option<Self>, ModelError> {
         match input {
-            BodyInput::Sphere { mesh, material } => {
-                let sphere = LumpedSphere::new(mesh, material, node_forces);
-                Ok(Some(Self::Sphere(Box::new(sphere))))
+            BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
+                let meshed = LumpedMesh::new(mesh, material, node_forces);
+                Ok(Some(Self::Meshed(Box::new(meshed))))
             }
             BodyInput::Rigid { mass, .. } => {
                 Ok(Some(Self::Rigid(RigidSphere::new(mass, node_forces)?)))
@@ -62,7 +62,7 @@ impl LumpedBody {
 
     fn bound(&self) -> &NodalBound {
         match self {
-            Self::Sphere(sphere) => &sphere.bound,
+            Self::Meshed(meshed) => &meshed.bound,
             Self::Rigid(sphere) => &sphere.bound,
         }
     }
@@ -70,7 +70,7 @@ impl LumpedBody {
     /// The bound of its nodes' stiffness, N/m, to which contact adds its own.
     pub fn stiffness_mut(&mut self) -> &mut [f64] {
         match self {
-            Self::Sphere(sphere) => &mut sphere.bound.stiffness,
+            Self::Meshed(meshed) => &mut meshed.bound.stiffness,
             Self::Rigid(sphere) => &mut sphere.bound.stiffness,
         }
     }
@@ -80,11 +80,19 @@ impl LumpedBody {
         self.bound().critical_time_step()
     }
 
-    /// Longest critical time step (s) within a budget of added mass, given as a fraction of the
-    /// body's mass. No mass is added to a rigid sphere, which has no light nodes.
-    pub fn scaled_time_step(&self, fraction: f64) -> f64 {
+    /// Its mass, kg; a half-space's has no end.
+    pub fn mass(&self) -> Option<f64> {
         match self {
-            Self::Sphere(sphere) => sphere.bound.scaled_time_step(fraction),
+            Self::Meshed(meshed) if meshed.mesh.is_half_space() => None,
+            Self::Meshed(_) | Self::Rigid(_) => Some(self.bound().mass.iter().sum()),
+        }
+    }
+
+    /// Longest critical time step (s) within a budget of added mass, kg. No mass is added to a rigid
+    /// sphere, which has no light nodes.
+    pub fn scaled_time_step(&self, budget: f64) -> f64 {
+        match self {
+            Self::Meshed(meshed) => meshed.bound.scaled_time_step(budget),
             Self::Rigid(sphere) => sphere.bound.critical_time_step(),
         }
     }
@@ -93,16 +101,16 @@ impl LumpedBody {
     /// time step, s.
     pub fn into_body(self, velocity: f64, critical: f64, time_step: f64) -> Body {
         match self {
-            Self::Sphere(sphere) => {
-                let (nodal_mass, added_mass) = sphere.bound.scale_mass(critical);
-                Body::of_sphere(*sphere, velocity, nodal_mass, added_mass, time_step)
+            Self::Meshed(meshed) => {
+                let (nodal_mass, added_mass) = meshed.bound.scale_mass(critical);
+                Body::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step)
             }
             Self::Rigid(sphere) => Body::rigid(sphere, velocity, time_step),
         }
     }
 }
 
-impl LumpedSphere {
+impl LumpedMesh {
     /// Integrates the elements, once for stress, masses and bound.
     pub fn new(mesh: SphereMesh, material: Material, node_forces: Vec<Box<dyn NodeForce>>) -> Self {
         let elements = 0..mesh.quads().len();

@@ -22,7 +22,8 @@ pub struct Settings {
     pub candidate_radius: f64,
     /// Time step over critical time step, in (0, 1].
     pub step_factor: f64,
-    /// Largest added mass as a fraction of a body's mass, in [0, 1).
+    /// Largest added mass as a fraction of a body's mass, in [0, 1); of a half-space, as a fraction of
+    /// the mass of the sphere that meets it.
     pub mass_scaling: f64,
 }
 
@@ -53,8 +54,8 @@ impl Model {
     /// Lumps masses, pairs the surfaces, chooses the time step.
     ///
     /// # Errors
-    /// Settings out of range, two rigid bodies, a rigid sphere's radius or mass that is not positive
-    /// and finite.
+    /// Settings out of range, two rigid bodies or planes, a rigid sphere's radius or mass that is not
+    /// positive and finite.
     pub fn new(
         inputs: [BodyInput; 2],
         approach: Approach,
@@ -91,7 +92,13 @@ impl Model {
             movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
         };
         let plain = smallest(&LumpedBody::critical_time_step);
-        let critical = smallest(&|body| body.scaled_time_step(settings.mass_scaling));
+        // A half-space may take as much as its partner.
+        let masses = movable.each_ref().map(|body| body.as_ref().and_then(LumpedBody::mass));
+        let largest = masses.into_iter().flatten().fold(0.0, f64::max);
+        let critical = smallest(&|body| {
+            let mass = body.mass().unwrap_or(largest);
+            body.scaled_time_step(settings.mass_scaling * mass)
+        });
         let time_step = settings.step_factor * critical;
         contact.set_time_step(time_step);
         let mut movable = movable.into_iter();
@@ -149,6 +156,16 @@ impl Model {
         self.plain_time_step
     }
 
+    /// Time (s) after first touch at which waves can be back at the contact from the far boundary of a
+    /// half-space; `None` without one.
+    pub(crate) fn waves_return(&self) -> Option<f64> {
+        let returns = self.bodies.iter().filter_map(|body| {
+            let way = body.mesh()?.far_radius()? - self.candidate_radius();
+            Some(2.0 * way / body.material()?.dilatational_wave_speed())
+        });
+        returns.reduce(f64::min)
+    }
+
     /// How the bodies meet. Free flight before first touch is not stepped.
     pub fn approach(&self) -> &Approach {
         &self.approach
@@ -156,7 +173,7 @@ impl Model {
 
     /// The frame of the common mass centre, mass scaling included.
     pub(crate) fn frame(&self) -> Frame {
-        let mass = |body: &Body| (!body.is_wall()).then(|| body.total_mass());
+        let mass = |body: &Body| body.is_free().then(|| body.total_mass());
         let masses = self.bodies.each_ref().map(mass);
         Frame { approach: self.approach, masses, reduced_mass: self.inverse_mass.recip() }
     }
@@ -196,7 +213,9 @@ fn penalty(
 /// The touching side of a body.
 fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     match input {
-        BodyInput::Sphere { mesh, .. } => Ok(Surface::of_sphere(mesh)),
+        BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
+            Ok(Surface::of_sphere(mesh))
+        }
         BodyInput::Rigid { radius, .. } => Surface::rigid_sphere(*radius),
         BodyInput::Wall => Ok(Surface::wall()),
     }

@@ -12,6 +12,10 @@ use serde::{Deserialize, Serialize};
 use crate::model::Model;
 use crate::state::State;
 
+/// Share of the energy of a half-space's motion that certainly does not come back: strain and kinetic
+/// energy of waves that go out are equal to some per cent.
+const GONE_WITH_WAVES: f64 = 0.95;
+
 /// What has been observed so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Observed {
@@ -56,12 +60,21 @@ impl Observed {
 
     /// Whether the bodies stay together, in the contact of the last instant, so long (s) after first
     /// touch; `rate` is that of the approach, m/s.
-    pub fn stays_together(&mut self, is_closed: bool, time: f64, rate: f64) -> bool {
+    ///
+    /// Waves that go out into a half-space carry as much strain energy as kinetic and do not part the
+    /// bodies: neither counts.
+    pub fn stays_together(&mut self, model: &Model, is_closed: bool, time: f64, rate: f64) -> bool {
         let Some(row) = &self.last else { return false };
         let is_stored =
             |account: Account| account.side() == Side::Held && account != Account::Kinetic;
         let stored = row.energies.entries().filter(|(account, _)| is_stored(*account));
-        let inner_energy = row.vibration.into_iter().chain(stored.map(|(_, energy)| energy)).sum();
+        let mut inner_energy: f64 =
+            row.vibration.into_iter().chain(stored.map(|(_, energy)| energy)).sum();
+        for (body, vibration) in model.bodies().iter().zip(row.vibration) {
+            if !body.held_nodes().is_empty() {
+                inner_energy -= 2.0 * GONE_WITH_WAVES * vibration;
+            }
+        }
         let force = row.contact_force;
         self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
     }

@@ -21,20 +21,30 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
     let speed = model.approach().speed();
     let bodies = [0, 1].map(|side: usize| {
         let body = &model.bodies()[side];
-        let has_mass = !body.is_wall();
+        let is_moved = !body.is_wall();
         BodyResult {
             elements: Some(body.n_elements()),
             nodes: Some(body.n_nodes()),
-            mass: has_mass.then(|| body.mass()),
-            added_mass: has_mass.then(|| body.added_mass()),
+            mass: body.is_free().then(|| body.mass()),
+            added_mass: is_moved.then(|| body.added_mass()),
             velocity_after: velocity_after.map(|both| both[side]),
-            vibration_energy: vibration_energy.filter(|_| has_mass).map(|both| both[side]),
+            vibration_energy: vibration_energy.filter(|_| is_moved).map(|both| both[side]),
         }
     });
     let ends = log.first_contact.zip(log.last_contact);
     let (snapshots, mut warnings) = recorder.finish();
     if is_complete && !is_parted {
         warnings.push(STAY_TOGETHER.to_string());
+    }
+    let is_together = is_complete && !is_parted;
+    let lasted = ends.filter(|_| !is_together).map(|(first, last)| last - first);
+    if let (Some(lasted), Some(time)) = (lasted, model.waves_return())
+        && lasted > time
+    {
+        warnings.push(format!(
+            "{time:.4e} s after first touch waves were back at the contact from the end of the \
+             half-space's mesh, as they never are from a half-space; a larger far radius keeps them away"
+        ));
     }
     Collision {
         approach: *model.approach(),

@@ -190,7 +190,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
             history.push(row, kind);
         }
         let since_touch = time - model.approach().first_touch();
-        stays_together = observed.stays_together(is_closed, since_touch, log.approach_rate);
+        stays_together = observed.stays_together(model, is_closed, since_touch, log.approach_rate);
     } else if let Some(history) = &mut history {
         // One row more than what is observed, of which nothing else knows.
         let row = ledger.clone().balance(model, state, scratch, &contact);

@@ -7,7 +7,7 @@ use fem_mesh::{HalfDisc, Side, SphereMesh};
 use nalgebra::{DMatrix, DVector};
 
 use crate::body::Body;
-use crate::lumped::LumpedSphere;
+use crate::lumped::LumpedMesh;
 use crate::model::{Model, Settings};
 use crate::part::{Accounts, Field};
 use crate::state::{BodyState, State};
@@ -88,8 +88,8 @@ pub(crate) fn geometries(mesh: &SphereMesh) -> Vec<QuadGeometry> {
 }
 
 /// Without forces on its nodes.
-pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> LumpedSphere {
-    LumpedSphere::new(mesh.clone(), material, Vec::new())
+pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> LumpedMesh {
+    LumpedMesh::new(mesh.clone(), material, Vec::new())
 }
 
 /// Energies and powers of the parts of a body.

@@ -46,7 +46,7 @@ pub(crate) struct NodalBound {
 }
 
 impl NodalBound {
-    /// Of the elements of a sphere without contact, for a density (kg/m³) and a stress.
+    /// Of the elements of a body without contact, for a density (kg/m³) and a stress.
     pub fn of_elements(
         mesh: &SphereMesh,
         geometries: &[QuadGeometry],
@@ -91,11 +91,9 @@ impl NodalBound {
         self.nodes().map(|node| (needed_mass(time_step, node) - node[0]).max(0.0)).sum()
     }
 
-    /// Longest critical time step (s) within a budget of added mass, given as a
-    /// fraction of the body's mass.
-    pub fn scaled_time_step(&self, fraction: f64) -> f64 {
+    /// Longest critical time step (s) within a budget of added mass, kg.
+    pub fn scaled_time_step(&self, budget: f64) -> f64 {
         let plain = self.critical_time_step();
-        let budget = fraction * self.mass.iter().sum::<f64>();
         if self.missing_mass(plain * (1.0 + 1e-9)) > budget {
             return plain;
         }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a sphere could not be meshed or a mesh not be taken.
+/// Why a body could not be meshed or a mesh not be taken.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
     /// A length that must be positive and finite is not.
@@ -34,6 +34,17 @@ pub enum MeshError {
         refined_radius: f64,
         /// Radius of the sphere, m.
         radius: f64,
+    },
+    /// A half-space's mesh ends too near.
+    #[error(
+        "far radius {far_radius} m is too small for a refined radius of {refined_radius} m; at least \
+         twice that, {} m, is needed", 2.0 * refined_radius
+    )]
+    FarRadius {
+        /// Distance of the far boundary, m.
+        far_radius: f64,
+        /// Half-width of the fine block, m.
+        refined_radius: f64,
     },
     /// Successive rings cannot grow by this factor.
     #[error("growth {0} is not allowed; it must lie above 1 and not above 2")]

@@ -19,9 +19,10 @@
 //! * the image of such a block around ζ = ∞.
 //!
 //! Between the blocks the angular and (logarithmic) radial deviation of a
-//! block's outline from a circle fades as a power of the radius.
+//! block's outline from a circle fades as a power of the radius (`rings`).
 
 use crate::error::MeshError;
+use crate::rings::{Ring, Station, block_point, default_growth, fade, quad};
 use crate::sphere_mesh::SphereMesh;
 
 /// Parameters of the graded half disc; lengths in m.
@@ -38,13 +39,6 @@ pub struct HalfDisc {
     pub growth: Option<f64>,
 }
 
-/// How far the free corner of a block is drawn in, so that the three cells
-/// that meet there have similar angles: the value of the best scaled Jacobian.
-const CORNER_DRAW: f64 = 0.1;
-/// Power of the radius with which a block's outline fades into circles. A true
-/// harmonic would fade with the fourth power (cos 4θ) and squeeze the rings at
-/// the block's corner; 1.5 keeps cells squarest (aspect ratio 1.4).
-const OUTLINE_DECAY: f64 = 1.5;
 /// |ζ| where the far block begins: half of the sphere lies on either side of 1.
 const FAR_BLOCK: f64 = 1.0;
 
@@ -144,7 +138,7 @@ impl HalfDisc {
             .chain((1..n_rings).map(|ring| ring_node(ring, 2 * m)))
             .chain((0..=m).rev().map(|j| far_block(0, j)))
             .collect();
-        Ok(SphereMesh::from_parts(self.radius, nodes, quads, axis, surface))
+        Ok(SphereMesh::from_parts(self.radius, nodes, quads, axis, surface, Vec::new()))
     }
 
     fn layout(&self) -> Result<Layout, MeshError> {
@@ -170,7 +164,7 @@ impl HalfDisc {
         // A block of fewer than two cells a side has no free corner to draw in.
         let m = (refined_radius / size * (1.0 - 1e-12)).ceil().max(2.0);
         let near = m * size / (2.0 * radius);
-        let growth = growth.unwrap_or(1.0 + std::f64::consts::FRAC_PI_4 / m);
+        let growth = growth.unwrap_or(default_growth(m));
         let far = FAR_BLOCK.max(near * growth);
         let n_rings = ((far / near).ln() / growth.ln()).round().max(1.0);
         let n_elements = 2.0 * m * (m + n_rings);
@@ -193,85 +187,11 @@ impl HalfDisc {
     }
 }
 
-/// What all rings share at a station (0 on the axis, 2 m on the surface).
-struct Station {
-    circle_angle: f64,
-    /// Deviation of a block's outline from the circle.
-    outline_angle: f64,
-    outline_log_radius: f64,
-    is_on_axis: bool,
-    is_on_surface: bool,
-}
-
-impl Station {
-    /// Station k around blocks of m × m cells.
-    fn new(m: usize, k: usize) -> Self {
-        let circle_angle = std::f64::consts::FRAC_PI_4 * k as f64 / m as f64;
-        let [bx, by] = if k <= m {
-            block_point(1.0, k as f64 / m as f64)
-        } else {
-            block_point((2 * m - k) as f64 / m as f64, 1.0)
-        };
-        Self {
-            circle_angle,
-            outline_angle: by.atan2(bx) - circle_angle,
-            outline_log_radius: bx.hypot(by).ln(),
-            is_on_axis: k == 0,
-            is_on_surface: k == 2 * m,
-        }
-    }
-}
-
-/// An inner ring.
-struct Ring {
-    /// Half-width of the near block in ζ.
-    near: f64,
-    /// Logarithm of the ring's radius over it.
-    log_radius: f64,
-    /// Shares of the blocks' outlines in the ring's.
-    near_share: f64,
-    far_share: f64,
-}
-
-impl Ring {
-    /// ζ of a station.
-    fn point(&self, station: &Station) -> [f64; 2] {
-        let Self { near_share, far_share, .. } = *self;
-        let deviation = (near_share - far_share) * station.outline_log_radius;
-        let radius = self.near * (self.log_radius + deviation).exp();
-        if station.is_on_axis {
-            return [radius, 0.0];
-        }
-        if station.is_on_surface {
-            return [0.0, radius];
-        }
-        let angle = station.circle_angle + (near_share + far_share) * station.outline_angle;
-        [radius * angle.cos(), radius * angle.sin()]
-    }
-}
-
 impl Layout {
     fn ring(&self, ring: usize) -> Ring {
         let length = (self.far / self.near).ln();
         let x = length * ring as f64 / self.n_rings as f64;
-        // sinh(p (L − x)) / sinh(p L): 1 at x = 0, 0 at x = L, e^{−p x} between.
-        let fade = |x: f64| {
-            let p = OUTLINE_DECAY;
-            (-p * x).exp() * (-2.0 * p * (length - x)).exp_m1() / (-2.0 * p * length).exp_m1()
-        };
+        let fade = |x: f64| fade(x, length);
         Ring { near: self.near, log_radius: x, near_share: fade(x), far_share: fade(length - x) }
     }
-}
-
-/// The unit block with its free corner drawn in; its two fixed edges and their
-/// spacing stay as they are.
-fn block_point(u: f64, v: f64) -> [f64; 2] {
-    let draw = 1.0 - CORNER_DRAW * u * u * v * v;
-    [u * draw, v * draw]
-}
-
-/// Counter-clockwise quad (in r, y) between rows i, i+1 (toward the far pole)
-/// and columns j, j+1 (toward the surface).
-fn quad(node: &impl Fn(usize, usize) -> u32, i: usize, j: usize) -> [u32; 4] {
-    [node(i, j), node(i, j + 1), node(i + 1, j + 1), node(i + 1, j)]
 }

@@ -42,7 +42,7 @@ impl SphereMesh {
                 quality.worst_element, quality.min_scaled_jacobian
             )));
         }
-        Ok(Self::from_parts(radius, nodes, quads, axis, surface))
+        Ok(Self::from_parts(radius, nodes, quads, axis, surface, Vec::new()))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Graded axisymmetric quadrilateral meshes of spheres.
+//! Graded axisymmetric quadrilateral meshes of spheres and half-spaces.
 //!
 //! A sphere is meshed through its meridian half disc in coordinates (r, y):
 //! r radial, y along the axis of revolution. Every mesh of this crate has its
@@ -6,8 +6,9 @@
 //! boundary curves: the axis and the surface, both ordered from the contact
 //! pole to the far pole.
 //!
-//! * [`HalfDisc`]: the graded mesh, fine at the contact pole;
-//! * [`SphereMesh::import`]: the same from foreign nodes and quads, checked;
+//! * [`HalfDisc`]: the graded mesh of a sphere, fine at the contact pole;
+//! * [`QuarterDisc`]: a half-space, fine at the contact, out to any distance;
+//! * [`SphereMesh::import`]: a sphere from foreign nodes and quads, checked;
 //! * [`SphereMesh`]: nodes, quads, boundary curves and tributary measures;
 //! * [`Quality`]: the figures that tell a good mesh from a bad one.
 
@@ -16,10 +17,13 @@ mod half_disc;
 mod import;
 mod measures;
 mod quality;
+mod quarter_disc;
+mod rings;
 mod sphere_mesh;
 
 pub use error::MeshError;
 pub use half_disc::HalfDisc;
 pub use measures::{cap_volume, lump_mass, segment_measures, sphere_volume};
 pub use quality::Quality;
+pub use quarter_disc::QuarterDisc;
 pub use sphere_mesh::{Side, SphereMesh};

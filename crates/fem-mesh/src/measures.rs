@@ -37,8 +37,9 @@ pub fn cap_volume(start: [f64; 2], end: [f64; 2], radius: f64) -> f64 {
     4.0 / 3.0 * PI * (radius * sin_half_angle).powi(3) * radial
 }
 
-/// Lumped masses of a homogeneous sphere, kg. What the chords of the boundary
-/// cut off is given to the boundary's nodes, so that the sum is ρπD³/6 exactly.
+/// Lumped masses of a homogeneous body, kg. What the chords of a sphere's boundary
+/// cut off is given to the boundary's nodes, so that the sum is ρπD³/6 exactly;
+/// a half-space has a plane, of which they cut nothing off.
 ///
 /// `nodal_volumes` are the shares ∫ N 2πr dA of each element's corners, m³.
 pub fn lump_mass(mesh: &SphereMesh, density: f64, nodal_volumes: &[[f64; 4]]) -> Vec<f64> {
@@ -47,6 +48,9 @@ pub fn lump_mass(mesh: &SphereMesh, density: f64, nodal_volumes: &[[f64; 4]]) ->
         for (&node, volume) in quad.iter().zip(volumes) {
             mass[node as usize] += density * volume;
         }
+    }
+    if mesh.is_half_space() {
+        return mass;
     }
     for segment in mesh.surface().windows(2) {
         let [start, end] = [segment[0], segment[1]].map(|node| mesh.nodes()[node as usize]);

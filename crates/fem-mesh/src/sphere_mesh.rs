@@ -1,4 +1,4 @@
-//! Nodes, quads and boundary curves of a sphere's meridian.
+//! Nodes, quads and boundary curves of the meridian of a sphere or of a half-space.
 
 /// On which side of the plane y = 0 a body lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,10 +9,12 @@ pub enum Side {
     Above,
 }
 
-/// Quadrilateral mesh of the meridian half disc of a sphere.
+/// Quadrilateral mesh of the meridian half disc of a sphere, or of a quarter disc of a half-space,
+/// which is a sphere of infinite radius.
 ///
 /// The contact pole is the origin; all nodes have r ≥ 0. Quads are listed
-/// counter-clockwise in (r, y).
+/// counter-clockwise in (r, y). The mesh of a half-space ends at a far boundary, beyond which the
+/// body goes on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SphereMesh {
     radius: f64,
@@ -20,6 +22,7 @@ pub struct SphereMesh {
     quads: Vec<[u32; 4]>,
     axis: Vec<u32>,
     surface: Vec<u32>,
+    far_boundary: Vec<u32>,
 }
 
 impl SphereMesh {
@@ -29,13 +32,19 @@ impl SphereMesh {
         quads: Vec<[u32; 4]>,
         axis: Vec<u32>,
         surface: Vec<u32>,
+        far_boundary: Vec<u32>,
     ) -> Self {
-        Self { radius, nodes, quads, axis, surface }
+        Self { radius, nodes, quads, axis, surface, far_boundary }
     }
 
-    /// Radius of the sphere, m.
+    /// Radius of the sphere, m; infinite for a half-space.
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// Whether the body is a half-space.
+    pub fn is_half_space(&self) -> bool {
+        self.radius.is_infinite()
     }
 
     /// Node positions (r, y), m.
@@ -48,15 +57,27 @@ impl SphereMesh {
         &self.quads
     }
 
-    /// Nodes with r = 0, from the contact pole to the far pole.
+    /// Nodes with r = 0, from the contact pole to the far pole, or to a half-space's far boundary.
     pub fn axis(&self) -> &[u32] {
         &self.axis
     }
 
     /// Nodes on the sphere's surface, from the contact pole to the far pole,
-    /// both included.
+    /// both included; of a half-space those of its plane, out to the far boundary.
     pub fn surface(&self) -> &[u32] {
         &self.surface
+    }
+
+    /// Nodes where the mesh of a half-space ends, from the axis to the surface, both included; none
+    /// of a sphere.
+    pub fn far_boundary(&self) -> &[u32] {
+        &self.far_boundary
+    }
+
+    /// Distance of the far boundary from the contact pole, m; `None` of a sphere.
+    pub fn far_radius(&self) -> Option<f64> {
+        let &on_axis = self.far_boundary.first()?;
+        Some(self.nodes[on_axis as usize][1].abs())
     }
 
     /// Corner positions of an element, (r, y) in m.
@@ -67,8 +88,8 @@ impl SphereMesh {
 
     /// The side of the plane y = 0 on which the body lies.
     pub fn side(&self) -> Side {
-        let far_pole = self.surface[self.surface.len() - 1] as usize;
-        if self.nodes[far_pole][1] > 0.0 { Side::Above } else { Side::Below }
+        let far_end = self.axis[self.axis.len() - 1] as usize;
+        if self.nodes[far_end][1] > 0.0 { Side::Above } else { Side::Below }
     }
 
     /// This body on the given side of the plane y = 0.

@@ -3,6 +3,7 @@
 mod common;
 mod convergence;
 mod explicit;
+mod half_space;
 mod limits;
 mod quantities;
 mod refusals;

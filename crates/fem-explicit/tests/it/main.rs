@@ -4,6 +4,7 @@ mod bulk_viscosity;
 mod collision;
 mod common;
 mod ending;
+mod half_space;
 mod observed;
 mod outputs;
 mod parts;

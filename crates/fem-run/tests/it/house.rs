@@ -17,7 +17,7 @@ const HOUSE: [(&str, &str, &[&str]); 15] = [
     ),
     (
         "fem-mesh",
-        "Graded axisymmetric quadrilateral meshes of spheres, their boundary curves and quality",
+        "Graded axisymmetric quadrilateral meshes of spheres and half-spaces, their boundary curves and quality",
         &[],
     ),
     (

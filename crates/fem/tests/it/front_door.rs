@@ -71,6 +71,7 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     let book: &Book = &collision.energies;
     let row: &Row = collision.history.last().unwrap();
     assert!(book.has(Account::Kinetic) && row.energies.total(Side::Lost) > Some(0.0));
+    // Those of effects that are off are not there.
     assert!(
         Account::all().all(|account| account.shown() != Shown::WhereFilled || !book.has(account))
     );

@@ -1,0 +1,340 @@
+//! A glass ball on a half-space.
+
+use fem_collision::{
+    Account, Approach, BodyInput, Collision, Ending, Expectation, Want, far_radius_of_waves,
+};
+use fem_contact::ContactError;
+use fem_explicit::{Model, ModelError, Run, Settings, collide};
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_mesh::{HalfDisc, QuarterDisc, Side};
+
+const RADIUS: f64 = 5e-3;
+const DENSITY: f64 = 2390.0;
+/// E/(1 − ν²)/2 of the glass, E = 63 GPa and ν = 0.244.
+const CONTACT_MODULUS: f64 = 33.494e9;
+
+fn glass(relaxation: Option<PronySeries>) -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+    Material::new(DENSITY, moduli, relaxation).unwrap()
+}
+
+/// Hertz' impact of the ball.
+struct Hertz {
+    mass: f64,
+    approach: f64,
+    time: f64,
+    force: f64,
+    contact_radius: f64,
+}
+
+impl Hertz {
+    fn at(speed: f64) -> Self {
+        let mass = DENSITY * 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3);
+        let cube_root = 15.0 * mass * speed * speed / (16.0 * RADIUS.sqrt() * CONTACT_MODULUS);
+        let approach = cube_root.powf(0.4);
+        Self {
+            mass,
+            approach,
+            time: 2.943_275 * approach / speed,
+            force: 4.0 / 3.0 * CONTACT_MODULUS * RADIUS.sqrt() * approach.powf(1.5),
+            contact_radius: (RADIUS * approach).sqrt(),
+        }
+    }
+}
+
+/// A ball that meets a half-space.
+#[derive(Clone)]
+struct Ball {
+    speed: f64,
+    /// Of both bodies along +y, m/s.
+    drift: f64,
+    /// Far radius over that which waves do not reach.
+    reach: f64,
+    growth: Option<f64>,
+    /// Radius in which contact is looked for over Hertz' contact radius.
+    candidates: f64,
+    mass_scaling: f64,
+    /// Of the half-space.
+    relaxation: Option<PronySeries>,
+    half_space: Side,
+}
+
+impl Default for Ball {
+    fn default() -> Self {
+        Self {
+            speed: 5.0,
+            drift: 0.0,
+            reach: 1.0,
+            growth: None,
+            candidates: 1.5,
+            mass_scaling: 2e-4,
+            relaxation: None,
+            half_space: Side::Below,
+        }
+    }
+}
+
+impl Ball {
+    fn model(&self) -> Model {
+        let Hertz { contact_radius, time, .. } = Hertz::at(self.speed);
+        let (size, refined_radius) = (contact_radius / 6.0, 1.2 * contact_radius);
+        let candidate_radius = self.candidates * contact_radius;
+        let far_radius = far_radius_of_waves(&glass(None), time, candidate_radius);
+        let block = QuarterDisc {
+            far_radius: self.reach * far_radius,
+            contact_element_size: size,
+            refined_radius,
+            growth: self.growth,
+        };
+        let ball = HalfDisc {
+            radius: RADIUS,
+            contact_element_size: size,
+            refined_radius,
+            growth: self.growth,
+        };
+        let other = match self.half_space {
+            Side::Below => Side::Above,
+            Side::Above => Side::Below,
+        };
+        let block = BodyInput::HalfSpace {
+            mesh: block.build().unwrap().on_side(self.half_space),
+            material: glass(self.relaxation.clone()),
+        };
+        let ball =
+            BodyInput::Sphere { mesh: ball.build().unwrap().on_side(other), material: glass(None) };
+        let (bodies, velocities) = match self.half_space {
+            Side::Below => ([block, ball], [0.0, -self.speed]),
+            Side::Above => ([ball, block], [self.speed, 0.0]),
+        };
+        let velocities = velocities.map(|velocity| velocity + self.drift);
+        let settings = Settings {
+            contact_stiffness: 10.0 * CONTACT_MODULUS,
+            candidate_radius,
+            step_factor: 0.9,
+            mass_scaling: self.mass_scaling,
+        };
+        Model::new(bodies, Approach::new(velocities, 0.0).unwrap(), &settings).unwrap()
+    }
+
+    fn expected(&self) -> Expectation {
+        let Hertz { time, approach, .. } = Hertz::at(self.speed);
+        Expectation { contact_time: time, approach }
+    }
+
+    fn run(&self) -> Collision {
+        collide(&self.model(), self.expected(), &Want::quantities(), &mut ())
+    }
+}
+
+/// 1 − e².
+fn loss(run: &Collision) -> f64 {
+    let e = run.restitution.unwrap();
+    1.0 - e * e
+}
+
+/// Hunter (1957): what Hertz' pulse radiates, C/(μ c_s) ∫Ḟ² dt over the energy with
+/// ∫Ḟ² dt = (9/5) B(4/5, 3/2) F² v/δ; C(0.244) = 0.14950 by numerical integration of Miller & Pursey's
+/// (1955) admittance. To first order in the loss; 4.5 % more at 1.7 %, 2.6 % more at 0.7 %.
+#[test]
+fn what_a_ball_loses_is_hunters_radiation() {
+    for (speed, radiated, tolerance) in [(5.0, 1.7307e-2, 0.06), (1.0, 6.589e-3, 0.04)] {
+        let run = Ball { speed, ..Ball::default() }.run();
+        assert_eq!(run.ending, Ending::Parted);
+        assert!(run.warnings.is_empty(), "{:?}", run.warnings);
+        let found = loss(&run);
+        assert!((found / radiated - 1.0).abs() < tolerance, "{speed}: {found:e}");
+        // The half-space has it, and the ball vibrates with less than a hundredth of it: no energy is
+        // elsewhere. Half of what waves carry is kinetic but near the contact.
+        let hertz = Hertz::at(speed);
+        let initial = 0.5 * hertz.mass * speed * speed;
+        let left = run.bodies.map(|body| body.vibration_energy.unwrap() / initial);
+        assert!((left[0] / found - 1.0).abs() < 0.01 && left[1] < 0.01 * found, "{left:?}");
+        // Leapfrog's order, as between spheres; momentum to rounding.
+        assert!(run.residual_relative.unwrap() < 2e-6, "{:?}", run.residual_relative);
+        assert!(run.momentum_residual_relative.unwrap() < 1e-12);
+        // A half-space has no mass, and keeps its velocity.
+        assert_eq!((run.bodies[0].mass, run.bodies[0].velocity_after), (None, Some(0.0)));
+        assert!((run.bodies[1].mass.unwrap() / hertz.mass - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A sphere is a half-space as long as its waves have not come back: one of forty times the radius,
+/// across which pressure waves need 1.5 contact times.
+#[test]
+fn a_partner_forty_times_larger_is_a_half_space() {
+    let hertz = Hertz::at(5.0);
+    let model = Ball::default().model();
+    let [_, ball] = model.bodies();
+    let partner = HalfDisc {
+        radius: 40.0 * RADIUS,
+        contact_element_size: hertz.contact_radius / 6.0,
+        refined_radius: 1.2 * hertz.contact_radius,
+        growth: None,
+    };
+    let bodies = [
+        BodyInput::Sphere {
+            mesh: partner.build().unwrap().on_side(Side::Below),
+            material: glass(None),
+        },
+        BodyInput::Sphere { mesh: ball.mesh().unwrap().clone(), material: glass(None) },
+    ];
+    let settings = Settings {
+        contact_stiffness: 10.0 * CONTACT_MODULUS,
+        candidate_radius: 1.5 * hertz.contact_radius,
+        step_factor: 0.9,
+        mass_scaling: 0.0,
+    };
+    let large = Model::new(bodies, *model.approach(), &settings).unwrap();
+    let expected = Ball::default().expected();
+    let large = collide(&large, expected, &Want::quantities(), &mut ());
+    let here = collide(&model, expected, &Want::quantities(), &mut ());
+    // R* is 1/41 smaller: 1.5 % less at the power 3/5 of the loss on R*. The sphere's curvature has a
+    // part in its waves, a per cent as well.
+    let ratio = loss(&large) / loss(&here);
+    assert!(ratio > 0.97 && ratio < 1.0, "{ratio}");
+}
+
+/// Slow: Hertz. The ball's own finite size is 3/4 per mille of the approach a per cent of a/R, the mesh
+/// and the penalty some per mille.
+#[test]
+fn a_slow_ball_is_hertz() {
+    let run = Ball { speed: 0.2, ..Ball::default() }.run();
+    let hertz = Hertz::at(0.2);
+    assert!((run.contact_time.unwrap() / hertz.time - 1.0).abs() < 4e-3);
+    assert!((run.peak_force.unwrap() / hertz.force - 1.0).abs() < 8e-3);
+    assert!((run.max_approach.unwrap() / hertz.approach - 1.0).abs() < 4e-3);
+    assert!(run.restitution.unwrap() > 0.998 && run.restitution.unwrap() < 1.0);
+}
+
+/// Neither the far end nor the coarse elements there send anything back: twice as far, and rings that
+/// grow half as fast, are the same to a thousandth of the loss; a contact force that rattles is not
+/// smooth to better.
+#[test]
+fn nothing_comes_back() {
+    let loss_of = |ball: Ball| loss(&ball.run());
+    let here = loss_of(Ball::default());
+    for ball in [Ball { reach: 0.5, ..Ball::default() }, Ball { reach: 2.0, ..Ball::default() }] {
+        let there = loss_of(ball);
+        assert!((there / here - 1.0).abs() < 1e-3, "{there:e} {here:e}");
+    }
+    let finer = loss_of(Ball { growth: Some(1.05), ..Ball::default() });
+    assert!((finer / here - 1.0).abs() < 5e-3, "{finer:e} {here:e}");
+}
+
+/// Waves from a far end that is too near are told.
+#[test]
+fn a_far_end_that_is_too_near_is_told() {
+    let run = Ball { reach: 0.2, ..Ball::default() }.run();
+    assert!(
+        run.warnings.len() == 1 && run.warnings[0].contains("far radius"),
+        "{:?}",
+        run.warnings
+    );
+    // What holds it takes momentum and no energy.
+    assert!(run.residual_relative.unwrap() < 2e-6);
+    assert!(run.momentum_residual_relative.unwrap() < 1e-12);
+}
+
+/// Above as below, and in a moving frame: a half-space that moves does work on the ball.
+#[test]
+fn a_half_space_may_lie_above_and_move() {
+    let still = Ball { speed: 20.0, ..Ball::default() };
+    let here = still.run();
+    let above = Ball { half_space: Side::Above, ..still.clone() }.run();
+    // Sums in another order: rounding, which the opening and closing of points multiplies.
+    let difference = above.restitution.unwrap() - here.restitution.unwrap();
+    assert!(difference.abs() < 1e-7, "{difference:e}");
+    let moving = Ball { drift: 3.0, ..still }.run();
+    assert!((moving.restitution.unwrap() - here.restitution.unwrap()).abs() < 1e-7);
+    assert_eq!(moving.bodies[0].velocity_after, Some(3.0));
+    assert!(moving.energies.get(Account::WallWork).unwrap() > 0.0);
+    assert!(moving.residual_relative.unwrap() < 3e-6, "{:?}", moving.residual_relative);
+    // Rounding of the velocity of 1e5 times the ball's mass.
+    let drift = moving.momentum_residual_relative.unwrap();
+    assert!(drift < 1e-9, "{drift:e}");
+}
+
+/// A half-space that relaxes loses what it radiates and what it dissipates; gone on from a memory it
+/// comes to the same bits.
+#[test]
+fn a_half_space_may_relax() {
+    for acts_on in [ActsOn::All, ActsOn::Shear] {
+        let terms = vec![PronyTerm { weight: 0.5, relaxation_time: 1e-4 }];
+        let series = PronySeries::new(terms, acts_on).unwrap();
+        let ball = Ball { speed: 20.0, relaxation: Some(series), ..Ball::default() };
+        let model = ball.model();
+        let run = collide(&model, ball.expected(), &Want::quantities(), &mut ());
+        let elastic = Ball { relaxation: None, ..ball.clone() }.run();
+        let hertz = Hertz::at(20.0);
+        let initial = 0.5 * hertz.mass * 400.0;
+        let dissipated = run.energies.get(Account::ViscousDissipation).unwrap() / initial;
+        assert!(dissipated > 0.01, "{dissipated}");
+        // Losses add up to first order: 1 % of the dissipation is still stored in springs.
+        let sum = loss(&elastic) + dissipated;
+        assert!((loss(&run) / sum - 1.0).abs() < 0.05, "{} {sum}", loss(&run));
+        assert!(run.residual_relative.unwrap() < 2e-6, "{:?}", run.residual_relative);
+
+        let mut first = Run::new(&model, ball.expected(), &Want::quantities());
+        assert_eq!(first.advance(700), None);
+        let mut second = Run::resume(&model, first.memory().clone()).unwrap();
+        while second.advance(1000).is_none() {}
+        assert_eq!(second.finish(), run);
+    }
+}
+
+/// Bodies that stay together are told in time, whatever waves have carried away: a half-space that flows
+/// after a fiftieth of the contact time. One that keeps a spring parts.
+#[test]
+fn waves_that_are_gone_part_no_bodies() {
+    let ending = |weight: f64| {
+        let time = 0.02 * Hertz::at(20.0).time;
+        let terms = vec![PronyTerm { weight, relaxation_time: time }];
+        let series = PronySeries::new(terms, ActsOn::All).unwrap();
+        let ball =
+            Ball { speed: 20.0, relaxation: Some(series), candidates: 4.0, ..Ball::default() };
+        ball.run()
+    };
+    let together = ending(1.0);
+    assert_eq!(together.ending, Ending::Together);
+    assert_eq!(together.warnings.len(), 1, "{:?}", together.warnings);
+    assert_eq!(ending(0.9).ending, Ending::Parted);
+}
+
+/// What may be added to the half-space is a share of the ball's mass.
+#[test]
+fn mass_scaling_is_measured_by_the_ball() {
+    let model = Ball::default().model();
+    let [block, ball] = model.bodies();
+    for body in [block, ball] {
+        assert!(body.added_mass() <= 2e-4 * ball.mass() && body.added_mass() > 0.0);
+    }
+    assert!(model.time_step() > 1.5 * model.plain_time_step());
+    let unscaled = Ball { mass_scaling: 0.0, ..Ball::default() }.model();
+    assert_eq!(unscaled.bodies()[0].added_mass(), 0.0);
+    assert!(block.mass().is_infinite());
+}
+
+#[test]
+fn a_half_space_meets_a_sphere() {
+    let block = |side: Side| {
+        let disc = QuarterDisc {
+            far_radius: 1.0,
+            contact_element_size: 0.02,
+            refined_radius: 0.1,
+            growth: None,
+        };
+        let mesh = disc.build().unwrap().on_side(side);
+        BodyInput::HalfSpace { mesh, material: glass(None) }
+    };
+    let settings = Settings {
+        contact_stiffness: CONTACT_MODULUS,
+        candidate_radius: 0.1,
+        step_factor: 0.9,
+        mass_scaling: 0.0,
+    };
+    for upper in [BodyInput::Wall, block(Side::Above)] {
+        let bodies = [block(Side::Below), upper];
+        let refused = Model::new(bodies, Approach::at(1.0).unwrap(), &settings).unwrap_err();
+        assert_eq!(refused, ModelError::Contact(ContactError::TwoPlanes));
+    }
+}

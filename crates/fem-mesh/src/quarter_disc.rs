@@ -1,0 +1,155 @@
+//! The graded quarter disc: the meridian of a half-space, out to a distance.
+//!
+//! It is the quarter plane of which the half disc of a sphere is the image (`half_disc`), without
+//! the map and without an image of the block at infinity:
+//!
+//! * a block of m × m cells of equal size at the contact, its free corner drawn in;
+//! * rings of 2 m cells, radii in geometric progression;
+//! * the last ring, a circle: the far boundary, beyond which the half-space goes on.
+//!
+//! Cells keep their shape and are in proportion to the distance from the contact, so the number of
+//! elements grows with the logarithm of the far radius alone.
+
+use crate::error::MeshError;
+use crate::rings::{Ring, Station, block_point, default_growth, fade, quad};
+use crate::sphere_mesh::SphereMesh;
+
+/// Parameters of the graded quarter disc; lengths in m.
+///
+/// ```
+/// use fem_mesh::QuarterDisc;
+///
+/// let block = |far_radius| QuarterDisc {
+///     far_radius,
+///     contact_element_size: 10e-6,
+///     refined_radius: 0.1e-3,
+///     growth: None,
+/// };
+/// let (near, far) = (block(0.1), block(100.0));
+/// assert!(far.n_elements()? < 3 * near.n_elements()?);
+/// assert!(near.build()?.is_half_space());
+/// # Ok::<(), fem_mesh::MeshError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct QuarterDisc {
+    /// Distance of the far boundary from the contact pole.
+    pub far_radius: f64,
+    /// Edge length of the elements at the contact pole.
+    pub contact_element_size: f64,
+    /// Half-width of the block of equal elements at the contact pole.
+    pub refined_radius: f64,
+    /// Ratio of the radii of successive rings; `None` for the one that makes
+    /// their cells square, 1 + π/(4 m).
+    pub growth: Option<f64>,
+}
+
+/// Counts and radii.
+struct Layout {
+    /// Cells along the block's edge.
+    n_block: usize,
+    n_rings: usize,
+    /// Half-width of the block, m.
+    near: f64,
+}
+
+impl QuarterDisc {
+    /// Number of elements that [`QuarterDisc::build`] makes.
+    ///
+    /// # Errors
+    /// As [`QuarterDisc::build`].
+    pub fn n_elements(&self) -> Result<usize, MeshError> {
+        let layout = self.layout()?;
+        Ok(layout.n_block * layout.n_block + 2 * layout.n_block * layout.n_rings)
+    }
+
+    /// Makes the mesh, body in y ≥ 0, contact pole at the origin.
+    ///
+    /// # Errors
+    /// Lengths that are not positive and finite, a far radius below twice the fine block's
+    /// half-width, a growth outside of (1, 2], more elements than can be numbered.
+    pub fn build(&self) -> Result<SphereMesh, MeshError> {
+        let layout = self.layout()?;
+        let (m, n_rings) = (layout.n_block, layout.n_rings);
+        let (mut nodes, mut quads) = (Vec::new(), Vec::new());
+        // The quarter plane's axis is that of the body: (depth, r) → (r, y).
+        let place = |[depth, r]: [f64; 2]| [r, depth];
+
+        // Block: node (i, j), i along the axis, j along the surface.
+        let side = m + 1;
+        for i in 0..side {
+            for j in 0..side {
+                let [x, y] = block_point(i as f64 / m as f64, j as f64 / m as f64);
+                nodes.push(place([layout.near * x, layout.near * y]));
+            }
+        }
+        let block = |i: usize, j: usize| (i * side + j) as u32;
+        for i in 0..m {
+            for j in 0..m {
+                quads.push(quad(&block, i, j));
+            }
+        }
+
+        // Rings; station k runs from the axis to the surface.
+        let first_ring = nodes.len();
+        let stations: Vec<Station> = (0..=2 * m).map(|k| Station::new(m, k)).collect();
+        for ring in 1..=n_rings {
+            let ring = self.ring(&layout, ring);
+            nodes.extend(stations.iter().map(|station| place(ring.point(station))));
+        }
+        let ring_node = |ring: usize, k: usize| match ring {
+            0 if k <= m => block(m, k),
+            0 => block(2 * m - k, m),
+            _ => (first_ring + (ring - 1) * (2 * m + 1) + k) as u32,
+        };
+        for ring in 0..n_rings {
+            for k in 0..2 * m {
+                quads.push(quad(&ring_node, ring, k));
+            }
+        }
+
+        let rings = || 1..=n_rings;
+        let axis = (0..=m).map(|i| block(i, 0)).chain(rings().map(|ring| ring_node(ring, 0)));
+        let surface =
+            (0..=m).map(|j| block(0, j)).chain(rings().map(|ring| ring_node(ring, 2 * m)));
+        let (axis, surface) = (axis.collect(), surface.collect());
+        let far_boundary = (0..=2 * m).map(|k| ring_node(n_rings, k)).collect();
+        Ok(SphereMesh::from_parts(f64::INFINITY, nodes, quads, axis, surface, far_boundary))
+    }
+
+    fn layout(&self) -> Result<Layout, MeshError> {
+        let &QuarterDisc { far_radius, contact_element_size: size, refined_radius, growth } = self;
+        for (name, value) in [
+            ("far radius", far_radius),
+            ("contact element size", size),
+            ("refined radius", refined_radius),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(MeshError::Length { name, value });
+            }
+        }
+        if let Some(growth) = growth
+            && !(growth > 1.0 && growth <= 2.0)
+        {
+            return Err(MeshError::Growth(growth));
+        }
+        // A block of fewer than two cells a side has no free corner to draw in.
+        let m = (refined_radius / size * (1.0 - 1e-12)).ceil().max(2.0);
+        let near = m * size;
+        if far_radius < 2.0 * near {
+            return Err(MeshError::FarRadius { far_radius, refined_radius: near });
+        }
+        let growth = growth.unwrap_or(default_growth(m));
+        let n_rings = ((far_radius / near).ln() / growth.ln()).round().max(1.0);
+        let n_elements = m * (m + 2.0 * n_rings);
+        if n_elements > f64::from(u32::MAX / 2) {
+            return Err(MeshError::TooLarge(n_elements));
+        }
+        Ok(Layout { n_block: m as usize, n_rings: n_rings as usize, near })
+    }
+
+    fn ring(&self, layout: &Layout, ring: usize) -> Ring {
+        let length = (self.far_radius / layout.near).ln();
+        let x = length * ring as f64 / layout.n_rings as f64;
+        Ring { near: layout.near, log_radius: x, near_share: fade(x, length), far_share: 0.0 }
+    }
+}
