@@ -300,6 +300,8 @@ pub struct MeshSettings {
     pub refined_radius: Option<f64>,
     /// Ratio of the sizes of neighbouring elements outside of that block, > 1.
     pub growth: Option<f64>,
+    /// Distance of the far boundary of a half-space, m, > 0.
+    pub far_radius: Option<f64>,
 }
 
 /// The instants at which fields are written.

@@ -113,6 +113,9 @@ pub struct MeshTable {
     /// Ratio of the sizes of neighbouring elements outside of that block, > 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub growth: Option<Quantity<Number>>,
+    /// Distance of the far boundary of a half-space, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub far_radius: Option<Quantity<Length>>,
 }
 
 /// `[contact]`: how stiff the springs between the surfaces are.

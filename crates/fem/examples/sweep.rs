@@ -19,7 +19,7 @@ fn main() -> Result<(), CaseError> {
     file.mesh = Some(MeshTable {
         contact_element_size: Some("60 um".into()),
         refined_radius: Some("1 mm".into()),
-        growth: None,
+        ..Default::default()
     });
     let case = Case::of(file)?;
 

@@ -82,7 +82,11 @@ impl BodySource {
         Ok(match self {
             Self::Meshed { mesh, material } => {
                 let mesh = mesh.build(side).map_err(|error| mesh_refusal(&error))?;
-                BodyInput::Sphere { mesh, material: material.clone() }
+                let material = material.clone();
+                match mesh.is_half_space() {
+                    true => BodyInput::HalfSpace { mesh, material },
+                    false => BodyInput::Sphere { mesh, material },
+                }
             }
             Self::Rigid { radius, mass } => BodyInput::Rigid { radius: *radius, mass: *mass },
             Self::Wall => BodyInput::Wall,

@@ -5,7 +5,7 @@ use fem_explicit::n_states;
 
 use crate::effects::BulkViscosity;
 use crate::estimate::mach;
-use crate::mesh_source::{half_disc, mesh_refusal};
+use crate::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
@@ -38,8 +38,15 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
 pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
     let (mut elements, mut branches) = (0, 0);
     for body in scene.bodies() {
-        if let Shape::Sphere { diameter, mesh: None, material } = body.shape() {
-            let n = half_disc(plan, *diameter).n_elements().map_err(|e| mesh_refusal(&e))? as u64;
+        let made = match body.shape() {
+            Shape::Sphere { diameter, mesh: None, material } => {
+                Some((half_disc(plan, *diameter).n_elements(), material))
+            }
+            Shape::HalfSpace { material } => Some((quarter_disc(plan).n_elements(), material)),
+            Shape::Sphere { mesh: Some(_), .. } | Shape::Rigid { .. } | Shape::Wall => None,
+        };
+        if let Some((n, material)) = made {
+            let n = n.map_err(|error| mesh_refusal(&error))? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;
         }

@@ -1,4 +1,4 @@
-//! The meshes of a case: half discs made here, or files.
+//! The meshes of a case: made here, or files.
 
 use std::path::Path;
 
@@ -6,11 +6,11 @@ use fem_case::{Scene, Shape};
 use fem_mesh::SphereMesh;
 
 use crate::limits::check_size;
-use crate::mesh_source::{MeshSource, half_disc, mesh_refusal};
+use crate::mesh_source::{MeshSource, half_disc, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
-/// The meshes of both bodies in their places; a wall has none.
+/// The meshes of both bodies in their places; a rigid body has none.
 ///
 /// # Errors
 /// Meshes that cannot be made or read, or are too large.
@@ -23,7 +23,7 @@ pub fn build_meshes(scene: &Scene, plan: &Plan) -> Result<[Option<SphereMesh>; 2
     Ok(meshes)
 }
 
-/// What the meshes of both bodies are made from; a wall has none. Files are read.
+/// What the meshes of both bodies are made from; a rigid body has none. Files are read.
 ///
 /// # Errors
 /// Meshes that cannot be made or read, or are too large.
@@ -38,11 +38,7 @@ pub(crate) fn mesh_sources(scene: &Scene, plan: &Plan) -> Result<[Option<MeshSou
             Shape::Sphere { diameter, mesh: None, .. } => {
                 Some(MeshSource::HalfDisc(half_disc(plan, *diameter)))
             }
-            Shape::HalfSpace { .. } => {
-                let message = "a half-space has no elements in this version";
-                return Err(Refusal::new(format!("body.{k}.half_space"), message)
-                    .with_help("use model hertz, ting or a law"));
-            }
+            Shape::HalfSpace { .. } => Some(MeshSource::QuarterDisc(quarter_disc(plan))),
             Shape::Rigid { .. } | Shape::Wall => None,
         };
     }

@@ -4,8 +4,8 @@ use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
     StartTable, TimeTable,
 };
-use fem_case::{Body, Case, CaseError, CaseFile, Quantity, Scene, Shape, Snapshots};
-use fem_collision::{Label, SnapshotRequest, Want};
+use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, Snapshots};
+use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius_of_waves};
 
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
@@ -44,6 +44,8 @@ pub struct Plan {
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
     pub growth: Option<f64>,
+    /// Distance of the far boundary of a half-space, m; none without one.
+    pub far_radius: Option<f64>,
     /// Whether any mesh is made here, and not read from a file.
     pub makes_meshes: bool,
     /// Radius out to which contact is looked for, m.
@@ -87,7 +89,9 @@ impl Plan {
             .unwrap_or((REFINED_OVER_CONTACT * contact_radius).min(half_radius));
         let candidate_radius = candidate_radius(&estimate, contact_element_size);
         let penalty_factor = scene.penalty_factor().unwrap_or(1.0);
-        let made_here = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: None, .. });
+        let made_here = |body: &Body| {
+            matches!(body.shape(), Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. })
+        };
         let makes_meshes = scene.bodies().iter().any(made_here);
         let given = [
             ("contact_element_size", scene.mesh().contact_element_size),
@@ -95,9 +99,13 @@ impl Plan {
             ("growth", scene.mesh().growth),
         ];
         let unread = given.into_iter().find(|(_, value)| !makes_meshes && value.is_some());
+        let far_radius = far_radius(scene, &estimate, refined_radius, candidate_radius);
         let warning =
             |key: &str| format!("mesh.{key} has no effect: the meshes are read from files");
-        let warnings = unread.map(|(key, _)| warning(key)).into_iter().collect();
+        let mut warnings: Vec<String> = unread.map(|(key, _)| warning(key)).into_iter().collect();
+        if far_radius.is_none() && scene.mesh().far_radius.is_some() {
+            warnings.push("mesh.far_radius has no effect: no body is a half-space".to_string());
+        }
         let limits = scene.limits();
         Ok(Self {
             speed_share: 1.0,
@@ -105,6 +113,7 @@ impl Plan {
             contact_element_size,
             refined_radius,
             growth: scene.mesh().growth,
+            far_radius,
             makes_meshes,
             candidate_radius,
             penalty_factor,
@@ -146,6 +155,7 @@ impl Plan {
             contact_element_size: Some(Quantity::from_si(self.contact_element_size)),
             refined_radius: Some(Quantity::from_si(self.refined_radius)),
             growth: self.growth.map(Quantity::from_si),
+            far_radius: self.far_radius.map(Quantity::from_si),
         });
         file.contact =
             Some(ContactTable { penalty_factor: Some(Quantity::from_si(self.penalty_factor)) });
@@ -175,6 +185,22 @@ impl Plan {
 pub(crate) fn candidate_radius(estimate: &Estimate, contact_element_size: f64) -> f64 {
     let contact_radius = estimate.contact_radius.min(0.5 * estimate.smallest_radius);
     (CANDIDATES_OVER_CONTACT * contact_radius).max(3.0 * contact_element_size)
+}
+
+/// Where the mesh of a half-space ends: where no wave comes back from within the run, or, of bodies that
+/// are always in balance, where it takes nothing away from the compliance.
+fn far_radius(
+    scene: &Scene,
+    estimate: &Estimate,
+    refined_radius: f64,
+    candidate_radius: f64,
+) -> Option<f64> {
+    let half_space = |body: &Body| matches!(body.shape(), Shape::HalfSpace { .. });
+    let material = scene.bodies().iter().find(|body| half_space(body))?.material()?;
+    Some(scene.mesh().far_radius.unwrap_or_else(|| match scene.model() {
+        ModelChoice::Condensed(_) => far_radius_at_rest(refined_radius),
+        _ => far_radius_of_waves(material, estimate.contact_time, candidate_radius),
+    }))
 }
 
 fn request(snapshots: Option<&Snapshots>) -> SnapshotRequest {

@@ -71,6 +71,7 @@ pub(crate) fn validate(
                 POSITIVE,
             )?,
             growth: check.optional("mesh.growth", mesh.growth.as_ref(), ABOVE_ONE)?,
+            far_radius: check.optional("mesh.far_radius", mesh.far_radius.as_ref(), POSITIVE)?,
         },
         penalty_factor: check.optional(
             "contact.penalty_factor",

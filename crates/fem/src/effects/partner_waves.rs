@@ -21,6 +21,8 @@ const RETURN_LIMIT: f64 = 2.0;
 /// passage, 1.15 at ν = 1/4. Ting's model with what a half-space takes is within 4 % of the loss of elements
 /// below 0.6, and within 12 % at 0.93.
 const RADIATION_LIMIT: f64 = 1.0;
+/// Share of the loss that a radiating body's own motion may be where it moves at once.
+const OWN_MOTION: f64 = 0.1;
 /// Restitution that waves take and that is worth a warning.
 const SMALL_LOSS: f64 = 1e-4;
 
@@ -48,6 +50,33 @@ impl PartnerWaves {
             }
             Some(Switch::Auto) | None => large(scene, estimate, RADIATION_LIMIT),
         }
+    }
+}
+
+impl PartnerWaves {
+    /// As [`PartnerWaves::radiating`], of a model in which a body that radiates moves as a whole at once: only
+    /// if it is so heavy that its own motion, part of the waves' energy, is next to nothing of the loss.
+    pub(crate) fn radiating_at_rest<'a>(
+        scene: &'a Scene,
+        estimate: &Estimate,
+    ) -> [Option<&'a Material>; 2] {
+        let radiating = Self::radiating(scene, estimate);
+        if scene.effects().partner_waves == Some(Switch::On) {
+            return radiating;
+        }
+        let [below, above] = scene.bodies().each_ref().map(|body| body.mass());
+        let heavy = |side: usize| {
+            let ratio = match (side, below, above) {
+                (0, Some(below), Some(above)) => above / below,
+                (1, Some(below), Some(above)) => below / above,
+                _ => 0.0,
+            };
+            let taken = radiating[side].map(|material| radiated_share(&estimate.hertz, material));
+            // e = e' + (1 + e') m/M of the two mass centres.
+            taken.is_some_and(|share| 2.0 * ratio < OWN_MOTION * lost(share))
+        };
+        let heavy = [heavy(0), heavy(1)];
+        [0, 1].map(|side| radiating[side].filter(|_| heavy[side]))
     }
 }
 

@@ -170,7 +170,7 @@ const CANDIDATES: [Candidate; 6] = [
         name: "condensed = {}",
         choice: || ModelChoice::Condensed(CondensedOptions::default()),
         lacks: &[&PartnerWaves, &Vibration],
-        radiates: false,
+        radiates: true,
         has_fields: true,
         is_first_order: false,
         own: [1e-4, 5e-4, 2e-3],
@@ -182,7 +182,7 @@ const CANDIDATES: [Candidate; 6] = [
             ModelChoice::Condensed(options)
         },
         lacks: &[&PartnerWaves],
-        radiates: false,
+        radiates: true,
         has_fields: true,
         is_first_order: false,
         own: [1e-4, 5e-4, 3e-3],

@@ -266,9 +266,9 @@ fn parts(scene: &Scene, inputs: &[BodyInput; 2], speed: f64) -> Result<Parts, Mo
     Ok(parts)
 }
 
-/// Of a sphere's elements, none of which is compressed faster than the bodies approach, m/s.
+/// Of a body's elements, none of which is compressed faster than the bodies approach, m/s.
 fn bulk_viscosity(input: &BodyInput, speed: f64) -> Result<Option<Box<dyn NodeForce>>, ModelError> {
-    let BodyInput::Sphere { mesh, material } = input else { return Ok(None) };
+    let (Some(mesh), Some(material)) = (input.mesh(), input.material()) else { return Ok(None) };
     let usual = ViscosityCoefficients::default();
     Ok(Some(Box::new(fem_explicit::BulkViscosity::new(mesh, material, usual, speed)?)))
 }

@@ -66,6 +66,26 @@ fn a_sphere_without_end_is_one() {
     }
 }
 
+/// Elements of a block that never ends: the contact is Hertz' to the mesh's error, with the sphere's own
+/// compliance, which shortens it by 1 %.
+#[test]
+fn elements_give_way_as_hertz_says() {
+    // A ball of the same stuff: its elements let the steps be long.
+    let soft = "body.1.material='polymer'";
+    let time = run(&["model.hertz.finite_size=true", soft]).contact_time.unwrap();
+    for model in ["model.condensed={}", "model.fem={}"] {
+        let simulation = simulation(&[model, soft, "output.snapshots=['maximum']"]);
+        let found = simulation.run(&mut ());
+        let ratio = found.contact_time.unwrap() / time;
+        assert!((ratio - 1.0).abs() < 2e-3, "{model}: {ratio}");
+        assert!(found.bodies[0].elements.unwrap() > 1000, "{model}");
+        let [block, _] = simulation.model().meshes();
+        assert_eq!(found.snapshots[0].bodies[0].displacement.len(), block.unwrap().nodes().len());
+        let again = Simulation::new(Case::of(simulation.resolved().clone()).unwrap()).unwrap();
+        assert_eq!(again.run(&mut ()), found, "{model}");
+    }
+}
+
 /// It can only be struck or strike: its mass has no end, its velocity stays.
 #[test]
 fn it_moves_on() {

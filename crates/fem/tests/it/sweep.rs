@@ -27,7 +27,7 @@ fn pair(model: ModelTable) -> Case {
     file.mesh = Some(MeshTable {
         contact_element_size: Some(0.2e-3.into()),
         refined_radius: Some(0.4e-3.into()),
-        growth: None,
+        ..Default::default()
     });
     Case::of(file).unwrap()
 }

@@ -158,6 +158,7 @@ impl Random {
                 contact_element_size: random.maybe(|random| random.quantity(&[14e-6])),
                 refined_radius: random.maybe(|random| random.quantity(&[3e-4])),
                 growth: random.maybe(|random| random.quantity(&[1.1])),
+                far_radius: random.maybe(|random| random.quantity(&[0.1])),
             }),
             contact: self
                 .maybe(|random| ContactTable { penalty_factor: Some(random.quantity(&[1.0])) }),

@@ -83,6 +83,7 @@ pub fn made() -> CaseFile {
             contact_element_size: Some(14e-6.into()),
             refined_radius: Some("0.3 mm".into()),
             growth: Some(1.1.into()),
+            far_radius: None,
         }),
         contact: Some(ContactTable { penalty_factor: Some(1.0.into()) }),
         time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),

@@ -19,6 +19,9 @@ pub(super) fn has(
 ) -> Option<Answer> {
     Some(match effect.name() {
         Viscoelasticity::NAME => Answer::Inherent { idle: "" },
+        PartnerWaves::NAME if PartnerWaves::radiating_at_rest(scene, estimate) != [None; 2] => {
+            Answer::Computes { idle: "" }
+        }
         Vibration::NAME => {
             let spheres = modes_of_spheres(scene, pair);
             Vibration::of_modes(estimate, options.vibration_modes, &spheres)

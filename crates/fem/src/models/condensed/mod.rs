@@ -8,14 +8,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, Stop, Want};
-use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
+use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings};
+use fem_laws::radiation_damping;
 use fem_material::PronySeries;
 use fem_mesh::SphereMesh;
 
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
-use crate::effects::{Answer, Effect, MirrorSymmetry, Vibration, decide};
+use crate::effects::{Answer, Effect, MirrorSymmetry, PartnerWaves, Vibration, decide};
 use crate::estimate::Estimate;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::pair_cache::PairKey;
@@ -173,9 +174,14 @@ impl Condensed {
         want: &Want,
         monitor: &mut dyn Monitor,
     ) -> Collision {
+        let radiation = match self.radiation(approach.speed()) {
+            Ok(radiation) => radiation,
+            Err(stop) => return Collision::stopped(*approach, stop),
+        };
+        let damping = Damping { relaxations, radiation };
         let mut collide = |pair: &CondensedPair| {
             let frame = frame_of(&self.scene, approach, pair.reduced_mass());
-            match pair.collide(&frame, relaxations, n_steps, want, &mut *monitor) {
+            match pair.collide(&frame, damping, n_steps, want, &mut *monitor) {
                 Ok(collision) => collision,
                 Err(error) => Collision {
                     initial_energy: Some(frame.kinetic(frame.speed())),
@@ -204,6 +210,14 @@ impl Condensed {
                 }
             }
         }
+    }
+
+    /// What each body radiates at a speed (m/s), s m/N.
+    fn radiation(&self, speed: f64) -> Result<[Option<f64>; 2], Stop> {
+        let estimate = Estimate::at(&self.scene, speed)
+            .map_err(|error| Stop::OutOfRange(error.to_string()))?;
+        let radiating = PartnerWaves::radiating_at_rest(&self.scene, &estimate);
+        Ok(radiating.map(|material| material.map(radiation_damping)))
     }
 
     /// The bodies condensed as far out as an approach asks for at first.
