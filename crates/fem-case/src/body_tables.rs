@@ -17,6 +17,9 @@ pub struct BodyTable {
     /// Toward the other body; 0 if absent, negative if it recedes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub approach_speed: Option<Quantity<Speed>>,
+    /// Whether the mass centre of a sphere does not move, whatever falls on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held: Option<bool>,
     /// A solid sphere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sphere: Option<SphereTable>,
@@ -39,6 +42,7 @@ impl BodyTable {
             name: name.into(),
             material: Some(material.into()),
             approach_speed: None,
+            held: None,
             sphere: Some(SphereTable::new(diameter)),
             wall: None,
             half_space: None,
@@ -51,6 +55,7 @@ impl BodyTable {
             name: name.into(),
             material: None,
             approach_speed: None,
+            held: None,
             sphere: None,
             wall: Some(EmptyTable {}),
             half_space: None,
@@ -66,12 +71,18 @@ impl BodyTable {
             sphere: None,
             wall: None,
             half_space: Some(EmptyTable {}),
+            held: None,
         }
     }
 
     /// This body, moving toward the other one.
     pub fn approaching(self, speed: impl Into<Quantity<Speed>>) -> Self {
         Self { approach_speed: Some(speed.into()), ..self }
+    }
+
+    /// This sphere, held in its place.
+    pub fn held(self) -> Self {
+        Self { held: Some(true), ..self }
     }
 }
 

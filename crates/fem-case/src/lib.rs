@@ -57,6 +57,7 @@ mod empty_table;
 pub mod engineering;
 mod error;
 mod explain;
+mod gravity_tables;
 mod key_path;
 mod keyword;
 mod material_tables;
@@ -80,10 +81,10 @@ pub use error::CaseError;
 pub use explain::nearest;
 pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 pub use quantity::{
-    Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError, QuantityKind,
-    Rate, Speed, Stiffness, Stress, Time, Viscosity,
+    Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
+    QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use scene::{Accuracy, Body, Limits, MeshSettings, Scene, Shape, Snapshots};
+pub use scene::{Accuracy, Body, Gravity, Limits, MeshSettings, Scene, Shape, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};

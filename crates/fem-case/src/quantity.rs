@@ -54,7 +54,6 @@ macro_rules! kinds {
             ("a mass", [0, 1, 0, 0]),
             ("an area", [2, 0, 0, 0]),
             ("a volume", [3, 0, 0, 0]),
-            ("an acceleration", [1, 0, -2, 0]),
             ("a force", [1, 1, -2, 0]),
             ("an energy", [2, 1, -2, 0]),
             ("a power", [2, 1, -3, 0]),
@@ -66,6 +65,7 @@ kinds! {
     Number, "a plain number", [0, 0, 0, 0], "", "1.0";
     Length, "a length", [1, 0, 0, 0], "m", "\"22.2 mm\"";
     Speed, "a speed", [1, 0, -1, 0], "m/s", "\"0.5 m/s\"";
+    Acceleration, "an acceleration", [1, 0, -2, 0], "m/s^2", "\"9.81 m/s^2\"";
     Density, "a density", [-3, 1, 0, 0], "kg/m^3", "\"2390 kg/m^3\"";
     Stress, "a pressure", [-1, 1, -2, 0], "Pa", "\"63 GPa\"";
     Time, "a time", [0, 0, 1, 0], "s", "\"10 us\"";

@@ -8,6 +8,7 @@ use fem_material::Material;
 
 use crate::model::ModelChoice;
 use crate::schema::{EffectsTable, SnapshotLabel};
+use crate::validate::gravity::impact_speed;
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,7 @@ pub struct Scene {
     pub(crate) title: String,
     pub(crate) bodies: [Body; 2],
     pub(crate) gap: Option<f64>,
+    pub(crate) gravity: Option<Gravity>,
     pub(crate) mesh: MeshSettings,
     pub(crate) penalty_factor: Option<f64>,
     pub(crate) step_factor: Option<f64>,
@@ -32,7 +34,8 @@ impl Scene {
         &self.title
     }
 
-    /// The lower body, then the upper one. They approach each other; at least one is a sphere.
+    /// The lower body, then the upper one. They approach each other, or the upper one falls on the
+    /// lower one; at least one is a sphere.
     pub fn bodies(&self) -> &[Body; 2] {
         &self.bodies
     }
@@ -40,6 +43,11 @@ impl Scene {
     /// Distance of the surfaces on the axis at time 0, m, ≥ 0.
     pub fn gap(&self) -> Option<f64> {
         self.gap
+    }
+
+    /// The weight of the upper body, a sphere above a body that does not move; `None` without.
+    pub fn gravity(&self) -> Option<Gravity> {
+        self.gravity
     }
 
     /// How finely the bodies are divided.
@@ -87,14 +95,60 @@ impl Scene {
         self.limits
     }
 
-    /// Relative to each other, m/s, > 0.
+    /// Relative to each other at first touch, m/s, > 0: with gravity √(v² + 2 g h) of a sphere with the
+    /// velocity v at the height h at time 0.
     pub fn approach_speed(&self) -> f64 {
-        self.bodies[0].velocity - self.bodies[1].velocity
+        match self.gravity {
+            None => self.bodies[0].velocity - self.bodies[1].velocity,
+            Some(Gravity { acceleration, .. }) => {
+                let height = self.gap.unwrap_or_default();
+                impact_speed(self.bodies[1].velocity, acceleration, height)
+            }
+        }
     }
 
-    /// Whether the bodies are spheres of one size and stuff, on meshes that are made here.
+    /// Time of first touch, s: of a fall, or of a flight at constant speed.
+    pub fn first_touch(&self) -> f64 {
+        let gap = self.gap.unwrap_or_default();
+        match self.gravity {
+            None => gap / self.approach_speed(),
+            Some(Gravity { acceleration, .. }) => {
+                (self.bodies[1].velocity + self.approach_speed()) / acceleration
+            }
+        }
+    }
+
+    /// The same scene with gravity, whose bodies touch at time 0 at this speed, m/s: `None` of a scene
+    /// without gravity, and of a speed that is not positive and finite.
+    pub fn touching_at(&self, speed: f64) -> Option<Self> {
+        let mut scene = self.clone();
+        scene.gravity?;
+        scene.gap = Some(0.0);
+        scene.bodies[1].velocity = -speed;
+        (speed > 0.0 && speed.is_finite()).then_some(scene)
+    }
+
+    /// The same scene once all has relaxed, its elements left to the plan; `None` of bodies that flow.
+    pub fn at_equilibrium(&self) -> Option<Self> {
+        let mut scene = self.clone();
+        for body in &mut scene.bodies {
+            if let Shape::Sphere { material, .. } | Shape::HalfSpace { material } = &mut body.shape
+            {
+                *material = material.at_equilibrium()?;
+            }
+        }
+        scene.mesh.contact_element_size = None;
+        scene.mesh.refined_radius = None;
+        Some(scene)
+    }
+
+    /// Whether the bodies are spheres of one size and stuff, on meshes that are made here, and no
+    /// gravity tells them apart.
     pub fn has_identical_bodies(&self) -> bool {
         let [lower, upper] = &self.bodies;
+        if self.gravity.is_some() {
+            return false;
+        }
         let is_made_here = matches!(lower.shape, Shape::Sphere { mesh: None, .. });
         is_made_here && lower.shape == upper.shape
     }
@@ -175,6 +229,7 @@ pub struct Body {
     pub(crate) name: String,
     pub(crate) shape: Shape,
     pub(crate) velocity: f64,
+    pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
 }
 
@@ -192,6 +247,11 @@ impl Body {
     /// Along +y at time 0, m/s.
     pub fn velocity(&self) -> f64 {
         self.velocity
+    }
+
+    /// Whether its mass centre does not move, whatever falls on it; of a sphere.
+    pub fn is_held(&self) -> bool {
+        self.held
     }
 
     /// Yield strength of its material, Pa, > 0, if the case gives one.
@@ -221,13 +281,16 @@ impl Body {
     /// What it is to closed forms, moduli instantaneous.
     pub fn partner(&self) -> Partner {
         match &self.shape {
+            Shape::Sphere { diameter, material, .. } if self.held => {
+                Partner::solid_sphere(*diameter, material).held()
+            }
             Shape::Sphere { diameter, material, .. } => Partner::solid_sphere(*diameter, material),
             Shape::HalfSpace { material } => Partner::half_space(material),
-            Shape::Rigid { diameter, mass } => Partner::Sphere {
-                radius: 0.5 * diameter,
-                mass: *mass,
-                plane_strain_modulus: f64::INFINITY,
-            },
+            Shape::Rigid { diameter, mass } => {
+                let mass = if self.held { f64::INFINITY } else { *mass };
+                let (radius, plane_strain_modulus) = (0.5 * diameter, f64::INFINITY);
+                Partner::Sphere { radius, mass, plane_strain_modulus }
+            }
             Shape::Wall => Partner::Wall,
         }
     }
@@ -289,6 +352,15 @@ pub enum Shape {
     },
     /// A rigid plane of infinite mass.
     Wall,
+}
+
+/// The weight of the upper body of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gravity {
+    /// Along −y, m/s², > 0.
+    pub acceleration: f64,
+    /// After so many contacts the run ends, ≥ 1; rest ends it before.
+    pub bounces: usize,
 }
 
 /// What `[mesh]` asks for; lengths in m.

@@ -13,6 +13,7 @@ use crate::quantity::{Bytes, Count, Length, Number, Quantity, QuantityKind, Time
 pub use crate::accuracy_table::*;
 pub use crate::body_tables::*;
 pub use crate::empty_table::EmptyTable;
+pub use crate::gravity_tables::*;
 pub use crate::material_tables::*;
 pub use crate::model_tables::*;
 
@@ -32,6 +33,12 @@ pub struct CaseFile {
     /// Where the bodies start.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<StartTable>,
+    /// The weight of the upper sphere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<GravityTable>,
+    /// When the run is over.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop: Option<StopTable>,
     /// How finely the bodies are divided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshTable>,

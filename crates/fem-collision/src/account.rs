@@ -27,6 +27,11 @@ pub enum Account {
     BulkViscosity,
     /// Waves that leave a body for good, of a model without the body's own waves.
     Radiated,
+    /// Weight of the upper body: m g times the height of its mass centre above that at first touch.
+    Potential,
+    /// What earlier contacts have left in the bodies, vibrations and all that had not relaxed yet: the
+    /// next contact is computed as if they were at rest.
+    LeftBefore,
 }
 
 /// On which side of the balance an account stands.
@@ -62,6 +67,8 @@ const LINES: &[(Account, &str, Side, Shown)] = &[
     (Account::WallWork, "wall_work", Side::Given, Shown::InSummary),
     (Account::BulkViscosity, "bulk_viscosity", Side::Lost, Shown::WhereFilled),
     (Account::Radiated, "radiated", Side::Lost, Shown::WhereFilled),
+    (Account::Potential, "potential", Side::Held, Shown::WhereFilled),
+    (Account::LeftBefore, "left_before", Side::Held, Shown::WhereFilled),
 ];
 
 impl Account {

@@ -2,6 +2,7 @@
 
 use crate::account::Book;
 use crate::approach::Approach;
+use crate::bounce::{Bounce, Rest};
 use crate::ending::Ending;
 use crate::row::Row;
 use crate::searched::Searched;
@@ -67,6 +68,11 @@ pub struct Collision {
     pub factor_bytes: Option<u64>,
     /// Steps whose contact problem took more than one solution, of a model that solves one a step.
     pub repeated_contact_solutions: Option<u64>,
+    /// Of a ball that gravity brings back: each contact, the first one among them; else none. All else
+    /// here but the ending, the history and the energies at the end is of the first one.
+    pub bounces: Vec<Bounce>,
+    /// Of a ball that has come to rest.
+    pub rest: Option<Rest>,
     /// Instants over contact and separation.
     pub history: Vec<Row>,
     /// Fields of finite elements, in the order of time.
@@ -121,6 +127,8 @@ impl Collision {
             element_updates: None,
             factor_bytes: None,
             repeated_contact_solutions: None,
+            bounces: Vec::new(),
+            rest: None,
             history: Vec::new(),
             snapshots: Vec::new(),
             warnings: Vec::new(),
@@ -131,7 +139,7 @@ impl Collision {
     pub fn stop(&self) -> Option<&Stop> {
         match &self.ending {
             Ending::Stopped(stop) => Some(stop),
-            Ending::Parted | Ending::Together => None,
+            Ending::Parted | Ending::Together | Ending::AtRest => None,
         }
     }
 

@@ -11,6 +11,8 @@ pub enum Ending {
     Parted,
     /// They stay together: nothing is left to drive them apart.
     Together,
+    /// The upper one has come to rest on the lower one, after a bounce or more.
+    AtRest,
     /// It did not; the results are those so far.
     Stopped(Stop),
 }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A wall, or a half-space far away, has an infinite mass, keeps its velocity, and takes the momentum
-//! m*(v − δ̇).
+//! m*(v − δ̇). Gravity acts on the upper body, above one that does not move; its potential is −m* g δ.
 
 use crate::approach::Approach;
 
@@ -19,6 +19,8 @@ pub struct Frame {
     pub masses: [Option<f64>; 2],
     /// m₁m₂/(m₁+m₂), kg.
     pub reduced_mass: f64,
+    /// Of the approach by gravity, m/s², ≥ 0; 0 without.
+    pub gravity: f64,
 }
 
 impl Frame {
@@ -58,6 +60,16 @@ impl Frame {
         0.5 * self.reduced_mass * (rate - self.speed()) * (rate + self.speed())
     }
 
+    /// Weight of the upper body, N; 0 without gravity.
+    pub fn weight(&self) -> f64 {
+        self.reduced_mass * self.gravity
+    }
+
+    /// Potential of that weight (J) at an approach, m: 0 at first touch; `None` without gravity.
+    pub fn potential(&self, approach: f64) -> Option<f64> {
+        (self.gravity > 0.0).then(|| -self.weight() * approach)
+    }
+
     /// Work that a moving wall has done, J.
     pub fn wall_work(&self, rate: f64) -> f64 {
         let velocities = self.approach.velocities();
@@ -81,7 +93,8 @@ mod tests {
     #[test]
     fn momentum_is_kept_and_the_rate_is_the_difference() {
         let approach = Approach::at(3.0).unwrap();
-        let frame = Frame { approach, masses: [Some(2.0), Some(1.0)], reduced_mass: 2.0 / 3.0 };
+        let masses = [Some(2.0), Some(1.0)];
+        let frame = Frame { approach, masses, reduced_mass: 2.0 / 3.0, gravity: 0.0 };
         let [lower, upper] = frame.velocities(-1.5);
         assert!((lower - upper + 1.5).abs() < 1e-15);
         assert!((2.0 * lower + upper - 6.0).abs() < 1e-14);
@@ -95,7 +108,8 @@ mod tests {
     #[test]
     fn a_wall_that_moves_does_work() {
         let approach = Approach::at(2.0).unwrap();
-        let frame = Frame { approach, masses: [None, Some(1.0)], reduced_mass: 1.0 };
+        let masses = [None, Some(1.0)];
+        let frame = Frame { approach, masses, reduced_mass: 1.0, gravity: 0.0 };
         assert_eq!(frame.velocities(-2.0), [2.0, 4.0]);
         assert_eq!(frame.wall_work(-2.0), 8.0);
         assert_eq!(frame.kinetic(-2.0), 8.0);

@@ -11,8 +11,8 @@
 //! ```
 //!
 //! This holds while no one outside does work on the bodies. A wall that moves is at rest in the frame
-//! of the relative motion and does none there; gravity, or any other force on the bodies from outside,
-//! would have to bring its potential into U.
+//! of the relative motion and does none there. Gravity brings its potential −m g δ into U: what is left
+//! then must lift the ball to where it first touched, and e is the speed at which it would pass there.
 //!
 //! It can be far too large where energy stays stored that no longer presses on the contact. A shear
 //! modulus that relaxes to nothing beside an elastic bulk modulus leaves none in nature: the body flows
@@ -33,6 +33,8 @@
 //! part are at rest at the largest approach only, where F t/m* is what will part them. A force that
 //! vibrations modulate may be small for a moment; so the estimate has to stay small for a twentieth
 //! of t.
+//!
+//! Of a ball with a weight F − m g takes the place of F.
 //!
 //! Together are bodies in contact whose energy bounds e by 1e-4, or whose momentum bounds it by
 //! 1e-3 while their energy bounds it by 0.03, whatever is stored where.
@@ -63,7 +65,7 @@ pub struct Held {
     /// Of the approach, m/s; positive while the mass centres come closer.
     pub rate: f64,
     /// Kinetic energy of both bodies relative to their mass centres, and what they and the springs
-    /// between them store, J.
+    /// between them store, J; with gravity the potential of the weight, 0 at first touch.
     pub inner_energy: f64,
 }
 
@@ -76,6 +78,7 @@ pub struct Held {
 ///     approach: Approach::at(2.0)?,
 ///     masses: [Some(1.0), None],
 ///     reduced_mass: 1.0,
+///     gravity: 0.0,
 /// };
 /// let mut standstill = Standstill::new(&frame);
 /// let mut now = Held { time: 1e-3, is_closed: true, force: 1e-2, rate: 1.0, inner_energy: 0.0 };
@@ -91,6 +94,8 @@ pub struct Standstill {
     speed: f64,
     /// kg.
     reduced_mass: f64,
+    /// Weight that the contact bears, N; 0 without gravity.
+    weight: f64,
     /// Since when the bodies are at rest, s after first touch.
     since: Option<f64>,
 }
@@ -98,7 +103,8 @@ pub struct Standstill {
 impl Standstill {
     /// Of bodies that are about to touch.
     pub fn new(frame: &Frame) -> Self {
-        Self { speed: frame.speed(), reduced_mass: frame.reduced_mass, since: None }
+        let weight = frame.weight();
+        Self { speed: frame.speed(), reduced_mass: frame.reduced_mass, weight, since: None }
     }
 
     /// Whether it can be of bodies that meet like this.
@@ -111,8 +117,9 @@ impl Standstill {
     pub fn observe(&mut self, now: &Held) -> bool {
         let initial = self.reduced_mass * self.speed * self.speed;
         let left = self.reduced_mass * now.rate * now.rate + 2.0 * now.inner_energy;
+        let force = if self.weight > 0.0 { (now.force - self.weight).abs() } else { now.force };
         let by_energy = |restitution: f64| left < restitution * restitution * initial;
-        let by_momentum = || now.rate.abs() + now.force * now.time / self.reduced_mass;
+        let by_momentum = || now.rate.abs() + force * now.time / self.reduced_mass;
         let is_at_rest = by_energy(CERTAIN) && by_momentum() < AT_REST * self.speed;
         self.since = is_at_rest.then(|| self.since.unwrap_or(now.time));
         let lasts = self.since.is_some_and(|since| now.time - since >= LASTING * now.time);
@@ -127,7 +134,8 @@ mod tests {
 
     /// The frame of a mass of 1 kg that meets a wall at 1 m/s.
     fn frame() -> Frame {
-        Frame { approach: Approach::at(1.0).unwrap(), masses: [Some(1.0), None], reduced_mass: 1.0 }
+        let approach = Approach::at(1.0).unwrap();
+        Frame { approach, masses: [Some(1.0), None], reduced_mass: 1.0, gravity: 0.0 }
     }
 
     /// That mass on a spring (N/m) beside one of 1 N/m with a dashpot of a relaxation time (s) in
@@ -216,6 +224,24 @@ mod tests {
             Standstill { since: Some(-1.0), ..standstill },
         ] {
             assert!(!other.is_of(&frame), "{other:?}");
+        }
+    }
+
+    /// A force that only bears the weight drives nothing; one that is as far above it does.
+    #[test]
+    fn a_weight_that_is_borne_is_no_force() {
+        let frame = Frame { gravity: 2.0, ..frame() };
+        let now = |time: f64, force: f64| Held {
+            time,
+            is_closed: true,
+            force,
+            rate: 1e-6,
+            inner_energy: 1e-4 * frame.initial(),
+        };
+        for (force, stays) in [(2.0, true), (2.0 - 1e-4, true), (4.0, false), (0.0, false)] {
+            let mut standstill = Standstill::new(&frame);
+            assert!(!standstill.observe(&now(1.0, force)));
+            assert_eq!(standstill.observe(&now(1.1, force)), stays, "{force}");
         }
     }
 

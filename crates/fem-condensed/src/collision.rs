@@ -65,13 +65,14 @@ impl CondensedPair {
         }
         self.prepare(speed, damping.relaxations)?;
         monitor.enter(Phase::Collision);
-        let elastic = self.elastic_impact(speed)?;
+        let elastic = self.elastic_impact(speed.max(self.fall_speed(frame)))?;
         let reach = REACH * self.points[elastic.n_closed - 1].radius;
         let n_all = self.points.len();
         let n_near = (self.points.partition_point(|point| point.radius <= reach) + 2).min(n_all);
         let time_step = self.time_step(elastic.contact_time / n_steps as f64);
         let mut run = |n_points: usize| {
-            let motion = Motion::new(self, speed, damping, time_step, n_points)?;
+            let motion =
+                Motion::new(self, speed, damping, time_step, n_points)?.with_gravity(frame.gravity);
             Ok::<_, CondensedError>(
                 Run::new(self, motion, frame, want, n_steps, elastic.contact_time)
                     .until_parted(monitor),
@@ -126,6 +127,16 @@ impl CondensedPair {
             motion.advance()?;
         }
         Ok(ContactState { time: motion.time(), approach: motion.approach, forces: motion.forces })
+    }
+
+    /// √(g δ) of the static approach δ without relaxation, m/s: of a ball that is let down more slowly
+    /// the weight decides how long the contact is and how far it reaches. 0 without gravity.
+    fn fall_speed(&self, frame: &Frame) -> f64 {
+        if frame.gravity == 0.0 {
+            return 0.0;
+        }
+        let at_rest = self.curve.approach(frame.weight()).unwrap_or_default();
+        (frame.gravity * at_rest).sqrt()
     }
 
     /// The step asked for, or what the modes of vibration allow.

@@ -65,6 +65,21 @@ impl ElasticCurve {
         self.stiffness.iter().sum()
     }
 
+    /// The approach (m) at which the bodies press on each other with a force, N; `None` if the contact
+    /// would reach the last point.
+    pub fn approach(&self, force: f64) -> Option<f64> {
+        let (mut before, mut stiffness) = (0.0, 0.0);
+        for k in 0..self.touch.len() {
+            stiffness += self.stiffness[k];
+            let width = self.touch.get(k + 1)? - self.touch[k];
+            if before + stiffness * width >= force {
+                return Some(self.touch[k] + (force - before) / stiffness);
+            }
+            before += stiffness * width;
+        }
+        None
+    }
+
     /// The collision of a reduced mass (kg) at a speed (m/s); `None` if the contact would reach
     /// the last point.
     pub fn impact(&self, mass: f64, speed: f64) -> Option<ElasticImpact> {

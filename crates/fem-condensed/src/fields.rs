@@ -68,7 +68,7 @@ impl CondensedPair {
         let (chosen, missing) = choose(trace, time_step, request, approach.first_touch(), ending);
         let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
         let steps = Steps { time_step, last: trace.len() - 1 };
-        let states = self.states(frame.speed(), damping, steps, &instants)?;
+        let states = self.states(frame, damping, steps, &instants)?;
         let relaxations = damping.relaxations;
         let time = |instant: Instant| approach.first_touch() + instant.position() * time_step;
         let mut snapshots: Vec<Snapshot> = chosen
@@ -116,7 +116,7 @@ impl CondensedPair {
     /// State and rates at each instant: the motion once more, of which the steps around are kept.
     fn states(
         &self,
-        speed: f64,
+        frame: &Frame,
         damping: Damping<'_>,
         steps: Steps,
         instants: &[Instant],
@@ -127,7 +127,9 @@ impl CondensedPair {
         };
         let needed: BTreeSet<usize> =
             instants.iter().flat_map(|&i| [around(i)[0], i.step, around(i)[1]]).collect();
-        let mut motion = Motion::new(self, speed, damping, steps.time_step, self.points.len())?;
+        let (time_step, n_points) = (steps.time_step, self.points.len());
+        let mut motion = Motion::new(self, frame.speed(), damping, time_step, n_points)?
+            .with_gravity(frame.gravity);
         let mut kept: BTreeMap<usize, (State, f64)> = BTreeMap::new();
         for step in needed {
             while motion.step < step {

@@ -73,6 +73,7 @@ mod numbering;
 mod pair;
 mod peak;
 mod points;
+mod press;
 mod pressure;
 mod radiation;
 mod run;

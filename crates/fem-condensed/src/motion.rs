@@ -1,7 +1,7 @@
 //! Time stepping of the relative motion.
 //!
 //! ```math
-//! m^*\ddot\delta = -F, \qquad F = \mathbf 1^T\mathbf p, \qquad
+//! m^*\ddot\delta = m^*g - F, \qquad F = \mathbf 1^T\mathbf p, \qquad
 //! \mathbf g = \mathbf g_0 - \delta + \sum_i \mathbf u_i \ge 0
 //! ```
 //!
@@ -39,6 +39,8 @@ pub(crate) struct Motion<'a> {
     pub approach: f64,
     pub rate: f64,
     acceleration: f64,
+    /// m/s²; 0 without.
+    gravity: f64,
     pub sides: [SideState; 2],
     /// What leaves the bodies as waves, if anything does.
     waves: Option<Waves>,
@@ -100,6 +102,7 @@ impl<'a> Motion<'a> {
             approach: 0.0,
             rate: speed,
             acceleration: 0.0,
+            gravity: 0.0,
             sides,
             solver: DiscSolver::new(compliance),
             overlap: vec![0.0; n_points],
@@ -107,6 +110,11 @@ impl<'a> Motion<'a> {
             force: 0.0,
             contact: Disc { n_closed: 0, tension: 0.0, gap: 0.0 },
         })
+    }
+
+    /// The same with gravity along the approach, m/s².
+    pub fn with_gravity(self, gravity: f64) -> Self {
+        Self { acceleration: gravity, gravity, ..self }
     }
 
     pub fn time(&self) -> f64 {
@@ -159,7 +167,7 @@ impl<'a> Motion<'a> {
         if let Some(waves) = &mut self.waves {
             waves.advance(self.force);
         }
-        let acceleration = -self.force / self.pair.reduced_mass;
+        let acceleration = self.gravity - self.force / self.pair.reduced_mass;
         self.approach = predicted + BETA * dt * dt * acceleration;
         self.rate += 0.5 * dt * (self.acceleration + acceleration);
         self.acceleration = acceleration;

@@ -86,7 +86,8 @@ impl CondensedPair {
         let gaps: Vec<f64> = points.iter().map(|point| point.initial_gap).collect();
         let curve =
             ElasticCurve::new(&compliance, &gaps).ok_or(CondensedError::NotPositiveDefinite)?;
-        let inverse_mass: f64 = masses.iter().flatten().map(|mass| mass.recip()).sum();
+        let moving = masses.iter().zip(settings.held).filter(|(_, held)| !held);
+        let inverse_mass: f64 = moving.filter_map(|(mass, _)| Some(mass.as_ref()?.recip())).sum();
         Ok(Self {
             inputs,
             settings,
@@ -140,14 +141,19 @@ impl CondensedPair {
         radii.fold(f64::INFINITY, f64::min)
     }
 
-    /// m₁m₂/(m₁+m₂), kg.
+    /// m₁m₂/(m₁+m₂), kg; what is held counts as infinite.
     pub fn reduced_mass(&self) -> f64 {
         self.reduced_mass
     }
 
-    /// Masses, kg; infinite for a wall or a half-space.
+    /// Masses, kg; infinite for a wall, a half-space and what is held.
     pub fn masses(&self) -> [f64; 2] {
-        self.masses.map(|mass| mass.unwrap_or(f64::INFINITY))
+        self.moving_masses().map(|mass| mass.unwrap_or(f64::INFINITY))
+    }
+
+    /// Masses of the bodies that move, kg.
+    fn moving_masses(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|side: usize| self.masses[side].filter(|_| !self.settings.held[side]))
     }
 
     /// The lower body strikes the upper one at rest at this speed, m/s.
@@ -155,8 +161,8 @@ impl CondensedPair {
     /// # Errors
     /// A speed that is not positive and finite.
     pub fn frame(&self, speed: f64) -> Result<Frame, ApproachError> {
-        let approach = Approach::at(speed)?;
-        Ok(Frame { approach, masses: self.masses, reduced_mass: self.reduced_mass })
+        let (masses, reduced_mass) = (self.moving_masses(), self.reduced_mass);
+        Ok(Frame { approach: Approach::at(speed)?, masses, reduced_mass, gravity: 0.0 })
     }
 
     /// What is known of the bodies before they collide.

@@ -31,6 +31,8 @@ pub(crate) struct Run<'a> {
     last_contact: f64,
     episodes: u64,
     was_closed: bool,
+    /// Whether the bodies have moved apart since first touch.
+    has_receded: bool,
     /// What relaxation has taken, J, and ∫F dt, N s, by the trapezoidal rule.
     dissipated: f64,
     /// What waves have taken out of each body, J, if any leave it.
@@ -83,6 +85,7 @@ impl<'a> Run<'a> {
             last_contact: 0.0,
             episodes: 0,
             was_closed: false,
+            has_receded: false,
             dissipated: 0.0,
             radiated: None,
             impulse: 0.0,
@@ -152,11 +155,18 @@ impl<'a> Run<'a> {
         if !is_closed && self.motion.rate < 0.0 && flight >= FLIGHT_AFTER * self.last_contact {
             return Ok(Some(Ending::Parted));
         }
+        // Gravity lets no bounce rise further than this.
+        self.has_receded |= self.motion.rate < 0.0;
+        let is_at_top = self.frame.gravity > 0.0 && self.has_receded && self.motion.rate >= 0.0;
+        if !is_closed && is_at_top {
+            return Ok(Some(Ending::Parted));
+        }
         if stays {
             return Ok(Some(Ending::Together));
         }
         // An imbalance that is no number is above every limit.
-        let is_sound = self.worst_residual <= LARGEST_IMBALANCE;
+        let fallen = self.frame.weight() * self.approach.highest / self.initial_energy;
+        let is_sound = self.worst_residual <= LARGEST_IMBALANCE * (1.0 + fallen);
         let time_of_case = self.time_of_case();
         if !is_sound {
             let relative = self.worst_residual;
@@ -209,9 +219,11 @@ impl<'a> Run<'a> {
         let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
         let radiated = self.radiated.map(|[lower, upper]| lower + upper);
         let lost = radiated.map_or(dissipated, |radiated| dissipated + radiated);
-        let residual = kinetic + stored + contact + lost - self.initial_energy;
+        let potential = self.frame.potential(motion.approach).unwrap_or(0.0);
+        let residual = kinetic + stored + contact + lost + potential - self.initial_energy;
         self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
-        let drift = self.frame.impulse(rate) - self.impulse;
+        let given = self.frame.weight() * time;
+        let drift = self.frame.impulse(rate) + given - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
             self.pair.radius_and_pressure(&motion.contact, &motion.forces);
@@ -246,7 +258,7 @@ impl<'a> Run<'a> {
             is_closed: self.was_closed,
             force: motion.force,
             rate,
-            inner_energy: lower + upper + stored + contact,
+            inner_energy: lower + upper + stored + contact + potential,
         })
     }
 
@@ -255,8 +267,12 @@ impl<'a> Run<'a> {
         let (is_parted, is_stopped) =
             (ending == Ending::Parted, matches!(ending, Ending::Stopped(_)));
         let restitution = match ending {
-            Ending::Parted => Some(-motion.rate / frame.speed()),
-            Ending::Together => Some(0.0),
+            Ending::Parted => {
+                // As it was when the contact ended.
+                let fallen = frame.gravity * (motion.time() - self.last_contact);
+                Some((fallen - motion.rate) / frame.speed())
+            }
+            Ending::Together | Ending::AtRest => Some(0.0),
             Ending::Stopped(_) => None,
         };
         let velocity_after = restitution.map(|e| frame.velocities(-e * frame.speed()));
@@ -307,6 +323,8 @@ impl<'a> Run<'a> {
             element_updates: None,
             factor_bytes: Some(self.pair.factor_bytes() as u64),
             repeated_contact_solutions: Some(motion.n_fallbacks() as u64),
+            bounces: Vec::new(),
+            rest: None,
             history,
             snapshots: Vec::new(),
             warnings: if is_stopped || is_parted { Vec::new() } else { vec![STAY_TOGETHER.into()] },

@@ -62,16 +62,22 @@ impl Sample {
     /// What is in each account, J.
     pub fn energies(&self, frame: &Frame) -> Book {
         let [lower, upper] = self.vibration;
-        let book = Book::EMPTY
+        let mut book = Book::EMPTY
             .with(Account::Kinetic, frame.kinetic(self.rate) + lower + upper)
             .with(Account::Strain, self.strain)
             .with(Account::Contact, self.contact)
             .with(Account::ViscousDissipation, self.dissipated)
             .with(Account::WallWork, frame.wall_work(self.rate));
-        match self.radiated {
-            Some(radiated) => book.with(Account::Radiated, radiated),
-            None => book,
+        let of_effects = [
+            (Account::Radiated, self.radiated),
+            (Account::Potential, frame.potential(self.approach)),
+        ];
+        for (account, energy) in of_effects {
+            if let Some(energy) = energy {
+                book.add(account, energy);
+            }
         }
+        book
     }
 
     /// The same of both bodies.

@@ -22,11 +22,19 @@ pub struct PairSettings {
     pub shear_blocks: usize,
     /// Modes of free vibration of each sphere; 0 is quasi-static.
     pub vibration_modes: usize,
+    /// Bodies whose mass centres do not move, whatever strikes them; lower first.
+    pub held: [bool; 2],
 }
 
 impl PairSettings {
-    /// Exact contact, two blocks, no vibration.
+    /// Exact contact, two blocks, no vibration, no body held.
     pub fn new(candidate_radius: f64) -> Self {
-        Self { candidate_radius, contact: ContactModel::Exact, shear_blocks: 2, vibration_modes: 0 }
+        Self {
+            candidate_radius,
+            contact: ContactModel::Exact,
+            shear_blocks: 2,
+            vibration_modes: 0,
+            held: [false; 2],
+        }
     }
 }

@@ -30,6 +30,10 @@ pub struct Body {
     material: Option<Material>,
     mass: f64,
     added_mass: f64,
+    /// Whether its mass centre does not move.
+    pub(crate) held: bool,
+    /// That uniform forces on its nodes give it along +y, m/s².
+    pub(crate) acceleration: f64,
 }
 
 impl Body {
@@ -46,6 +50,8 @@ impl Body {
             material: None,
             mass: f64::INFINITY,
             added_mass: 0.0,
+            held: false,
+            acceleration: 0.0,
         }
     }
 
@@ -54,8 +60,10 @@ impl Body {
         let RigidSphere { node_forces, bound } = sphere;
         let mass = bound.mass.iter().sum::<f64>();
         let mut n_history = 0;
-        let node_forces = place(node_forces, &mut n_history, time_step);
+        let masses = (bound.mass.as_slice(), 0.0);
+        let node_forces = place(node_forces, &mut n_history, time_step, masses);
         Self {
+            acceleration: acceleration(&node_forces),
             node_forces,
             n_history,
             inverse_mass: vec![[0.0, mass.recip()]],
@@ -85,7 +93,9 @@ impl Body {
         let mut n_history = 0;
         stress.set_time_step(time_step);
         let stress = Some(Placed::behind(&mut n_history, Arc::from(stress)));
-        let node_forces = place(node_forces, &mut n_history, time_step);
+        let masses = (nodal_mass.as_slice(), added_mass);
+        let node_forces = place(node_forces, &mut n_history, time_step, masses);
+        let acceleration = acceleration(&node_forces);
         let mass = match mesh.is_half_space() {
             true => f64::INFINITY,
             false => nodal_mass.iter().sum::<f64>() - added_mass,
@@ -101,7 +111,14 @@ impl Body {
             material: Some(material),
             mass,
             added_mass,
+            held: false,
+            acceleration,
         }
+    }
+
+    /// This body, its mass centre held in its place or not.
+    pub(crate) fn with_held(self, held: bool) -> Self {
+        Self { held, ..self }
     }
 
     /// Adds the forces on its nodes beside stress and contact; their sum along +y, N.
@@ -193,6 +210,27 @@ impl Body {
         self.mesh.as_ref().map_or(&[], SphereMesh::far_boundary)
     }
 
+    /// 1/m with mass scaling, 1/kg; 0 of a body that is held, and of a wall.
+    pub(crate) fn inverse_total_mass(&self) -> f64 {
+        if self.held { 0.0 } else { self.total_mass().recip() }
+    }
+
+    /// Takes the acceleration of the mass centre out of all forces on its nodes; what that adds to their
+    /// sum along +y, N.
+    pub(crate) fn hold(&self, forces: &mut Field) -> f64 {
+        let resultant: f64 = forces.iter().map(|force| force[1]).sum();
+        let acceleration = resultant / self.total_mass();
+        for (force, mass) in forces.iter_mut().zip(&self.nodal_mass) {
+            force[1] -= mass * acceleration;
+        }
+        -resultant
+    }
+
+    /// Whether forces from outside, beside the contact, change its momentum.
+    pub(crate) fn is_pushed(&self) -> bool {
+        self.held || !self.node_forces.is_empty()
+    }
+
     /// Mass-weighted mean of a field's y component; its value far away for a body that is not free.
     pub(crate) fn centre(&self, field: &Field) -> f64 {
         if !self.is_free() {
@@ -227,15 +265,23 @@ impl Body {
     }
 }
 
-/// The forces on a body's nodes, told the time step (s), behind so many fields of other parts.
+/// Forces at their place in the history, with the step and with the masses of the nodes (kg), of which so
+/// much is added.
 fn place(
     node_forces: Vec<Box<dyn NodeForce>>,
     n_history: &mut usize,
     time_step: f64,
+    (masses, added_mass): (&[f64], f64),
 ) -> Vec<Placed<dyn NodeForce>> {
     let place = |mut force: Box<dyn NodeForce>| {
         force.set_time_step(time_step);
+        force.set_masses(masses, added_mass);
         Placed::behind(n_history, Arc::from(force))
     };
     node_forces.into_iter().map(place).collect()
+}
+
+/// Acceleration of the mass centre by forces that act on all masses alike, m/s².
+fn acceleration(node_forces: &[Placed<dyn NodeForce>]) -> f64 {
+    node_forces.iter().map(|force| force.part.acceleration()).sum()
 }

@@ -27,6 +27,8 @@ pub(crate) struct ContactLog {
     /// Largest approach, m.
     pub max_approach: f64,
     was_closed: bool,
+    /// Whether the bodies have moved apart since first touch.
+    has_receded: bool,
 }
 
 impl ContactLog {
@@ -51,6 +53,7 @@ impl ContactLog {
             peak_force: 0.0,
             max_approach: 0.0,
             was_closed: false,
+            has_receded: false,
         }
     }
 
@@ -81,6 +84,7 @@ impl ContactLog {
                 self.approach_rate += if side == 0 { change } else { -change };
             }
         }
+        self.has_receded |= self.approach_rate < 0.0;
         self.approach += time_step * self.approach_rate;
     }
 
@@ -94,11 +98,16 @@ impl ContactLog {
         times_fit && self.episodes <= state.step + 1
     }
 
-    /// Whether at this time (s) the contact is over for good and has been so for a while.
-    pub fn has_separated(&self, time: f64) -> bool {
+    /// Whether at this time (s) the contact is over for good and has been so for a while, or until
+    /// gravity (of the approach, m/s²) has brought the flight to its top.
+    pub fn has_separated(&self, time: f64, gravity: f64) -> bool {
         let (Some(first), Some(last)) = (self.first_contact, self.last_contact) else {
             return false;
         };
+        let is_at_top = gravity > 0.0 && self.has_receded && self.approach_rate >= 0.0;
+        if is_at_top && !self.was_closed {
+            return true;
+        }
         !self.was_closed && self.approach_rate < 0.0 && time - last >= FLIGHT_AFTER * (last - first)
     }
 }

@@ -68,6 +68,9 @@ fn take_body(digest: &mut Digest, body: &Body) {
     digest.take_numbers(&body.nodal_mass);
     digest.take_text(body.material());
     digest.take_text(&body.node_forces);
+    if body.held {
+        digest.take_text("held");
+    }
 }
 
 fn take_contact(digest: &mut Digest, contact: &dyn Contact) {

@@ -66,7 +66,7 @@ impl Ledger {
     pub fn new(model: &Model, state: &State) -> Self {
         let moving = || model.bodies().iter().filter(|body| body.is_free());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
-        let inverse_mass: f64 = sum(&|body| body.total_mass().recip());
+        let inverse_mass: f64 = sum(&Body::inverse_total_mass);
         let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
         let momentum_before = |(body, state): (&Body, &BodyState)| {
             match (body.is_free(), body.node_forces.is_empty()) {
@@ -97,7 +97,7 @@ impl Ledger {
     pub fn count_step(&mut self, model: &Model, scratch: &Scratch, force: f64) {
         self.impulse += model.time_step() * force;
         for (side, body) in model.bodies().iter().enumerate() {
-            if !body.node_forces.is_empty() {
+            if body.is_pushed() {
                 self.given_momentum += model.time_step() * scratch.resultants[side];
             }
             for &node in body.held_nodes() {

@@ -74,7 +74,7 @@ mod time_step;
 pub use body::Body;
 pub use contact::Contact;
 pub use error::ModelError;
-pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients};
+pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;
 pub use memory::Memory;
 pub use model::{Model, Parts, Settings};

@@ -34,6 +34,9 @@ pub struct Settings {
 pub struct Parts {
     /// Forces on the nodes of the lower and of the upper body, in the order in which they add up.
     pub node_forces: [Vec<Box<dyn NodeForce>>; 2],
+    /// Spheres whose mass centres do not move, lower and upper: a force on their nodes in proportion to
+    /// the masses takes up what else would move them. None by default.
+    pub held: [bool; 2],
     /// Instead of the penalty contact.
     pub contact: Option<Box<dyn Contact>>,
 }
@@ -46,7 +49,7 @@ pub struct Model {
     time_step: f64,
     plain_time_step: f64,
     approach: Approach,
-    /// Σ 1/m of both bodies with mass scaling, 1/kg.
+    /// Σ 1/m of both bodies with mass scaling, 1/kg; 0 of what is held.
     pub(crate) inverse_mass: f64,
 }
 
@@ -101,13 +104,14 @@ impl Model {
         });
         let time_step = settings.step_factor * critical;
         contact.set_time_step(time_step);
-        let mut movable = movable.into_iter();
-        let bodies = approach.velocities().map(|velocity| match movable.next().flatten() {
-            Some(body) => body.into_body(velocity, critical, time_step),
+        let mut movable = movable.into_iter().zip(parts.held);
+        let mut next = || movable.next().and_then(|(body, held)| Some((body?, held)));
+        let bodies = approach.velocities().map(|velocity| match next() {
+            Some((body, held)) => body.into_body(velocity, critical, time_step).with_held(held),
             None => Body::wall(velocity),
         });
         Ok(Self {
-            inverse_mass: bodies.iter().map(|body: &Body| body.total_mass().recip()).sum(),
+            inverse_mass: bodies.iter().map(Body::inverse_total_mass).sum(),
             bodies,
             contact: Arc::from(contact),
             time_step,
@@ -173,9 +177,19 @@ impl Model {
 
     /// The frame of the common mass centre, mass scaling included.
     pub(crate) fn frame(&self) -> Frame {
-        let mass = |body: &Body| body.is_free().then(|| body.total_mass());
+        let mass = |body: &Body| (body.is_free() && !body.held).then(|| body.total_mass());
         let masses = self.bodies.each_ref().map(mass);
-        Frame { approach: self.approach, masses, reduced_mass: self.inverse_mass.recip() }
+        Frame {
+            approach: self.approach,
+            masses,
+            reduced_mass: self.inverse_mass.recip(),
+            gravity: self.gravity(),
+        }
+    }
+
+    /// Acceleration of the approach by forces that act on whole bodies alike, m/s².
+    pub(crate) fn gravity(&self) -> f64 {
+        self.bodies[0].acceleration - self.bodies[1].acceleration
     }
 
     /// Number of elements of both bodies.

@@ -10,17 +10,22 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
     let (is_complete, is_parted) =
         (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
+    let bodies = model.bodies();
     let velocity_after = match ending {
-        Ending::Parted => observed.last.map(|row| row.velocity),
+        Ending::Parted => observed.last.map(|row| {
+            // As they were when the contact ended.
+            let flight = log.last_contact.map_or(0.0, |last| row.time - last);
+            [0, 1].map(|side: usize| row.velocity[side] - bodies[side].acceleration * flight)
+        }),
         // With the common mass centre.
-        Ending::Together => Some(model.frame().velocities(0.0)),
+        Ending::Together | Ending::AtRest => Some(model.frame().velocities(0.0)),
         Ending::Stopped(_) => None,
     };
     let vibration_energy =
         observed.aftermath.filter(|_| is_parted).and_then(|aftermath| aftermath.vibration_energy());
     let speed = model.approach().speed();
     let bodies = [0, 1].map(|side: usize| {
-        let body = &model.bodies()[side];
+        let body = &bodies[side];
         let is_moved = !body.is_wall();
         BodyResult {
             elements: Some(body.n_elements()),
@@ -74,6 +79,8 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         element_updates: Some(state.step.saturating_mul(model.n_elements() as u64)),
         factor_bytes: None,
         repeated_contact_solutions: None,
+        bounces: Vec::new(),
+        rest: None,
         history: history.map_or_else(Vec::new, History::into_rows),
         snapshots,
         warnings,

@@ -171,7 +171,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     if is_closed {
         observed.touch();
     }
-    let has_separated = log.has_separated(time);
+    let has_separated = log.has_separated(time, model.gravity());
     // At the limit too: a run that blows up throws its nodes about, which is not a large contact, and
     // its balance tells.
     let kind = match (is_last_contact, is_first_contact || has_separated || contact.at_limit) {

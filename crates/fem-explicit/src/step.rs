@@ -8,7 +8,7 @@ use crate::motion::advance_motion;
 use crate::part::{Field, Motion, NodalField};
 use crate::state::{BodyState, Scratch, State};
 
-/// Forces of the present configuration: of stress, on the nodes, of contact.
+/// Forces of the present configuration: of stress, on the nodes, of contact, of what holds a body.
 pub(crate) fn update_forces(model: &Model, state: &State, scratch: &mut Scratch) -> ContactForces {
     let motions = state.motions(model);
     for side in 0..2 {
@@ -18,7 +18,12 @@ pub(crate) fn update_forces(model: &Model, state: &State, scratch: &mut Scratch)
         scratch.resultants[side] = body.add_node_forces(motion, history, forces);
     }
     let [lower, upper] = &mut scratch.forces;
-    model.contact().add_forces(&motions, state.contact_history(model), [lower, upper])
+    let contact =
+        model.contact().add_forces(&motions, state.contact_history(model), [lower, upper]);
+    for (side, body) in model.bodies().iter().enumerate().filter(|(_, body)| body.held) {
+        scratch.resultants[side] += body.hold(&mut scratch.forces[side]);
+    }
+    contact
 }
 
 /// Takes both bodies to the next time: the nodes, then what contact, stress and forces remember.

@@ -4,7 +4,7 @@
 //! δ̈ = −F/m*; the rate is its derivative. Work and energies are cubic with their known rates Fδ̇;
 //! a law's force and strain energy follow from the motion. What is known at the instants only,
 //! force, a² and p₀² of the other models, is cubic with the slopes of parabolas through three
-//! instants. After the last instant the bodies fly freely.
+//! instants. After the last instant the bodies fly freely. Gravity adds its acceleration to δ̈.
 
 use crate::impact::{Impact, ImpactInstant};
 use crate::laws::ContactLaw;
@@ -17,6 +17,7 @@ pub struct ImpactPath<'a> {
     effective_mass: f64,
     effective_radius: f64,
     law: Option<&'a ContactLaw>,
+    gravity: f64,
 }
 
 impl<'a> ImpactPath<'a> {
@@ -27,7 +28,13 @@ impl<'a> ImpactPath<'a> {
             effective_mass: pair.effective_mass(),
             effective_radius: pair.effective_radius(),
             law,
+            gravity: 0.0,
         }
+    }
+
+    /// Of a collision with gravity along the approach, m/s².
+    pub fn with_gravity(self, acceleration: f64) -> Self {
+        Self { gravity: acceleration, ..self }
     }
 
     /// The state at a time after first touch, s; first touch itself before it. `None` of a
@@ -39,7 +46,10 @@ impl<'a> ImpactPath<'a> {
             (0, _) => self.history.first().copied(),
             (_, None) if time > last.time => Some(ImpactInstant {
                 time,
-                approach: last.approach + last.approach_rate * (time - last.time),
+                approach: last.approach
+                    + (last.approach_rate + 0.5 * self.gravity * (time - last.time))
+                        * (time - last.time),
+                approach_rate: last.approach_rate + self.gravity * (time - last.time),
                 force: 0.0,
                 contact_radius: 0.0,
                 centre_pressure: last.centre_pressure.map(|_| 0.0),
@@ -55,7 +65,7 @@ impl<'a> ImpactPath<'a> {
         let (a, b) = (&self.history[k], &self.history[k + 1]);
         let length = b.time - a.time;
         let s = (time - a.time) / length;
-        let acceleration = [a, b].map(|instant| -instant.force / self.effective_mass);
+        let acceleration = [a, b].map(|instant| self.gravity - instant.force / self.effective_mass);
         let (approach, approach_rate) = quintic(
             s,
             length,

@@ -20,7 +20,8 @@
 //! ```
 //!
 //! which makes x change by a constant factor a step while ẋ is large, and leaves a creep alone; b ≤ 1 is the overlap at which the dashpot
-//! alone would stop the motion. What the dashpot takes, ∫c xⁿ ẋ² dt, is integrated along. Limits: a strongly damped creep back to zero overlap is refused when it needs more than
+//! alone would stop the motion. Gravity adds g ℓ/v² to ẍ; a ball that turns back while it touches, or whose
+//! energy does not lift it to x = 0 any more, stays. What the dashpot takes, ∫c xⁿ ẋ² dt, is integrated along. Limits: a strongly damped creep back to zero overlap is refused when it needs more than
 //! 100 000 steps.
 
 use differential_equations::control::ControlFlag;
@@ -32,7 +33,7 @@ use differential_equations::solution::Solution;
 
 use crate::bisection::falling_zero;
 use crate::end_rule::EndRule;
-use crate::error::{LawError, positive, tolerance as checked_tolerance};
+use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
 use crate::impact::{Impact, ImpactInstant};
 use crate::laws::ContactLaw;
 use crate::pair::Pair;
@@ -44,6 +45,8 @@ pub struct LawImpact {
     law: ContactLaw,
     end_rule: EndRule,
     tolerance: f64,
+    /// m/s².
+    gravity: f64,
 }
 
 /// Relative energy below which nothing comes back: restitutions below 1e-8.
@@ -64,7 +67,7 @@ impl LawImpact {
     /// Ending at zero force, with the default tolerance.
     pub fn new(pair: &Pair, law: ContactLaw) -> Self {
         let (end_rule, tolerance) = (EndRule::default(), Self::DEFAULT_TOLERANCE);
-        Self { pair: *pair, law, end_rule, tolerance }
+        Self { pair: *pair, law, end_rule, tolerance, gravity: 0.0 }
     }
 
     /// This law with another end of contact.
@@ -78,6 +81,14 @@ impl LawImpact {
     /// A tolerance outside.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self, LawError> {
         Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
+    }
+
+    /// With gravity along the approach (m/s²), on a ball above a body that does not move.
+    ///
+    /// # Errors
+    /// An acceleration that is negative or not finite.
+    pub fn with_gravity(self, acceleration: f64) -> Result<Self, LawError> {
+        Ok(Self { gravity: not_negative("gravity", acceleration)?, ..self })
     }
 
     /// The collision at an approach speed, m/s.
@@ -99,7 +110,7 @@ impl LawImpact {
         if !damping.is_finite() {
             return Err(LawError::NotPositive { quantity: "contact law damping", value: damping });
         }
-        let oscillator = Oscillator { gamma, n, damping };
+        let oscillator = Oscillator { gamma, n, damping, gravity: self.gravity * time / speed };
         let outcome = oscillator.collide(self.end_rule, self.tolerance).map_err(|reached| {
             let (model, n_steps) = ("contact law", MAX_STEPS);
             LawError::NotFinished { model, n_steps, time: reached * time }
@@ -134,11 +145,12 @@ impl LawImpact {
     }
 }
 
-/// ẍ = −x^γ − c xⁿ ẋ.
+/// ẍ = gravity − x^γ − c xⁿ ẋ.
 struct Oscillator {
     gamma: f64,
     n: f64,
     damping: f64,
+    gravity: f64,
 }
 
 /// x, ẋ, t, and what the dashpot has taken.
@@ -155,7 +167,8 @@ impl Oscillator {
     /// dF/dt at x > 0.
     fn force_rate(&self, state: State) -> f64 {
         let [x, w, ..] = state;
-        let stretched = self.n * x.powf(self.n - 1.0) * w * w - x.powf(self.n) * self.force(state);
+        let slowing = self.force(state) - self.gravity;
+        let stretched = self.n * x.powf(self.n - 1.0) * w * w - x.powf(self.n) * slowing;
         self.gamma * x.powf(self.gamma - 1.0) * w + self.damping * stretched
     }
 
@@ -172,9 +185,9 @@ impl Oscillator {
         }
     }
 
-    /// Energy still in motion and spring, of 1.
+    /// Energy still in motion, spring and weight, of 1.
     fn energy(&self, [x, w, ..]: State) -> f64 {
-        w * w + 2.0 / (self.gamma + 1.0) * x.abs().powf(self.gamma + 1.0)
+        w * w + 2.0 / (self.gamma + 1.0) * x.abs().powf(self.gamma + 1.0) - 2.0 * self.gravity * x
     }
 
     /// b: braking by the dashpot alone, dẋ = −c xⁿ dx, stops at c xⁿ⁺¹ = n + 1.
@@ -220,9 +233,10 @@ impl ODE<f64, State> for Motion<'_> {
         let overlap = state[0].max(0.0);
         let near = overlap + UNRESOLVED * self.braking;
         let pace = self.braking * near / (near + self.braking * state[1] * state[1]);
-        let Oscillator { n, damping, .. } = self.oscillator;
+        let Oscillator { n, damping, gravity, .. } = self.oscillator;
+        let slowing = self.oscillator.force(*state) - gravity;
         let taken = damping * state[0].abs().powf(*n) * state[1] * state[1];
-        *rate = [pace * state[1], -pace * self.oscillator.force(*state), pace, pace * taken];
+        *rate = [pace * state[1], -pace * slowing, pace, pace * taken];
     }
 }
 
@@ -319,7 +333,8 @@ impl Solout<f64, State> for Watch<'_> {
             return ControlFlag::Terminate;
         }
         self.record(*state);
-        if oscillator.energy(*state) < STUCK {
+        let turns_back = oscillator.gravity > 0.0 && previous[1] < 0.0 && state[1] >= 0.0;
+        if oscillator.energy(*state) < STUCK || turns_back {
             ControlFlag::Terminate
         } else {
             ControlFlag::Continue

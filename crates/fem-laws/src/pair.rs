@@ -52,6 +52,17 @@ impl Partner {
         Self::HalfSpace { plane_strain_modulus: material.instantaneous().plane_strain_modulus() }
     }
 
+    /// This sphere, held in its place; what else there is moves nowhere already.
+    #[must_use]
+    pub fn held(self) -> Self {
+        match self {
+            Self::Sphere { radius, plane_strain_modulus, .. } => {
+                Self::Sphere { radius, mass: f64::INFINITY, plane_strain_modulus }
+            }
+            other => other,
+        }
+    }
+
     /// Plane strain modulus E/(1−ν²), Pa; infinite for a rigid body.
     pub fn plane_strain_modulus(&self) -> f64 {
         match *self {
@@ -123,7 +134,7 @@ impl Pair {
         }
         Ok(Self {
             effective_radius: in_series(r1, r2),
-            effective_mass: in_series(m1, m2),
+            effective_mass: positive("effective mass", in_series(m1, m2))?,
             contact_modulus: in_series(e1, e2),
         })
     }

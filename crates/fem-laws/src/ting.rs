@@ -35,12 +35,15 @@
 //! passive form of `ting_radiation.rs`, by the force itself, in loading and unloading. The contact then is
 //! largest a little before the approach is, and t₁ looks back from there.
 //!
+//! With gravity, δ̈ = g − F/m*. A ball that turns back while it still touches, or that creeps under its
+//! weight, does not leave any more: it stays. Contacts that grow twice are not followed.
+//!
 //! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8, with waves
 //! 1e-6, is returned as bodies that stay together.
 
 use fem_material::Material;
 
-use crate::error::{LawError, positive, tolerance as checked_tolerance};
+use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
 use crate::finite_correction::RelaxingCorrection;
 use crate::finite_size::FiniteSize;
 use crate::hertz::HertzImpact;
@@ -64,6 +67,8 @@ pub struct Ting {
     /// γ of all bodies that radiate, m s/N.
     radiation_damping: Option<f64>,
     tolerance: f64,
+    /// m/s².
+    gravity: f64,
 }
 
 impl Ting {
@@ -82,6 +87,7 @@ impl Ting {
             finite_size: None,
             radiation_damping: None,
             tolerance: Self::DEFAULT_TOLERANCE,
+            gravity: 0.0,
         }
     }
 
@@ -91,6 +97,14 @@ impl Ting {
     /// A tolerance outside.
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self, LawError> {
         Ok(Self { tolerance: checked_tolerance(tolerance)?, ..self })
+    }
+
+    /// With gravity along the approach (m/s²), on a ball above a body that does not move.
+    ///
+    /// # Errors
+    /// An acceleration that is negative or not finite.
+    pub fn with_gravity(self, acceleration: f64) -> Result<Self, LawError> {
+        Ok(Self { gravity: not_negative("gravity", acceleration)?, ..self })
     }
 
     /// With the finite size of the spheres in series; of the same materials as the relaxation.
@@ -113,13 +127,18 @@ impl Ting {
         Ok(Self { radiation_damping, ..self })
     }
 
+    /// Share of the contact modulus that never relaxes, 0 to 1.
+    pub fn equilibrium_weight(&self) -> f64 {
+        self.relaxation.equilibrium_weight()
+    }
+
     /// The collision at an approach speed, m/s.
     ///
     /// # Errors
     /// Those of [`HertzImpact::new`]; a contact too large for the finite-size correction; a
     /// radiated share too large; a motion that does not end.
     pub fn impact(&self, approach_speed: f64) -> Result<Impact, LawError> {
-        let hertz = HertzImpact::new(&self.pair, approach_speed)?;
+        let hertz = HertzImpact::new(&self.pair, self.scale(approach_speed)?)?;
         let units = Units::of(&hertz);
         let terms = self.relaxation.terms();
         let corrections = match &self.finite_size {
@@ -139,9 +158,11 @@ impl Ting {
             elements: elements.collect(),
             correction: corrections.equilibrium,
             radiation: None,
+            gravity: self.gravity * units.time / units.speed,
         };
+        let rate = approach_speed / units.speed;
         let run = |contact: &Contact| {
-            Collision::new(contact, self.finite_size.as_ref(), self.tolerance).run(&units)
+            Collision::new(contact, self.finite_size.as_ref(), self.tolerance, rate).run(&units)
         };
         let Some(damping) = self.radiation_damping else { return run(&contact) };
         let (value, limit) = (share_of_damping(&hertz, damping), Self::MAX_RADIATED_SHARE);
@@ -156,5 +177,18 @@ impl Ting {
             without.contact_time.unwrap_or(hertz.contact_time()) / units.time,
         );
         run(&Contact { radiation: Some(radiation), ..contact })
+    }
+}
+
+impl Ting {
+    /// The speed (m/s) that a dimensionless 1 stands for: that of approach, or √(g δ) of the static
+    /// approach δ of instantaneous moduli where a ball is let down more slowly than that.
+    fn scale(&self, approach_speed: f64) -> Result<f64, LawError> {
+        if self.gravity == 0.0 {
+            return Ok(approach_speed);
+        }
+        let stiffness = HertzImpact::new(&self.pair, approach_speed)?.stiffness();
+        let at_rest = (self.pair.effective_mass() * self.gravity / stiffness).powf(2.0 / 3.0);
+        Ok(approach_speed.max((self.gravity * at_rest).sqrt()))
     }
 }

@@ -20,6 +20,10 @@ const STUCK: f64 = 1e-8;
 /// Restitution that may come out as none where waves leave.
 const RESTING: f64 = 1e-6;
 
+/// A ball creeps under its weight if the force is within this share of that, and the energy of its motion
+/// below this share of what it has fallen since first touch.
+const SETTLED: f64 = 1e-3;
+
 /// Far above the some hundreds that the most viscous contacts take.
 const MAX_STEPS: usize = 20_000;
 
@@ -73,7 +77,13 @@ pub(crate) struct Collision<'a> {
 }
 
 impl<'a> Collision<'a> {
-    pub fn new(contact: &'a Contact, finite_size: Option<&'a FiniteSize>, tolerance: f64) -> Self {
+    /// Of bodies that touch at a rate of the approach.
+    pub fn new(
+        contact: &'a Contact,
+        finite_size: Option<&'a FiniteSize>,
+        tolerance: f64,
+        rate: f64,
+    ) -> Self {
         let fastest = contact.elements.iter().map(|element| element.rate).fold(1.0, f64::max);
         let memory = vec![[0.0; 3]; contact.elements.len()];
         Self {
@@ -81,14 +91,7 @@ impl<'a> Collision<'a> {
             finite_size,
             interpolation: Interpolation::new(),
             local_tolerance: LOCAL_SHARE * tolerance,
-            state: State {
-                time: 0.0,
-                approach: 0.0,
-                rate: 1.0,
-                force: 0.0,
-                slow_force: 0.0,
-                memory,
-            },
+            state: State { time: 0.0, approach: 0.0, rate, force: 0.0, slow_force: 0.0, memory },
             // δ^(3/2) is not smooth at first touch: begin far below all time scales.
             length: 1e-5 / fastest,
             work: 0.0,
@@ -99,21 +102,22 @@ impl<'a> Collision<'a> {
             max_approach: 0.0,
             history: vec![ImpactInstant {
                 radiated: contact.radiation.map(|_| 0.0),
-                ..ImpactInstant::first_touch(1.0, true, contact.elements.is_empty())
+                ..ImpactInstant::first_touch(rate, true, contact.elements.is_empty())
             }],
         }
     }
 
     pub fn run(mut self, units: &Units) -> Result<Impact, LawError> {
+        let first_rate = self.state.rate;
         let record = self.load(units)?;
         let turned = self.state.clone();
         if let Some(record) = &record {
             self.unload(record, units)?;
         }
-        let parted = -self.state.rate > STUCK;
+        let parted = record.is_some() && -self.state.rate > STUCK;
         let hertz = self.contact.hertz_approach_of(&turned);
         Ok(Impact {
-            restitution: if parted { -self.state.rate } else { 0.0 },
+            restitution: if parted { -self.state.rate / first_rate } else { 0.0 },
             contact_time: parted.then_some(self.state.time * units.time),
             peak_force: self.peak_force * units.force,
             max_approach: turned.approach.max(self.max_approach) * units.length,
@@ -148,6 +152,12 @@ impl<'a> Collision<'a> {
             if self.state.rate < STUCK && self.state.force * self.state.approach < STUCK * STUCK {
                 return Ok(None);
             }
+            let (gravity, State { rate, approach, force, .. }) =
+                (self.contact.gravity, &self.state);
+            let is_borne = (force - gravity).abs() < SETTLED * gravity;
+            if is_borne && 0.5 * rate * rate < SETTLED * gravity * approach {
+                return Ok(None);
+            }
         }
     }
 
@@ -158,7 +168,7 @@ impl<'a> Collision<'a> {
             && self.state.force * self.state.approach < RESTING * RESTING
     }
 
-    /// Down to the end of contact.
+    /// Down to the end of contact, or until the weight turns the ball back.
     fn unload(&mut self, record: &Record, units: &Units) -> Result<(), LawError> {
         loop {
             let solved = self.step(Some(record), units)?;
@@ -185,6 +195,9 @@ impl<'a> Collision<'a> {
                     // A surface without load gives nothing back.
                     last.dissipated.get_or_insert(last.work - last.radiated.unwrap_or_default());
                 }
+                return Ok(());
+            }
+            if self.contact.gravity > 0.0 && self.state.rate >= 0.0 {
                 return Ok(());
             }
         }

@@ -40,6 +40,8 @@ pub(crate) struct Contact {
     pub correction: Correction,
     /// Waves that leave, if they do.
     pub radiation: Option<Radiation>,
+    /// What gravity adds to the acceleration of the approach; 0 without.
+    pub gravity: f64,
 }
 
 impl Contact {
@@ -66,6 +68,8 @@ pub(crate) struct Step {
     /// δ and δ̇ at the start.
     pub approach: f64,
     pub rate: f64,
+    /// Of the contact.
+    pub gravity: f64,
     /// At the start, of each element.
     pub memory: Vec<Memory>,
     pub force: Vector,
@@ -77,12 +81,13 @@ pub(crate) struct Step {
 
 impl Step {
     pub fn approach_at(&self, theta: f64) -> f64 {
-        let lost = self.length * double_integral(&self.force, theta);
+        let given = 0.5 * self.gravity * theta * theta;
+        let lost = self.length * (double_integral(&self.force, theta) - given);
         self.approach + self.length * (self.rate * theta - lost)
     }
 
     pub fn rate_at(&self, theta: f64) -> f64 {
-        self.rate - self.length * integral(&self.force, theta)
+        self.rate - self.length * (integral(&self.force, theta) - self.gravity * theta)
     }
 
     /// What of δ is the contact's own.

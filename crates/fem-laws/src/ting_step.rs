@@ -127,9 +127,11 @@ impl Stepper<'_> {
             });
             let creep: [_; N] = std::array::from_fn(|i| kernel.creep_at(&drives, i));
             for i in 0..N {
-                let rate = state.rate - length * dot(&coefficients, &singles[i]);
-                let lost = length * dot(&coefficients, &doubles[i]);
-                let approach = state.approach + length * (state.rate * POINTS[i] - lost);
+                let theta = POINTS[i];
+                let given = self.contact.gravity * theta;
+                let rate = state.rate - length * (dot(&coefficients, &singles[i]) - given);
+                let lost = length * (dot(&coefficients, &doubles[i]) - 0.5 * given * theta);
+                let approach = state.approach + length * (state.rate * theta - lost);
                 let (remembered, creeping) = &creep[i];
                 let (u, slope, rate) = match &waves {
                     None => {
@@ -239,6 +241,7 @@ impl Stepper<'_> {
             length,
             approach: state.approach,
             rate: state.rate,
+            gravity: self.contact.gravity,
             memory: state.memory.clone(),
             force: self.interpolation.coefficients(force),
             slow_force: state.slow_force,

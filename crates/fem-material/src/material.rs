@@ -39,6 +39,18 @@ impl Material {
         Self { relaxation: None, ..self.clone() }
     }
 
+    /// The elastic material with the same density and the moduli that are left after all relaxation;
+    /// `None` of one that flows.
+    pub fn at_equilibrium(&self) -> Option<Self> {
+        let Some(series) = &self.relaxation else { return Some(self.clone()) };
+        let left = series.equilibrium_weight();
+        let bulk_left = if self.bulk_relaxes() { left } else { 1.0 };
+        let now = &self.instantaneous;
+        let bulk = now.bulk_modulus() * bulk_left;
+        let moduli = ElasticModuli::from_bulk_shear(bulk, now.shear_modulus() * left).ok()?;
+        Some(Self { instantaneous: moduli, relaxation: None, ..self.clone() })
+    }
+
     /// Density ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density

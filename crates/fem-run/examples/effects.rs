@@ -107,8 +107,9 @@ fn line(row: &Row) -> String {
 
 /// A run from first touch to its end.
 fn cost(side: &Side, simulation: &fem::Simulation) -> Cost {
+    let contact = side.contact();
     let begin = Instant::now();
-    let mut course = simulation.start();
+    let mut course = side.start(contact.as_ref(), simulation);
     while course.advance(&mut ()) {}
     let mut spent = begin.elapsed();
     let bytes = n_bytes(course.as_ref());

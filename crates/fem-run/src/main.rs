@@ -17,6 +17,7 @@
 )]
 
 mod arguments;
+mod bounces;
 mod calibrate;
 mod case_arguments;
 mod commands;

@@ -11,6 +11,7 @@ use fem_case::engineering::{Unit, show};
 use fem_collision::{Shown, Side};
 use indicatif::{DecimalBytes, HumanCount};
 
+use crate::bounces::bounces;
 use crate::standard_output::one_line;
 use crate::tables::table;
 
@@ -39,7 +40,12 @@ pub fn report(summary: &Summary, place: &Path) -> String {
             summary.contact_episodes
         );
     }
-    let _ = writeln!(text, "\n{}", bodies(&summary.bodies));
+    if let Some(contacts) = &summary.bounces {
+        let _ = writeln!(text, "\n{}", bounces(contacts, summary.rest.as_ref()));
+    } else {
+        text += "\n";
+    }
+    let _ = writeln!(text, "{}", bodies(&summary.bodies));
     text += &balances(summary);
     if let Some(considered) = &summary.models_considered {
         let _ = writeln!(text, "\nModels, and what they are off by\n{}", models(considered));

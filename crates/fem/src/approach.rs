@@ -5,18 +5,24 @@ use fem_collision::{Approach, Frame};
 
 use crate::refusal::Refusal;
 
-/// How the bodies of a scene meet.
+/// How the bodies of a scene meet; of a ball that falls, how it does when it first touches.
 ///
 /// # Errors
 /// Bodies that do not meet.
 pub fn approach_of(scene: &Scene) -> Result<Approach, Refusal> {
     let velocities = scene.bodies().each_ref().map(|body| body.velocity());
-    Approach::new(velocities, scene.gap().unwrap_or_default())
-        .map_err(|error| Refusal::new("body", error.to_string()))
+    let approach = match scene.gravity() {
+        None => Approach::new(velocities, scene.gap().unwrap_or_default()),
+        Some(_) => Approach::new([0.0, -scene.approach_speed()], 0.0),
+    };
+    approach.map_err(|error| Refusal::new("body", error.to_string()))
 }
 
 /// The frame of the mass centre of solid spheres that meet like this; `reduced_mass` (kg) is that of
 /// the motion.
 pub(crate) fn frame_of(scene: &Scene, approach: &Approach, reduced_mass: f64) -> Frame {
-    Frame { approach: *approach, masses: scene.bodies().each_ref().map(Body::mass), reduced_mass }
+    let mass = |body: &Body| body.mass().filter(|_| !body.is_held());
+    let masses = scene.bodies().each_ref().map(mass);
+    let gravity = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
+    Frame { approach: *approach, masses, reduced_mass, gravity }
 }

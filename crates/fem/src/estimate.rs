@@ -107,17 +107,13 @@ fn pair(scene: &Scene, time: f64) -> Result<Pair, LawError> {
         Shape::Sphere { diameter, material, .. } => {
             let mass = fem_laws::sphere_mass(*diameter, material.density());
             let plane_strain_modulus = modulus_at(material, time);
-            Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus }
+            let sphere = Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus };
+            if body.is_held() { sphere.held() } else { sphere }
         }
         Shape::HalfSpace { material } => {
             Partner::HalfSpace { plane_strain_modulus: modulus_at(material, time) }
         }
-        Shape::Rigid { diameter, mass } => Partner::Sphere {
-            radius: 0.5 * diameter,
-            mass: *mass,
-            plane_strain_modulus: f64::INFINITY,
-        },
-        Shape::Wall => Partner::Wall,
+        Shape::Rigid { .. } | Shape::Wall => body.partner(),
     });
     Pair::new(first, second)
 }

@@ -6,7 +6,7 @@
 use std::fmt;
 
 use fem_case::{CaseFile, Scene};
-use fem_collision::{Approach, Collision, Monitor, Want};
+use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
 use fem_explicit::Memory;
 use fem_mesh::SphereMesh;
 
@@ -80,6 +80,13 @@ pub trait Model: fmt::Debug + Send + Sync {
         let message = format!("{} goes on from no memory", self.setup().description);
         Err(Refusal::new("model", message).with_help("compute the collision anew"))
     }
+
+    /// The contact of the scene's bodies under a force (N) that stays, all having relaxed; `None` of
+    /// bodies that flow under it for ever.
+    ///
+    /// # Errors
+    /// A contact that the model cannot compute.
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal>;
 
     /// The meshes; a wall has none, nor has a model without elements.
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

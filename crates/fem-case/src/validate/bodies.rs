@@ -50,7 +50,8 @@ impl Check<'_> {
                 "one must be a sphere; write sphere = { diameter = \"22.2 mm\" } here",
             ));
         }
-        if lower_speed + upper_speed <= 0.0 {
+        // What falls may be at rest at first, or fly up.
+        if file.gravity.is_none() && lower_speed + upper_speed <= 0.0 {
             let keys = ["body.0.approach_speed", "body.1.approach_speed"];
             let is_first_at_fault = lower_speed <= upper_speed && self.document.has(keys[0]);
             let culprit = keys[usize::from(!is_first_at_fault)];
@@ -70,12 +71,14 @@ impl Check<'_> {
                 name: lower.name.clone(),
                 shape: lower_shape,
                 velocity: lower_velocity,
+                held: lower.held.unwrap_or_default(),
                 yield_strength: self.yield_strength(file, lower)?,
             },
             Body {
                 name: upper.name.clone(),
                 shape: upper_shape,
                 velocity: upper_velocity,
+                held: upper.held.unwrap_or_default(),
                 yield_strength: self.yield_strength(file, upper)?,
             },
         ])

@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod bodies;
+pub(crate) mod gravity;
 mod materials;
 mod models;
 mod snapshots;
@@ -47,6 +48,8 @@ pub(crate) fn validate(
     let check = Check { document, folder };
     let bodies = check.bodies(file)?;
     let gap = file.start.as_ref().and_then(|start| start.gap.as_ref());
+    let gap = check.optional("start.gap", gap, NOT_NEGATIVE)?;
+    let gravity = check.gravity(file, &bodies, gap.unwrap_or_default())?;
     let mesh = file.mesh.clone().unwrap_or_default();
     let contact = file.contact.clone().unwrap_or_default();
     let time = file.time.clone().unwrap_or_default();
@@ -58,7 +61,8 @@ pub(crate) fn validate(
     Ok(Scene {
         title: file.title.clone().unwrap_or_else(|| stem.to_string()),
         bodies,
-        gap: check.optional("start.gap", gap, NOT_NEGATIVE)?,
+        gap,
+        gravity,
         mesh: MeshSettings {
             contact_element_size: check.optional(
                 "mesh.contact_element_size",

@@ -129,7 +129,7 @@ fn faults_in_the_key() {
     fault("output.snapshots.1", "output.snapshots.«1»='maximum'", "no index of this array of 1");
     fault("material.glass.density.x", "material.glass.«density».x=1", "a single value");
     fault("mesh.size", "mesh.«size»=1", "unknown key `size` in mesh");
-    fault("gravity", "«gravity»=1", "unknown key `gravity`");
+    fault("weather", "«weather»=1", "unknown key `weather`");
     fault("material.ice.density", "material.«ice».density=1", "exactly two");
     fault("body..name", "body.«.»name='x'", "empty");
     fault(".body", "«.»body=1", "empty");

@@ -1,7 +1,7 @@
 //! Limits that are known: converged finite elements, Hertz, Ting.
 
 use crate::common::{GLASS, POLYMER, STEEL, Scene, assert_close, collide, glass, material};
-use fem_condensed::{CondensedPair, ContactModel, PairSettings};
+use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 
 /// Converged quasi-static finite elements (another code, h = 3.75 µm), met at the default element
@@ -187,6 +187,33 @@ fn a_wall_is_the_mirror_of_a_twin() {
     assert_close("contact time", wall.contact_time.unwrap(), twin.contact_time.unwrap(), 1e-10);
     assert_close("peak force", wall.peak_force.unwrap(), twin.peak_force.unwrap(), 1e-10);
     assert_close("approach", 2.0 * wall.max_approach.unwrap(), twin.max_approach.unwrap(), 1e-10);
+}
+
+/// Hertz under a static force: a³ = 3FR*/4E*, δ = a²/R*, p₀ = 3F/2πa².
+#[test]
+fn a_force_presses_as_hertz_says() {
+    for bodies in [
+        [Some((22.2e-3, glass())), Some((15.9e-3, material(STEEL, All, &[])))],
+        [None, Some((15.9e-3, glass()))],
+    ] {
+        let scene = Scene { bodies, speed: 0.1 };
+        let pair = scene.condensed(8.0);
+        let (modulus, radius) = (scene.pair().contact_modulus(), scene.pair().effective_radius());
+        for share in [0.3, 0.6, 1.0] {
+            let force = share * scene.hertz().peak_force();
+            let contact_radius = (0.75 * force * radius / modulus).cbrt();
+            let pressure = 1.5 * force / (std::f64::consts::PI * contact_radius.powi(2));
+            let found = pair.pressed(force).unwrap();
+            assert_close("force", found.force, force, 1e-9);
+            // Five to eight elements across: the edge to a twentieth of one, pressure 1.5 % low.
+            assert_close("radius", found.contact_radius.unwrap(), contact_radius, 0.01);
+            assert_close("pressure", found.centre_pressure.unwrap(), pressure, 0.025);
+            // The spheres' own size makes them stiffer by some a/R.
+            assert_close("approach", found.approach, contact_radius.powi(2) / radius, 0.015);
+        }
+        let too_much = pair.pressed(100.0 * scene.hertz().peak_force()).unwrap_err();
+        assert!(matches!(too_much, CondensedError::ContactBeyondCandidates { .. }), "{too_much}");
+    }
 }
 
 /// Stiff penalty springs approach exact contact.

@@ -1,10 +1,13 @@
 //! Forces on the nodes of a body beside stress and contact: the port; one file a force.
 
 mod bulk_viscosity;
+mod gravity;
 
 pub use bulk_viscosity::{BulkViscosity, ViscosityCoefficients};
 
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
+
+pub use gravity::Weight;
 
 /// A force on the nodes of a body, from first touch on.
 ///
@@ -50,6 +53,16 @@ pub trait NodeForce: Part {
 
     /// Adds the work that it has done since first touch, what it stores, or its power.
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
+
+    /// Told once, when the model is built: the lumped masses of the nodes, mass scaling included, and
+    /// what of their sum that has added, kg.
+    fn set_masses(&mut self, _nodal_mass: &[f64], _added_mass: f64) {}
+
+    /// The acceleration along +y that it gives to the whole body, wherever that is and however it moves,
+    /// m/s²; 0 of any other force.
+    fn acceleration(&self) -> f64 {
+        0.0
+    }
 
     /// Adds a bound of its stiffness at each node, N/m; a force that does not depend on the
     /// displacement has none.

@@ -5,9 +5,9 @@ use fem_contact::ContactForces;
 use fem_mesh::Side;
 
 use crate::contact_log::ContactLog;
-use crate::forces::NodeForce;
+use crate::forces::{NodeForce, Weight};
 use crate::ledger::Ledger;
-use crate::model::{Model, Parts};
+use crate::model::{Model, Parts, Settings};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use crate::state::{Scratch, State};
 use crate::step::{advance, update_forces};
@@ -42,7 +42,8 @@ fn falling() -> (Model, State) {
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     // In two parts, which add up.
     let pulls = [0.25, 0.75].map(|share| Box::new(Pull(share * ACCELERATION)) as Box<_>);
-    let parts = Parts { node_forces: [Vec::new(), pulls.into()], contact: None };
+    let parts =
+        Parts { node_forces: [Vec::new(), pulls.into()], contact: None, ..Parts::default() };
     let bodies = [BodyInput::Wall, sphere];
     let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
     let mut state = State::at_first_touch(&model);
@@ -112,7 +113,7 @@ fn a_rigid_sphere_falls_too() {
     let bodies = [sphere, BodyInput::Rigid { radius: 0.5, mass: 3.0 }];
     let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
     let pull: Box<dyn NodeForce> = Box::new(Pull(ACCELERATION));
-    let parts = Parts { node_forces: [Vec::new(), vec![pull]], contact: None };
+    let parts = Parts { node_forces: [Vec::new(), vec![pull]], ..Parts::default() };
     let model = Model::with_parts(bodies, approach, &settings(), parts).unwrap();
     let mut state = State::at_first_touch(&model);
     // Back from first touch to the start.
@@ -136,4 +137,42 @@ fn a_rigid_sphere_falls_too() {
         advance(&model, &mut state, &scratch);
     }
     assert!(ledger.worst_momentum < 1e-13, "{}", ledger.worst_momentum);
+}
+
+/// A weight is ρ V g, whatever mass scaling adds, and its potential that times the height.
+#[test]
+fn added_mass_weighs_nothing() {
+    let gravity = 0.7;
+    for mass_scaling in [0.0, 0.05] {
+        let sphere =
+            BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() };
+        let weight: Box<dyn NodeForce> = Box::new(Weight::new(gravity));
+        let parts =
+            Parts { node_forces: [Vec::new(), vec![weight]], contact: None, ..Parts::default() };
+        let settings = Settings { mass_scaling, ..settings() };
+        let approach = Approach::at(1.0).unwrap();
+        let model =
+            Model::with_parts([BodyInput::Wall, sphere], approach, &settings, parts).unwrap();
+        let body = &model.bodies()[1];
+        assert_eq!(body.added_mass() > 1e-9 * body.mass(), mass_scaling > 0.0);
+        let expected = gravity * 4.0 / 3.0 * std::f64::consts::PI;
+        let mut state = State::at_first_touch(&model);
+        for place in &mut state.bodies[1].displacement {
+            *place = [0.0, 0.3];
+        }
+        let motion = &state.motions(&model)[1];
+        let mut forces = vec![[0.0; 2]; body.n_nodes()];
+        let resultant = body.add_node_forces(motion, &[], &mut forces);
+        let sum: f64 = forces.iter().map(|force| force[1]).sum();
+        // The sphere's mass is exact to rounding.
+        assert!((resultant / -expected - 1.0).abs() < 1e-12, "{resultant} {expected}");
+        assert!((sum / resultant - 1.0).abs() < 1e-12 && forces.iter().all(|f| f[0] == 0.0));
+        let mut accounts = Accounts::default();
+        body.add_energies(motion, &state.bodies[1].history, &mut accounts);
+        let potential = accounts.energies.get(Account::Potential).unwrap();
+        assert!((potential / (0.3 * expected) - 1.0).abs() < 1e-12, "{potential}");
+        // The relative acceleration with the inertia of all masses.
+        let frame = model.frame();
+        assert!((frame.weight() / expected - 1.0).abs() < 1e-12, "{}", frame.weight());
+    }
 }

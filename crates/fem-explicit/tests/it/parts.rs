@@ -20,7 +20,7 @@ fn model(pair: &Pair, parts: Parts) -> Model {
 
 fn on_both<F: NodeForce + Clone>(force: &F) -> Parts {
     let list = || vec![Box::new(force.clone()) as Box<dyn NodeForce>];
-    Parts { node_forces: [list(), list()], contact: None }
+    Parts { node_forces: [list(), list()], contact: None, ..Parts::default() }
 }
 
 /// The run stored, read back and resumed every 97 steps.

@@ -2,6 +2,7 @@
 
 mod direct;
 mod folded;
+mod gravity;
 mod hertz;
 mod hertz_pressure;
 mod impact_path;

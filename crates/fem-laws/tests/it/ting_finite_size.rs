@@ -213,7 +213,7 @@ fn independent_integration() {
             let part = place - index as f64;
             [0, 1].map(|i| table[index][i] + part * (table[index + 1][i] - table[index][i]))
         };
-        let Direct(fine) = direct(&pair, &relaxation, Some(&kernel), 0.5, 2000);
+        let Direct(fine) = direct(&pair, &relaxation, Some(&kernel), 0.5, 2000, 0.0);
         let values =
             [found.restitution, found.contact_time.unwrap(), found.peak_force, found.max_approach];
         assert_close(values[0], fine[0], tolerance);

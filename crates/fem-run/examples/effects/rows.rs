@@ -1,12 +1,23 @@
 //! The rows of the table of what effects cost: a line an effect, off and on.
 
-use fem::{Case, Course, Label, Simulation, SnapshotRequest, Want};
+use fem::{Case, Course, Explicit, Label, Model, Simulation, SnapshotRequest, Want};
 use std::path::Path;
 
 /// The glass pair without relaxation, at default settings.
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 /// Two like bodies: the smaller becomes the larger.
 const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
+
+/// The larger one of a stiffer glass.
+const STIFF: [&str; 2] = [
+    "material.stiff={density=2390, youngs_modulus=6.3e12, poissons_ratio=0.244}",
+    "body.0.material='stiff'",
+];
+/// The smaller one on what does not end, and the weight that it may have there.
+const FLOOR: &str = "body.0={name='floor', wall={}}";
+const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
+const FALLING: &str = "body.1.approach_speed=0.5";
+const WEIGHT: &str = "gravity.acceleration=9.81";
 
 /// What a run keeps beside the quantities of the collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,24 +100,53 @@ pub const ROWS: &[Row] = &[
         of(&[TWINS, "effects.mirror_symmetry='off'"]),
         of(&[TWINS, "effects.mirror_symmetry='on'"]),
     ),
+    row(
+        "rigid partner",
+        "100 times stiffer, forced on",
+        of(&[STIFF[0], STIFF[1], "effects.rigid_partner='off'"]),
+        of(&[STIFF[0], STIFF[1], "effects.rigid_partner='on'"]),
+    ),
+    row("partner waves", "a half-space for a wall", of(&[FLOOR, FALLING]), of(&[BLOCK, FALLING])),
+    row("gravity", "of one contact", of(&[FLOOR, FALLING]), of(&[FLOOR, FALLING, WEIGHT])),
     row("bulk viscosity", "forced on", BARE, of(&["effects.bulk_viscosity='on'"])),
     row("mass scaling", "2e-4 of the mass", of(&["time.mass_scaling=0"]), BARE),
     row("history", "1000 rows", BARE, keeping(Kept::History)),
     row("snapshots", "four", BARE, keeping(Kept::Snapshots)),
     row("stress recovery", "of four snapshots", keeping(Kept::Snapshots), keeping(Kept::Stress)),
-    always("partner waves", "elements carry them"),
     always("hourglass control", "in the elements' own loop"),
     always("contact search", "points that can touch"),
 ];
 
 impl Side {
+    fn case(&self) -> Case {
+        let overrides: Vec<String> = self.overrides.iter().map(ToString::to_string).collect();
+        Case::parse("glass.toml", GLASS, Path::new("."), &overrides).expect("a case")
+    }
+
     /// Its scene, ready to be computed.
     pub fn simulation(&self) -> Simulation {
-        let overrides: Vec<String> = self.overrides.iter().map(ToString::to_string).collect();
-        let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides);
-        let mut simulation = Simulation::new(case.expect("a case")).expect("a scene");
+        let mut simulation = Simulation::new(self.case()).expect("a scene");
         simulation.ask_for(self.want()).expect("a run");
         simulation
+    }
+
+    /// The model of one contact of a scene with several, which has a memory.
+    pub fn contact(&self) -> Option<Explicit> {
+        let case = self.case();
+        case.scene().gravity()?;
+        Some(Explicit::new(case.scene()).expect("a scene"))
+    }
+
+    /// Its run, of one contact, or of a simulation that has no more.
+    pub fn start<'a>(
+        &self,
+        contact: Option<&'a Explicit>,
+        simulation: &'a Simulation,
+    ) -> Box<dyn Course + 'a> {
+        match contact {
+            Some(model) => model.start(&model.setup().approach, &self.want()),
+            None => simulation.start(),
+        }
     }
 
     fn want(&self) -> Want {

@@ -82,7 +82,8 @@ fn bytes_of_state_are_those_of_a_run() {
                 continue;
             };
             let simulation = side.simulation();
-            let start = rows::n_bytes(simulation.start().as_ref());
+            let contact = side.contact();
+            let start = rows::n_bytes(side.start(contact.as_ref(), &simulation).as_ref());
             let shown: usize = shown.parse().unwrap();
             // Numbers of steps, and what is known of a contact only once it was there.
             assert!((start..start + 512).contains(&shown), "{}: {start} {shown}", row.name);

@@ -1,6 +1,7 @@
 //! The command as its users call it, in one program: linked once, its tests run side by side.
 
 mod bad_input;
+mod bounces;
 mod calibrate;
 mod common;
 mod fit;

@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 23] = [
+const KEYS: [&str; 25] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -14,6 +14,8 @@ const KEYS: [&str; 23] = [
     "hertz",
     "energy",
     "momentum_residual_relative",
+    "bounces",
+    "rest",
     "bodies",
     "time_step_s",
     "steps",

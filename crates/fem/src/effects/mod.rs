@@ -53,6 +53,7 @@ pub use left_out::LeftOut;
 pub use mass_scaling::MassScaling;
 pub use mirror_symmetry::MirrorSymmetry;
 pub use need::Need;
+pub(crate) use need::percent;
 pub use partner_waves::PartnerWaves;
 pub use penalty_springs::PenaltySprings;
 pub use plastic_yield::PlasticYield;

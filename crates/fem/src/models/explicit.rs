@@ -5,14 +5,16 @@ use std::sync::Arc;
 use fem_case::{Body, CaseFile, ModelChoice, Scene};
 use fem_collision::{
     Approach, BodyInput, Collision, Ending, Expectation, Monitor, Phase, Progress,
-    STEPS_BETWEEN_REPORTS, Stop, Want,
+    STEPS_BETWEEN_REPORTS, StaticContact, Stop, Want,
 };
 use fem_explicit::{
     Memory, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients,
+    Weight,
 };
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
+use super::condensed::static_contact::of_elements;
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::approach_of;
 use crate::body_source::BodySource;
@@ -214,6 +216,10 @@ impl Model for Explicit {
         Ok(Box::new(ExplicitCourse { made: &self.made, expected, want, run }))
     }
 
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+        of_elements(&self.made.scene, force)
+    }
+
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         self.bodies.bodies().each_ref().map(|body| body.mesh())
     }
@@ -257,11 +263,16 @@ impl Course for ExplicitCourse<'_> {
 /// What effects of the scene put into the step, beside stress and contact, of bodies that meet at this
 /// speed (m/s) in the whole scene.
 fn parts(scene: &Scene, inputs: &[BodyInput; 2], speed: f64) -> Result<Parts, ModelError> {
-    let mut parts = Parts::default();
+    let held = scene.bodies().each_ref().map(Body::is_held);
+    let mut parts = Parts { held, ..Parts::default() };
     if BulkViscosity::is_on(scene, mach(scene, speed)) {
         for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
             forces.extend(bulk_viscosity(input, speed)?);
         }
+    }
+    if let Some(gravity) = scene.gravity() {
+        let weight: Box<dyn NodeForce> = Box::new(Weight::new(gravity.acceleration));
+        parts.node_forces[1].push(weight);
     }
     Ok(parts)
 }
@@ -328,14 +339,13 @@ fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
         }
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
         MassScaling::NAME => mass_scaling(model, scene.bodies()),
-        PartnerWaves::NAME => Answer::Inherent { idle: "" },
+        PartnerWaves::NAME | Gravity::NAME => Answer::Inherent { idle: "" },
         BulkViscosity::NAME => Answer::Computes { idle: "" },
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
         | MirrorSymmetry::NAME
-        | RigidPartner::NAME
-        | Gravity::NAME => Answer::Lacks,
+        | RigidPartner::NAME => Answer::Lacks,
         _ => return None,
     })
 }

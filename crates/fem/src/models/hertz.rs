@@ -1,5 +1,5 @@
-//! Hertz' closed form for elastic half-spaces; with the spheres' finite size, Ting's model of elastic
-//! bodies.
+//! Hertz' closed form for elastic half-spaces; with the spheres' finite size or gravity, Ting's model of
+//! elastic bodies.
 
 use fem_case::schema::{HertzTable, ModelTable};
 use fem_case::{CaseFile, ModelChoice, Scene};
@@ -57,11 +57,13 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     };
     let estimate = Estimate::checked(scene)?;
     // Elastic bodies under Ting are Hertz', and Ting knows their size.
-    let motion: Box<dyn Motion> = match finite_size {
-        false => Box::new(ClosedForm(estimate.hertz)),
-        true => Box::new(ting::motion(scene, &estimate, false, true, Ting::DEFAULT_TOLERANCE)?),
+    let is_closed = !finite_size && scene.gravity().is_none();
+    let tolerance = Ting::DEFAULT_TOLERANCE;
+    let motion: Box<dyn Motion> = match is_closed {
+        true => Box::new(ClosedForm(estimate.hertz)),
+        false => Box::new(ting::motion(scene, &estimate, false, finite_size, tolerance)?),
     };
-    let description = match finite_size {
+    let description = match !is_closed {
         false => "model hertz, a closed form",
         true => "model hertz, one degree of freedom",
     };

@@ -95,7 +95,9 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let takes_slow_limit = matches!(law, Law::KuwabaraKono(Dissipation::Relaxation));
     let law = made.map_err(refuse)?;
     let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
-    let impact = impact.with_tolerance(tolerance).map_err(refuse)?;
+    let gravity = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
+    let impact = impact.with_tolerance(tolerance).and_then(|impact| impact.with_gravity(gravity));
+    let impact = impact.map_err(refuse)?;
     let motion = Box::new(LawMotion { impact, law, numbers });
     let traits = Traits {
         waves: false,

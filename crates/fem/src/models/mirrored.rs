@@ -4,7 +4,7 @@
 use fem_case::Scene;
 use fem_collision::{
     Account, Approach, BodyFields, BodyResult, Book, Collision, Monitor, Progress, Row, Snapshot,
-    Stop, Want,
+    StaticContact, Stop, Want,
 };
 use fem_explicit::Memory;
 use fem_mesh::{Side, SphereMesh};
@@ -94,6 +94,11 @@ impl<M: Model> Model for Mirrored<M> {
         };
         let half = self.half.resume(memory)?;
         Ok(Box::new(MirroredCourse { half, whole: Whole::of(&whole) }))
+    }
+
+    /// No gravity leaves both bodies alike.
+    fn static_contact(&self, _: f64) -> Result<Option<StaticContact>, Refusal> {
+        Ok(None)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

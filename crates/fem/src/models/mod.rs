@@ -1,6 +1,7 @@
 //! The methods, one file or folder each, and which of them a scene chooses.
 
 mod auto;
+mod bouncing;
 mod condensed;
 mod explicit;
 mod hertz;
@@ -12,12 +13,14 @@ mod reduced;
 mod simplified;
 mod ting;
 
-use fem_case::{CaseFile, ModelChoice, Scene};
+use fem_case::schema::StopTable;
+use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 
 use crate::effects::Computed;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
+use bouncing::Bouncing;
 use simplified::Simplified;
 
 pub(crate) use auto::Chosen;
@@ -45,13 +48,19 @@ pub fn method_of(scene: &Scene) -> &'static dyn Method {
     }
 }
 
-/// Makes the model of a scene, of which effects may leave less to compute.
+/// Makes the model of a scene, of which effects may leave less to compute; with gravity, of all its
+/// contacts.
 ///
 /// # Errors
 /// What effects and the scene's method refuse.
 pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusal> {
     let Computed { scene: computed, answers } = Computed::of(scene)?;
-    let model = method_of(scene).build(&computed, shared)?;
+    let computed = Chosen::of(&computed)?.scene;
+    let model = method_of(&computed).build(&computed, shared)?;
+    let model = match scene.gravity() {
+        Some(gravity) => Box::new(Bouncing::new(&computed, gravity, model)),
+        None => model,
+    };
     match answers.is_empty() {
         true => Ok(model),
         false => Ok(Box::new(Simplified::new(model, scene, answers)?)),
@@ -82,7 +91,12 @@ pub(crate) fn price_of(scene: &Scene) -> Result<u64, Refusal> {
 /// # Errors
 /// As [`Method::resolve`].
 pub(crate) fn resolved(scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-    method_of(scene).resolve(&Computed::of(scene)?.scene, file)
+    let mut file = method_of(scene).resolve(&Computed::of(scene)?.scene, file)?;
+    if let Some(gravity) = scene.gravity() {
+        let bounces = Quantity::from_si(gravity.bounces as f64);
+        file.stop = Some(StopTable { bounces: Some(bounces) });
+    }
+    Ok(file)
 }
 
 impl Reduced {

@@ -2,7 +2,7 @@
 //! is the model's, what is decided and said is of the scene as it is given.
 
 use fem_case::Scene;
-use fem_collision::{Approach, Collision, Monitor, Want};
+use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
 use fem_explicit::Memory;
 use fem_mesh::SphereMesh;
 
@@ -69,6 +69,10 @@ impl Model for Simplified {
 
     fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
         self.model.resume(memory)
+    }
+
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+        self.model.static_contact(force)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {

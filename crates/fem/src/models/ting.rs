@@ -46,6 +46,10 @@ impl Motion for Ting {
     fn impact(&self, speed: f64) -> Result<Impact, LawError> {
         Ting::impact(self, speed)
     }
+
+    fn equilibrium_weight(&self) -> f64 {
+        Ting::equilibrium_weight(self)
+    }
 }
 
 /// Ting's model with the waves that do not come back at the speed at which bodies meet.
@@ -85,11 +89,24 @@ impl Motion for WithWaves {
         };
         let size = self.finite_size.then(|| scene.finite_size()).transpose()?;
         let ting = ting_of(&scene, &scene.pair()?, true, size)?.with_tolerance(self.tolerance)?;
-        let impact = ting.with_radiation(radiating.into_iter().flatten())?.impact(speed)?;
+        let ting = weighed(ting, &scene)?.with_radiation(radiating.into_iter().flatten())?;
+        let impact = ting.impact(speed)?;
         Ok(match alone {
             Some((_, mass, mass_ratio)) => of_mass_centres(impact, mass, mass_ratio, speed),
             None => impact,
         })
+    }
+
+    fn equilibrium_weight(&self) -> f64 {
+        self.ting.equilibrium_weight()
+    }
+}
+
+/// With the gravity of a scene, if it has any.
+fn weighed(ting: Ting, scene: &Scene) -> Result<Ting, LawError> {
+    match scene.gravity() {
+        Some(gravity) => ting.with_gravity(gravity.acceleration),
+        None => Ok(ting),
     }
 }
 
@@ -143,5 +160,5 @@ pub(super) fn motion(
         })?;
     }
     let ting = ting_of(scene, estimate.hertz.pair(), relaxes, size).map_err(refuse)?;
-    ting.with_tolerance(tolerance).map_err(refuse)
+    weighed(ting, scene).and_then(|ting| ting.with_tolerance(tolerance)).map_err(refuse)
 }

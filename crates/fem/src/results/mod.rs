@@ -15,4 +15,7 @@ pub use history::{HISTORY_FILE, history_csv};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summarise::Spent;
-pub use summary::{BodySummary, CostSummary, PROGRAM, Quantities, SUMMARY_FILE, Summary};
+pub use summary::{
+    BodySummary, BounceSummary, CostSummary, PROGRAM, Quantities, RestSummary, SUMMARY_FILE,
+    Summary,
+};

@@ -1,10 +1,13 @@
 //! From a collision to its summary.
 
-use fem_collision::{Book, Collision};
+use fem_collision::{Book, Collision, Rest};
 use fem_laws::HertzImpact;
 
 use super::energy::{Accounts, Energy, energy_key};
-use super::summary::{BodySummary, CostSummary, EffectSummary, PROGRAM, Quantities, Summary};
+use super::summary::{
+    BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
+    Summary,
+};
 use crate::effects::Verdict;
 use crate::estimate::Estimate;
 use crate::simulation::Simulation;
@@ -43,6 +46,8 @@ impl Summary {
             energy: energy(collision, &mut numbers),
             momentum_residual_relative: numbers
                 .finite_if_any("momentum_residual_relative", collision.momentum_residual_relative),
+            bounces: bounces(simulation, collision, &mut numbers),
+            rest: collision.rest.as_ref().map(|rest| at_rest(rest, &mut numbers)),
             bodies: [0, 1].map(|side| body(simulation, collision, side, &mut numbers)).to_vec(),
             time_step_s: numbers.finite_if_any("time_step_s", collision.time_step),
             steps: collision.steps,
@@ -146,6 +151,40 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
         accounts: Accounts(accounts),
         residual_j: at_end("residual_j", collision.residual),
         residual_relative: at_end("residual_relative", collision.residual_relative),
+    }
+}
+
+/// Each contact of a case with gravity.
+fn bounces(
+    simulation: &Simulation,
+    collision: &Collision,
+    numbers: &mut Numbers,
+) -> Option<Vec<BounceSummary>> {
+    simulation.case().scene().gravity()?;
+    let contacts = collision.bounces.iter().enumerate().map(|(k, bounce)| {
+        let mut number = |key: &str, value: Option<f64>| {
+            numbers.finite_if_any(&format!("bounces.{k}.{key}"), value)
+        };
+        BounceSummary {
+            speed_before_m_s: number("speed_before_m_s", Some(bounce.speed_before)),
+            restitution: number("restitution", Some(bounce.restitution)),
+            contact_time_s: number("contact_time_s", bounce.contact_time),
+            peak_force_n: number("peak_force_n", bounce.peak_force),
+            time_s: number("time_s", Some(bounce.time)),
+        }
+    });
+    Some(contacts.collect())
+}
+
+fn at_rest(rest: &Rest, numbers: &mut Numbers) -> RestSummary {
+    let mut number =
+        |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("rest.{key}"), value);
+    RestSummary {
+        time_s: number("time_s", Some(rest.time)),
+        static_force_n: number("static_force_n", Some(rest.contact.force)),
+        contact_radius_m: number("contact_radius_m", rest.contact.contact_radius),
+        approach_m: number("approach_m", Some(rest.contact.approach)),
+        centre_pressure_pa: number("centre_pressure_pa", rest.contact.centre_pressure),
     }
 }
 

@@ -26,6 +26,10 @@ pub struct Summary {
     pub energy: Energy,
     /// Worst drift over Σ m|v| at the start.
     pub momentum_residual_relative: Option<f64>,
+    /// With gravity each contact, of which all keys above and the bodies are the first one's.
+    pub bounces: Option<Vec<BounceSummary>>,
+    /// Of a ball that has come to rest: what bears it once all has relaxed.
+    pub rest: Option<RestSummary>,
     /// Lower and upper body.
     pub bodies: Vec<BodySummary>,
     /// Of a model with a fixed step.
@@ -81,6 +85,36 @@ pub struct Quantities {
     pub max_contact_radius_m: Option<f64>,
     /// Largest pressure on the axis.
     pub peak_pressure_pa: Option<f64>,
+}
+
+/// One contact of a ball that bounces.
+#[derive(Clone, Debug, Serialize)]
+pub struct BounceSummary {
+    /// Relative speed at first touch.
+    pub speed_before_m_s: Option<f64>,
+    /// Relative velocity after over before.
+    pub restitution: Option<f64>,
+    /// First to last contact.
+    pub contact_time_s: Option<f64>,
+    /// Largest contact force.
+    pub peak_force_n: Option<f64>,
+    /// First touch since the start of the case.
+    pub time_s: Option<f64>,
+}
+
+/// The contact of a ball at rest, with equilibrium moduli.
+#[derive(Clone, Debug, Serialize)]
+pub struct RestSummary {
+    /// When the ball was seen not to leave any more, since the start of the case.
+    pub time_s: Option<f64>,
+    /// The weight.
+    pub static_force_n: Option<f64>,
+    /// Where the pressure falls to zero.
+    pub contact_radius_m: Option<f64>,
+    /// Approach of the mass centres.
+    pub approach_m: Option<f64>,
+    /// Pressure on the axis.
+    pub centre_pressure_pa: Option<f64>,
 }
 
 /// One body; a wall has no mass and no vibration, a reduced model no elements.

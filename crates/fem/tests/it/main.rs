@@ -10,6 +10,7 @@ mod courses;
 mod effects;
 mod folded_terms;
 mod front_door;
+mod gravity;
 mod half_space;
 mod laws;
 mod left_out;

@@ -1,5 +1,6 @@
 //! Every fault of a case file: where it is found, what is said, what help is given.
 
+mod gravity;
 mod marked;
 mod numbers;
 mod places;

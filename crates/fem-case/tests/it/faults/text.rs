@@ -28,7 +28,7 @@ fn unknown_keys() {
     fault("density", "«densty»", "", "youngs_modulus, shear_modulus");
     fault("title", "«titel»", "unknown key `titel`", "did you mean `title`?");
     fault("diameter", "«radius»", "unknown key `radius` in body.0.sphere", "diameter, mesh");
-    fault("[start]", "[«gravity»]", "unknown key `gravity`", "material, body");
+    fault("[start]", "[«weather»]", "unknown key `weather`", "material, body");
     fault("fem = {}", "fem = { «fast» = 1 }", "unknown key `fast` in model.fem", "{}");
     fault(
         "fem = {}",

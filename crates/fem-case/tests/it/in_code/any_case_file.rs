@@ -51,6 +51,7 @@ impl Random {
             name: self.name(&[name]),
             material: ((is_sphere || is_block) == is_sound).then(|| self.name(&["glass"])),
             approach_speed: (name != "b").then(|| self.quantity(&[0.5, 0.5, 0.5, -0.1])),
+            held: (self.below(20) == 0).then(|| self.below(2) == 0),
             sphere: is_sphere.then(|| SphereTable {
                 diameter: self.quantity(&[0.02]),
                 mesh: self.maybe(|random| random.name(&["ball.vtu"])),
@@ -154,6 +155,9 @@ impl Random {
             material: materials.collect(),
             body: names.iter().map(|name| self.body(name)).collect(),
             start: self.maybe(|random| StartTable { gap: Some(random.quantity(&[1e-6])) }),
+            gravity: (self.below(10) == 0).then(|| GravityTable::new(self.quantity(&[9.81]))),
+            stop: (self.below(10) == 0)
+                .then(|| StopTable { bounces: self.maybe(|random| random.quantity(&[3.0])) }),
             mesh: self.maybe(|random| MeshTable {
                 contact_element_size: random.maybe(|random| random.quantity(&[14e-6])),
                 refined_radius: random.maybe(|random| random.quantity(&[3e-4])),

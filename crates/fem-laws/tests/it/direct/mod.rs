@@ -9,13 +9,15 @@ pub struct Direct(pub [f64; 5]);
 pub type Added<'a> = &'a dyn Fn(f64) -> [f64; 2];
 
 /// Ting's integrals as sums over equal steps with the kernel at midpoints, no series, no
-/// recursion, t₁ by adding up increments from now backwards; velocity Verlet for the motion.
+/// recursion, t₁ by adding up increments from now backwards; velocity Verlet for the motion, with gravity
+/// along the approach, m/s².
 pub fn direct(
     pair: &Pair,
     relaxation: &PairRelaxation,
     added: Option<Added>,
     speed: f64,
     n_steps: usize,
+    gravity: f64,
 ) -> Direct {
     let hertz = HertzImpact::new(pair, speed).unwrap();
     let dt = hertz.contact_time() / n_steps as f64;
@@ -25,7 +27,7 @@ pub fn direct(
     // Hertz' approach u; δ itself only now.
     let mut approach = vec![0.0f64];
     let (mut whole, mut highest) = (0.0, 0.0f64);
-    let (mut rate, mut acceleration, mut turn) = (speed, 0.0, None);
+    let (mut rate, mut acceleration, mut turn) = (speed, gravity, None);
     let [mut peak_force, mut peak_pressure] = [0.0f64; 2];
     loop {
         let n = approach.len();
@@ -74,7 +76,7 @@ pub fn direct(
         peak_force = peak_force.max(force);
         let scale = 2.0 / std::f64::consts::PI * pair.contact_modulus();
         peak_pressure = peak_pressure.max(scale / pair.effective_radius().sqrt() * sum(f64::sqrt));
-        acceleration = -force / pair.effective_mass();
+        acceleration = gravity - force / pair.effective_mass();
         rate += 0.5 * dt * acceleration;
     }
 }

@@ -19,6 +19,7 @@ pub(super) fn has(
 ) -> Option<Answer> {
     Some(match effect.name() {
         Viscoelasticity::NAME => Answer::Inherent { idle: "" },
+        Gravity::NAME => Answer::Inherent { idle: "" },
         PartnerWaves::NAME if PartnerWaves::radiating_at_rest(scene, estimate) != [None; 2] => {
             Answer::Computes { idle: "" }
         }
@@ -36,8 +37,7 @@ pub(super) fn has(
         | PlasticYield::NAME
         | PartnerWaves::NAME
         | MirrorSymmetry::NAME
-        | RigidPartner::NAME
-        | Gravity::NAME => Answer::Lacks,
+        | RigidPartner::NAME => Answer::Lacks,
         _ => return None,
     })
 }

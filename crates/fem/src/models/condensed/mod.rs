@@ -2,12 +2,13 @@
 //! the explicit model, milliseconds instead of seconds.
 
 mod effects;
+pub(super) mod static_contact;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
-use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, Stop, Want};
+use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, StaticContact, Stop, Want};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings};
 use fem_laws::radiation_damping;
 use fem_material::PronySeries;
@@ -108,7 +109,7 @@ impl Condensed {
         check_memory(&plan, &sources)?;
         // Only the collision reads relaxations.
         let bodies = sources.map(BodySource::without_relaxation);
-        let key = PairKey { bodies, settings: settings(&plan, options) };
+        let key = PairKey { bodies, settings: settings(scene, &plan, options) };
         let pair = shared.pairs.pair(key, |key| {
             CondensedPair::new(inputs(key)?, key.settings)
                 .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
@@ -276,6 +277,10 @@ impl Model for Condensed {
         self.follow(approach, relaxations, self.options.steps, want, monitor)
     }
 
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+        static_contact::of_elements(&self.scene, force)
+    }
+
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         self.pair.inputs().each_ref().map(BodyInput::mesh)
     }
@@ -325,7 +330,7 @@ fn candidate_radius(plan: &Plan, estimate: &Estimate) -> f64 {
     candidate_radius
 }
 
-fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
+fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettings {
     let contact = if options.penalty_springs {
         ContactModel::Springs(plan.contact_stiffness)
     } else {
@@ -334,6 +339,7 @@ fn settings(plan: &Plan, options: CondensedOptions) -> PairSettings {
     PairSettings {
         contact,
         vibration_modes: options.vibration_modes,
+        held: scene.bodies().each_ref().map(fem_case::Body::is_held),
         ..PairSettings::new(candidate_radius(plan, &plan.estimate))
     }
 }

@@ -9,7 +9,7 @@ use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
 /// The history goes on after the contact for this part of its rows.
 const ROWS_PER_ROW_AFTER: usize = 5;
 /// Hertz' exponent: what has it has Hertz' contact radius.
-const HERTZ_EXPONENT: f64 = 1.5;
+pub(super) const HERTZ_EXPONENT: f64 = 1.5;
 
 /// The collision of both bodies of a frame.
 pub(super) fn of_impact(
@@ -57,6 +57,8 @@ pub(super) fn of_impact(
         element_updates: None,
         factor_bytes: None,
         repeated_contact_solutions: None,
+        bounces: Vec::new(),
+        rest: None,
         history: rows.of(impact, pair, law, want.history_rows),
         snapshots: Vec::new(),
         warnings: is_together.then(|| STAY_TOGETHER.to_string()).into_iter().collect(),
@@ -74,7 +76,7 @@ impl Rows<'_> {
     /// has none after.
     fn of(&self, impact: &Impact, pair: &Pair, law: Option<&ContactLaw>, n: usize) -> Vec<Row> {
         let Some(last) = impact.history.last().filter(|_| n > 0) else { return Vec::new() };
-        let path = ImpactPath::new(impact, pair, law);
+        let path = ImpactPath::new(impact, pair, law).with_gravity(self.frame.gravity);
         let after = if impact.contact_time.is_some() { n / ROWS_PER_ROW_AFTER } else { 0 };
         (0..=n + after)
             // The last contact instant comes exactly.
@@ -91,10 +93,12 @@ impl Rows<'_> {
             }
             _ => instant.work,
         };
+        let potential = frame.potential(instant.approach);
         let known = [
             (Account::Strain, instant.strain_energy),
             (Account::ViscousDissipation, instant.dissipated),
             (Account::Radiated, instant.radiated),
+            (Account::Potential, potential),
         ];
         let mut energies = Book::EMPTY
             .with(Account::Kinetic, frame.kinetic(rate))
@@ -112,7 +116,7 @@ impl Rows<'_> {
             centre_pressure: instant.centre_pressure,
             velocity: frame.velocities(rate),
             energies,
-            residual: Some(frame.gained(rate) + accounted),
+            residual: Some(frame.gained(rate) + accounted + potential.unwrap_or(0.0)),
             vibration: [0.0; 2],
         }
     }

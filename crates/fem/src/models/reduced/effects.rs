@@ -55,13 +55,13 @@ pub(super) fn has(
         {
             Answer::Computes { idle: "" }
         }
+        Gravity::NAME => Answer::Inherent { idle: "" },
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
         | PartnerWaves::NAME
-        | RigidPartner::NAME
-        | Gravity::NAME => Answer::Lacks,
+        | RigidPartner::NAME => Answer::Lacks,
         _ => return None,
     })
 }

@@ -3,12 +3,13 @@
 
 mod collision;
 pub(super) mod effects;
+mod static_contact;
 
 use std::fmt;
 
 use fem_case::schema::StartTable;
 use fem_case::{CaseFile, Quantity, Scene};
-use fem_collision::{Approach, Collision, Monitor, Stop, Want};
+use fem_collision::{Approach, Collision, Monitor, StaticContact, Stop, Want};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
@@ -23,6 +24,11 @@ use effects::Traits;
 pub(super) trait Motion: fmt::Debug + Send + Sync {
     /// The relative motion at an approach speed, m/s.
     fn impact(&self, speed: f64) -> Result<Impact, LawError>;
+
+    /// Share of the contact modulus that never relaxes, 0 to 1.
+    fn equilibrium_weight(&self) -> f64 {
+        1.0
+    }
 
     /// Stiffness and dashpot of a law of the overlap.
     fn law(&self) -> Option<&ContactLaw> {
@@ -130,6 +136,14 @@ impl Model for Reduced {
             }
             Err(error) => Collision::stopped(*approach, stop_of(&error)),
         }
+    }
+
+    fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
+        let found = match self.law() {
+            Some(law) => static_contact::of_law(law, &self.pair, force).map(Some),
+            None => static_contact::of_hertz(&self.pair, self.motion.equilibrium_weight(), force),
+        };
+        found.map_err(|error| refused(&self.scene, &error))
     }
 }
 

@@ -1,0 +1,32 @@
+//! A shipped ball that bounces, from the command to the files.
+
+use crate::common::Place;
+
+const BALL: &str = include_str!("../../../../cases/three_bounces.toml");
+
+#[test]
+fn three_bounces_are_printed_summed_up_and_written_down() {
+    for (model, has_rest) in [("ting", false), ("condensed", true)] {
+        let place = Place::new();
+        place.write("ball.toml", BALL);
+        let model = format!("model.{model}={{}}");
+        let bounces = if has_rest { "stop.bounces=500" } else { "stop.bounces=3" };
+        let set = ["ball.toml", "--set", model.as_str(), "--set", bounces, "--out", "out"];
+        let printed = place.succeed(&set).stdout;
+        assert!(printed.contains("bounce ") && printed.contains("\n3 "), "{printed}");
+        assert_eq!(printed.contains("at rest from"), has_rest, "{printed}");
+        let summary = place.json("out/summary.json");
+        let contacts = summary["bounces"].as_array().unwrap();
+        assert_eq!(contacts.len() == 3, !has_rest, "{}", contacts.len());
+        assert_eq!(contacts[0]["restitution"], summary["restitution"]);
+        let keys: Vec<&String> = contacts[0].as_object().unwrap().keys().collect();
+        let named = ["speed_before_m_s", "restitution", "contact_time_s", "peak_force_n", "time_s"];
+        assert_eq!(keys, named);
+        assert_eq!(summary["rest"].is_object(), has_rest);
+        assert_eq!(summary["complete"], true);
+        assert!(summary["energy"]["potential_j"].is_number());
+        let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+        let header = history.lines().next().unwrap();
+        assert!(header.ends_with("residual_j,potential_j,left_before_j"), "{header}");
+    }
+}

@@ -1,0 +1,217 @@
+//! Contact after contact as one history and one ledger.
+//!
+//! A contact's own ledger begins with nothing but the motion of the ball. Here what earlier contacts have
+//! lost goes on to count as lost, and what they have left in the bodies stands in an account of its own,
+//! so that all energy since the first touch is in the ledger.
+
+use fem_collision::{Account, Book, Collision, Row, Side, worst};
+
+/// Rows of a flight.
+const FLIGHT_ROWS: usize = 8;
+
+/// When and how fast a ball comes down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Landing {
+    /// After first touch of the contact that it left, s.
+    pub time: f64,
+    /// m/s.
+    pub speed: f64,
+}
+
+/// Contacts and flights so far.
+#[derive(Debug)]
+pub(super) struct Chain {
+    /// First touch of all, and of the contact under way, since the start of the case, s.
+    first_touch: f64,
+    time: f64,
+    /// What earlier contacts have lost or been given, J.
+    lost: Book,
+    /// What they have left in the bodies, J; `None` in the first contact.
+    left: Option<f64>,
+    /// What did not add up before, J.
+    residual: f64,
+    /// Energy of the ball's motion and weight that the flight before has handed on, J.
+    handed_on: Option<f64>,
+    /// Kinetic energy at first touch of all, J.
+    initial: Option<f64>,
+    worst_residual: Option<f64>,
+    /// At the end of the contact under way.
+    energies: Book,
+    residual_at_end: Option<f64>,
+    rows: Vec<Row>,
+}
+
+impl Chain {
+    /// A ball that first touches at a time, s.
+    pub fn new(first_touch: f64) -> Self {
+        Self {
+            first_touch,
+            time: first_touch,
+            lost: Book::EMPTY,
+            left: None,
+            residual: 0.0,
+            handed_on: None,
+            initial: None,
+            worst_residual: None,
+            energies: Book::EMPTY,
+            residual_at_end: None,
+            rows: Vec::new(),
+        }
+    }
+
+    /// First touch of the contact under way, s; of a ball at rest the time at which that was seen.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// First touch of all, s.
+    pub fn first_touch(&self) -> f64 {
+        self.first_touch
+    }
+
+    /// Takes the ledger of the contact under way.
+    pub fn take(&mut self, collision: &Collision, rows: &[Row]) {
+        if let (Some(handed_on), Some(initial)) = (self.handed_on, collision.initial_energy) {
+            self.residual += initial - handed_on;
+        }
+        let own = collision.initial_energy.zip(collision.residual_relative);
+        let initial = *self.initial.get_or_insert(collision.initial_energy.unwrap_or(f64::NAN));
+        if let Some((scale, relative)) = own {
+            let here = (self.residual.abs() + relative * scale) / initial;
+            self.worst_residual = Some(worst(self.worst_residual.unwrap_or(0.0), here));
+        }
+        let end = rows.last().map_or(collision.energies, |row| row.energies);
+        self.energies = self.carried(&end);
+        self.residual_at_end = collision.residual.map(|residual| residual + self.residual);
+    }
+
+    /// Whether the motion of a row is a number.
+    pub fn is_sound(row: &Row) -> bool {
+        row.velocity.iter().chain([&row.approach, &row.time]).all(|number| number.is_finite())
+    }
+
+    /// Where a ball comes down that flies as in this row; `None` of one that does not rise to where it
+    /// first touched.
+    pub fn landing(&self, end: &Row, gravity: f64) -> Option<Landing> {
+        let velocity = end.velocity[1] - end.velocity[0];
+        let squared = velocity * velocity - 2.0 * gravity * end.approach;
+        let speed = squared.sqrt();
+        let time = end.time + (velocity + speed) / gravity;
+        (squared > 0.0 && speed > 0.0 && time.is_finite()).then_some(Landing { time, speed })
+    }
+
+    /// Keeps the rows of the contact under way up to a time after its first touch, s.
+    pub fn keep(&mut self, rows: &[Row], until: f64) {
+        let kept: Vec<Row> = rows
+            .iter()
+            .filter(|row| row.time < until)
+            .map(|row| Row {
+                time: self.time + row.time,
+                energies: self.carried(&row.energies),
+                residual: row.residual.map(|residual| residual + self.residual),
+                ..*row
+            })
+            .collect();
+        self.rows.extend(kept);
+    }
+
+    /// The flight from the last row of a contact to the next one; with rows, if they are wanted.
+    pub fn fly(&mut self, end: &Row, landing: &Landing, has_rows: bool) {
+        let is_inner = |account: Account| {
+            account.side() == Side::Held
+                && !matches!(account, Account::Kinetic | Account::Potential)
+        };
+        let inner = end.energies.entries().filter(|(account, _)| is_inner(*account));
+        let vibration: f64 = end.vibration.iter().sum();
+        let left = vibration + inner.map(|(_, energy)| energy).sum::<f64>();
+        let kinetic = end.energy(Account::Kinetic).unwrap_or_default() - vibration;
+        let handed_on = kinetic + end.energy(Account::Potential).unwrap_or_default();
+        self.lost = self.lost_after(&end.energies);
+        self.left = Some(self.left.unwrap_or_default() + left);
+        self.residual += end.residual.unwrap_or_default();
+        self.handed_on = Some(handed_on);
+        if has_rows {
+            let step = (landing.time - end.time) / (FLIGHT_ROWS + 1) as f64;
+            let times = (1..=FLIGHT_ROWS).map(|k| k as f64 * step).filter(|_| step > 0.0);
+            let rows: Vec<Row> = times.map(|time| self.flying(end, landing, time)).collect();
+            self.rows.extend(rows);
+        }
+        self.time += landing.time;
+    }
+
+    /// A ball that stays: the last contact has no end.
+    pub fn stay(&mut self, end: Option<&Row>) {
+        self.time += end.map_or(0.0, |row| row.time);
+    }
+
+    /// The ball so long (s) after the last row of a contact.
+    fn flying(&self, end: &Row, landing: &Landing, time: f64) -> Row {
+        let upward = end.velocity[1] - end.velocity[0];
+        // g (t_landing − t_end) = u + v.
+        let gravity = (upward + landing.speed) / (landing.time - end.time);
+        let velocity = upward - gravity * time;
+        let handed_on = self.handed_on.unwrap_or_default();
+        let share = (velocity / landing.speed).powi(2);
+        let mut energies = self.carried(&Book::EMPTY);
+        for (account, energy) in self.lost.entries() {
+            energies.add(account, energy);
+        }
+        for (account, _) in end.energies.entries() {
+            match account {
+                Account::Kinetic => energies.add(account, handed_on * share),
+                Account::Potential => energies.add(account, handed_on * (1.0 - share)),
+                _ if account.side() == Side::Held => energies.add(account, 0.0),
+                _ => {}
+            }
+        }
+        Row {
+            time: self.time + end.time + time,
+            contact_force: 0.0,
+            contact_radius: end.contact_radius.map(|_| 0.0),
+            approach: end.approach - (upward - 0.5 * gravity * time) * time,
+            centre_pressure: end.centre_pressure.map(|_| 0.0),
+            velocity: [end.velocity[0], end.velocity[0] + velocity],
+            energies,
+            residual: end.residual.map(|_| self.residual),
+            vibration: [0.0; 2],
+        }
+    }
+
+    /// What is in each account of a contact with what earlier ones have lost and left.
+    fn carried(&self, own: &Book) -> Book {
+        let mut book = Book::EMPTY;
+        for (account, energy) in own.entries() {
+            book.add(account, energy + self.lost.get(account).unwrap_or_default());
+        }
+        match self.left {
+            Some(left) => book.with(Account::LeftBefore, left),
+            None => book,
+        }
+    }
+
+    /// What has been lost or given up to the end of a contact, J.
+    fn lost_after(&self, end: &Book) -> Book {
+        let own = end.entries().filter(|(account, _)| account.side() != Side::Held);
+        own.fold(self.lost, |book, (account, energy)| book.with(account, energy))
+    }
+
+    /// What is in each account at the end, J.
+    pub fn energies(&self) -> Book {
+        self.energies
+    }
+
+    /// What does not add up at the end, J.
+    pub fn residual(&self) -> Option<f64> {
+        self.residual_at_end
+    }
+
+    /// Worst imbalance over the kinetic energy at first touch of all.
+    pub fn worst_residual(&self) -> Option<f64> {
+        self.worst_residual
+    }
+
+    /// All rows, in the order of time.
+    pub fn into_rows(self) -> Vec<Row> {
+        self.rows
+    }
+}

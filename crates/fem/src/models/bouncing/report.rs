@@ -1,0 +1,63 @@
+//! What a user should know of a ball that bounces.
+
+use fem_collision::{Bounce, Ending, StaticContact};
+
+use crate::effects::percent;
+use crate::refusal::Refusal;
+
+/// A restitution so near to 1 that a ball does not come to rest.
+const LOSSLESS: f64 = 1.0 - 1e-4;
+/// Contact radius over effective radius up to which strains are small.
+const LARGEST_STRAIN: f64 = 0.1;
+
+/// What is said of these contacts, this ending, and the largest bound of what vibrations do with the
+/// number of its contact.
+pub(super) fn of(bounces: &[Bounce], ending: &Ending, phase: Option<(usize, f64)>) -> Vec<String> {
+    let n = bounces.len();
+    let mut said = Vec::new();
+    if *ending == Ending::AtRest {
+        said.push(format!(
+            "the ball comes to rest: after {n} contact{} it does not leave any more",
+            if n == 1 { "" } else { "s" }
+        ));
+    }
+    let least = bounces.iter().map(|bounce| bounce.restitution).fold(f64::INFINITY, f64::min);
+    if *ending == Ending::Parted && n > 1 && least > LOSSLESS {
+        said.push(format!(
+            "the ball never rests: it loses nothing that would bring it to rest (no restitution is below \
+             {least:.6}); the run ends after the {n} contacts that stop.bounces asks for"
+        ));
+    }
+    if let Some((contact, bound)) = phase {
+        said.push(format!(
+            "vibrations that a contact has left may change the restitution of contact {contact} by up \
+             to {bound:.1e}: each contact is computed as if the bodies had come to rest before"
+        ));
+    }
+    said
+}
+
+/// Of a contact at rest that is no small part of a sphere with the effective radius, m.
+pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Option<String> {
+    let share = contact.contact_radius? / effective_radius;
+    (share > LARGEST_STRAIN).then(|| {
+        format!(
+            "at rest the contact radius is {} of the effective radius; above {} the small-strain \
+             model is in doubt",
+            percent(share),
+            percent(LARGEST_STRAIN)
+        )
+    })
+}
+
+/// Of bodies whose equilibrium moduli are nothing.
+pub(super) fn sinks() -> String {
+    "the ball sinks: a body relaxes to nothing, so it flows under the weight for ever, and no contact \
+     bears it at rest"
+        .to_string()
+}
+
+/// Of a static contact that could not be computed.
+pub(super) fn unknown(refusal: &Refusal) -> String {
+    format!("what bears the ball at rest could not be computed: {refusal}")
+}

@@ -1,0 +1,56 @@
+//! The contact of finite elements under a force that stays, all having relaxed.
+//!
+//! Explicit elements cannot be stepped there: relaxation times may be far above their time step. The
+//! same meshes and elements are condensed with equilibrium moduli, elements at the contact as the plan
+//! chooses them for Hertz' contact radius under that force, and pressed together.
+
+use fem_case::{CondensedOptions, Scene};
+use fem_collision::StaticContact;
+use fem_condensed::{CondensedError, CondensedPair};
+use fem_laws::StaticHertz;
+
+use super::{CANDIDATE_GROWTH, check_memory, inputs, settings};
+use crate::body_source::BodySource;
+use crate::pair_cache::PairKey;
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// The contact of a scene's bodies with gravity; `None` of bodies that flow.
+///
+/// # Errors
+/// Closed forms that leave the range of f64; a mesh or factor that cannot be made; a contact that
+/// reaches as far as the smaller body.
+pub(in crate::models) fn of_elements(
+    scene: &Scene,
+    force: f64,
+) -> Result<Option<StaticContact>, Refusal> {
+    let refuse = |message: String| Refusal::new("gravity", message);
+    let Some(relaxed) = scene.at_equilibrium() else { return Ok(None) };
+    let hertz = relaxed.pair().and_then(|pair| Ok((pair, StaticHertz::new(&pair, force)?)));
+    let (pair, hertz) = hertz.map_err(|error| refuse(error.to_string()))?;
+    // At this speed Hertz' largest approach, (1.25 m v²/K)^(2/5), is the static one.
+    let stiffness = force / (hertz.approach * hertz.approach.sqrt());
+    let speed =
+        hertz.approach * (0.8 * stiffness * hertz.approach.sqrt() / pair.effective_mass()).sqrt();
+    let Some(relaxed) = relaxed.touching_at(speed) else {
+        return Err(refuse(format!(
+            "the static contact has no size: {:?} m",
+            hertz.contact_radius
+        )));
+    };
+    let plan = Plan::of(&relaxed)?;
+    let bodies = BodySource::of_scene(&relaxed, &plan)?;
+    check_memory(&plan, &bodies)?;
+    let settings = settings(&relaxed, &plan, CondensedOptions::default());
+    let key = PairKey { bodies, settings };
+    let of_error = |error: CondensedError| refuse(error.to_string());
+    let mut pair = CondensedPair::new(inputs(&key)?, key.settings).map_err(of_error)?;
+    loop {
+        match pair.pressed(force) {
+            Err(CondensedError::ContactBeyondCandidates { radius }) => {
+                pair = pair.enlarge(CANDIDATE_GROWTH * radius).map_err(of_error)?;
+            }
+            pressed => return pressed.map(Some).map_err(of_error),
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! A ball that gravity brings back, by every model.
+
+use std::path::Path;
+
+use fem::{Account, Case, Collision, Ending, Monitor, Progress, Row, Side, Simulation};
+
+const BALL: &str = include_str!("rubber_ball.toml");
+/// Elements that are as coarse as a test may have them: four across the first contact.
+const COARSE: &str = "mesh={contact_element_size='0.45 mm', refined_radius='1.8 mm'}";
+const ELASTIC: &str = "material.rubber={density=1100, youngs_modulus=20e6, poissons_ratio=0.4}";
+const G: f64 = 9.81;
+
+fn simulation(overrides: &[&str]) -> Simulation {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let case = Case::parse("ball.toml", BALL, Path::new("."), &overrides).unwrap();
+    Simulation::new(case).unwrap()
+}
+
+fn run(overrides: &[&str]) -> Collision {
+    simulation(overrides).run(&mut ())
+}
+
+fn relaxing(weight: f64, time: &str, acts_on: &str) -> String {
+    format!(
+        "material.rubber.relaxation={{acts_on='{acts_on}', \
+         terms=[{{weight={weight}, relaxation_time='{time}'}}]}}"
+    )
+}
+
+/// What all accounts together hold and have lost, J.
+fn total(row: &Row) -> f64 {
+    [Side::Held, Side::Lost].into_iter().filter_map(|side| row.energies.total(side)).sum()
+}
+
+/// Heights between bounces of rows in flight, m.
+fn heights(collision: &Collision) -> Vec<f64> {
+    let tops = collision.bounces.windows(2).map(|two| {
+        let rows = collision.history.iter();
+        let flight = rows.filter(|row| row.time > two[0].time && row.time < two[1].time);
+        flight.map(|row| -row.approach).fold(0.0, f64::max)
+    });
+    tops.collect()
+}
+
+/// A ball that leaves with e v rises to (e v)²/2g, and comes down 2 e v/g after it has left.
+#[test]
+fn heights_fall_as_the_restitution_says() {
+    for model in ["model.ting={}", "model.condensed={}", "model.law.kuwabara_kono.a='40 us'"] {
+        let ball = run(&[model, "stop.bounces=8"]);
+        assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 8), "{model}");
+        let first = &ball.bounces[0];
+        // Torricelli.
+        assert!((first.speed_before / (2.0 * G * 0.05_f64).sqrt() - 1.0).abs() < 1e-12);
+        assert!((first.time - (2.0 * 0.05 / G).sqrt()).abs() < 1e-12);
+        assert_eq!(ball.restitution, Some(first.restitution), "{model}");
+        for (two, height) in ball.bounces.windows(2).zip(heights(&ball)) {
+            let left = two[0].restitution * two[0].speed_before;
+            // A row near the top is within a ninth of the flight: 1 − (1/9)² of its height.
+            let top = left * left / (2.0 * G);
+            assert!(height < 1.001 * top && height > 0.98 * top, "{model}: {height} {top}");
+            // The dent from which it leaves takes some thousandths.
+            assert!((two[1].speed_before / left - 1.0).abs() < 5e-3, "{model}");
+            let flight = two[1].time - two[0].time - two[0].contact_time.unwrap();
+            assert!((flight / (2.0 * left / G) - 1.0).abs() < 5e-3, "{model}: {flight}");
+        }
+    }
+}
+
+/// Every contact of the chain is the collision of the same bodies alone.
+#[test]
+fn a_bounce_is_a_collision_at_its_speed() {
+    for model in ["model.ting={}", "model.condensed={}"] {
+        let ball = run(&[model, COARSE, "stop.bounces=4"]);
+        for bounce in &ball.bounces {
+            let speed = format!("body.1.approach_speed={:?}", bounce.speed_before);
+            let alone = run(&[model, COARSE, &speed, "start.gap=0", "stop={}"]);
+            assert_eq!(alone.restitution, Some(bounce.restitution), "{model}");
+            assert_eq!(alone.contact_time, bounce.contact_time, "{model}");
+            assert_eq!(alone.peak_force, bounce.peak_force, "{model}");
+        }
+    }
+}
+
+/// A ball whose modulus keeps half of itself comes to rest on it: a³ = 3 F R/4 E* with E* relaxed.
+#[test]
+fn a_ball_that_relaxes_comes_to_rest_on_what_is_left() {
+    let weight = 1100.0 * std::f64::consts::PI * 0.02_f64.powi(3) / 6.0 * G;
+    let modulus = 0.5 * 20e6 / (1.0 - 0.4 * 0.4);
+    let radius = (0.75 * weight * 0.01 / modulus).cbrt();
+    for model in ["model.ting={}", "model.condensed={}"] {
+        let ball = run(&[model, "stop.bounces=100"]);
+        assert_eq!(ball.ending, Ending::AtRest, "{model}");
+        assert!(ball.is_complete() && ball.bounces.len() > 20, "{model}: {}", ball.bounces.len());
+        let rest = ball.rest.unwrap();
+        assert!((rest.contact.force / weight - 1.0).abs() < 1e-9, "{model}");
+        // The mesh's weight and its edge of contact: 0.1 %.
+        let found = rest.contact.contact_radius.unwrap();
+        assert!((found / radius - 1.0).abs() < 5e-3, "{model}: {found} {radius}");
+        let approach = radius * radius / 0.01;
+        // A finite sphere is stiffer than a half-space by the order of a/R, 3 %.
+        assert!((rest.contact.approach / approach - 1.0).abs() < 0.03, "{model}");
+        assert!(rest.time > ball.bounces.last().unwrap().time, "{model}");
+        assert!(ball.warnings.iter().any(|text| text.contains("comes to rest")), "{model}");
+        let summary = simulation(&[model]).summary(&ball);
+        assert_eq!(summary.bounces.unwrap().len(), ball.bounces.len());
+        assert_eq!(summary.rest.unwrap().contact_radius_m, Some(found));
+    }
+}
+
+/// Bulk elastic, shear relaxed to G∞: E* by K and G∞, by hand.
+#[test]
+fn what_is_left_of_the_shear_modulus_alone_bears_it_too() {
+    let (bulk, shear) = (20e6 / (3.0 * 0.2), 0.3 * 20e6 / 2.8);
+    let weight = 1100.0 * std::f64::consts::PI * 0.02_f64.powi(3) / 6.0 * G;
+    let modulus = 4.0 * shear * (3.0 * bulk + shear) / (3.0 * bulk + 4.0 * shear);
+    let radius = (0.75 * weight * 0.01 / modulus).cbrt();
+    let relaxation = relaxing(0.7, "1 ms", "shear");
+    for model in ["model.ting={}", "model.condensed={}"] {
+        let ball = run(&[model, &relaxation, "stop.bounces=100"]);
+        let found = ball.rest.unwrap().contact.contact_radius.unwrap();
+        // As above.
+        assert!((found / radius - 1.0).abs() < 5e-3, "{model}: {found} {radius}");
+    }
+}
+
+/// No row of a hundred bounces has more energy than the ball had when it first touched, but for the
+/// error of the steps: 2e-6 a contact.
+#[test]
+fn no_energy_comes_from_nowhere() {
+    for model in ["model.condensed.vibration_modes=6", "model.hertz={}"] {
+        let ball = run(&[model, ELASTIC, COARSE, "stop.bounces=100"]);
+        assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 100), "{model}");
+        let initial = ball.initial_energy.unwrap();
+        for row in &ball.history {
+            let total = total(row);
+            assert!((total / initial - 1.0).abs() < 1e-3, "{model}: {} {total}", row.time);
+            let residual = row.residual.unwrap();
+            assert!(residual.abs() < 1e-3 * initial, "{model}: {residual}");
+        }
+        assert!(ball.residual_relative.unwrap() < 1e-3, "{model}");
+        let left = ball.energies.get(Account::LeftBefore).unwrap();
+        let has_modes = model.contains("modes");
+        assert_eq!(left > 1e-6 * initial, has_modes, "{model}: what vibrates is {left}");
+        assert!(ball.history.is_sorted_by(|one, next| one.time < next.time), "{model}");
+    }
+}
+
+#[test]
+fn a_ball_that_loses_nothing_never_rests_and_says_so() {
+    for model in ["model.hertz={}", "model.ting={}", "model.condensed={}", "model.law.hertz={}"] {
+        let ball = run(&[model, ELASTIC, "stop.bounces=5"]);
+        assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 5), "{model}");
+        assert!(ball.is_complete() && ball.rest.is_none(), "{model}");
+        // Condensed elements step in time: 1e-5.
+        assert!(ball.bounces.iter().all(|bounce| (bounce.restitution - 1.0).abs() < 1e-5));
+        assert!(ball.warnings.iter().any(|text| text.contains("never rests")), "{model}");
+    }
+}
+
+/// So does one that falls so slowly that its flight is shorter than what is looked at of a fast one:
+/// at √(g δ)/20 it is at the top after a fiftieth of the contact.
+#[test]
+fn a_slow_elastic_ball_leaves_as_fast_as_it_came() {
+    let slow = ["body.1.approach_speed='0.4 mm/s'", "start.gap=0", "stop.bounces=3"];
+    let coarse = "mesh={contact_element_size='60 um', refined_radius='300 um'}";
+    for model in ["model.hertz={}", "model.condensed={}", "model.fem={}"] {
+        let ball = run(&[model, ELASTIC, coarse, slow[0], slow[1], slow[2]]);
+        assert_eq!((ball.ending.clone(), ball.bounces.len()), (Ending::Parted, 3), "{model}");
+        for bounce in &ball.bounces {
+            let flight = bounce.speed_before / G;
+            assert!(flight < 0.02 * bounce.contact_time.unwrap(), "{model}: {bounce:?}");
+            // The weight has done hundreds of times the energy of the fall: errors of steps show.
+            assert!((bounce.restitution - 1.0).abs() < 0.1, "{model}: {bounce:?}");
+        }
+    }
+}
+
+/// A modulus that relaxes to nothing bears no weight: the ball creeps into the floor for ever.
+#[test]
+fn a_ball_that_flows_sinks_and_says_so() {
+    for model in ["model.ting={}", "model.condensed={}", "model.fem={}"] {
+        for time in ["50 us", "2 ms"] {
+            let flowing = relaxing(1.0, time, "all");
+            let ball = run(&[model, &flowing, COARSE, "stop.bounces=200", "start.gap='5 mm'"]);
+            assert_eq!(ball.ending, Ending::AtRest, "{model} {time}");
+            assert!(ball.is_complete() && ball.rest.is_none(), "{model} {time}");
+            assert!(ball.warnings.iter().any(|text| text.contains("sinks")), "{model} {time}");
+        }
+    }
+}
+
+/// Without gravity the same contact, in the limit: what the weight adds falls with it.
+#[test]
+fn less_and_less_gravity_is_none() {
+    for model in ["model.ting={}", "model.condensed={}", "model.law.falcon.c=10", "model.fem={}"] {
+        let at = |gravity: &str| {
+            let touching = ["body.1.approach_speed=0.5", "start.gap=0"];
+            run(&[model, COARSE, touching[0], touching[1], gravity, "stop={}"])
+        };
+        let none = {
+            let text = BALL.split("\n[start]\n").next().unwrap();
+            let set = [model.to_string(), COARSE.into(), "body.1.approach_speed=0.5".into()];
+            let case = Case::parse("ball.toml", text, Path::new("."), &set).unwrap();
+            Simulation::new(case).unwrap().run(&mut ())
+        };
+        let differences: Vec<[f64; 3]> = ["9.81", "0.0981", "1e-9"]
+            .iter()
+            .map(|gravity| {
+                let some = at(&format!("gravity.acceleration={gravity}"));
+                let share = |get: fn(&Collision) -> Option<f64>| {
+                    get(&some).unwrap() / get(&none).unwrap() - 1.0
+                };
+                [share(|c| c.peak_force), share(|c| c.max_approach), share(|c| c.restitution)]
+            })
+            .collect();
+        for (k, difference) in differences[0].iter().enumerate() {
+            // A hundredth of the gravity: a hundredth of what it does, to a tenth of that, but for what
+            // 1e-6 of steps do.
+            let hundredth = differences[1][k];
+            // The largest of a force that scatters by more than the weight.
+            if (k, model) == (0, "model.fem={}") {
+                continue;
+            }
+            assert!(
+                (hundredth - 0.01 * difference).abs() < 1e-3 * difference.abs() + 5e-6,
+                "{model} {k}: {differences:?}"
+            );
+            assert!(differences[2][k].abs() < 1e-6, "{model} {k}: {differences:?}");
+        }
+        // m g over a peak force of some newtons.
+        assert!(differences[0][1] > 1e-4, "{model}: {differences:?}");
+    }
+}
+
+/// Explicit and condensed elements are the same elements under the same weight.
+#[test]
+fn explicit_elements_bounce_as_condensed_ones() {
+    let [fem, condensed] = ["model.fem={}", "model.condensed.vibration_modes=12"]
+        .map(|model| run(&[model, COARSE, "start.gap='5 mm'"]));
+    for (a, b) in fem.bounces.iter().zip(&condensed.bounces) {
+        // Springs of explicit elements of this size: 1 % of the contact time.
+        for (a, b) in [
+            (a.speed_before, b.speed_before),
+            (a.restitution, b.restitution),
+            (a.contact_time.unwrap(), b.contact_time.unwrap()),
+        ] {
+            assert!((a / b - 1.0).abs() < 0.015, "{a} {b}");
+        }
+    }
+    assert!(fem.residual_relative.unwrap() < 1e-3, "{:?}", fem.residual_relative);
+    assert!(fem.momentum_residual_relative.unwrap() < 1e-9);
+    // The ball fell before it touched: its highest point has, too.
+    let snapshot = &fem.snapshots[0];
+    assert!(snapshot.time > fem.bounces[0].time);
+    let lowered = snapshot.bodies[1].displacement.iter().all(|u| u[1] < -4e-3);
+    assert!(lowered, "the height of the fall is in the displacements");
+}
+
+/// A held sphere is a wall with a curvature and a modulus: half of the stiffness of a rigid one.
+#[test]
+fn a_held_sphere_bears_a_ball() {
+    let held = "body.0={name='post', sphere={diameter=0.03}, material='rubber', held=true}";
+    let law = "model.law.kuwabara_kono.a='40 us'";
+    for model in ["model.ting={}", "model.condensed={}", law, "model.fem={}"] {
+        let ball = run(&[model, held, "stop.bounces=3"]);
+        assert_eq!(ball.bounces.len(), 3, "{model}");
+        // Explicit elements hold it to rounding.
+        assert!(ball.bodies[0].velocity_after.unwrap().abs() < 1e-12, "{model}");
+        assert!(ball.momentum_residual_relative.unwrap_or(0.0) < 1e-9, "{model}");
+        assert!(ball.residual_relative.unwrap() < 1e-4, "{model}");
+        let wall = run(&[model, "stop.bounces=3"]);
+        // Hertz: T ∝ (m²/R*E*²v)^(1/5); R* = 3/5 R and half of E*.
+        let expected = (4.0_f64 / 0.6).powf(0.2);
+        let found = ball.contact_time.unwrap() / wall.contact_time.unwrap();
+        // What relaxes in the longer contact, and the size of both spheres.
+        assert!((found / expected - 1.0).abs() < 0.06, "{model}: {found} {expected}");
+    }
+}
+
+/// What it does in the contact, and that the flight needs it all the same.
+#[test]
+fn its_numbers_are_in_the_effects() {
+    let verdict = |overrides: &[&str]| {
+        let simulation = simulation(overrides);
+        let collision = simulation.run(&mut ());
+        let decisions = simulation.decisions(&collision);
+        let found = decisions.verdicts.into_iter().find(|verdict| verdict.name == "gravity");
+        found.map(|verdict| (verdict.active, verdict.reason)).unwrap()
+    };
+    for model in ["model.ting={}", "model.condensed={}", "model.fem={}", "model.hertz={}"] {
+        let (active, reason) = verdict(&[model, COARSE, "stop.bounces=1"]);
+        assert!(active && reason.contains("weight / peak force = 2.5e-3"), "{model}: {reason}");
+        assert!(!reason.contains("changes nothing"), "{reason}");
+    }
+    let hard = "material.rubber={density=1100, youngs_modulus=20e12, poissons_ratio=0.4}";
+    let (active, reason) = verdict(&["model.hertz={}", hard, "start.gap='10 m'"]);
+    assert!(active && reason.contains("in the contact it changes nothing"), "{reason}");
+}
+
+/// A resolved case bounces to the same bits, from where the ball was dropped.
+#[test]
+fn a_resolved_case_falls_from_the_same_height() {
+    for model in ["model.ting={}", "model.condensed={}", "model.law.falcon.c=10"] {
+        let first = simulation(&[model, COARSE]);
+        let again = Simulation::new(Case::of(first.resolved().clone()).unwrap()).unwrap();
+        assert_eq!(again.run(&mut ()), first.run(&mut ()), "{model}");
+        assert_eq!(again.resolved(), first.resolved(), "{model}");
+    }
+}
+
+/// One monitor sees all contacts, in the time of the case, and can stop them.
+#[test]
+fn an_interrupted_ball_keeps_its_bounces() {
+    struct Until(f64);
+    impl Monitor for Until {
+        fn report(&mut self, progress: Progress) -> bool {
+            assert!((0.0..=1.0).contains(&progress.fraction));
+            progress.time < self.0
+        }
+    }
+    let simulation = simulation(&["model.condensed={}", COARSE]);
+    let whole = simulation.run(&mut ());
+    let part = simulation.run(&mut Until(whole.bounces[1].time + 1e-4));
+    assert!(part.is_interrupted(), "{:?}", part.ending);
+    assert_eq!(part.bounces, whole.bounces[..1]);
+    assert_eq!(part.restitution, whole.restitution);
+    let last = part.history.last().unwrap();
+    assert!(last.time > whole.bounces[1].time, "{}", last.time);
+}
+
+/// Meshes are chosen anew where the contacts have become small: eight elements, never fewer than six.
+#[test]
+fn late_contacts_have_elements_of_their_own() {
+    let ball = run(&["model.condensed={}", "stop.bounces=100"]);
+    let plan = |speed: f64| {
+        let speed = format!("body.1.approach_speed={speed:?}");
+        let own = simulation(&["model.condensed={}", &speed, "start.gap=0"]);
+        own.setup().elements.as_ref().unwrap().plan.contact_element_size
+    };
+    let (first, last) = (plan(0.99), plan(ball.bounces.last().unwrap().speed_before));
+    assert!(last < 0.3 * first, "{last} {first}");
+    // On the first mesh alone the last contacts have two elements across.
+    let alone = |size: &str| run(&["model.condensed={}", size, "stop.bounces=25"]);
+    let coarse = alone(&format!("mesh.contact_element_size={first:?}"));
+    let fine = alone("mesh={contact_element_size='20 um', refined_radius='0.8 mm'}");
+    let time = |of: &Collision| of.bounces[24].contact_time.unwrap();
+    let error = |of: &Collision| (time(of) / time(&fine) - 1.0).abs();
+    let errors = [error(&ball), error(&coarse)];
+    assert!(errors[0] < 2e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
+}
