@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use crate::body::Shape;
 use crate::document::{Document, Insertions};
 use crate::error::CaseError;
 use crate::explain::{explain, listed};
 use crate::quantity::Quantity;
-use crate::scene::{Scene, Shape};
+use crate::scene::Scene;
 use crate::schema::{CaseFile, is_list};
 use crate::validate::validate;
 

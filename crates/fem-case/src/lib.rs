@@ -50,6 +50,7 @@
 //! ```
 
 mod accuracy_table;
+mod body;
 mod body_tables;
 mod case;
 mod document;
@@ -57,6 +58,7 @@ mod empty_table;
 pub mod engineering;
 mod error;
 mod explain;
+mod gravity;
 mod gravity_tables;
 mod key_path;
 mod keyword;
@@ -76,15 +78,17 @@ mod unit_table;
 mod units;
 mod validate;
 
+pub use body::{Body, Shape};
 pub use case::Case;
 pub use error::CaseError;
 pub use explain::nearest;
+pub use gravity::Gravity;
 pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use scene::{Accuracy, Body, Gravity, Limits, MeshSettings, Scene, Shape, Snapshots};
+pub use scene::{Accuracy, Limits, MeshSettings, Scene, Snapshots};
 pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};

@@ -7,7 +7,7 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 
 use crate::forces::NodeForce;
-use crate::lumped::{LumpedMesh, RigidSphere};
+use crate::lumped::{LumpedBody, LumpedMesh, RigidSphere};
 use crate::part::{Accounts, Field, Motion, NodalField, Placed};
 use crate::stress::Stress;
 
@@ -37,6 +37,23 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body that moves, with the masses that a critical time step (s) asks for, at a velocity (m/s) and
+    /// a time step, s.
+    pub(crate) fn of_lumped(
+        lumped: LumpedBody,
+        velocity: f64,
+        critical: f64,
+        time_step: f64,
+    ) -> Self {
+        match lumped {
+            LumpedBody::Meshed(meshed) => {
+                let (nodal_mass, added_mass) = meshed.bound.scale_mass(critical);
+                Self::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step)
+            }
+            LumpedBody::Rigid(sphere) => Self::rigid(sphere, velocity, time_step),
+        }
+    }
+
     /// A wall.
     pub(crate) fn wall(velocity: f64) -> Self {
         Self {

@@ -5,7 +5,6 @@ use fem_element::QuadGeometry;
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
-use crate::body::Body;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::stress::{self, Stress};
@@ -94,18 +93,6 @@ impl LumpedBody {
         match self {
             Self::Meshed(meshed) => meshed.bound.scaled_time_step(budget),
             Self::Rigid(sphere) => sphere.bound.critical_time_step(),
-        }
-    }
-
-    /// The body for a velocity (m/s), with the masses that a critical time step (s) asks for, at a
-    /// time step, s.
-    pub fn into_body(self, velocity: f64, critical: f64, time_step: f64) -> Body {
-        match self {
-            Self::Meshed(meshed) => {
-                let (nodal_mass, added_mass) = meshed.bound.scale_mass(critical);
-                Body::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step)
-            }
-            Self::Rigid(sphere) => Body::rigid(sphere, velocity, time_step),
         }
     }
 }

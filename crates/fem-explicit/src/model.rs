@@ -107,7 +107,9 @@ impl Model {
         let mut movable = movable.into_iter().zip(parts.held);
         let mut next = || movable.next().and_then(|(body, held)| Some((body?, held)));
         let bodies = approach.velocities().map(|velocity| match next() {
-            Some((body, held)) => body.into_body(velocity, critical, time_step).with_held(held),
+            Some((body, held)) => {
+                Body::of_lumped(body, velocity, critical, time_step).with_held(held)
+            }
             None => Body::wall(velocity),
         });
         Ok(Self {

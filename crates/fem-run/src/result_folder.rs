@@ -19,6 +19,8 @@ use crate::occupant::{Occupant, missing_parents};
 const HIDDEN_PREFIX: &str = ".fem-run-";
 /// Tries to get into a place that other runs are changing.
 const TRIES: usize = 100;
+/// Looks after which what seems no result is none.
+const LOOKS: usize = 5;
 
 /// A claimed folder. Dropped before it is published, it leaves nothing behind.
 #[derive(Debug)]
@@ -144,6 +146,7 @@ fn check_occupant(out: &Path, target: &Path) -> Result<(), Failure> {
 /// Moves `staging` to `target`, or beside it, and returns where it is as the user would say it.
 fn put_in_place(staging: &Path, target: &Path, shown: &Path) -> io::Result<PathBuf> {
     let (mut target, mut shown) = (target.to_path_buf(), shown.to_path_buf());
+    let mut n_strange = 0;
     for _ in 0..TRIES {
         let occupant = match Occupant::of(&target) {
             // Another run took it away while it was looked at.
@@ -163,6 +166,8 @@ fn put_in_place(staging: &Path, target: &Path, shown: &Path) -> io::Result<PathB
                     return Ok(shown);
                 }
             }
+            // A result that another run takes away while it is looked at has lost its marks: once more.
+            Occupant::Foreign if n_strange < LOOKS => n_strange += 1,
             // Someone put it there during the run.
             Occupant::Foreign | Occupant::File => {
                 target = append(&target, ".new");

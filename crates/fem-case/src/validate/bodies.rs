@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use fem_material::Material;
 
 use super::{ANY, Check, NOT_NEGATIVE, POSITIVE};
+use crate::body::{Body, Shape};
 use crate::error::CaseError;
 use crate::explain::{listed, near};
 use crate::key_path::{is_bare, join, quote_key};
-use crate::scene::{Body, Shape};
 use crate::schema::{BodyTable, CaseFile, SphereTable};
 
 impl Check<'_> {

@@ -1,9 +1,10 @@
 //! Weight, what bears it, and how often the ball bounces on that.
 
 use super::{Allowed, Check, POSITIVE, allowed};
+use crate::body::{Body, Shape};
 use crate::error::CaseError;
+use crate::gravity::{Gravity, impact_speed};
 use crate::key_path::join;
-use crate::scene::{Body, Gravity, Shape};
 use crate::schema::{CaseFile, GravityTable};
 
 /// More contacts than any ball needs to come to rest.
@@ -98,12 +99,4 @@ impl Check<'_> {
 
 fn place(index: usize) -> String {
     format!("body.{index}")
-}
-
-/// √(v² + 2 g h), m/s, of a body with the velocity v (m/s) at the height h, m.
-pub(crate) fn impact_speed(velocity: f64, acceleration: f64, height: f64) -> f64 {
-    if height == 0.0 {
-        return velocity.abs();
-    }
-    velocity.hypot((2.0 * acceleration).sqrt() * height.sqrt())
 }

@@ -42,6 +42,27 @@ fn heights(collision: &Collision) -> Vec<f64> {
     tops.collect()
 }
 
+/// By how much a weight changes the first contact: a ball let down at 3 cm/s, with all of its weight and
+/// with next to nothing of it.
+#[test]
+fn a_weight_is_worth_what_is_foretold() {
+    let let_down = ["model.ting={}", ELASTIC, "start.gap=0", "body.1.approach_speed='3 cm/s'"];
+    let with = simulation(&let_down);
+    let verdicts = &with.setup().decisions.verdicts;
+    let gravity = verdicts.iter().find(|verdict| verdict.name == "gravity").unwrap();
+    let foretold = with.left_out(gravity, &with.setup().estimate).unwrap();
+    let none = "gravity.acceleration=1e-9";
+    let (with, without) = (with.run(&mut ()), run(&[&let_down[..], &[none]].concat()));
+    let change = |with: Option<f64>, without: Option<f64>| with.unwrap() - without.unwrap();
+    let time = change(with.contact_time, without.contact_time);
+    let force = change(with.peak_force, without.peak_force);
+    // √(g δ)/v is 0.46 here: the first order of what is no small number.
+    let ratio = time / foretold.contact_time_s.unwrap();
+    assert!((0.5..2.0).contains(&ratio), "T {ratio}");
+    let ratio = force / foretold.peak_force_n.unwrap();
+    assert!((0.5..2.0).contains(&ratio), "F {ratio}");
+}
+
 /// A ball that leaves with e v rises to (e v)²/2g, and comes down 2 e v/g after it has left.
 #[test]
 fn heights_fall_as_the_restitution_says() {
