@@ -10,6 +10,7 @@
 //! keys      names in a result folder
 //! accuracy  the table of what accuracy costs
 //! effects   the table of what effects cost
+//! shipped_cases  the table of the cases of the repository
 //! ```
 
 mod accuracy;
@@ -22,3 +23,4 @@ mod pages;
 mod pointers;
 mod printed;
 mod shell;
+mod shipped_cases;

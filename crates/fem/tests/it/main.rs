@@ -24,6 +24,7 @@ mod plastic_yield;
 mod refusals_in_code;
 mod remedies;
 mod rigid_partner;
+mod shipped_cases;
 mod stress;
 mod sweep;
 mod together;

@@ -1,0 +1,48 @@
+//! The table of the repository's cases in docs/cases.md: each case has a line, with the effects and the
+//! model of its plan. Times are not tested.
+
+use std::fs;
+
+use fem::{Case, Simulation};
+
+use crate::pages::{Page, root};
+
+/// What explicit elements have in every scene.
+const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"];
+
+/// Of a case: its name, its effects and its model, as the table has them.
+fn cells(case: &Case, name: &str) -> [String; 3] {
+    let simulation = Simulation::new(case.clone()).unwrap();
+    let verdicts = simulation.setup().decisions.verdicts.iter();
+    let active = verdicts.filter(|verdict| verdict.active).map(|verdict| verdict.name);
+    let active: Vec<&str> = active.filter(|effect| !MESHED.contains(effect)).collect();
+    let effects = if active.is_empty() { "none".to_string() } else { active.join(", ") };
+    let model = toml::Table::try_from(simulation.resolved().model.as_ref().unwrap()).unwrap();
+    let by = if simulation.considered().is_empty() { "" } else { ", by `auto`" };
+    let model = format!("{}{by}", model.keys().next().unwrap());
+    [format!("`{name}`"), effects, model]
+}
+
+#[test]
+fn every_case_has_its_line() {
+    let mut expected = Vec::new();
+    for entry in fs::read_dir(root().join("cases")).unwrap() {
+        let path = entry.unwrap().path();
+        // A sweep has no bodies of its own.
+        if fs::read_to_string(&path).unwrap().contains("\n[[body]]") {
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            expected.push(cells(&Case::load(&path, &[]).unwrap(), name));
+        }
+    }
+    let page = Page::load("docs/cases.md");
+    let lines = page.text.lines().skip_while(|line| !line.starts_with("| case |")).skip(2);
+    let mut shown: Vec<[String; 3]> = lines
+        .take_while(|line| line.starts_with('|'))
+        .map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()))
+        .map(|cells| cells.collect::<Vec<String>>())
+        .map(|cells| [&cells[0], &cells[2], &cells[3]].map(String::clone))
+        .collect();
+    expected.sort();
+    shown.sort();
+    assert_eq!(shown, expected);
+}

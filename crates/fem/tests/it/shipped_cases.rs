@@ -1,0 +1,140 @@
+//! The cases of the repository: the model that each takes, and the effects that it calls for.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fem::{Case, Simulation};
+
+/// What the plan of a case must be.
+struct Row {
+    /// The file in `cases`, without its ending.
+    case: &'static str,
+    /// Which computes it.
+    model: &'static str,
+    /// Effects that are on, beside [`MESHED`] ones; all others are off.
+    active: &'static [&'static str],
+    /// What the reason of an effect says.
+    why: &'static [(&'static str, &'static str)],
+    /// What each warning before the run says.
+    warnings: &'static [&'static str],
+}
+
+/// What explicit elements have in every scene.
+const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"];
+
+const ROWS: [Row; 13] = [
+    Row {
+        case: "glass_0.5ms",
+        model: "fem",
+        active: &["viscoelasticity"],
+        why: &[("mirror symmetry", "differ")],
+        warnings: &[],
+    },
+    Row { case: "glass_0.5ms_14um", model: "fem", active: &[], why: &[], warnings: &[] },
+    Row { case: "glass_0.5ms_elastic", model: "fem", active: &[], why: &[], warnings: &[] },
+    Row {
+        case: "glass_0.5ms_elastic_bulk",
+        model: "fem",
+        active: &["viscoelasticity"],
+        why: &[],
+        warnings: &[],
+    },
+    Row { case: "glass_on_wall", model: "fem", active: &[], why: &[], warnings: &[] },
+    Row { case: "ice_2cm", model: "fem", active: &["mirror symmetry"], why: &[], warnings: &[] },
+    Row {
+        case: "glass_twins",
+        model: "fem",
+        active: &["viscoelasticity", "mirror symmetry"],
+        why: &[("mirror symmetry", "one is computed")],
+        warnings: &[],
+    },
+    // 3.4e-5: steel has E/(1 − ν²) = 231 GPa, rubber 7.9 MPa.
+    Row {
+        case: "steel_on_rubber",
+        model: "condensed",
+        active: &["viscoelasticity", "rigid partner"],
+        why: &[("rigid partner", "steel has 3.4e-5 of the compliance")],
+        warnings: &[],
+    },
+    Row {
+        case: "ball_on_block",
+        model: "fem",
+        active: &["partner waves"],
+        why: &[("partner waves", "diameter of block = 0.00")],
+        warnings: &[],
+    },
+    Row {
+        case: "three_bounces",
+        model: "fem",
+        active: &["viscoelasticity", "gravity"],
+        why: &[],
+        warnings: &[],
+    },
+    // 2 m/s over √(G/ρ) = √(1.034 MPa / 950 kg/m³) = 33 m/s.
+    Row {
+        case: "fast_impact",
+        model: "fem",
+        active: &["bulk viscosity"],
+        why: &[
+            ("bulk viscosity", "approach speed / shear wave speed = 6.1e-2"),
+            ("finite strain", "called for, but not available"),
+        ],
+        warnings: &["above 10.00 % the small-strain model is in doubt"],
+    },
+    Row { case: "dust_grain", model: "hertz", active: &[], why: &[], warnings: &[] },
+    // The contact takes 0.1 ms: terms of 5 ns and less are over, those of 0.2 s and more do not relax.
+    Row {
+        case: "polymer_ten_terms",
+        model: "condensed",
+        active: &["viscoelasticity"],
+        why: &[
+            ("viscoelasticity", "3 of 10 terms followed in time"),
+            ("viscoelasticity", "2 over before the contact and 5 too slow for it"),
+        ],
+        warnings: &[],
+    },
+];
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases")
+}
+
+#[test]
+fn every_case_has_the_plan_of_its_row() {
+    for row in ROWS {
+        let name = row.case;
+        let case = Case::load(&folder().join(format!("{name}.toml")), &[]).unwrap();
+        let simulation = Simulation::new(case).unwrap();
+        let model = serde_json::to_value(&simulation.resolved().model).unwrap();
+        let models: Vec<&String> = model.as_object().unwrap().keys().collect();
+        assert_eq!(models, [row.model], "{name}");
+        let verdicts = &simulation.setup().decisions.verdicts;
+        let active = verdicts.iter().filter(|verdict| verdict.active).map(|verdict| verdict.name);
+        let active: Vec<&str> = active.filter(|effect| !MESHED.contains(effect)).collect();
+        assert_eq!(active, row.active, "{name}");
+        for (effect, why) in row.why {
+            let verdict = verdicts.iter().find(|verdict| verdict.name == *effect).unwrap();
+            assert!(verdict.reason.contains(why), "{name}: {effect}: {}", verdict.reason);
+        }
+        let warnings = simulation.warnings_before();
+        assert_eq!(warnings.len(), row.warnings.len(), "{name}: {warnings:?}");
+        for (warning, expected) in warnings.iter().zip(row.warnings) {
+            assert!(warning.contains(expected), "{name}: {warning}");
+        }
+    }
+}
+
+/// A sweep has no bodies of its own.
+#[test]
+fn every_case_has_a_row() {
+    let mut cases = BTreeSet::new();
+    for entry in fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        if fs::read_to_string(&path).unwrap().contains("\n[[body]]") {
+            cases.insert(path.file_stem().unwrap().to_str().unwrap().to_string());
+        }
+    }
+    let rows: BTreeSet<String> = ROWS.iter().map(|row| row.case.to_string()).collect();
+    assert_eq!(rows, cases);
+}
