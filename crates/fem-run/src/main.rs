@@ -24,6 +24,7 @@ mod commands;
 mod data_file;
 mod failure;
 mod fit;
+mod forecast;
 mod interrupt;
 mod law_arguments;
 mod law_failures;

@@ -1,5 +1,7 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
+use std::time::Instant;
+
 use comfy_table::CellAlignment::{Left, Right};
 use fem::{Cost, ForceLaw, Simulation};
 use fem_case::engineering::show;
@@ -8,6 +10,7 @@ use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
+use crate::forecast::seconds;
 use crate::report;
 use crate::standard_output;
 use crate::tables::{mesh_table, pairs, table};
@@ -26,7 +29,10 @@ pub struct Arguments {
 
 /// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let simulation = Simulation::new(Case::load(&arguments.input.case, &arguments.input.set)?)?;
+    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let begin = Instant::now();
+    let simulation = Simulation::new(case)?;
+    let setup = begin.elapsed().as_secs_f64();
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
@@ -36,12 +42,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let case = arguments.input.case.display().to_string();
     let heading = format!("{case} is sound. What to expect of a run:");
-    let expectation = format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation));
+    let expectation =
+        format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, setup));
     standard_output::print(&format!("{}\n{resolved}", as_comment(&expectation)))
 }
 
-/// What to expect of a run.
-fn expect(simulation: &Simulation) -> String {
+/// What to expect of a run, whose bodies took so long to make, s.
+fn expect(simulation: &Simulation, making: f64) -> String {
     let setup = simulation.setup();
     let hertz = &setup.estimate.hertz;
     let closed_form = pairs([
@@ -51,7 +58,7 @@ fn expect(simulation: &Simulation) -> String {
         ("largest contact radius", show(hertz.max_contact_radius(), "m")),
         ("peak pressure", show(hertz.peak_pressure(), "Pa")),
     ]);
-    let costs = costs(&setup.cost);
+    let costs = costs(&setup.cost, Some(time(simulation, making)));
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
@@ -98,32 +105,45 @@ fn unforced(simulation: &Simulation) -> String {
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
         Some(Ok(planned)) => {
-            let costs = costs(&planned.setup().cost);
+            let costs = costs(&planned.setup().cost, None);
             format!("\nCost if the plan decided on all effects\n{costs}")
         }
         _ => String::new(),
     }
 }
 
-fn costs(cost: &Cost) -> String {
+/// How long the making of the bodies took here, and the steps will take.
+fn time(simulation: &Simulation, making: f64) -> String {
+    let making = show(making, "s");
+    match seconds(simulation) {
+        Some(steps) => format!("about {} here, after {making} of setup", show(steps, "s")),
+        None => format!("{making} of setup here"),
+    }
+}
+
+fn costs(cost: &Cost, time: Option<String>) -> String {
+    let mut rows: Vec<[String; 2]> = Vec::new();
+    let mut row = |name: &str, value: String| rows.push([name.to_string(), value]);
     match *cost {
         Cost::Steps { steps, element_updates, memory, time_step, plain_time_step, .. } => {
             let longer = time_step / plain_time_step;
             let step = show(time_step, "s");
-            pairs([
-                ("time step", format!("{step} ({longer:.2} times that without mass scaling)")),
-                ("steps", format!("about {}", HumanCount(steps))),
-                ("element updates", format!("about {:.1e}", element_updates as f64)),
-                ("memory", format!("about {}", DecimalBytes(memory))),
-            ])
+            row("time step", format!("{step} ({longer:.2} times that without mass scaling)"));
+            row("steps", format!("about {}", HumanCount(steps)));
+            row("element updates", format!("about {:.1e}", element_updates as f64));
+            row("memory", format!("about {}", DecimalBytes(memory)));
         }
-        Cost::Factors { contact_points, steps, factor_bytes, .. } => pairs([
-            ("contact points", format!("{contact_points} condensed")),
-            ("steps", format!("about {}", HumanCount(steps))),
-            ("factors", DecimalBytes(factor_bytes).to_string()),
-        ]),
-        Cost::Little { .. } => String::new(),
+        Cost::Factors { contact_points, steps, factor_bytes, .. } => {
+            row("contact points", format!("{contact_points} condensed"));
+            row("steps", format!("about {}", HumanCount(steps)));
+            row("factors", DecimalBytes(factor_bytes).to_string());
+        }
+        Cost::Little { .. } => {}
     }
+    if let Some(time) = time {
+        row("time", time);
+    }
+    table(&[Left, Left], rows)
 }
 
 /// Model and cost of a reduced one.
