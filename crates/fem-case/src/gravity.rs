@@ -10,7 +10,7 @@ pub struct Gravity {
 }
 
 /// √(v² + 2 g h), m/s, of a body with the velocity v (m/s) at the height h, m.
-pub(crate) fn impact_speed(velocity: f64, acceleration: f64, height: f64) -> f64 {
+pub fn impact_speed(velocity: f64, acceleration: f64, height: f64) -> f64 {
     if height == 0.0 {
         return velocity.abs();
     }

@@ -82,7 +82,7 @@ pub use body::{Body, Shape};
 pub use case::Case;
 pub use error::CaseError;
 pub use explain::nearest;
-pub use gravity::Gravity;
+pub use gravity::{Gravity, impact_speed};
 pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,

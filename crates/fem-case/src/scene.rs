@@ -137,6 +137,7 @@ impl Scene {
         }
         scene.mesh.contact_element_size = None;
         scene.mesh.refined_radius = None;
+        scene.mesh.far_radius = None;
         Some(scene)
     }
 

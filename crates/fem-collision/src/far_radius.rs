@@ -51,7 +51,7 @@ mod tests {
 
     /// By hand: c_p = 2 at λ + 2μ = 4 and ρ = 1; 1.2 contact times of 10 take it 24 far.
     #[test]
-    fn waves_go_out_and_back() {
+    fn waves_do_not_reach_the_end() {
         let moduli = ElasticModuli::from_bulk_shear(8.0 / 3.0, 1.0).unwrap();
         let material = Material::new(1.0, moduli, None).unwrap();
         assert!((far_radius_of_waves(&material, 10.0, 0.5) - 24.5).abs() < 1e-12);

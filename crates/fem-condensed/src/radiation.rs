@@ -31,7 +31,7 @@
 //! Two bodies that radiate are one element of the sum of their γ. Limits: small losses; waves do not
 //! come back within the contact; of a body that relaxes, γ is that of its instantaneous moduli.
 
-/// k τ⁻¹ γ⁻¹: how many times the shortest lag that leaves the compliance positive.
+/// τ/(γ k): how many times the shortest lag that leaves the compliance positive.
 const LAG: f64 = 2.0;
 
 /// The waves of both bodies over a run.

@@ -280,9 +280,11 @@ impl<'a> Run<'a> {
         let vibration_energy = self.aftermath.vibration_energy().filter(|_| is_parted);
         for (side, body) in bodies.iter_mut().enumerate() {
             body.velocity_after = velocity_after.map(|both| both[side]);
-            // Of waves a half-space has some, and no mass; a wall has neither.
-            let is_wall = frame.masses[side].is_none() && self.pair.inputs()[side].mesh().is_none();
-            let in_waves = self.radiated.map_or(0.0, |both| both[side]);
+            // A half-space has what has gone out as waves; a wall has neither that nor a mass.
+            let input = &self.pair.inputs()[side];
+            let is_wall = frame.masses[side].is_none() && input.mesh().is_none();
+            let radiated = self.radiated.filter(|_| input.is_half_space());
+            let in_waves = radiated.map_or(0.0, |both| both[side]);
             body.vibration_energy =
                 vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }

@@ -1,11 +1,11 @@
 //! What a body of a scene is made of, for a model with meshes, before any mesh is made.
 
-use fem_case::{Scene, Shape};
+use fem_case::{Body, Scene, Shape};
 use fem_collision::BodyInput;
 use fem_material::Material;
 
-use crate::mesh_source::{MeshSource, mesh_refusal};
-use crate::meshes::mesh_sources;
+use crate::limits::check_size;
+use crate::mesh_source::{MeshSource, half_disc, import, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
 
@@ -34,23 +34,29 @@ impl BodySource {
     /// Of both bodies of a scene. Mesh files are read.
     ///
     /// # Errors
-    /// As [`mesh_sources`].
+    /// Meshes that cannot be made or read, or are too large.
     pub fn of_scene(scene: &Scene, plan: &Plan) -> Result<[Self; 2], Refusal> {
-        let [lower, upper] = mesh_sources(scene, plan)?;
-        let [first, second] = scene.bodies();
-        Ok([Self::of(first.shape(), lower), Self::of(second.shape(), upper)])
+        check_size(scene, plan)?;
+        let [lower, upper] = scene.bodies();
+        Ok([Self::of(lower, 0, plan)?, Self::of(upper, 1, plan)?])
     }
 
-    fn of(shape: &Shape, mesh: Option<MeshSource>) -> Self {
-        match (shape, mesh) {
-            (Shape::Sphere { material, .. } | Shape::HalfSpace { material }, Some(mesh)) => {
+    fn of(body: &Body, side: usize, plan: &Plan) -> Result<Self, Refusal> {
+        Ok(match body.shape() {
+            Shape::Sphere { diameter, mesh, material } => {
+                let mesh = match mesh {
+                    Some(path) => MeshSource::File(import(side, *diameter, path)?),
+                    None => MeshSource::HalfDisc(half_disc(plan, *diameter)),
+                };
                 Self::Meshed { mesh, material: material.clone() }
             }
-            (Shape::Rigid { diameter, mass }, _) => {
-                Self::Rigid { radius: 0.5 * diameter, mass: *mass }
+            Shape::HalfSpace { material } => {
+                let mesh = MeshSource::QuarterDisc(quarter_disc(plan));
+                Self::Meshed { mesh, material: material.clone() }
             }
-            _ => Self::Wall,
-        }
+            Shape::Rigid { diameter, mass } => Self::Rigid { radius: 0.5 * diameter, mass: *mass },
+            Shape::Wall => Self::Wall,
+        })
     }
 
     /// The same body of a material that does not relax.

@@ -1,5 +1,7 @@
 //! What the mesh of a body is made from: a half disc made here, or a file.
 
+use std::path::Path;
+
 use fem_mesh::{HalfDisc, MeshError, QuarterDisc, Side, SphereMesh};
 
 use crate::plan::Plan;
@@ -76,4 +78,34 @@ pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
         MeshError::TooLarge(_) => refusal.with_help("use a larger mesh.contact_element_size"),
         _ => refusal,
     }
+}
+
+/// The mesh of a sphere of this diameter (m) in a file, of the lower body, 0, or the upper one.
+///
+/// # Errors
+/// A file that holds none.
+pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Refusal> {
+    read_sphere(diameter, path).map_err(|found| {
+        let message = format!("mesh {}: {found}", path.display());
+        Refusal::new(format!("body.{k}.sphere.mesh"), message).with_help(
+            "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
+             r >= 0 of the sphere with its contact pole at the origin; \
+             `fem-run mesh CASE` writes such files",
+        )
+    })
+}
+
+#[cfg(feature = "files")]
+fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
+    let mesh = fem_vtk::read_quad_mesh(path).map_err(|error| error.to_string())?;
+    if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
+        return Err(format!("a point lies at z = {} m, off the plane z = 0", point[2]));
+    }
+    let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
+    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| error.to_string())
+}
+
+#[cfg(not(feature = "files"))]
+fn read_sphere(_: f64, _: &Path) -> Result<SphereMesh, String> {
+    Err("no files are read here".to_string())
 }

@@ -62,7 +62,7 @@ fn expect(simulation: &Simulation, making: f64) -> String {
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
-            format!("Mesh\n{meshes}\nCost\n{costs}")
+            format!("Mesh\n{meshes}\nCost{}\n{costs}", of_contacts(simulation))
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
@@ -104,11 +104,19 @@ fn unforced(simulation: &Simulation) -> String {
     let is_forced = forced.filled() != EffectsTable::default().filled();
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
-        Some(Ok(planned)) => {
+        Some(Ok(planned)) if !matches!(planned.setup().cost, Cost::Little { .. }) => {
             let costs = costs(&planned.setup().cost, None);
             format!("\nCost if the plan decided on all effects\n{costs}")
         }
         _ => String::new(),
+    }
+}
+
+/// Of which contact the cost is, where there are several.
+fn of_contacts(simulation: &Simulation) -> String {
+    match simulation.case().scene().gravity().map_or(1, |gravity| gravity.bounces) {
+        1 => String::new(),
+        n => format!(" of the first contact, of up to {n}"),
     }
 }
 

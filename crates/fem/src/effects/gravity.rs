@@ -22,7 +22,7 @@ use crate::estimate::Estimate;
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
 const TIME_SHARE: f64 = 0.375;
 const FORCE_SHARE: f64 = 1.2;
-/// Both numbers below this: the contact is as without gravity, to rounding of what is printed.
+/// The first number and the square of the second below this: the contact is as without gravity, to rounding of what is printed.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// Weight of the bodies.

@@ -56,7 +56,9 @@ impl Effect for Vibration {
     fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
         let hertz = &estimate.hertz;
         let initial = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
-        let left = collision.bodies.iter().filter_map(|body| body.vibration_energy);
+        // What is without a mass is without an end: its waves are gone.
+        let left = collision.bodies.iter().filter(|body| body.mass.is_some());
+        let left = left.filter_map(|body| body.vibration_energy);
         let share = left.sum::<f64>() / initial;
         let warning = (share > LARGEST_VIBRATION).then(|| {
             format!(

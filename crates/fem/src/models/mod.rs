@@ -78,12 +78,14 @@ pub(crate) fn chosen(scene: &Scene) -> Result<Option<Chosen>, Refusal> {
     }
 }
 
-/// Element updates to come; see [`Method::price`].
+/// Element updates to come, of all contacts; see [`Method::price`].
 ///
 /// # Errors
 /// As [`Method::price`].
 pub(crate) fn price_of(scene: &Scene) -> Result<u64, Refusal> {
-    method_of(scene).price(&Computed::of(scene)?.scene)
+    let one = method_of(scene).price(&Computed::of(scene)?.scene)?;
+    let contacts = scene.gravity().map_or(1, |gravity| gravity.bounces as u64);
+    Ok(one.saturating_mul(contacts))
 }
 
 /// The case as written with every default of its method filled in.

@@ -4,7 +4,7 @@
 //! same meshes and elements are condensed with equilibrium moduli, elements at the contact as the plan
 //! chooses them for Hertz' contact radius under that force, and pressed together.
 
-use fem_case::{CondensedOptions, Scene};
+use fem_case::{CondensedOptions, ModelChoice, Scene};
 use fem_collision::StaticContact;
 use fem_condensed::{CondensedError, CondensedPair};
 use fem_laws::StaticHertz;
@@ -38,6 +38,8 @@ pub(in crate::models) fn of_elements(
             hertz.contact_radius
         )));
     };
+    // At rest the mesh of a half-space has to reach further than for waves.
+    let relaxed = relaxed.with_model(ModelChoice::Condensed(CondensedOptions::default()));
     let plan = Plan::of(&relaxed)?;
     let bodies = BodySource::of_scene(&relaxed, &plan)?;
     check_memory(&plan, &bodies)?;

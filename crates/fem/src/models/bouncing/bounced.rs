@@ -1,0 +1,170 @@
+//! What comes of contact after contact, up to the whole.
+
+use fem_case::Gravity;
+use fem_collision::{Approach, Bounce, Collision, Ending, Rest, Stop, Want};
+
+use super::chain::Chain;
+use super::{phase, report};
+
+/// What came of the contacts so far.
+pub(super) struct Bounced {
+    gravity: Gravity,
+    chain: Chain,
+    first: Option<Collision>,
+    bounces: Vec<Bounce>,
+    rest: Option<Rest>,
+    ending: Ending,
+    steps: Option<u64>,
+    element_updates: Option<u64>,
+    /// Energy (J) left in vibrations by the contact before, and the largest bound of what they do.
+    vibration: f64,
+    phase: Option<(usize, f64)>,
+    warnings: Vec<String>,
+}
+
+impl Bounced {
+    pub fn new(chain: Chain, gravity: Gravity) -> Self {
+        Self {
+            gravity,
+            chain,
+            first: None,
+            bounces: Vec::new(),
+            rest: None,
+            ending: Ending::Parted,
+            steps: None,
+            element_updates: None,
+            vibration: 0.0,
+            phase: None,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The contact under way has first touched here, s; after the last one when that ended.
+    pub fn time(&self) -> f64 {
+        self.chain.time()
+    }
+
+    pub fn element_updates(&self) -> u64 {
+        self.element_updates.unwrap_or_default()
+    }
+
+    pub fn is_at_rest(&self) -> bool {
+        self.ending == Ending::AtRest
+    }
+
+    pub fn warn(&mut self, warning: String) {
+        if !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
+        }
+    }
+
+    pub fn bear(&mut self, rest: Rest) {
+        self.rest = Some(rest);
+    }
+
+    /// m g, N.
+    pub fn weight(&self) -> Option<f64> {
+        Some(self.gravity.acceleration * self.first.as_ref()?.bodies[1].mass?)
+    }
+
+    pub fn stopped(mut self, stop: Stop) -> Self {
+        self.ending = Ending::Stopped(stop);
+        self
+    }
+
+    /// Takes a contact; the speed (m/s) at which the ball comes down again, if it does.
+    pub fn take(&mut self, mut collision: Collision, want: &Want) -> Option<f64> {
+        let add = |sum: Option<u64>, more: Option<u64>| {
+            more.map(|more| sum.unwrap_or_default().saturating_add(more)).or(sum)
+        };
+        self.steps = add(self.steps, collision.steps);
+        self.element_updates = add(self.element_updates, collision.element_updates);
+        let time = self.time();
+        for warning in std::mem::take(&mut collision.warnings) {
+            self.warn(warning);
+        }
+        let rows = std::mem::take(&mut collision.history);
+        self.chain.take(&collision, &rows);
+        if let Ending::Stopped(stop) = &collision.ending {
+            self.chain.keep(&rows, f64::INFINITY);
+            self.ending = Ending::Stopped(stop.clone().later_by(time));
+            self.first.get_or_insert(collision);
+            return None;
+        }
+        let bounce = Bounce {
+            time,
+            speed_before: collision.approach.speed(),
+            restitution: collision.restitution.unwrap_or_default(),
+            contact_time: collision.contact_time,
+            peak_force: collision.peak_force,
+        };
+        self.bounces.push(bounce);
+        self.bound_phase(&collision, &bounce);
+        let is_parted = collision.ending == Ending::Parted;
+        let end = rows.last().copied().filter(|_| is_parted);
+        if end.is_some_and(|end| !Chain::is_sound(&end)) {
+            let what = format!("the flight after contact {} is no number", self.bounces.len());
+            self.ending = Ending::Stopped(Stop::OutOfRange(what));
+            self.chain.keep(&rows, f64::INFINITY);
+            self.first.get_or_insert(collision);
+            return None;
+        }
+        let landing = end.and_then(|end| self.chain.landing(&end, self.gravity.acceleration));
+        self.chain.keep(&rows, landing.map_or(f64::INFINITY, |landing| landing.time));
+        self.first.get_or_insert(collision);
+        let Some(landing) = landing else {
+            self.chain.stay(rows.last());
+            self.ending = Ending::AtRest;
+            return None;
+        };
+        if self.bounces.len() < self.gravity.bounces
+            && let Some(end) = &end
+        {
+            self.chain.fly(end, &landing, want.history_rows > 0);
+        }
+        Some(landing.speed)
+    }
+
+    /// What the vibrations of the contact before can have done to this one.
+    fn bound_phase(&mut self, collision: &Collision, bounce: &Bounce) {
+        // Waves in what has no end are gone.
+        let bodies = collision.bodies.iter().filter(|body| body.mass.is_some());
+        let left: f64 = bodies.filter_map(|body| body.vibration_energy).sum();
+        let initial = collision.initial_energy.unwrap_or(f64::INFINITY);
+        let bound = phase::bound(self.vibration, left, initial, bounce.restitution);
+        if bound > self.phase.map_or(phase::LARGEST, |(_, largest)| largest) {
+            self.phase = Some((self.bounces.len(), bound));
+        }
+        self.vibration = left;
+    }
+
+    /// The whole.
+    pub fn collision(mut self, approach: Approach) -> Collision {
+        let Some(first) = self.first.take() else {
+            let stop = match self.ending {
+                Ending::Stopped(stop) => stop,
+                _ => Stop::NotMade("the ball never came down".to_string()),
+            };
+            return Collision::stopped(approach, stop);
+        };
+        let said = report::of(&self.bounces, &self.ending, self.phase);
+        said.into_iter().for_each(|warning| self.warn(warning));
+        let shift = |time: Option<f64>| Some(time? + self.chain.first_touch());
+        Collision {
+            approach,
+            first_contact: shift(first.first_contact),
+            last_contact: shift(first.last_contact),
+            energies: self.chain.energies(),
+            residual: self.chain.residual(),
+            residual_relative: self.chain.worst_residual().or(first.residual_relative),
+            steps: self.steps,
+            element_updates: self.element_updates,
+            bounces: self.bounces,
+            rest: self.rest,
+            ending: self.ending,
+            history: self.chain.into_rows(),
+            warnings: self.warnings,
+            ..first
+        }
+    }
+}
