@@ -1,5 +1,7 @@
 //! A shipped ball that bounces, from the command to the files.
 
+use fem_vtk::VtuFile;
+
 use crate::common::Place;
 
 const BALL: &str = include_str!("../../../../cases/three_bounces.toml");
@@ -29,4 +31,21 @@ fn three_bounces_are_printed_summed_up_and_written_down() {
         let header = history.lines().next().unwrap();
         assert!(header.ends_with("residual_j,potential_j,left_before_j"), "{header}");
     }
+}
+
+/// As without gravity, half of the gap is drawn on each side of y = 0: the floor is half a height below.
+#[test]
+fn a_ball_that_fell_is_drawn_on_the_floor() {
+    let place = Place::new();
+    place.write("ball.toml", BALL);
+    place.succeed(&["ball.toml", "--set", "model.condensed={}", "--out", "out"]);
+    let file = VtuFile::open(place.path("out/ball_1_maximum.vtu")).unwrap();
+    let points = file.quad_mesh().unwrap().points;
+    let displacement = file.point_data("displacement").unwrap();
+    let displaced = displacement.as_float().unwrap().chunks_exact(3);
+    let lowest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(f64::INFINITY, f64::min);
+    assert_eq!(lowest(&mut points.iter().map(|point| point[1])), 0.01);
+    // Contact is exact, up to rounding of the height.
+    let now = lowest(&mut points.iter().zip(displaced).map(|(point, u)| point[1] + u[1]));
+    assert!((now + 0.01).abs() < 1e-12, "{now:e}");
 }

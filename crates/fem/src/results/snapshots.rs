@@ -29,7 +29,7 @@ impl<'a> Drawing<'a> {
         Self {
             meshes: simulation.model().meshes(),
             materials: simulation.case().scene().bodies().each_ref().map(|body| body.material()),
-            gap: collision.approach.gap(),
+            gap: start_gap(simulation, collision),
             request: &simulation.want().snapshots,
             snapshots: &collision.snapshots,
             is_complete: collision.is_complete(),
@@ -41,6 +41,14 @@ impl<'a> Drawing<'a> {
         let both = self.meshes.into_iter().zip(self.materials).enumerate();
         both.filter_map(|(side, (mesh, material))| Some((side, mesh?, material?)))
     }
+}
+
+/// Of the surfaces at time 0, m; the approach of a ball that falls is that of its first touch.
+fn start_gap(simulation: &Simulation, collision: &Collision) -> f64 {
+    if collision.approach == simulation.setup().approach {
+        return simulation.case().scene().gap().unwrap_or_default();
+    }
+    collision.approach.gap()
 }
 
 /// The arrays of a grid of both bodies, the second body's points after the first's.
