@@ -52,7 +52,7 @@ use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 use crate::radiation::{radiation_damping, share_of_damping};
 use crate::ting_collision::{Collision, Units};
-use crate::ting_radiation::Radiation;
+use crate::ting_radiation::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
 use crate::ting_record::{Contact, Element};
 
 /// Faster relaxation leaves a force of 1e-15.
@@ -66,6 +66,8 @@ pub struct Ting {
     finite_size: Option<FiniteSize>,
     /// γ of all bodies that radiate, m s/N.
     radiation_damping: Option<f64>,
+    /// See [`Ting::with_coarse_waves`].
+    has_coarse_waves: bool,
     tolerance: f64,
     /// m/s².
     gravity: f64,
@@ -86,6 +88,7 @@ impl Ting {
             relaxation,
             finite_size: None,
             radiation_damping: None,
+            has_coarse_waves: false,
             tolerance: Self::DEFAULT_TOLERANCE,
             gravity: 0.0,
         }
@@ -132,6 +135,14 @@ impl Ting {
         self.relaxation.equilibrium_weight()
     }
 
+    /// For a forecast: with waves that are smoothed over four times the usual share of the contact time,
+    /// which takes a fifth of the time. Of a loss of 0.6 % it finds 0.3 % less, of what that takes of the
+    /// peak force 5 % less, of what it adds to the contact time 30 % less. It answers beyond
+    /// [`Ting::MAX_RADIATED_SHARE`] too.
+    pub fn with_coarse_waves(self) -> Self {
+        Self { has_coarse_waves: true, ..self }
+    }
+
     /// The collision at an approach speed, m/s.
     ///
     /// # Errors
@@ -166,7 +177,7 @@ impl Ting {
         };
         let Some(damping) = self.radiation_damping else { return run(&contact) };
         let (value, limit) = (share_of_damping(&hertz, damping), Self::MAX_RADIATED_SHARE);
-        if value > limit {
+        if value > limit && !self.has_coarse_waves {
             let quantity = "radiated energy / energy of approach";
             return Err(LawError::OutsideValidity { quantity, value, limit });
         }
@@ -175,6 +186,7 @@ impl Ting {
             damping * units.force / (units.length * units.time),
             (without.max_contact_radius / units.radius).powi(2),
             without.contact_time.unwrap_or(hertz.contact_time()) / units.time,
+            if self.has_coarse_waves { COARSE_SHARE_OF_CONTACT } else { SHARE_OF_CONTACT },
         );
         run(&Contact { radiation: Some(radiation), ..contact })
     }

@@ -36,7 +36,10 @@ use crate::finite_correction::Correction;
 const STIFFNESS_TIMES: f64 = 2.5;
 
 /// Share of the contact time that τ is at least. As many steps as without waves are enough.
-const SHARE_OF_CONTACT: f64 = 0.0025;
+pub(crate) const SHARE_OF_CONTACT: f64 = 0.0025;
+
+/// The same for a forecast.
+pub(crate) const COARSE_SHARE_OF_CONTACT: f64 = 0.01;
 
 /// The constants of waves that leave.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,10 +51,11 @@ pub(crate) struct Radiation {
 }
 
 impl Radiation {
-    /// Of γ, the largest Hertz approach u and the contact time of the same collision without waves.
-    pub fn new(damping: f64, largest: f64, contact_time: f64) -> Self {
+    /// Of γ, the largest Hertz approach u and the contact time of the same collision without waves, and the
+    /// share of it that τ is at least.
+    pub fn new(damping: f64, largest: f64, contact_time: f64, share: f64) -> Self {
         let stiffness = 1.5 * largest.sqrt();
-        let time = (STIFFNESS_TIMES * damping * stiffness).max(SHARE_OF_CONTACT * contact_time);
+        let time = (STIFFNESS_TIMES * damping * stiffness).max(share * contact_time);
         Self { compliance: damping / time, rate: time.recip() }
     }
 

@@ -22,6 +22,8 @@ pub mod calibrate;
 mod course;
 pub mod effects;
 mod estimate;
+mod expected;
+mod large_partner;
 pub mod laws;
 mod limits;
 pub mod measured;

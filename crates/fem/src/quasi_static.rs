@@ -1,13 +1,8 @@
-//! Ting's quasi-static impact of a scene: a model, and what effects estimate by.
+//! Ting's quasi-static impact of a scene.
 
 use fem_case::{Body, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
-
-use crate::estimate::Estimate;
-
-/// Accuracy of the impacts that foretell what effects change.
-const ESTIMATE_TOLERANCE: f64 = 1e-5;
 
 /// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
 /// however large the contact.
@@ -42,23 +37,4 @@ pub(crate) fn ting_of(
         Some(size) => ting.with_finite_size(size),
         None => ting,
     })
-}
-
-/// What an impact that foretells has beside elastic half-spaces.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Terms<'a> {
-    /// Whether the materials relax.
-    pub relaxes: bool,
-    /// The spheres' own compliance.
-    pub size: Option<FiniteSize>,
-    /// Materials of bodies that radiate.
-    pub radiating: [Option<&'a Material>; 2],
-}
-
-/// Ting's impact at the speed of an estimate, as accurate as a forecast needs; nothing where it has none.
-pub(crate) fn estimated(scene: &Scene, estimate: &Estimate, terms: Terms<'_>) -> Option<Impact> {
-    let hertz = &estimate.hertz;
-    let ting = ting_of(scene, hertz.pair(), terms.relaxes, terms.size).ok()?;
-    let ting = ting.with_radiation(terms.radiating.into_iter().flatten()).ok()?;
-    ting.with_tolerance(ESTIMATE_TOLERANCE).ok()?.impact(hertz.approach_speed()).ok()
 }

@@ -208,7 +208,14 @@ impl Simulation {
     /// By how much the numbers of a collision of which closed forms say this change without an effect.
     pub fn left_out(&self, verdict: &Verdict, estimate: &Estimate) -> Option<LeftOut> {
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
-        effect.left_out(self.case.scene(), estimate)
+        let scene = self.case.scene();
+        match &self.chosen {
+            Some(chosen) => {
+                let scene = scene.clone().with_model(chosen.scene.model().clone());
+                effect.left_out(&scene, estimate)
+            }
+            None => effect.left_out(scene, estimate),
+        }
     }
 
     /// Which effects were on in a collision of the case's bodies, and why; and what was to be known

@@ -34,6 +34,12 @@ pub trait Effect: Sync {
         Ok(None)
     }
 
+    /// What the user should know of a scene that the case's switch has transformed otherwise than the plan
+    /// would.
+    fn forced(&self, _: &Scene, _: &Estimate) -> Option<String> {
+        None
+    }
+
     /// By how much the numbers of a collision change without it, whether or not it is called for;
     /// `None` where closed forms do not tell.
     fn left_out(&self, _: &Scene, _: &Estimate) -> Option<LeftOut> {

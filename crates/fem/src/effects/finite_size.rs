@@ -4,8 +4,9 @@ use fem_case::Scene;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
+use super::transformed::Computed;
 use crate::estimate::Estimate;
-use crate::quasi_static::{Terms, estimated};
+use crate::expected::Expected;
 
 /// The spheres' own compliance.
 #[derive(Clone, Copy, Debug)]
@@ -21,13 +22,10 @@ impl Effect for FiniteSizeEffect {
         Self::NAME
     }
 
-    /// Of elastic bodies.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let with = estimated(
-            scene,
-            estimate,
-            Terms { size: scene.finite_size().ok(), ..Terms::default() },
-        )?;
-        Some(LeftOut::between(&with, &estimate.hertz.impact()))
+        let scene = Computed::quiet(scene)?;
+        let speed = estimate.hertz.approach_speed();
+        let [with, without] = [true, false].map(|size| Expected::of(&scene, speed, size).ok());
+        Some(LeftOut::difference(&with?, &without?))
     }
 }

@@ -2,10 +2,13 @@
 
 use std::fmt;
 
-use fem_laws::Impact;
+use fem_case::{ModelChoice, Scene, Switch};
 use serde::Serialize;
 
+use super::partner_waves::PartnerWaves;
+use super::transformed::Computed;
 use crate::estimate::Estimate;
+use crate::expected::Expected;
 
 /// By how much a collision's numbers change where an effect is left out, as closed forms foretell it;
 /// magnitudes, `None` where they do not.
@@ -45,14 +48,44 @@ impl LeftOut {
         Self { restitution: finite(change), ..Self::default() }
     }
 
-    /// Between two impacts. Bodies that stay together have no contact time.
-    pub(crate) fn between(with: &Impact, without: &Impact) -> Self {
+    /// Between two scenes that meet at a speed (m/s), as they are computed in the end. Where waves take more
+    /// than a correction, without them; nothing where Ting's model has no answer.
+    pub(crate) fn between(with: &Scene, without: &Scene, speed: f64) -> Self {
+        let [with, without] = [with, without].map(Computed::quiet);
+        let Some((with, without)) = with.zip(without) else { return Self::default() };
+        let change = |with: &Scene, without: &Scene, size: bool| {
+            let [with, without] = [with, without].map(|scene| Expected::of(scene, speed, size));
+            Some(Self::difference(&with.ok()?, &without.ok()?))
+        };
+        let silent = |scene: &Scene| PartnerWaves::switched(scene, Some(Switch::Off));
+        let size = has_finite_size(&with);
+        change(&with, &without, size)
+            .or_else(|| change(&with, &without, false).filter(|_| size))
+            .or_else(|| change(&silent(&with), &silent(&without), false))
+            .unwrap_or_default()
+    }
+
+    /// Between two impacts. Bodies that stay together have no contact time; one that loses more than all
+    /// is none, as of a body faster than its waves.
+    pub(crate) fn difference(with: &Expected, without: &Expected) -> Self {
+        if (with.restitution - without.restitution).abs() > 1.0 {
+            return Self::default();
+        }
         let times = with.contact_time.zip(without.contact_time);
         Self {
             restitution: finite(with.restitution - without.restitution),
             contact_time_s: times.and_then(|(with, without)| finite(with - without)),
             peak_force_n: finite(with.peak_force - without.peak_force),
         }
+    }
+}
+
+/// Whether a scene's model has the spheres' own compliance.
+fn has_finite_size(scene: &Scene) -> bool {
+    match scene.model() {
+        ModelChoice::Fem | ModelChoice::Condensed(_) => true,
+        ModelChoice::Ting { finite_size, .. } => *finite_size,
+        _ => false,
     }
 }
 

@@ -5,15 +5,16 @@
 //! Decided by the contact time over the time that shear waves take through a body, T c_s/D. The loss is
 //! that of a half-space ([`radiated_share`]).
 
-use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
 use fem_laws::radiated_share;
 use fem_material::Material;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
+use super::transformed::Computed;
 use crate::estimate::Estimate;
-use crate::quasi_static::{Terms, estimated};
+use crate::expected::Expected;
 
 /// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;
@@ -54,6 +55,11 @@ impl PartnerWaves {
 }
 
 impl PartnerWaves {
+    /// A scene with the case's switch in another place.
+    pub(super) fn switched(scene: &Scene, partner_waves: Option<Switch>) -> Scene {
+        scene.clone().with_effects(EffectsTable { partner_waves, ..*scene.effects() })
+    }
+
     /// As [`PartnerWaves::radiating`], of a model in which a body that radiates moves as a whole at once: only
     /// if it is so heavy that its own motion, part of the waves' energy, is next to nothing of the loss.
     pub(crate) fn radiating_at_rest<'a>(
@@ -121,23 +127,30 @@ impl Effect for PartnerWaves {
         })
     }
 
-    /// The difference of Ting's impacts with and without; where the loss is no correction any more,
-    /// what a half-space takes.
-    /// The difference of Ting's impacts with and without; where the loss is no correction any more,
-    /// what a half-space takes.
+    /// Between Ting's impacts with and without; where they are no term, or no correction any more, what
+    /// a half-space takes of the restitution.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let radiating = match scene.effects().partner_waves {
-            Some(Switch::On) => Self::radiating(scene, estimate),
-            _ => large(scene, estimate, RADIATION_LIMIT),
-        };
-        if radiating == [None; 2] {
-            let share = radiated(&passages(scene, estimate), estimate);
-            return (share > 0.0).then(|| LeftOut::restitution(lost(share)));
+        let switch = scene.effects().partner_waves.filter(|switch| *switch != Switch::Off);
+        let with = Computed::quiet(&Self::switched(scene, switch))?;
+        let without = Self::switched(&with, Some(Switch::Off));
+        let speed = estimate.hertz.approach_speed();
+        let estimate = Estimate::at(&with, speed).ok()?;
+        if Self::radiating(&with, &estimate) != [None; 2] {
+            // A model without the term lacks what another one has.
+            let is_term = Self::radiating_at_rest(&with, &estimate) != [None; 2];
+            let whole = with.clone().with_model(ModelChoice::Fem);
+            let own = if is_term { &with } else { &whole };
+            let impacts = [own, &without].map(|scene| Expected::of(scene, speed, false));
+            if let [Ok(with), Ok(without)] = impacts {
+                return Some(LeftOut::difference(&with, &without));
+            }
+            // What relaxes takes part of what the waves would.
+            if relaxes(&with.bodies().each_ref().map(Body::material)) {
+                return None;
+            }
         }
-        let with = estimated(scene, estimate, Terms { radiating, ..Terms::default() });
-        let difference = with.map(|with| LeftOut::between(&with, &estimate.hertz.impact()));
-        let share = || radiated(&passages(scene, estimate), estimate);
-        Some(difference.unwrap_or_else(|| LeftOut::restitution(lost(share()))))
+        let share = radiated(&passages(&with, &estimate), &estimate);
+        (share > 0.0).then(|| LeftOut::restitution(lost(share)))
     }
 }
 
@@ -154,6 +167,10 @@ fn radiated(passages: &[(&Body, f64)], estimate: &Estimate) -> f64 {
         Some(radiated_share(&estimate.hertz, body.material()?) * kept(*passage))
     };
     large.filter_map(share).sum()
+}
+
+fn relaxes(materials: &[Option<&Material>; 2]) -> bool {
+    materials.iter().flatten().any(|material| material.relaxation().is_some())
 }
 
 /// Share of what a half-space takes that a body keeps: elements lost 1/3 of it at T c_s/D = 1.5.

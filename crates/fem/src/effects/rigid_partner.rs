@@ -2,8 +2,9 @@
 //! degree of freedom in place of its elements. A transformation of the scene.
 //!
 //! Decided by the body's share s of the contact's compliance, s = k/(k₁+k₂), k = (1 − ν²)/E. Leaving it out
-//! makes the contact modulus larger by 1/(1 − s), and what that changes Hertz' powers say
-//! ([`fem_laws::rigid_partner`]). A half-space that hardly gives way is a wall.
+//! makes the contact modulus larger by 1/(1 − s), and what that changes of elastic bodies Hertz' powers say
+//! ([`fem_laws::rigid_partner`]); what the body relaxes and radiates goes with it. A half-space that hardly
+//! gives way is a wall.
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
@@ -43,11 +44,7 @@ impl Effect for RigidPartner {
         Some(Need { number, ..Need::default() })
     }
 
-    fn transform(
-        &self,
-        scene: &Scene,
-        estimate: &Estimate,
-    ) -> Result<Option<Transformed>, Refusal> {
+    fn transform(&self, scene: &Scene, _: &Estimate) -> Result<Option<Transformed>, Refusal> {
         let is_forced = scene.effects().rigid_partner == Some(Switch::On);
         let stiffer = stiffer(scene).filter(|_| scene.effects().rigid_partner != Some(Switch::Off));
         let Some(stiffer) = stiffer.filter(|stiffer| is_forced || stiffer.is_rigid()) else {
@@ -60,12 +57,7 @@ impl Effect for RigidPartner {
             return Err(refused("rigid_partner and mirror_symmetry are both \"on\""));
         }
         let number = stiffer.number();
-        let mut answer = Answer::is(true, format!("{number}: it is rigid, with its own mass"));
-        if !stiffer.is_rigid() {
-            let change = stiffer.change(estimate);
-            let warning = format!("{number}, and is forced to be rigid, which changes {change}");
-            answer = answer.warning([warning]);
-        }
+        let answer = Answer::is(true, format!("{number}: it is rigid, with its own mass"));
         let mut shapes = scene.bodies().each_ref().map(|body| body.shape().clone());
         shapes[stiffer.side] = stiffer.body.rigid();
         let effects = EffectsTable { rigid_partner: None, ..*scene.effects() };
@@ -73,7 +65,14 @@ impl Effect for RigidPartner {
         Ok(Some(Transformed { scene, answer }))
     }
 
-    /// Of a body that is taken as rigid.
+    fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
+        let is_forced = scene.effects().rigid_partner == Some(Switch::On);
+        let stiffer = stiffer(scene).filter(|stiffer| is_forced && !stiffer.is_rigid())?;
+        let (number, change) = (stiffer.number(), change(scene, estimate));
+        Some(format!("{number}, and is forced to be rigid, which changes {change}"))
+    }
+
+    /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         let switch = scene.effects().rigid_partner;
         let taken = stiffer(scene).filter(|stiffer| match switch {
@@ -81,8 +80,17 @@ impl Effect for RigidPartner {
             Some(Switch::Off) => false,
             _ => stiffer.is_rigid(),
         });
-        Some(taken.map_or(LeftOut::NOTHING, |stiffer| stiffer.change(estimate)))
+        Some(taken.map_or(LeftOut::NOTHING, |_| change(scene, estimate)))
     }
+}
+
+/// What taking the stiffer body as rigid changes.
+fn change(scene: &Scene, estimate: &Estimate) -> LeftOut {
+    let [rigid, whole] = [Some(Switch::On), Some(Switch::Off)].map(|rigid_partner| {
+        let effects = EffectsTable { rigid_partner, ..*scene.effects() };
+        scene.clone().with_effects(effects)
+    });
+    LeftOut::between(&rigid, &whole, estimate.hertz.approach_speed())
 }
 
 fn refused(message: &str) -> Refusal {
@@ -119,12 +127,5 @@ impl Stiffer<'_> {
     /// The number that decides, in words.
     fn number(&self) -> String {
         format!("{} has {:.1e} of the compliance", self.body.name(), self.share)
-    }
-
-    /// What taking it as rigid changes.
-    fn change(&self, estimate: &Estimate) -> LeftOut {
-        let error = fem_laws::rigid_partner(estimate.hertz.pair(), &self.body.partner());
-        let error = error.unwrap_or_default();
-        LeftOut::shares(estimate, error.contact_time, error.peak_force)
     }
 }

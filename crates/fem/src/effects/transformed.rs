@@ -33,9 +33,26 @@ impl Computed {
     /// finite.
     pub fn of(given: &Scene) -> Result<Self, Refusal> {
         let estimate = Estimate::checked(given)?;
+        let mut computed = Self::without_warnings(given, &estimate)?;
+        for (name, answer) in &mut computed.answers {
+            let effect = EFFECTS.iter().find(|effect| effect.name() == *name);
+            let forced = effect.and_then(|effect| effect.forced(given, &estimate));
+            *answer = answer.clone().warning(forced);
+        }
+        Ok(computed)
+    }
+
+    /// The scene alone, for closed forms; none where a switch does not allow it.
+    pub fn quiet(given: &Scene) -> Option<Scene> {
+        let estimate = Estimate::checked(given).ok()?;
+        Self::without_warnings(given, &estimate).ok().map(|computed| computed.scene)
+    }
+
+    /// As [`Computed::of`], and nobody is warned of what is switched off.
+    fn without_warnings(given: &Scene, estimate: &Estimate) -> Result<Self, Refusal> {
         let mut computed = Self { scene: given.clone(), answers: Vec::new() };
         for effect in EFFECTS {
-            if let Some(next) = effect.transform(&computed.scene, &estimate)? {
+            if let Some(next) = effect.transform(&computed.scene, estimate)? {
                 computed.scene = next.scene;
                 computed.answers.push((effect.name(), next.answer));
             }

@@ -14,7 +14,7 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::transformed::Transformed;
 use crate::estimate::Estimate;
-use crate::quasi_static::{Terms, estimated};
+use crate::quasi_static::ting_of;
 use crate::refusal::Refusal;
 
 /// What terms that are not followed may change, all together, of restitution (absolute), contact time and
@@ -24,6 +24,8 @@ const LARGEST_FOLDED: f64 = 1e-4;
 const SHARE_OF_LOSS: f64 = 0.01;
 /// Nobody asks for less.
 const LEAST_FOLDED: f64 = 1e-7;
+/// Accuracy of the loss that decides on it.
+const LOSS_TOLERANCE: f64 = 1e-5;
 
 /// Relaxation of the materials.
 #[derive(Clone, Copy, Debug)]
@@ -73,9 +75,7 @@ impl Effect for Viscoelasticity {
             Some(Switch::Off) => {
                 let elastic =
                     materials(scene).map(|material| material.map(Material::without_relaxation));
-                let left_out = self.left_out(scene, estimate).unwrap_or_default();
-                let answer = Answer::is(false, format!("{}; switched off", need.number))
-                    .warning([left_out.warning(Self::NAME)]);
+                let answer = Answer::is(false, format!("{}; switched off", need.number));
                 Some(Transformed { scene: made_of(scene, elastic), answer })
             }
             Some(Switch::Auto) | None => self.folded(scene, estimate).map(|folded| {
@@ -86,13 +86,27 @@ impl Effect for Viscoelasticity {
         })
     }
 
-    /// The difference of Ting's impacts of relaxing and of elastic half-spaces.
+    fn forced(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
+        let is_off = scene.effects().viscoelasticity == Some(Switch::Off);
+        let left_out =
+            (is_off && !relaxing(scene).is_empty()).then(|| self.left_out(scene, estimate));
+        left_out.map(|left_out| left_out.unwrap_or_default().warning(Self::NAME))
+    }
+
+    /// Between Ting's impacts of relaxing and of elastic bodies, with the waves that leave either.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         if relaxing(scene).is_empty() {
             return Some(LeftOut::NOTHING);
         }
-        let with = estimated(scene, estimate, Terms { relaxes: true, ..Terms::default() })?;
-        Some(LeftOut::between(&with, &estimate.hertz.impact()))
+        let followed = match scene.effects().viscoelasticity {
+            Some(Switch::Off) => Some(Switch::Auto),
+            own => own,
+        };
+        let [with, without] = [followed, Some(Switch::Off)].map(|viscoelasticity| {
+            let effects = EffectsTable { viscoelasticity, ..*scene.effects() };
+            scene.clone().with_effects(effects)
+        });
+        Some(LeftOut::between(&with, &without, estimate.hertz.approach_speed()))
     }
 }
 
@@ -113,9 +127,18 @@ impl Viscoelasticity {
         };
         // What relaxation is worth takes a while to tell, and most scenes have nothing to fold.
         fold(LARGEST_FOLDED)?;
-        let loss = self.left_out(scene, estimate)?.restitution?;
+        let loss = loss(scene, estimate)?;
         fold((SHARE_OF_LOSS * loss).clamp(LEAST_FOLDED, LARGEST_FOLDED))
     }
+}
+
+/// What relaxation takes of the restitution of half-spaces, by all terms.
+fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
+    let hertz = &estimate.hertz;
+    let ting =
+        ting_of(scene, hertz.pair(), true, None).ok()?.with_tolerance(LOSS_TOLERANCE).ok()?;
+    let relaxing = ting.impact(hertz.approach_speed()).ok()?.restitution;
+    Some((relaxing - hertz.restitution()).abs())
 }
 
 /// How many terms are followed, and what the others are worth.

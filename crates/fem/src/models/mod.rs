@@ -5,7 +5,6 @@ mod bouncing;
 mod condensed;
 mod explicit;
 mod hertz;
-mod large_partner;
 mod law;
 mod law_numbers;
 mod mirrored;

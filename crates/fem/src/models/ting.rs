@@ -1,14 +1,14 @@
 //! Ting's quasi-static viscoelastic half-spaces, with the spheres' finite size if asked for.
 
 use fem_case::schema::{ModelTable, TingTable};
-use fem_case::{Body, CaseFile, ModelChoice, Quantity, Scene};
+use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::{Impact, LawError, Ting};
 
-use super::large_partner::of_mass_centres;
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
+use crate::large_partner::radiating_impact;
 use crate::method::{Method, Model, Shared};
 use crate::quasi_static::ting_of;
 use crate::refusal::Refusal;
@@ -66,35 +66,14 @@ impl Motion for WithWaves {
     fn impact(&self, speed: f64) -> Result<Impact, LawError> {
         let estimate = Estimate::at(&self.scene, speed)?;
         let radiating = PartnerWaves::radiating(&self.scene, &estimate);
-        let n_radiating = radiating.iter().flatten().count();
-        if n_radiating == 0 {
-            return self.ting.impact(speed);
-        }
-        // Of one sphere that radiates, the other one moves alone.
-        let [lower, upper] = self.scene.bodies();
-        let large =
-            [lower, upper].into_iter().zip(radiating).find(|(_, material)| material.is_some());
-        let masses = [lower, upper].map(Body::mass);
-        let alone = match (large, masses) {
-            (Some((large, _)), [Some(below), Some(above)]) if n_radiating == 1 => {
-                let is_lower = std::ptr::eq(large, lower);
-                let (mass, its) = if is_lower { (above, below) } else { (below, above) };
-                Some((is_lower, mass, mass / its))
+        match radiating {
+            [None, None] => self.ting.impact(speed),
+            _ => {
+                let Self { scene, finite_size, tolerance, .. } = self;
+                let finish = |ting: Ting| weighed(ting, scene)?.with_tolerance(*tolerance);
+                radiating_impact(scene, radiating, speed, *finite_size, finish)
             }
-            _ => None,
-        };
-        let scene = match alone {
-            Some((is_lower, ..)) => self.scene.with_half_space(usize::from(!is_lower)),
-            None => self.scene.clone(),
-        };
-        let size = self.finite_size.then(|| scene.finite_size()).transpose()?;
-        let ting = ting_of(&scene, &scene.pair()?, true, size)?.with_tolerance(self.tolerance)?;
-        let ting = weighed(ting, &scene)?.with_radiation(radiating.into_iter().flatten())?;
-        let impact = ting.impact(speed)?;
-        Ok(match alone {
-            Some((_, mass, mass_ratio)) => of_mass_centres(impact, mass, mass_ratio, speed),
-            None => impact,
-        })
+        }
     }
 
     fn equilibrium_weight(&self) -> f64 {

@@ -1,0 +1,74 @@
+//! What Ting's model expects of a scene, with and without what effects change: restitution, contact time
+//! and peak force.
+
+use fem_case::{Body, ModelChoice, Scene};
+use fem_laws::{HertzImpact, Impact, LawError, Ting};
+
+use crate::effects::PartnerWaves;
+use crate::estimate::Estimate;
+use crate::large_partner::radiating_impact;
+use crate::quasi_static::ting_of;
+
+/// Accuracy of the impacts that foretell what effects change.
+const TOLERANCE: f64 = 1e-4;
+
+/// The numbers of a collision that effects change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Expected {
+    pub restitution: f64,
+    /// s; none of bodies that stay together.
+    pub contact_time: Option<f64>,
+    /// N.
+    pub peak_force: f64,
+}
+
+impl Expected {
+    /// Of a scene that meets at a speed (m/s), with its relaxation and the waves that leave it for good as
+    /// its model has them; of half-spaces, or with the spheres' own compliance.
+    ///
+    /// # Errors
+    /// Numbers that the law refuses.
+    pub fn of(scene: &Scene, speed: f64, finite_size: bool) -> Result<Self, LawError> {
+        let estimate = Estimate::at(scene, speed)?;
+        let is_condensed = matches!(scene.model(), ModelChoice::Condensed(_));
+        let radiating = match is_condensed {
+            true => PartnerWaves::radiating_at_rest(scene, &estimate),
+            false => PartnerWaves::radiating(scene, &estimate),
+        };
+        let radiates = radiating != [None; 2];
+        if !radiates && !relaxes(scene) && !finite_size {
+            return Ok(Self::from(&estimate.hertz));
+        }
+        let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(TOLERANCE);
+        if radiates && !is_condensed {
+            let impact = radiating_impact(scene, radiating, speed, finite_size, finish)?;
+            return Ok(Self::from(&impact));
+        }
+        let size = finite_size.then(|| scene.finite_size()).transpose()?;
+        let ting = finish(ting_of(scene, estimate.hertz.pair(), true, size)?)?;
+        let ting = ting.with_radiation(radiating.into_iter().flatten())?;
+        Ok(Self::from(&ting.impact(speed)?))
+    }
+}
+
+fn relaxes(scene: &Scene) -> bool {
+    let mut materials = scene.bodies().iter().filter_map(Body::material);
+    materials.any(|material| material.relaxation().is_some())
+}
+
+impl From<&Impact> for Expected {
+    fn from(impact: &Impact) -> Self {
+        let Impact { restitution, contact_time, peak_force, .. } = *impact;
+        Self { restitution, contact_time, peak_force }
+    }
+}
+
+impl From<&HertzImpact> for Expected {
+    fn from(hertz: &HertzImpact) -> Self {
+        Self {
+            restitution: hertz.restitution(),
+            contact_time: Some(hertz.contact_time()),
+            peak_force: hertz.peak_force(),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! A body beside a partner so large that waves do not come back within the contact.
+//!
+//! Until they do, the partner is a half-space to the contact and moves nowhere as a whole: the body's
+//! collision is that with an infinite mass, at the rate δ̇′ of its own centre. The partner's mass centre has
+//! the impulse all the same, so that of both mass centres
+//!
+//! ```math
+//! \dot\delta = \dot\delta' - \frac mM\,(v-\dot\delta'), \qquad
+//! \delta = \delta' - \frac mM\,(vt-\delta'), \qquad e = e' + \frac mM\,(1+e'),
+//! ```
+//!
+//! and ½MV² of what has left as waves, V = (m/M)(v − δ̇′), is the motion of the partner.
+
+use fem_case::{Body, Scene};
+use fem_laws::{Impact, ImpactInstant, LawError, Pair, Ting, restitution_of_mass_centres};
+use fem_material::Material;
+
+use crate::quasi_static::ting_of;
+
+/// Ting's impact at a speed (m/s) of a scene with bodies that radiate, given by their materials; of the
+/// spheres' own compliance and the accuracy that `finish` gives.
+///
+/// # Errors
+/// Numbers that the law refuses; waves that take more than a correction.
+pub(crate) fn radiating_impact(
+    scene: &Scene,
+    radiating: [Option<&Material>; 2],
+    speed: f64,
+    finite_size: bool,
+    finish: impl FnOnce(Ting) -> Result<Ting, LawError>,
+) -> Result<Impact, LawError> {
+    let partner = Partner::of(scene, radiating);
+    // Curved as it is, without an end to the contact.
+    let (pair, flat) = match &partner {
+        Some(partner) => {
+            let [first, second] = [0, 1].map(|side: usize| {
+                let body = scene.bodies()[side].partner();
+                if side == partner.side { body.held() } else { body }
+            });
+            (Pair::new(first, second)?, &scene.with_half_space(partner.side))
+        }
+        None => (scene.pair()?, scene),
+    };
+    let size = finite_size.then(|| flat.finite_size()).transpose()?;
+    let ting = finish(ting_of(scene, &pair, true, size)?)?;
+    let impact = ting.with_radiation(radiating.into_iter().flatten())?.impact(speed)?;
+    Ok(match partner {
+        Some(Partner { mass, mass_ratio, .. }) => of_mass_centres(impact, mass, mass_ratio, speed),
+        None => impact,
+    })
+}
+
+/// The one sphere that radiates, beside which the other moves alone.
+struct Partner {
+    /// 0 the lower one.
+    side: usize,
+    /// Of the body beside it, kg.
+    mass: f64,
+    /// The body's mass over its own.
+    mass_ratio: f64,
+}
+
+impl Partner {
+    fn of(scene: &Scene, radiating: [Option<&Material>; 2]) -> Option<Self> {
+        let [below, above] = scene.bodies().each_ref().map(Body::mass);
+        let (side, mass, its) = match radiating {
+            [Some(_), None] => (0, above?, below?),
+            [None, Some(_)] => (1, below?, above?),
+            _ => return None,
+        };
+        Some(Self { side, mass, mass_ratio: mass / its })
+    }
+}
+
+/// A collision of a body of the mass m (kg) alone, at a speed v (m/s), as one of both mass centres;
+/// `mass_ratio` is m/M.
+fn of_mass_centres(alone: Impact, mass: f64, mass_ratio: f64, speed: f64) -> Impact {
+    let instant = |alone: &ImpactInstant| {
+        let lost = speed - alone.approach_rate;
+        let of_partner = 0.5 * mass * mass_ratio * lost * lost;
+        ImpactInstant {
+            approach: alone.approach - mass_ratio * (speed * alone.time - alone.approach),
+            approach_rate: alone.approach_rate - mass_ratio * lost,
+            work: alone.work - of_partner,
+            radiated: alone.radiated.map(|radiated| radiated - of_partner),
+            ..*alone
+        }
+    };
+    let history: Vec<ImpactInstant> = alone.history.iter().map(instant).collect();
+    let approaches = history.iter().map(|instant| instant.approach);
+    Impact {
+        restitution: match alone.contact_time {
+            Some(_) => restitution_of_mass_centres(alone.restitution, mass_ratio),
+            None => 0.0,
+        },
+        max_approach: approaches.fold(0.0, f64::max),
+        history,
+        ..alone
+    }
+}
