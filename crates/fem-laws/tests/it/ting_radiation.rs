@@ -53,6 +53,29 @@ fn small_losses_are_hunters() {
     }
 }
 
+/// Next to the fine waves, as the docs of the forecast say: a loss of 0.6 % of the restitution.
+#[test]
+fn coarse_waves_are_good_enough_for_a_forecast() {
+    let material = elastic();
+    let speed = 5e-4 * bar_wave_speed(&material);
+    let (_, quiet) = on_block(&material, &material);
+    let waves = quiet.clone().with_radiation([&material]).unwrap();
+    let [coarse, fine, quiet] =
+        [waves.clone().with_coarse_waves(), waves, quiet].map(|ting| ting.impact(speed).unwrap());
+    let changes = |impact: &Impact| {
+        [
+            quiet.restitution - impact.restitution,
+            quiet.peak_force - impact.peak_force,
+            impact.contact_time.unwrap() - quiet.contact_time.unwrap(),
+        ]
+    };
+    let (coarse, fine) = (changes(&coarse), changes(&fine));
+    for (k, least) in [0.99, 0.93, 0.6].into_iter().enumerate() {
+        let share = coarse[k] / fine[k];
+        assert!((least..1.0).contains(&share), "{k}: {share}");
+    }
+}
+
 /// Explicit finite elements of a ball of 10 mm on spheres so large that no wave comes back within the
 /// contact (T c_s/D = 0.3 to 0.9).
 #[test]

@@ -25,9 +25,6 @@ const LOSS: f64 = 0.05;
 const LENGTHENING: f64 = 0.4;
 const WEAKENING: f64 = 0.5;
 
-/// Approach speed over shear wave speed above which these say nothing.
-const LARGEST_MACH: f64 = 0.1;
-
 /// Inertia of the bodies' own deformation.
 #[derive(Clone, Copy, Debug)]
 pub struct Vibration;
@@ -51,7 +48,8 @@ impl Effect for Vibration {
     }
 
     fn left_out(&self, _: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let mach = Some(estimate.mach).filter(|mach| *mach <= LARGEST_MACH)?;
+        // No body is faster than its waves.
+        let mach = estimate.mach.min(1.0);
         let lengths = LeftOut::shares(estimate, LENGTHENING * mach, WEAKENING * mach);
         Some(LeftOut { restitution: Some(LOSS * mach), ..lengths })
     }
