@@ -30,18 +30,15 @@ pub(crate) fn radiating_impact(
     finish: impl FnOnce(Ting) -> Result<Ting, LawError>,
 ) -> Result<Impact, LawError> {
     let partner = Partner::of(scene, radiating);
-    // Curved as it is, without an end to the contact.
-    let (pair, flat) = match &partner {
-        Some(partner) => {
-            let [first, second] = [0, 1].map(|side: usize| {
-                let body = scene.bodies()[side].partner();
-                if side == partner.side { body.held() } else { body }
-            });
-            (Pair::new(first, second)?, &scene.with_half_space(partner.side))
-        }
-        None => (scene.pair()?, scene),
-    };
-    let size = finite_size.then(|| flat.finite_size()).transpose()?;
+    // Curved as it is; but it moves nowhere, and its own compliance is that of a half-space.
+    let [first, second] = [0, 1].map(|side: usize| {
+        let body = scene.bodies()[side].partner();
+        let is_large = partner.as_ref().is_some_and(|partner| partner.side == side);
+        if is_large { body.held() } else { body }
+    });
+    let pair = Pair::new(first, second)?;
+    let endless = partner.as_ref().map(|partner| scene.with_half_space(partner.side));
+    let size = finite_size.then(|| endless.as_ref().unwrap_or(scene).finite_size()).transpose()?;
     let ting = finish(ting_of(scene, &pair, true, size)?)?;
     let impact = ting.with_radiation(radiating.into_iter().flatten())?.impact(speed)?;
     Ok(match partner {
