@@ -50,6 +50,10 @@ const NOTHING_LEFT: f64 = 1e-4;
 const AT_REST: f64 = 1e-3;
 /// Bodies that might part with more than this are never said to stay together.
 const CERTAIN: f64 = 0.03;
+/// A ball that sinks in at less than this share of its largest rate has sunk in.
+const CREEPING: f64 = 0.01;
+/// One that still sinks after so many times what it took to be sure that it stays flows under its weight.
+const SINKING: f64 = 20.0;
 /// Rest has to last for this share of the time since first touch.
 const LASTING: f64 = 0.05;
 
@@ -98,19 +102,26 @@ pub struct Standstill {
     weight: f64,
     /// Since when the bodies are at rest, s after first touch.
     since: Option<f64>,
+    /// The largest rate of the approach so far, m/s.
+    fastest: f64,
+    /// When the energy had first proved that they stay, s after first touch.
+    proved: Option<f64>,
 }
 
 impl Standstill {
     /// Of bodies that are about to touch.
     pub fn new(frame: &Frame) -> Self {
         let weight = frame.weight();
-        Self { speed: frame.speed(), reduced_mass: frame.reduced_mass, weight, since: None }
+        let (speed, reduced_mass) = (frame.speed(), frame.reduced_mass);
+        Self { speed, reduced_mass, weight, since: None, fastest: 0.0, proved: None }
     }
 
     /// Whether it can be of bodies that meet like this.
     pub fn is_of(&self, frame: &Frame) -> bool {
-        Self { since: None, ..*self } == Self::new(frame)
-            && self.since.is_none_or(|since| since >= 0.0)
+        let known = [self.since, self.proved];
+        Self { since: None, fastest: 0.0, proved: None, ..*self } == Self::new(frame)
+            && known.into_iter().flatten().all(|time| time >= 0.0)
+            && self.fastest >= 0.0
     }
 
     /// Takes the next instant; whether the bodies stay together. What is no number never says so.
@@ -123,7 +134,14 @@ impl Standstill {
         let is_at_rest = by_energy(CERTAIN) && by_momentum() < AT_REST * self.speed;
         self.since = is_at_rest.then(|| self.since.unwrap_or(now.time));
         let lasts = self.since.is_some_and(|since| now.time - since >= LASTING * now.time);
-        now.is_closed && (lasts || by_energy(NOTHING_LEFT))
+        let is_proved = by_energy(NOTHING_LEFT);
+        self.proved = is_proved.then(|| self.proved.unwrap_or(now.time));
+        self.fastest = self.fastest.max(now.rate);
+        // What a ball has fallen proves early that it stays; it has still to sink in, or does for ever.
+        let has_sunk_in = self.weight == 0.0
+            || now.rate < CREEPING * self.fastest
+            || self.proved.is_some_and(|proved| now.time > SINKING * proved);
+        now.is_closed && (lasts || is_proved && has_sunk_in)
     }
 }
 

@@ -200,8 +200,7 @@ impl Ledger {
     /// J₋J₊/2M, without the cancellation that would leave of a heavy sphere's energy no more than
     /// rounding.
     fn gained_by_rigid(&self, model: &Model, force: f64) -> Option<(usize, f64)> {
-        let is_moved =
-            |body: &Body| body.mesh().is_none() && !body.is_wall() && body.node_forces.is_empty();
+        let is_moved = |body: &Body| body.mesh().is_none() && !body.is_wall() && !body.is_pushed();
         let side = model.bodies().iter().position(is_moved)?;
         let (body, sign) = (&model.bodies()[side], [-1.0, 1.0][side]);
         let before = sign * self.impulse;
@@ -223,9 +222,12 @@ impl Ledger {
     }
 }
 
-/// Kinetic energy at the start, J.
+/// Kinetic energy at the start, J; of a body that is not free, relative to its own velocity.
 fn kinetic_before(body: &Body) -> f64 {
-    0.5 * body.total_mass() * body.velocity.powi(2)
+    match body.is_free() {
+        true => 0.5 * body.total_mass() * body.velocity.powi(2),
+        false => 0.0,
+    }
 }
 
 /// Momentum of a body's nodes relative to a velocity (m/s), N s.

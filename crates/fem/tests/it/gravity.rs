@@ -369,3 +369,28 @@ fn late_contacts_have_elements_of_their_own() {
     let errors = [error(&ball), error(&coarse)];
     assert!(errors[0] < 2e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
 }
+
+/// A ball that is let down so softly that it never leaves sinks in all the same: its largest force is more
+/// than its weight, and every model finds the same.
+#[test]
+fn a_ball_that_never_leaves_sinks_in() {
+    let soft = "material.rubber={density=1000, youngs_modulus=1e6, poissons_ratio=0.45, relaxation=\
+                {acts_on='all', terms=[{weight=0.5, relaxation_time='5 ms'}]}}";
+    let set =
+        [soft, "start.gap=0", "body.1.approach_speed='1 cm/s'", "body.1.sphere.diameter='10 cm'"];
+    let run = |model: &str| run(&[&set[..], &[model]].concat());
+    let reference = run("model.ting={}");
+    let weight = 1000.0 * std::f64::consts::PI / 6.0 * 1e-3 * G;
+    for model in ["model.condensed={}", "model.fem={}"] {
+        let ball = run(model);
+        let force = ball.peak_force.unwrap();
+        assert!(force > weight, "{model}: {force} {weight}");
+        // A contact as wide as a twelfth of the ball, whose own compliance Ting's model lacks.
+        for (found, expected, what) in [
+            (force, reference.peak_force.unwrap(), "F"),
+            (ball.max_approach.unwrap(), reference.max_approach.unwrap(), "approach"),
+        ] {
+            assert!((found / expected - 1.0).abs() < 0.1, "{model}: {what} {found} {expected}");
+        }
+    }
+}

@@ -121,3 +121,24 @@ fn switches_that_contradict_the_scene_are_refused() {
     let error = simulation(&both).unwrap_err();
     assert!(error.message().contains("both \"on\""), "{error}");
 }
+
+/// A steel ball on a soft block, and a soft ball on a steel one that is held: what is rigid by itself is so
+/// beside a half-space and where it is held, and elements and condensed bodies agree.
+#[test]
+fn a_rigid_ball_on_a_block_and_a_rigid_one_that_is_held() {
+    const BLOCK: &str = "body.0={name='block', half_space={}, material='gel'}";
+    const BALL: [&str; 2] = ["body.1.sphere.diameter='5 mm'", "body.1.material='steel'"];
+    const HELD: [&str; 2] = ["body.0.held=true", "gravity.acceleration=9.81"];
+    for scene in [[BLOCK, BALL[0], BALL[1]], [HELD[0], HELD[1], "start.gap=0"]] {
+        let [fem, condensed] = ["model.fem={}", "model.condensed={}"].map(|model| {
+            let set: Vec<&str> = scene.into_iter().chain([model]).collect();
+            let simulation = simulation(&set).unwrap();
+            assert!(verdict(&simulation).active, "{scene:?}");
+            simulation.run(&mut ())
+        });
+        assert!(fem.is_complete(), "{scene:?}: {:?}", fem.ending);
+        let change = fem.restitution.unwrap() - condensed.restitution.unwrap();
+        assert!(change.abs() < 0.02, "{scene:?}: {change:e}");
+        assert!(fem.residual_relative.unwrap() < 1e-3, "{:?}", fem.residual_relative);
+    }
+}
