@@ -144,6 +144,13 @@ pub fn decide(
         }
         decisions.verdicts.push(Verdict { name: effect.name(), active, reason });
         decisions.warnings.extend(warnings);
+        if switch == Some(Switch::On) && obeys && !is_called_for {
+            let left_out = effect.left_out(scene, estimate).unwrap_or_default();
+            let name = effect.name();
+            decisions.warnings.push(format!(
+                "{name} is forced on where the scene does not call for it, which changes {left_out}"
+            ));
+        }
         if switch == Some(Switch::Off) && obeys && is_called_for {
             let left_out = effect.left_out(scene, estimate).unwrap_or_default();
             let mut warning = left_out.warning(effect.name());

@@ -14,7 +14,7 @@ use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
 
 /// Modes that bring it back.
-const ENOUGH_MODES: usize = 12;
+pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
 const LARGEST_VIBRATION: f64 = 0.01;
 

@@ -5,12 +5,14 @@
 //! the model lacks ([`Effect::left_out`]), and what its own approximations are known to cost. Effects
 //! that no model has choose none; the plan warns of them.
 
-use fem_case::{CaseFile, CondensedOptions, ModelChoice, Scene, Snapshots};
+use fem_case::{CaseFile, CondensedOptions, EffectsTable, ModelChoice, Scene, Snapshots, Switch};
 use fem_laws::Ting;
 use serde::Serialize;
 
 use super::method_of;
-use crate::effects::{Effect, FiniteSizeEffect, LeftOut, PartnerWaves, Vibration, Viscoelasticity};
+use crate::effects::{
+    Answer, Effect, FiniteSizeEffect, LeftOut, PartnerWaves, Vibration, Viscoelasticity,
+};
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -119,15 +121,13 @@ struct Candidate {
     choice: fn() -> ModelChoice,
     /// Effects that it lacks and others have.
     lacks: &'static [&'static dyn Effect],
-    /// Whether it has the loss by waves that do not come back as a term of its own.
-    radiates: bool,
     /// Whether it has fields.
     has_fields: bool,
     /// Whether it has the spheres' own compliance to first order in the contact's size.
     is_first_order: bool,
     /// What its approximations are known to cost at default settings: of the restitution, of the
-    /// contact time and of the peak force.
-    own: [f64; 3],
+    /// contact time, of the peak force and of the peak pressure.
+    own: [f64; 4],
 }
 
 /// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
@@ -143,37 +143,33 @@ const CANDIDATES: [Candidate; 6] = [
         name: "hertz = {}",
         choice: || ModelChoice::Hertz { finite_size: false },
         lacks: &[&Viscoelasticity, &FiniteSizeEffect, &PartnerWaves, &Vibration],
-        radiates: false,
         has_fields: false,
         is_first_order: false,
-        own: [0.0; 3],
+        own: [0.0; 4],
     },
     Candidate {
         name: "hertz = { finite_size = true }",
         choice: || ModelChoice::Hertz { finite_size: true },
         lacks: &[&Viscoelasticity, &PartnerWaves, &Vibration],
-        radiates: false,
         has_fields: false,
         is_first_order: true,
-        own: [0.0; 3],
+        own: [0.0; 4],
     },
     Candidate {
         name: "ting = { finite_size = true }",
         choice: || ModelChoice::Ting { finite_size: true, tolerance: Ting::DEFAULT_TOLERANCE },
         lacks: &[&PartnerWaves, &Vibration],
-        radiates: true,
         has_fields: false,
         is_first_order: true,
-        own: [2e-4, 2e-4, 2e-4],
+        own: [2e-4, 2e-4, 2e-4, 5e-3],
     },
     Candidate {
         name: "condensed = {}",
         choice: || ModelChoice::Condensed(CondensedOptions::default()),
         lacks: &[&PartnerWaves, &Vibration],
-        radiates: true,
         has_fields: true,
         is_first_order: false,
-        own: [1e-4, 5e-4, 2e-3],
+        own: [1e-4, 5e-4, 2e-3, 1e-2],
     },
     Candidate {
         name: "condensed = { vibration_modes = 12 }",
@@ -182,19 +178,17 @@ const CANDIDATES: [Candidate; 6] = [
             ModelChoice::Condensed(options)
         },
         lacks: &[&PartnerWaves],
-        radiates: true,
         has_fields: true,
         is_first_order: false,
-        own: [1e-4, 5e-4, 3e-3],
+        own: [1e-4, 5e-4, 3e-3, 1e-2],
     },
     Candidate {
         name: "fem = {}",
         choice: || ModelChoice::Fem,
         lacks: &[],
-        radiates: false,
         has_fields: true,
         is_first_order: false,
-        own: [2e-4, 1.5e-3, 3e-3],
+        own: [2e-4, 1.5e-3, 3e-3, 1e-2],
     },
 ];
 
@@ -225,23 +219,30 @@ impl Candidate {
         let hertz = &estimate.hertz;
         let scales = [1.0, hertz.contact_time(), hertz.peak_force()];
         let second = if self.is_first_order { SECOND_ORDER * estimate.strain.powi(2) } else { 0.0 };
-        let own = [self.own[0], self.own[1] + second, self.own[2] + second];
+        let [restitution, contact_time, peak_force, peak_pressure] = self.own;
+        let own = [restitution, contact_time + second, peak_force + second];
         let mut error = Sum::default();
         for ((sum, own), scale) in error.0.iter_mut().zip(own).zip(scales) {
             *sum += own * scale;
         }
         let mut worst: Option<(&str, f64)> = None;
         let accuracy = scene.accuracy();
-        let allowed = [accuracy.restitution, accuracy.contact_time, accuracy.peak_force];
-        let share = |changes: [f64; 3]| {
-            let shares = changes.into_iter().zip(scales).zip(allowed);
-            shares.map(|((change, scale), allowed)| change / scale / allowed).fold(0.0, f64::max)
+        let share = |[restitution, contact_time, peak_force]: [f64; 3]| {
+            let force = peak_force / scales[2];
+            let shares = [
+                restitution / accuracy.restitution,
+                contact_time / scales[1] / accuracy.contact_time,
+                force / accuracy.peak_force,
+                // p₀³ ∝ F E*²: what changes the force changes the pressure by a third of it at least.
+                (peak_pressure + force / 3.0) / accuracy.peak_pressure,
+            ];
+            shares.into_iter().fold(0.0, f64::max)
         };
-        let radiates = self.radiates && PartnerWaves::radiating(scene, estimate) != [None; 2];
+        let own_waves = self.own_waves(scene, estimate);
         for effect in self.lacks {
             let Some(left_out) = effect.left_out(scene, estimate) else { continue };
-            let is_term = radiates && effect.name() == PartnerWaves::NAME;
-            let changes = Sum::of(&left_out, if is_term { RADIATION_ERROR } else { 1.0 });
+            let part = if effect.name() == PartnerWaves::NAME { own_waves } else { 1.0 };
+            let changes = Sum::of(&left_out, part);
             error.add(changes);
             let part = share(changes.0);
             if worst.is_none_or(|(_, most)| part > most) {
@@ -250,7 +251,7 @@ impl Candidate {
         }
         let excess = share(error.0);
         let impossible = self.impossible(scene, estimate);
-        let off = || format!("{excess:.1} times the tolerance");
+        let off = || format!("{excess:.2} times the tolerance");
         let unfit = match (&impossible, excess > 1.0, worst) {
             (Some(why), ..) => Some(why.clone()),
             (None, true, Some((name, part))) if part > 0.5 * excess => {
@@ -262,8 +263,53 @@ impl Candidate {
         Judged { error: error.left_out(), excess, is_possible: impossible.is_none(), unfit }
     }
 
+    /// Share of what waves in a large partner take that it is off by.
+    fn own_waves(&self, scene: &Scene, estimate: &Estimate) -> f64 {
+        let scene = scene.clone().with_model(self.choice());
+        let answer = match scene.model() {
+            ModelChoice::Ting { .. } => {
+                PartnerWaves::of_term(&scene, estimate, PartnerWaves::radiating)
+            }
+            ModelChoice::Condensed(_) => PartnerWaves::of_condensed(&scene, estimate),
+            _ => Answer::Lacks,
+        };
+        match answer {
+            Answer::Lacks => 1.0,
+            _ => RADIATION_ERROR,
+        }
+    }
+
+    /// The switch of the case that it cannot obey.
+    fn disobeyed(&self, scene: &Scene) -> Option<&'static str> {
+        let EffectsTable {
+            viscoelasticity,
+            partner_waves,
+            mirror_symmetry,
+            hourglass_control,
+            bulk_viscosity,
+            ..
+        } = *scene.effects();
+        let choice = self.choice();
+        let is_hertz = matches!(choice, ModelChoice::Hertz { .. });
+        let is_fem = choice == ModelChoice::Fem;
+        let on = |switch: Option<Switch>| switch == Some(Switch::On);
+        let disobeyed = [
+            (on(viscoelasticity) && is_hertz, "viscoelasticity"),
+            (on(partner_waves) && is_hertz, "partner waves"),
+            (on(mirror_symmetry) && !self.has_fields, "mirror symmetry"),
+            (on(hourglass_control) && !is_fem, "hourglass control"),
+            (on(bulk_viscosity) && !is_fem, "bulk viscosity"),
+            (partner_waves == Some(Switch::Off) && is_fem, "partner waves"),
+            (hourglass_control == Some(Switch::Off) && is_fem, "hourglass control"),
+        ];
+        disobeyed.into_iter().find(|(is, _)| *is).map(|(_, name)| name)
+    }
+
     /// What keeps it from a scene whatever the tolerance.
     fn impossible(&self, scene: &Scene, estimate: &Estimate) -> Option<String> {
+        if let Some(effect) = self.disobeyed(scene) {
+            return Some(format!("cannot obey the switch of {effect}"));
+        }
         if !self.has_fields && asks_for_fields(scene) {
             return Some("has no fields to draw".to_string());
         }

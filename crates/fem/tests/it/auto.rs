@@ -111,6 +111,30 @@ fn table() -> Vec<Row> {
             "lacks viscoelasticity",
             0.02,
         ),
+        // Waves in a sphere eight times as large come back in part, which modes of vibration see.
+        (
+            scene(GLASS, ["40 mm", "5 mm"], "20 m/s"),
+            &[],
+            "condensed = { vibration_modes = 12 }",
+            "lacks partner waves",
+            0.01,
+        ),
+        // In one a hundred times as large they are gone.
+        (
+            scene(GLASS, ["1 m", "10 mm"], "3 m/s"),
+            &["accuracy.tolerance='0.5 %'"],
+            "ting = { finite_size = true }",
+            "lacks partner waves",
+            0.005,
+        ),
+        // An effect that elements alone have.
+        (
+            scene(GLASS, ["10 mm", "10 mm"], "20 m/s"),
+            &["effects.bulk_viscosity='on'"],
+            "fem = {}",
+            "cannot obey the switch of bulk viscosity",
+            0.02,
+        ),
         // Inertia of the spheres' own deformation.
         (
             scene(GLASS, ["10 mm", "10 mm"], "40 m/s"),
@@ -147,9 +171,13 @@ fn each_scene_takes_the_cheapest_that_serves() {
     }
 }
 
-/// The condensed model with modes, on elements twice as fine as by default.
+/// The condensed model with modes, on elements twice as fine as by default; of a body that is large, with the
+/// term for its waves.
 fn reference(text: &str) -> Collision {
-    let model = "model.condensed={vibration_modes=12}";
+    let model = match text.contains("\"1 m\"") {
+        true => "model.condensed={}",
+        false => "model.condensed={vibration_modes=12}",
+    };
     let size =
         simulation(text, &[model]).setup().elements.as_ref().unwrap().plan.contact_element_size;
     let size = format!("mesh.contact_element_size={}", 0.5 * size);
@@ -165,4 +193,19 @@ fn what_no_model_is_known_to_reach_is_told() {
     let chosen = simulation.considered().iter().find(|considered| considered.chosen).unwrap();
     assert_eq!(chosen.model, "ting = { finite_size = true }");
     assert!(chosen.reason.contains("comes closest"), "{}", chosen.reason);
+}
+
+/// The peak pressure has a tolerance of its own.
+#[test]
+fn a_pressure_that_is_asked_for_more_finely_is_judged() {
+    let text = scene(GLASS, ["22.2 mm", "15.9 mm"], "0.5 m/s");
+    let asked = |tolerance: &str| {
+        let tolerance = format!("accuracy.tolerance={{peak_pressure={tolerance}}}");
+        let simulation = simulation(&text, &["model.auto={}", &tolerance]);
+        let chosen = simulation.considered().iter().find(|c| c.chosen).unwrap().model;
+        (chosen, !simulation.warnings_before().is_empty())
+    };
+    assert_eq!(asked("0.03"), ("hertz = {}", false));
+    assert_eq!(asked("0.002"), ("hertz = { finite_size = true }", false));
+    assert!(asked("1e-6").1, "no model is as fine");
 }

@@ -20,9 +20,7 @@ pub(super) fn has(
     Some(match effect.name() {
         Viscoelasticity::NAME => Answer::Inherent { idle: "" },
         Gravity::NAME => Answer::Inherent { idle: "" },
-        PartnerWaves::NAME if PartnerWaves::radiating_at_rest(scene, estimate) != [None; 2] => {
-            Answer::Computes { idle: "" }
-        }
+        PartnerWaves::NAME => PartnerWaves::of_condensed(scene, estimate),
         Vibration::NAME => {
             let spheres = modes_of_spheres(scene, pair);
             Vibration::of_modes(estimate, options.vibration_modes, &spheres)
@@ -35,7 +33,6 @@ pub(super) fn has(
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME
-        | PartnerWaves::NAME
         | MirrorSymmetry::NAME
         | RigidPartner::NAME => Answer::Lacks,
         _ => return None,

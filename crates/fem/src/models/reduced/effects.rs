@@ -1,6 +1,6 @@
 //! What a reduced model has of each effect, and what it leaves out of a case that has it.
 
-use fem_case::{ModelChoice, Scene};
+use fem_case::{ModelChoice, Scene, Switch};
 
 use crate::effects::{
     Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
@@ -49,11 +49,8 @@ pub(super) fn has(
             let (is_finite, reason) = traits.finite_size;
             Answer::is(is_finite, reason)
         }
-        // Between waves that never come back and waves that all do there is no term.
-        PartnerWaves::NAME
-            if traits.waves && PartnerWaves::radiating(scene, estimate) != [None; 2] =>
-        {
-            Answer::Computes { idle: "" }
+        PartnerWaves::NAME if traits.waves => {
+            PartnerWaves::of_term(scene, estimate, PartnerWaves::radiating)
         }
         Gravity::NAME => Answer::Inherent { idle: "" },
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
@@ -80,6 +77,9 @@ fn relaxation(scene: &Scene, estimate: &Estimate, has: Relaxation) -> Answer {
     let need = Viscoelasticity.need(scene, estimate).unwrap_or_default();
     if !need.is_called_for {
         return Answer::Inherent { idle: "" };
+    }
+    if has == Relaxation::Nothing && scene.effects().viscoelasticity == Some(Switch::On) {
+        return Answer::Lacks;
     }
     let reason = need.number;
     match has {
