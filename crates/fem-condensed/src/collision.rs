@@ -48,7 +48,8 @@ impl CondensedPair {
     /// The collision of bodies that meet like this, as far as it gets.
     ///
     /// # Errors
-    /// Too few steps, a radiation that is negative or not finite, a contact that is beyond the condensed region already without relaxation.
+    /// Too few steps, a radiation that is negative or not finite, a contact that is beyond the condensed
+    /// region already without relaxation.
     pub fn collide<'a>(
         &self,
         frame: &Frame,

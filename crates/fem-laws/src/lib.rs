@@ -11,7 +11,8 @@
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. What leaving
 //! something out costs is a [`Difference`] of two impacts, or a [`RelativeError`] in closed form: of
 //! relaxation that is not followed in time ([`Folded`]), of a [`rigid_partner`], of [`finite_strain`].
-//! One law a file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and pressures of a closed contact are positive, stresses are positive in tension.
+//! One law a file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and
+//! pressures of a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
 //! use fem_laws::{HertzImpact, LawImpact, Pair, PairRelaxation, Partner, Ting};

@@ -16,16 +16,16 @@
 //! = \gamma\int\dot f^2\,\mathrm dt + \frac{\gamma}{2\tau}(f^2-F^2),
 //! ```
 //!
-//! (ḟ = (F−f)/τ) so that what is radiated is never negative. Loaded fast the contact is the stiffer, and it
-//! stays stable while γ F′(u) < τ. Taken is
+//! (ḟ = (F−f)/τ) so that what is radiated is never negative. Loaded fast the contact is the stiffer, and
+//! it stays stable while γ F′(u) < τ. Taken is
 //!
 //! ```math
 //! \tau = \max\bigl(2.5\,\gamma F'(u_{\max}),\; 0.0025\,T\bigr):
 //! ```
 //!
-//! the first is some a/c_s, which is what a half-space itself remembers; the loss is too small by the order of
-//! (τ/T)², 4e-4 of itself by the second. Waves back and forth in the contact itself, of the next order in a/(c_s T),
-//! are left out.
+//! the first is some a/c_s, which is what a half-space itself remembers; the loss is too small by the
+//! order of (τ/T)², 4e-4 of itself by the second. Waves back and forth in the contact itself, of the next
+//! order in a/(c_s T), are left out.
 //!
 //! Everything is dimensionless; see [`crate::ting`].
 

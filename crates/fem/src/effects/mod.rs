@@ -6,9 +6,11 @@
 //! Switch  what the case says: auto, on, off                              ─┘           or a refusal
 //! ```
 //!
-//! An effect acts at one of three levels, never at several: it transforms the scene (mirror
-//! symmetry), it is a decision of the plan (mass scaling), or it is a part of a step (relaxation).
-//! [`EFFECTS`] lists them all, in the order in which results show them.
+//! An effect acts where that is cheapest, some in two ways: it transforms the scene (a rigid partner,
+//! terms of relaxation that are folded), it is a decision of the plan (mass scaling), it is a part of
+//! a step (relaxation, gravity), or it goes on after the collision (gravity, from bounce to bounce). Mirror
+//! symmetry, too, transforms the scene, but has a way back to both bodies: methods with meshes call it
+//! themselves. [`EFFECTS`] lists them all, in the order in which results show them.
 
 mod answer;
 mod bulk_viscosity;
