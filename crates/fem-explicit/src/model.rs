@@ -103,6 +103,10 @@ impl Model {
             body.scaled_time_step(settings.mass_scaling * mass)
         });
         let time_step = settings.step_factor * critical;
+        if !(time_step > 0.0 && time_step.is_finite()) {
+            let (name, allowed) = ("time step", "positive and finite, in s");
+            return Err(ModelError::Setting { name, value: time_step, allowed });
+        }
         contact.set_time_step(time_step);
         let mut movable = movable.into_iter().zip(parts.held);
         let mut next = || movable.next().and_then(|(body, held)| Some((body?, held)));

@@ -80,8 +80,11 @@ impl NodalBound {
     /// Critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
         let step = |[mass, stiffness, damping]: [f64; 3]| {
-            let ratio = 0.5 * damping / (stiffness * mass).sqrt();
-            2.0 * (mass / stiffness).sqrt() * ((1.0 + ratio * ratio).sqrt() - ratio)
+            match damping == 0.0 {
+                true => 2.0 * (mass / stiffness).sqrt(),
+                // The same root without the difference of two large numbers.
+                false => 4.0 * mass / (damping + damping.hypot(2.0 * (stiffness * mass).sqrt())),
+            }
         };
         self.nodes().map(step).fold(f64::INFINITY, f64::min)
     }
@@ -94,7 +97,7 @@ impl NodalBound {
     /// Longest critical time step (s) within a budget of added mass, kg.
     pub fn scaled_time_step(&self, budget: f64) -> f64 {
         let plain = self.critical_time_step();
-        if self.missing_mass(plain * (1.0 + 1e-9)) > budget {
+        if !(plain > 0.0 && plain.is_finite()) || self.missing_mass(plain * (1.0 + 1e-9)) > budget {
             return plain;
         }
         let (mut stable, mut beyond) = (plain, 2.0 * plain);
