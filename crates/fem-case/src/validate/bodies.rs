@@ -17,6 +17,8 @@ impl Check<'_> {
         for (name, table) in &file.material {
             let path = join("material", &quote_key(name));
             materials.insert(name.as_str(), self.material(&path, table)?);
+            let strength = table.yield_strength.as_ref();
+            self.optional(&join(&path, "yield_strength"), strength, POSITIVE)?;
         }
         let [lower, upper] = file.body.as_slice() else {
             let count = file.body.len();

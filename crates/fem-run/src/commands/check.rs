@@ -104,7 +104,7 @@ fn unforced(simulation: &Simulation) -> String {
     let is_forced = forced.filled() != EffectsTable::default().filled();
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
-        Some(Ok(planned)) if !matches!(planned.setup().cost, Cost::Little { .. }) => {
+        Some(Ok(planned)) if planned.setup().cost != simulation.setup().cost => {
             let costs = costs(&planned.setup().cost, None);
             format!("\nCost if the plan decided on all effects\n{costs}")
         }

@@ -9,7 +9,7 @@ use fem_laws::{FirstYield, largest_von_mises};
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
-use super::need::Need;
+use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do
@@ -88,10 +88,10 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
     let reached = reached.join(", ");
     let warning = (share > PRESSURE_LIMIT).then(|| {
         format!(
-            "the peak pressure is 1/{:.0} of the contact modulus, which few materials bear without \
+            "the peak pressure is {} of the contact modulus, which few materials bear without \
              plastic flow: the stress reaches {reached}; give material.NAME.yield_strength to see \
              what follows",
-            1.0 / share
+            if share < 0.5 { format!("1/{:.0}", 1.0 / share) } else { percent(share) }
         )
     });
     Need {

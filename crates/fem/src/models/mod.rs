@@ -57,7 +57,7 @@ pub fn model_of(scene: &Scene, shared: &Shared) -> Result<Box<dyn Model>, Refusa
     let computed = Chosen::of(&computed)?.scene;
     let model = method_of(&computed).build(&computed, shared)?;
     let model = match scene.gravity() {
-        Some(gravity) => Box::new(Bouncing::new(&computed, gravity, model)),
+        Some(gravity) => Box::new(Bouncing::new(&computed, gravity, model)?),
         None => model,
     };
     match answers.is_empty() {

@@ -1,7 +1,7 @@
 //! What comes of contact after contact, up to the whole.
 
 use fem_case::Gravity;
-use fem_collision::{Approach, Bounce, Collision, Ending, Rest, Stop, Want};
+use fem_collision::{Approach, Bounce, Collision, Ending, Rest, STAY_TOGETHER, Stop, Want};
 
 use super::chain::Chain;
 use super::{phase, report};
@@ -19,6 +19,7 @@ pub(super) struct Bounced {
     /// Energy (J) left in vibrations by the contact before, and the largest bound of what they do.
     vibration: f64,
     phase: Option<(usize, f64)>,
+    sinks: bool,
     warnings: Vec<String>,
 }
 
@@ -35,6 +36,7 @@ impl Bounced {
             element_updates: None,
             vibration: 0.0,
             phase: None,
+            sinks: false,
             warnings: Vec::new(),
         }
     }
@@ -56,6 +58,11 @@ impl Bounced {
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
+    }
+
+    /// It flows under its weight for ever.
+    pub fn sink(&mut self) {
+        self.sinks = true;
     }
 
     pub fn bear(&mut self, rest: Rest) {
@@ -80,12 +87,17 @@ impl Bounced {
         self.steps = add(self.steps, collision.steps);
         self.element_updates = add(self.element_updates, collision.element_updates);
         let time = self.time();
+        // A ball that stays after some bounces is at rest, and the first contact's keys are of one that left.
+        let is_first = self.bounces.is_empty();
         for warning in std::mem::take(&mut collision.warnings) {
-            self.warn(warning);
+            if is_first || warning != STAY_TOGETHER {
+                self.warn(warning);
+            }
         }
         let rows = std::mem::take(&mut collision.history);
         self.chain.take(&collision, &rows);
         if let Ending::Stopped(stop) = &collision.ending {
+            let stop = &of_all(stop, self.element_updates);
             self.chain.keep(&rows, f64::INFINITY);
             self.ending = Ending::Stopped(stop.clone().later_by(time));
             self.first.get_or_insert(collision);
@@ -110,6 +122,11 @@ impl Bounced {
             return None;
         }
         let landing = end.and_then(|end| self.chain.landing(&end, self.gravity.acceleration));
+        if let Some(bounce) = self.bounces.last_mut() {
+            // As fast as it comes down again: the speed after is that at the height of first touch.
+            let after = landing.as_ref().map_or(0.0, |landing| landing.speed);
+            bounce.restitution = after / bounce.speed_before;
+        }
         self.chain.keep(&rows, landing.map_or(f64::INFINITY, |landing| landing.time));
         self.first.get_or_insert(collision);
         let Some(landing) = landing else {
@@ -147,11 +164,19 @@ impl Bounced {
             };
             return Collision::stopped(approach, stop);
         };
-        let said = report::of(&self.bounces, &self.ending, self.phase);
+        let said = match self.sinks {
+            true => vec![report::sinks(self.bounces.len())],
+            false => report::of(&self.bounces, &self.ending, self.phase),
+        };
         said.into_iter().for_each(|warning| self.warn(warning));
         let shift = |time: Option<f64>| Some(time? + self.chain.first_touch());
         Collision {
             approach,
+            restitution: self
+                .bounces
+                .first()
+                .map(|bounce| bounce.restitution)
+                .or(first.restitution),
             first_contact: shift(first.first_contact),
             last_contact: shift(first.last_contact),
             energies: self.chain.energies(),
@@ -166,5 +191,15 @@ impl Bounced {
             warnings: self.warnings,
             ..first
         }
+    }
+}
+
+/// A stop of the contact under way with the element updates of all contacts.
+fn of_all(stop: &Stop, element_updates: Option<u64>) -> Stop {
+    match (stop, element_updates) {
+        (&Stop::TooManyUpdates { time, step, .. }, Some(element_updates)) => {
+            Stop::TooManyUpdates { time, step, element_updates }
+        }
+        _ => stop.clone(),
     }
 }

@@ -26,6 +26,7 @@ use fem_collision::{
     Approach, Collision, Monitor, Phase, Progress, Rest, Snapshot, SnapshotRequest, StaticContact,
     Stop, Want,
 };
+use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
 
 use crate::effects::{Answer, Effect};
@@ -36,6 +37,8 @@ use crate::refusal::Refusal;
 use bounced::Bounced;
 use chain::Chain;
 
+/// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
+const LARGEST_DENT: f64 = 0.5;
 /// Elements across the expected contact radius below which a mesh is made anew; the plan's has eight.
 const FEWEST_ELEMENTS: f64 = 6.0;
 /// Rows of all contacts after the first one together are at most so many times those of the first.
@@ -53,8 +56,27 @@ pub(super) struct Bouncing {
 
 impl Bouncing {
     /// Of a scene with this gravity.
-    pub fn new(scene: &Scene, gravity: Gravity, first: Box<dyn Model>) -> Self {
-        Self { scene: scene.clone(), gravity, first }
+    ///
+    /// # Errors
+    /// A weight that presses the bodies so flat that no contact theory holds.
+    pub fn new(scene: &Scene, gravity: Gravity, first: Box<dyn Model>) -> Result<Self, Refusal> {
+        let refuse = |message: String| {
+            Err(Refusal::new("gravity.acceleration", message).with_help(
+                "a ball bounces where its weight is small; check its unit, sizes and moduli",
+            ))
+        };
+        let pair = first.setup().estimate.hertz.pair();
+        let weight = pair.effective_mass() * gravity.acceleration;
+        match StaticHertz::new(pair, weight) {
+            Ok(pressed) if pressed.contact_radius <= LARGEST_DENT * pair.effective_radius() => {
+                Ok(Self { scene: scene.clone(), gravity, first })
+            }
+            Ok(pressed) => refuse(format!(
+                "the weight presses the bodies flat: a contact radius of {:.1e} effective radii at rest",
+                pressed.contact_radius / pair.effective_radius()
+            )),
+            Err(error) => refuse(error.to_string()),
+        }
     }
 
     /// Speed (m/s) and time (s) of first touch, and the height of the fall, m.
@@ -132,7 +154,7 @@ impl Bouncing {
                 too_large.into_iter().for_each(|warning| bounced.warn(warning));
                 bounced.bear(Rest { time: bounced.time(), contact });
             }
-            Ok(None) => bounced.warn(report::sinks()),
+            Ok(None) => bounced.sink(),
             Err(refusal) => bounced.warn(report::unknown(&refusal)),
         }
     }

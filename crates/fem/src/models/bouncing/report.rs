@@ -50,11 +50,13 @@ pub(super) fn too_large(contact: &StaticContact, effective_radius: f64) -> Optio
     })
 }
 
-/// Of bodies whose equilibrium moduli are nothing.
-pub(super) fn sinks() -> String {
-    "the ball sinks: a body relaxes to nothing, so it flows under the weight for ever, and no contact \
-     bears it at rest"
-        .to_string()
+/// Of bodies whose equilibrium moduli are nothing, after so many contacts.
+pub(super) fn sinks(n_contacts: usize) -> String {
+    format!(
+        "the ball sinks: after {n_contacts} contact{} it does not leave any more, and a body relaxes to \
+         nothing, so it flows under the weight for ever, and no contact bears it at rest",
+        if n_contacts == 1 { "" } else { "s" }
+    )
 }
 
 /// Of a static contact that could not be computed.
