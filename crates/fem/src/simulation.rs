@@ -79,10 +79,10 @@ impl Simulation {
         resolved(case.scene(), case.file().clone()).map_err(|refusal| refusal.in_case(case))
     }
 
-    /// Element updates to come; see [`Method::price`].
+    /// Element updates to come; as the method's own meter counts them, or an estimate.
     ///
     /// # Errors
-    /// As [`Method::price`].
+    /// What the method refuses before it makes anything.
     pub fn price(case: &Case) -> Result<u64, CaseError> {
         price_of(case.scene()).map_err(|refusal| refusal.in_case(case))
     }
