@@ -135,8 +135,19 @@ impl ContactInterface {
     /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
     /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
+        self.add_weighted_bound(side, bound, |_| 1.0);
+    }
+
+    /// The same with a factor of each point.
+    pub(crate) fn add_weighted_bound(
+        &self,
+        side: usize,
+        bound: &mut [f64],
+        factor: impl Fn(&ContactPoint) -> f64,
+    ) {
         for point in &self.points {
-            let stiffness = OPENING_SAFETY * self.springs[side] * point.stiffness * point.area;
+            let springs = self.springs[side] * factor(point);
+            let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
             let foot = &point.feet[side];
             for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
                 bound[node as usize] += stiffness * shape;

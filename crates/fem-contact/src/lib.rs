@@ -26,6 +26,7 @@ mod evaluate;
 mod interface;
 mod nodal;
 mod pressure;
+mod slip;
 mod surface;
 
 pub use error::ContactError;
@@ -33,4 +34,5 @@ pub use evaluate::ContactForces;
 pub use interface::{ContactInterface, ContactPoint};
 pub use nodal::NodalContact;
 pub use pressure::centre_pressure;
+pub use slip::SlippingInterface;
 pub use surface::{Foot, Surface};

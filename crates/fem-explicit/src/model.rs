@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use fem_collision::{Approach, BodyInput, Frame, Searched};
-use fem_contact::{ContactError, ContactInterface, Surface};
+use fem_contact::{ContactError, ContactInterface, SlippingInterface, Surface};
 
 use crate::body::Body;
 use crate::contact::Contact;
@@ -37,6 +37,8 @@ pub struct Parts {
     /// Spheres whose mass centres do not move, lower and upper: a force on their nodes in proportion to
     /// the masses takes up what else would move them. None by default.
     pub held: [bool; 2],
+    /// Whether the surfaces slip on each other, as those of unlike materials do.
+    pub surface_slip: bool,
     /// Instead of the penalty contact.
     pub contact: Option<Box<dyn Contact>>,
 }
@@ -78,9 +80,15 @@ impl Model {
         parts: Parts,
     ) -> Result<Self, ModelError> {
         check(settings)?;
-        let mut contact = match parts.contact {
+        let mut contact: Box<dyn Contact> = match parts.contact {
             Some(contact) => contact,
-            None => Box::new(penalty(&inputs, approach.gap(), settings)?),
+            None => {
+                let interface = penalty(&inputs, approach.gap(), settings)?;
+                match parts.surface_slip {
+                    true => Box::new(SlippingInterface::new(interface)),
+                    false => Box::new(interface),
+                }
+            }
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
@@ -136,7 +144,7 @@ impl Model {
         self.contact.as_ref()
     }
 
-    /// Their contact where it is the penalty interface.
+    /// Their contact where it is the penalty interface without slip.
     pub fn interface(&self) -> Option<&ContactInterface> {
         (self.contact() as &dyn Any).downcast_ref()
     }

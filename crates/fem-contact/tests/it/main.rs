@@ -4,4 +4,5 @@ mod common;
 mod forces;
 mod pressure;
 mod rigid;
+mod slip;
 mod stiffness;

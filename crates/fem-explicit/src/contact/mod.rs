@@ -1,6 +1,7 @@
 //! How the bodies touch: the port, and one file an implementation.
 
 mod penalty;
+mod slipping;
 
 use fem_collision::Searched;
 use fem_contact::ContactForces;

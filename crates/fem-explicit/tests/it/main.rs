@@ -10,4 +10,5 @@ mod outputs;
 mod parts;
 mod resume;
 mod rigid;
+mod slip;
 mod stress;

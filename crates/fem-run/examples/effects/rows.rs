@@ -13,6 +13,11 @@ const STIFF: [&str; 2] = [
     "material.stiff={density=2390, youngs_modulus=6.3e12, poissons_ratio=0.244}",
     "body.0.material='stiff'",
 ];
+/// The larger one of a softer glass.
+const SOFT: [&str; 2] = [
+    "material.soft={density=2390, youngs_modulus=3.15e10, poissons_ratio=0.1}",
+    "body.0.material='soft'",
+];
 /// The smaller one on what does not end, and the weight that it may have there.
 const FLOOR: &str = "body.0={name='floor', wall={}}";
 const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
@@ -105,6 +110,12 @@ pub const ROWS: &[Row] = &[
         "100 times stiffer, forced on",
         of(&[STIFF[0], STIFF[1], "effects.rigid_partner='off'"]),
         of(&[STIFF[0], STIFF[1], "effects.rigid_partner='on'"]),
+    ),
+    row(
+        "surface slip",
+        "unlike bodies",
+        of(&[SOFT[0], SOFT[1], "effects.surface_slip='off'"]),
+        of(&[SOFT[0], SOFT[1]]),
     ),
     row("partner waves", "a half-space for a wall", of(&[FLOOR, FALLING]), of(&[BLOCK, FALLING])),
     row("gravity", "of one contact", of(&[FLOOR, FALLING]), of(&[FLOOR, FALLING, WEIGHT])),

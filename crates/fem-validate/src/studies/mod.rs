@@ -10,6 +10,7 @@ mod invariance;
 mod paper;
 mod relaxing;
 mod summary;
+mod surface_slip;
 mod uniform_stress;
 mod vibration;
 mod vibration_loss;
@@ -39,6 +40,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_solid", paper::solid::study),
     ("paper_velocities", paper::velocities::study),
     ("summary", summary::study),
+    ("surface_slip", surface_slip::study),
     ("uniform_stress", uniform_stress::study),
     ("vibration", vibration::study),
     ("vibration_loss", vibration_loss::study),

@@ -264,7 +264,8 @@ impl Course for ExplicitCourse<'_> {
 /// speed (m/s) in the whole scene.
 fn parts(scene: &Scene, inputs: &[BodyInput; 2], speed: f64) -> Result<Parts, ModelError> {
     let held = scene.bodies().each_ref().map(Body::is_held);
-    let mut parts = Parts { held, ..Parts::default() };
+    let surface_slip = SurfaceSlip::is_on(scene);
+    let mut parts = Parts { held, surface_slip, ..Parts::default() };
     if BulkViscosity::is_on(scene, mach(scene, speed)) {
         for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
             forces.extend(bulk_viscosity(input, speed)?);
@@ -340,12 +341,10 @@ fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
         MassScaling::NAME => mass_scaling(model, scene.bodies()),
         PartnerWaves::NAME | Gravity::NAME => Answer::Inherent { idle: "" },
-        BulkViscosity::NAME => Answer::Computes { idle: "" },
-        FiniteStrain::NAME
-        | SurfaceSlip::NAME
-        | PlasticYield::NAME
-        | MirrorSymmetry::NAME
-        | RigidPartner::NAME => Answer::Lacks,
+        BulkViscosity::NAME | SurfaceSlip::NAME => Answer::Computes { idle: "" },
+        FiniteStrain::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
+            Answer::Lacks
+        }
         _ => return None,
     })
 }

@@ -26,5 +26,6 @@ mod remedies;
 mod rigid_partner;
 mod shipped_cases;
 mod stress;
+mod surface_slip;
 mod sweep;
 mod together;

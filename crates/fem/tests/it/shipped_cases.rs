@@ -53,8 +53,12 @@ const ROWS: [Row; 13] = [
     Row {
         case: "steel_on_rubber",
         model: "condensed",
-        active: &["viscoelasticity", "rigid partner"],
-        why: &[("rigid partner", "steel has 3.4e-5 of the compliance")],
+        active: &["viscoelasticity", "surface slip", "rigid partner"],
+        why: &[
+            ("rigid partner", "steel has 3.4e-5 of the compliance"),
+            // β = (1 − 2ν)/(2 − 2ν) = 0.02, which makes steel's slope on rubber nothing to speak of.
+            ("surface slip", "= 1.5e-3"),
+        ],
         warnings: &[],
     },
     Row {
