@@ -29,6 +29,19 @@ pub enum Stop {
         /// Candidate radius, m.
         radius: f64,
     },
+    /// A surface folds where the bodies touch: beyond, contact is not looked for.
+    #[error(
+        "at {time:.4e} s (step {step}) a surface turns over at the radius {radius:.4e} m, where the \
+         other body touches it"
+    )]
+    SurfaceTurnsOver {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// Distance of the place from the axis, m.
+        radius: f64,
+    },
     /// Even the whole near hemisphere is too small for the contact.
     #[error(
         "the contact reached {ratio:.2} of the smaller radius: the bodies are not linear there; \
@@ -117,6 +130,7 @@ impl Stop {
         match &mut self {
             Self::Interrupted { time, .. }
             | Self::ContactBeyondCandidates { time, .. }
+            | Self::SurfaceTurnsOver { time, .. }
             | Self::EnergyGrowth { time, .. }
             | Self::EnergyImbalance { time, .. }
             | Self::NoSeparation { time, .. }

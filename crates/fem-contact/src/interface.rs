@@ -37,7 +37,7 @@ pub struct ContactInterface {
 /// down, and chatter adds that up: with 2, an elastic glass pair at 50 times the
 /// default penalty gained 2 %; with 4 it keeps its energy to 7e-5, for a tenth
 /// more steps at the default penalty.
-const OPENING_SAFETY: f64 = 4.0;
+pub(crate) const OPENING_SAFETY: f64 = 4.0;
 
 impl ContactInterface {
     /// Pairs the lower with the upper surface out to `candidate_radius` (m).
@@ -56,13 +56,8 @@ impl ContactInterface {
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
         check([&lower, &upper])?;
-        for (name, value) in
-            [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
-        {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ContactError::NotPositive { name, value });
-            }
-        }
+        check_positive("penalty stiffness", stiffness)?;
+        check_positive("candidate radius", candidate_radius)?;
         let surfaces = [lower, upper];
         let limit = candidate_radius.min(surfaces[0].extent()).min(surfaces[1].extent());
         let cuts = cuts(&surfaces, limit);
@@ -83,7 +78,7 @@ impl ContactInterface {
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];
-        let springs = [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 });
+        let springs = springs_of(&surfaces);
         Ok(Self { points, surfaces, candidate_radius, springs })
     }
 
@@ -93,15 +88,7 @@ impl ContactInterface {
     /// wall.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        for side in 0..2 {
-            let surface = &self.surfaces[side];
-            if surface.is_rigid() && !surface.is_wall() {
-                // Beyond the upper limit it is a wall to rounding.
-                let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
-                self.springs[side] = 1.0 + ratio;
-                self.springs[1 - side] = 1.0 + ratio.recip();
-            }
-        }
+        springs_with_rigid_mass(&self.surfaces, ratio, &mut self.springs);
         self
     }
 
@@ -156,6 +143,31 @@ pub(crate) fn check(surfaces: [&Surface; 2]) -> Result<(), ContactError> {
     Ok(())
 }
 
+pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), ContactError> {
+    match value > 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(ContactError::NotPositive { name, value }),
+    }
+}
+
+/// How many times a spring that is always closed counts at the nodes of either side; see
+/// [`ContactInterface::add_stiffness_bound`].
+pub(crate) fn springs_of(surfaces: &[Surface; 2]) -> [f64; 2] {
+    [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
+}
+
+/// The same shared by the mass of a rigid sphere over that of the other body.
+pub(crate) fn springs_with_rigid_mass(surfaces: &[Surface; 2], ratio: f64, springs: &mut [f64; 2]) {
+    for (side, surface) in surfaces.iter().enumerate() {
+        if surface.is_rigid() && !surface.is_wall() {
+            // Beyond the upper limit it is a wall to rounding.
+            let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
+            springs[side] = 1.0 + ratio;
+            springs[1 - side] = 1.0 + ratio.recip();
+        }
+    }
+}
+
 /// Radii of all nodes of both surfaces out to the limit, and the first beyond.
 fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
     let mut radii: Vec<f64> = surfaces
@@ -174,7 +186,7 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
 }
 
 /// Mean length of the segments at a point, a rigid body's not counted.
-fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
+pub(crate) fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
     let lengths = [0, 1].map(|side| {
         let surface = &surfaces[side];
         (!surface.is_rigid()).then(|| surface.segment_length(segments[side]))

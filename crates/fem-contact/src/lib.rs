@@ -24,6 +24,7 @@
 mod error;
 mod evaluate;
 mod interface;
+mod moved;
 mod nodal;
 mod pressure;
 mod surface;
@@ -31,6 +32,7 @@ mod surface;
 pub use error::ContactError;
 pub use evaluate::ContactForces;
 pub use interface::{ContactInterface, ContactPoint};
+pub use moved::MovedInterface;
 pub use nodal::NodalContact;
 pub use pressure::centre_pressure;
 pub use surface::{Foot, Surface};

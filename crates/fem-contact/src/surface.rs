@@ -95,6 +95,13 @@ impl Surface {
         slope * r / (1.0 + (1.0 - slope * slope).max(0.0).sqrt())
     }
 
+    /// The same depth, m, and its slope, which is the tangent of the arc's angle.
+    pub(crate) fn arc(&self, r: f64) -> (f64, f64) {
+        let sine = self.curvature * r;
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        (sine * r / (1.0 + cosine), sine / cosine)
+    }
+
     /// Largest radius that the surface covers, m.
     pub(crate) fn extent(&self) -> f64 {
         self.radii[self.radii.len() - 1]

@@ -174,7 +174,8 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     let has_separated = log.has_separated(time, model.gravity());
     // At the limit too: a run that blows up throws its nodes about, which is not a large contact, and
     // its balance tells.
-    let kind = match (is_last_contact, is_first_contact || has_separated || contact.at_limit) {
+    let is_beyond = contact.at_limit || contact.turned_at.is_some();
+    let kind = match (is_last_contact, is_first_contact || has_separated || is_beyond) {
         (_, true) => RowKind::Landmark,
         (true, _) => RowKind::LastContact,
         _ => RowKind::Regular,
@@ -212,6 +213,9 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     }
     if stays_together {
         return Ok(Some(Ending::Together));
+    }
+    if let Some(radius) = contact.turned_at {
+        return Err(Stop::SurfaceTurnsOver { time, step, radius });
     }
     if contact.at_limit {
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });

@@ -26,6 +26,12 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
              impact is too fast or the material too soft",
             "lower body.N.approach_speed, or check the moduli and their units",
         ),
+        Stop::SurfaceTurnsOver { .. } => (
+            "the body folds under the load, or its elements are too few or too distorted to carry it: \
+             the impact is too fast or the material too soft",
+            "lower body.N.approach_speed or mesh.contact_element_size, or check the moduli and their \
+             units",
+        ),
         Stop::NoSeparation { .. } => (
             "the material has relaxed so far that nothing is left to push the bodies apart, or a \
              moving wall keeps pushing",

@@ -2,6 +2,7 @@
 
 mod common;
 mod forces;
+mod moved;
 mod pressure;
 mod rigid;
 mod stiffness;

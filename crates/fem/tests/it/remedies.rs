@@ -14,6 +14,7 @@ fn stops() -> Vec<Stop> {
     let stops = vec![
         Stop::Interrupted { time, step },
         Stop::ContactBeyondCandidates { time, step, radius: 1e-3 },
+        Stop::SurfaceTurnsOver { time, step, radius: 1e-3 },
         Stop::ContactTooLarge { ratio: 0.9 },
         Stop::EnergyGrowth { time, step, ratio: 2.0 },
         Stop::EnergyImbalance { time, relative: 0.1 },
@@ -31,6 +32,7 @@ fn stops() -> Vec<Stop> {
         match stop {
             Stop::Interrupted { .. }
             | Stop::ContactBeyondCandidates { .. }
+            | Stop::SurfaceTurnsOver { .. }
             | Stop::ContactTooLarge { .. }
             | Stop::EnergyGrowth { .. }
             | Stop::EnergyImbalance { .. }
