@@ -55,9 +55,7 @@ impl ContactInterface {
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        check([&lower, &upper])?;
-        check_positive("penalty stiffness", stiffness)?;
-        check_positive("candidate radius", candidate_radius)?;
+        check_springs([&lower, &upper], stiffness, candidate_radius)?;
         let surfaces = [lower, upper];
         let limit = candidate_radius.min(surfaces[0].extent()).min(surfaces[1].extent());
         let cuts = cuts(&surfaces, limit);
@@ -78,8 +76,7 @@ impl ContactInterface {
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];
-        let springs = springs_of(&surfaces);
-        Ok(Self { points, surfaces, candidate_radius, springs })
+        Ok(Self { points, springs: springs(&surfaces), surfaces, candidate_radius })
     }
 
     /// With the bound of the stiffness shared between a rigid sphere and the other body by their
@@ -88,7 +85,7 @@ impl ContactInterface {
     /// wall.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        springs_with_rigid_mass(&self.surfaces, ratio, &mut self.springs);
+        share_by_mass(&self.surfaces, ratio, &mut self.springs);
         self
     }
 
@@ -132,6 +129,41 @@ impl ContactInterface {
     }
 }
 
+/// How many times a spring counts at the nodes of each side; see
+/// [`ContactInterface::add_stiffness_bound`].
+pub(crate) fn springs(surfaces: &[Surface; 2]) -> [f64; 2] {
+    [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
+}
+
+/// The same of a rigid sphere by its mass over that of the other body; see
+/// [`ContactInterface::with_rigid_mass`].
+pub(crate) fn share_by_mass(surfaces: &[Surface; 2], ratio: f64, springs: &mut [f64; 2]) {
+    for (side, surface) in surfaces.iter().enumerate() {
+        if surface.is_rigid() && !surface.is_wall() {
+            // Beyond the upper limit it is a wall to rounding.
+            let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
+            springs[side] = 1.0 + ratio;
+            springs[1 - side] = 1.0 + ratio.recip();
+        }
+    }
+}
+
+/// Whether two surfaces can be in contact by springs of this stiffness (Pa) out to a radius, m.
+pub(crate) fn check_springs(
+    surfaces: [&Surface; 2],
+    stiffness: f64,
+    candidate_radius: f64,
+) -> Result<(), ContactError> {
+    check(surfaces)?;
+    for (name, value) in [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
+    {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(ContactError::NotPositive { name, value });
+        }
+    }
+    Ok(())
+}
+
 /// Whether two surfaces can be in contact.
 pub(crate) fn check(surfaces: [&Surface; 2]) -> Result<(), ContactError> {
     if surfaces.iter().all(|surface| surface.is_rigid()) {
@@ -141,31 +173,6 @@ pub(crate) fn check(surfaces: [&Surface; 2]) -> Result<(), ContactError> {
         return Err(ContactError::TwoPlanes);
     }
     Ok(())
-}
-
-pub(crate) fn check_positive(name: &'static str, value: f64) -> Result<(), ContactError> {
-    match value > 0.0 && value.is_finite() {
-        true => Ok(()),
-        false => Err(ContactError::NotPositive { name, value }),
-    }
-}
-
-/// How many times a spring that is always closed counts at the nodes of either side; see
-/// [`ContactInterface::add_stiffness_bound`].
-pub(crate) fn springs_of(surfaces: &[Surface; 2]) -> [f64; 2] {
-    [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
-}
-
-/// The same shared by the mass of a rigid sphere over that of the other body.
-pub(crate) fn springs_with_rigid_mass(surfaces: &[Surface; 2], ratio: f64, springs: &mut [f64; 2]) {
-    for (side, surface) in surfaces.iter().enumerate() {
-        if surface.is_rigid() && !surface.is_wall() {
-            // Beyond the upper limit it is a wall to rounding.
-            let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
-            springs[side] = 1.0 + ratio;
-            springs[1 - side] = 1.0 + ratio.recip();
-        }
-    }
 }
 
 /// Radii of all nodes of both surfaces out to the limit, and the first beyond.

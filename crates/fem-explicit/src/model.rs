@@ -1,13 +1,14 @@
 //! The whole problem, constant over a run.
 
 use std::any::Any;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use fem_collision::{Approach, BodyInput, Frame, Searched};
-use fem_contact::ContactInterface;
+use fem_contact::{ContactError, ContactInterface, Surface};
 
 use crate::body::Body;
-use crate::contact::{Contact, penalty_contact};
+use crate::contact::Contact;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::lumped::LumpedBody;
@@ -79,7 +80,7 @@ impl Model {
         check(settings)?;
         let mut contact = match parts.contact {
             Some(contact) => contact,
-            None => Box::new(penalty_contact(&inputs, approach.gap(), settings)?),
+            None => Box::new(penalty(&inputs, approach.gap(), settings)?),
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
@@ -200,6 +201,51 @@ impl Model {
     /// Number of elements of both bodies.
     pub fn n_elements(&self) -> usize {
         self.bodies.iter().map(Body::n_elements).sum()
+    }
+}
+
+/// The penalty contact that settings ask for.
+fn penalty(
+    inputs: &[BodyInput; 2],
+    gap: f64,
+    settings: &Settings,
+) -> Result<ContactInterface, ContactError> {
+    let [lower, upper] = inputs;
+    let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
+    let &Settings { contact_stiffness, candidate_radius, .. } = settings;
+    let interface = ContactInterface::new(
+        lower_surface,
+        upper_surface,
+        contact_stiffness,
+        gap,
+        candidate_radius,
+    )?;
+    Ok(match mass_ratio(inputs) {
+        Some(ratio) => interface.with_rigid_mass(ratio),
+        None => interface,
+    })
+}
+
+/// Mass of a rigid sphere over that of the sphere that it meets; `None` of other pairs.
+pub(crate) fn mass_ratio(inputs: &[BodyInput; 2]) -> Option<f64> {
+    match inputs {
+        [BodyInput::Rigid { mass, .. }, BodyInput::Sphere { mesh, material }]
+        | [BodyInput::Sphere { mesh, material }, BodyInput::Rigid { mass, .. }] => {
+            let volume = 4.0 / 3.0 * PI * mesh.radius().powi(3);
+            Some(mass / (material.density() * volume))
+        }
+        _ => None,
+    }
+}
+
+/// The touching side of a body.
+pub(crate) fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
+    match input {
+        BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
+            Ok(Surface::of_sphere(mesh))
+        }
+        BodyInput::Rigid { radius, .. } => Surface::rigid_sphere(*radius),
+        BodyInput::Wall => Ok(Surface::wall()),
     }
 }
 

@@ -52,7 +52,7 @@ mod read_out;
 mod segment;
 
 use crate::error::ContactError;
-use crate::interface::{check, check_positive, springs_of, springs_with_rigid_mass};
+use crate::interface::{check_springs, share_by_mass, springs};
 use crate::surface::Surface;
 
 /// The moved surfaces of two bodies, and the springs between them.
@@ -82,16 +82,14 @@ impl MovedInterface {
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        check([&lower, &upper])?;
-        check_positive("penalty stiffness", stiffness)?;
-        check_positive("candidate radius", candidate_radius)?;
+        check_springs([&lower, &upper], stiffness, candidate_radius)?;
         let surfaces = [lower, upper];
         let n_nodes = surfaces.each_ref().map(|surface| {
             let inside = surface.radii.partition_point(|&r| r < candidate_radius * (1.0 - 1e-9));
             (inside + 1).clamp(2, surface.radii.len())
         });
         let ends = [0, 1].map(|side: usize| surfaces[side].radii[n_nodes[side] - 1]);
-        let springs = springs_of(&surfaces);
+        let springs = springs(&surfaces);
         let candidate_radius = ends[0].min(ends[1]);
         Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, springs })
     }
@@ -99,7 +97,7 @@ impl MovedInterface {
     /// See [`ContactInterface::with_rigid_mass`](crate::ContactInterface::with_rigid_mass).
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        springs_with_rigid_mass(&self.surfaces, ratio, &mut self.springs);
+        share_by_mass(&self.surfaces, ratio, &mut self.springs);
         self
     }
 

@@ -3,15 +3,12 @@
 mod moved;
 mod penalty;
 
-use std::f64::consts::PI;
-
-use fem_collision::{BodyInput, Searched};
-use fem_contact::{ContactError, ContactForces, Surface};
+use fem_collision::Searched;
+use fem_contact::ContactForces;
 
 use crate::part::{Field, Motion, MotionMut, NodalField, Part};
 
 pub use moved::moved_contact;
-pub(crate) use penalty::penalty_contact;
 
 /// The contact of both bodies; arrays are of the lower and the upper one.
 ///
@@ -51,27 +48,4 @@ pub trait Contact: Part {
 
     /// Contact pressure on the axis, Pa; 0 without contact there.
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64;
-}
-
-/// The touching side of a body.
-fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
-    match input {
-        BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
-            Ok(Surface::of_sphere(mesh))
-        }
-        BodyInput::Rigid { radius, .. } => Surface::rigid_sphere(*radius),
-        BodyInput::Wall => Ok(Surface::wall()),
-    }
-}
-
-/// Mass of a rigid sphere over that of the sphere that it meets; `None` of other pairs.
-fn mass_ratio(inputs: &[BodyInput; 2]) -> Option<f64> {
-    match inputs {
-        [BodyInput::Rigid { mass, .. }, BodyInput::Sphere { mesh, material }]
-        | [BodyInput::Sphere { mesh, material }, BodyInput::Rigid { mass, .. }] => {
-            let volume = 4.0 / 3.0 * PI * mesh.radius().powi(3);
-            Some(mass / (material.density() * volume))
-        }
-        _ => None,
-    }
 }

@@ -3,8 +3,8 @@
 use fem_collision::{BodyInput, Searched};
 use fem_contact::{ContactError, ContactForces, MovedInterface};
 
-use super::{Contact, mass_ratio, surface};
-use crate::model::Settings;
+use super::Contact;
+use crate::model::{Settings, mass_ratio, surface};
 use crate::part::{Field, Motion, NodalField, Part};
 
 /// Springs between the surfaces of two bodies where they are now; `gap` (m) separates their poles.

@@ -1,28 +1,11 @@
 //! The penalty interface of [`fem_contact`] as a contact: springs that are closed or open, without
 //! history.
 
-use fem_collision::{BodyInput, Searched};
-use fem_contact::{ContactError, ContactForces, ContactInterface};
+use fem_collision::Searched;
+use fem_contact::{ContactForces, ContactInterface};
 
-use super::{Contact, mass_ratio, surface};
-use crate::model::Settings;
+use super::Contact;
 use crate::part::{Field, Motion, NodalField, Part};
-
-/// The penalty contact that settings ask for.
-pub(crate) fn penalty_contact(
-    inputs: &[BodyInput; 2],
-    gap: f64,
-    settings: &Settings,
-) -> Result<ContactInterface, ContactError> {
-    let [lower, upper] = inputs;
-    let (lower, upper) = (surface(lower)?, surface(upper)?);
-    let &Settings { contact_stiffness, candidate_radius, .. } = settings;
-    let interface = ContactInterface::new(lower, upper, contact_stiffness, gap, candidate_radius)?;
-    Ok(match mass_ratio(inputs) {
-        Some(ratio) => interface.with_rigid_mass(ratio),
-        None => interface,
-    })
-}
 
 impl Part for ContactInterface {}
 
