@@ -128,6 +128,7 @@ impl Ledger {
         for (side, body) in bodies.iter().enumerate() {
             body.add_energies(&motions[side], &state.bodies[side].history, &mut accounts);
         }
+        model.contact().add_energies(state.contact_history(model), &mut accounts);
         self.losses.advance(state.time - self.last_time, accounts.powers);
         self.last_time = state.time;
 

@@ -72,7 +72,7 @@ mod tests;
 mod time_step;
 
 pub use body::Body;
-pub use contact::{Contact, moved_contact};
+pub use contact::{Contact, MovedContact};
 pub use error::ModelError;
 pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;

@@ -74,6 +74,14 @@ impl LumpedBody {
         }
     }
 
+    /// The bound of its nodes' damping, N s/m, to which contact adds its own.
+    pub fn damping_mut(&mut self) -> &mut [f64] {
+        match self {
+            Self::Meshed(meshed) => &mut meshed.bound.damping,
+            Self::Rigid(sphere) => &mut sphere.bound.damping,
+        }
+    }
+
     /// Critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
         self.bound().critical_time_step()

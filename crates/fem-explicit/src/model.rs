@@ -89,6 +89,7 @@ impl Model {
         for (side, body) in movable.iter_mut().enumerate() {
             if let Some(body) = body {
                 contact.add_stiffness_bound(side, body.stiffness_mut());
+                contact.add_damping_bound(side, body.damping_mut());
             }
         }
         let smallest = |step: &dyn Fn(&LumpedBody) -> f64| {

@@ -56,18 +56,7 @@ fn add_spring(
     total: &mut ContactForces,
 ) {
     let pressure = -piece.stiffness * point.gap;
-    let force = pressure * point.area;
-    // At a given radius the surface rises by N (δy − y' δr).
-    for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-        let (segment, place) = (&piece.segments[side], &point.places[side]);
-        let along_y = sign * force;
-        let along_r = if segment.is_rigid() { 0.0 } else { -along_y * place.slope };
-        let [inner, outer] = segment.nodes().map(|node| node as usize);
-        f[side][outer][0] += place.share * along_r;
-        f[side][outer][1] += place.share * along_y;
-        f[side][inner][0] += (1.0 - place.share) * along_r;
-        f[side][inner][1] += (1.0 - place.share) * along_y;
-    }
+    let force = piece.add_pressure(point, pressure, f);
     // The point and its area move with the ends of the piece: r_g = (1 ∓ offset)/2 of them,
     // A = 2π r_g (r_1 − r_0)/2.
     let half = weight * 0.5 * (piece.radii[1] - piece.radii[0]);
@@ -84,4 +73,32 @@ fn add_spring(
     total.force += force;
     total.energy += energy_per_area * point.area;
     total.n_closed += 1;
+}
+
+impl Piece<'_> {
+    /// Adds a pressure (Pa) at a point to the forces (N) of both bodies, along the normal of each; its
+    /// force along y, N. At a given radius a surface rises by N (δy − y' δr).
+    pub fn add_pressure(&self, point: &Point, pressure: f64, f: &mut [&mut [[f64; 2]]; 2]) -> f64 {
+        let force = pressure * point.area;
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let (segment, place) = (&self.segments[side], &point.places[side]);
+            let along_y = sign * force;
+            let along_r = if segment.is_rigid() { 0.0 } else { -along_y * place.slope };
+            let [inner, outer] = segment.nodes().map(|node| node as usize);
+            f[side][outer][0] += place.share * along_r;
+            f[side][outer][1] += place.share * along_y;
+            f[side][inner][0] += (1.0 - place.share) * along_r;
+            f[side][inner][1] += (1.0 - place.share) * along_y;
+        }
+        force
+    }
+
+    /// How fast the material of a side moves away from the tangent at a point along +y, m/s: N (ẏ − y' ṙ),
+    /// for velocities (m/s) of its nodes.
+    pub fn rate_of_height(&self, point: &Point, side: usize, v: &[[f64; 2]]) -> f64 {
+        let (segment, place) = (&self.segments[side], &point.places[side]);
+        let [inner, outer] = segment.nodes().map(|node| v[node as usize]);
+        let at = |axis: usize| (1.0 - place.share) * inner[axis] + place.share * outer[axis];
+        if segment.is_rigid() { at(1) } else { at(1) - place.slope * at(0) }
+    }
 }

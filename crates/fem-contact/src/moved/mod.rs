@@ -38,6 +38,8 @@
 //! on a coarse mesh where the surface turns by φ, the arc's height over its chord is 1/cos φ of the
 //! true one, of second order in h.
 //!
+//! Springs alone ring; dashpots beside them take that ([`MovedInterface::with_damping`]).
+//!
 //! Three Gauss points integrate a closed piece exactly (r g² is of the fifth degree), so that Π has
 //! no kink where nodes pass each other in the contact. With two, coincident nodes of like meshes
 //! were held together by a radial force of up to 1e-3 of theirs, twenty times as stiff as the
@@ -46,6 +48,7 @@
 //! [`ContactForces`]: crate::ContactForces
 
 mod bound;
+mod damping;
 mod forces;
 mod pieces;
 mod read_out;
@@ -67,6 +70,8 @@ pub struct MovedInterface {
     stiffness: f64,
     candidate_radius: f64,
     springs: [f64; 2],
+    /// Of the dashpots, Pa s/m; 0 without.
+    impedance: f64,
 }
 
 impl MovedInterface {
@@ -91,7 +96,7 @@ impl MovedInterface {
         let ends = [0, 1].map(|side: usize| surfaces[side].radii[n_nodes[side] - 1]);
         let springs = springs(&surfaces);
         let candidate_radius = ends[0].min(ends[1]);
-        Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, springs })
+        Ok(Self { surfaces, n_nodes, gap, stiffness, candidate_radius, springs, impedance: 0.0 })
     }
 
     /// See [`ContactInterface::with_rigid_mass`](crate::ContactInterface::with_rigid_mass).

@@ -6,9 +6,9 @@ mod penalty;
 use fem_collision::Searched;
 use fem_contact::ContactForces;
 
-use crate::part::{Field, Motion, MotionMut, NodalField, Part};
+use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 
-pub use moved::moved_contact;
+pub use moved::MovedContact;
 
 /// The contact of both bodies; arrays are of the lower and the upper one.
 ///
@@ -23,6 +23,10 @@ pub trait Contact: Part {
     /// closed.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
 
+    /// Adds a bound of its damping at each node (N s/m) of a side; a contact that does not depend on the
+    /// velocity has none.
+    fn add_damping_bound(&self, _side: usize, _bound: &mut [f64]) {}
+
     /// Adds the contact forces (N) of a configuration.
     fn add_forces(
         &self,
@@ -34,6 +38,9 @@ pub trait Contact: Part {
     /// Takes the history to the end of a step, whose motion is given; moves the nodes that the step
     /// does not, if there are any.
     fn advance(&self, _motions: [MotionMut<'_>; 2], _history: [&mut [NodalField]; 2]) {}
+
+    /// Adds what it has taken since first touch; what its springs hold is told with the forces.
+    fn add_energies(&self, _history: [&[NodalField]; 2], _accounts: &mut Accounts) {}
 
     /// Whether the next configuration is in contact, of whose nodes `next` tells the displacements,
     /// m.

@@ -1,14 +1,14 @@
 //! Whole collisions with contact between the surfaces where they are now.
 
 use crate::common::{Pair, Quantities, quantities};
-use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, Stop, Want};
-use fem_explicit::{Contact, Model, Parts, Run, Settings, collide, moved_contact};
+use fem_collision::{Account, Approach, BodyInput, Collision, Ending, Expectation, Stop, Want};
+use fem_explicit::{Contact, Model, MovedContact, Parts, Run, Settings, collide};
 use fem_material::{ElasticModuli, Material};
 use fem_mesh::{HalfDisc, Side};
 
 /// With contact on the undeformed surfaces, or on the moved ones.
 fn model(bodies: [BodyInput; 2], approach: Approach, settings: &Settings, is_moved: bool) -> Model {
-    let moved = is_moved.then(|| moved_contact(&bodies, approach.gap(), settings).unwrap());
+    let moved = is_moved.then(|| MovedContact::new(&bodies, approach.gap(), settings).unwrap());
     let contact = moved.map(|contact| Box::new(contact) as Box<dyn Contact>);
     Model::with_parts(bodies, approach, settings, Parts { contact, ..Parts::default() }).unwrap()
 }
@@ -46,7 +46,8 @@ fn like_bodies_and_a_wall_meet_as_on_undeformed_surfaces() {
         };
         check(|q| q.max_approach, 0.0, 2e-4);
         check(|q| q.restitution, 0.0, 2e-5);
-        check(|q| q.peak_force, 0.0, 6e-4);
+        // Undamped springs ring by 0.1 to 0.2 %.
+        check(|q| q.peak_force, 0.0, 2e-3);
         check(|q| q.contact_time, 0.0, 1e-3);
         // Read to a fraction of an element.
         check(|q| q.max_contact_radius, 0.0, 0.02);
@@ -114,7 +115,7 @@ fn a_rigid_sphere_can_be_met() {
     check_balance(&moved);
 }
 
-/// It has no history: a run in pieces is the same.
+/// The dashpots' force and work are history: a run in pieces is the same.
 #[test]
 fn a_run_can_be_resumed() {
     let pair = Pair { element_size: 110e-6, ..coarse() };
@@ -128,26 +129,72 @@ fn a_run_can_be_resumed() {
     assert_eq!(run.finish(), pair.run_model(&moved));
 }
 
-/// A ball as soft as foam hits a wall at one and a half times its shear wave speed: its surface folds,
-/// and that is what the run says, with what it has.
-#[test]
-fn a_surface_that_folds_is_a_stop() {
+/// A rubber ball of 30 mm, E 5 MPa, ν 0.45, on a wall.
+fn rubber(element_size: f64, candidate_radius: f64) -> ([BodyInput; 2], Settings) {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(5e6, 0.45).unwrap();
     let material = Material::new(1000.0, moduli, None).unwrap();
     let disc = HalfDisc {
         radius: 15e-3,
-        contact_element_size: 2e-3,
+        contact_element_size: element_size,
         refined_radius: 7.5e-3,
         growth: None,
     };
     let mesh = disc.build().unwrap().on_side(Side::Above);
     let settings = Settings {
         contact_stiffness: 20.0 * 6.27e6,
-        candidate_radius: 0.0149,
+        candidate_radius,
         step_factor: 0.9,
-        mass_scaling: 0.0,
+        mass_scaling: 2e-4,
     };
-    let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
+    ([BodyInput::Wall, BodyInput::Sphere { mesh, material }], settings)
+}
+
+/// The largest force over the largest of means over a hundredth of the contact time, less 1.
+fn scatter_of_peak(run: &Collision) -> f64 {
+    let forces: Vec<_> = run.history.iter().map(|row| row.contact_force).collect();
+    let largest = |n: usize| {
+        let means = forces.windows(n).map(|window| window.iter().sum::<f64>() / n as f64);
+        means.fold(0.0, f64::max)
+    };
+    // The history is even but for the first and the last contact.
+    let spacing = run.history[forces.len() / 2].time - run.history[forces.len() / 2 - 1].time;
+    let n = (run.contact_time.unwrap() / 100.0 / spacing).round() as usize;
+    assert!(n > 5);
+    largest(1) / largest(n) - 1.0
+}
+
+/// At 3 m/s, 7 % of the shear wave speed, nodes strike the wall and ring on undamped springs; the
+/// dashpots leave of it what is in the force for longer than a hundredth of the contact, and take a
+/// thousandth of the energy.
+#[test]
+fn the_largest_force_is_not_the_ringing_of_springs() {
+    let (bodies, settings) = rubber(0.8e-3, 10e-3);
+    let expected = Expectation { contact_time: 1.85e-3, approach: 2.8e-3 };
+    let [plain, moved] = [false, true].map(|is_moved| {
+        let model = model(bodies.clone(), Approach::at(3.0).unwrap(), &settings, is_moved);
+        collide(&model, expected, &Want::history(), &mut ())
+    });
+    let scatters = [&plain, &moved].map(scatter_of_peak);
+    // 3.4 and 0.15 % are measured.
+    assert!(scatters[0] > 0.02 && scatters[1] < 0.005, "{scatters:?}");
+    let energy = 0.5 * moved.bodies[1].mass.unwrap() * 9.0;
+    let taken = moved.energies.get(Account::ContactDamping).unwrap() / energy;
+    assert!(taken > 0.0 && taken < 2e-3, "{taken}");
+    let [before, after] = [&plain, &moved].map(quantities);
+    // Most of it would be vibration otherwise.
+    let lost = before.restitution - after.restitution;
+    assert!(lost.abs() < 3e-4, "{lost}");
+    // What the dashpots take is counted exactly: the imbalance is leapfrog's, as without.
+    assert!(after.residual < 2.0 * before.residual, "{} {}", after.residual, before.residual);
+    assert!(after.residual < 5e-5 && after.momentum_residual < 1e-13);
+    assert!(plain.energies.get(Account::ContactDamping).is_none());
+}
+
+/// A ball as soft as foam hits a wall at one and a half times its shear wave speed: its surface folds,
+/// and that is what the run says, with what it has.
+#[test]
+fn a_surface_that_folds_is_a_stop() {
+    let (bodies, settings) = rubber(2e-3, 0.0149);
     let model = model(bodies, Approach::at(60.0).unwrap(), &settings, true);
     let expected = Expectation { contact_time: 1e-3, approach: 20e-3 };
     let run: Collision = collide(&model, expected, &Want::history(), &mut ());

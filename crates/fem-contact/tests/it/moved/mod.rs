@@ -1,6 +1,7 @@
 //! Contact between moved surfaces.
 
 mod bound;
+mod damping;
 mod forces;
 mod geometry;
 mod search;
