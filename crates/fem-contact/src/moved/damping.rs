@@ -15,6 +15,7 @@
 //! which vanishes with the elements.
 
 use super::MovedInterface;
+use super::pieces::GAUSS;
 
 impl MovedInterface {
     /// With dashpots of an impedance c ≥ 0, Pa s/m; without, there are none. The bound of the stiffness
@@ -36,13 +37,16 @@ impl MovedInterface {
         if self.impedance == 0.0 {
             return;
         }
-        for (piece, point) in self.points(u.map(|u| move |node: u32| u[node as usize])) {
-            if point.gap < 0.0 {
-                let [lower, upper] =
-                    [0, 1].map(|side: usize| piece.rate_of_height(&point, side, v[side]));
-                let spring = -piece.stiffness * point.gap;
-                let pressure = (-self.impedance * (upper - lower)).max(-spring);
-                piece.add_pressure(&point, pressure, &mut f);
+        for piece in self.pieces(u.map(|u| move |node: u32| u[node as usize])) {
+            for gauss in GAUSS {
+                let point = piece.point(gauss);
+                if point.gap < 0.0 {
+                    let [lower, upper] =
+                        [0, 1].map(|side: usize| piece.rate_of_height(&point, side, v[side]));
+                    let spring = -piece.stiffness * point.gap;
+                    let pressure = (-self.impedance * (upper - lower)).max(-spring);
+                    piece.add_pressure(&point, pressure, &mut f);
+                }
             }
         }
     }

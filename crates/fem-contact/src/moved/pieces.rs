@@ -127,40 +127,39 @@ impl<'a, U: Fn(u32) -> [f64; 2]> Iterator for Pieces<'a, U> {
     type Item = Piece<'a>;
 
     fn next(&mut self) -> Option<Piece<'a>> {
-        loop {
-            let segments = self.segments.filter(|_| !self.is_over)?;
+        while !self.is_over {
+            let segments = self.segments.as_ref()?;
             let side = usize::from(segments[1].radii[1] < segments[0].radii[1]);
             let ending = &segments[side];
             let radii = [self.radius, ending.radii[1]];
+            let next = ending.index + 1;
             let end = (!ending.is_rigid()).then(|| (side, ending.nodes()[1]));
-            let ends = [self.end, end];
-            (self.radius, self.end) = (radii[1], end);
-            self.step(side, &segments);
-            if radii[1] > radii[0] {
+            let piece = (radii[1] > radii[0]).then(|| {
                 let numbers = segments.each_ref().map(|segment| segment.index);
                 let length = mean_length(&self.interface.surfaces, numbers);
                 let stiffness = self.interface.stiffness / length;
-                return Some(Piece { segments, radii, ends, stiffness });
+                Piece { segments: *segments, radii, ends: [self.end, end], stiffness }
+            });
+            (self.radius, self.end) = (radii[1], end);
+            self.step(side, next);
+            if piece.is_some() {
+                return piece;
             }
         }
+        None
     }
 }
 
-impl<'a, U: Fn(u32) -> [f64; 2]> Pieces<'a, U> {
-    /// Takes a side to its next segment, or ends the walk.
-    fn step(&mut self, side: usize, segments: &[Segment<'a>; 2]) {
-        let next = segments[side].index + 1;
+impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
+    /// Takes a side to the segment of this number, or ends the walk.
+    fn step(&mut self, side: usize, next: usize) {
         if next + 1 >= self.interface.n_nodes[side] {
             self.is_over = true;
             return;
         }
-        match self.interface.segment(side, next, &self.displacement[side]) {
-            Some(segment) => {
-                let mut both = *segments;
-                both[side] = segment;
-                self.segments = Some(both);
-            }
-            None => {
+        match (&mut self.segments, self.interface.segment(side, next, &self.displacement[side])) {
+            (Some(segments), Some(segment)) => segments[side] = segment,
+            _ => {
                 self.is_over = true;
                 self.turned = Some(side);
             }
