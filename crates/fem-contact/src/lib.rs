@@ -18,6 +18,9 @@
 //! two-sided) were measured to be ten times noisier and to gain energy from
 //! penalty factors of 20 on.
 //!
+//! Where strains are not small, and where slip between unlike bodies matters, [`MovedInterface`] has the
+//! same springs between the surfaces where they are now.
+//!
 //! Sign convention: gap > 0 is open; the force is positive and acts on the
 //! lower body along −y, on the upper along +y.
 
