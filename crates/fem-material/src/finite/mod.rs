@@ -8,9 +8,15 @@
 //!
 //! with P the first Piola-Kirchhoff stress, τ Kirchhoff's, σ Cauchy's; tension is positive.
 
+mod hencky;
 mod hyperelastic;
+mod kinematics;
+mod logarithm;
 mod neo_hooke;
+mod neo_hooke_ln;
 mod number;
+mod principal;
+mod saint_venant_kirchhoff;
 mod tensor;
 
 pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};

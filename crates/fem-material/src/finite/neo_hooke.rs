@@ -2,14 +2,21 @@
 //!
 //! ```math
 //! W = \frac G2 \left(J^{-2/3} \mathrm{tr}\, b - 3\right) + \frac K2 (J-1)^2, \qquad
-//! \tau = G J^{-2/3}\, \mathrm{dev}\, b + K J (J-1)\, 1, \qquad P = \tau F^{-T}
+//! \tau = G J^{-2/3}\, \mathrm{dev}\, b + K J (J-1)\, 1
 //! ```
 //!
-//! with b = F Fᵀ (Simo & Hughes 1998, Computational Inelasticity, eqs. 9.2.3-9.2.6, with another
-//! volume term). Written over [`Number`], without a branch.
+//! with b = F Fᵀ (Simo & Hughes 1998, Computational Inelasticity, section 9.2, with the simplest
+//! energy of the volume). Shape and volume do not meet: a pressure is a function of J alone, so
+//! that the law serves nearly incompressible solids. Written over [`Number`], without a branch.
+//!
+//! Limits: polyconvex (Hartmann & Neff 2003, International Journal of Solids and Structures
+//! 40:2767), hence elliptic at every deformation. The energy of the volume stays finite at J = 0,
+//! where the shape alone resists.
 
+use super::kinematics::{Strain, first_piola};
 use super::number::{Number, inverse_cube_root};
-use super::tensor::AxisymmetricTensor;
+use super::principal::Response;
+use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 
 /// The default law, on one number or several side by side.
 #[derive(Debug, Clone, Copy)]
@@ -26,47 +33,72 @@ impl<N: Number> NeoHooke<N> {
     /// The stress means something where J − 1 > −1. The caller has to look: nothing here stops.
     #[inline(always)]
     pub fn first_piola(&self, h: &AxisymmetricTensor<N>) -> (AxisymmetricTensor<N>, N) {
-        let one = N::splat(1.0);
-        let volume_change = h.volume_change();
-        let jacobian = one + volume_change;
-        let y = inverse_cube_root(jacobian);
-        let y_y = y * y;
-        let g = h.left_strain();
-        let scale = self.shear * y_y;
-        let mean = self.bulk * volume_change * jacobian - scale * (g.trace() * N::splat(1.0 / 3.0));
-        let (rr, yy) = (mean + scale * g.rr, mean + scale * g.yy);
-        let (tt, ry) = (mean + scale * g.tt, scale * g.ry);
-
-        // F^{-T} is the cofactors of F over J.
-        let (f_rr, f_yy, f_tt) = (one + h.rr, one + h.yy, one + h.tt);
-        let inverse = y_y * y;
-        let out = f_tt * inverse;
-        let area = f_rr * f_yy - h.ry * h.yr;
-        let stress = AxisymmetricTensor {
-            rr: (rr * f_yy - ry * h.ry) * out,
-            ry: (ry * f_rr - rr * h.yr) * out,
-            yr: (ry * f_yy - yy * h.ry) * out,
-            yy: (yy * f_rr - ry * h.yr) * out,
-            tt: tt * (area * inverse),
-        };
-        (stress, volume_change)
+        let strain = Strain::of(h);
+        let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
+        let stress = self.stress(&strain, y * y);
+        (first_piola(&stress, h, y * y * y), strain.volume_change)
     }
 
     /// Energy per undeformed volume, J/m³, of the displacement gradient, and J − 1.
     #[inline(always)]
     pub fn energy(&self, h: &AxisymmetricTensor<N>) -> (N, N) {
-        let one = N::splat(1.0);
-        let three = N::splat(3.0);
-        let volume_change = h.volume_change();
+        let strain = Strain::of(h);
+        (self.energy_of(&strain), strain.volume_change)
+    }
+
+    #[inline(always)]
+    pub(super) fn kirchhoff(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
+        let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
+        self.stress(strain, y * y)
+    }
+
+    /// τ with J^(−2/3) known.
+    #[inline(always)]
+    fn stress(&self, strain: &Strain<N>, unimodular: N) -> SymmetricTensor<N> {
+        let Strain { left: g, volume_change } = *strain;
+        let scale = self.shear * unimodular;
+        let pull = self.bulk * volume_change * (N::splat(1.0) + volume_change);
+        let mean = pull - scale * (g.trace() * N::splat(1.0 / 3.0));
+        SymmetricTensor {
+            rr: mean + scale * g.rr,
+            yy: mean + scale * g.yy,
+            tt: mean + scale * g.tt,
+            ry: scale * g.ry,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn energy_of(&self, strain: &Strain<N>) -> N {
+        let (one, three) = (N::splat(1.0), N::splat(3.0));
+        let Strain { left, volume_change } = *strain;
         let jacobian = one + volume_change;
         // J^{-1/3} − 1 to its own last digit: one more step of Newton's, on the difference.
         let z = inverse_cube_root(jacobian) - one;
         let cube = z * (three + three * z + z * z);
         let z = z - (one + z) * (volume_change + jacobian * cube) * N::splat(1.0 / 3.0);
-        let w = z + z + z * z;
-        let trace = h.left_strain().trace();
-        let shape = trace + (three + trace) * w;
-        let half = N::splat(0.5);
-        (half * (self.shear * shape + self.bulk * volume_change * volume_change), volume_change)
+        let unimodular_change = z + z + z * z;
+        let trace = left.trace();
+        let shape = trace + (three + trace) * unimodular_change;
+        N::splat(0.5) * (self.shear * shape + self.bulk * volume_change * volume_change)
+    }
+}
+
+impl NeoHooke {
+    /// τ_i and ∂τ_i/∂ln λ_j at principal stretches.
+    pub(super) fn principal(&self, stretches: [f64; 3]) -> Response {
+        let Self { bulk, shear } = *self;
+        let jacobian: f64 = stretches.iter().product();
+        let y = inverse_cube_root(jacobian);
+        let b = stretches.map(|stretch| stretch * stretch * y * y);
+        let mean = b.iter().sum::<f64>() / 3.0;
+        let pull = bulk * jacobian * (jacobian - 1.0);
+        let pull_slope = bulk * jacobian * (2.0 * jacobian - 1.0);
+        Response::new(
+            |i| pull + shear * (b[i] - mean),
+            |i, j| {
+                let own = if i == j { 2.0 * b[i] } else { 0.0 };
+                pull_slope + shear * (own - 2.0 / 3.0 * (b[i] + b[j] - mean))
+            },
+        )
     }
 }

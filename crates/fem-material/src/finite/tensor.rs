@@ -56,7 +56,18 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N>> Axisymmetric
     }
 }
 
-impl<N: Copy + Add<Output = N>> SymmetricTensor<N> {
+impl<N: Copy + Add<Output = N> + Mul<Output = N>> SymmetricTensor<N> {
+    /// Each component times a factor.
+    #[inline(always)]
+    pub fn times(&self, factor: N) -> Self {
+        Self {
+            rr: self.rr * factor,
+            yy: self.yy * factor,
+            tt: self.tt * factor,
+            ry: self.ry * factor,
+        }
+    }
+
     /// Sum of the normal components.
     #[inline(always)]
     pub fn trace(&self) -> N {
