@@ -64,6 +64,11 @@ impl Hyperelastic {
         Self { law, bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
     }
 
+    /// The same law with these parts of K and G.
+    pub(super) fn scaled(&self, bulk: f64, shear: f64) -> Self {
+        Self { law: self.law, bulk: bulk * self.bulk, shear: shear * self.shear }
+    }
+
     /// The law.
     pub fn law(&self) -> HyperelasticLaw {
         self.law
@@ -136,7 +141,7 @@ impl Hyperelastic {
     }
 
     #[inline]
-    fn energy_of(&self, strain: &Strain) -> f64 {
+    pub(super) fn energy_of(&self, strain: &Strain) -> f64 {
         let Self { law, bulk, shear } = *self;
         match law {
             HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.energy_of(strain),
@@ -149,7 +154,7 @@ impl Hyperelastic {
     }
 
     #[inline]
-    fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+    pub(super) fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
         let Self { law, bulk, shear } = *self;
         match law {
             HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.kirchhoff(strain),
@@ -177,7 +182,7 @@ impl Hyperelastic {
 /// The strain of a displacement gradient that turns nothing inside out: J, the plane part and the
 /// hoop are positive, and numbers.
 #[inline]
-fn upright(h: &AxisymmetricTensor) -> Result<Strain, Inverted> {
+pub(super) fn upright(h: &AxisymmetricTensor) -> Result<Strain, Inverted> {
     let strain = Strain::of(h);
     if strain.volume_change > -1.0 && strain.volume_change.is_finite() && h.tt > -1.0 {
         Ok(strain)

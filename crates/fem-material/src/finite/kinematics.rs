@@ -19,6 +19,25 @@ impl<N: Number> Strain<N> {
     }
 }
 
+/// F A Fᵀ of a symmetric A, F = 1 + H.
+#[inline(always)]
+pub(super) fn push_forward<N: Number>(
+    a: &SymmetricTensor<N>,
+    h: &AxisymmetricTensor<N>,
+) -> SymmetricTensor<N> {
+    let one = N::splat(1.0);
+    let (f_rr, f_yy, f_tt) = (one + h.rr, one + h.yy, one + h.tt);
+    // F A, row by row.
+    let (rr, ry) = (f_rr * a.rr + h.ry * a.ry, f_rr * a.ry + h.ry * a.yy);
+    let (yr, yy) = (h.yr * a.rr + f_yy * a.ry, h.yr * a.ry + f_yy * a.yy);
+    SymmetricTensor {
+        rr: rr * f_rr + ry * h.ry,
+        yy: yr * h.yr + yy * f_yy,
+        tt: f_tt * a.tt * f_tt,
+        ry: rr * h.yr + ry * f_yy,
+    }
+}
+
 /// P = τ F^{-T} of Kirchhoff's stress τ, where F = 1 + H, and 1/J.
 #[inline(always)]
 pub(super) fn first_piola<N: Number>(

@@ -16,10 +16,16 @@ mod neo_hooke;
 mod neo_hooke_ln;
 mod number;
 mod principal;
+mod relaxing_neo_hooke;
 mod saint_venant_kirchhoff;
 mod tensor;
+mod viscoelastic;
+mod viscous;
 
 pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};
 pub use neo_hooke::NeoHooke;
 pub use number::{Number, inverse_cube_root, inverse_cube_root_estimate};
+pub use relaxing_neo_hooke::RelaxingNeoHooke;
 pub use tensor::{AxisymmetricTensor, SymmetricTensor};
+pub use viscoelastic::Viscoelastic;
+pub use viscous::{ViscousStep, ViscousStrain};

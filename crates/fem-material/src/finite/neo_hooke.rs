@@ -14,12 +14,12 @@
 //! where the shape alone resists.
 
 use super::kinematics::{Strain, first_piola};
-use super::number::{Number, inverse_cube_root};
+use super::number::{Number, inverse_cube_root, inverse_cube_root_change};
 use super::principal::Response;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 
 /// The default law, on one number or several side by side.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeoHooke<N = f64> {
     /// Bulk modulus K, Pa.
     pub bulk: N,
@@ -35,7 +35,7 @@ impl<N: Number> NeoHooke<N> {
     pub fn first_piola(&self, h: &AxisymmetricTensor<N>) -> (AxisymmetricTensor<N>, N) {
         let strain = Strain::of(h);
         let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
-        let stress = self.stress(&strain, y * y);
+        let stress = self.stress(&strain.left, self.pull(&strain), y * y);
         (first_piola(&stress, h, y * y * y), strain.volume_change)
     }
 
@@ -49,36 +49,40 @@ impl<N: Number> NeoHooke<N> {
     #[inline(always)]
     pub(super) fn kirchhoff(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
         let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
-        self.stress(strain, y * y)
+        self.stress(&strain.left, self.pull(strain), y * y)
     }
 
-    /// τ with J^(−2/3) known.
+    /// K J (J − 1), the mean of τ.
     #[inline(always)]
-    fn stress(&self, strain: &Strain<N>, unimodular: N) -> SymmetricTensor<N> {
-        let Strain { left: g, volume_change } = *strain;
+    fn pull(&self, strain: &Strain<N>) -> N {
+        self.bulk * (strain.volume_change * (N::splat(1.0) + strain.volume_change))
+    }
+
+    /// τ of b − 1, or of a sum of such, the mean of τ, and J^(−2/3).
+    #[inline(always)]
+    pub(super) fn stress(
+        &self,
+        left: &SymmetricTensor<N>,
+        pull: N,
+        unimodular: N,
+    ) -> SymmetricTensor<N> {
         let scale = self.shear * unimodular;
-        let pull = self.bulk * volume_change * (N::splat(1.0) + volume_change);
-        let mean = pull - scale * (g.trace() * N::splat(1.0 / 3.0));
+        let mean = pull - scale * (left.trace() * N::splat(1.0 / 3.0));
         SymmetricTensor {
-            rr: mean + scale * g.rr,
-            yy: mean + scale * g.yy,
-            tt: mean + scale * g.tt,
-            ry: scale * g.ry,
+            rr: mean + scale * left.rr,
+            yy: mean + scale * left.yy,
+            tt: mean + scale * left.tt,
+            ry: scale * left.ry,
         }
     }
 
     #[inline(always)]
     pub(super) fn energy_of(&self, strain: &Strain<N>) -> N {
-        let (one, three) = (N::splat(1.0), N::splat(3.0));
         let Strain { left, volume_change } = *strain;
-        let jacobian = one + volume_change;
-        // J^{-1/3} − 1 to its own last digit: one more step of Newton's, on the difference.
-        let z = inverse_cube_root(jacobian) - one;
-        let cube = z * (three + three * z + z * z);
-        let z = z - (one + z) * (volume_change + jacobian * cube) * N::splat(1.0 / 3.0);
+        let z = inverse_cube_root_change(volume_change);
         let unimodular_change = z + z + z * z;
         let trace = left.trace();
-        let shape = trace + (three + trace) * unimodular_change;
+        let shape = trace + (N::splat(3.0) + trace) * unimodular_change;
         N::splat(0.5) * (self.shear * shape + self.bulk * volume_change * volume_change)
     }
 }

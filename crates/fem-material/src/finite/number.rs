@@ -57,6 +57,17 @@ pub fn inverse_cube_root<N: Number>(x: N) -> N {
     y + y * e * (c_1 + e * c_2)
 }
 
+/// J^(−1/3) − 1 of J − 1, to its own last digit also where J is near 1: one more step of Newton's,
+/// for the difference.
+#[inline(always)]
+pub(super) fn inverse_cube_root_change<N: Number>(volume_change: N) -> N {
+    let (one, three) = (N::splat(1.0), N::splat(3.0));
+    let jacobian = one + volume_change;
+    let z = inverse_cube_root(jacobian) - one;
+    let cube = z * (three + three * z + z * z);
+    z - (one + z) * (volume_change + jacobian * cube) * N::splat(1.0 / 3.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -54,6 +54,18 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N>> Axisymmetric
             ry: (ry + yr) + (rr * yr + ry * yy),
         }
     }
+
+    /// C − 1 = H + Hᵀ + Hᵀ H of a displacement gradient H, with C the right Cauchy-Green tensor.
+    #[inline(always)]
+    pub fn right_strain(&self) -> SymmetricTensor<N> {
+        let Self { rr, ry, yr, yy, tt } = *self;
+        SymmetricTensor {
+            rr: (rr + rr) + (rr * rr + yr * yr),
+            yy: (yy + yy) + (yy * yy + ry * ry),
+            tt: (tt + tt) + tt * tt,
+            ry: (ry + yr) + (rr * ry + yr * yy),
+        }
+    }
 }
 
 impl<N: Copy + Add<Output = N> + Mul<Output = N>> SymmetricTensor<N> {
@@ -66,6 +78,35 @@ impl<N: Copy + Add<Output = N> + Mul<Output = N>> SymmetricTensor<N> {
             tt: self.tt * factor,
             ry: self.ry * factor,
         }
+    }
+
+    /// (1 + A)(1 + w) − 1 of A.
+    #[inline(always)]
+    pub(super) fn rescaled(&self, w: N) -> Self {
+        Self {
+            rr: self.rr + (w + w * self.rr),
+            yy: self.yy + (w + w * self.yy),
+            tt: self.tt + (w + w * self.tt),
+            ry: self.ry + w * self.ry,
+        }
+    }
+
+    /// The sum of both.
+    #[inline(always)]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            rr: self.rr + other.rr,
+            yy: self.yy + other.yy,
+            tt: self.tt + other.tt,
+            ry: self.ry + other.ry,
+        }
+    }
+
+    /// A : B.
+    #[inline(always)]
+    pub fn dot(&self, other: &Self) -> N {
+        let shear = self.ry * other.ry;
+        self.rr * other.rr + self.yy * other.yy + self.tt * other.tt + (shear + shear)
     }
 
     /// Sum of the normal components.

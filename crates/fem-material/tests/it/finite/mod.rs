@@ -2,6 +2,8 @@
 
 mod closed_forms;
 mod laws;
+mod relaxation;
+mod relaxation_limits;
 mod stiffness;
 
 use fem_material::ElasticModuli;

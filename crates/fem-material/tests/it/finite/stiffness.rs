@@ -23,7 +23,7 @@ fn differences(solid: &Hyperelastic, h: &AxisymmetricTensor) -> [[f64; 5]; 5] {
 }
 
 /// The largest eigenvalue by powers of A + s 1, with s that makes all eigenvalues positive.
-fn largest_by_powers(a: &[[f64; 5]; 5]) -> f64 {
+pub fn largest_by_powers(a: &[[f64; 5]; 5]) -> f64 {
     let shift = a.iter().flatten().map(|x| x.abs()).sum::<f64>();
     let mut v = [1.0, 0.3, -0.7, 0.5, 0.9];
     let mut value = 0.0;
