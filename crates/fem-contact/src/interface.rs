@@ -37,7 +37,7 @@ pub struct ContactInterface {
 /// down, and chatter adds that up: with 2, an elastic glass pair at 50 times the
 /// default penalty gained 2 %; with 4 it keeps its energy to 7e-5, for a tenth
 /// more steps at the default penalty.
-const OPENING_SAFETY: f64 = 4.0;
+pub(crate) const OPENING_SAFETY: f64 = 4.0;
 
 impl ContactInterface {
     /// Pairs the lower with the upper surface out to `candidate_radius` (m).
@@ -55,14 +55,7 @@ impl ContactInterface {
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        check([&lower, &upper])?;
-        for (name, value) in
-            [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
-        {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ContactError::NotPositive { name, value });
-            }
-        }
+        check_springs([&lower, &upper], stiffness, candidate_radius)?;
         let surfaces = [lower, upper];
         let limit = candidate_radius.min(surfaces[0].extent()).min(surfaces[1].extent());
         let cuts = cuts(&surfaces, limit);
@@ -83,8 +76,7 @@ impl ContactInterface {
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];
-        let springs = [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 });
-        Ok(Self { points, surfaces, candidate_radius, springs })
+        Ok(Self { points, springs: springs(&surfaces), surfaces, candidate_radius })
     }
 
     /// With the bound of the stiffness shared between a rigid sphere and the other body by their
@@ -93,15 +85,7 @@ impl ContactInterface {
     /// wall.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        for side in 0..2 {
-            let surface = &self.surfaces[side];
-            if surface.is_rigid() && !surface.is_wall() {
-                // Beyond the upper limit it is a wall to rounding.
-                let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
-                self.springs[side] = 1.0 + ratio;
-                self.springs[1 - side] = 1.0 + ratio.recip();
-            }
-        }
+        share_by_mass(&self.surfaces, ratio, &mut self.springs);
         self
     }
 
@@ -135,14 +119,60 @@ impl ContactInterface {
     /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
     /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
+        self.add_weighted_bound(side, bound, |_| 1.0);
+    }
+
+    /// The same with a factor of each point.
+    pub(crate) fn add_weighted_bound(
+        &self,
+        side: usize,
+        bound: &mut [f64],
+        factor: impl Fn(&ContactPoint) -> f64,
+    ) {
         for point in &self.points {
-            let stiffness = OPENING_SAFETY * self.springs[side] * point.stiffness * point.area;
+            let springs = self.springs[side] * factor(point);
+            let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
             let foot = &point.feet[side];
             for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
                 bound[node as usize] += stiffness * shape;
             }
         }
     }
+}
+
+/// How many times a spring counts at the nodes of each side; see
+/// [`ContactInterface::add_stiffness_bound`].
+pub(crate) fn springs(surfaces: &[Surface; 2]) -> [f64; 2] {
+    [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
+}
+
+/// The same of a rigid sphere by its mass over that of the other body; see
+/// [`ContactInterface::with_rigid_mass`].
+pub(crate) fn share_by_mass(surfaces: &[Surface; 2], ratio: f64, springs: &mut [f64; 2]) {
+    for (side, surface) in surfaces.iter().enumerate() {
+        if surface.is_rigid() && !surface.is_wall() {
+            // Beyond the upper limit it is a wall to rounding.
+            let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
+            springs[side] = 1.0 + ratio;
+            springs[1 - side] = 1.0 + ratio.recip();
+        }
+    }
+}
+
+/// Whether two surfaces can be in contact by springs of this stiffness (Pa) out to a radius, m.
+pub(crate) fn check_springs(
+    surfaces: [&Surface; 2],
+    stiffness: f64,
+    candidate_radius: f64,
+) -> Result<(), ContactError> {
+    check(surfaces)?;
+    for (name, value) in [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
+    {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(ContactError::NotPositive { name, value });
+        }
+    }
+    Ok(())
 }
 
 /// Whether two surfaces can be in contact.
@@ -174,7 +204,7 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
 }
 
 /// Mean length of the segments at a point, a rigid body's not counted.
-fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
+pub(crate) fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
     let lengths = [0, 1].map(|side| {
         let surface = &surfaces[side];
         (!surface.is_rigid()).then(|| surface.segment_length(segments[side]))

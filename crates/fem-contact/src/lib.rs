@@ -18,19 +18,26 @@
 //! two-sided) were measured to be ten times noisier and to gain energy from
 //! penalty factors of 20 on.
 //!
+//! Where strains are not small, and where slip between unlike bodies matters, [`MovedInterface`] has the
+//! same springs between the surfaces where they are now.
+//!
 //! Sign convention: gap > 0 is open; the force is positive and acts on the
 //! lower body along −y, on the upper along +y.
 
 mod error;
 mod evaluate;
 mod interface;
+mod moved;
 mod nodal;
 mod pressure;
+mod slip;
 mod surface;
 
 pub use error::ContactError;
 pub use evaluate::ContactForces;
 pub use interface::{ContactInterface, ContactPoint};
+pub use moved::MovedInterface;
 pub use nodal::NodalContact;
 pub use pressure::centre_pressure;
+pub use slip::SlippingInterface;
 pub use surface::{Foot, Surface};

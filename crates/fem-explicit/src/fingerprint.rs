@@ -8,7 +8,7 @@
 use std::any::Any;
 use std::fmt::{self, Debug, Write};
 
-use fem_contact::ContactInterface;
+use fem_contact::{ContactInterface, SlippingInterface};
 
 use crate::body::Body;
 use crate::contact::Contact;
@@ -67,6 +67,9 @@ fn take_body(digest: &mut Digest, body: &Body) {
     }
     digest.take_numbers(&body.nodal_mass);
     digest.take_text(body.material());
+    if let (Some(_), Some(stress)) = (&body.bound, &body.stress) {
+        digest.take_text(&stress.part);
+    }
     digest.take_text(&body.node_forces);
     if body.held {
         digest.take_text("held");
@@ -77,7 +80,15 @@ fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
     let searched = contact.searched();
     digest.take_numbers(&[searched.radius]);
     digest.take(searched.n_points as u64);
-    let Some(interface) = (contact as &dyn Any).downcast_ref::<ContactInterface>() else {
+    let contact_of_any_kind = contact as &dyn Any;
+    let interface = match contact_of_any_kind.downcast_ref::<SlippingInterface>() {
+        None => contact_of_any_kind.downcast_ref(),
+        Some(slipping) => {
+            digest.take_text("slipping");
+            Some(slipping.interface())
+        }
+    };
+    let Some(interface): Option<&ContactInterface> = interface else {
         return digest.take_text(contact);
     };
     for point in interface.points() {

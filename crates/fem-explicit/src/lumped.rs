@@ -3,11 +3,12 @@
 use fem_collision::BodyInput;
 use fem_element::QuadGeometry;
 use fem_material::Material;
+use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
 use crate::error::ModelError;
 use crate::forces::NodeForce;
-use crate::stress::{self, Stress};
+use crate::stress::{self, MOST_TERMS, Stress};
 use crate::time_step::NodalBound;
 
 /// A body that contact and forces move, with its masses and a bound of the stiffness that pulls at
@@ -41,14 +42,19 @@ impl LumpedBody {
     /// `None` for a wall, which nothing moves.
     ///
     /// # Errors
-    /// A rigid sphere's mass that is not positive and finite; forces on a wall.
+    /// A rigid sphere's mass that is not positive and finite; forces on a wall; finite strain of a body
+    /// that does not deform, or that relaxes by too many terms.
     pub fn new(
         input: BodyInput,
+        finite_strain: Option<HyperelasticLaw>,
         node_forces: Vec<Box<dyn NodeForce>>,
     ) -> Result<Option<Self>, ModelError> {
+        if input.mesh().is_none() && finite_strain.is_some() {
+            return Err(ModelError::StrainOfRigid);
+        }
         match input {
             BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
-                let meshed = LumpedMesh::new(mesh, material, node_forces);
+                let meshed = LumpedMesh::new(mesh, material, finite_strain, node_forces)?;
                 Ok(Some(Self::Meshed(Box::new(meshed))))
             }
             BodyInput::Rigid { mass, .. } => {
@@ -71,6 +77,14 @@ impl LumpedBody {
         match self {
             Self::Meshed(meshed) => &mut meshed.bound.stiffness,
             Self::Rigid(sphere) => &mut sphere.bound.stiffness,
+        }
+    }
+
+    /// The bound of its nodes' damping, N s/m, to which contact adds its own.
+    pub fn damping_mut(&mut self) -> &mut [f64] {
+        match self {
+            Self::Meshed(meshed) => &mut meshed.bound.damping,
+            Self::Rigid(sphere) => &mut sphere.bound.damping,
         }
     }
 
@@ -98,19 +112,35 @@ impl LumpedBody {
 }
 
 impl LumpedMesh {
-    /// Integrates the elements, once for stress, masses and bound.
-    pub fn new(mesh: SphereMesh, material: Material, node_forces: Vec<Box<dyn NodeForce>>) -> Self {
+    /// Integrates the elements, once for stress, masses and bound. Its stress is that of small strain, or
+    /// of a law beyond.
+    ///
+    /// # Errors
+    /// Too many terms of relaxation for finite strain.
+    pub fn new(
+        mesh: SphereMesh,
+        material: Material,
+        finite_strain: Option<HyperelasticLaw>,
+        node_forces: Vec<Box<dyn NodeForce>>,
+    ) -> Result<Self, ModelError> {
+        let n_terms = material.relaxation().map_or(0, |series| series.terms().len());
+        if finite_strain.is_some() && n_terms > MOST_TERMS {
+            return Err(ModelError::TooManyTerms { n_terms, most: MOST_TERMS });
+        }
         let elements = 0..mesh.quads().len();
         let geometries: Vec<_> =
             elements.map(|element| QuadGeometry::new(&mesh.corners(element))).collect();
-        let stress = stress::of_material(&mesh, &geometries, &material);
+        let stress = match finite_strain {
+            None => stress::of_material(&mesh, &geometries, &material),
+            Some(law) => stress::finite_strain(&mesh, &geometries, &material, law),
+        };
         let mut bound =
             NodalBound::of_elements(&mesh, &geometries, material.density(), stress.as_ref());
         for force in &node_forces {
             force.add_stiffness_bound(&mut bound.stiffness);
             force.add_damping_bound(&mut bound.damping);
         }
-        Self { mesh, material, stress, node_forces, bound }
+        Ok(Self { mesh, material, stress, node_forces, bound })
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod common;
 mod forces;
+mod moved;
 mod pressure;
 mod rigid;
+mod slip;
 mod stiffness;

@@ -22,6 +22,7 @@ use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_material::Material;
 
 use super::effect::Effect;
+use super::finite_strain::FiniteStrain;
 use super::left_out::LeftOut;
 use super::need::Need;
 use super::speed::{MACH_LIMIT, above, number};
@@ -82,8 +83,12 @@ impl Effect for BulkViscosity {
         })
     }
 
-    /// The contact time changes by no more than the ringing that ends it.
+    /// The contact time changes by no more than the ringing that ends it. At finite strain the contact
+    /// itself damps what rings, and nothing is foretold.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        if FiniteStrain::laws(scene, estimate) != [None; 2] {
+            return None;
+        }
         let materials = scene.bodies().iter().filter_map(Body::material);
         let squared_ratio = |material: &Material| {
             let nu = material.instantaneous().poissons_ratio();

@@ -90,8 +90,8 @@ fn scenes_beyond_the_model_are_warned_about() {
     let warnings = |overrides: &[&str]| {
         Simulation::new(case(overrides)).unwrap().setup().warnings().join("\n")
     };
-    let fast = warnings(&["body.0.approach_speed=20"]);
-    assert!(fast.contains("small-strain"), "{fast}");
+    let fast = warnings(&["body.0.approach_speed=40", "model.condensed={}"]);
+    assert!(fast.contains("small strain is off by"), "{fast}");
     let faster = warnings(&["body.0.approach_speed=100", "effects.bulk_viscosity='off'"]);
     assert!(faster.contains("shear wave speed"), "{faster}");
     assert_eq!(warnings(&[]), "");
