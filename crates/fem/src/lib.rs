@@ -23,6 +23,7 @@ mod course;
 pub mod effects;
 mod estimate;
 mod expected;
+mod identity;
 mod large_partner;
 pub mod laws;
 mod limits;
@@ -32,6 +33,7 @@ mod mesh_source;
 mod meshes;
 mod method;
 mod models;
+mod numerics;
 mod pair_cache;
 mod plan;
 mod quasi_static;
@@ -46,6 +48,7 @@ pub use approach::approach_of;
 pub use assess::assess;
 pub use course::Course;
 pub use estimate::Estimate;
+pub use identity::{Identity, case_identity, digest_of};
 pub use memory::Memory;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
@@ -53,6 +56,7 @@ pub use models::{
     AutoMethod, Condensed, CondensedMethod, Considered, Explicit, ExplicitMethod, HertzMethod,
     LawMethod, METHODS, Reduced, TingMethod, method_of, model_of,
 };
+pub use numerics::NUMERICS;
 pub use pair_cache::PairCache;
 pub use plan::Plan;
 pub use quasi_static::ting_impact;
