@@ -19,6 +19,7 @@ mod approach;
 mod assess;
 mod body_source;
 pub mod calibrate;
+mod checkpoint;
 mod course;
 pub mod effects;
 mod estimate;
@@ -46,6 +47,7 @@ pub mod sweep;
 
 pub use approach::approach_of;
 pub use assess::assess;
+pub use checkpoint::{CheckpointError, CheckpointHead, checkpoint, checkpoint_head, memory_of};
 pub use course::Course;
 pub use estimate::Estimate;
 pub use identity::{Identity, case_identity, digest_of};

@@ -16,6 +16,7 @@ mod half_space;
 mod laws;
 mod left_out;
 mod measured;
+mod memory;
 mod mirror_symmetry;
 mod models;
 mod numerics;
