@@ -44,7 +44,12 @@ pub(crate) fn identified(case: &Case) -> Result<(Identity, CaseFile), CaseError>
 /// Digest of what a case asks to be computed: its keys and values, overrides in them, in SI, without
 /// title and output. Defaults do not count: a build that plans otherwise does not make it another case.
 pub fn case_identity(case: &Case) -> String {
-    let file = CaseFile { title: None, output: None, ..case.file().clone() };
+    identity_of(case.file())
+}
+
+/// As [`case_identity`], of a case as it is written.
+pub(crate) fn identity_of(file: &CaseFile) -> String {
+    let file = CaseFile { title: None, output: None, ..file.clone() };
     digest_of([json(&file).as_slice()])
 }
 

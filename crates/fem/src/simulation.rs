@@ -9,6 +9,7 @@ use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantErr
 use crate::course::{Course, begun};
 use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
+use crate::identity::identity_of;
 use crate::memory::Memory;
 use crate::method::{Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
@@ -142,7 +143,16 @@ impl Simulation {
 
     /// The resolved case with its bodies meeting in another way.
     pub fn resolved_at(&self, approach: &Approach) -> CaseFile {
-        let mut file = self.resolved.clone();
+        self.meeting(self.resolved.clone(), approach)
+    }
+
+    /// Digest of what the case asks to be computed, its bodies meeting like this: see
+    /// [`case_identity`](crate::case_identity).
+    pub fn made_from(&self, approach: &Approach) -> String {
+        identity_of(&self.meeting(self.case.file().clone(), approach))
+    }
+
+    fn meeting(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
         if *approach != self.setup().approach {
             let [lower, upper] = approach.velocities();
             // A speed is toward the other body; a body at rest has 0, never -0.

@@ -71,12 +71,14 @@ fn a_field_that_is_not_written_is_seen() {
     struct Inner {
         kept: Vec<[f64; 2]>,
         #[serde(skip)]
+        #[allow(dead_code, reason = "Debug shows it, nothing reads it")]
         lost_too: Vec<f64>,
     }
     #[derive(Debug, Serialize)]
     struct Forgetful {
         inner: [Option<Inner>; 1],
         #[serde(skip)]
+        #[allow(dead_code, reason = "Debug shows it, nothing reads it")]
         lost: u64,
     }
     let inner = Inner { kept: vec![[1.0, 2.0]], lost_too: vec![3.0] };
