@@ -5,13 +5,13 @@
     compare_builds.py OLD NEW --quick    two cases and no sweep, after each small move
     compare_builds.py OLD NEW --times N  instead of results, N interleaved pairs of timed runs a row
 
-OLD and NEW are binaries of one version: the names of a sweep's members depend on the version. Both
-get the same commands (compare_jobs.py) on the cases and data of this checkout. Compared are exit
+Both get the same commands (compare_jobs.py) on the cases and data of this checkout. Compared are exit
 status, stdout, stderr and each file that was written, byte for byte. JSON files are compared key by
 key: the order of keys, every digit and the sign of a zero count. Left out is what differs between
 two runs of one build: the measured numbers of `cost`, the report's line of that name, progress that
 the clock prompts, seconds of a sweep's members and of claims, and the order in which threads get
-done. So is `version`.
+done. So are `version` and `numerics`, and the names of a sweep's members, which move with a build's
+numerics: they are told by their places in the sweep.
 
 Prints a line a difference. Exit status: 0 no result differs, 1 some do, 2 wrong usage.
 """
@@ -45,6 +45,8 @@ COST_LINE = re.compile(r"^(cost  ).*$", re.MULTILINE)
 PROGRESS_LINE = re.compile(r"^ *\d+ %  t = .*  step .*  force .*\n", re.MULTILINE)
 DONE_SECONDS = re.compile(r"^(\[\d+/\d+\] .*[ ,] )[\d.]+ [mµ]?s$", re.MULTILINE)
 DONE_COUNT = re.compile(r"^\[\d+/", re.MULTILINE)
+# The name of a sweep's member.
+MEMBER = re.compile(r"(?<![0-9a-f])[0-9a-f]{16}(?![0-9a-f])")
 CLAIM_SECONDS = re.compile(r"[\d.]+ [mµ]?s of one core")
 
 
@@ -80,10 +82,24 @@ def without_times(text, is_threaded):
     return "\n".join(sorted(DONE_COUNT.sub("[", text).split("\n"))) if is_threaded else text
 
 
-def files_of(folder):
+def members_of(folder):
+    """The names of the members of all sweeps in a folder, and what stands for them."""
+    names = {}
+    for mark in sorted(folder.rglob("sweep.json")):
+        for member in json.loads(mark.read_text())["members"]:
+            names.setdefault(member["id"], f"member{len(names):010}")
+    return names
+
+
+def without_names(text, names):
+    return MEMBER.sub(lambda word: names.get(word[0], word[0]), text)
+
+
+def files_of(folder, members):
     """The files that a job has left, by their paths in the folder."""
     places = [(Path(place), name) for place, _, names in os.walk(folder) for name in names]
-    return {str((place / name).relative_to(folder)): place / name for place, name in places}
+    return {without_names(str((place / name).relative_to(folder)), members): place / name
+            for place, name in places}
 
 
 def flatten(value, path=""):
@@ -100,7 +116,7 @@ def json_entries(text):
     number = "number {}".format
     entries = flatten(json.loads(text, parse_float=number, parse_int=number))
     return [(key, "measured" if value and MEASURED.search(key) else value)
-            for key, value in entries if key != "version"]
+            for key, value in entries if key not in ("version", "numerics")]
 
 
 def json_difference(old, new):
@@ -125,10 +141,11 @@ def text_difference(old, new):
     return None
 
 
-def file_difference(old, new):
+def file_difference(old, new, members):
     if old is None or new is None:
         return "only the old build writes it" if new is None else "only the new build writes it"
-    texts = [text_of(path.read_bytes()) for path in (old, new)]
+    texts = [without_names(text_of(path.read_bytes()), names)
+             for path, names in zip((old, new), members)]
     if old.suffix == ".json":
         with contextlib.suppress(json.JSONDecodeError):
             return json_difference(*texts)
@@ -140,16 +157,20 @@ def file_difference(old, new):
 def differences(binaries, job):
     """A line a difference between what two builds make of a job."""
     with tempfile.TemporaryDirectory(prefix="compare-builds-") as scratch:
-        told, left = [], []
+        told, left, members = [], [], []
         for binary, side in zip(binaries, ("old", "new")):
             # The same place for both: messages tell it.
             place, folder = Path(scratch) / "place", Path(scratch) / side
             told.append(run(binary, job, place))
-            left.append(files_of(place.rename(folder)))
-        found = {name: text_difference(told[0].get(name, ""), told[1].get(name, ""))
+            place.rename(folder)
+            members.append(members_of(folder))
+            left.append(files_of(folder, members[-1]))
+        found = {name: text_difference(*(without_names(side.get(name, ""), names)
+                                         for side, names in zip(told, members)))
                  for name in told[0] | told[1]}
         names = sorted(left[0] | left[1])
-        found |= {name: file_difference(left[0].get(name), left[1].get(name)) for name in names}
+        found |= {name: file_difference(left[0].get(name), left[1].get(name), members)
+                  for name in names}
     title = "; ".join(shlex.join(command) for command in job.commands)
     return [f"{title}: {name}: {difference}" for name, difference in found.items() if difference]
 

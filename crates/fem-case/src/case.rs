@@ -64,6 +64,19 @@ impl Case {
         Case::build(name, &stem, text, folder, overrides, None)
     }
 
+    /// As [`Case::parse`], of a text that comes from elsewhere, such as the standard input.
+    ///
+    /// # Errors
+    /// As [`Case::load`].
+    pub fn read(
+        source: impl Read,
+        name: &str,
+        folder: &Path,
+        overrides: &[String],
+    ) -> Result<Case, CaseError> {
+        Case::parse(name, &text_of(source, name)?, folder, overrides)
+    }
+
     /// A case made in code, validated as a text is.
     ///
     /// Its faults name the key: there is no line to point at. Its title is the names of its bodies
@@ -224,18 +237,19 @@ fn fill_in(file: &mut CaseFile, scene: &Scene) {
 
 pub(crate) fn read(path: &Path, name: &str) -> Result<String, CaseError> {
     let fail = |message: &str| CaseError::new(name, message);
-    let failed = |error: std::io::Error| match error.kind() {
+    let file = fs::File::open(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => fail("there is no such file")
             .with_help("name a case file: fem-run cases/glass_0.5ms.toml"),
-        ErrorKind::IsADirectory => {
-            fail("this is a folder").with_help("name a case file in it, FOLDER/CASE.toml")
-        }
-        ErrorKind::PermissionDenied => fail("this file may not be read"),
-        _ => fail(&format!("this file cannot be read: {error}")),
-    };
-    let file = fs::File::open(path).map_err(failed)?;
+        _ => unreadable(name, &error),
+    })?;
+    text_of(file, name)
+}
+
+fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {
+    let fail = |message: &str| CaseError::new(name, message);
     let mut bytes = Vec::new();
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+    let read = source.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
+    read.map_err(|error| unreadable(name, &error))?;
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(fail("this file is larger than 16 MiB, too large for a case"));
     }
@@ -246,4 +260,13 @@ pub(crate) fn read(path: &Path, name: &str) -> Result<String, CaseError> {
             .at(&text, start..start + '\u{fffd}'.len_utf8())
             .with_help("a case file is a text file in UTF-8; save it as such")
     })
+}
+
+fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
+    match error.kind() {
+        ErrorKind::IsADirectory => CaseError::new(name, "this is a folder")
+            .with_help("name a case file in it, FOLDER/CASE.toml"),
+        ErrorKind::PermissionDenied => CaseError::new(name, "this file may not be read"),
+        _ => CaseError::new(name, format!("this file cannot be read: {error}")),
+    }
 }

@@ -3,11 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use fem_case::{Case, CaseError};
+
+/// As a case: it is read from the standard input.
+const STDIN: &str = "-";
 
 /// A case file and what overrides it.
 #[derive(Args, Debug)]
 pub struct CaseArguments {
-    /// The case file, TOML
+    /// The case file, TOML; - reads it from the standard input
     #[arg(value_name = "CASE")]
     pub case: PathBuf,
     /// Override a key of the case by its dotted path; may be repeated
@@ -21,11 +25,33 @@ pub struct CaseArguments {
 }
 
 impl CaseArguments {
+    /// Reads the case; mesh files of one from the standard input are looked for in the current folder.
+    ///
+    /// # Errors
+    /// The first thing that is wrong with it.
+    pub fn load(&self) -> Result<Case, CaseError> {
+        if self.case.as_os_str() == STDIN {
+            return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), &self.set);
+        }
+        Case::load(&self.case, &self.set)
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> String {
+        if self.case.as_os_str() == STDIN {
+            return "<stdin>".to_string();
+        }
+        self.case.display().to_string()
+    }
+
     /// The case file's name without its ending: what results are named after.
     ///
     /// ParaView's collections list relative file names with `/` between folders, so characters
     /// that mean something in one are replaced.
     pub fn stem(&self) -> String {
+        if self.case.as_os_str() == STDIN {
+            return "stdin".to_string();
+        }
         stem_of(&self.case)
     }
 }

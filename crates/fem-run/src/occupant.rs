@@ -9,6 +9,9 @@ use serde::Deserialize;
 
 use fem::results::{PROGRAM, SUMMARY_FILE};
 
+use crate::hidden_folder::LOCK_FILE;
+use crate::restart::{RESTART_FILE, head_of};
+
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.
 const MARK_FILES: [&str; 5] =
     [SUMMARY_FILE, "fit.json", "calibrate.json", "export.json", "cradle.json"];
@@ -28,11 +31,14 @@ pub enum Occupant {
     File,
 }
 
-/// A result folder of this program, known by one of [`MARK_FILES`].
+/// A result folder of this program, known by one of [`MARK_FILES`], or by a restart file of a run that
+/// is not over.
 #[derive(Debug)]
 pub struct OldResult {
     /// Names of the files that the program wrote; all others are the user's.
     files: BTreeSet<String>,
+    /// Digest of what was asked for, if it says so.
+    made_from: Option<String>,
 }
 
 /// The keys of such a file that tell whose it is.
@@ -40,6 +46,7 @@ pub struct OldResult {
 struct Marks {
     program: String,
     files: Vec<String>,
+    made_from: Option<String>,
 }
 
 impl Occupant {
@@ -62,14 +69,24 @@ impl Occupant {
             let text = fs::read(path.join(name)).unwrap_or_default();
             serde_json::from_slice::<Marks>(&text).ok()
         });
+        let under_way = || {
+            let made_from = Some(head_of(path)?.case);
+            Some(Marks { program: PROGRAM.to_string(), files: Vec::new(), made_from })
+        };
         let mut ours = marks.filter(|marks| marks.program == PROGRAM);
-        Ok(ours.next().map_or(Self::Foreign, |marks| {
-            Self::Result(OldResult { files: marks.files.into_iter().collect() })
+        Ok(ours.next().or_else(under_way).map_or(Self::Foreign, |marks| {
+            let files = marks.files.into_iter().chain([RESTART_FILE, LOCK_FILE].map(String::from));
+            Self::Result(OldResult { files: files.collect(), made_from: marks.made_from })
         }))
     }
 }
 
 impl OldResult {
+    /// Digest of what was asked for, if it says so.
+    pub fn made_from(&self) -> Option<&str> {
+        self.made_from.as_deref()
+    }
+
     /// Moves everything that the program did not write from `old` to `new`. A name that is taken
     /// there gets `.kept` appended.
     ///
@@ -90,12 +107,15 @@ impl OldResult {
         Ok(())
     }
 
-    /// Deletes the program's own files in `old`, and the folder if nothing else is in it.
+    /// Deletes the program's own files in `old`, and the folder if nothing else is in it; the files by
+    /// which it is known last.
     ///
     /// # Errors
     /// The file system; the folder if something else is in it.
     pub fn remove_own_files(&self, old: &Path) -> io::Result<()> {
-        for name in &self.files {
+        let is_mark = |name: &&String| MARK_FILES.contains(&name.as_str());
+        let (marks, others): (Vec<_>, Vec<_>) = self.files.iter().partition(is_mark);
+        for name in others.into_iter().chain(marks) {
             let path = old.join(name);
             // A name with a folder in it was not written by the program.
             if path.parent() == Some(old) && path.symlink_metadata().is_ok() {

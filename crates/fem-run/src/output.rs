@@ -1,13 +1,15 @@
 //! The folder of a fit, a calibration, an export or a cradle: `<name>.json`, by which it is known, and files beside.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde::Serialize;
 use serde_json::json;
 
 use crate::failure::Failure;
-use crate::result_folder::ResultFolder;
+use crate::place::ResultPlace;
+use crate::result_folder::{Replaces, ResultFolder};
 use crate::standard_output::one_line;
+use fem::digest_of;
 use fem::results::PROGRAM;
 
 /// Where results go.
@@ -15,25 +17,34 @@ use fem::results::PROGRAM;
 pub struct OutputArguments {
     /// Folder for the result [default: in runs/, named after the input and the command]
     ///
-    /// An existing folder is replaced only if it is empty or a result of fem-run. Files of your
-    /// own in it are kept.
+    /// An existing folder is replaced only if it is empty or the result of the same command, case and
+    /// data. Files of your own in it are kept. Without --out another result is left alone too: then
+    /// the files go into a folder beside it.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Replace the result of another case or other data
+    #[arg(long)]
+    pub force: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     pub quiet: bool,
 }
 
 impl OutputArguments {
-    /// Claims the folder; nothing in it is touched yet.
+    /// Claims the folder; nothing in it is touched yet. A result of the same command that was made of
+    /// the same inputs, a case's identity or a file's path, is replaced.
     ///
     /// # Errors
     /// A place that cannot be written, or that holds something else.
-    pub fn claim(&self, stem: &str, command: &str) -> Result<Output, Failure> {
-        let default = || Path::new("runs").join(format!("{stem}_{command}"));
-        let out = self.out.clone().unwrap_or_else(default);
-        let folder = ResultFolder::claim(&out, "liggghts_coeff_restitution.in.tmp")?;
-        Ok(Output { folder, mark: format!("{command}.json"), files: Vec::new() })
+    pub fn claim(&self, stem: &str, command: &str, inputs: &[&str]) -> Result<Output, Failure> {
+        let inputs = inputs.iter().map(|input| input.as_bytes());
+        let made_from = digest_of(std::iter::once(command.as_bytes()).chain(inputs));
+        let replaces = Replaces::only(&made_from, self.force);
+        let name = format!("{stem}_{command}");
+        let place = ResultPlace::of(self.out.as_deref(), &name, &made_from, &replaces);
+        let longest_name = "liggghts_coeff_restitution.in.tmp";
+        let folder = ResultFolder::claim(&place.out, longest_name, replaces)?;
+        Ok(Output { folder, made_from, mark: format!("{command}.json"), files: Vec::new() })
     }
 }
 
@@ -41,6 +52,7 @@ impl OutputArguments {
 #[derive(Debug)]
 pub struct Output {
     folder: ResultFolder,
+    made_from: String,
     mark: String,
     files: Vec<String>,
 }
@@ -96,8 +108,9 @@ impl Output {
         files.extend(self.files.iter().cloned());
         numbers["program"] = json!(PROGRAM);
         numbers["version"] = json!(env!("CARGO_PKG_VERSION"));
+        numbers["made_from"] = json!(self.made_from);
         numbers["files"] = json!(files);
         self.write(&mark, format!("{numbers:#}\n"))?;
-        Ok(one_line(&self.folder.publish()?.display().to_string()))
+        Ok(one_line(&self.folder.publish(true)?.display().to_string()))
     }
 }

@@ -20,8 +20,8 @@ const NONE: &str = "-";
 /// A restitution this near to 1 is told by what is missing.
 const NEARLY_ELASTIC: f64 = 1e-3;
 
-/// The report of a run whose files are in `place`.
-pub fn report(summary: &Summary, place: &Path) -> String {
+/// The report of a run whose files are in `place`, if there are any.
+pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     let mut text = String::new();
     let title = summary.case.title.as_deref().unwrap_or_default();
     // Writing to a String cannot fail.
@@ -56,7 +56,8 @@ pub fn report(summary: &Summary, place: &Path) -> String {
         effects(summary.effects.iter().map(|effect| &effect.verdict))
     );
     text += &warnings(&summary.warnings);
-    let _ = writeln!(text, "\nResult: {}", one_line(&place.display().to_string()));
+    let place = place.map_or("not written".into(), |place| one_line(&place.display().to_string()));
+    let _ = writeln!(text, "\nResult: {place}");
     text
 }
 

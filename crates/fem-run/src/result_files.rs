@@ -1,6 +1,9 @@
 //! The files of a run in its result folder.
+//!
+//! A disk that fills takes the snapshots first, then the history, then the summary: room for that is
+//! taken before all else, and it is written last, when all files are known.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::Path;
 
@@ -11,13 +14,29 @@ use fem_collision::Collision;
 
 use crate::failure::Failure;
 use crate::stopwatch::Stopwatch;
+use crate::whole_file::write_whole;
+
+/// Keeps room for the summary.
+const ROOM_FILE: &str = ".fem-run-room";
+/// By how much a summary can grow when all files are known, bytes.
+const ROOM: usize = 16 << 10;
 
 /// The longest name of a file to come, the writer's temporary ending included.
 pub fn longest_name(stem: &str) -> String {
     format!(".{stem}_99999_mid-compression.vtu.XXXXXX.tmp")
 }
 
-/// Writes the files of a result that are to be kept, the summary last.
+/// What was written of a result.
+pub struct Written {
+    /// With the names of the files that there are; none if nothing could be written.
+    pub summary: Summary,
+    /// As it is in its file.
+    pub text: String,
+    /// What could not be written.
+    pub fault: Option<Failure>,
+}
+
+/// Writes the files of a result that are to be kept, beside `others` that are there.
 pub fn write_result(
     folder: &Path,
     stem: &str,
@@ -25,29 +44,104 @@ pub fn write_result(
     collision: &Collision,
     stopwatch: &Stopwatch,
     keep: Keep,
-) -> Result<Summary, Failure> {
-    let fault = |error: &dyn std::error::Error| {
-        Failure::failed(format!("the result cannot be written: {error}")).with_help(
-            "nothing was kept of this run; is the disk full? An older result is where it was",
-        )
-    };
-    let mut files = vec![SUMMARY_FILE.to_string()];
-    let mut left_out = Vec::new();
+    others: &[&str],
+) -> Written {
+    let warnings = simulation.warnings(collision);
+    let files = [SUMMARY_FILE].iter().chain(others).map(ToString::to_string).collect();
+    let mut summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
+    let mut missing = None;
     if keep == Keep::All {
-        let file = File::create(folder.join(HISTORY_FILE)).map_err(|error| fault(&error))?;
-        history_csv(BufWriter::new(file), simulation.case().scene(), &collision.history)
-            .map_err(|error| fault(&error))?;
-        files.push(HISTORY_FILE.to_string());
-        let (vtk_files, missing) =
-            write_snapshots(folder, stem, simulation, collision).map_err(|error| fault(&error))?;
-        files.extend(vtk_files);
-        left_out = missing;
+        let written = take_room(folder, &summary)
+            .and_then(|()| write_history(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
+        missing = written.err();
+        let _ = fs::remove_file(folder.join(ROOM_FILE));
+        let spent = stopwatch.spent();
+        (summary.cost.wall_s, summary.cost.peak_memory_bytes) = (spent.wall, spent.peak_memory);
     }
-    let mut warnings = simulation.warnings(collision);
-    warnings.extend(left_out);
-    let summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
-    let mut text = serde_json::to_string_pretty(&summary).map_err(|error| fault(&error))?;
+    summary.warnings.extend(missing.clone());
+    let text = match text_of(&summary) {
+        Ok(text) => text,
+        Err(error) => return nothing_kept(summary, String::new(), &error),
+    };
+    if let Err(error) = write_whole(&folder.join(SUMMARY_FILE), folder, text.as_bytes()) {
+        return nothing_kept(summary, text, &error);
+    }
+    let fault = missing.map(|missing| {
+        let kept = summary.files.join(", ");
+        Failure::failed(missing).with_help(format!("kept: {kept}; is the disk full?"))
+    });
+    Written { summary, text, fault }
+}
+
+fn nothing_kept(mut summary: Summary, text: String, error: &dyn std::error::Error) -> Written {
+    summary.files.clear();
+    let fault = Failure::failed(format!("the result cannot be written: {error}")).with_help(
+        "nothing was kept of this run; is the disk full? An older result is where it was",
+    );
+    Written { summary, text, fault: Some(fault) }
+}
+
+fn text_of(summary: &Summary) -> serde_json::Result<String> {
+    let mut text = serde_json::to_string_pretty(summary)?;
     text.push('\n');
-    std::fs::write(folder.join(SUMMARY_FILE), text).map_err(|error| fault(&error))?;
-    Ok(summary)
+    Ok(text)
+}
+
+/// No room for more than a summary: then nothing else is tried.
+fn take_room(folder: &Path, summary: &Summary) -> Result<(), String> {
+    let n_bytes = text_of(summary).map_or(0, |text| text.len()) + ROOM;
+    let path = folder.join(ROOM_FILE);
+    fs::write(&path, vec![b' '; n_bytes])
+        .map_err(|error| format!("{HISTORY_FILE} and the snapshots cannot be written: {error}"))
+}
+
+fn write_history(
+    folder: &Path,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    let path = folder.join(HISTORY_FILE);
+    let write = || -> Result<(), Box<dyn std::error::Error>> {
+        let file = BufWriter::new(File::create(&path)?);
+        Ok(history_csv(file, simulation.case().scene(), &collision.history)?)
+    };
+    write().map_err(|error| {
+        let _ = fs::remove_file(&path);
+        format!("{HISTORY_FILE} and the snapshots cannot be written: {error}")
+    })?;
+    summary.files.push(HISTORY_FILE.to_string());
+    Ok(())
+}
+
+/// The snapshots: all of them, or none.
+fn write_fields(
+    folder: &Path,
+    stem: &str,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    let (files, left_out) =
+        write_snapshots(folder, stem, simulation, collision).map_err(|error| {
+            remove_snapshots(folder, stem, &summary.files);
+            format!("the snapshots cannot be written: {error}")
+        })?;
+    summary.files.extend(files);
+    summary.warnings.extend(left_out);
+    Ok(())
+}
+
+/// Those that were written before one could not be; `others` stay, whatever the stem.
+fn remove_snapshots(folder: &Path, stem: &str, others: &[String]) {
+    let (many, one) = (format!("{stem}_"), format!("{stem}."));
+    for entry in fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok) {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let is_snapshot = name.starts_with(&many) || name.starts_with(&one);
+        if is_snapshot && !others.iter().any(|other| *other == name) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }

@@ -19,18 +19,22 @@ mod approach;
 mod assess;
 mod body_source;
 pub mod calibrate;
+mod checkpoint;
 mod course;
 pub mod effects;
 mod estimate;
 mod expected;
+mod identity;
 mod large_partner;
 pub mod laws;
 mod limits;
 pub mod measured;
+mod memory;
 mod mesh_source;
 mod meshes;
 mod method;
 mod models;
+mod numerics;
 mod pair_cache;
 mod plan;
 mod quasi_static;
@@ -43,14 +47,18 @@ pub mod sweep;
 
 pub use approach::approach_of;
 pub use assess::assess;
+pub use checkpoint::{CheckpointError, CheckpointHead, checkpoint, checkpoint_head, memory_of};
 pub use course::Course;
 pub use estimate::Estimate;
+pub use identity::{Identity, case_identity, digest_of};
+pub use memory::Memory;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
     AutoMethod, Condensed, CondensedMethod, Considered, Explicit, ExplicitMethod, HertzMethod,
     LawMethod, METHODS, Reduced, TingMethod, method_of, model_of,
 };
+pub use numerics::NUMERICS;
 pub use pair_cache::PairCache;
 pub use plan::Plan;
 pub use quasi_static::ting_impact;
@@ -68,7 +76,7 @@ pub use fem_collision::{
     SnapshotRequest, StaticContact, Stop, StressField, Want, WantError, invariants,
 };
 pub use fem_condensed::CondensedPair;
-pub use fem_explicit::{Memory, Model as ExplicitBodies, ModelError};
+pub use fem_explicit::{Model as ExplicitBodies, ModelError};
 pub use fem_laws::{HertzImpact, Impact, LawError, Pair};
 pub use fem_material::{Material, PronySeries};
 pub use fem_mesh::SphereMesh;

@@ -1,13 +1,16 @@
 //! A case with the model that computes it, whichever that is.
 
+use std::sync::Arc;
+
 use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, Quantity};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
-use fem_explicit::Memory;
 
-use crate::course::Course;
+use crate::course::{Course, begun};
 use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
+use crate::identity::identity_of;
+use crate::memory::Memory;
 use crate::method::{Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 
@@ -43,7 +46,7 @@ pub fn collide(case: &Case) -> Result<Collision, CaseError> {
 #[derive(Debug)]
 pub struct Simulation {
     case: Case,
-    model: Box<dyn Model>,
+    model: Arc<dyn Model>,
     chosen: Option<Chosen>,
     want: Want,
     resolved: CaseFile,
@@ -65,6 +68,7 @@ impl Simulation {
     /// As [`Simulation::new`].
     pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
         let model = model_of(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
+        let model: Arc<dyn Model> = Arc::from(model);
         let resolved = Self::resolve(&case)?;
         let chosen = chosen(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
         let want = model.setup().want.clone();
@@ -139,7 +143,16 @@ impl Simulation {
 
     /// The resolved case with its bodies meeting in another way.
     pub fn resolved_at(&self, approach: &Approach) -> CaseFile {
-        let mut file = self.resolved.clone();
+        self.meeting(self.resolved.clone(), approach)
+    }
+
+    /// Digest of what the case asks to be computed, its bodies meeting like this: see
+    /// [`case_identity`](crate::case_identity).
+    pub fn made_from(&self, approach: &Approach) -> String {
+        identity_of(&self.meeting(self.case.file().clone(), approach))
+    }
+
+    fn meeting(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
         if *approach != self.setup().approach {
             let [lower, upper] = approach.velocities();
             // A speed is toward the other body; a body at rest has 0, never -0.
@@ -184,15 +197,15 @@ impl Simulation {
     /// assert_eq!(resumed.finish(), simulation.run(&mut ()));
     /// # Ok::<(), fem::CaseError>(())
     /// ```
-    pub fn start(&self) -> Box<dyn Course + '_> {
-        self.model.start(&self.setup().approach, &self.want)
+    pub fn start(&self) -> Box<dyn Course> {
+        begun(&self.model, &self.setup().approach, &self.want)
     }
 
     /// Goes on from what a course of this case knew and was asked for, to the same bits.
     ///
     /// # Errors
     /// A memory of another case, or a model that goes on from none.
-    pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course + '_>, CaseError> {
+    pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, CaseError> {
         self.model.resume(memory).map_err(|refusal| refusal.in_case(&self.case))
     }
 

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use fem::calibrate::{Calibration, CalibrationFault, CalibrationModel, SettingNames, Settings};
+use fem::case_identity;
 use fem::measured::{MeasuredPairs, UncertaintyError};
+use fem_case::parse_quantity;
 use fem_case::schema::ActsOn;
-use fem_case::{Case, parse_quantity};
 
 use crate::calibrate::{calibration_picture, calibration_text};
 use crate::case_arguments::{CaseArguments, stem_of};
@@ -82,18 +83,20 @@ const OPTIONS: SettingNames = SettingNames {
 
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let case = arguments.input.load()?;
     let mut measured = MeasuredPairs::read(&read_table(&arguments.data)?, case.scene())?;
     fill_uncertainties(arguments, &mut measured)?;
     let found = Calibration::of(&case, measured, &settings(arguments))?;
     let warnings = found.warnings(&OPTIONS);
     let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;
-    let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate")?;
+    let inputs = [case_identity(&case), arguments.data.display().to_string()];
+    let inputs = inputs.each_ref().map(String::as_str);
+    let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", &inputs)?;
     output.write("relaxation.toml", found.relaxation_toml())?;
     output.write_table("residuals.csv", &Calibration::RESIDUAL_COLUMNS, found.residuals())?;
     output.write("calibrate.svg", picture)?;
     let text = calibration_text(&found, &warnings);
-    let name = arguments.input.case.display().to_string();
+    let name = arguments.input.name();
     let place = output.publish(&found.numbers(&name, warnings))?;
     if arguments.output.quiet {
         return Ok(());

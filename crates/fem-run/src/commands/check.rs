@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::{Cost, ForceLaw, Simulation};
+use fem_case::EffectsTable;
 use fem_case::engineering::show;
-use fem_case::{Case, EffectsTable};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::CaseArguments;
@@ -29,7 +29,7 @@ pub struct Arguments {
 
 /// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let case = arguments.input.load()?;
     let begin = Instant::now();
     let simulation = Simulation::new(case)?;
     let setup = begin.elapsed().as_secs_f64();
@@ -40,7 +40,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.quiet {
         return Ok(());
     }
-    let case = arguments.input.case.display().to_string();
+    let case = arguments.input.name();
     let heading = format!("{case} is sound. What to expect of a run:");
     let expectation =
         format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, setup));

@@ -89,7 +89,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return standard_output::print(&one(&cradle, &trial, &swing));
     };
     let swings = swings(&cradle, &read_table(path)?, arguments)?;
-    let mut output = arguments.output.claim(&stem_of(path), "cradle")?;
+    let mut output =
+        arguments.output.claim(&stem_of(path), "cradle", &[&path.display().to_string()])?;
     let header = [
         "speed_m_s",
         "restitution",

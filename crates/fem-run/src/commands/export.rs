@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::case_identity;
 use fem::laws::{DemExport, FittedLaw, ImpactCurve};
 use fem::measured::Restitutions;
 use fem_case::Case;
@@ -47,7 +48,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let message = format!("--tolerance is {:?}", arguments.tolerance);
         return Err(Failure::bad_input(message).with_help("it must be between 0 and 1"));
     }
-    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let case = arguments.input.load()?;
     let curve = curve(arguments, &case)?;
     let fitted = DemExport::of(&case, curve, arguments.tolerance).map_err(|error| {
         let is_lossless = matches!(error, FitError::Insensitive { .. });
@@ -62,12 +63,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
     })?;
     let snippets = fitted.snippets()?;
-    let mut output = arguments.output.claim(&arguments.input.stem(), "export")?;
+    let mut output =
+        arguments.output.claim(&arguments.input.stem(), "export", &[&case_identity(&case)])?;
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
     output.write("export.svg", picture(&fitted))?;
-    let name = arguments.input.case.display().to_string();
+    let name = arguments.input.name();
     let place = output.publish(&fitted.numbers(&name, &snippets))?;
     if arguments.output.quiet {
         return Ok(());

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use fem::case_identity;
 use fem::laws::{ChosenLaw, LawFit, family_of, parse_value};
 use fem::measured::Restitutions;
-use fem_case::Case;
 use fem_fit::{Free, Problem};
 use fem_laws::Family;
 
@@ -64,7 +64,7 @@ pub struct Arguments {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let case = arguments.input.load()?;
     let table = read_table(&arguments.data)?;
     let data = match arguments.contact_time {
         true => Restitutions::read_with_contact_times(&table, case.scene())?,
@@ -85,13 +85,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         fitted = fitted.compared_with(*family)?;
     }
 
-    let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit")?;
+    let inputs = [case_identity(&case), arguments.data.display().to_string()];
+    let inputs = inputs.each_ref().map(String::as_str);
+    let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
     output.write("fit.svg", fit_picture(&fitted))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
-    let place = output.publish(&fitted.numbers(&arguments.input.case.display().to_string()))?;
+    let place = output.publish(&fitted.numbers(&arguments.input.name()))?;
     if arguments.output.quiet {
         return Ok(());
     }

@@ -43,7 +43,7 @@ pub struct Arguments {
 
 /// Solves and prints.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let case = arguments.input.load()?;
     let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
     let wanted = arguments.restitution;
     if !(wanted > 0.0 && wanted < 1.0) {

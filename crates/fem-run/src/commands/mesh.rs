@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use fem::{Plan, build_meshes};
-use fem_case::Case;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuFile, VtuWriter};
 
@@ -35,7 +34,7 @@ pub struct Arguments {
 
 /// Writes meshes and prints their quality.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = Case::load(&arguments.input.case, &arguments.input.set)?;
+    let case = arguments.input.load()?;
     let meshes = build_meshes(case.scene(), &Plan::of_case(&case)?)
         .map_err(|refusal| refusal.in_case(&case))?;
     let default = || Path::new("meshes").join(arguments.input.stem());

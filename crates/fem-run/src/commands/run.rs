@@ -6,19 +6,21 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use fem::results::Summary;
-use fem::{Cost, Simulation, remedy_of};
-use fem_case::{Case, Keep};
-use fem_collision::Stop;
+use fem::{Cost, Identity, Memory, Simulation, remedy_of};
+use fem_case::Keep;
+use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::place::ResultPlace;
 use crate::progress::Watch;
 use crate::report::report;
-use crate::result_files::{longest_name, write_result};
-use crate::result_folder::ResultFolder;
-use crate::standard_output;
+use crate::restart::{self, Keeper, RESTART_FILE, RestartArguments};
+use crate::result_files::{Written, longest_name, write_result};
+use crate::result_folder::{Replaces, ResultFolder};
+use crate::standard_output::{self, one_line};
 use crate::stopwatch::Timed;
 
 /// How to run a case.
@@ -26,14 +28,24 @@ use crate::stopwatch::Timed;
 pub struct Options {
     /// Folder for the result [default: runs/<the case file's stem>]
     ///
-    /// An existing folder is replaced only if it is empty or a result of fem-run. Files of your
-    /// own in it are kept.
+    /// An existing folder is replaced only if it is empty or the result of the same case; other
+    /// output is no other case. Files of your own in it are kept. Without --out the result of
+    /// another case is left alone too: then the run takes a folder beside it and says which.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace the result of another case
+    #[arg(long)]
+    force: bool,
     /// Most threads to use; a single run uses one, which is the fastest
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     threads: Option<NonZeroUsize>,
-    /// Print nothing but errors
+    /// How the run is kept, to go on with it
+    #[command(flatten)]
+    restart: RestartArguments,
+    /// Print the summary alone on stdout, as it is in summary.json
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors, and the summary if --json asks for it
     #[arg(long, short)]
     quiet: bool,
 }
@@ -41,35 +53,94 @@ pub struct Options {
 /// Runs a case.
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
-    let simulation = Simulation::new(Case::load(&input.case, &input.set)?)?;
+    let simulation = Simulation::new(input.load()?)?;
+    let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
-    let out = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&stem));
-    let folder = ResultFolder::claim(&out, &longest_name(&stem))?;
+    let replaces = Replaces::only(&identity.case, options.force);
+    let place = ResultPlace::of(options.out.as_deref(), &stem, &identity.case, &replaces);
+    let memory = match options.restart.restart {
+        true => memory(&place, &identity)?,
+        false => None,
+    };
+    let folder = ResultFolder::claim(&place.out, &longest_name(&stem), replaces)?;
     if !options.quiet {
-        announce(&simulation, &input.case, &out);
+        announce(&simulation, &input.name(), &place);
+        if options.restart.restart {
+            restart::tell(memory.as_ref());
+        }
     }
 
     let mut watch = Timed::since(started, Watch::new(interrupt, options.quiet));
-    let collision = simulation.run(&mut watch);
+    let keeper = Keeper::new(&folder, &identity, options.restart);
+    let (collision, left) = compute(&simulation, memory, keeper, &mut watch)?;
     let (stopwatch, watch) = watch.stop();
     watch.finish();
 
-    let summary =
-        write_result(folder.path(), &stem, &simulation, &collision, &stopwatch, Keep::All)?;
-    let place = folder.publish()?;
-    if !options.quiet {
-        standard_output::print(&report(&summary, &place))?;
+    let written =
+        write_result(folder.path(), &stem, &simulation, &collision, &stopwatch, Keep::All, left);
+    let Written { summary, text, fault } = written;
+    let published = match summary.files.is_empty() {
+        true => Ok(None),
+        false => folder.publish(fault.is_none()).map(Some),
+    };
+    let place = published.as_ref().ok().and_then(Option::as_deref);
+    match (options.json, options.quiet) {
+        (true, _) => standard_output::print(&text)?,
+        (false, true) => {}
+        (false, false) => standard_output::print(&report(&summary, place))?,
     }
-    match collision.stop() {
-        None => Ok(()),
-        Some(stop) => Err(stopped(stop, &summary, &place)),
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    match (published?, collision.stop()) {
+        (Some(place), Some(stop)) => Err(stopped(stop, &summary, &place)),
+        _ => Ok(()),
     }
 }
 
-/// One line on stderr about what begins.
-fn announce(simulation: &Simulation, case: &Path, out: &Path) {
-    let line = format!("{}: {}; result: {}", case.display(), price(simulation), out.display());
-    let _ = writeln!(stderr(), "{}", standard_output::one_line(&line));
+/// What the restart file in the folder of the result knows. Where the usual folder is another case's,
+/// that is in this case's own folder; if there is none either, the other case's file is refused.
+fn memory(place: &ResultPlace, identity: &Identity) -> Result<Option<Memory>, Failure> {
+    let own = restart::memory_in(&place.out, identity)?;
+    match (&own, &place.taken) {
+        (None, Some(taken)) => restart::memory_in(taken, identity),
+        _ => Ok(own),
+    }
+}
+
+/// The collision, and the names of files that it has left in the folder.
+fn compute(
+    simulation: &Simulation,
+    memory: Option<Memory>,
+    mut keeper: Keeper<'_>,
+    monitor: &mut dyn Monitor,
+) -> Result<(Collision, &'static [&'static str]), Failure> {
+    let mut course = match memory {
+        Some(memory) => simulation.resume(memory)?,
+        None if !keeper.keeps() => return Ok((simulation.run(monitor), &[])),
+        None => simulation.start(),
+    };
+    keeper.begin(course.as_ref());
+    monitor.enter(Phase::Collision);
+    loop {
+        if !monitor.report(course.progress()) {
+            let left: &[&str] = if keeper.leave(course.as_ref()) { &[RESTART_FILE] } else { &[] };
+            return Ok((course.finish(), left));
+        }
+        if !course.advance(monitor) {
+            return Ok((course.finish(), &[]));
+        }
+        keeper.look_at(course.as_ref());
+    }
+}
+
+/// Some words on stderr about what begins.
+fn announce(simulation: &Simulation, case: &str, place: &ResultPlace) {
+    let mut line = format!("{case}: {}; result: {}", price(simulation), place.out.display());
+    if let Some(taken) = &place.taken {
+        line += &format!(", since {} holds that of another case", taken.display());
+    }
+    let _ = writeln!(stderr(), "{}", one_line(&line));
 }
 
 /// The model and what it costs.

@@ -13,10 +13,10 @@ use rayon::prelude::*;
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::result_folder::ResultFolder;
+use crate::result_folder::{Replaces, ResultFolder};
 use crate::standard_output::{self, one_line};
 use crate::tables::table;
-use crate::validation::{Board, PAGE_FILE, write_files};
+use crate::validation::{Board, MADE_FROM, PAGE_FILE, write_files};
 
 /// Hold the program against theory, other programs and the paper
 ///
@@ -33,6 +33,9 @@ pub struct Arguments {
     /// Folder for the page, the table and the pictures
     #[arg(long, value_name = "DIR", default_value = "runs/validation")]
     out: PathBuf,
+    /// Replace the result of a case or of another command
+    #[arg(long)]
+    force: bool,
     /// Also write the table as Markdown, and the pictures of the paper's figures into images
     /// beside it; for all claims only
     #[arg(long, value_name = "FILE")]
@@ -61,12 +64,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.table.is_some() && !arguments.names.is_empty() {
         return Err(Failure::bad_input("--table is for all claims: leave the names out"));
     }
-    let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp")?;
+    let replaces = Replaces::only(MADE_FROM, arguments.force);
+    let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp", replaces)?;
     let interrupt = Interrupt::listen();
     let results = run(&claims, arguments, &interrupt)?;
     let is_complete = results.len() == claims.len();
     write_files(folder.path(), &results, claims.len())?;
-    let place = folder.publish()?;
+    let place = folder.publish(true)?;
     if let Some(path) = arguments.table.as_ref().filter(|_| is_complete) {
         write_table(path, &results)?;
     }

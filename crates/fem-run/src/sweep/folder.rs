@@ -2,7 +2,7 @@
 //! table and picture. Several processes may write into it at the same time.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use fem::results::{HISTORY_FILE, PROGRAM, SUMMARY_FILE};
@@ -10,8 +10,10 @@ use fem_case::Keep;
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::hidden_folder::sweep_leftovers;
 use crate::occupant::missing_parents;
 use crate::standard_output::one_line;
+use crate::whole_file::{PREFIX, write_whole};
 
 /// What the sweep is: its keys and the members' values and folders.
 pub const MARK_FILE: &str = "sweep.json";
@@ -50,6 +52,8 @@ impl SweepFolder {
             },
             Err(_) => {}
         }
+        sweep_leftovers(out);
+        sweep_leftovers(&out.join(MEMBERS));
         let made: Vec<_> = missing_parents(&out.join(MEMBERS));
         let folder = Self { path: out.to_path_buf() };
         folder.prepare(mark).map_err(|error| {
@@ -104,18 +108,7 @@ impl SweepFolder {
     /// # Errors
     /// The file system.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(HIDDEN_PREFIX).suffix(".tmp");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            // As any new file: the umask applies.
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        let mut file = builder.tempfile_in(&self.path)?;
-        file.write_all(bytes)?;
-        file.persist(self.path.join(name))?;
-        Ok(())
+        write_whole(&self.path.join(name), &self.path, bytes)
     }
 
     /// Removes a file that is out of date, if it is there.
@@ -124,9 +117,6 @@ impl SweepFolder {
     }
 }
 
-/// Beginning of the names of files that are being written.
-const HIDDEN_PREFIX: &str = ".sweep-";
-
 /// Whether the folder is empty or a sweep's, perhaps one that another process is just making.
 fn is_ours(path: &Path) -> io::Result<bool> {
     let mark = fs::read(path.join(MARK_FILE)).unwrap_or_default();
@@ -134,7 +124,7 @@ fn is_ours(path: &Path) -> io::Result<bool> {
         return Ok(true);
     }
     for entry in fs::read_dir(path)? {
-        if !entry?.file_name().to_string_lossy().starts_with(HIDDEN_PREFIX) {
+        if !entry?.file_name().to_string_lossy().starts_with(PREFIX) {
             // The mark may have come in between.
             let mark = fs::read(path.join(MARK_FILE)).unwrap_or_default();
             let mark = serde_json::from_slice::<Value>(&mark);

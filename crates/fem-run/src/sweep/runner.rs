@@ -16,7 +16,7 @@ use super::folder::SweepFolder;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_files::{longest_name, write_result};
-use crate::result_folder::ResultFolder;
+use crate::result_folder::{Replaces, ResultFolder};
 use crate::stopwatch::{Stopwatch, Timed};
 
 /// What members are run with.
@@ -108,13 +108,17 @@ impl Keeper<'_> {
     fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
         let Job { sweep, members, folder, .. } = self.job;
         let stem = &members[index].identity;
-        let place = ResultFolder::claim(&folder.member(stem), &longest_name(stem))
+        let out = folder.member(stem);
+        let place = ResultFolder::claim_swept(&out, &longest_name(stem), Replaces::Any)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;
         let Ran { simulation, collision } = ran;
-        let summary =
-            write_result(place.path(), stem, simulation, collision, stopwatch, sweep.keep)?;
-        place.publish()?;
-        Ok(summary)
+        let (path, keep) = (place.path(), sweep.keep);
+        let written = write_result(path, stem, simulation, collision, stopwatch, keep, &[]);
+        if let Some(fault) = written.fault {
+            return Err(fault);
+        }
+        place.publish(true)?;
+        Ok(written.summary)
     }
 }
 

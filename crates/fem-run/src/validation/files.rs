@@ -13,6 +13,8 @@ use fem::results::{PROGRAM, SUMMARY_FILE};
 pub const PAGE_FILE: &str = "index.html";
 /// A row a check.
 const TABLE_FILE: &str = "checks.csv";
+/// By which the page of other claims is known: a new one takes its place.
+pub const MADE_FROM: &str = "validate";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Writes page, table, pictures and summary of what is done of so many claims.
@@ -50,6 +52,7 @@ pub fn write_files(folder: &Path, results: &[ClaimResult], n_all: usize) -> Resu
     let summary = json!({
         "program": PROGRAM,
         "version": VERSION,
+        "made_from": MADE_FROM,
         "files": names,
         "complete": results.len() == n_all,
         "passed": results.iter().all(ClaimResult::passed),

@@ -4,4 +4,4 @@ mod board;
 mod files;
 
 pub use board::Board;
-pub use files::{PAGE_FILE, write_files};
+pub use files::{MADE_FROM, PAGE_FILE, write_files};

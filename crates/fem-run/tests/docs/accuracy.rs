@@ -23,7 +23,16 @@ fn what_accuracy_costs_is_what_is_computed() {
         let size = format!("mesh.contact_element_size='{}'", cells[0]);
         let run = |case: &str| {
             let file = root().join(format!("cases/{case}.toml"));
-            let set = ["--set", "model.condensed={}", "--set", &size, "--out", case, "--quiet"];
+            let set = [
+                "--set",
+                "model.condensed={}",
+                "--set",
+                &size,
+                "--out",
+                case,
+                "--quiet",
+                "--force",
+            ];
             place.succeed(&[&[file.to_str().unwrap()], &set[..]].concat());
             place.json(&format!("{case}/summary.json"))
         };

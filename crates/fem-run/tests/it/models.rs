@@ -11,7 +11,7 @@ fn number(value: &Value) -> f64 {
 fn summary(place: &Place, overrides: &[&str]) -> Value {
     let set = overrides.iter().flat_map(|value| ["--set", *value]);
     let arguments: Vec<&str> =
-        ["case.toml", "--out", "out", "--quiet"].into_iter().chain(set).collect();
+        ["case.toml", "--out", "out", "--quiet", "--force"].into_iter().chain(set).collect();
     place.succeed(&arguments);
     place.json("out/summary.json")
 }
@@ -157,7 +157,7 @@ fn what_does_not_come_back_or_end_is_said() {
     assert_eq!((number(&stuck["restitution"]), stuck["contact_time_s"].is_null()), (0.0, true));
     assert!(stuck["warnings"].to_string().contains("stay together"), "{stuck}");
     let creep = "model.law.linear={k=1e7, c=1e9, end='zero_overlap'}";
-    let ran = place.run(&["case.toml", "--out", "out", "--set", creep]);
+    let ran = place.run(&["case.toml", "--out", "out", "--force", "--set", creep]);
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);
     assert!(ran.stderr.contains("remedy: lower the damping"), "{}", ran.stderr);
     assert_eq!(place.json("out/summary.json")["complete"], false);
@@ -182,7 +182,7 @@ fn check_and_the_announcement_name_the_model() {
         let checked = place.succeed(&["check", "case.toml", "--set", model]);
         assert!(checked.stdout.contains(named), "{}", checked.stdout);
         place.write("resolved.toml", &checked.stdout);
-        let ran = place.succeed(&["resolved.toml", "--out", "out"]);
+        let ran = place.succeed(&["resolved.toml", "--out", "out", "--force"]);
         assert!(ran.stderr.contains(named), "{}", ran.stderr);
     }
 }

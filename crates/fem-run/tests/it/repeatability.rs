@@ -103,7 +103,7 @@ fn overrides_change_the_run() {
     let place = Place::new();
     let speed = |value: &str| {
         let set = format!("body.0.approach_speed={value}");
-        place.succeed(&["case.toml", "--out", "out", "--set", &set]);
+        place.succeed(&["case.toml", "--out", "out", "--force", "--set", &set]);
         place.json("out/summary.json")["bodies"][0]["velocity_before_m_s"].as_f64()
     };
     assert_eq!(speed("'25 cm/s'"), Some(0.25));

@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 25] = [
+const KEYS: [&str; 27] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -28,6 +28,8 @@ const KEYS: [&str; 25] = [
     "stopped_because",
     "program",
     "version",
+    "numerics",
+    "made_from",
     "case",
 ];
 
@@ -271,7 +273,7 @@ fn a_failed_run_keeps_what_it_has_marked_incomplete() {
     let place = Place::new();
     place.succeed(&["case.toml", "--out", "out"]);
     for out in ["out", "out/", "fresh"] {
-        let ran = place.run(&[&["case.toml", "--out", out][..], &FAILS].concat());
+        let ran = place.run(&[&["case.toml", "--out", out, "--force"][..], &FAILS].concat());
         assert_eq!(ran.code, Some(1), "{}", ran.stderr);
         assert!(ran.stderr.contains("marked incomplete"), "{}", ran.stderr);
         let summary = place.json(&format!("{}/summary.json", out.trim_end_matches('/')));
@@ -279,7 +281,7 @@ fn a_failed_run_keeps_what_it_has_marked_incomplete() {
         assert!(summary["stopped_because"].is_string());
     }
     assert_eq!(place.list("."), ["case.toml", "fresh", "out"]);
-    place.succeed(&["case.toml", "--out", "out"]);
+    place.succeed(&["case.toml", "--out", "out", "--force"]);
     assert_eq!(place.json("out/summary.json")["complete"], true);
 }
 

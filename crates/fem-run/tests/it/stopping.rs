@@ -114,7 +114,7 @@ mod signals {
     fn what_an_interrupted_run_has_takes_the_place_of_an_older_result() {
         let place = Place::new();
         place.succeed(&["case.toml"]);
-        let (mut child, _stderr) = start(&place, &[]);
+        let (mut child, _stderr) = start(&place, &["--force"]);
         send(&child, Signal::SIGINT);
         assert_eq!(child.wait().unwrap().code(), Some(130));
         assert_eq!(place.json("runs/case/summary.json")["complete"], false);

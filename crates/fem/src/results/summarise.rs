@@ -10,6 +10,7 @@ use super::summary::{
 };
 use crate::effects::Verdict;
 use crate::estimate::Estimate;
+use crate::numerics::NUMERICS;
 use crate::simulation::Simulation;
 
 /// What a run took; whoever ran it has the clock.
@@ -68,6 +69,8 @@ impl Summary {
             stopped_because: collision.stop().map(ToString::to_string),
             program: PROGRAM,
             version: env!("CARGO_PKG_VERSION"),
+            numerics: NUMERICS,
+            made_from: simulation.made_from(&collision.approach),
             files,
             case: simulation.resolved_at(&collision.approach),
             warnings: numbers.warnings,

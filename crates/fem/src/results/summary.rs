@@ -54,6 +54,10 @@ pub struct Summary {
     pub program: &'static str,
     /// Version of the program.
     pub version: &'static str,
+    /// The numerics of the build; see [`NUMERICS`](crate::NUMERICS).
+    pub numerics: &'static str,
+    /// Digest of what was asked for; see [`Simulation::made_from`](crate::Simulation::made_from).
+    pub made_from: String,
     /// Names of the files that the program wrote into the folder.
     pub files: Vec<String>,
     /// The resolved case.

@@ -2,6 +2,7 @@
 
 mod approaches;
 mod auto;
+mod bouncing_courses;
 mod bulk_viscosity;
 mod calibrate;
 mod coarse;
@@ -16,8 +17,10 @@ mod half_space;
 mod laws;
 mod left_out;
 mod measured;
+mod memory;
 mod mirror_symmetry;
 mod models;
+mod numerics;
 mod paper;
 mod partner_waves;
 mod plan;

@@ -85,6 +85,20 @@ impl Place {
         serde_json::from_slice(&self.read(name)).unwrap()
     }
 
+    /// A result but for what the run took: all files as text or bytes, by their names.
+    pub fn result(&self, folder: &str) -> Vec<(String, Vec<u8>)> {
+        let file = |name: String| {
+            let path = format!("{folder}/{name}");
+            if name != "summary.json" {
+                return (name, self.read(path));
+            }
+            let mut summary = self.json(&path);
+            summary.as_object_mut().unwrap().remove("cost").unwrap();
+            (name, summary.to_string().into_bytes())
+        };
+        self.list(folder).into_iter().map(file).collect()
+    }
+
     /// Names in a folder, hidden ones included, sorted.
     pub fn list(&self, name: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(name)).unwrap();

@@ -1,0 +1,81 @@
+//! A disk that fills: what is kept, in which order, and what is said.
+
+#![cfg(unix)]
+
+use crate::common::{Place, Ran};
+
+/// Runs where no file can grow beyond so many kilobytes: writing fails as on a full disk.
+fn run_within(place: &Place, kilobytes: usize, arguments: &[&str]) -> Ran {
+    let script = r#"trap "" XFSZ; ulimit -f "$0"; exec "$@""#;
+    // Blocks of 512 bytes.
+    let blocks = (2 * kilobytes).to_string();
+    let mut command = std::process::Command::new("sh");
+    command.current_dir(place.path("")).args(["-c", script, &blocks]);
+    command.arg(env!("CARGO_BIN_EXE_fem-run")).args(arguments).output().unwrap().into()
+}
+
+/// A snapshot takes 0.5 MB, the history 0.3 MB, the summary 7 kB and 16 kB of room.
+const FINE: [&str; 3] = ["case.toml", "--set", "mesh.contact_element_size='30 um'"];
+
+#[test]
+fn the_snapshots_go_first_then_the_history() {
+    for (kilobytes, kept, lost) in [
+        (400, &["history.csv", "summary.json"][..], "the snapshots"),
+        (60, &["summary.json"], "history.csv and the snapshots"),
+        (20, &["summary.json"], "history.csv and the snapshots"),
+    ] {
+        let place = Place::new();
+        let ran = run_within(&place, kilobytes, &FINE);
+        assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+        let said = format!("{lost} cannot be written");
+        assert!(ran.stderr.contains(&said) && ran.stderr.contains("kept: "), "{}", ran.stderr);
+        assert!(ran.stdout.contains("peak force") && ran.stdout.contains(&said), "{}", ran.stdout);
+        assert_eq!(place.list("runs/case"), kept);
+        assert_eq!(place.list("runs"), ["case"]);
+        let summary = place.json("runs/case/summary.json");
+        let mut listed: Vec<_> = summary["files"].as_array().unwrap().iter().collect();
+        listed.sort_by_key(|name| name.to_string());
+        assert_eq!(listed, kept);
+        assert!(summary["warnings"].to_string().contains(&said), "{}", summary["warnings"]);
+        assert_eq!(summary["complete"], true);
+    }
+}
+
+/// The table is on the terminal all the same, and an older result is where it was.
+#[test]
+fn a_table_needs_no_disk() {
+    let place = Place::new();
+    place.succeed(&["case.toml"]);
+    let before = place.result("runs/case");
+    let ran = run_within(&place, 1, &["case.toml"]);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.contains("peak force"), "{}", ran.stdout);
+    assert!(ran.stdout.contains("Result: not written"), "{}", ran.stdout);
+    assert!(ran.stderr.contains("nothing was kept"), "{}", ran.stderr);
+    assert_eq!((place.result("runs/case"), place.list("runs")), (before, vec!["case".to_string()]));
+}
+
+/// A result that lacks files does not take the place of one that has them.
+#[test]
+fn what_lacks_files_goes_beside_an_older_result() {
+    let place = Place::new();
+    place.succeed(&FINE);
+    let before = place.result("runs/case");
+    let ran = run_within(&place, 400, &FINE);
+    assert_eq!(ran.code, Some(1), "{}", ran.stderr);
+    assert!(ran.stdout.contains("Result: runs/case.new"), "{}", ran.stdout);
+    assert_eq!(place.result("runs/case"), before);
+    assert_eq!(place.list("runs/case.new"), ["history.csv", "summary.json"]);
+}
+
+/// A reader that is gone is no fault; a stdout that takes no more is one, and the result is kept.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_a_fault() {
+    let place = Place::new();
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let ran: Ran = place.command(&["case.toml"]).stdout(full).output().unwrap().into();
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.stderr.contains("standard output"), "{}", ran.stderr);
+    assert_eq!(place.json("runs/case/summary.json")["complete"], true);
+}

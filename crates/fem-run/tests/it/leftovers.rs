@@ -1,0 +1,152 @@
+//! What killed runs leave is swept away by the next, and nothing of a living one.
+
+#![cfg(unix)]
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::{Child, Stdio};
+
+use nix::sys::signal::{Signal, kill};
+use nix::unistd::Pid;
+
+use crate::common::Place;
+
+const LOCK: &str = ".fem-run-lock";
+
+/// A run that takes hours, once it has its hidden folder.
+fn endless(place: &Place, out: &str) -> Child {
+    let fine = ["--set", "mesh.contact_element_size=6e-6", "--set", "time.step_factor=1e-2"];
+    let mut command = place.command(&[&["case.toml", "--out", out][..], &fine].concat());
+    let mut child = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    assert!(line.contains("result: "), "{line}");
+    child
+}
+
+fn hidden(place: &Place) -> Vec<String> {
+    place.list(".").into_iter().filter(|name| name.starts_with(".fem-run-")).collect()
+}
+
+#[test]
+fn folders_of_the_killed_go_and_those_of_the_living_stay() {
+    let place = Place::new();
+    let mut living = endless(&place, "living");
+    let of_living = hidden(&place);
+    assert_eq!(of_living.len(), 1);
+    let mut killed = endless(&place, "killed");
+    assert_eq!(hidden(&place).len(), 2);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "out"]);
+    assert_eq!(hidden(&place), of_living);
+    kill(Pid::from_raw(living.id() as i32), Signal::SIGINT).unwrap();
+    assert_eq!(living.wait().unwrap().code(), Some(130));
+    assert_eq!(place.list("."), ["case.toml", "living", "out"]);
+    assert_eq!(place.json("living/summary.json")["complete"], false);
+}
+
+/// Two results of the case, as `older` and `newer`, the older with a file of the user's.
+fn two_results() -> Place {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "older"]);
+    place.write("older/notes.txt", "mine");
+    place.succeed(&["case.toml", "--set", "model.hertz={}", "--out", "newer"]);
+    place
+}
+
+/// A hidden folder of a process that was killed on the way to `out`.
+fn abandon(place: &Place, name: &str) -> String {
+    let folder = format!(".fem-run-{name}");
+    fs::create_dir_all(place.path(&folder)).unwrap();
+    place.write(&format!("{folder}/{LOCK}"), "out");
+    folder
+}
+
+fn rename(place: &Place, from: &str, to: &str) {
+    fs::rename(place.path(from), place.path(to)).unwrap();
+}
+
+fn sweep(place: &Place) {
+    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "another"]);
+    assert_eq!(hidden(place), [""; 0]);
+}
+
+/// Killed when nothing was finished.
+#[test]
+fn what_is_not_finished_goes() {
+    let place = Place::new();
+    let folder = abandon(&place, "a");
+    place.write(&format!("{folder}/history.csv"), "time_s");
+    sweep(&place);
+    assert_eq!(place.list("."), ["another", "case.toml"]);
+}
+
+/// Killed when the older result was out of the way, before anything else.
+#[test]
+fn an_older_result_comes_back() {
+    let place = two_results();
+    let aside = abandon(&place, "b");
+    rename(&place, "older", &format!("{aside}/old"));
+    sweep(&place);
+    assert_eq!(place.list("out"), ["history.csv", "notes.txt", "summary.json"]);
+    assert_eq!(place.json("out/summary.json")["effects"][0]["name"], "viscoelasticity");
+}
+
+/// Killed when the user's files had moved on, before the new result was in its place.
+#[test]
+fn a_finished_result_takes_its_place() {
+    let place = two_results();
+    let staging = abandon(&place, "a");
+    let aside = abandon(&place, "b");
+    place.write("newer/more.txt", "mine too");
+    for name in place.list("newer") {
+        rename(&place, &format!("newer/{name}"), &format!("{staging}/{name}"));
+    }
+    rename(&place, "older", &format!("{aside}/old"));
+    let new = place.read(format!("{staging}/summary.json"));
+    sweep(&place);
+    assert_eq!(place.list("out"), ["history.csv", "more.txt", "notes.txt", "summary.json"]);
+    assert_eq!(place.read("out/summary.json"), new);
+}
+
+/// Killed when the new result was in its place, while the older one was deleted.
+#[test]
+fn what_is_replaced_goes() {
+    let place = two_results();
+    let aside = abandon(&place, "b");
+    rename(&place, "older", &format!("{aside}/old"));
+    fs::remove_file(place.path(format!("{aside}/old/history.csv"))).unwrap();
+    rename(&place, "newer", "out");
+    let new = place.read("out/summary.json");
+    sweep(&place);
+    assert_eq!(place.list("out"), ["history.csv", "notes.txt", "summary.json"]);
+    assert_eq!(place.read("out/summary.json"), new);
+}
+
+/// What has no lock may be somebody's.
+#[test]
+fn hidden_folders_of_others_stay() {
+    let place = Place::new();
+    fs::create_dir(place.path(".fem-run-mine")).unwrap();
+    place.write(".fem-run-mine/notes.txt", "mine");
+    place.write(".fem-run-notes.tmp", "mine");
+    place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "out"]);
+    assert_eq!(hidden(&place), [".fem-run-mine", ".fem-run-notes.tmp"]);
+    assert_eq!(place.list(".fem-run-mine"), ["notes.txt"]);
+}
+
+/// Members of a sweep that was killed.
+#[test]
+fn a_sweep_sweeps_its_members() {
+    let place = Place::new();
+    let text = "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.1, 0.2]\n";
+    place.write("sweep.toml", text);
+    let sweep = ["sweep", "sweep.toml", "--set", "model.ting={}", "--quiet"];
+    place.succeed(&sweep);
+    let folder = "runs/sweep/members/.fem-run-a";
+    fs::create_dir(place.path(folder)).unwrap();
+    place.write(&format!("{folder}/{LOCK}"), "0123456789abcdef");
+    place.succeed(&sweep);
+    assert_eq!(place.list("runs/sweep/members").len(), 2);
+}

@@ -1,0 +1,86 @@
+//! Whose result a new one takes the place of.
+
+use crate::common::Place;
+
+const TING: [&str; 2] = ["--set", "model.ting={}"];
+const SLOWER: [&str; 4] = ["--set", "model.ting={}", "--set", "body.0.approach_speed=0.25"];
+
+fn run<'a>(more: &[&[&'a str]]) -> Vec<&'a str> {
+    [&["case.toml"][..], &more.concat()].concat()
+}
+
+/// Without --out nothing is lost, and each case finds its own folder again.
+#[test]
+fn another_case_takes_a_folder_of_its_own() {
+    let place = Place::new();
+    place.succeed(&run(&[&TING]));
+    let first = place.read("runs/case/summary.json");
+    let ran = place.succeed(&run(&[&SLOWER]));
+    let own = place.list("runs").pop().unwrap();
+    assert!(own.starts_with("case-") && own.len() == "case-".len() + 8, "{own}");
+    assert_eq!(place.read("runs/case/summary.json"), first);
+    let said = format!("result: runs/{own}, since runs/case holds that of another case");
+    assert!(ran.stderr.contains(&said), "{}", ran.stderr);
+    assert!(ran.stdout.contains(&format!("Result: runs/{own}\n")), "{}", ran.stdout);
+
+    place.write(&format!("runs/{own}/notes.txt"), "mine");
+    place.succeed(&run(&[&SLOWER]));
+    place.succeed(&run(&[&TING]));
+    assert_eq!(place.list("runs"), ["case", own.as_str()]);
+    assert_eq!(place.read(format!("runs/{own}/notes.txt")), b"mine");
+    place.succeed(&run(&[&SLOWER, &["--force"]]));
+    assert_eq!(place.json("runs/case/summary.json")["bodies"][0]["velocity_before_m_s"], 0.25);
+}
+
+#[test]
+fn a_named_folder_of_another_case_is_refused() {
+    let place = Place::new();
+    let out = ["--out", "out"];
+    place.succeed(&run(&[&TING, &out]));
+    let before = place.result("out");
+    let ran = place.run(&run(&[&SLOWER, &out]));
+    assert_eq!(ran.code, Some(2));
+    for expected in ["--out out: this folder holds the result of another case", "--force"] {
+        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    }
+    assert_eq!(
+        (place.result("out"), place.list(".")),
+        (before, vec!["case.toml".into(), "out".into()])
+    );
+    place.succeed(&run(&[&SLOWER, &out, &["--force"]]));
+}
+
+/// Units, title, comments, the name of the file and what is drawn make no other case; a key does, even
+/// one that changes no number.
+#[test]
+fn a_case_is_what_it_asks_to_be_computed() {
+    let place = Place::new();
+    let out = ["--out", "out", "--quiet"];
+    place.succeed(&run(&[&TING, &out]));
+    let text = String::from_utf8(place.read("case.toml")).unwrap();
+    let text = text.replace("\"63 GPa\"", "6.3e10").replace("A pair", "The pair");
+    place.write("same.toml", &format!("# the same\n{text}"));
+    place.succeed(&[&["same.toml"][..], &TING, &out].concat());
+    place.succeed(&run(&[&TING, &out, &["--set", "output.snapshots=[]"]]));
+    let limits = ["--set", "limits.elements=1e6"];
+    assert_eq!(place.run(&run(&[&TING, &out, &limits])).code, Some(2));
+}
+
+/// A fit, and the run of the case that it is of.
+#[test]
+fn commands_do_not_replace_each_others_results() {
+    let place = Place::new();
+    place.write("data.csv", "speed_m_s,restitution\n0.1,0.95\n0.5,0.92\n");
+    let fit = ["fit", "case.toml", "--data", "data.csv", "--law", "kuwabara_kono", "-q"];
+    place.succeed(&run(&[&TING, &["--out", "out"]]));
+    let ran = place.run(&[&fit[..], &["--out", "out"]].concat());
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    place.succeed(&fit);
+    // Other options of the same fit take its place, another case does not.
+    place.succeed(&[&fit[..], &["--confidence", "0.9"]].concat());
+    place.succeed(&[&fit[..], &["--set", "body.0.sphere.diameter='2 cm'"]].concat());
+    let folders = place.list("runs");
+    assert_eq!(folders.len(), 2, "{folders:?}");
+    assert!(folders[0] == "data_fit" && folders[1].starts_with("data_fit-"), "{folders:?}");
+    assert_eq!(place.run(&run(&[&TING, &["--out", "runs/data_fit"]])).code, Some(2));
+}

@@ -1,0 +1,268 @@
+//! A run that is killed and goes on ends with the bits of one that is not.
+
+#![allow(clippy::disallowed_methods, reason = "tests that kill another process by the clock")]
+
+use std::fs;
+use std::process::{Child, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::common::Place;
+
+const RESTART_FILE: &str = "fem-run.restart";
+/// Many files a run.
+const KEPT: [&str; 3] = ["--checkpoint-every", "0.02", "--quiet"];
+
+/// A ball that falls, three times.
+const BALL: &str = r#"
+[material.rubber]
+density = "1100 kg/m^3"
+youngs_modulus = "4 MPa"
+poissons_ratio = 0.45
+
+[material.rubber.relaxation]
+acts_on = "shear"
+terms = [{ weight = 0.6, relaxation_time = "0.3 ms" }]
+
+[[body]]
+name = "floor"
+wall = {}
+
+[[body]]
+name = "ball"
+sphere = { diameter = "2 cm" }
+material = "rubber"
+
+[start]
+gap = "5 cm"
+
+[gravity]
+acceleration = "9.81 m/s^2"
+
+[stop]
+bounces = 3
+
+[mesh]
+contact_element_size = "0.3 mm"
+"#;
+
+/// Scenes with all that a run has to remember: relaxation of all moduli and of shear alone, springs,
+/// viscosity with its force of the step before, the half of a scene, contacts that are over.
+fn scenes() -> Vec<(&'static str, Place, Vec<&'static str>)> {
+    let shear = "material.glass.relaxation={acts_on='shear', \
+                 terms=[{weight=0.5, decay_rate=2e4}, {weight=0.3, relaxation_time=1e-5}]}";
+    let twin = "body.1={name='twin', sphere={diameter='22.2 mm'}, material='glass'}";
+    let size = "mesh.contact_element_size='40 um'";
+    let fast = ["body.0.approach_speed=150", "mesh.contact_element_size='0.5 mm'"];
+    let spread = "output.snapshots=7";
+    vec![
+        ("relaxing", Place::new(), vec!["--set", size, "--set", spread]),
+        ("shear", Place::new(), vec!["--set", size, "--set", shear]),
+        (
+            "fast",
+            Place::new(),
+            vec!["--set", fast[0], "--set", fast[1], "--set", "effects.bulk_viscosity='on'"],
+        ),
+        ("twins", Place::new(), vec!["--set", size, "--set", twin]),
+        ("ball", Place::with(BALL), vec![]),
+    ]
+}
+
+fn command(place: &Place, set: &[&str], more: &[&str]) -> Child {
+    let arguments = [&["case.toml", "--out", "out"][..], &KEPT, set, more].concat();
+    let mut command = place.command(&arguments);
+    command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+/// Numbers from 0 to 1 that look random.
+struct Chance(u64);
+
+impl Chance {
+    fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Whether a run had its end when it was killed this long after its start.
+fn ends_before(mut child: Child, instant: Duration) -> bool {
+    let begin = Instant::now();
+    while begin.elapsed() < instant {
+        if child.try_wait().unwrap().is_some() {
+            break;
+        }
+        sleep(Duration::from_micros(200));
+    }
+    // SIGKILL: nothing of the process runs after it.
+    let _ = child.kill();
+    let ran = child.wait_with_output().unwrap();
+    let stderr = String::from_utf8_lossy(&ran.stderr);
+    assert!(matches!(ran.status.code(), None | Some(0)), "{stderr}");
+    ran.status.code() == Some(0)
+}
+
+/// Kills runs of all scenes at random instants until so many of each have gone on from a restart file;
+/// how many were killed.
+fn kill_at_random(n_gone_on: usize, seed: u64) -> usize {
+    let mut chance = Chance(seed);
+    let mut killed = 0;
+    for (name, place, set) in scenes() {
+        let begin = Instant::now();
+        place.succeed(&[&["case.toml", "--out", "whole", "--quiet"][..], &set].concat());
+        let whole = place.result("whole");
+        let length = begin.elapsed();
+        let mut gone_on = 0;
+        while gone_on < n_gone_on {
+            let _ = fs::remove_dir_all(place.path("out"));
+            loop {
+                gone_on += usize::from(place.path("out").join(RESTART_FILE).exists());
+                // The last run is not killed.
+                let is_last = gone_on >= n_gone_on;
+                let instant = length.mul_f64(1.2 * chance.next());
+                let instant = if is_last { Duration::MAX } else { instant };
+                if ends_before(command(&place, &set, &["--restart"]), instant) {
+                    break;
+                }
+                killed += 1;
+            }
+            assert!(place.result("out") == whole, "{name}: other bits after {killed} kills");
+            let left: Vec<_> = place.list(".").into_iter().filter(|n| n.starts_with('.')).collect();
+            assert_eq!(left, [""; 0], "{name}");
+        }
+    }
+    killed
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_killed_at_any_instant_goes_on_to_the_same_bits() {
+    assert!(kill_at_random(2, 1) > 5);
+}
+
+/// `cargo test --release -p fem-run --test it -- --ignored a_hundred`
+#[cfg(unix)]
+#[test]
+#[ignore = "minutes"]
+fn a_hundred_random_instants_of_every_scene() {
+    assert!(kill_at_random(100, 2) >= 450);
+}
+
+/// A run that is killed once it has left a restart file.
+fn killed(place: &Place, set: &[&str]) {
+    let mut child = command(place, set, &[]);
+    let begin = Instant::now();
+    while !place.path("out").join(RESTART_FILE).exists() {
+        assert!(begin.elapsed() < Duration::from_secs(60));
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(place.list("out"), [RESTART_FILE]);
+}
+
+/// So fine that it is killed long before its end.
+const FINE: [&str; 2] = ["--set", "mesh.contact_element_size='12 um'"];
+
+#[test]
+fn a_restart_file_of_another_case_or_build_is_refused() {
+    let place = Place::new();
+    killed(&place, &FINE);
+    let path = format!("out/{RESTART_FILE}");
+    let file = place.read(&path);
+    let restart = |set: &[&str]| {
+        place.run(&[&["case.toml", "--out", "out", "--restart"][..], &FINE, set].concat())
+    };
+    let other = ["--set", "body.0.approach_speed=0.4"];
+    for set in [&other[..], &["--set", "output.snapshots=3"], &[&other[..], &["--force"]].concat()]
+    {
+        let ran = restart(set);
+        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+        assert!(ran.stderr.contains("of another case"), "{}", ran.stderr);
+    }
+    let text = String::from_utf8_lossy(&file).to_string();
+    let (_, numerics) = text.split_once("\"numerics\":\"").unwrap();
+    let line = file.iter().position(|byte| *byte == b'\n').unwrap();
+    let place_of = text.find(&numerics[..16]).unwrap();
+    let with = |at: usize, byte: u8| {
+        let mut file = file.clone();
+        file[at] = byte;
+        file
+    };
+    let digit = if file[place_of] == b'0' { b'1' } else { b'0' };
+    for (bytes, message) in [
+        (with(place_of, digit), "of another build"),
+        (with(line + 100, file[line + 100] ^ 1), "damaged"),
+        (file[..file.len() - 1].to_vec(), "damaged"),
+        (file[..line].to_vec(), "no checkpoint"),
+        (Vec::new(), "no checkpoint"),
+    ] {
+        fs::write(place.path(&path), bytes).unwrap();
+        let ran = restart(&[]);
+        assert_eq!(ran.code, Some(2), "{message}: {}", ran.stderr);
+        assert!(ran.stderr.contains(message), "{}", ran.stderr);
+        assert_eq!(place.list("out"), [RESTART_FILE]);
+    }
+}
+
+/// What is not over is not replaced either: by another case neither by name nor by default.
+#[test]
+fn another_case_leaves_the_restart_file_alone() {
+    let place = Place::new();
+    killed(&place, &FINE);
+    fs::create_dir(place.path("runs")).unwrap();
+    fs::rename(place.path("out"), place.path("runs/case")).unwrap();
+    let ting = ["--set", "model.ting={}"];
+    place.succeed(&[&["case.toml"][..], &ting].concat());
+    assert_eq!(place.list("runs/case"), [RESTART_FILE]);
+    assert_eq!(place.list("runs").len(), 2);
+    let ran = place.run(&[&["case.toml", "--out", "runs/case"][..], &ting].concat());
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    // Neither goes it on from there.
+    fs::remove_dir_all(place.path("runs").join(&place.list("runs")[1])).unwrap();
+    let ran = place.run(&[&["case.toml", "--restart"][..], &ting].concat());
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    assert!(ran.stderr.contains("of another case"), "{}", ran.stderr);
+}
+
+#[test]
+fn without_a_file_a_run_starts_anew_and_says_so() {
+    let place = Place::new();
+    let ran = place.succeed(&["case.toml", "--restart"]);
+    assert!(ran.stderr.contains("starting anew"), "{}", ran.stderr);
+    place.succeed(&["case.toml", "--out", "other"]);
+    assert_eq!(place.result("runs/case"), place.result("other"));
+    // A model without memory.
+    let ran = place.succeed(&["case.toml", "--checkpoint-every", "1", "--set", "model.ting={}"]);
+    assert!(ran.stderr.contains("leaves no restart file"), "{}", ran.stderr);
+    for seconds in ["-1", "nan", "soon"] {
+        assert_eq!(place.run(&["case.toml", "--checkpoint-every", seconds]).code, Some(2));
+    }
+}
+
+/// Ctrl-C: what there is, and a file to go on from.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_goes_on_too() {
+    use nix::sys::signal::{Signal, kill};
+    use nix::unistd::Pid;
+
+    let place = Place::new();
+    let size = ["--set", "mesh.contact_element_size='20 um'"];
+    place.succeed(&[&["case.toml", "--out", "whole", "--quiet"][..], &size].concat());
+    let mut child = command(&place, &size, &[]);
+    while !place.path("out").join(RESTART_FILE).exists() {
+        sleep(Duration::from_millis(1));
+    }
+    kill(Pid::from_raw(child.id() as i32), Signal::SIGINT).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let summary = place.json("out/summary.json");
+    assert_eq!(summary["complete"], false);
+    assert!(summary["files"].to_string().contains(RESTART_FILE), "{}", summary["files"]);
+    assert!(place.list("out").contains(&RESTART_FILE.to_string()));
+    place.write("out/notes.txt", "mine");
+    let ran = place.succeed(&[&["case.toml", "--out", "out", "--restart"][..], &size].concat());
+    assert!(ran.stderr.contains("going on from step"), "{}", ran.stderr);
+    fs::remove_file(place.path("out/notes.txt")).unwrap();
+    assert_eq!(place.result("out"), place.result("whole"));
+}

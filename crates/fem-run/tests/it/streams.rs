@@ -1,0 +1,63 @@
+//! A case from the standard input, a summary on the standard output.
+
+use std::io::Write;
+use std::process::Stdio;
+
+use crate::common::{CASE, Place, Ran};
+
+/// Runs with a text on the standard input.
+fn fed(place: &Place, arguments: &[&str], text: &[u8]) -> Ran {
+    let mut command = place.command(arguments);
+    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    child.stdin.take().unwrap().write_all(text).unwrap();
+    child.wait_with_output().unwrap().into()
+}
+
+#[test]
+fn a_case_from_the_standard_input_is_the_case() {
+    let place = Place::new();
+    let ting = ["--set", "model.ting={}"];
+    place.succeed(&[&["case.toml", "--out", "file"][..], &ting].concat());
+    let ran = fed(&place, &[&["-"][..], &ting].concat(), CASE.as_bytes());
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert!(ran.stderr.starts_with("<stdin>: "), "{}", ran.stderr);
+    assert_eq!(place.result("runs/stdin"), place.result("file"));
+    // Every command that reads a case.
+    let checked = fed(&place, &["check", "-"], CASE.as_bytes());
+    assert!(checked.stdout.starts_with("# <stdin> is sound."), "{}", checked.stdout);
+}
+
+#[test]
+fn faults_of_the_standard_input_have_a_place() {
+    let place = Place::new();
+    let text = CASE.replace("density", "densitty");
+    let ran = fed(&place, &["-", "--json"], text.as_bytes());
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
+    assert!(ran.stderr.contains("<stdin>:4:1: "), "{}", ran.stderr);
+    for (text, message) in [
+        (vec![b'#'; (16 << 20) + 1], "16 MiB"),
+        (b"title = \"\xff\"".to_vec(), "not UTF-8"),
+        (Vec::new(), "<stdin>"),
+    ] {
+        let ran = fed(&place, &["-"], &text);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.contains(message), "{}", ran.stderr);
+    }
+    assert_eq!(place.list("."), ["case.toml"]);
+}
+
+/// Alone on stdout, as it is in the file, however the run ends, and with --quiet too.
+#[test]
+fn json_is_the_summary_alone() {
+    let place = Place::new();
+    for quiet in [&[][..], &["--quiet"]] {
+        let ran = place.succeed(&[&["case.toml", "--json", "--out", "out"][..], quiet].concat());
+        assert_eq!(ran.stdout.as_bytes(), place.read("out/summary.json"));
+        assert_eq!(ran.stderr.is_empty(), !quiet.is_empty(), "{}", ran.stderr);
+    }
+    let failed = place.run(&[&["case.toml", "--json"][..], &crate::common::FAILS].concat());
+    assert_eq!(failed.code, Some(1));
+    let summary: serde_json::Value = serde_json::from_str(&failed.stdout).unwrap();
+    assert_eq!(summary["complete"], false);
+}

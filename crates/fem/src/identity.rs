@@ -1,0 +1,127 @@
+//! What a case and its result are known by: digests that are equal for equal ones.
+
+use std::path::Path;
+
+use fem_case::{Case, CaseError, CaseFile, Shape};
+use sha2::{Digest, Sha256};
+
+use crate::numerics::NUMERICS;
+use crate::simulation::Simulation;
+
+/// Bytes of a digest that go into a name: two of a million cases share one by a chance of 1e-7.
+const BYTES: usize = 8;
+
+/// What is known of a run before it begins.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// See [`case_identity`].
+    pub case: String,
+    /// Digest of the build's numerics, resolved case and mesh files: equal for equal results.
+    pub result: String,
+}
+
+impl Identity {
+    /// Of a case, by this build.
+    ///
+    /// # Errors
+    /// What the case's method refuses before it makes anything; a mesh file that cannot be read.
+    pub fn of(case: &Case) -> Result<Self, CaseError> {
+        Ok(identified(case)?.0)
+    }
+}
+
+/// With the resolved case, which takes a while.
+///
+/// # Errors
+/// As [`Identity::of`].
+pub(crate) fn identified(case: &Case) -> Result<(Identity, CaseFile), CaseError> {
+    let meshes = mesh_files(case)?;
+    let resolved = Simulation::resolve(case)?;
+    let result = of_result(NUMERICS, &resolved, &meshes);
+    Ok((Identity { case: case_identity(case), result }, resolved))
+}
+
+/// Digest of what a case asks to be computed: its keys and values, overrides in them, in SI, without
+/// title and output. Defaults do not count: a build that plans otherwise does not make it another case.
+pub fn case_identity(case: &Case) -> String {
+    identity_of(case.file())
+}
+
+/// As [`case_identity`], of a case as it is written.
+pub(crate) fn identity_of(file: &CaseFile) -> String {
+    let file = CaseFile { title: None, output: None, ..file.clone() };
+    digest_of([json(&file).as_slice()])
+}
+
+/// Digest of a result: by which numerics, of which resolved case with which mesh files.
+fn of_result(numerics: &str, case: &CaseFile, meshes: &[Vec<u8>]) -> String {
+    let case = json(case);
+    let meshes = meshes.iter().map(Vec::as_slice);
+    digest_of([numerics.as_bytes(), &case].into_iter().chain(meshes))
+}
+
+/// Sixteen digits of a list of texts.
+pub fn digest_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
+    let mut digest = Sha256::new();
+    for bytes in parts {
+        digest.update((bytes.len() as u64).to_le_bytes());
+        digest.update(bytes);
+    }
+    digest.finalize().iter().take(BYTES).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A valid case has only finite numbers and text: it always serializes.
+fn json(case: &CaseFile) -> Vec<u8> {
+    serde_json::to_vec(case).unwrap_or_default()
+}
+
+/// The bytes of the mesh files of a case.
+fn mesh_files(case: &Case) -> Result<Vec<Vec<u8>>, CaseError> {
+    let mut files = Vec::new();
+    for (k, body) in case.scene().bodies().iter().enumerate() {
+        if let Shape::Sphere { mesh: Some(path), .. } = body.shape() {
+            files.push(read(path).map_err(|error| {
+                let key = format!("body.{k}.sphere.mesh");
+                case.error_at(&key, format!("mesh {}: {error}", path.display()))
+            })?);
+        }
+    }
+    Ok(files)
+}
+
+#[cfg(feature = "files")]
+fn read(path: &Path) -> Result<Vec<u8>, std::io::Error> {
+    std::fs::read(path)
+}
+
+#[cfg(not(feature = "files"))]
+fn read(_: &Path) -> Result<Vec<u8>, &'static str> {
+    Err("no files are read here")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers of an older build are no result of this one.
+    #[test]
+    fn a_result_is_of_one_build_one_case_and_its_meshes() {
+        let text = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
+            [[body]]
+            name = 'floor'
+            wall = {}
+            [[body]]
+            name = 'ball'
+            sphere.diameter = 0.02
+            material = 'ice'
+            approach_speed = 0.1";
+        let parse = |set: &[String]| Case::parse("ball.toml", text, Path::new("."), set).unwrap();
+        let (one, other) = (parse(&[]), parse(&["body.1.approach_speed=0.2".to_string()]));
+        let mesh = [b"points".to_vec()];
+        let own = of_result("0123", one.file(), &[]);
+        assert_eq!(own, of_result("0123", one.file(), &[]));
+        assert_ne!(own, of_result("0124", one.file(), &[]));
+        assert_ne!(own, of_result("0123", other.file(), &[]));
+        assert_ne!(own, of_result("0123", one.file(), &mesh));
+    }
+}
