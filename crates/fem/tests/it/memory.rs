@@ -25,6 +25,7 @@ fn simulations() -> Vec<(&'static str, Simulation)> {
         ("glass", simulation(GLASS, &[COARSE])),
         ("shear", simulation(GLASS, &[COARSE, shear, "output.snapshots=5"])),
         ("viscosity", simulation(GLASS, &[COARSE, "effects.bulk_viscosity='on'"])),
+        ("finite strain", simulation(GLASS, &[COARSE, shear, "effects.finite_strain='on'"])),
         ("ball", simulation(BALL, &ball)),
     ]
 }
