@@ -29,7 +29,7 @@ impl CondensedPair {
         let contact = DiscSolver::new(compliance)
             .solve(&overlap, &mut forces)
             .map_err(|_| Stop::NoContactState { time: 0.0 })?;
-        if contact.n_closed == n {
+        if contact.n_closed > self.most_closed(n) {
             return Err(beyond());
         }
         let (radius, pressure) = self.radius_and_pressure(&contact, &forces);
