@@ -1,7 +1,9 @@
 //! Weight, and how often a ball falls again.
 
+use serde::{Deserialize, Serialize};
+
 /// The weight of the upper body of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gravity {
     /// Along −y, m/s², > 0.
     pub acceleration: f64,

@@ -1,7 +1,9 @@
 //! What follows the first contact of a ball that gravity brings back: further contacts, and rest.
 
+use serde::{Deserialize, Serialize};
+
 /// One contact of a ball that bounces.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bounce {
     /// First touch since the start of the case, s.
     pub time: f64,
@@ -17,7 +19,7 @@ pub struct Bounce {
 }
 
 /// A ball at rest: what bears its weight once nothing moves and all has relaxed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rest {
     /// When it was seen not to leave any more, since the start of the case, s.
     pub time: f64,
@@ -26,7 +28,7 @@ pub struct Rest {
 }
 
 /// A contact under a constant force, with equilibrium moduli.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StaticContact {
     /// N.
     pub force: f64,

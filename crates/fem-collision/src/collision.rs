@@ -1,5 +1,7 @@
 //! What comes out of a collision, the same for every model.
 
+use serde::{Deserialize, Serialize};
+
 use crate::account::Book;
 use crate::approach::Approach;
 use crate::bounce::{Bounce, Rest};
@@ -14,7 +16,7 @@ pub const STAY_TOGETHER: &str =
     "the bodies stay together: nothing drives them apart, and the contact has no end";
 
 /// A collision as far as it got. `None`: the model knows it not, or it has no value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Collision {
     /// How the bodies met.
     pub approach: Approach,
@@ -82,7 +84,7 @@ pub struct Collision {
 }
 
 /// One body after a collision.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BodyResult {
     /// Elements of its mesh.
     pub elements: Option<usize>,

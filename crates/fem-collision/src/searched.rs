@@ -1,7 +1,9 @@
 //! Where contact was looked for.
 
+use serde::{Deserialize, Serialize};
+
 /// The part of the surfaces in which a model looks for contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Searched {
     /// Distance from the axis out to which contact is looked for, m.
     pub radius: f64,

@@ -1,8 +1,12 @@
 //! A collision under way, for who decides when it goes on: a generator, a frame of a page, a process
 //! that is stopped and begun again.
 
-use fem_collision::{Approach, Collision, Monitor, Progress, Stop};
-use fem_explicit::Memory;
+use std::sync::Arc;
+
+use fem_collision::{Approach, Collision, Monitor, Progress, Stop, Want};
+
+use crate::memory::Memory;
+use crate::method::Model;
 
 /// A collision under way.
 pub trait Course {
@@ -15,7 +19,7 @@ pub trait Course {
 
     /// All that a restart needs, of a model that goes on from it; see
     /// [`Model::resume`](crate::Model::resume).
-    fn memory(&self) -> Option<&Memory> {
+    fn memory(&self) -> Option<Memory> {
         None
     }
 
@@ -23,14 +27,23 @@ pub trait Course {
     fn finish(self: Box<Self>) -> Collision;
 }
 
+/// Begins a collision by a model: one that steps goes on in steps, another one in one go.
+pub(crate) fn begun(model: &Arc<dyn Model>, approach: &Approach, want: &Want) -> Box<dyn Course> {
+    model.start(approach, want).unwrap_or_else(|| {
+        let (model, approach, want) = (model.clone(), *approach, want.clone());
+        let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &want, monitor);
+        Box::new(InOneGo::of(approach, collide))
+    })
+}
+
 /// Goes on to the end, or until `monitor` interrupts it.
-pub(crate) fn to_the_end(mut course: Box<dyn Course + '_>, monitor: &mut dyn Monitor) -> Collision {
+pub(crate) fn to_the_end(mut course: Box<dyn Course>, monitor: &mut dyn Monitor) -> Collision {
     while monitor.report(course.progress()) && course.advance(monitor) {}
     course.finish()
 }
 
 /// A collision that cannot begin, and why.
-pub(crate) fn stopped<'a>(approach: Approach, stop: Stop) -> Box<dyn Course + 'a> {
+pub(crate) fn stopped(approach: Approach, stop: Stop) -> Box<dyn Course> {
     Box::new(InOneGo::of(approach, move |_| Collision::stopped(approach, stop.clone())))
 }
 

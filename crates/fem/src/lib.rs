@@ -27,6 +27,7 @@ mod large_partner;
 pub mod laws;
 mod limits;
 pub mod measured;
+mod memory;
 mod mesh_source;
 mod meshes;
 mod method;
@@ -45,6 +46,7 @@ pub use approach::approach_of;
 pub use assess::assess;
 pub use course::Course;
 pub use estimate::Estimate;
+pub use memory::Memory;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
@@ -68,7 +70,7 @@ pub use fem_collision::{
     SnapshotRequest, StaticContact, Stop, StressField, Want, WantError, invariants,
 };
 pub use fem_condensed::CondensedPair;
-pub use fem_explicit::{Memory, Model as ExplicitBodies, ModelError};
+pub use fem_explicit::{Model as ExplicitBodies, ModelError};
 pub use fem_laws::{HertzImpact, Impact, LawError, Pair};
 pub use fem_material::{Material, PronySeries};
 pub use fem_mesh::SphereMesh;

@@ -7,12 +7,12 @@ use std::fmt;
 
 use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
-use fem_explicit::Memory;
 use fem_mesh::SphereMesh;
 
-use crate::course::{Course, InOneGo};
+use crate::course::Course;
 use crate::effects::{Answer, Decisions, Effect};
 use crate::estimate::Estimate;
+use crate::memory::Memory;
 use crate::pair_cache::PairCache;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
@@ -65,18 +65,17 @@ pub trait Model: fmt::Debug + Send + Sync {
     /// looked for, the collision is computed again with a larger one.
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision;
 
-    /// Begins a collision, as far as whoever has the course lets it go.
-    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
-        let (approach, want) = (*approach, want.clone());
-        let collide = move |monitor: &mut dyn Monitor| self.collide(&approach, &want, monitor);
-        Box::new(InOneGo::of(approach, collide))
+    /// Begins a collision that goes on in steps, as far as whoever has the course lets it go; `None` of
+    /// a model that computes all in one go.
+    fn start(&self, _: &Approach, _: &Want) -> Option<Box<dyn Course>> {
+        None
     }
 
     /// Goes on from what a course of the same model knew and was asked for, to the same bits.
     ///
     /// # Errors
     /// A memory of another model, or a model that goes on from none.
-    fn resume<'a>(&'a self, _: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume(&self, _: Memory) -> Result<Box<dyn Course>, Refusal> {
         let message = format!("{} goes on from no memory", self.setup().description);
         Err(Refusal::new("model", message).with_help("compute the collision anew"))
     }

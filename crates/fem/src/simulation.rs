@@ -1,13 +1,15 @@
 //! A case with the model that computes it, whichever that is.
 
+use std::sync::Arc;
+
 use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, Quantity};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
-use fem_explicit::Memory;
 
-use crate::course::Course;
+use crate::course::{Course, begun};
 use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
+use crate::memory::Memory;
 use crate::method::{Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 
@@ -43,7 +45,7 @@ pub fn collide(case: &Case) -> Result<Collision, CaseError> {
 #[derive(Debug)]
 pub struct Simulation {
     case: Case,
-    model: Box<dyn Model>,
+    model: Arc<dyn Model>,
     chosen: Option<Chosen>,
     want: Want,
     resolved: CaseFile,
@@ -65,6 +67,7 @@ impl Simulation {
     /// As [`Simulation::new`].
     pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
         let model = model_of(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
+        let model: Arc<dyn Model> = Arc::from(model);
         let resolved = Self::resolve(&case)?;
         let chosen = chosen(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
         let want = model.setup().want.clone();
@@ -184,15 +187,15 @@ impl Simulation {
     /// assert_eq!(resumed.finish(), simulation.run(&mut ()));
     /// # Ok::<(), fem::CaseError>(())
     /// ```
-    pub fn start(&self) -> Box<dyn Course + '_> {
-        self.model.start(&self.setup().approach, &self.want)
+    pub fn start(&self) -> Box<dyn Course> {
+        begun(&self.model, &self.setup().approach, &self.want)
     }
 
     /// Goes on from what a course of this case knew and was asked for, to the same bits.
     ///
     /// # Errors
     /// A memory of another case, or a model that goes on from none.
-    pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course + '_>, CaseError> {
+    pub fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, CaseError> {
         self.model.resume(memory).map_err(|refusal| refusal.in_case(&self.case))
     }
 

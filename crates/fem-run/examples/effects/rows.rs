@@ -138,13 +138,12 @@ impl Side {
     }
 
     /// Its run, of one contact, or of a simulation that has no more.
-    pub fn start<'a>(
-        &self,
-        contact: Option<&'a Explicit>,
-        simulation: &'a Simulation,
-    ) -> Box<dyn Course + 'a> {
+    pub fn start(&self, contact: Option<&Explicit>, simulation: &Simulation) -> Box<dyn Course> {
         match contact {
-            Some(model) => model.start(&model.setup().approach, &self.want()),
+            Some(model) => {
+                let course = model.start(&model.setup().approach, &self.want());
+                course.expect("explicit elements go in steps")
+            }
             None => simulation.start(),
         }
     }
@@ -164,5 +163,5 @@ impl Side {
 /// Bytes of all that a run knows between two steps: what a restart needs.
 pub fn n_bytes(course: &dyn Course) -> usize {
     let memory = course.memory().expect("explicit elements have a memory");
-    postcard::to_stdvec(memory).expect("a memory is bytes").len()
+    postcard::to_stdvec(memory.contact()).expect("a memory is bytes").len()
 }

@@ -8,8 +8,7 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop, Want,
 };
 use fem_explicit::{
-    Memory, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients,
-    Weight,
+    Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients, Weight,
 };
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
@@ -26,6 +25,7 @@ use crate::effects::{
 };
 use crate::estimate::{Estimate, mach};
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
+use crate::memory::Memory;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
@@ -67,7 +67,7 @@ impl Method for ExplicitMethod {
 #[derive(Clone, Debug)]
 pub struct Explicit {
     setup: Setup,
-    made: Made,
+    made: Arc<Made>,
     /// As the scene's bodies meet.
     bodies: Arc<Bodies>,
 }
@@ -127,7 +127,7 @@ impl Explicit {
                 finer_steps: "lower time.step_factor",
             }),
         };
-        Ok(Self { setup, made, bodies: Arc::new(bodies) })
+        Ok(Self { setup, made: Arc::new(made), bodies: Arc::new(bodies) })
     }
 
     /// Bodies and contact, as the scene's bodies meet.
@@ -151,6 +151,19 @@ impl Explicit {
             return Ok(self.bodies.clone());
         }
         self.made.bodies(approach, radius).map(Arc::new)
+    }
+
+    /// A collision under way.
+    fn course(&self, approach: &Approach, want: &Want) -> Box<dyn Course> {
+        match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
+            Ok((bodies, estimate)) => {
+                let expected = estimate.expectation();
+                let run = Run::new(bodies, expected, want);
+                let (made, want) = (self.made.clone(), want.clone());
+                Box::new(ExplicitCourse { made, expected, want, run })
+            }
+            Err(stop) => stopped(*approach, stop),
+        }
     }
 
     /// The bodies that meet in another way, and what closed forms say of it.
@@ -193,27 +206,24 @@ impl Model for Explicit {
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
         monitor.enter(Phase::Collision);
-        to_the_end(self.start(approach, want), monitor)
+        to_the_end(self.course(approach, want), monitor)
     }
 
-    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
-        match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
-            Ok((bodies, estimate)) => {
-                let expected = estimate.expectation();
-                let run = Run::new(bodies, expected, want);
-                Box::new(ExplicitCourse { made: &self.made, expected, want: want.clone(), run })
-            }
-            Err(stop) => stopped(*approach, stop),
-        }
+    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
+        Some(self.course(approach, want))
     }
 
-    fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
         let refused = |error: ModelError| Refusal::new("model.fem", error.to_string());
+        if memory.bounces.is_some() {
+            return Err(refused(ModelError::MemoryOfAnother));
+        }
+        let memory = memory.contact;
         let (approach, expected) = (*memory.approach(), memory.expected());
         let want = memory.want().clone();
         let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
         let run = Run::resume(bodies, memory).map_err(refused)?;
-        Ok(Box::new(ExplicitCourse { made: &self.made, expected, want, run }))
+        Ok(Box::new(ExplicitCourse { made: self.made.clone(), expected, want, run }))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
@@ -227,14 +237,14 @@ impl Model for Explicit {
 
 /// A collision of explicit elements under way: a run, begun again where the contact outgrows the region
 /// in which it is looked for.
-struct ExplicitCourse<'a> {
-    made: &'a Made,
+struct ExplicitCourse {
+    made: Arc<Made>,
     expected: Expectation,
     want: Want,
     run: Run<Arc<Bodies>>,
 }
 
-impl Course for ExplicitCourse<'_> {
+impl Course for ExplicitCourse {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         match self.run.advance(STEPS_BETWEEN_REPORTS) {
             None => return true,
@@ -251,8 +261,8 @@ impl Course for ExplicitCourse<'_> {
         self.run.progress()
     }
 
-    fn memory(&self) -> Option<&Memory> {
-        Some(self.run.memory())
+    fn memory(&self) -> Option<Memory> {
+        Some(self.run.memory().clone().into())
     }
 
     fn finish(self: Box<Self>) -> Collision {

@@ -6,13 +6,13 @@ use fem_collision::{
     Account, Approach, BodyFields, BodyResult, Book, Collision, Monitor, Progress, Row, Snapshot,
     StaticContact, Stop, Want,
 };
-use fem_explicit::Memory;
 use fem_mesh::{Side, SphereMesh};
 
 use crate::approach::approach_of;
 use crate::course::{Course, stopped};
 use crate::effects::{Answer, Effect, MirrorSymmetry, decide};
 use crate::estimate::Estimate;
+use crate::memory::Memory;
 use crate::method::{ElementSetup, Model, Setup};
 use crate::plan::{Plan, candidate_radius};
 use crate::refusal::Refusal;
@@ -74,19 +74,21 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
-    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
+    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
         let whole = Whole::of(approach);
         match half_of(approach) {
-            Ok(half) => Box::new(MirroredCourse { half: self.half.start(&half, want), whole }),
-            Err(stop) => stopped(*approach, stop),
+            Ok(half) => {
+                Some(Box::new(MirroredCourse { half: self.half.start(&half, want)?, whole }))
+            }
+            Err(stop) => Some(stopped(*approach, stop)),
         }
     }
 
     /// The half does not know how fast the mass centre moves: as the scene's, if the bodies met like
     /// that, and else not at all.
-    fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
         let own = self.setup.approach;
-        let met = *memory.approach();
+        let met = *memory.contact.approach();
         let at_rest = || Approach::new([met.speed(), -met.speed()], 2.0 * met.gap());
         let whole = match half_of(&own) {
             Ok(half) if half == met => own,
@@ -114,12 +116,12 @@ fn half_of(approach: &Approach) -> Result<Approach, Stop> {
 }
 
 /// The whole of a collision of which half is under way.
-struct MirroredCourse<'a> {
-    half: Box<dyn Course + 'a>,
+struct MirroredCourse {
+    half: Box<dyn Course>,
     whole: Whole,
 }
 
-impl Course for MirroredCourse<'_> {
+impl Course for MirroredCourse {
     fn advance(&mut self, monitor: &mut dyn Monitor) -> bool {
         self.half.advance(monitor)
     }
@@ -128,7 +130,7 @@ impl Course for MirroredCourse<'_> {
         self.half.progress()
     }
 
-    fn memory(&self) -> Option<&Memory> {
+    fn memory(&self) -> Option<Memory> {
         self.half.memory()
     }
 

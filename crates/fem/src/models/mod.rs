@@ -19,6 +19,7 @@ use crate::effects::Computed;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
+pub(crate) use bouncing::Bounces;
 use bouncing::Bouncing;
 use simplified::Simplified;
 

@@ -3,12 +3,12 @@
 
 use fem_case::Scene;
 use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
-use fem_explicit::Memory;
 use fem_mesh::SphereMesh;
 
 use crate::course::Course;
 use crate::effects::{Answer, Effect, decide};
 use crate::estimate::Estimate;
+use crate::memory::Memory;
 use crate::method::{Model, Setup};
 use crate::refusal::Refusal;
 
@@ -63,11 +63,11 @@ impl Model for Simplified {
         self.model.collide(approach, want, monitor)
     }
 
-    fn start<'a>(&'a self, approach: &Approach, want: &Want) -> Box<dyn Course + 'a> {
+    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
         self.model.start(approach, want)
     }
 
-    fn resume<'a>(&'a self, memory: Memory) -> Result<Box<dyn Course + 'a>, Refusal> {
+    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
         self.model.resume(memory)
     }
 

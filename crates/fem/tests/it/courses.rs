@@ -38,11 +38,11 @@ fn a_course_that_is_left_is_interrupted() {
 /// Put away after so many pieces, through text, and taken up again.
 fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Collision {
     let (model, want) = (simulation.model(), Want::history());
-    let mut course = model.start(approach, &want);
+    let mut course = model.start(approach, &want).unwrap();
     for _ in 0..n_pieces {
         course.advance(&mut ());
     }
-    let text = serde_json::to_string(course.memory().unwrap()).unwrap();
+    let text = serde_json::to_string(&course.memory().unwrap()).unwrap();
     let memory: Memory = serde_json::from_str(&text).unwrap();
     let mut resumed = model.resume(memory).unwrap();
     while resumed.advance(&mut ()) {}
@@ -69,7 +69,7 @@ fn a_course_goes_on_from_its_memory() {
 fn a_memory_of_another_case_is_refused() {
     let relaxing = "material.glass.relaxation={acts_on='shear', terms=[{weight=0.5, \
                     decay_rate=2e4}]}";
-    let memory = simulation("fem", &[]).start().memory().unwrap().clone();
+    let memory = simulation("fem", &[]).start().memory().unwrap();
     for other in [
         simulation("fem", &["mesh.contact_element_size='0.12 mm'"]),
         simulation("fem", &[relaxing]),
@@ -89,7 +89,7 @@ fn the_half_of_a_scene_goes_on_from_its_memory() {
     assert_eq!(whole.bodies[0].elements, whole.bodies[1].elements);
     let mut course = simulation.start();
     assert!((0..10).all(|_| course.advance(&mut ())));
-    let mut resumed = simulation.resume(course.memory().unwrap().clone()).unwrap();
+    let mut resumed = simulation.resume(course.memory().unwrap()).unwrap();
     while resumed.advance(&mut ()) {}
     assert_eq!(resumed.finish(), whole);
 }

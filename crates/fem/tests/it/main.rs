@@ -2,6 +2,7 @@
 
 mod approaches;
 mod auto;
+mod bouncing_courses;
 mod bulk_viscosity;
 mod calibrate;
 mod coarse;

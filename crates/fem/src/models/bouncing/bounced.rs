@@ -1,12 +1,16 @@
 //! What comes of contact after contact, up to the whole.
 
 use fem_case::Gravity;
-use fem_collision::{Approach, Bounce, Collision, Ending, Rest, STAY_TOGETHER, Stop, Want};
+use fem_collision::{
+    Approach, Bounce, Collision, Ending, Rest, STAY_TOGETHER, Snapshot, Stop, Want,
+};
+use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
 use super::{phase, report};
 
 /// What came of the contacts so far.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Bounced {
     gravity: Gravity,
     chain: Chain,
@@ -46,8 +50,33 @@ impl Bounced {
         self.chain.time()
     }
 
+    /// First touch of all, s.
+    pub fn first_touch(&self) -> f64 {
+        self.chain.first_touch()
+    }
+
     pub fn element_updates(&self) -> u64 {
         self.element_updates.unwrap_or_default()
+    }
+
+    /// Contacts that are over.
+    pub fn n_contacts(&self) -> usize {
+        self.bounces.len()
+    }
+
+    /// Of the first contact.
+    pub fn snapshots(&self) -> &[Snapshot] {
+        self.first.as_ref().map_or(&[], |first| &first.snapshots)
+    }
+
+    /// Whether a ball under this gravity can have left it like this, a contact being under way.
+    pub fn is_sound(&self, gravity: &Gravity) -> bool {
+        self.gravity == *gravity
+            && self.n_contacts() < gravity.bounces
+            && self.first.is_some() == (self.n_contacts() > 0)
+            && self.ending == Ending::Parted
+            && self.rest.is_none()
+            && !self.sinks
     }
 
     pub fn is_at_rest(&self) -> bool {
@@ -74,9 +103,8 @@ impl Bounced {
         Some(self.gravity.acceleration * self.first.as_ref()?.bodies[1].mass?)
     }
 
-    pub fn stopped(mut self, stop: Stop) -> Self {
+    pub fn stop(&mut self, stop: Stop) {
         self.ending = Ending::Stopped(stop);
-        self
     }
 
     /// Takes a contact; the speed (m/s) at which the ball comes down again, if it does.

@@ -5,6 +5,7 @@
 //! so that all energy since the first touch is in the ledger.
 
 use fem_collision::{Account, Book, Collision, Row, Side, worst};
+use serde::{Deserialize, Serialize};
 
 /// Rows of a flight.
 const FLIGHT_ROWS: usize = 8;
@@ -19,7 +20,7 @@ pub(super) struct Landing {
 }
 
 /// Contacts and flights so far.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Chain {
     /// First touch of all, and of the contact under way, since the start of the case, s.
     first_touch: f64,

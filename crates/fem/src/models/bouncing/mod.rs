@@ -15,27 +15,35 @@
 //! bounded ([`phase`]).
 //!
 //! Elements that the plan has chosen are chosen anew where the contacts have become too small for them.
+//!
+//! A collision under way is a [`BouncingCourse`]: it knows what came of the contacts so far, and the
+//! contact under way has its own course.
 
 mod bounced;
 mod chain;
+mod course;
 mod phase;
 mod report;
 
+use std::sync::Arc;
+
 use fem_case::{Gravity, Scene, impact_speed};
 use fem_collision::{
-    Approach, Collision, Monitor, Phase, Progress, Rest, Snapshot, SnapshotRequest, StaticContact,
-    Stop, Want,
+    Approach, Collision, Monitor, Phase, Rest, Snapshot, SnapshotRequest, StaticContact, Stop, Want,
 };
 use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
 
+use crate::course::{Course, stopped};
 use crate::effects::{Answer, Effect};
 use crate::estimate::Estimate;
-use crate::method::{Model, Setup, Shared};
+use crate::memory::Memory;
+use crate::method::{Cost, Model, Setup, Shared};
 use crate::models::method_of;
 use crate::refusal::Refusal;
 use bounced::Bounced;
-use chain::Chain;
+pub(crate) use course::Bounces;
+use course::BouncingCourse;
 
 /// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
 const LARGEST_DENT: f64 = 0.5;
@@ -46,12 +54,18 @@ const ROWS_OF_ALL: usize = 10;
 /// Rows of a contact that show its course.
 const FEWEST_ROWS: usize = 20;
 
-/// A scene with gravity, and the model of its first contact.
+/// All contacts of a scene with gravity.
 #[derive(Debug)]
 pub(super) struct Bouncing {
+    ball: Arc<Ball>,
+}
+
+/// A scene with gravity, and the model of its first contact.
+#[derive(Debug)]
+struct Ball {
     scene: Scene,
     gravity: Gravity,
-    first: Box<dyn Model>,
+    first: Arc<dyn Model>,
 }
 
 impl Bouncing {
@@ -69,7 +83,8 @@ impl Bouncing {
         let weight = pair.effective_mass() * gravity.acceleration;
         match StaticHertz::new(pair, weight) {
             Ok(pressed) if pressed.contact_radius <= LARGEST_DENT * pair.effective_radius() => {
-                Ok(Self { scene: scene.clone(), gravity, first })
+                let ball = Ball { scene: scene.clone(), gravity, first: Arc::from(first) };
+                Ok(Self { ball: Arc::new(ball) })
             }
             Ok(pressed) => refuse(format!(
                 "the weight presses the bodies flat: a contact radius of {:.1e} effective radii at rest",
@@ -79,9 +94,16 @@ impl Bouncing {
         }
     }
 
+    /// A collision under way, of a want that has been checked.
+    fn course(&self, approach: &Approach, want: &Want) -> BouncingCourse {
+        BouncingCourse::new(&self.ball, approach, want)
+    }
+}
+
+impl Ball {
     /// Speed (m/s) and time (s) of first touch, and the height of the fall, m.
     fn fall(&self, approach: &Approach) -> (f64, f64, f64) {
-        if *approach == self.setup().approach {
+        if *approach == self.first.setup().approach {
             let height = self.scene.gap().unwrap_or_default();
             return (approach.speed(), self.scene.first_touch(), height);
         }
@@ -103,45 +125,16 @@ impl Bouncing {
         if estimate.contact_radius >= FEWEST_ELEMENTS * elements.plan.contact_element_size {
             return Ok(None);
         }
-        let not_made = |message: String| Stop::NotMade(message);
-        let scene = self.scene.touching_at(speed);
-        let scene =
-            scene.ok_or_else(|| not_made(format!("the ball comes down at {speed:?} m/s")))?;
-        let model = method_of(&scene).build(&scene, &Shared::default());
-        model.map(Some).map_err(|refusal| not_made(refusal.to_string()))
+        self.made_at(speed).map(Some)
     }
 
-    /// Contacts and flights, up to rest or the number that is asked for.
-    fn bounce(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Bounced {
-        let (mut speed, time, height) = self.fall(approach);
-        let mut bounced = Bounced::new(Chain::new(time), self.gravity);
-        let mut replaced: Option<Box<dyn Model>> = None;
-        for k in 0..self.gravity.bounces {
-            let present = replaced.as_deref().unwrap_or(self.first.as_ref());
-            let anew = if k > 0 { self.anew(present, speed) } else { Ok(None) };
-            match anew {
-                Ok(Some(model)) => replaced = Some(model),
-                Ok(None) => {}
-                Err(stop) => return bounced.stopped(stop),
-            }
-            let model = replaced.as_deref().unwrap_or(self.first.as_ref());
-            let asked = match k {
-                0 => first_want(want, time),
-                _ => later_want(want, self.gravity.bounces, bounced.element_updates()),
-            };
-            let contact = match Approach::new([0.0, -speed], 0.0) {
-                Ok(contact) => contact,
-                Err(error) => return bounced.stopped(Stop::NotMade(error.to_string())),
-            };
-            let mut one = OneOfMany { monitor, k, n: self.gravity.bounces, time: bounced.time() };
-            let collision = model.collide(&contact, &asked, &mut one);
-            let collision = if k == 0 { fallen(collision, time, height) } else { collision };
-            match bounced.take(collision, want) {
-                Some(landing) => speed = landing,
-                None => break,
-            }
-        }
-        bounced
+    /// The model for a contact at a speed, m/s.
+    fn made_at(&self, speed: f64) -> Result<Box<dyn Model>, Stop> {
+        let scene = self.scene.touching_at(speed);
+        let no_speed = || Stop::NotMade(format!("the ball comes down at {speed:?} m/s"));
+        let scene = scene.ok_or_else(no_speed)?;
+        let model = method_of(&scene).build(&scene, &Shared::default());
+        model.map_err(|refusal| Stop::NotMade(refusal.to_string()))
     }
 
     /// What bears the ball in the end, or why nothing does.
@@ -149,7 +142,7 @@ impl Bouncing {
         let Some(weight) = bounced.weight() else { return };
         match self.first.static_contact(weight) {
             Ok(Some(contact)) => {
-                let radius = self.setup().estimate.hertz.pair().effective_radius();
+                let radius = self.first.setup().estimate.hertz.pair().effective_radius();
                 let too_large = report::too_large(&contact, radius);
                 too_large.into_iter().for_each(|warning| bounced.warn(warning));
                 bounced.bear(Rest { time: bounced.time(), contact });
@@ -162,30 +155,42 @@ impl Bouncing {
 
 impl Model for Bouncing {
     fn setup(&self) -> &Setup {
-        self.first.setup()
+        self.ball.first.setup()
     }
 
     fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer> {
-        self.first.has(effect, estimate)
+        self.ball.first.has(effect, estimate)
     }
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
         if let Err(error) = want.check() {
             return Collision::stopped(*approach, error.into());
         }
-        let mut bounced = self.bounce(approach, want, monitor);
-        if bounced.is_at_rest() {
-            self.rest(&mut bounced);
-        }
-        bounced.collision(*approach)
+        monitor.enter(Phase::Collision);
+        let mut course = self.course(approach, want);
+        // A contact that is computed in one go reports by itself.
+        let goes_in_steps = matches!(self.setup().cost, Cost::Steps { .. });
+        while course.advance(monitor) && (!goes_in_steps || monitor.report(course.progress())) {}
+        Box::new(course).finish()
+    }
+
+    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
+        Some(match want.check() {
+            Ok(()) => Box::new(self.course(approach, want)),
+            Err(error) => stopped(*approach, error.into()),
+        })
+    }
+
+    fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
+        Ok(Box::new(BouncingCourse::resume(&self.ball, memory)?))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
-        self.first.static_contact(force)
+        self.ball.first.static_contact(force)
     }
 
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
-        self.first.meshes()
+        self.ball.first.meshes()
     }
 }
 
@@ -223,27 +228,4 @@ fn fallen(collision: Collision, time: f64, height: f64) -> Collision {
     };
     let snapshots = collision.snapshots.into_iter().map(lowered).collect();
     Collision { snapshots, ..collision }
-}
-
-/// Looks on for one that looks on at all contacts.
-struct OneOfMany<'a> {
-    monitor: &'a mut dyn Monitor,
-    k: usize,
-    n: usize,
-    /// First touch since the start of the case, s.
-    time: f64,
-}
-
-impl Monitor for OneOfMany<'_> {
-    /// All contacts are one collision.
-    fn enter(&mut self, phase: Phase) {
-        if self.k == 0 {
-            self.monitor.enter(phase);
-        }
-    }
-
-    fn report(&mut self, progress: Progress) -> bool {
-        let fraction = (self.k as f64 + progress.fraction) / self.n as f64;
-        self.monitor.report(Progress { time: self.time + progress.time, fraction, ..progress })
-    }
 }
