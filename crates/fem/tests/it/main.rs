@@ -18,6 +18,7 @@ mod left_out;
 mod measured;
 mod mirror_symmetry;
 mod models;
+mod own_frame;
 mod paper;
 mod partner_waves;
 mod plan;
