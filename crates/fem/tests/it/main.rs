@@ -23,6 +23,7 @@ mod paper;
 mod partner_waves;
 mod plan;
 mod plastic_yield;
+mod ranges;
 mod refusals_in_code;
 mod remedies;
 mod rigid_partner;
