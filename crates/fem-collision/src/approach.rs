@@ -92,6 +92,18 @@ impl Approach {
         self.gap / self.speed()
     }
 
+    /// The same in the frame of the common mass centre, touching at time 0, and that frame's velocity
+    /// along +y, m/s. Masses in kg; infinite for a wall, of which there is one at most.
+    ///
+    /// # Errors
+    /// Speeds that leave the range of f64.
+    pub fn in_frame_of_centre(&self, masses: [f64; 2]) -> Result<(Self, f64), ApproachError> {
+        let [lower, upper] = self.centres(masses, 1.0, 0.0);
+        let speed = self.speed();
+        let velocity = -upper * self.velocities[0] + lower * self.velocities[1];
+        Ok((Self::new([lower * speed, upper * speed], 0.0)?, velocity))
+    }
+
     /// What the two mass centres do along +y (m, or m/s) at an approach since time 0 (m, or its
     /// rate in m/s), the time since then (s, or 1 for the rates), and the masses, kg; infinite for a
     /// wall.

@@ -73,6 +73,17 @@ pub struct Snapshot {
     pub time: f64,
     /// Approach of the mass centres, m.
     pub approach: f64,
+    /// How far each body has moved along +y beyond the displacements of its fields, m: its flight before
+    /// first touch and the way of the mass centre, of which strains would keep nothing but rounding.
+    pub carried: [f64; 2],
     /// Lower and upper body.
     pub bodies: [BodyFields; 2],
+}
+
+impl Snapshot {
+    /// Displacements (r, y) of a body's nodes since the start of the case, m.
+    pub fn displacement(&self, side: usize) -> Vec<[f64; 2]> {
+        let carried = self.carried[side];
+        self.bodies[side].displacement.iter().map(|[r, y]| [*r, y + carried]).collect()
+    }
 }

@@ -67,9 +67,8 @@ impl CondensedPair {
         self.prepare(speed, damping.relaxations)?;
         monitor.enter(Phase::Collision);
         let elastic = self.elastic_impact(speed.max(self.fall_speed(frame)))?;
-        let reach = REACH * self.points[elastic.n_closed - 1].radius;
         let n_all = self.points.len();
-        let n_near = (self.points.partition_point(|point| point.radius <= reach) + 2).min(n_all);
+        let n_near = self.n_near(elastic.n_closed - 1);
         let time_step = self.time_step(elastic.contact_time / n_steps as f64);
         let mut run = |n_points: usize| {
             let motion =
@@ -128,6 +127,18 @@ impl CondensedPair {
             motion.advance()?;
         }
         Ok(ContactState { time: motion.time(), approach: motion.approach, forces: motion.forces })
+    }
+
+    /// How many points are followed at first by a collision that closes all up to this one without
+    /// relaxation.
+    fn n_near(&self, last_closed: usize) -> usize {
+        let mut reach = REACH * self.points[last_closed].radius;
+        if self.nodal_side.is_none() {
+            // What has to stay open.
+            reach += self.longest_element(last_closed);
+        }
+        let within = self.points.partition_point(|point| point.radius <= reach);
+        (within + 2).min(self.points.len())
     }
 
     /// √(g δ) of the static approach δ without relaxation, m/s: of a ball that is let down more slowly

@@ -78,17 +78,16 @@ impl CondensedPair {
                 label,
                 time: time(instant),
                 approach: now.approach,
+                carried: approach.centres(self.masses(), approach.gap(), time(instant)),
                 bodies: [BodyFields::default(), BodyFields::default()],
             })
             .collect();
         for (s, side) in self.sides.iter().enumerate() {
             let Some(side) = side else { continue };
-            let wanted: Vec<_> = instants
+            let wanted: Vec<_> = states
                 .iter()
-                .zip(&states)
-                .flat_map(|(&instant, [now, rates])| {
-                    let approach = now.approach + frame.approach.gap();
-                    let centre = frame.approach.centres(self.masses(), approach, time(instant))[s];
+                .flat_map(|[now, rates]| {
+                    let centre = frame.approach.centres(self.masses(), now.approach, 0.0)[s];
                     let velocity = frame.approach.centres(self.masses(), rates.approach, 1.0)[s];
                     let effective = now.sides[s].effective();
                     [

@@ -47,6 +47,8 @@ pub(crate) struct Motion<'a> {
     /// What leaves the bodies as waves, if anything does.
     waves: Option<Waves>,
     solver: DiscSolver,
+    /// With more points closed the contact may reach beyond the last one.
+    most_closed: usize,
     overlap: Vec<f64>,
     /// Forces at the points, N.
     pub forces: Vec<f64>,
@@ -115,6 +117,7 @@ impl<'a> Motion<'a> {
             gravity: 0.0,
             sides,
             solver: DiscSolver::new(compliance),
+            most_closed: pair.most_closed(n_points),
             overlap: vec![0.0; n_points],
             forces: vec![0.0; n_points],
             force: 0.0,
@@ -148,7 +151,7 @@ impl<'a> Motion<'a> {
     /// One step.
     ///
     /// # Errors
-    /// No contact state; a contact that reaches the last point.
+    /// No contact state; a contact that reaches the last point, or with springs the last element.
     pub fn advance(&mut self) -> Result<(), Stop> {
         let dt = self.time_step;
         let predicted = self.approach + dt * self.rate + (0.5 - BETA) * dt * dt * self.acceleration;
@@ -168,7 +171,7 @@ impl<'a> Motion<'a> {
             .solver
             .solve(&self.overlap, &mut self.forces)
             .map_err(|_| Stop::NoContactState { time: (self.step + 1) as f64 * dt })?;
-        if self.contact.n_closed == self.forces.len() {
+        if self.contact.n_closed > self.most_closed {
             let radius = self.pair.points[self.forces.len() - 1].radius;
             let (time, step) = (self.time(), self.step as u64);
             return Err(Stop::ContactBeyondCandidates { time, step, radius });

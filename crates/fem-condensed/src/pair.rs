@@ -8,7 +8,7 @@ use fem_material::{ActsOn, PronySeries};
 use crate::curve::{ElasticCurve, ElasticImpact};
 use crate::error::CondensedError;
 use crate::points::Points;
-use crate::settings::PairSettings;
+use crate::settings::{ContactModel, PairSettings};
 use crate::side::{PairSide, PressureNode, pressure_nodes};
 
 /// A shear modulus that falls below this share within the elastic contact time is strongly relaxed:
@@ -93,8 +93,13 @@ impl CondensedPair {
         let carrier = if nodal_side.is_some() { None } else { sides.iter().flatten().next() };
         let nodes = pressure_nodes(&points, carrier);
         let gaps: Vec<f64> = points.iter().map(|point| point.initial_gap).collect();
-        let curve =
-            ElasticCurve::new(&compliance, &gaps).ok_or(CondensedError::NotPositiveDefinite)?;
+        let curve = match settings.contact {
+            ContactModel::Exact => ElasticCurve::new(&compliance, &gaps),
+            ContactModel::Springs(_) => {
+                ElasticCurve::of_springs(&compliance, &spring_compliance, &gaps)
+            }
+        };
+        let curve = curve.ok_or(CondensedError::NotPositiveDefinite)?;
         let moving = masses.iter().zip(settings.held).filter(|(_, held)| !held);
         let inverse_mass: f64 = moving.filter_map(|(mass, _)| Some(mass.as_ref()?.recip())).sum();
         Ok(Self {
@@ -215,6 +220,29 @@ impl CondensedPair {
     /// Number of points that can touch.
     pub fn n_points(&self) -> usize {
         self.points.len()
+    }
+
+    /// How many of the first `n_points` points may be closed, if all that could close further out is
+    /// to be seen. Springs at Gauss points close in any pattern within an element: a whole element,
+    /// the longer one of the two bodies, has to stay open. Of nodes it is one.
+    pub(crate) fn most_closed(&self, n_points: usize) -> usize {
+        let Some(last) = n_points.checked_sub(1) else { return 0 };
+        if self.nodal_side.is_some() {
+            return last;
+        }
+        let open = self.points[last].radius - self.longest_element(last);
+        self.points[..last].partition_point(|point| point.radius < open)
+    }
+
+    /// Length along r of the longer element of the two bodies at a point, m.
+    pub(crate) fn longest_element(&self, point: usize) -> f64 {
+        let lengths =
+            self.inputs.iter().zip(&self.points[point].feet).filter_map(|(input, foot)| {
+                let nodes = input.mesh()?.nodes();
+                let [inner, outer] = foot.nodes.map(|node| nodes[node as usize][0]);
+                Some(outer - inner)
+            });
+        lengths.fold(0.0, f64::max)
     }
 
     /// Equations of both bodies.

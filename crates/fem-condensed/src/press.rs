@@ -22,7 +22,7 @@ impl CondensedPair {
         let contact = DiscSolver::new(self.compliance.clone())
             .solve(&overlap, &mut forces)
             .map_err(|_| Stop::NoContactState { time: 0.0 })?;
-        if contact.n_closed == n {
+        if contact.n_closed > self.most_closed(n) {
             return Err(beyond());
         }
         let force = forces.iter().sum();

@@ -16,6 +16,8 @@ use crate::error::CondensedError;
 const VECTORS_PER_MODE: usize = 3;
 /// Lanczos vectors beside those of [`VECTORS_PER_MODE`], whatever the number of modes.
 const VECTORS_MORE: usize = 20;
+/// Modes that are looked for at first, if more are asked for.
+const FIRST_MODES: usize = 12;
 /// Largest residual of a mode's flexibility, over it, that counts as settled.
 const SETTLED: f64 = 1e-3;
 /// Elements that a shear wave of a mode's frequency spans at least, where they are largest: with
@@ -46,66 +48,135 @@ impl Vibrations {
         shear_speed: f64,
         n_modes: usize,
     ) -> Result<Self, CondensedError> {
-        let n = body.mass_of_equation.len();
-        let n_vectors = (VECTORS_PER_MODE * n_modes + VECTORS_MORE).min(n / 2);
-        let mut load = body.balanced_load(&Mat::full(1, 1, 1.0));
-        let mut basis = Mat::<f64>::zeros(n, n_vectors);
-        let mut weighted = Mat::<f64>::zeros(n, n_vectors);
-        let mut projected = Mat::<f64>::zeros(n_vectors, n_vectors);
-        let (mut count, mut last_norm) = (0, 0.0);
-        for k in 0..n_vectors {
-            body.solve_balanced(&mut load);
-            body.remove_mean_motion(&mut load);
-            // The first pass gives the projection of G, the second removes what rounding left.
-            for pass in 0..2 {
-                let done = weighted.as_ref().subcols(0, k);
-                let shares = done.transpose() * &load;
-                load -= basis.as_ref().subcols(0, k) * &shares;
-                if pass == 0 && k > 0 {
-                    for j in 0..k {
-                        projected[(j, k - 1)] = shares[(j, 0)];
-                        projected[(k - 1, j)] = shares[(j, 0)];
-                    }
-                }
-            }
-            let norm = (0..n)
-                .map(|i| body.mass_of_equation[i] * load[(i, 0)] * load[(i, 0)])
-                .sum::<f64>()
-                .sqrt();
-            if norm <= 0.0 || norm.is_nan() {
-                break;
-            }
-            for i in 0..n {
-                basis[(i, k)] = load[(i, 0)] / norm;
-                weighted[(i, k)] = body.mass_of_equation[i] * basis[(i, k)];
-                load[(i, 0)] = weighted[(i, k)];
-            }
-            (count, last_norm) = (k + 1, norm);
-        }
-        // The last vector's own column of the projection is not known: leave it out.
-        let m = usize::saturating_sub(count, 1);
-        let flexibility = projected.as_ref().submatrix(0, 0, m, m).to_owned();
-        let (values, vectors) =
-            symmetric_eigen(&flexibility).ok_or(CondensedError::NotPositiveDefinite)?;
         // A wave of frequency ω is 2π c/ω long.
         let shortest = ELEMENTS_PER_WAVE * longest_edge(body);
-        let largest = (std::f64::consts::TAU * shear_speed / shortest).powi(2);
+        let least = (shortest / (std::f64::consts::TAU * shear_speed)).powi(2);
+        let mut lanczos = Lanczos::new(body, n_modes);
+        // Vectors beyond those that the resolved modes need are the mesh's modes, and in the end
+        // rounding: no more are made than it takes to know all modes that the mesh resolves.
+        let mut asked = n_modes.min(FIRST_MODES);
+        let settled = loop {
+            lanczos.extend(VECTORS_PER_MODE * asked + VECTORS_MORE);
+            let settled = lanczos.settled(asked, least)?;
+            if settled.is_all || asked == n_modes || lanczos.is_over() {
+                break settled;
+            }
+            asked = (2 * asked).min(n_modes);
+        };
+        Ok(lanczos.modes(&settled))
+    }
+}
+
+/// Flexibilities 1/ω² of modes that have settled, falling, and their shapes in Lanczos vectors.
+struct Settled {
+    flexibilities: Vec<f64>,
+    shapes: Mat<f64>,
+    /// Whether the mesh resolves no further mode.
+    is_all: bool,
+}
+
+/// Lanczos vectors of the flexibility of a free body.
+struct Lanczos<'a> {
+    body: &'a CondensedBody,
+    /// Orthonormal in the masses, and times them; of `count` vectors.
+    basis: Mat<f64>,
+    weighted: Mat<f64>,
+    projected: Mat<f64>,
+    count: usize,
+    /// What the flexibility makes of the last vector.
+    load: Mat<f64>,
+    last_norm: f64,
+    has_broken_down: bool,
+}
+
+impl<'a> Lanczos<'a> {
+    /// With room for so many modes.
+    fn new(body: &'a CondensedBody, n_modes: usize) -> Self {
+        let n = body.mass_of_equation.len();
+        let n_vectors = (VECTORS_PER_MODE * n_modes + VECTORS_MORE).min(n / 2);
+        Self {
+            body,
+            basis: Mat::zeros(n, n_vectors),
+            weighted: Mat::zeros(n, n_vectors),
+            projected: Mat::zeros(n_vectors, n_vectors),
+            count: 0,
+            load: body.balanced_load(&Mat::full(1, 1, 1.0)),
+            last_norm: 0.0,
+            has_broken_down: false,
+        }
+    }
+
+    /// Whether there are no more vectors.
+    fn is_over(&self) -> bool {
+        self.has_broken_down || self.count == self.basis.ncols()
+    }
+
+    /// Up to so many vectors.
+    fn extend(&mut self, n_vectors: usize) {
+        while self.count < n_vectors && !self.is_over() {
+            self.add_vector();
+        }
+    }
+
+    fn add_vector(&mut self) {
+        let (k, masses) = (self.count, &self.body.mass_of_equation);
+        self.body.solve_balanced(&mut self.load);
+        self.body.remove_mean_motion(&mut self.load);
+        // The first pass gives the projection of G, the second removes what rounding left.
+        for pass in 0..2 {
+            let done = self.weighted.as_ref().subcols(0, k);
+            let shares = done.transpose() * &self.load;
+            self.load -= self.basis.as_ref().subcols(0, k) * &shares;
+            if pass == 0 && k > 0 {
+                for j in 0..k {
+                    self.projected[(j, k - 1)] = shares[(j, 0)];
+                    self.projected[(k - 1, j)] = shares[(j, 0)];
+                }
+            }
+        }
+        let squares = masses.iter().enumerate().map(|(i, mass)| mass * self.load[(i, 0)].powi(2));
+        let norm = squares.sum::<f64>().sqrt();
+        if norm <= 0.0 || norm.is_nan() {
+            self.has_broken_down = true;
+            return;
+        }
+        for (i, mass) in masses.iter().enumerate() {
+            self.basis[(i, k)] = self.load[(i, 0)] / norm;
+            self.weighted[(i, k)] = mass * self.basis[(i, k)];
+            self.load[(i, 0)] = self.weighted[(i, k)];
+        }
+        (self.count, self.last_norm) = (k + 1, norm);
+    }
+
+    /// Up to so many modes that have settled, the lowest ones, of flexibilities of at least `least`, s².
+    fn settled(&self, n_modes: usize, least: f64) -> Result<Settled, CondensedError> {
+        // The last vector's own column of the projection is not known: leave it out.
+        let m = usize::saturating_sub(self.count, 1);
+        let projected = self.projected.as_ref().submatrix(0, 0, m, m).to_owned();
+        let (values, vectors) =
+            symmetric_eigen(&projected).ok_or(CondensedError::NotPositiveDefinite)?;
         // The largest flexibilities are the lowest frequencies. What the next vector would add to a
         // mode is the residual of its flexibility.
-        let chosen: Vec<usize> = (0..m)
-            .rev()
-            .take(n_modes)
-            .take_while(|&j| {
-                let residual = last_norm * vectors[(m - 1, j)].abs();
-                values[j] * largest >= 1.0 && residual <= SETTLED * values[j]
-            })
-            .collect();
-        let n_modes = chosen.len();
-        let squared_frequency: Vec<f64> = chosen.iter().map(|&j| values[j].recip()).collect();
+        let is_settled =
+            |j: usize| self.last_norm * vectors[(m - 1, j)].abs() <= SETTLED * values[j];
+        let settled = (0..m).rev().take(n_modes).take_while(|&j| is_settled(j));
+        let chosen: Vec<usize> = settled.take_while(|&j| values[j] >= least).collect();
+        let next = m.checked_sub(chosen.len() + 1);
+        Ok(Settled {
+            flexibilities: chosen.iter().map(|&j| values[j]).collect(),
+            shapes: Mat::from_fn(m, chosen.len(), |i, j| vectors[(i, chosen[j])]),
+            is_all: next.is_none_or(|j| values[j] < least && is_settled(j)),
+        })
+    }
+
+    fn modes(&self, settled: &Settled) -> Vibrations {
+        let (body, m, n_modes) = (self.body, settled.shapes.nrows(), settled.flexibilities.len());
+        let n = body.mass_of_equation.len();
+        let squared_frequency = settled.flexibilities.iter().map(|value| value.recip()).collect();
         let scaled = Mat::from_fn(m, n_modes, |i, j| {
-            vectors[(i, chosen[j])] * values[chosen[j]].max(0.0).sqrt()
+            settled.shapes[(i, j)] * settled.flexibilities[j].max(0.0).sqrt()
         });
-        let fields = basis.as_ref().subcols(0, m) * scaled;
+        let fields = self.basis.as_ref().subcols(0, m) * scaled;
         let forces = body.apply_deviatoric(&fields);
         let deviatoric_share = (0..n_modes)
             .map(|j| (0..n).map(|i| fields[(i, j)] * forces[(i, j)]).sum::<f64>().clamp(0.0, 1.0))
@@ -114,7 +185,7 @@ impl Vibrations {
         let contact = Mat::from_fn(body.numbering.n_contact, n_modes, |i, j| {
             body.inward * fields[(first + i, j)]
         });
-        Ok(Self { squared_frequency, deviatoric_share, contact, fields })
+        Vibrations { squared_frequency, deviatoric_share, contact, fields }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What can be wrong with a model.
 
+use fem_collision::ApproachError;
 use fem_contact::ContactError;
 use thiserror::Error;
 
@@ -9,6 +10,9 @@ pub enum ModelError {
     /// The surfaces make no contact.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The bodies do not meet in their own frame.
+    #[error(transparent)]
+    Approach(#[from] ApproachError),
     /// A setting lies outside of its range.
     #[error("{name} is {value}; allowed is {allowed}")]
     Setting {

@@ -72,7 +72,7 @@ pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
         }
     });
     let approach = model.approach().speed() * time - model.approach().gap();
-    Snapshot { label: None, time, approach, bodies }
+    Snapshot { label: None, time, approach, carried: [0.0; 2], bodies }
 }
 
 /// Whether a snapshot's fields are of the model's sizes.

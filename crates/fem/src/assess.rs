@@ -36,10 +36,11 @@ impl Simulation {
     }
 }
 
-/// Warnings about a collision: of finite elements, which have errors of their own, and of effects that
-/// show in it.
+/// Warnings about a collision: whether its numbers can be those of one, what finite elements add of their
+/// own errors, and effects that show in it.
 pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
-    let mut warnings = of_elements(simulation, collision);
+    let mut warnings = of_numbers(simulation, collision);
+    warnings.extend(of_elements(simulation, collision));
     if let Some(estimate) = simulation.estimate(collision) {
         let scene = simulation.case().scene();
         let after = |effect: &&dyn Effect| effect.after(scene, &estimate, collision);
@@ -50,16 +51,46 @@ pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
 
 fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
-    let warnings = [
-        run.incomplete(),
-        run.energy_residual(),
-        run.restitution(),
-        run.resolution(),
-        run.refinement(),
-        run.penetration(),
-        run.noise(),
-    ];
+    let warnings = [run.resolution(), run.refinement(), run.penetration(), run.noise()];
     warnings.into_iter().flatten().collect()
+}
+
+/// What holds of every model.
+fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
+    let remedy = match &simulation.setup().elements {
+        Some(elements) => elements.finer_steps,
+        None => "use model condensed or fem",
+    };
+    [incomplete(collision), energy_residual(collision, remedy), restitution(collision)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn incomplete(collision: &Collision) -> Option<String> {
+    let stop = collision.stop()?;
+    Some(format!("the run is not complete: {stop}; maxima are those so far"))
+}
+
+fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
+    let residual = collision.residual_relative?;
+    // A residual that is no number is above every limit.
+    let is_sound = residual <= LARGEST_RESIDUAL;
+    (!is_sound).then(|| {
+        format!(
+            "the energy does not add up by {residual:.1e} of the initial; above \
+             {LARGEST_RESIDUAL:e}, {remedy}"
+        )
+    })
+}
+
+fn restitution(collision: &Collision) -> Option<String> {
+    let restitution = collision.restitution?;
+    // So is one that is no number.
+    let is_sound = restitution <= 1.0 + LARGEST_EXCESS;
+    (!is_sound).then(|| {
+        format!("the restitution {restitution:.6} is above 1: the numerical error is visible")
+    })
 }
 
 /// A run of finite elements.
@@ -80,31 +111,6 @@ impl<'a> Run<'a> {
         let meshes = simulation.model().meshes();
         let (has_springs, finer_steps) = (*has_springs, *finer_steps);
         Some(Self { collision, plan, meshes, has_springs, finer_steps })
-    }
-
-    fn incomplete(&self) -> Option<String> {
-        let stop = self.collision.stop()?;
-        Some(format!("the run is not complete: {stop}; maxima are those so far"))
-    }
-
-    fn energy_residual(&self) -> Option<String> {
-        let residual = self.collision.residual_relative?;
-        // A residual that is no number is above every limit.
-        let is_sound = residual <= LARGEST_RESIDUAL;
-        (!is_sound).then(|| {
-            format!(
-                "the energy does not add up by {residual:.1e} of the initial; above \
-                 {LARGEST_RESIDUAL:e}, {}",
-                self.finer_steps
-            )
-        })
-    }
-
-    fn restitution(&self) -> Option<String> {
-        let restitution = self.collision.restitution?;
-        (restitution > 1.0 + LARGEST_EXCESS).then(|| {
-            format!("the restitution {restitution:.6} is above 1: the numerical error is visible")
-        })
     }
 
     /// Length of the element edge at the contact, the larger of the two bodies, m.

@@ -37,12 +37,21 @@ impl Estimate {
     /// Of a scene that a model is made for.
     ///
     /// # Errors
-    /// As [`Estimate::of`], as a fault of the scene.
+    /// As [`Estimate::of`], as a fault of the scene; masses that no f64 holds.
     pub fn checked(scene: &Scene) -> Result<Self, Refusal> {
-        Self::of(scene).map_err(|error| {
-            Refusal::new("body", format!("the collision cannot be estimated: {error}"))
+        let refused = |why: String| {
+            Refusal::new("body", format!("the collision cannot be estimated: {why}"))
                 .with_help("check sizes, densities, moduli and speeds, and their units")
-        })
+        };
+        // What overflows would count as a wall, and products of masses have to be numbers too.
+        let mut masses = scene.bodies().iter().filter_map(|body| Some((body, body.mass()?)));
+        if let Some((body, mass)) = masses.find(|(_, mass)| !(mass * mass).is_normal()) {
+            return Err(refused(format!(
+                "the mass of {} is {mass:e} kg; its square must be a number",
+                body.name()
+            )));
+        }
+        Self::of(scene).map_err(|error| refused(error.to_string()))
     }
 
     /// What a run is told to expect.

@@ -1,5 +1,6 @@
 //! All that a collision under way knows beside its model, to be put away and taken up again.
 
+use fem_collision::Approach;
 use serde::{Deserialize, Serialize};
 
 use crate::models::Bounces;
@@ -12,6 +13,8 @@ pub struct Memory {
     pub(crate) contact: fem_explicit::Memory,
     /// Of a ball that gravity brings back: the contacts before.
     pub(crate) bounces: Option<Box<Bounces>>,
+    /// How the bodies met in the contact under way; they are computed in the frame of their mass centre.
+    pub(crate) met: Approach,
 }
 
 impl Memory {
@@ -23,12 +26,5 @@ impl Memory {
     /// Steps of the contact under way that are done.
     pub fn step(&self) -> u64 {
         self.contact.step()
-    }
-}
-
-impl From<fem_explicit::Memory> for Memory {
-    /// Of a collision that is one contact.
-    fn from(contact: fem_explicit::Memory) -> Self {
-        Self { contact, bounces: None }
     }
 }

@@ -9,5 +9,6 @@ mod quantities;
 mod refusals;
 mod rigid;
 mod snapshots;
+mod springs;
 mod together;
 mod unlike_meshes;

@@ -15,7 +15,8 @@ use fem_mesh::SphereMesh;
 
 use super::condensed::static_contact::of_elements;
 use super::mirrored::{Mirrored, plan_of_half};
-use crate::approach::approach_of;
+use super::own_frame::OwnFrame;
+use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
 use crate::course::{Course, stopped, to_the_end};
 use crate::effects::{
@@ -68,6 +69,8 @@ impl Method for ExplicitMethod {
 pub struct Explicit {
     setup: Setup,
     made: Arc<Made>,
+    /// In which the scene's bodies are computed.
+    frame: OwnFrame,
     /// As the scene's bodies meet.
     bodies: Arc<Bodies>,
 }
@@ -108,8 +111,10 @@ impl Explicit {
         let (settings, speed_share) = (settings(&plan), plan.speed_share);
         let made =
             Made { scene: scene.clone(), settings, contact_element_size, speed_share, inputs };
+        let frame =
+            made.own_frame(&approach).map_err(|error| Refusal::new("body", error.to_string()))?;
         let bodies = made
-            .bodies(&approach, plan.candidate_radius)
+            .bodies(frame.own(), plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
         let cost = cost(scene, &bodies, &plan)?;
         FiniteStrain::check(scene, &plan.estimate)?;
@@ -129,7 +134,7 @@ impl Explicit {
                 finer_steps: "lower time.step_factor",
             }),
         };
-        Ok(Self { setup, made: Arc::new(made), bodies: Arc::new(bodies) })
+        Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
     }
 
     /// Bodies and contact, as the scene's bodies meet.
@@ -144,12 +149,14 @@ impl Explicit {
     /// A collision of other bodies.
     pub fn bodies_of(&self, collision: &Collision) -> Result<Arc<Bodies>, ModelError> {
         let searched = collision.searched.unwrap_or(self.bodies.searched());
-        self.bodies_at(&collision.approach, searched.radius)
+        let frame = self.made.own_frame(&collision.approach)?;
+        self.bodies_at(frame.own(), searched.radius)
     }
 
-    /// Bodies that meet like this and look for contact out to a radius, m: the model's own if they do.
+    /// Bodies that meet like this in their own frame and look for contact out to a radius, m: the model's
+    /// own if they do.
     fn bodies_at(&self, approach: &Approach, radius: f64) -> Result<Arc<Bodies>, ModelError> {
-        if *approach == self.setup.approach && radius == self.bodies.candidate_radius() {
+        if *approach == *self.frame.own() && radius == self.bodies.candidate_radius() {
             return Ok(self.bodies.clone());
         }
         self.made.bodies(approach, radius).map(Arc::new)
@@ -158,30 +165,38 @@ impl Explicit {
     /// A collision under way.
     fn course(&self, approach: &Approach, want: &Want) -> Box<dyn Course> {
         match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
-            Ok((bodies, estimate)) => {
-                let expected = estimate.expectation();
-                let run = Run::new(bodies, expected, want);
-                let (made, want) = (self.made.clone(), want.clone());
-                Box::new(ExplicitCourse { made, expected, want, run })
+            Ok((bodies, frame, estimate)) => {
+                let (expected, want) = (estimate.expectation(), frame.want(want));
+                let run = Run::new(bodies, expected, &want);
+                let made = self.made.clone();
+                Box::new(ExplicitCourse { made, frame, expected, want, run })
             }
             Err(stop) => stopped(*approach, stop),
         }
     }
 
-    /// The bodies that meet in another way, and what closed forms say of it.
-    fn meeting(&self, approach: &Approach) -> Result<(Arc<Bodies>, Estimate), Stop> {
+    /// The bodies that meet in another way, their frame, and what closed forms say of it.
+    fn meeting(&self, approach: &Approach) -> Result<(Arc<Bodies>, OwnFrame, Estimate), Stop> {
         if *approach == self.setup.approach {
-            return Ok((self.bodies.clone(), self.setup.estimate));
+            return Ok((self.bodies.clone(), self.frame, self.setup.estimate));
         }
+        let not_made = |error: ModelError| Stop::NotMade(error.to_string());
+        let frame = self.made.own_frame(approach).map_err(not_made)?;
         let estimate = Estimate::at(&self.made.scene, approach.speed())
             .map_err(|error| Stop::OutOfRange(error.to_string()))?;
         let radius = candidate_radius(&estimate, self.made.contact_element_size);
-        let bodies = self.made.bodies(approach, radius);
-        Ok((Arc::new(bodies.map_err(|error| Stop::NotMade(error.to_string()))?), estimate))
+        let bodies = self.made.bodies(frame.own(), radius).map_err(not_made)?;
+        Ok((Arc::new(bodies), frame, estimate))
     }
 }
 
 impl Made {
+    /// The frame in which bodies are computed that meet like this.
+    fn own_frame(&self, approach: &Approach) -> Result<OwnFrame, ModelError> {
+        let masses = frame_of(&self.scene, approach, 0.0).masses;
+        Ok(OwnFrame::of(approach, masses)?)
+    }
+
     /// Bodies that look for contact out to a radius, m, with the parts that effects ask for.
     fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
@@ -222,15 +237,17 @@ impl Model for Explicit {
 
     fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
         let refused = |error: ModelError| Refusal::new("model.fem", error.to_string());
-        if memory.bounces.is_some() {
+        let Memory { contact: memory, bounces, met } = memory;
+        let frame = self.made.own_frame(&met).map_err(refused)?;
+        let (approach, expected) = (*memory.approach(), memory.expected());
+        if bounces.is_some() || approach != *frame.own() {
             return Err(refused(ModelError::MemoryOfAnother));
         }
-        let memory = memory.contact;
-        let (approach, expected) = (*memory.approach(), memory.expected());
         let want = memory.want().clone();
         let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
         let run = Run::resume(bodies, memory).map_err(refused)?;
-        Ok(Box::new(ExplicitCourse { made: self.made.clone(), expected, want, run }))
+        let made = self.made.clone();
+        Ok(Box::new(ExplicitCourse { made, frame, expected, want, run }))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
@@ -246,6 +263,7 @@ impl Model for Explicit {
 /// in which it is looked for.
 struct ExplicitCourse {
     made: Arc<Made>,
+    frame: OwnFrame,
     expected: Expectation,
     want: Want,
     run: Run<Arc<Bodies>>,
@@ -265,15 +283,16 @@ impl Course for ExplicitCourse {
     }
 
     fn progress(&self) -> Progress {
-        self.run.progress()
+        self.frame.progress(self.run.progress())
     }
 
     fn memory(&self) -> Option<Memory> {
-        Some(self.run.memory().clone().into())
+        let contact = self.run.memory().clone();
+        Some(Memory { contact, bounces: None, met: *self.frame.met() })
     }
 
     fn finish(self: Box<Self>) -> Collision {
-        self.run.finish()
+        self.frame.collision(self.run.finish())
     }
 }
 

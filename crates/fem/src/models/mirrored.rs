@@ -84,17 +84,10 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
-    /// The half does not know how fast the mass centre moves: as the scene's, if the bodies met like
-    /// that, and else not at all.
     fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
-        let own = self.setup.approach;
-        let met = *memory.contact.approach();
-        let at_rest = || Approach::new([met.speed(), -met.speed()], 2.0 * met.gap());
-        let whole = match half_of(&own) {
-            Ok(half) if half == met => own,
-            _ => at_rest().map_err(|error| Refusal::new("body", error.to_string()))?,
-        };
-        let half = self.half.resume(memory)?;
+        let whole = memory.met;
+        let met = half_of(&whole).map_err(|stop| Refusal::new("body", stop.to_string()))?;
+        let half = self.half.resume(Memory { met, ..memory })?;
         Ok(Box::new(MirroredCourse { half, whole: Whole::of(&whole) }))
     }
 
@@ -131,7 +124,7 @@ impl Course for MirroredCourse {
     }
 
     fn memory(&self) -> Option<Memory> {
-        self.half.memory()
+        Some(Memory { met: self.whole.approach, ..self.half.memory()? })
     }
 
     fn finish(self: Box<Self>) -> Collision {
@@ -199,12 +192,13 @@ impl Whole {
             field.iter().map(|[r, y]| [*r, sign * y + by]).collect()
         };
         let body = |sign: f64| BodyFields {
-            displacement: moved(&lower.displacement, sign, shift),
+            displacement: moved(&lower.displacement, sign, 0.0),
             velocity: moved(&lower.velocity, sign, self.velocity),
-            effective: moved(&lower.effective, sign, shift),
+            effective: moved(&lower.effective, sign, 0.0),
             stress: lower.stress.iter().map(|&[rr, yy, tt, ry]| [rr, yy, tt, sign * ry]).collect(),
         };
-        Snapshot { approach: 2.0 * half.approach, bodies: [body(1.0), body(-1.0)], ..half }
+        let carried = [half.carried[0] + shift, shift - half.carried[0]];
+        Snapshot { approach: 2.0 * half.approach, carried, bodies: [body(1.0), body(-1.0)], ..half }
     }
 }
 

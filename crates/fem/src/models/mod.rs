@@ -8,6 +8,7 @@ mod hertz;
 mod law;
 mod law_numbers;
 mod mirrored;
+mod own_frame;
 mod reduced;
 mod simplified;
 mod ting;

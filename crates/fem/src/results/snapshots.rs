@@ -146,7 +146,7 @@ fn write_snapshot(
     let (mut cells, mut points) = (GridStress::default(), GridStress::default());
     for ((side, _, material), recovery) in drawing.meshed().zip(&scene.recoveries) {
         let fields = &snapshot.bodies[side];
-        displacement.extend(pad_vectors(fields.displacement.as_flattened()));
+        displacement.extend(pad_vectors(snapshot.displacement(side).as_flattened()));
         velocity.extend(pad_vectors(fields.velocity.as_flattened()));
         let stress = recovery.stress(material, fields);
         append_stress(&mut cells, &stress.cells);

@@ -100,8 +100,9 @@ fn a_memory_of_another_ball_is_refused() {
         let other = simulation(&[FEM, COARSE, more]);
         assert!(other.resume(memory.clone()).is_err(), "{more}");
     }
-    let one_contact = memory.contact().clone();
-    assert!(own.resume(one_contact.into()).is_err());
+    let mut one_contact = serde_json::to_value(&memory).unwrap();
+    one_contact["bounces"].take();
+    assert!(own.resume(serde_json::from_value(one_contact).unwrap()).is_err());
 }
 
 /// Told of in the time of the case, and stopped in a later contact: the beginning of the whole.

@@ -8,13 +8,23 @@ const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 /// A mesh that serves all approaches.
 const MESH: [&str; 2] = ["mesh.contact_element_size='0.1 mm'", "mesh.refined_radius='0.4 mm'"];
 
-/// The pair by a method, with more overrides.
+/// The pair by a method, with more overrides, which may name another model.
 pub fn simulation(method: &str, more: &[&str]) -> Simulation {
+    Simulation::new(case(method, more)).unwrap()
+}
+
+/// What is said of a pair that no model computes.
+pub fn refused(method: &str, more: &[&str]) -> String {
+    Simulation::new(case(method, more)).unwrap_err().to_string()
+}
+
+fn case(method: &str, more: &[&str]) -> Case {
     let model = match method {
         "law" => "model.law.falcon.c=300".to_string(),
         name => format!("model.{name}={{}}"),
     };
-    let overrides = MESH.iter().chain(more).map(ToString::to_string).chain([model]);
-    let overrides: Vec<String> = overrides.collect();
-    Simulation::new(Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()).unwrap()
+    let overrides = [model].into_iter();
+    let overrides: Vec<String> =
+        overrides.chain(MESH.iter().chain(more).map(ToString::to_string)).collect();
+    Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()
 }

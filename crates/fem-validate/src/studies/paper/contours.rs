@@ -61,7 +61,7 @@ impl Instant {
         for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {
             let Some(mesh) = body.mesh() else { continue };
             let stress = body.stress(fields).points;
-            let nodes = mesh.nodes().iter().zip(&fields.displacement);
+            let nodes = mesh.nodes().iter().zip(snapshot.displacement(k));
             halves[k] = Section {
                 points: nodes.map(|(x, u)| [0, 1].map(|axis: usize| x[axis] + u[axis])).collect(),
                 values: stress.iter().map(|stress| GIGA * stress[AXIAL]).collect(),

@@ -47,8 +47,7 @@ impl Bounces {
     }
 
     /// Whether it can be of this ball in this contact. What was computed is not computed again.
-    fn fits(&self, ball: &Ball, contact: &fem_explicit::Memory) -> bool {
-        let met = contact.approach();
+    fn fits(&self, ball: &Ball, contact: &fem_explicit::Memory, met: &Approach) -> bool {
         let (speed, time, _) = ball.fall(&self.approach);
         let is_first = self.so_far.n_contacts() == 0;
         self.want.check().is_ok()
@@ -90,15 +89,15 @@ impl BouncingCourse {
     /// A memory of another ball; one whose parts contradict each other.
     pub fn resume(ball: &Arc<Ball>, memory: Memory) -> Result<Self, Refusal> {
         let another = || Refusal::new("gravity", ModelError::MemoryOfAnother.to_string());
-        let known = memory.bounces.ok_or_else(another)?;
-        if !known.fits(ball, &memory.contact) {
+        let known = memory.bounces.clone().ok_or_else(another)?;
+        if !known.fits(ball, &memory.contact, &memory.met) {
             return Err(another());
         }
         let present: Arc<dyn Model> = match known.made_at {
             Some(speed) => Arc::from(ball.made_at(speed).map_err(|_| another())?),
             None => ball.first.clone(),
         };
-        let contact = Some(present.resume(memory.contact.into())?);
+        let contact = Some(present.resume(Memory { bounces: None, ..memory })?);
         Ok(Self { ball: ball.clone(), known: *known, present, contact })
     }
 
@@ -163,8 +162,8 @@ impl Course for BouncingCourse {
     }
 
     fn memory(&self) -> Option<Memory> {
-        let contact = self.contact.as_ref()?.memory()?.contact;
-        Some(Memory { contact, bounces: Some(Box::new(self.known.clone())) })
+        let contact = self.contact.as_ref()?.memory()?;
+        Some(Memory { bounces: Some(Box::new(self.known.clone())), ..contact })
     }
 
     fn finish(mut self: Box<Self>) -> Collision {

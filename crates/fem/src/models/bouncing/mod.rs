@@ -220,10 +220,7 @@ fn later_want(want: &Want, n_contacts: usize, element_updates: u64) -> Want {
 fn fallen(collision: Collision, time: f64, height: f64) -> Collision {
     let lowered = |mut snapshot: Snapshot| {
         snapshot.time += time;
-        let [_, upper] = &mut snapshot.bodies;
-        for place in upper.displacement.iter_mut().chain(&mut upper.effective) {
-            place[1] -= height;
-        }
+        snapshot.carried[1] -= height;
         snapshot
     };
     let snapshots = collision.snapshots.into_iter().map(lowered).collect();

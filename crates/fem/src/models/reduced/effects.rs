@@ -47,10 +47,10 @@ pub(super) fn has(
     Some(match effect.name() {
         Viscoelasticity::NAME => relaxation(scene, estimate, traits.relaxation),
         DashpotEffect::NAME => dashpot(scene.model(), traits.dashpot.as_deref()),
-        FiniteSizeEffect::NAME => {
-            let (is_finite, reason) = traits.finite_size;
-            Answer::is(is_finite, reason)
-        }
+        FiniteSizeEffect::NAME => match (scene.model(), traits.finite_size) {
+            (ModelChoice::Law { .. }, (is_there, reason)) => Answer::is(is_there, reason),
+            (_, finite_size) => FiniteSizeEffect::of_first_order(scene, estimate, finite_size),
+        },
         PartnerWaves::NAME if traits.waves => {
             PartnerWaves::of_term(scene, estimate, PartnerWaves::radiating)
         }

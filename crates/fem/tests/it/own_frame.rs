@@ -1,0 +1,71 @@
+//! Where the origin is, how fast it moves and how far the bodies are apart make no difference.
+
+use fem::{Approach, Collision, METHODS, Want};
+
+use crate::coarse::simulation;
+
+/// What does not depend on the frame.
+fn own(collision: &Collision) -> [Option<f64>; 6] {
+    let found = collision;
+    [
+        found.restitution,
+        found.contact_time,
+        found.peak_force,
+        found.max_approach,
+        found.max_contact_radius,
+        found.peak_pressure,
+    ]
+}
+
+/// All these speeds of approach are 0.5 m/s to the last bit.
+#[test]
+fn a_gap_and_a_common_speed_change_nothing() {
+    let twins = &["body.1.sphere.diameter='22.2 mm'"][..];
+    let wall = &["body.1={name='wall', wall={}}", "body.0.approach_speed=0.5"][..];
+    let ways = [
+        Approach::new([0.5, 0.0], 1e6),
+        Approach::new([0.5, 0.0], 1e-12),
+        Approach::new([1e9 + 0.5, 1e9], 0.0),
+        Approach::new([-1e9, -1e9 - 0.5], 1e6),
+        Approach::new([0.25, -0.25], 1e3),
+    ];
+    for (method, more) in
+        METHODS.iter().flat_map(|method| [(method, &[][..]), (method, twins), (method, wall)])
+    {
+        let simulation = simulation(method.name(), more);
+        let at =
+            |approach: &Approach| simulation.model().collide(approach, &Want::history(), &mut ());
+        let reference = at(&Approach::at(0.5).unwrap());
+        assert!(reference.is_complete());
+        for way in &ways {
+            let way = way.as_ref().unwrap();
+            let name = format!("{} {more:?} {way:?}", method.name());
+            let found = at(way);
+            assert!(found.is_complete(), "{name}");
+            assert_eq!(own(&found), own(&reference), "{name}");
+            let first = found.first_contact.unwrap() - way.first_touch();
+            // Rounding of the time of the case.
+            let ulp = f64::EPSILON * way.first_touch();
+            assert!((first - reference.first_contact.unwrap()).abs() <= 2.0 * ulp, "{name}");
+            let moved = found.bodies.map(|body| body.velocity_after);
+            if let [Some(lower), Some(upper)] = moved {
+                let apart = reference.restitution.unwrap() * 0.5;
+                let ulp = f64::EPSILON * way.velocities()[0].abs();
+                assert!((upper - lower - apart).abs() < 1e-12 + 2.0 * ulp, "{name}: {moved:?}");
+            }
+            if let Some(residual) = found.momentum_residual_relative {
+                assert!(residual < 1e-9, "{name}: {residual:e}");
+            }
+            // A balance is the same in any frame; reduced models strike that of the relative motion.
+            if found.time_step.is_none() {
+                continue;
+            }
+            let initial = found.initial_energy.unwrap();
+            for row in &found.history {
+                let Some(residual) = row.residual else { continue };
+                let off = row.energies.residual(initial) - residual;
+                assert!(off.abs() <= 1e-13 * initial, "{name} at {}: {off:e}", row.time);
+            }
+        }
+    }
+}
