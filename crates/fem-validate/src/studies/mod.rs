@@ -5,6 +5,7 @@ mod condensed_explicit;
 mod contact_patch;
 mod convergence;
 mod critical_step;
+mod hard;
 mod hertz_field;
 mod invariance;
 mod paper;
@@ -29,6 +30,8 @@ const STUDIES: &[(&str, Study)] = &[
     ("contact_patch", contact_patch::study),
     ("convergence", convergence::study),
     ("critical_step", critical_step::study),
+    ("hard", hard::study),
+    ("hard_random", hard::random_study),
     ("hertz_field", hertz_field::study),
     ("invariance", invariance::study),
     ("paper_contact_stress", paper::contact_stress::study),
