@@ -6,6 +6,9 @@ use crate::claim::Section;
 use crate::evaluate::ClaimResult;
 use crate::findings::Figure;
 
+/// The study whose tables the page shows.
+const HARD: &str = "hard";
+
 /// The figures that the Markdown page shows, those of the paper, by their addresses from its
 /// folder.
 pub fn pictures(results: &[ClaimResult]) -> impl Iterator<Item = (String, &Figure)> {
@@ -17,7 +20,7 @@ pub fn pictures(results: &[ClaimResult]) -> impl Iterator<Item = (String, &Figur
     })
 }
 
-/// A Markdown page: a table a section, a row a check, and the paper's figures. It says nothing that changes from run to
+/// A Markdown page: a table a section, a row a check, the hard scenes, and the paper's figures. It says nothing that changes from run to
 /// run on the same program: no times, no machine.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
@@ -45,6 +48,7 @@ pub fn markdown(results: &[ClaimResult]) -> String {
             rows(&mut text, result);
         }
     }
+    hard_scenes(&mut text, results);
     let mut figures = pictures(results).peekable();
     if figures.peek().is_some() {
         text += "\n## The paper's figures\n";
@@ -54,6 +58,24 @@ pub fn markdown(results: &[ClaimResult]) -> String {
         let _ = write!(text, "\n![{}]({address})\n\n{caption}\n", figure.name.replace('_', " "));
     }
     text
+}
+
+/// Every hard scene with every model, an axis a table.
+fn hard_scenes(text: &mut String, results: &[ClaimResult]) {
+    let hard = results.iter().filter(|result| result.claim.study == HARD);
+    let mut tables = hard.flat_map(|result| &result.findings.tables).peekable();
+    if tables.peek().is_some() {
+        *text += "\n## Hard scenes\n";
+    }
+    for table in tables {
+        let rule = vec!["---"; table.header.len()].join("|");
+        let header = table.header.join(" | ");
+        let _ = write!(text, "\n{}\n\n| {header} |\n|{rule}|\n", cell(&table.caption));
+        for row in &table.rows {
+            let cells: Vec<String> = row.iter().map(|text| cell(text)).collect();
+            let _ = writeln!(text, "| {} |", cells.join(" | "));
+        }
+    }
 }
 
 fn rows(text: &mut String, result: &ClaimResult) {

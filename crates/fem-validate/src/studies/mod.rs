@@ -6,6 +6,7 @@ mod contact_patch;
 mod convergence;
 mod critical_step;
 mod finite_strain;
+mod hard;
 mod hertz_field;
 mod invariance;
 mod paper;
@@ -33,6 +34,8 @@ const STUDIES: &[(&str, Study)] = &[
     ("convergence", convergence::study),
     ("critical_step", critical_step::study),
     ("finite_strain", finite_strain::study),
+    ("hard", hard::study),
+    ("hard_random", hard::random_study),
     ("hertz_field", hertz_field::study),
     ("invariance", invariance::study),
     ("paper_contact_stress", paper::contact_stress::study),

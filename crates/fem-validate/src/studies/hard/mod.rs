@@ -1,0 +1,212 @@
+//! Hard scenes: each axis of `validation/hard` goes from one extreme to the other, with every model that
+//! takes the scene.
+//!
+//! An axis is a file beside the claim, [`Axis`]. Of every run the invariants are measured, over all runs
+//! as `growth`, `momentum`, `excess` and `no_number` ([`Trial`]). `AXIS.difference` is the worst of
+//! what a run is off its reference, over the tolerance that its scene states; `AXIS.unexpected` counts
+//! the runs that ended otherwise than the scene says, or did not say what it asks for.
+
+mod axis;
+mod random;
+mod reference;
+mod scenes;
+mod trial;
+
+use rayon::prelude::*;
+use serde::Deserialize;
+
+pub use random::study as random_study;
+
+use crate::claim::RunFile;
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::Laboratory;
+use axis::{Axis, Expected, Scene};
+use reference::Reference;
+use trial::{Outcome, Trial};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Names of the files beside the claim, without their ending.
+    axes: Vec<String>,
+    /// Whether only what takes milliseconds is run.
+    #[serde(default)]
+    quick: bool,
+}
+
+/// A scene with one of its models.
+struct Entry<'a> {
+    axis: usize,
+    scene: &'a Scene,
+    model: &'a str,
+    expected: &'a Expected,
+}
+
+/// What came of an entry, and of what it is held against.
+struct Tried {
+    trial: Trial,
+    reference: Option<Reference>,
+}
+
+/// Runs every scene of every axis with every model that it names.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let axes = parameters.axes.iter().map(|name| Axis::read(&laboratory.claim().folder, name));
+    let axes = axes.collect::<Result<Vec<_>, _>>()?;
+    let entries: Vec<Entry> = axes
+        .iter()
+        .enumerate()
+        .flat_map(|(axis, file)| file.scene.iter().map(move |scene| (axis, scene)))
+        .flat_map(|(axis, scene)| {
+            let models = scene.model.iter();
+            models.map(move |(model, expected)| Entry { axis, scene, model, expected })
+        })
+        .filter(|entry| !parameters.quick || entry.expected.quick)
+        .collect();
+    let tried = entries.par_iter().map(|entry| entry.run(laboratory, &axes[entry.axis]));
+    let tried = tried.collect::<Result<Vec<_>, _>>()?;
+    let mut findings = Findings::new();
+    findings.measure("runs", tried.len() as f64);
+    for (name, (axis, file)) in parameters.axes.iter().zip(axes.iter().enumerate()) {
+        let own = || entries.iter().zip(&tried).filter(|(entry, _)| entry.axis == axis);
+        findings.measure(format!("{name}.unexpected"), 0.0);
+        findings.measure(format!("{name}.difference"), 0.0);
+        for (entry, tried) in own() {
+            entry.measure(tried, name, &mut findings);
+        }
+        let rows = own().map(|(entry, tried)| entry.row(tried));
+        findings.tabulate(file.hard.clone(), HEADER, rows);
+    }
+    Ok(findings)
+}
+
+const HEADER: [&str; 9] =
+    ["scene", "what is hard", "model", "e", "Δe", "ΔT/T", "ΔF/F", "growth, momentum", "outcome"];
+
+impl Entry<'_> {
+    fn run(&self, laboratory: &Laboratory, axis: &Axis) -> Result<Tried, StudyError> {
+        let case = |scene: &Scene, model: &str| {
+            let mut set = axis.set.clone();
+            set.extend(scene.set.iter().cloned());
+            set.push(format!("model={{{model}}}"));
+            laboratory.claim().load_case(&RunFile { case: axis.case.clone(), set })
+        };
+        let trial = Trial::of(laboratory, case(self.scene, self.model))?;
+        let reference = match &self.scene.against {
+            None => None,
+            Some(against) => {
+                let other = |name: &str| {
+                    let scene = axis.scene.iter().find(|scene| scene.name == name);
+                    let missing =
+                        || format!("no scene `{name}` to hold `{}` against", self.scene.name);
+                    scene.ok_or_else(|| StudyError::parameters(missing()))
+                };
+                Some(Reference::of(against, self.scene, self.model, laboratory, case, other)?)
+            }
+        };
+        Ok(Tried { trial, reference })
+    }
+
+    /// Differences from the reference, over what the scene allows.
+    fn differences(&self, tried: &Tried) -> Option<[Option<(f64, f64)>; 3]> {
+        let (ours, reference) = (tried.trial.numbers()?, tried.reference?);
+        let expected = self.expected;
+        let allowed = [expected.restitution, expected.contact_time, expected.peak_force];
+        Some([0, 1, 2].map(|k| {
+            let off = reference.difference(&ours, k)?;
+            Some((off, allowed[k].map_or(0.0, |allowed| off.abs() / allowed)))
+        }))
+    }
+
+    fn measure(&self, tried: &Tried, axis: &str, findings: &mut Findings) {
+        if !self.is_as_expected(tried) {
+            *findings.quantities.entry(format!("{axis}.unexpected")).or_default() += 1.0;
+        }
+        for (_, share) in self.differences(tried).into_iter().flatten().flatten() {
+            findings.measure_worst(&format!("{axis}.difference"), share);
+        }
+        let trial = &tried.trial;
+        for (quantity, value) in [
+            ("growth", trial.growth()),
+            ("momentum", trial.momentum()),
+            ("excess", trial.excess()),
+            ("no_number", trial.no_number()),
+        ] {
+            if let Some(value) = value {
+                findings.measure_worst(quantity, value);
+            }
+        }
+    }
+
+    /// Whether the run ended as the scene says, and said what it should.
+    fn is_as_expected(&self, tried: &Tried) -> bool {
+        match (&tried.trial.outcome, &self.expected.refuses) {
+            (Outcome::Ran { .. }, Some(_)) => false,
+            (Outcome::Ran { warnings, .. }, None) => {
+                let says = |text: &String| warnings.iter().any(|warning| warning.contains(text));
+                self.expected.says.iter().all(says)
+            }
+            (Outcome::Refused(message), Some(text)) => message.contains(text),
+            (Outcome::Refused(_), None) => false,
+        }
+    }
+
+    fn row(&self, tried: &Tried) -> [String; 9] {
+        let trial = &tried.trial;
+        let number =
+            |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.1e}"));
+        let differences = self.differences(tried).unwrap_or_default();
+        let [e, time, force] = differences.map(|two| number(two.map(|(off, _)| off)));
+        let invariants = [trial.growth(), trial.momentum()].map(number).join(", ");
+        let verdict = if self.is_as_expected(tried) { "" } else { "UNEXPECTED: " };
+        [
+            self.scene.name.clone(),
+            self.scene.hard.clone(),
+            self.model.to_string(),
+            trial.restitution().map_or(String::new(), |e| format!("{e:.6}")),
+            e,
+            time,
+            force,
+            invariants,
+            format!("{verdict}{}", trial.words()),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::{Observer, Shelf, evaluate, load_claims};
+
+    struct Nobody;
+
+    impl Observer for Nobody {
+        fn clock(&self) -> f64 {
+            0.0
+        }
+        fn is_interrupted(&self) -> bool {
+            false
+        }
+    }
+
+    /// The half of the suite that takes seconds; `fem-run validate hard` runs all of it.
+    #[test]
+    fn the_quick_half_holds() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation");
+        let mut claims = load_claims(&folder, &["hard".to_string()]).unwrap();
+        let claim = &mut claims[0];
+        claim.parameters.insert("quick".to_string(), true.into());
+        let result = evaluate(claim, &Shelf::default(), &Nobody);
+        assert!(result.error.is_none(), "{:?}", result.error);
+        assert!(result.findings.quantities["runs"] > 40.0);
+        let table = || {
+            let rows = result.findings.tables.iter().flat_map(|table| &table.rows);
+            rows.map(|row| row.join(" | ")).collect::<Vec<_>>().join("\n")
+        };
+        for check in result.checks.iter().filter(|check| check.check.quantity != "runs") {
+            assert!(check.passed, "{check:?}\n{}", table());
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! Random scenes: explicit elements, condensed bodies and Ting's impact of finite spheres side by side.
+//!
+//! Two models may differ by what the tolerances of the claim say, and by what the effects that one has
+//! and the other lacks are worth by the plan's own closed forms, which are good within a factor of
+//! three. What is beyond is `unexplained`, unless the cheaper model warned of its result. `NAME.median`
+//! is the median |Δe| of a pair of models.
+
+use fem::Simulation;
+use fem::effects::Verdict;
+use fem_case::{Case, CaseError};
+use fem_collision::Collision;
+use rayon::prelude::*;
+use serde::Deserialize;
+
+use super::scenes::{Random, overrides};
+use crate::claim::RunFile;
+use crate::error::StudyError;
+use crate::findings::Findings;
+use crate::laboratory::Laboratory;
+
+/// Closed forms of what is left out are good within this factor.
+const FORETOLD_WITHIN: f64 = 3.0;
+/// From the most complete to the cheapest.
+const MODELS: [&str; 3] = ["fem={}", "condensed={}", "ting={finite_size=true}"];
+/// Worst scenes that are shown of each pair.
+const N_SHOWN: usize = 5;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    seeds: Vec<u64>,
+    /// Of each seed.
+    scenes: usize,
+    /// Of two pairs of models: explicit and condensed, condensed and Ting's.
+    explicit: Tolerance,
+    ting: Tolerance,
+}
+
+/// What two models may differ by, having the same effects: |Δe|, shares of contact time and force.
+#[derive(Deserialize, Clone, Copy)]
+#[serde(deny_unknown_fields)]
+struct Tolerance {
+    restitution: f64,
+    contact_time: f64,
+    peak_force: f64,
+}
+
+/// A collision of one model.
+struct Ran {
+    simulation: Simulation,
+    collision: Collision,
+    warns: bool,
+}
+
+/// Two models of a scene.
+struct Difference {
+    scene: String,
+    off: [f64; 3],
+    /// Over what is allowed.
+    share: f64,
+    warns: bool,
+}
+
+/// Runs random scenes.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let scenes: Vec<(String, Vec<String>)> = parameters
+        .seeds
+        .iter()
+        .flat_map(|&seed| {
+            let mut random = Random::new(seed);
+            (0..parameters.scenes).map(move |k| (format!("{seed}.{k}"), overrides(&mut random)))
+        })
+        .collect();
+    let runs = scenes.par_iter().map(|(_, set)| {
+        let runs = MODELS.map(|model| run(laboratory, set, model));
+        let [fem, condensed, ting] = runs;
+        Ok::<_, StudyError>([fem?, condensed?, ting?])
+    });
+    let runs = runs.collect::<Result<Vec<_>, _>>()?;
+    let mut findings = Findings::new();
+    findings.measure("scenes", scenes.len() as f64);
+    for (name, pair, tolerance) in
+        [("explicit", [0, 1], parameters.explicit), ("ting", [1, 2], parameters.ting)]
+    {
+        let mut differences: Vec<Difference> = scenes
+            .iter()
+            .zip(&runs)
+            .filter_map(|((_, set), runs)| {
+                let [ours, theirs] = pair.map(|k| runs[k].as_ref().ok());
+                difference(set, ours?, theirs?, tolerance)
+            })
+            .collect();
+        findings.measure(format!("{name}.compared"), differences.len() as f64);
+        // A share that is no number is beyond every limit.
+        let is_within = |one: &&Difference| one.share <= 1.0;
+        let beyond = differences.iter().filter(|one| !is_within(one));
+        let (warned, unexplained): (Vec<_>, Vec<_>) = beyond.partition(|one| one.warns);
+        findings.measure(format!("{name}.warned"), warned.len() as f64);
+        findings.measure(format!("{name}.unexplained"), unexplained.len() as f64);
+        differences.sort_by(|a, b| a.off[0].abs().total_cmp(&b.off[0].abs()));
+        let median =
+            differences.get(differences.len() / 2).map_or(f64::NAN, |one| one.off[0].abs());
+        findings.measure(format!("{name}.median"), median);
+        differences.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let rows = differences.iter().take(N_SHOWN).map(|one| {
+            let [e, time, force] = one.off.map(|off| format!("{off:.1e}"));
+            let verdict = if one.warns { "warned of" } else { "" };
+            [one.scene.clone(), e, time, force, format!("{:.2}", one.share), verdict.to_string()]
+        });
+        findings.tabulate(
+            format!("{name}: the scenes that differ most, over what effects explain."),
+            ["scene", "Δe", "ΔT/T", "ΔF/F", "over the allowed", ""],
+            rows,
+        );
+    }
+    let stopped = runs.iter().flatten().filter_map(|run| run.as_ref().err());
+    let mut messages: Vec<&String> = stopped.collect();
+    findings.measure("stopped", messages.len() as f64);
+    messages.sort();
+    messages.dedup();
+    let rows = messages.into_iter().map(|message| [message.clone()]);
+    findings.tabulate(
+        "What is said of the scenes that a model does not compute.",
+        ["message"],
+        rows,
+    );
+    Ok(findings)
+}
+
+/// A collision, or what the user is told instead.
+fn run(
+    laboratory: &Laboratory,
+    set: &[String],
+    model: &str,
+) -> Result<Result<Ran, String>, StudyError> {
+    let base = laboratory.claim().runs.get("base").ok_or_else(|| {
+        StudyError::parameters("the claim has no [run.base], which the study needs")
+    })?;
+    let mut all = base.set.clone();
+    all.extend_from_slice(set);
+    all.push(format!("model={{{model}}}"));
+    let file = RunFile { case: base.case.clone(), set: all };
+    let case = laboratory.claim().load_case(&file);
+    laboratory.work(|| {
+        let ran = case.and_then(collide).unwrap_or_else(|error| Err(error.to_string()));
+        let updates = ran.as_ref().ok().and_then(|ran| ran.collision.element_updates);
+        Ok((ran, updates.unwrap_or(0)))
+    })
+}
+
+fn collide(case: Case) -> Result<Result<Ran, String>, CaseError> {
+    let mut simulation = Simulation::new(case)?;
+    simulation.skip_snapshots();
+    let collision = simulation.run(&mut ());
+    if let Some(stop) = collision.stop() {
+        return Ok(Err(stop.to_string()));
+    }
+    let warns = !simulation.warnings(&collision).is_empty();
+    Ok(Ok(Ran { simulation, collision, warns }))
+}
+
+/// What the cheaper model (`theirs`) is off, over what is allowed.
+fn difference(
+    set: &[String],
+    ours: &Ran,
+    theirs: &Ran,
+    tolerance: Tolerance,
+) -> Option<Difference> {
+    let hertz = &ours.simulation.setup().estimate.hertz;
+    let numbers = |ran: &Ran| {
+        let collision = &ran.collision;
+        // A contact without an end has no time to compare.
+        let time = collision.contact_time.map(|time| time / hertz.contact_time());
+        [collision.restitution, time, collision.peak_force.map(|force| force / hertz.peak_force())]
+    };
+    let (a, b) = (numbers(ours), numbers(theirs));
+    let explained = explained(ours, theirs);
+    let base = [tolerance.restitution, tolerance.contact_time, tolerance.peak_force];
+    let off = [0, 1, 2].map(|k| match (a[k], b[k]) {
+        (Some(ours), Some(theirs)) => theirs - ours,
+        // A contact without an end has none; whether it has one the restitution tells.
+        _ => 0.0,
+    });
+    let share = [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k]));
+    let share = share.into_iter().fold(0.0, fem_collision::worst);
+    Some(Difference { scene: set.join(" "), off, share, warns: theirs.warns })
+}
+
+/// What the effects are worth that one of two models has and the other lacks; shares as of Hertz.
+fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for (has, lacks) in [(ours, theirs), (theirs, ours)] {
+        let Some(estimate) = has.simulation.estimate(&has.collision) else { continue };
+        let hertz = &estimate.hertz;
+        let lacking = lacks.verdicts();
+        let is_lacking = |name: &str| !lacking.iter().any(|one| one.name == name && one.active);
+        for verdict in has.verdicts().iter().filter(|one| one.active && is_lacking(one.name)) {
+            let Some(left_out) = has.simulation.left_out(verdict, &estimate) else { continue };
+            let shares = [
+                left_out.restitution,
+                left_out.contact_time_s.map(|time| time / hertz.contact_time()),
+                left_out.peak_force_n.map(|force| force / hertz.peak_force()),
+            ];
+            for (sum, share) in sum.iter_mut().zip(shares) {
+                *sum += share.unwrap_or(0.0);
+            }
+        }
+    }
+    sum
+}
+
+impl Ran {
+    fn verdicts(&self) -> Vec<Verdict> {
+        self.simulation.decisions(&self.collision).verdicts
+    }
+}

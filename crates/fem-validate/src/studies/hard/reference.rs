@@ -1,0 +1,48 @@
+//! What a hard scene is held against.
+
+use fem_case::{Case, CaseError};
+
+use super::axis::{Against, Scene};
+use super::trial::{Numbers, Trial};
+use crate::error::StudyError;
+use crate::laboratory::Laboratory;
+
+/// Ting's impact of finite spheres.
+const TING: &str = "ting={finite_size=true}";
+
+/// Numbers of another kind.
+#[derive(Clone, Copy)]
+pub(super) struct Reference(Numbers);
+
+impl Reference {
+    /// That of a scene with a model.
+    ///
+    /// # Errors
+    /// A reference that cannot be computed; an interrupt.
+    pub fn of<'a>(
+        against: &Against,
+        scene: &Scene,
+        model: &str,
+        laboratory: &Laboratory,
+        case: impl Fn(&Scene, &str) -> Result<Case, CaseError>,
+        other: impl Fn(&str) -> Result<&'a Scene, StudyError>,
+    ) -> Result<Self, StudyError> {
+        let run = |scene: &Scene, model: &str| {
+            let trial = Trial::of(laboratory, case(scene, model))?;
+            let none = || format!("no reference for `{}`: {}", scene.name, trial.words());
+            trial.numbers().map(Self).ok_or_else(|| StudyError::parameters(none()))
+        };
+        match against {
+            Against::Hertz => Ok(Self([Some(1.0); 3])),
+            Against::Restitution(restitution) => Ok(Self([Some(*restitution), None, None])),
+            Against::Ting => run(scene, TING),
+            Against::Scene(name) => run(other(name)?, model),
+        }
+    }
+
+    /// Of one of the numbers: absolute of the restitution, relative of the others.
+    pub fn difference(&self, ours: &Numbers, k: usize) -> Option<f64> {
+        let (ours, reference) = (ours[k]?, self.0[k]?);
+        Some(if k == 0 { ours - reference } else { ours / reference - 1.0 })
+    }
+}
