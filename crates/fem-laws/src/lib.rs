@@ -50,6 +50,7 @@ mod finite_size;
 mod finite_strain;
 mod folded;
 mod hertz;
+mod hertz_field;
 mod hertz_history;
 mod hertz_pressure;
 mod impact;

@@ -27,7 +27,7 @@ pub enum MeshError {
     /// The uniformly fine block does not fit into the sphere.
     #[error(
         "refined radius {refined_radius} m is too large for a sphere of radius {radius} m; \
-         at most its half, {} m, is allowed", radius / 2.0
+         at most that radius is allowed"
     )]
     RefinedRadius {
         /// Half-width of the fine block, m.

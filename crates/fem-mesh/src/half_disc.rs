@@ -153,7 +153,7 @@ impl HalfDisc {
         if size > radius / 4.0 {
             return Err(MeshError::ElementSize { size, radius });
         }
-        if refined_radius > radius / 2.0 * (1.0 + 1e-12) {
+        if refined_radius > radius * (1.0 + 1e-12) {
             return Err(MeshError::RefinedRadius { refined_radius, radius });
         }
         if let Some(growth) = growth

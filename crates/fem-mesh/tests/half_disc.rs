@@ -110,6 +110,24 @@ fn spheres_of_all_sizes_mesh() {
     }
 }
 
+/// A block for a contact as wide as the sphere.
+#[test]
+fn blocks_of_all_sizes_mesh() {
+    for share in [0.5, 0.7, 0.9, 1.0_f64] {
+        for n in [2.0, 8.0, 25.0] {
+            let (radius, refined_radius) = (1e-2_f64, share * 1e-2);
+            let contact_element_size = (refined_radius / n).min(radius / 4.0);
+            let mesh = HalfDisc { radius, contact_element_size, refined_radius, growth: None };
+            let mesh = mesh.build().unwrap();
+            let quality = Quality::of(&mesh);
+            assert!(quality.min_scaled_jacobian > 0.5, "{share} {n} {quality:?}");
+            assert!(quality.max_aspect_ratio < 4.0, "{share} {n} {quality:?}");
+            // The map shrinks cells away from the pole by up to (1 + 1/2)², those of the far block more.
+            assert!(quality.min_edge / contact_element_size > 0.1, "{share} {n} {quality:?}");
+        }
+    }
+}
+
 #[test]
 fn faster_growth_takes_fewer_elements() {
     let growth = |growth| HalfDisc { growth, ..glass(30e-6) }.n_elements().unwrap();
@@ -126,7 +144,7 @@ fn impossible_parameters_are_refused() {
     assert!(matches!(error(glass(0.0)), MeshError::Length { .. }));
     assert!(matches!(error(glass(3e-3)), MeshError::ElementSize { .. }));
     assert!(matches!(
-        error(HalfDisc { refined_radius: 8e-3, ..sphere }),
+        error(HalfDisc { refined_radius: 11.2e-3, ..sphere }),
         MeshError::RefinedRadius { .. }
     ));
     assert!(matches!(error(HalfDisc { growth: Some(1.0), ..sphere }), MeshError::Growth(_)));

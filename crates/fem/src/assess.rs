@@ -8,18 +8,15 @@ use fem_mesh::SphereMesh;
 use crate::effects::{EFFECTS, Effect};
 use crate::method::ElementSetup;
 use crate::plan::Plan;
+use crate::resolution::longest_contact_edge;
 use crate::simulation::Simulation;
 
-/// Fewer elements across the contact radius cost more than about 1 % of the force.
-const FEWEST_ELEMENTS: f64 = 4.0;
 /// Overlap of the surfaces over the approach.
 const LARGEST_PENETRATION: f64 = 0.01;
 /// Energy that does not add up over the initial.
 const LARGEST_RESIDUAL: f64 = 1e-3;
 /// Scatter of the force over its peak.
 const LARGEST_NOISE: f64 = 0.005;
-/// Contact radius over the half-width of the fine block.
-const LARGEST_OUTGROWTH: f64 = 1.05;
 /// Restitution above 1 that is no rounding.
 const LARGEST_EXCESS: f64 = 1e-5;
 
@@ -51,7 +48,7 @@ pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
 
 fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
-    let warnings = [run.resolution(), run.refinement(), run.penetration(), run.noise()];
+    let warnings = [run.meshes(simulation), run.penetration(), run.noise()];
     warnings.into_iter().flatten().collect()
 }
 
@@ -113,37 +110,10 @@ impl<'a> Run<'a> {
         Some(Self { collision, plan, meshes, has_springs, finer_steps })
     }
 
-    /// Length of the element edge at the contact, the larger of the two bodies, m.
-    fn contact_edge(&self) -> Option<f64> {
-        let edges = self.meshes.iter().flatten().filter_map(|mesh| {
-            let [pole, next] = mesh.surface().first_chunk::<2>()?;
-            let [pole, next] = [pole, next].map(|node| mesh.nodes()[*node as usize]);
-            Some((next[0] - pole[0]).hypot(next[1] - pole[1]))
-        });
-        edges.reduce(f64::max)
-    }
-
-    fn resolution(&self) -> Option<String> {
-        let n_elements = self.collision.max_contact_radius? / self.contact_edge()?;
-        let is_enough = n_elements >= FEWEST_ELEMENTS || !self.collision.is_complete();
-        (!is_enough).then(|| {
-            format!(
-                "the contact radius spans {n_elements:.1} elements; below {FEWEST_ELEMENTS}, use \
-                 a smaller mesh.contact_element_size"
-            )
-        })
-    }
-
-    /// Whether the contact stayed in the block of fine elements.
-    fn refinement(&self) -> Option<String> {
-        let (radius, fine) = (self.collision.max_contact_radius?, self.plan.refined_radius);
-        (self.plan.makes_meshes && radius > LARGEST_OUTGROWTH * fine).then(|| {
-            format!(
-                "the contact grew to {radius:.2e} m, beyond the block of fine elements \
-                 (mesh.refined_radius, {fine:.2e} m): its edge is in coarser ones; use a larger \
-                 mesh.refined_radius"
-            )
-        })
+    /// Whether the meshes can carry the contact as wide as it came.
+    fn meshes(&self, simulation: &Simulation) -> Option<String> {
+        let radius = self.collision.max_contact_radius.filter(|_| self.collision.is_complete())?;
+        simulation.resolution_warning(radius)
     }
 
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty
@@ -151,14 +121,18 @@ impl<'a> Run<'a> {
     fn penetration(&self) -> Option<String> {
         let radius = self.collision.max_contact_radius.filter(|_| self.has_springs)?;
         let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
-        let stiffness = self.plan.contact_stiffness / self.contact_edge()?;
+        let stiffness = self.plan.contact_stiffness / longest_contact_edge(self.meshes, radius)?;
         let share = mean_pressure / stiffness / self.collision.max_approach?;
         (share > LARGEST_PENETRATION).then(|| {
             format!(
                 "the surfaces overlap by about {:.1} % of the approach; above {} %, use a larger \
-                 contact.penalty_factor or a smaller mesh.contact_element_size",
+                 contact.penalty_factor or {}",
                 100.0 * share,
-                100.0 * LARGEST_PENETRATION
+                100.0 * LARGEST_PENETRATION,
+                match self.plan.makes_meshes {
+                    true => "a smaller mesh.contact_element_size",
+                    false => "meshes that are finer at the contact",
+                }
             )
         })
     }

@@ -40,6 +40,7 @@ mod plan;
 mod quasi_static;
 mod refusal;
 mod remedy;
+mod resolution;
 pub mod results;
 mod simulation;
 mod stress;

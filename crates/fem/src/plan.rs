@@ -77,16 +77,15 @@ impl Plan {
     /// A scene whose closed-form estimates are not finite.
     pub fn of(scene: &Scene) -> Result<Self, Refusal> {
         let estimate = Estimate::checked(scene)?;
-        // Half of the radius is as far as the fine block of a half disc reaches.
+        // Elements are made no larger for a contact that is wider.
         let half_radius = 0.5 * estimate.smallest_radius;
         let contact_radius = estimate.contact_radius.min(half_radius);
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
             (contact_radius / ELEMENTS_PER_CONTACT_RADIUS).min(estimate.smallest_radius / 12.0),
         );
-        let refined_radius = scene
-            .mesh()
-            .refined_radius
-            .unwrap_or((REFINED_OVER_CONTACT * contact_radius).min(half_radius));
+        let refined_radius = scene.mesh().refined_radius.unwrap_or(
+            (REFINED_OVER_CONTACT * estimate.contact_radius).min(estimate.smallest_radius),
+        );
         let candidate_radius = candidate_radius(&estimate, contact_element_size);
         let penalty_factor = scene.penalty_factor().unwrap_or(1.0);
         let made_here = |body: &Body| {

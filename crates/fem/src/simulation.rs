@@ -13,6 +13,7 @@ use crate::identity::identity_of;
 use crate::memory::Memory;
 use crate::method::{Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
+use crate::resolution::Resolution;
 
 /// The collision of a case, by the model that it asks for.
 ///
@@ -108,7 +109,22 @@ impl Simulation {
 
     /// What the user should know before the run.
     pub fn warnings_before(&self) -> Vec<String> {
-        self.choice_warning().into_iter().chain(self.setup().warnings()).collect()
+        let of_meshes = self.mesh_warning();
+        self.choice_warning().into_iter().chain(self.setup().warnings()).chain(of_meshes).collect()
+    }
+
+    /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
+    /// what helps.
+    pub fn mesh_warning(&self) -> Option<String> {
+        self.resolution_warning(self.setup().estimate.contact_radius)
+    }
+
+    /// That the meshes cannot carry a contact of this radius, m.
+    pub(crate) fn resolution_warning(&self, contact_radius: f64) -> Option<String> {
+        let plan = &self.setup().elements.as_ref()?.plan;
+        let (scene, meshes) = (self.case.scene(), self.model.meshes());
+        let resolution = Resolution::of(scene, meshes, contact_radius)?;
+        resolution.warning(scene, plan, meshes, contact_radius)
     }
 
     /// That no model is known to serve, where the case leaves the choice open.

@@ -141,6 +141,9 @@ fn announce(simulation: &Simulation, case: &str, place: &ResultPlace) {
         line += &format!(", since {} holds that of another case", taken.display());
     }
     let _ = writeln!(stderr(), "{}", one_line(&line));
+    if let Some(warning) = simulation.mesh_warning() {
+        let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
+    }
 }
 
 /// The model and what it costs.

@@ -29,6 +29,7 @@ mod plastic_yield;
 mod ranges;
 mod refusals_in_code;
 mod remedies;
+mod resolution;
 mod rigid_partner;
 mod shipped_cases;
 mod stress;

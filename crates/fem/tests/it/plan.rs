@@ -28,6 +28,18 @@ fn defaults_follow_from_hertz() {
     assert!((plan.contact_stiffness / 33.494e9 - 20.0).abs() < 1e-3);
 }
 
+/// The block of equal elements is as wide as the contact, up to the whole sphere.
+#[test]
+fn the_fine_block_follows_a_wide_contact() {
+    let smallest = 7.95e-3;
+    for (speed, least) in [("0.5", 0.02), ("500", 0.3), ("3000", 1.0)] {
+        let plan = Plan::of_case(&case(&[&format!("body.0.approach_speed={speed}")])).unwrap();
+        let wide = (1.2 * plan.estimate.contact_radius).min(smallest);
+        assert!((plan.refined_radius / wide - 1.0).abs() < 1e-12, "{speed}");
+        assert!(plan.refined_radius >= least * smallest, "{speed}: {}", plan.refined_radius);
+    }
+}
+
 #[test]
 fn relaxation_widens_the_expected_contact() {
     let text = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -80,7 +92,7 @@ fn what_is_too_dear_is_refused_with_the_estimate() {
 #[test]
 fn elements_and_blocks_that_do_not_fit_are_refused() {
     assert!(refusal(&["mesh.contact_element_size='50 mm'"]).message().contains("too large"));
-    let error = refusal(&["mesh.refined_radius='6 mm'"]);
+    let error = refusal(&["mesh.refined_radius='8 mm'"]);
     assert_eq!(error.source_name(), "--set mesh.refined_radius=…");
     assert!(refusal(&["mesh.growth=3"]).message().contains("growth"));
 }

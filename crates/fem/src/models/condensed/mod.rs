@@ -240,10 +240,20 @@ impl Condensed {
             .map_err(|error| stop_of(error, approach))
     }
 
-    /// The bodies condensed further out than a pair.
+    /// The bodies condensed further out than a pair: as far as it takes for more points, which in a mesh
+    /// that is coarse there lie far out.
     fn larger(&self, pair: &CondensedPair) -> Result<Arc<CondensedPair>, CondensedError> {
-        let radius = CANDIDATE_GROWTH * pair.candidate_radius();
-        self.other(radius, |settings| pair.enlarge(settings.candidate_radius))
+        let mut radius = CANDIDATE_GROWTH * pair.candidate_radius();
+        loop {
+            match self.other(radius, |settings| pair.enlarge(settings.candidate_radius)) {
+                Err(CondensedError::Stopped(Stop::ContactTooLarge { .. }))
+                    if radius < self.setup.estimate.smallest_radius =>
+                {
+                    radius *= CANDIDATE_GROWTH;
+                }
+                larger => return larger,
+            }
+        }
     }
 
     /// The bodies condensed out to another radius, m: the same for all collisions that ask for it.
