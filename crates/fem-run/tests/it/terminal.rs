@@ -32,7 +32,7 @@ fn a_coarse_mesh_is_warned_of() {
     let place = Place::new();
     place.succeed(&["case.toml", "--out", "out"]);
     let warnings = place.json("out/summary.json")["warnings"].to_string();
-    assert!(warnings.contains("elements; below 4"), "{warnings}");
+    assert!(warnings.contains("the mesh is too coarse"), "{warnings}");
 }
 
 #[test]
