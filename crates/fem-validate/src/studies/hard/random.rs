@@ -2,11 +2,11 @@
 //!
 //! Two models may differ by what the tolerances of the claim say, and by what the effects that one has
 //! and the other lacks are worth by the plan's own closed forms, which are good within a factor of
-//! three. What is beyond is `unexplained`, unless the cheaper model warned of its result. `NAME.median`
+//! three, and by a share of what waves take that a model has as a term only. What is beyond is `unexplained`, unless the cheaper model warned of its result. `NAME.median`
 //! is the median |Δe| of a pair of models.
 
-use fem::Simulation;
-use fem::effects::Verdict;
+use fem::effects::{LeftOut, PartnerWaves, Verdict};
+use fem::{Estimate, Simulation};
 use fem_case::{Case, CaseError};
 use fem_collision::Collision;
 use rayon::prelude::*;
@@ -20,6 +20,8 @@ use crate::laboratory::Laboratory;
 
 /// Closed forms of what is left out are good within this factor.
 const FORETOLD_WITHIN: f64 = 3.0;
+/// Terms for waves that do not come back are within this share of what they take (docs/theory.md).
+const RADIATION_WITHIN: f64 = 0.15;
 /// From the most complete to the cheapest.
 const MODELS: [&str; 3] = ["fem={}", "condensed={}", "ting={finite_size=true}"];
 /// Worst scenes that are shown of each pair.
@@ -175,16 +177,38 @@ fn difference(
         [collision.restitution, time, collision.peak_force.map(|force| force / hertz.peak_force())]
     };
     let (a, b) = (numbers(ours), numbers(theirs));
-    let explained = explained(ours, theirs);
+    let (explained, waves) = (explained(ours, theirs), waves(theirs));
     let base = [tolerance.restitution, tolerance.contact_time, tolerance.peak_force];
     let off = [0, 1, 2].map(|k| match (a[k], b[k]) {
         (Some(ours), Some(theirs)) => theirs - ours,
         // A contact without an end has none; whether it has one the restitution tells.
         _ => 0.0,
     });
-    let share = [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k]));
+    let share =
+        [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k] + waves[k]));
     let share = share.into_iter().fold(0.0, fem_collision::worst);
     Some(Difference { scene: set.join(" "), off, share, warns: theirs.warns })
+}
+
+/// What a model without fields of waves may be off by in what they take; shares as of Hertz.
+fn waves(theirs: &Ran) -> [f64; 3] {
+    let verdicts = theirs.verdicts();
+    let waves = verdicts.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
+    let Some(estimate) = theirs.simulation.estimate(&theirs.collision) else { return [0.0; 3] };
+    let worth = waves.and_then(|waves| theirs.simulation.left_out(waves, &estimate));
+    let worth =
+        worth.map_or([0.0; 3], |worth| shares(&worth, &estimate).map(Option::unwrap_or_default));
+    worth.map(|share| RADIATION_WITHIN * share)
+}
+
+/// Of the restitution as it is, of contact time and peak force over Hertz'.
+fn shares(left_out: &LeftOut, estimate: &Estimate) -> [Option<f64>; 3] {
+    let hertz = &estimate.hertz;
+    [
+        left_out.restitution,
+        left_out.contact_time_s.map(|time| time / hertz.contact_time()),
+        left_out.peak_force_n.map(|force| force / hertz.peak_force()),
+    ]
 }
 
 /// What the effects are worth that one of two models has and the other lacks; shares as of Hertz.
@@ -192,17 +216,11 @@ fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (has, lacks) in [(ours, theirs), (theirs, ours)] {
         let Some(estimate) = has.simulation.estimate(&has.collision) else { continue };
-        let hertz = &estimate.hertz;
         let lacking = lacks.verdicts();
         let is_lacking = |name: &str| !lacking.iter().any(|one| one.name == name && one.active);
         for verdict in has.verdicts().iter().filter(|one| one.active && is_lacking(one.name)) {
             let Some(left_out) = has.simulation.left_out(verdict, &estimate) else { continue };
-            let shares = [
-                left_out.restitution,
-                left_out.contact_time_s.map(|time| time / hertz.contact_time()),
-                left_out.peak_force_n.map(|force| force / hertz.peak_force()),
-            ];
-            for (sum, share) in sum.iter_mut().zip(shares) {
+            for (sum, share) in sum.iter_mut().zip(shares(&left_out, &estimate)) {
                 *sum += share.unwrap_or(0.0);
             }
         }
