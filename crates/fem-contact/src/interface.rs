@@ -25,10 +25,10 @@ pub struct ContactPoint {
 pub struct ContactInterface {
     pub(crate) points: Vec<ContactPoint>,
     pub(crate) surfaces: [Surface; 2],
-    candidate_radius: f64,
+    pub(crate) candidate_radius: f64,
     /// How many times a spring counts at the nodes of the lower and of the upper body, if it is
     /// always closed; see [`ContactInterface::add_stiffness_bound`].
-    springs: [f64; 2],
+    pub(crate) springs: [f64; 2],
 }
 
 /// How many times the penalty springs enter the critical time step. A closed
@@ -55,14 +55,7 @@ impl ContactInterface {
         gap: f64,
         candidate_radius: f64,
     ) -> Result<Self, ContactError> {
-        check([&lower, &upper])?;
-        for (name, value) in
-            [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
-        {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ContactError::NotPositive { name, value });
-            }
-        }
+        check_springs([&lower, &upper], stiffness, candidate_radius)?;
         let surfaces = [lower, upper];
         let limit = candidate_radius.min(surfaces[0].extent()).min(surfaces[1].extent());
         let cuts = cuts(&surfaces, limit);
@@ -83,8 +76,7 @@ impl ContactInterface {
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];
-        let springs = [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 });
-        Ok(Self { points, surfaces, candidate_radius, springs })
+        Ok(Self { points, springs: springs(&surfaces), surfaces, candidate_radius })
     }
 
     /// With the bound of the stiffness shared between a rigid sphere and the other body by their
@@ -135,14 +127,45 @@ impl ContactInterface {
     /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
     /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
+        self.add_bound(side, OPENING_SAFETY * self.springs[side], bound);
+    }
+
+    /// The same where the other body's surface stays where it is, whatever this one does: θ is 0.
+    pub fn add_bound_against_held(&self, side: usize, bound: &mut [f64]) {
+        self.add_bound(side, OPENING_SAFETY, bound);
+    }
+
+    fn add_bound(&self, side: usize, factor: f64, bound: &mut [f64]) {
         for point in &self.points {
-            let stiffness = OPENING_SAFETY * self.springs[side] * point.stiffness * point.area;
+            let stiffness = factor * point.stiffness * point.area;
             let foot = &point.feet[side];
             for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
                 bound[node as usize] += stiffness * shape;
             }
         }
     }
+}
+
+/// How many times a spring counts at the nodes of each side; see
+/// [`ContactInterface::add_stiffness_bound`].
+pub(crate) fn springs(surfaces: &[Surface; 2]) -> [f64; 2] {
+    [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
+}
+
+/// Whether two surfaces can be in contact by springs of this stiffness (Pa) out to a radius, m.
+pub(crate) fn check_springs(
+    surfaces: [&Surface; 2],
+    stiffness: f64,
+    candidate_radius: f64,
+) -> Result<(), ContactError> {
+    check(surfaces)?;
+    for (name, value) in [("penalty stiffness", stiffness), ("candidate radius", candidate_radius)]
+    {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(ContactError::NotPositive { name, value });
+        }
+    }
+    Ok(())
 }
 
 /// Whether two surfaces can be in contact.
@@ -174,7 +197,7 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
 }
 
 /// Mean length of the segments at a point, a rigid body's not counted.
-fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
+pub(crate) fn mean_length(surfaces: &[Surface; 2], segments: [usize; 2]) -> f64 {
     let lengths = [0, 1].map(|side| {
         let surface = &surfaces[side];
         (!surface.is_rigid()).then(|| surface.segment_length(segments[side]))

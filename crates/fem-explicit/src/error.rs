@@ -19,6 +19,22 @@ pub enum ModelError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// Surface nodes without mass need an inside that has it.
+    #[error(
+        "all corners of element {element} lie in the surface that can be in contact, which has no \
+         mass with contact.method = \"massless\"; a mesh of more layers, or \
+         contact.method = \"penalty\""
+    )]
+    NoInterior {
+        /// Its number in the mesh.
+        element: usize,
+    },
+    /// The matrix of a boundary without mass is not positive.
+    #[error(
+        "the boundary without mass of contact.method = \"massless\" cannot be in balance: an \
+         element at the contact has no stiffness; contact.method = \"penalty\" needs none"
+    )]
+    NoBalance,
     /// A wall keeps its velocity, whatever acts on it.
     #[error("a force acts on the nodes of a wall, which keeps its velocity")]
     ForceOnWall,

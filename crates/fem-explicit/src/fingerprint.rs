@@ -11,7 +11,7 @@ use std::fmt::{self, Debug, Write};
 use fem_contact::ContactInterface;
 
 use crate::body::Body;
-use crate::contact::Contact;
+use crate::contact::{Contact, Massless};
 use crate::model::Model;
 
 /// What takes words, one after the other: rotated, mixed in, multiplied by an odd number. The same on
@@ -77,8 +77,16 @@ fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
     let searched = contact.searched();
     digest.take_numbers(&[searched.radius]);
     digest.take(searched.n_points as u64);
-    let Some(interface) = (contact as &dyn Any).downcast_ref::<ContactInterface>() else {
-        return digest.take_text(contact);
+    let contact_as_any = contact as &dyn Any;
+    let interface = match contact_as_any.downcast_ref::<Massless>() {
+        Some(massless) => {
+            digest.take_text("massless");
+            massless.interface()
+        }
+        None => match contact_as_any.downcast_ref::<ContactInterface>() {
+            Some(interface) => interface,
+            None => return digest.take_text(contact),
+        },
     };
     for point in interface.points() {
         digest.take_numbers(&[point.radius, point.area, point.initial_gap, point.stiffness]);

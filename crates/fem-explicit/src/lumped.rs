@@ -5,6 +5,7 @@ use fem_element::QuadGeometry;
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
+use crate::boundary_mass::BoundaryMass;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::stress::{self, Stress};
@@ -38,17 +39,18 @@ pub(crate) struct RigidSphere {
 }
 
 impl LumpedBody {
-    /// `None` for a wall, which nothing moves.
+    /// `None` for a wall, which nothing moves; some nodes of a mesh may have no mass.
     ///
     /// # Errors
-    /// A rigid sphere's mass that is not positive and finite; forces on a wall.
+    /// A rigid sphere's mass that is not positive and finite; forces on a wall; an element without mass.
     pub fn new(
         input: BodyInput,
         node_forces: Vec<Box<dyn NodeForce>>,
+        massless: &[u32],
     ) -> Result<Option<Self>, ModelError> {
         match input {
             BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
-                let meshed = LumpedMesh::new(mesh, material, node_forces);
+                let meshed = LumpedMesh::new(mesh, material, node_forces, massless)?;
                 Ok(Some(Self::Meshed(Box::new(meshed))))
             }
             BodyInput::Rigid { mass, .. } => {
@@ -99,18 +101,28 @@ impl LumpedBody {
 
 impl LumpedMesh {
     /// Integrates the elements, once for stress, masses and bound.
-    pub fn new(mesh: SphereMesh, material: Material, node_forces: Vec<Box<dyn NodeForce>>) -> Self {
+    ///
+    /// # Errors
+    /// An element whose corners all are among the nodes without mass.
+    pub fn new(
+        mesh: SphereMesh,
+        material: Material,
+        node_forces: Vec<Box<dyn NodeForce>>,
+        massless: &[u32],
+    ) -> Result<Self, ModelError> {
         let elements = 0..mesh.quads().len();
         let geometries: Vec<_> =
             elements.map(|element| QuadGeometry::new(&mesh.corners(element))).collect();
         let stress = stress::of_material(&mesh, &geometries, &material);
+        let (boundary, density) = (BoundaryMass::new(&mesh, massless)?, material.density());
         let mut bound =
-            NodalBound::of_elements(&mesh, &geometries, material.density(), stress.as_ref());
+            NodalBound::of_elements(&mesh, &geometries, density, stress.as_ref(), &boundary);
         for force in &node_forces {
             force.add_stiffness_bound(&mut bound.stiffness);
             force.add_damping_bound(&mut bound.damping);
         }
-        Self { mesh, material, stress, node_forces, bound }
+        bound.leave_out(boundary.nodes());
+        Ok(Self { mesh, material, stress, node_forces, bound })
     }
 }
 

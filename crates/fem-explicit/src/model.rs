@@ -8,7 +8,7 @@ use fem_collision::{Approach, BodyInput, Frame, Searched};
 use fem_contact::{ContactError, ContactInterface, Surface};
 
 use crate::body::Body;
-use crate::contact::Contact;
+use crate::contact::{Contact, ContactMethod, Massless};
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::lumped::LumpedBody;
@@ -37,8 +37,10 @@ pub struct Parts {
     /// Spheres whose mass centres do not move, lower and upper: a force on their nodes in proportion to
     /// the masses takes up what else would move them. None by default.
     pub held: [bool; 2],
-    /// Instead of the penalty contact.
+    /// Instead of springs.
     pub contact: Option<Box<dyn Contact>>,
+    /// How springs keep the bodies apart.
+    pub method: ContactMethod,
 }
 
 /// Two bodies, their contact and the time step. The first body lies below.
@@ -46,6 +48,8 @@ pub struct Parts {
 pub struct Model {
     bodies: [Body; 2],
     contact: Arc<dyn Contact>,
+    /// Whether it has anything to do at the end of a step.
+    pub(crate) contact_advances: bool,
     time_step: f64,
     plain_time_step: f64,
     approach: Approach,
@@ -80,12 +84,14 @@ impl Model {
         check(settings)?;
         let mut contact = match parts.contact {
             Some(contact) => contact,
-            None => Box::new(penalty(&inputs, approach.gap(), settings)?),
+            None => springs(&inputs, approach.gap(), settings, parts.method)?,
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
-        let mut movable =
-            [LumpedBody::new(lower, forces_on_lower)?, LumpedBody::new(upper, forces_on_upper)?];
+        let mut movable = [
+            LumpedBody::new(lower, forces_on_lower, contact.massless_nodes(0))?,
+            LumpedBody::new(upper, forces_on_upper, contact.massless_nodes(1))?,
+        ];
         for (side, body) in movable.iter_mut().enumerate() {
             if let Some(body) = body {
                 contact.add_stiffness_bound(side, body.stiffness_mut());
@@ -108,6 +114,7 @@ impl Model {
             return Err(ModelError::Setting { name, value: time_step, allowed });
         }
         contact.set_time_step(time_step);
+        contact.check()?;
         let mut movable = movable.into_iter().zip(parts.held);
         let mut next = || movable.next().and_then(|(body, held)| Some((body?, held)));
         let bodies = approach.velocities().map(|velocity| match next() {
@@ -119,6 +126,8 @@ impl Model {
         Ok(Self {
             inverse_mass: bodies.iter().map(Body::inverse_total_mass).sum(),
             bodies,
+            contact_advances: contact.n_history() > 0
+                || (0..2).any(|side| !contact.massless_nodes(side).is_empty()),
             contact: Arc::from(contact),
             time_step,
             plain_time_step: settings.step_factor * plain,
@@ -136,9 +145,11 @@ impl Model {
         self.contact.as_ref()
     }
 
-    /// Their contact where it is the penalty interface.
+    /// The springs of their contact, where it has any.
     pub fn interface(&self) -> Option<&ContactInterface> {
-        (self.contact() as &dyn Any).downcast_ref()
+        let contact = self.contact() as &dyn Any;
+        let massless = || contact.downcast_ref().map(Massless::interface);
+        contact.downcast_ref().or_else(massless)
     }
 
     /// Radius out to which contact is looked for, m.
@@ -204,29 +215,33 @@ impl Model {
     }
 }
 
-/// The penalty contact that settings ask for.
-fn penalty(
+/// The contact that settings ask for.
+fn springs(
     inputs: &[BodyInput; 2],
     gap: f64,
     settings: &Settings,
-) -> Result<ContactInterface, ContactError> {
+    method: ContactMethod,
+) -> Result<Box<dyn Contact>, ModelError> {
     let [lower, upper] = inputs;
     let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
     let &Settings { contact_stiffness, candidate_radius, .. } = settings;
-    let interface = ContactInterface::new(
-        lower_surface,
-        upper_surface,
-        contact_stiffness,
-        gap,
-        candidate_radius,
-    )?;
-    Ok(match (lower, upper) {
+    let interface = match method {
+        ContactMethod::NodeToSurface => ContactInterface::node_to_surface,
+        ContactMethod::Penalty | ContactMethod::Massless => ContactInterface::new,
+    };
+    let interface =
+        interface(lower_surface, upper_surface, contact_stiffness, gap, candidate_radius)?;
+    let interface = match (lower, upper) {
         (BodyInput::Rigid { mass, .. }, BodyInput::Sphere { mesh, material })
         | (BodyInput::Sphere { mesh, material }, BodyInput::Rigid { mass, .. }) => {
             let volume = 4.0 / 3.0 * PI * mesh.radius().powi(3);
             interface.with_rigid_mass(mass / (material.density() * volume))
         }
         _ => interface,
+    };
+    Ok(match method {
+        ContactMethod::Massless => Box::new(Massless::new(inputs, interface)?),
+        ContactMethod::Penalty | ContactMethod::NodeToSurface => Box::new(interface),
     })
 }
 

@@ -1,5 +1,7 @@
 //! What changes in a run.
 
+use std::any::Any;
+
 use fem_collision::Snapshot;
 use serde::{Deserialize, Serialize};
 
@@ -31,8 +33,8 @@ pub(crate) struct State {
     pub bodies: [BodyState; 2],
 }
 
-/// Forces of the present step, and buffers; never read across steps.
-#[derive(Debug, Clone)]
+/// Forces of the present step, and buffers; nothing that is read across steps decides a bit.
+#[derive(Debug)]
 pub(crate) struct Scratch {
     /// Nodal forces of both bodies, N.
     pub forces: [NodalField; 2],
@@ -40,6 +42,8 @@ pub(crate) struct Scratch {
     pub resultants: [f64; 2],
     /// Snapshots that are not needed any more, to be overwritten.
     pub pool: Vec<Snapshot>,
+    /// The contact's own.
+    pub contact: Box<dyn Any + Send + Sync>,
 }
 
 impl State {
@@ -125,8 +129,13 @@ impl BodyState {
         time: f64,
     ) -> (MotionMut<'a>, &'a mut [NodalField]) {
         let Self { displacement, velocity, history } = self;
-        let motion = MotionMut { time, displacement, velocity, nodal_mass: &body.nodal_mass };
-        (motion, &mut history[body.n_history()..])
+        let (of_parts, of_contact) = history.split_at_mut(body.n_history());
+        let stress_history = match &body.stress {
+            Some(stress) => stress.of_mut(of_parts),
+            None => &mut [],
+        };
+        let nodal_mass = &body.nodal_mass;
+        (MotionMut { time, displacement, velocity, nodal_mass, stress_history }, of_contact)
     }
 
     fn fits(&self, body: &Body, n_contact: usize) -> bool {
@@ -140,6 +149,7 @@ impl BodyState {
 impl Scratch {
     pub fn new(model: &Model) -> Self {
         let forces = model.bodies().each_ref().map(|body| vec![[0.0; 2]; body.nodal_mass.len()]);
-        Self { forces, resultants: [0.0; 2], pool: Vec::new() }
+        let contact = model.contact().buffers();
+        Self { forces, resultants: [0.0; 2], pool: Vec::new(), contact }
     }
 }

@@ -2,6 +2,7 @@
 
 mod common;
 mod forces;
+mod node_to_surface;
 mod pressure;
 mod rigid;
 mod stiffness;

@@ -1,6 +1,7 @@
 //! Tests of the parts together that need their insides.
 
 mod free_motion;
+mod massless;
 mod node_forces;
 mod relaxation;
 mod stability;

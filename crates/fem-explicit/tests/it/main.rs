@@ -5,6 +5,7 @@ mod collision;
 mod common;
 mod ending;
 mod half_space;
+mod massless;
 mod observed;
 mod outputs;
 mod parts;
