@@ -19,6 +19,7 @@ mod approach;
 mod assess;
 mod body_source;
 pub mod calibrate;
+mod contact_method;
 mod course;
 pub mod effects;
 mod estimate;

@@ -8,8 +8,8 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop, Want,
 };
 use fem_explicit::{
-    Memory, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients,
-    Weight,
+    ContactMethod, Memory, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings,
+    ViscosityCoefficients, Weight,
 };
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
@@ -79,6 +79,7 @@ struct Made {
     settings: Settings,
     /// m.
     contact_element_size: f64,
+    method: ContactMethod,
     /// See [`Plan::speed_share`].
     speed_share: f64,
     inputs: [BodyInput; 2],
@@ -102,12 +103,15 @@ impl Explicit {
         if *scene.model() != ModelChoice::Fem {
             return Err(Refusal::chose_another(scene, "fem"));
         }
-        let inputs = inputs(scene, &plan)?;
         let approach = approach_of(scene)?;
-        let contact_element_size = plan.contact_element_size;
-        let (settings, speed_share) = (settings(&plan), plan.speed_share);
-        let made =
-            Made { scene: scene.clone(), settings, contact_element_size, speed_share, inputs };
+        let made = Made {
+            scene: scene.clone(),
+            settings: settings(&plan),
+            contact_element_size: plan.contact_element_size,
+            method: method(plan.contact_method),
+            speed_share: plan.speed_share,
+            inputs: inputs(scene, &plan)?,
+        };
         let bodies = made
             .bodies(&approach, plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
@@ -119,12 +123,12 @@ impl Explicit {
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: plan.warnings.clone(),
+            unread: unread(scene, &plan),
             cost,
             elements: Some(ElementSetup {
+                finer_steps: quieter(plan.contact_method),
                 plan,
                 has_springs: true,
-                finer_steps: "lower time.step_factor",
             }),
         };
         Ok(Self { setup, made, bodies: Arc::new(bodies) })
@@ -170,7 +174,8 @@ impl Made {
     /// Bodies that look for contact out to a radius, m, with the parts that effects ask for.
     fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
-        let parts = parts(&self.scene, &self.inputs, approach.speed() / self.speed_share)?;
+        let speed = approach.speed() / self.speed_share;
+        let parts = Parts { method: self.method, ..parts(&self.scene, &self.inputs, speed)? };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
@@ -295,6 +300,35 @@ fn settings(plan: &Plan) -> Settings {
         candidate_radius: plan.candidate_radius,
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
+    }
+}
+
+/// What the case gives and the model does not read.
+fn unread(scene: &Scene, plan: &Plan) -> Vec<String> {
+    let mut warnings = plan.warnings.clone();
+    if scene.contact_method().is_some_and(|named| named != plan.contact_method) {
+        warnings.push(
+            "contact.method = \"massless\" has no effect beside bulk viscosity, which pulls at nodes \
+             by their velocities: \"penalty\" is taken"
+                .to_string(),
+        );
+    }
+    warnings
+}
+
+/// What helps against a contact that rattles or gains energy.
+fn quieter(planned: fem_case::ContactMethod) -> &'static str {
+    match planned {
+        fem_case::ContactMethod::Massless => "lower time.step_factor",
+        _ => "write contact.method = \"massless\"",
+    }
+}
+
+fn method(planned: fem_case::ContactMethod) -> ContactMethod {
+    match planned {
+        fem_case::ContactMethod::Massless => ContactMethod::Massless,
+        fem_case::ContactMethod::Penalty => ContactMethod::Penalty,
+        fem_case::ContactMethod::NodeToSurface => ContactMethod::NodeToSurface,
     }
 }
 

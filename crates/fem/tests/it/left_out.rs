@@ -101,6 +101,7 @@ const FAST: &str = "body.1.approach_speed='20 m/s'";
 const DUST: &str = "body.1.sphere.diameter='5 um'";
 const RIGID: &str = "effects.rigid_partner='on'";
 const VISCOUS: &str = "effects.bulk_viscosity='on'";
+const PENALTY: &str = "contact.method='penalty'";
 
 /// Every effect that a switch leaves out, in the models that obey it, alone and beside the others: waves of
 /// what relaxes, relaxation of what radiates, a rigid partner that would do both.
@@ -129,6 +130,8 @@ fn every_switch_changes_what_is_foretold() {
         ("rigid partner", &[CONDENSED, RIGID, BLOCK]),
         ("bulk viscosity", &[FEM, VISCOUS, WALL, FAST]),
         ("bulk viscosity", &[FEM, VISCOUS, PEER, FAST, AUXETIC]),
+        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, WALL, FAST]),
+        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, PEER, FAST, AUXETIC]),
     ];
     for (effect, set) in rows {
         is_as_foretold(BALL, set, effect);
