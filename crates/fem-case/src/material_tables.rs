@@ -26,6 +26,9 @@ pub struct MaterialTable {
     /// Yield strength in uniaxial tension, > 0. It feeds a warning: no model here flows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub yield_strength: Option<Quantity<Stress>>,
+    /// The energy that it stores at finite strain; `"neo-hooke"` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hyperelastic: Option<HyperelasticLaw>,
     /// A Prony series; absent: elastic.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxation: Option<RelaxationTable>,
@@ -72,7 +75,33 @@ impl MaterialTable {
             bulk_modulus: None,
             poissons_ratio: None,
             yield_strength: None,
+            hyperelastic: None,
             relaxation: None,
+        }
+    }
+}
+
+keywords! {
+    /// Which energy a solid stores at finite strain.
+    HyperelasticLaw {
+        /// G/2 (J^(−2/3) tr b − 3) + K/2 (J − 1)².
+        NeoHooke = "neo-hooke",
+        /// G/2 (tr b − 3) − G ln J + λ/2 ln² J.
+        NeoHookeLn = "neo-hooke-ln",
+        /// Hooke's energy of the logarithmic strain.
+        Hencky = "hencky",
+        /// Hooke's energy of the Green-Lagrange strain.
+        SaintVenantKirchhoff = "saint-venant-kirchhoff",
+    }
+}
+
+impl From<HyperelasticLaw> for fem_material::finite::HyperelasticLaw {
+    fn from(law: HyperelasticLaw) -> Self {
+        match law {
+            HyperelasticLaw::NeoHooke => Self::NeoHooke,
+            HyperelasticLaw::NeoHookeLn => Self::NeoHookeLn,
+            HyperelasticLaw::Hencky => Self::Hencky,
+            HyperelasticLaw::SaintVenantKirchhoff => Self::SaintVenantKirchhoff,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A validated case in SI units: two bodies that are about to meet, and what the case says on
 //! how to compute it. `None` is left to the plan.
 
-use fem_laws::{FiniteSize, LawError, Pair};
+use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip};
 
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};
@@ -225,6 +225,14 @@ impl Scene {
             Shape::HalfSpace { .. } | Shape::Rigid { .. } | Shape::Wall => None,
         });
         FiniteSize::new(first, second)
+    }
+
+    /// Slip of the bodies' surfaces on each other.
+    pub fn surface_slip(&self) -> SurfaceSlip {
+        SurfaceSlip::new(self.bodies.each_ref().map(|body| {
+            let curvature = body.diameter().map_or(0.0, |diameter| 2.0 / diameter);
+            Face::new(curvature, body.material())
+        }))
     }
 }
 

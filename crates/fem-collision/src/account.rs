@@ -25,6 +25,8 @@ pub enum Account {
     WallWork,
     /// Artificial viscosity of elements.
     BulkViscosity,
+    /// Dashpots of a penalty contact.
+    ContactDamping,
     /// Waves that leave a body for good, of a model without the body's own waves.
     Radiated,
     /// Weight of the upper body: m g times the height of its mass centre above that at first touch.
@@ -66,6 +68,7 @@ const LINES: &[(Account, &str, Side, Shown)] = &[
     (Account::ViscousDissipation, "viscous_dissipation", Side::Lost, Shown::Always),
     (Account::WallWork, "wall_work", Side::Given, Shown::InSummary),
     (Account::BulkViscosity, "bulk_viscosity", Side::Lost, Shown::WhereFilled),
+    (Account::ContactDamping, "contact_damping", Side::Lost, Shown::WhereFilled),
     (Account::Radiated, "radiated", Side::Lost, Shown::WhereFilled),
     (Account::Potential, "potential", Side::Held, Shown::WhereFilled),
     (Account::LeftBefore, "left_before", Side::Held, Shown::WhereFilled),

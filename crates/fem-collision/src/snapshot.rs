@@ -59,6 +59,9 @@ pub struct BodyFields {
     /// Effective displacement that the relaxing stress sees, m; empty for an
     /// elastic body.
     pub effective: Vec<[f64; 2]>,
+    /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of each element of a body at finite strain, tension
+    /// positive, Pa; empty where it follows from the fields above.
+    pub stress: Vec<[f64; 4]>,
 }
 
 /// Both bodies at an instant.

@@ -29,6 +29,19 @@ pub enum Stop {
         /// Candidate radius, m.
         radius: f64,
     },
+    /// A surface folds where the bodies touch: beyond, contact is not looked for.
+    #[error(
+        "at {time:.4e} s (step {step}) a surface turns over at the radius {radius:.4e} m, where the \
+         other body touches it"
+    )]
+    SurfaceTurnsOver {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// Distance of the place from the axis, m.
+        radius: f64,
+    },
     /// Even the whole near hemisphere is too small for the contact.
     #[error(
         "the contact reached {ratio:.2} of the smaller radius: the bodies are not linear there; \
@@ -58,6 +71,29 @@ pub enum Stop {
         time: f64,
         /// Imbalance over the initial energy.
         relative: f64,
+    },
+    /// An element of a body at finite strain has lost its volume.
+    #[error(
+        "at {time:.4e} s (step {step}) element {element} of the {} body is {}; undeformed it lies at \
+         r = {:.4e} m, y = {:.4e} m",
+        if *body == 0 { "lower" } else { "upper" },
+        fate(*volume_ratio),
+        place[0],
+        place[1]
+    )]
+    ElementCollapsed {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// 0 of the lower body, 1 of the upper.
+        body: usize,
+        /// Number of the element.
+        element: usize,
+        /// Its centre (r, y) before the collision, m.
+        place: [f64; 2],
+        /// Its volume over that of the undeformed element; not positive of one that is inside out.
+        volume_ratio: f64,
     },
     /// The bodies stayed together too long.
     #[error("at {time:.4e} s (step {step}) the bodies have not separated")]
@@ -104,6 +140,15 @@ pub enum Stop {
     OutOfRange(String),
 }
 
+/// What has become of an element with so much of its volume.
+fn fate(volume_ratio: f64) -> String {
+    if volume_ratio > 0.0 {
+        format!("compressed to {volume_ratio:.2e} of its volume")
+    } else {
+        "turned inside out".to_string()
+    }
+}
+
 impl From<WantError> for Stop {
     fn from(error: WantError) -> Self {
         Self::NotMade(error.to_string())
@@ -117,7 +162,9 @@ impl Stop {
         match &mut self {
             Self::Interrupted { time, .. }
             | Self::ContactBeyondCandidates { time, .. }
+            | Self::SurfaceTurnsOver { time, .. }
             | Self::EnergyGrowth { time, .. }
+            | Self::ElementCollapsed { time, .. }
             | Self::EnergyImbalance { time, .. }
             | Self::NoSeparation { time, .. }
             | Self::TooManyUpdates { time, .. }

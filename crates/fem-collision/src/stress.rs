@@ -40,8 +40,24 @@ impl<'a> StressRecovery<'a> {
         Self { mesh, geometries: geometries.collect(), patches: Patches::new(mesh) }
     }
 
-    /// Recovers the stress of a body.
+    /// Recovers the stress of a body: that of its elements where the fields have it, as at finite
+    /// strain, else Hooke's of its displacements. Patches are those of the undeformed mesh.
     pub fn stress(&self, material: &Material, fields: &BodyFields) -> StressField {
+        let cells = match fields.stress.is_empty() {
+            true => self.at_small_strain(material, fields),
+            false => fields.stress.clone(),
+        };
+        let mut points = self.patches.smooth(&cells);
+        for &node in self.mesh.axis() {
+            let point = &mut points[node as usize];
+            let mean = 0.5 * (point[0] + point[2]);
+            *point = [mean, point[1], mean, 0.0];
+        }
+        StressField { cells, points }
+    }
+
+    /// Stress of the elements at small strain.
+    fn at_small_strain(&self, material: &Material, fields: &BodyFields) -> Vec<[f64; 4]> {
         let moduli = material.instantaneous();
         let relaxed = if fields.effective.is_empty() { None } else { material.relaxation() };
         let shear_field = if relaxed.is_some() { &fields.effective } else { &fields.displacement };
@@ -51,7 +67,7 @@ impl<'a> StressRecovery<'a> {
             .map(|_| fields.displacement.as_slice());
         let trace = |e: &[f64; 4]| e[0] + e[1] + e[2];
         let elements = self.geometries.iter().zip(self.mesh.quads());
-        let cells: Vec<_> = elements
+        elements
             .map(|(geometry, quad)| {
                 let at = |field: &[[f64; 2]]| {
                     geometry.mean_strain(&quad.map(|node| field[node as usize]))
@@ -63,14 +79,7 @@ impl<'a> StressRecovery<'a> {
                 }
                 moduli.stress(strain)
             })
-            .collect();
-        let mut points = self.patches.smooth(&cells);
-        for &node in self.mesh.axis() {
-            let point = &mut points[node as usize];
-            let mean = 0.5 * (point[0] + point[2]);
-            *point = [mean, point[1], mean, 0.0];
-        }
-        StressField { cells, points }
+            .collect()
     }
 }
 

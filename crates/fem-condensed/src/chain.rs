@@ -102,8 +102,8 @@ pub(crate) struct Chain {
     branch: Vec<f64>,
     /// What the springs would do without forces, −z.
     past: Vec<f64>,
-    /// +1; −1 for springs that are taken away from a body.
-    sign: f64,
+    /// What they count: 1; −1 for springs that are taken away from a body.
+    weight: f64,
     inertia: Option<Inertia>,
 }
 
@@ -124,14 +124,19 @@ impl Chain {
             branch: vec![0.0; n_modes * memory.n_branches()],
             past: vec![0.0; n_modes],
             memory,
-            sign: 1.0,
+            weight: 1.0,
             inertia: None,
         }
     }
 
     /// The same springs, taken away from the body.
     pub fn removed(self) -> Self {
-        Self { sign: -1.0, ..self }
+        self.weighted(-1.0)
+    }
+
+    /// The same springs, counted so many times.
+    pub fn weighted(self, weight: f64) -> Self {
+        Self { weight, ..self }
     }
 
     /// The same springs with masses: ω² (1/s²) of each and the time step, s.
@@ -149,6 +154,11 @@ impl Chain {
         self
     }
 
+    /// Displacement of a point, m, counted once.
+    pub fn displacement_at(&self, point: usize) -> f64 {
+        dot(self.shape(point), &self.displacement)
+    }
+
     fn shape(&self, point: usize) -> &[f64] {
         &self.shapes[point * self.n_modes..][..self.n_modes]
     }
@@ -163,7 +173,7 @@ impl Chain {
                 *scaled = shape / spring;
             }
             for j in 0..=i {
-                let sum = self.sign * dot(&scaled, self.shape(j));
+                let sum = self.weight * dot(&scaled, self.shape(j));
                 compliance[(i, j)] += sum;
                 if i != j {
                     compliance[(j, i)] += sum;
@@ -195,7 +205,7 @@ impl Chain {
             *past /= spring;
         }
         for (point, overlap) in overlap.iter_mut().enumerate() {
-            *overlap += self.sign * dot(self.shape(point), &self.past);
+            *overlap += self.weight * dot(self.shape(point), &self.past);
         }
     }
 
@@ -266,7 +276,7 @@ impl Chain {
             stored += branch.weight * energy;
             power += 2.0 * branch.weight * energy / branch.relaxation_time;
         }
-        (self.sign * stored, self.sign * power)
+        (self.weight * stored, self.weight * power)
     }
 }
 

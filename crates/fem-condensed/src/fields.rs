@@ -106,8 +106,12 @@ impl CondensedPair {
             let mut fields = fields.into_iter();
             let mut next = || fields.next().unwrap_or_default();
             for snapshot in &mut snapshots {
-                snapshot.bodies[s] =
-                    BodyFields { displacement: next(), velocity: next(), effective: next() };
+                snapshot.bodies[s] = BodyFields {
+                    displacement: next(),
+                    velocity: next(),
+                    effective: next(),
+                    stress: Vec::new(),
+                };
             }
         }
         Ok((snapshots, missing))

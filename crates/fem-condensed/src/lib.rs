@@ -82,6 +82,7 @@ mod sample;
 mod settings;
 mod shear;
 mod side;
+mod slip;
 mod vibration;
 
 pub use collision::ContactState;
@@ -90,3 +91,4 @@ pub use damping::Damping;
 pub use error::CondensedError;
 pub use pair::CondensedPair;
 pub use settings::{ContactModel, PairSettings};
+pub use slip::Slip;

@@ -26,6 +26,8 @@ use crate::side::PairSide;
 pub(crate) struct SideState {
     /// Relaxing springs, if the body relaxes.
     pub springs: Option<Chain>,
+    /// What its surface slips, if it does.
+    pub slip: Option<Chain>,
     /// The static response of the modes of vibration, taken away, and their dynamic response.
     pub vibration: Option<[Chain; 2]>,
 }
@@ -74,8 +76,8 @@ impl<'a> Motion<'a> {
             }
         }
         let mut sides = [SideState::default(), SideState::default()];
-        for (state, (side, series)) in sides.iter_mut().zip(pair.sides.iter().zip(relaxations)) {
-            let Some(side) = side else { continue };
+        for (which, state) in sides.iter_mut().enumerate() {
+            let (Some(side), series) = (&pair.sides[which], relaxations[which]) else { continue };
             let shear_blocks = pair.shear_blocks(series, speed)?;
             *state = SideState::new(side, series, shear_blocks, time_step, n_points)?;
             match &state.springs {
@@ -84,6 +86,14 @@ impl<'a> Motion<'a> {
             }
             for chain in state.vibration.iter().flatten() {
                 chain.add_compliance(&mut compliance);
+            }
+            let material = pair.inputs()[which].material();
+            if let Some((slip, material)) = pair.settings().slip.zip(material) {
+                let series = series.filter(|series| series.relaxes());
+                let moduli = material.instantaneous();
+                let chain = slip.chain(which, moduli, series, time_step, n_points);
+                chain.add_compliance(&mut compliance);
+                state.slip = Some(chain);
             }
         }
         let waves = Waves::new(damping.radiation, pair.curve.punch_stiffness(), time_step);
@@ -123,6 +133,11 @@ impl<'a> Motion<'a> {
 
     pub fn n_fallbacks(&self) -> usize {
         self.solver.n_fallbacks
+    }
+
+    /// q of each side, m²; 0 without slip.
+    pub fn slipped(&self) -> [f64; 2] {
+        self.sides.each_ref().map(|state| state.slip.as_ref().map_or(0.0, |c| c.displacement_at(0)))
     }
 
     /// Overlap on the axis that the forces of the last step had to undo, m; ≤ 0 without contact.
@@ -266,14 +281,14 @@ impl SideState {
             let dynamic = springs.clone().with_inertia(&modes.squared_frequency, time_step);
             [springs.removed(), dynamic]
         });
-        Ok(Self { springs, vibration })
+        Ok(Self { springs, slip: None, vibration })
     }
 
     pub fn chains(&self) -> impl Iterator<Item = &Chain> {
-        self.springs.iter().chain(self.vibration.iter().flatten())
+        self.springs.iter().chain(&self.slip).chain(self.vibration.iter().flatten())
     }
 
     fn chains_mut(&mut self) -> impl Iterator<Item = &mut Chain> {
-        self.springs.iter_mut().chain(self.vibration.iter_mut().flatten())
+        self.springs.iter_mut().chain(&mut self.slip).chain(self.vibration.iter_mut().flatten())
     }
 }

@@ -37,6 +37,8 @@ pub struct CondensedPair {
     pub(crate) nodes: Vec<PressureNode>,
     /// Compliance of the penalty springs at the points, m/N.
     pub(crate) spring_compliance: Vec<f64>,
+    /// Compliance between all points without relaxation, m/N.
+    pub(crate) compliance: Mat<f64>,
     pub(crate) curve: ElasticCurve,
     pub(crate) reduced_mass: f64,
 }
@@ -81,6 +83,13 @@ impl CondensedPair {
         for (k, spring) in spring_compliance.iter().enumerate() {
             compliance[(k, k)] += spring;
         }
+        if let Some(slip) = &settings.slip {
+            let of_side = |side: usize| {
+                inputs[side].material().map_or(0.0, |m| slip.compliance(side, m.instantaneous()))
+            };
+            let added = of_side(0) + of_side(1);
+            compliance = Mat::from_fn(n, n, |i, j| compliance[(i, j)] + added);
+        }
         let carrier = if nodal_side.is_some() { None } else { sides.iter().flatten().next() };
         let nodes = pressure_nodes(&points, carrier);
         let gaps: Vec<f64> = points.iter().map(|point| point.initial_gap).collect();
@@ -97,6 +106,7 @@ impl CondensedPair {
             nodal_side,
             nodes,
             spring_compliance,
+            compliance,
             curve,
             reduced_mass: inverse_mass.recip(),
         })

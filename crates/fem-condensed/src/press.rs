@@ -1,11 +1,11 @@
 //! Two elastic bodies that a constant force presses together.
 
-use faer::Mat;
 use fem_collision::{StaticContact, Stop};
 
 use crate::disc::DiscSolver;
 use crate::error::CondensedError;
 use crate::pair::CondensedPair;
+use crate::slip::motion;
 
 impl CondensedPair {
     /// The bodies without relaxation under a force (N) that stays, at rest.
@@ -16,25 +16,22 @@ impl CondensedPair {
         let n = self.points.len();
         let beyond = || CondensedError::ContactBeyondCandidates { radius: self.candidate_radius() };
         let approach = self.curve.approach(force).ok_or_else(beyond)?;
-        let mut compliance = Mat::<f64>::zeros(n, n);
-        for side in self.sides.iter().flatten() {
-            compliance += &side.compliance;
-        }
-        for (k, spring) in self.spring_compliance.iter().enumerate() {
-            compliance[(k, k)] += spring;
-        }
         let overlap: Vec<f64> =
             self.points.iter().map(|point| approach - point.initial_gap).collect();
         let mut forces = vec![0.0; n];
-        let contact = DiscSolver::new(compliance)
+        let contact = DiscSolver::new(self.compliance.clone())
             .solve(&overlap, &mut forces)
             .map_err(|_| Stop::NoContactState { time: 0.0 })?;
         if contact.n_closed == n {
             return Err(beyond());
         }
-        let (radius, pressure) = self.radius_and_pressure(&contact, &forces);
+        let force = forces.iter().sum();
+        let moved = self.inputs().each_ref().map(|input| {
+            input.material().map_or(0.0, |material| force * motion(material.instantaneous()))
+        });
+        let (radius, pressure) = self.radius_and_pressure(&contact, &forces, moved);
         Ok(StaticContact {
-            force: forces.iter().sum(),
+            force,
             approach,
             contact_radius: Some(radius),
             centre_pressure: Some(pressure),

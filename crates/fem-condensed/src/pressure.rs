@@ -11,8 +11,14 @@ use crate::pair::CondensedPair;
 const EDGE_INSIDE: f64 = 0.31;
 
 impl CondensedPair {
-    /// Radius at which the pressure falls to zero (m) and pressure on the axis (Pa).
-    pub(crate) fn radius_and_pressure(&self, contact: &Disc, forces: &[f64]) -> (f64, f64) {
+    /// Radius at which the pressure falls to zero (m) and pressure on the axis (Pa); of surfaces that have
+    /// slipped, q of each side, m².
+    pub(crate) fn radius_and_pressure(
+        &self,
+        contact: &Disc,
+        forces: &[f64],
+        moved: [f64; 2],
+    ) -> (f64, f64) {
         let n = contact.n_closed;
         if n == 0 {
             return (0.0, 0.0);
@@ -28,7 +34,11 @@ impl CondensedPair {
             last.radius + width * inside / (inside + outside)
         };
         let spacing = self.nodes[1].radius;
-        (radius, centre_pressure(self.nodal_pressure(forces), radius, spacing))
+        let pressure = centre_pressure(self.nodal_pressure(forces), radius, spacing);
+        match &self.settings().slip {
+            None => (radius, pressure),
+            Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
+        }
     }
 
     /// Pressure at the nodes of a deformable side from the axis outward, (r in m, p in Pa): nodal

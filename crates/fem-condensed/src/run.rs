@@ -226,7 +226,7 @@ impl<'a> Run<'a> {
         let drift = self.frame.impulse(rate) + given - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
-            self.pair.radius_and_pressure(&motion.contact, &motion.forces);
+            self.pair.radius_and_pressure(&motion.contact, &motion.forces, motion.slipped());
         self.max_radius = worst(self.max_radius, contact_radius);
         self.max_pressure = worst(self.max_pressure, centre_pressure);
         if self.episodes > 0 {

@@ -1,5 +1,7 @@
 //! How a pair is condensed.
 
+use crate::slip::Slip;
+
 /// How the surfaces resist overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactModel {
@@ -24,10 +26,12 @@ pub struct PairSettings {
     pub vibration_modes: usize,
     /// Bodies whose mass centres do not move, whatever strikes them; lower first.
     pub held: [bool; 2],
+    /// How the surfaces of unlike bodies slip on each other; facing points move alike without.
+    pub slip: Option<Slip>,
 }
 
 impl PairSettings {
-    /// Exact contact, two blocks, no vibration, no body held.
+    /// Exact contact, two blocks, no vibration, no body held, no slip.
     pub fn new(candidate_radius: f64) -> Self {
         Self {
             candidate_radius,
@@ -35,6 +39,7 @@ impl PairSettings {
             shear_blocks: 2,
             vibration_modes: 0,
             held: [false; 2],
+            slip: None,
         }
     }
 }

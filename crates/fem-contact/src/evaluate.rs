@@ -14,6 +14,9 @@ pub struct ContactForces {
     pub n_closed: usize,
     /// Whether the outermost candidate point is closed.
     pub at_limit: bool,
+    /// Distance from the axis (m) at which a surface turns over where the other one touches it, so
+    /// that it is not a graph over the radius any more; only of moved surfaces.
+    pub turned_at: Option<f64>,
 }
 
 impl Foot {

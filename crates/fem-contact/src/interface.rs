@@ -37,7 +37,7 @@ pub struct ContactInterface {
 /// down, and chatter adds that up: with 2, an elastic glass pair at 50 times the
 /// default penalty gained 2 %; with 4 it keeps its energy to 7e-5, for a tenth
 /// more steps at the default penalty.
-const OPENING_SAFETY: f64 = 4.0;
+pub(crate) const OPENING_SAFETY: f64 = 4.0;
 
 impl ContactInterface {
     /// Pairs the lower with the upper surface out to `candidate_radius` (m).
@@ -85,15 +85,7 @@ impl ContactInterface {
     /// wall.
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
-        for side in 0..2 {
-            let surface = &self.surfaces[side];
-            if surface.is_rigid() && !surface.is_wall() {
-                // Beyond the upper limit it is a wall to rounding.
-                let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
-                self.springs[side] = 1.0 + ratio;
-                self.springs[1 - side] = 1.0 + ratio.recip();
-            }
-        }
+        share_by_mass(&self.surfaces, ratio, &mut self.springs);
         self
     }
 
@@ -127,17 +119,25 @@ impl ContactInterface {
     /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
     /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
-        self.add_bound(side, OPENING_SAFETY * self.springs[side], bound);
+        self.add_weighted_bound(side, self.springs[side], bound, |_| 1.0);
     }
 
     /// The same where the other body's surface stays where it is, whatever this one does: θ is 0.
     pub fn add_bound_against_held(&self, side: usize, bound: &mut [f64]) {
-        self.add_bound(side, OPENING_SAFETY, bound);
+        self.add_weighted_bound(side, 1.0, bound, |_| 1.0);
     }
 
-    fn add_bound(&self, side: usize, factor: f64, bound: &mut [f64]) {
+    /// The same of springs that count so many times, with a factor of each point.
+    pub(crate) fn add_weighted_bound(
+        &self,
+        side: usize,
+        springs: f64,
+        bound: &mut [f64],
+        factor: impl Fn(&ContactPoint) -> f64,
+    ) {
         for point in &self.points {
-            let stiffness = factor * point.stiffness * point.area;
+            let springs = springs * factor(point);
+            let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
             let foot = &point.feet[side];
             for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {
                 bound[node as usize] += stiffness * shape;
@@ -150,6 +150,19 @@ impl ContactInterface {
 /// [`ContactInterface::add_stiffness_bound`].
 pub(crate) fn springs(surfaces: &[Surface; 2]) -> [f64; 2] {
     [1, 0].map(|other: usize| if surfaces[other].is_wall() { 1.0 } else { 2.0 })
+}
+
+/// The same of a rigid sphere by its mass over that of the other body; see
+/// [`ContactInterface::with_rigid_mass`].
+pub(crate) fn share_by_mass(surfaces: &[Surface; 2], ratio: f64, springs: &mut [f64; 2]) {
+    for (side, surface) in surfaces.iter().enumerate() {
+        if surface.is_rigid() && !surface.is_wall() {
+            // Beyond the upper limit it is a wall to rounding.
+            let ratio = ratio.clamp(1.0, f64::EPSILON.recip());
+            springs[side] = 1.0 + ratio;
+            springs[1 - side] = 1.0 + ratio.recip();
+        }
+    }
 }
 
 /// Whether two surfaces can be in contact by springs of this stiffness (Pa) out to a radius, m.

@@ -17,20 +17,27 @@
 //! contact carries about half the load. Points at the nodes instead
 //! ([`ContactInterface::node_to_surface`]) are noisier and gain more energy.
 //!
+//! Where strains are not small, and where slip between unlike bodies matters, [`MovedInterface`] has the
+//! same springs between the surfaces where they are now.
+//!
 //! Sign convention: gap > 0 is open; the force is positive and acts on the
 //! lower body along −y, on the upper along +y.
 
 mod error;
 mod evaluate;
 mod interface;
+mod moved;
 mod nodal;
 mod node_to_surface;
 mod pressure;
+mod slip;
 mod surface;
 
 pub use error::ContactError;
 pub use evaluate::ContactForces;
 pub use interface::{ContactInterface, ContactPoint};
+pub use moved::MovedInterface;
 pub use nodal::NodalContact;
 pub use pressure::centre_pressure;
+pub use slip::SlippingInterface;
 pub use surface::{Foot, Surface};

@@ -13,19 +13,7 @@ impl ContactInterface {
     /// Interpolated linearly in the signed penalty pressure −k g between the
     /// outermost closed point and the next.
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let mut outside: Option<(f64, f64)> = None;
-        for (radius, pressure) in self.signed_pressure(u).rev() {
-            if pressure > 0.0 {
-                return match outside {
-                    Some((open, tension)) => {
-                        radius + (open - radius) * pressure / (pressure - tension)
-                    }
-                    None => radius,
-                };
-            }
-            outside = Some((radius, pressure));
-        }
-        0.0
+        edge(self.signed_pressure(u))
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis
@@ -34,9 +22,17 @@ impl ContactInterface {
         &'a self,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        self.at_nodes(self.signed_pressure(u))
+    }
+
+    /// The same of signed pressures at the points.
+    pub(crate) fn at_nodes<'a>(
+        &'a self,
+        signed_pressure: impl Iterator<Item = (f64, f64)> + 'a,
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
         let side = usize::from(self.surfaces[0].is_rigid());
         let surface = &self.surfaces[side];
-        let mut points = self.points.iter().zip(self.signed_pressure(u)).peekable();
+        let mut points = self.points.iter().zip(signed_pressure).peekable();
         // Force and area that the segment inside of a node has given to it.
         let mut from_inside = [0.0; 2];
         self.candidate_nodes(side).zip(&surface.radii).map(move |(node, &radius)| {
@@ -64,10 +60,34 @@ impl ContactInterface {
     /// their areas are, and √α returned; with fewer than four nodes there, or
     /// a fit that rises outward from nothing, the axis node's own value.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let side = usize::from(self.surfaces[0].is_rigid());
-        let spacing = self.surfaces[side].segment_length(0);
-        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), spacing)
+        self.on_axis(self.nodal_pressure(u), self.contact_radius(u))
     }
+
+    /// The same of pressures at nodes and a contact radius, m.
+    pub(crate) fn on_axis(
+        &self,
+        nodes: impl Iterator<Item = (f64, f64)>,
+        contact_radius: f64,
+    ) -> f64 {
+        let side = usize::from(self.surfaces[0].is_rigid());
+        centre_pressure(nodes, contact_radius, self.surfaces[side].segment_length(0))
+    }
+}
+
+/// Where signed pressures, (r in m, p in Pa) from the axis outward, pass through zero; 0 without
+/// contact.
+pub(crate) fn edge(signed_pressure: impl DoubleEndedIterator<Item = (f64, f64)>) -> f64 {
+    let mut outside: Option<(f64, f64)> = None;
+    for (radius, pressure) in signed_pressure.rev() {
+        if pressure > 0.0 {
+            return match outside {
+                Some((open, tension)) => radius + (open - radius) * pressure / (pressure - tension),
+                None => radius,
+            };
+        }
+        outside = Some((radius, pressure));
+    }
+    0.0
 }
 
 /// Pressure on the axis (Pa) of pressures at nodes, (r in m, p in Pa) from the axis outward, for a

@@ -4,6 +4,9 @@ use fem_mesh::SphereMesh;
 
 use crate::error::ContactError;
 
+/// Slope of an arc up to which it counts, that at 0.7 radii: no contact of small strain is so large.
+const STEEPEST: f64 = 1.0;
+
 /// One body's end of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foot {
@@ -93,6 +96,21 @@ impl Surface {
     pub(crate) fn depth(&self, r: f64) -> f64 {
         let slope = self.curvature * r;
         slope * r / (1.0 + (1.0 - slope * slope).max(0.0).sqrt())
+    }
+
+    /// The same depth, m, and its slope, which is the tangent of the arc's angle.
+    pub(crate) fn arc(&self, r: f64) -> (f64, f64) {
+        let sine = self.curvature * r;
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        (sine * r / (1.0 + cosine), sine / cosine)
+    }
+
+    /// Slope of the true arc, dy/dr upward from the pole of an upper body, at most [`STEEPEST`].
+    pub(crate) fn slope(&self, r: f64) -> f64 {
+        let sine = self.curvature * r;
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        // At the equator without division by zero.
+        if sine < STEEPEST * cosine { sine / cosine } else { STEEPEST }
     }
 
     /// Largest radius that the surface covers, m.

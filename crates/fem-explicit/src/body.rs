@@ -9,7 +9,9 @@ use fem_mesh::SphereMesh;
 use crate::forces::NodeForce;
 use crate::lumped::{LumpedBody, LumpedMesh, RigidSphere};
 use crate::part::{Accounts, Field, Motion, NodalField, Placed};
+use crate::state::BodyState;
 use crate::stress::Stress;
+use crate::time_step::ChangingBound;
 
 /// A body, constant over a run. A rigid sphere is a body of one node, which has all of its mass; a
 /// wall is one with infinite mass and without parts. A half-space has infinite mass too, and its far
@@ -19,13 +21,17 @@ pub struct Body {
     /// A rigid body has none.
     pub(crate) stress: Option<Placed<dyn Stress>>,
     pub(crate) node_forces: Vec<Placed<dyn NodeForce>>,
-    /// Fields of history of all its parts.
+    /// Nodal fields of history of all its parts.
     n_history: usize,
+    /// Fields of history of its elements, which are those of its stress.
+    n_element_history: usize,
     /// Lumped masses, mass scaling included, kg.
     pub(crate) nodal_mass: Vec<f64>,
     /// Inverse masses of (r, y); 0 for what cannot move.
     pub(crate) inverse_mass: Vec<[f64; 2]>,
     pub(crate) velocity: f64,
+    /// Of a body whose stiffness changes.
+    pub(crate) bound: Option<Arc<ChangingBound>>,
     mesh: Option<SphereMesh>,
     material: Option<Material>,
     mass: f64,
@@ -60,9 +66,11 @@ impl Body {
             stress: None,
             node_forces: Vec::new(),
             n_history: 0,
+            n_element_history: 0,
             nodal_mass: vec![0.0],
             inverse_mass: vec![[0.0; 2]],
             velocity,
+            bound: None,
             mesh: None,
             material: None,
             mass: f64::INFINITY,
@@ -99,7 +107,7 @@ impl Body {
         added_mass: f64,
         time_step: f64,
     ) -> Self {
-        let LumpedMesh { mesh, material, mut stress, node_forces, .. } = lumped;
+        let LumpedMesh { mesh, material, mut stress, node_forces, bound } = lumped;
         // What has no mass the step does not accelerate.
         let inverse = |m: &f64| if *m > 0.0 { [m.recip(); 2] } else { [0.0; 2] };
         let mut inverse_mass: Vec<_> = nodal_mass.iter().map(inverse).collect();
@@ -109,11 +117,17 @@ impl Body {
         for &node in mesh.far_boundary() {
             inverse_mass[node as usize] = [0.0; 2];
         }
-        let mut n_history = 0;
         stress.set_time_step(time_step);
-        let stress = Some(Placed::behind(&mut n_history, Arc::from(stress)));
+        let bound =
+            stress.changes_stiffness().then(|| Arc::new(ChangingBound::of(bound, &*stress)));
+        let n_element_history = stress.n_element_history();
+        let mut n_fields = n_element_history;
+        let mut stress = Placed::behind(&mut n_fields, Arc::from(stress));
+        // The fields of its elements come first.
+        stress.fields.start = 0;
+        let stress = Some(stress);
         let masses = (nodal_mass.as_slice(), added_mass);
-        let node_forces = place(node_forces, &mut n_history, time_step, masses);
+        let node_forces = place(node_forces, &mut n_fields, time_step, masses);
         let acceleration = acceleration(&node_forces);
         let mass = match mesh.is_half_space() {
             true => f64::INFINITY,
@@ -122,10 +136,12 @@ impl Body {
         Self {
             stress,
             node_forces,
-            n_history,
+            n_history: n_fields - n_element_history,
+            n_element_history,
             nodal_mass,
             inverse_mass,
             velocity,
+            bound,
             mesh: Some(mesh),
             material: Some(material),
             mass,
@@ -209,6 +225,23 @@ impl Body {
         self.n_history
     }
 
+    /// Number of fields of history that its elements keep: some for each Prony term of a body that
+    /// relaxes at finite strain, none of any other.
+    pub fn n_element_history(&self) -> usize {
+        self.n_element_history
+    }
+
+    /// Lengths of the fields of its history: those of its elements, then those of its nodes.
+    pub(crate) fn field_lengths(&self) -> impl Iterator<Item = usize> {
+        let of_elements = std::iter::repeat_n(self.n_elements(), self.n_element_history);
+        of_elements.chain(std::iter::repeat_n(self.nodal_mass.len(), self.n_history))
+    }
+
+    /// Number of them.
+    pub(crate) fn n_fields(&self) -> usize {
+        self.n_element_history + self.n_history
+    }
+
     /// Mass with mass scaling, kg.
     pub(crate) fn total_mass(&self) -> f64 {
         self.mass + self.added_mass
@@ -261,6 +294,19 @@ impl Body {
     /// Σ m x_y, 0 for a wall.
     pub(crate) fn sum_mass(&self, field: &Field) -> f64 {
         self.nodal_mass.iter().zip(field).map(|(m, x)| m * x[1]).sum()
+    }
+
+    /// What its stress follows from: displacement, effective displacement, stress of the elements.
+    pub(crate) fn update_stress_fields(&self, state: &BodyState, fields: &mut BodyFields) {
+        fields.displacement.clone_from(&state.displacement);
+        match self.effective() {
+            Some(field) => fields.effective.clone_from(&state.history[field]),
+            None => fields.effective.clear(),
+        }
+        if let Some(Placed { part, fields: own }) = &self.stress {
+            let history = &state.history[own.clone()];
+            part.update_cauchy_stress(&state.displacement, history, &mut fields.stress);
+        }
     }
 
     /// Which field of its history is the effective displacement of relaxing stress.

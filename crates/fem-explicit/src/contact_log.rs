@@ -74,16 +74,20 @@ impl ContactLog {
         }
     }
 
-    /// Relative motion of the mass centres over a step under its forces.
-    pub fn advance(&mut self, model: &Model, scratch: &Scratch) {
-        let time_step = model.time_step();
-        self.approach_rate -= time_step * self.force * model.inverse_mass;
+    /// An impulse of the forces of a step that last for a time, s; the contact force is the last one.
+    pub fn push(&mut self, model: &Model, scratch: &Scratch, time: f64) {
+        self.approach_rate -= time * self.force * model.inverse_mass;
         for (side, body) in model.bodies().iter().enumerate() {
             if !body.node_forces.is_empty() {
-                let change = time_step * scratch.resultants[side] / body.total_mass();
+                let change = time * scratch.resultants[side] / body.total_mass();
                 self.approach_rate += if side == 0 { change } else { -change };
             }
         }
+    }
+
+    /// Relative motion of the mass centres over a step (s) under its forces.
+    pub fn advance(&mut self, model: &Model, scratch: &Scratch, time_step: f64) {
+        self.push(model, scratch, time_step);
         self.has_receded |= self.approach_rate < 0.0;
         self.approach += time_step * self.approach_rate;
     }

@@ -35,6 +35,20 @@ pub enum ModelError {
          element at the contact has no stiffness; contact.method = \"penalty\" needs none"
     )]
     NoBalance,
+    /// A rigid body is to be computed at finite strain.
+    #[error("a rigid body does not deform: it has no finite strain")]
+    StrainOfRigid,
+    /// A material relaxes by more terms than elements at finite strain keep.
+    #[error(
+        "the material relaxes by {n_terms} terms; at finite strain it may have {most}: fold those of \
+         times far from the impact's"
+    )]
+    TooManyTerms {
+        /// How many it has.
+        n_terms: usize,
+        /// How many it may have.
+        most: usize,
+    },
     /// A wall keeps its velocity, whatever acts on it.
     #[error("a force acts on the nodes of a wall, which keeps its velocity")]
     ForceOnWall,

@@ -8,7 +8,7 @@
 use std::any::Any;
 use std::fmt::{self, Debug, Write};
 
-use fem_contact::ContactInterface;
+use fem_contact::{ContactInterface, SlippingInterface};
 
 use crate::body::Body;
 use crate::contact::{Contact, Massless};
@@ -67,6 +67,9 @@ fn take_body(digest: &mut Digest, body: &Body) {
     }
     digest.take_numbers(&body.nodal_mass);
     digest.take_text(body.material());
+    if let (Some(_), Some(stress)) = (&body.bound, &body.stress) {
+        digest.take_text(&stress.part);
+    }
     digest.take_text(&body.node_forces);
     if body.held {
         digest.take_text("held");
@@ -77,16 +80,19 @@ fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
     let searched = contact.searched();
     digest.take_numbers(&[searched.radius]);
     digest.take(searched.n_points as u64);
-    let contact_as_any = contact as &dyn Any;
-    let interface = match contact_as_any.downcast_ref::<Massless>() {
-        Some(massless) => {
-            digest.take_text("massless");
-            massless.interface()
-        }
-        None => match contact_as_any.downcast_ref::<ContactInterface>() {
-            Some(interface) => interface,
-            None => return digest.take_text(contact),
-        },
+    let contact_of_any_kind = contact as &dyn Any;
+    let interface = if let Some(slipping) = contact_of_any_kind.downcast_ref::<SlippingInterface>()
+    {
+        digest.take_text("slipping");
+        Some(slipping.interface())
+    } else if let Some(massless) = contact_of_any_kind.downcast_ref::<Massless>() {
+        digest.take_text("massless");
+        Some(massless.interface())
+    } else {
+        contact_of_any_kind.downcast_ref()
+    };
+    let Some(interface): Option<&ContactInterface> = interface else {
+        return digest.take_text(contact);
     };
     for point in interface.points() {
         digest.take_numbers(&[point.radius, point.area, point.initial_gap, point.stiffness]);

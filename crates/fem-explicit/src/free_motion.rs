@@ -5,6 +5,7 @@
 
 use fem_collision::{BodyFields, Side, StressField};
 use fem_material::Material;
+use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
 use crate::body::Body;
@@ -12,8 +13,9 @@ use crate::error::ModelError;
 use crate::lumped::LumpedMesh;
 use crate::model::check_step_factor;
 use crate::part::Accounts;
-use crate::state::BodyState;
+use crate::state::{BodyState, Clock};
 use crate::step::{advance_nodes, advance_stress, update_internal_forces};
+use crate::stress::Collapse;
 
 /// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
 ///
@@ -51,6 +53,7 @@ pub struct FreeMotion {
     state: BodyState,
     /// −f(u_n), N.
     forces: Vec<[f64; 2]>,
+    collapse: Option<Collapse>,
 }
 
 impl FreeMotion {
@@ -63,14 +66,37 @@ impl FreeMotion {
         material: &Material,
         step_factor: f64,
     ) -> Result<Self, ModelError> {
+        Self::with_law(mesh, material, None, step_factor)
+    }
+
+    /// The same at finite strain, by a law. The step is that of the undeformed body and stays: a body
+    /// that stiffens much may outrun it.
+    ///
+    /// # Errors
+    /// A step factor out of range.
+    pub fn at_finite_strain(
+        mesh: SphereMesh,
+        material: &Material,
+        law: HyperelasticLaw,
+        step_factor: f64,
+    ) -> Result<Self, ModelError> {
+        Self::with_law(mesh, material, Some(law), step_factor)
+    }
+
+    fn with_law(
+        mesh: SphereMesh,
+        material: &Material,
+        law: Option<HyperelasticLaw>,
+        step_factor: f64,
+    ) -> Result<Self, ModelError> {
         check_step_factor(step_factor)?;
-        let sphere = LumpedMesh::new(mesh, material.clone(), Vec::new(), &[])?;
+        let sphere = LumpedMesh::new(mesh, material.clone(), law, Vec::new(), &[])?;
         let time_step = step_factor * sphere.bound.critical_time_step();
         let nodal_mass = sphere.bound.mass.clone();
         let body = Body::of_mesh(sphere, 0.0, nodal_mass, 0.0, time_step);
         let state = BodyState::in_flight(&body, 0, 0.0);
         let forces = vec![[0.0; 2]; body.n_nodes()];
-        Ok(Self { body, time_step, n_steps: 0, state, forces })
+        Ok(Self { body, time_step, n_steps: 0, state, forces, collapse: None })
     }
 
     /// The body.
@@ -108,13 +134,24 @@ impl FreeMotion {
     pub fn step(&mut self) {
         advance_nodes(&self.body, self.time_step, &mut self.state, &self.forces);
         self.n_steps += 1;
-        advance_stress(&self.body, self.time(), &mut self.state);
+        advance_stress(&self.body, self.clock(), &mut self.state);
         self.update_forces();
     }
 
     fn update_forces(&mut self) {
-        let motion = self.state.motion(&self.body, self.time());
-        update_internal_forces(&self.body, &motion, &self.state.history, &mut self.forces);
+        let motion = self.state.motion(&self.body, self.clock());
+        let forces = &mut self.forces;
+        let done = update_internal_forces(&self.body, &motion, &self.state.history, forces);
+        self.collapse = done.err();
+    }
+
+    /// The element that has collapsed, if one has: then forces and energy mean nothing.
+    pub fn collapse(&self) -> Option<Collapse> {
+        self.collapse
+    }
+
+    fn clock(&self) -> Clock {
+        Clock { time: self.time(), time_step: self.time_step }
     }
 
     /// Displacements (r, y) of the nodes, m.
@@ -144,7 +181,7 @@ impl FreeMotion {
             })
             .sum();
         let mut accounts = Accounts::default();
-        let motion = self.state.motion(&self.body, self.time());
+        let motion = self.state.motion(&self.body, self.clock());
         self.body.add_energies(&motion, &self.state.history, &mut accounts);
         let held = accounts.energies.entries().filter(|(account, _)| account.side() == Side::Held);
         0.5 * twice_kinetic + held.map(|(_, energy)| energy).sum::<f64>()
@@ -152,12 +189,8 @@ impl FreeMotion {
 
     /// Stress of the deformed body.
     pub fn stress(&self) -> StressField {
-        let effective = self.body.effective().map(|field| self.state.history[field].clone());
-        let fields = BodyFields {
-            displacement: self.state.displacement.clone(),
-            velocity: Vec::new(),
-            effective: effective.unwrap_or_default(),
-        };
+        let mut fields = BodyFields::default();
+        self.body.update_stress_fields(&self.state, &mut fields);
         self.body.stress(&fields)
     }
 

@@ -93,15 +93,16 @@ impl Ledger {
         }
     }
 
-    /// Counts the impulses of the step from t_n to t_n+1, whose forces are in `scratch`.
-    pub fn count_step(&mut self, model: &Model, scratch: &Scratch, force: f64) {
-        self.impulse += model.time_step() * force;
+    /// Counts the impulses of forces that last for a time (s), those in `scratch` and that of the
+    /// contact (N): of the step from t_n to t_n+1, or of what half a step loses.
+    pub fn push(&mut self, model: &Model, scratch: &Scratch, force: f64, time: f64) {
+        self.impulse += time * force;
         for (side, body) in model.bodies().iter().enumerate() {
             if body.is_pushed() {
-                self.given_momentum += model.time_step() * scratch.resultants[side];
+                self.given_momentum += time * scratch.resultants[side];
             }
             for &node in body.held_nodes() {
-                self.given_momentum -= model.time_step() * scratch.forces[side][node as usize][1];
+                self.given_momentum -= time * scratch.forces[side][node as usize][1];
             }
         }
     }
@@ -114,20 +115,16 @@ impl Ledger {
         scratch: &Scratch,
         contact: &ContactForces,
     ) -> Row {
-        let bodies = model.bodies();
+        let (bodies, time_step) = (model.bodies(), state.time_step(model));
         let [lower, upper] = [0, 1].map(|side: usize| {
-            balance_body(
-                &bodies[side],
-                model.time_step(),
-                &state.bodies[side],
-                &scratch.forces[side],
-            )
+            balance_body(&bodies[side], time_step, &state.bodies[side], &scratch.forces[side])
         });
         let motions = state.motions(model);
         let mut accounts = Accounts::default();
         for (side, body) in bodies.iter().enumerate() {
             body.add_energies(&motions[side], &state.bodies[side].history, &mut accounts);
         }
+        model.contact().add_energies(state.contact_history(model), &mut accounts);
         self.losses.advance(state.time - self.last_time, accounts.powers);
         self.last_time = state.time;
 
@@ -137,10 +134,10 @@ impl Ledger {
                 .and(&self.losses.energies())
                 .with(Account::Kinetic, kinetic)
                 .with(Account::Contact, contact.energy)
-                .with(Account::WallWork, self.wall_work(model, contact.force))
+                .with(Account::WallWork, self.wall_work(model, contact.force * time_step))
         };
         let energies = with_kinetic(lower.kinetic + upper.kinetic);
-        let residual = match self.gained_by_rigid(model, contact.force) {
+        let residual = match self.gained_by_rigid(model, contact.force * time_step) {
             Some((side, gained)) => {
                 let (other, kinetic) = (&bodies[1 - side], [&lower, &upper][1 - side].kinetic);
                 with_kinetic(kinetic + gained).residual(kinetic_before(other))
@@ -182,9 +179,10 @@ impl Ledger {
         constants(self) == constants(&Self::new(model, state)) && self.last_time <= state.time
     }
 
-    /// Work of a moving wall, or half-space, on the other body up to t_n, J.
-    fn wall_work(&self, model: &Model, force: f64) -> f64 {
-        let impulse = self.impulse + 0.5 * model.time_step() * force;
+    /// Work of a moving wall, or half-space, on the other body up to t_n, J; `next` is the impulse of
+    /// the contact force there over a step, N s.
+    fn wall_work(&self, model: &Model, next: f64) -> f64 {
+        let impulse = self.impulse + 0.5 * next;
         let [lower, upper] = model.bodies();
         match (lower.is_free(), upper.is_free()) {
             (false, _) => impulse * lower.velocity,
@@ -194,17 +192,17 @@ impl Ledger {
     }
 
     /// The side of a rigid sphere that the contact alone moves, and the kinetic energy that it has
-    /// gained since first touch up to t_n, J.
+    /// gained since first touch up to t_n, J; `next` is as above.
     ///
     /// With the impulses J of the contact up to t_n ∓ Δt/2, ½ M v₋v₊ − ½ M v² = ½ v (J₋ + J₊) +
     /// J₋J₊/2M, without the cancellation that would leave of a heavy sphere's energy no more than
     /// rounding.
-    fn gained_by_rigid(&self, model: &Model, force: f64) -> Option<(usize, f64)> {
+    fn gained_by_rigid(&self, model: &Model, next: f64) -> Option<(usize, f64)> {
         let is_moved = |body: &Body| body.mesh().is_none() && !body.is_wall() && !body.is_pushed();
         let side = model.bodies().iter().position(is_moved)?;
         let (body, sign) = (&model.bodies()[side], [-1.0, 1.0][side]);
         let before = sign * self.impulse;
-        let after = before + sign * model.time_step() * force;
+        let after = before + sign * next;
         let gained = body.velocity * (before + after) + before * after / body.total_mass();
         Some((side, 0.5 * gained))
     }

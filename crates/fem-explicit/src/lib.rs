@@ -9,6 +9,10 @@
 //! mean stress and hourglass stiffness ([`fem_element`]), masses are lumped, time is stepped by
 //! central differences at a step that is proved stable for bodies and contact alike ([`Model`]).
 //!
+//! A body may be computed at finite strain instead, by a law of [`fem_material::finite`]
+//! ([`Parts::finite_strain`]): total Lagrangian elements, which still read the undeformed geometry
+//! alone. Their stiffness changes, and the step follows the critical one of the deformed bodies.
+//!
 //! What acts on the nodes are parts behind three ports, chosen once, when the model is built:
 //!
 //! ```text
@@ -17,11 +21,14 @@
 //!                            elastic               bulk viscosity,       massless boundary,
 //!                            constant_poisson      or none               penalty springs
 //!                            relaxing_shear
+//!                            finite
 //!
 //! update forces              subtract_forces       add_forces            add_forces
 //! observe: log, ledger,      add_energies          add_energies          contact_radius,
 //!   observed, history,       effective                                   centre_pressure,
 //!   recorder                                                             is_closed_next
+//! where stiffness changes     add_stiffness_bound,
+//!   bound the step           strain_rate
 //! advance: nodes (leapfrog)
 //!   what stress remembers    advance
 //!   what contact remembers,                                              advance
@@ -61,6 +68,7 @@ mod model;
 mod motion;
 mod observed;
 mod outcome;
+mod pace;
 mod part;
 mod recorder;
 mod run;
@@ -75,7 +83,7 @@ mod tests;
 mod time_step;
 
 pub use body::Body;
-pub use contact::{Contact, ContactMethod, Massless};
+pub use contact::{Contact, ContactMethod, Massless, MovedContact};
 pub use error::ModelError;
 pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;
@@ -84,4 +92,4 @@ pub use model::{Model, Parts, Settings};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, collide};
 pub use snapshot::n_states;
-pub use stress::Stress;
+pub use stress::{Collapse, Stress};

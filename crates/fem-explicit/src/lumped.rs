@@ -3,12 +3,13 @@
 use fem_collision::BodyInput;
 use fem_element::QuadGeometry;
 use fem_material::Material;
+use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
 use crate::boundary_mass::BoundaryMass;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
-use crate::stress::{self, Stress};
+use crate::stress::{self, MOST_TERMS, Stress};
 use crate::time_step::NodalBound;
 
 /// A body that contact and forces move, with its masses and a bound of the stiffness that pulls at
@@ -42,15 +43,20 @@ impl LumpedBody {
     /// `None` for a wall, which nothing moves; some nodes of a mesh may have no mass.
     ///
     /// # Errors
-    /// A rigid sphere's mass that is not positive and finite; forces on a wall; an element without mass.
+    /// A rigid sphere's mass that is not positive and finite; forces on a wall; an element without mass;
+    /// finite strain of a body that does not deform, or that relaxes by too many terms.
     pub fn new(
         input: BodyInput,
+        finite_strain: Option<HyperelasticLaw>,
         node_forces: Vec<Box<dyn NodeForce>>,
         massless: &[u32],
     ) -> Result<Option<Self>, ModelError> {
+        if input.mesh().is_none() && finite_strain.is_some() {
+            return Err(ModelError::StrainOfRigid);
+        }
         match input {
             BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
-                let meshed = LumpedMesh::new(mesh, material, node_forces, massless)?;
+                let meshed = LumpedMesh::new(mesh, material, finite_strain, node_forces, massless)?;
                 Ok(Some(Self::Meshed(Box::new(meshed))))
             }
             BodyInput::Rigid { mass, .. } => {
@@ -73,6 +79,14 @@ impl LumpedBody {
         match self {
             Self::Meshed(meshed) => &mut meshed.bound.stiffness,
             Self::Rigid(sphere) => &mut sphere.bound.stiffness,
+        }
+    }
+
+    /// The bound of its nodes' damping, N s/m, to which contact adds its own.
+    pub fn damping_mut(&mut self) -> &mut [f64] {
+        match self {
+            Self::Meshed(meshed) => &mut meshed.bound.damping,
+            Self::Rigid(sphere) => &mut sphere.bound.damping,
         }
     }
 
@@ -100,20 +114,30 @@ impl LumpedBody {
 }
 
 impl LumpedMesh {
-    /// Integrates the elements, once for stress, masses and bound.
+    /// Integrates the elements, once for stress, masses and bound. Its stress is that of small strain, or
+    /// of a law beyond; some nodes may have no mass.
     ///
     /// # Errors
-    /// An element whose corners all are among the nodes without mass.
+    /// Too many terms of relaxation for finite strain; an element whose corners all are among the nodes
+    /// without mass.
     pub fn new(
         mesh: SphereMesh,
         material: Material,
+        finite_strain: Option<HyperelasticLaw>,
         node_forces: Vec<Box<dyn NodeForce>>,
         massless: &[u32],
     ) -> Result<Self, ModelError> {
+        let n_terms = material.relaxation().map_or(0, |series| series.terms().len());
+        if finite_strain.is_some() && n_terms > MOST_TERMS {
+            return Err(ModelError::TooManyTerms { n_terms, most: MOST_TERMS });
+        }
         let elements = 0..mesh.quads().len();
         let geometries: Vec<_> =
             elements.map(|element| QuadGeometry::new(&mesh.corners(element))).collect();
-        let stress = stress::of_material(&mesh, &geometries, &material);
+        let stress = match finite_strain {
+            None => stress::of_material(&mesh, &geometries, &material),
+            Some(law) => stress::finite_strain(&mesh, &geometries, &material, law),
+        };
         let (boundary, density) = (BoundaryMass::new(&mesh, massless)?, material.density());
         let mut bound =
             NodalBound::of_elements(&mesh, &geometries, density, stress.as_ref(), &boundary);

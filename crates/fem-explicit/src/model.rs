@@ -4,14 +4,19 @@ use std::any::Any;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use fem_collision::{Approach, BodyInput, Frame, Searched};
-use fem_contact::{ContactError, ContactInterface, Surface};
+use fem_collision::{Approach, BodyInput, Frame, Searched, Stop};
+use fem_contact::{ContactError, ContactInterface, SlippingInterface, Surface};
+use fem_material::finite::HyperelasticLaw;
 
 use crate::body::Body;
-use crate::contact::{Contact, ContactMethod, Massless};
+use crate::contact::{Contact, ContactMethod, Massless, MovedContact};
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::lumped::LumpedBody;
+use crate::pace::Outlook;
+use crate::state::{Scratch, State};
+use crate::step::Collapsed;
+use crate::stress::Collapse;
 
 /// Numerical settings of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +34,8 @@ pub struct Settings {
 
 /// Parts of a model beyond what its bodies and settings ask for by themselves: none by default.
 ///
-/// The stress of a body follows from its material, the contact from the settings.
+/// The stress of a body follows from its material, at small strain or by a law beyond; the contact from
+/// the settings, between the surfaces where they are now if either body is at finite strain.
 #[derive(Debug, Default)]
 pub struct Parts {
     /// Forces on the nodes of the lower and of the upper body, in the order in which they add up.
@@ -37,9 +43,15 @@ pub struct Parts {
     /// Spheres whose mass centres do not move, lower and upper: a force on their nodes in proportion to
     /// the masses takes up what else would move them. None by default.
     pub held: [bool; 2],
+    /// Which energy the lower and the upper body store at finite strain; small strain where none is
+    /// named. The time step of such a body follows its stiffness.
+    pub finite_strain: [Option<HyperelasticLaw>; 2],
+    /// Whether the surfaces slip on each other, as those of unlike materials do. At finite strain they do
+    /// of themselves.
+    pub surface_slip: bool,
     /// Instead of springs.
     pub contact: Option<Box<dyn Contact>>,
-    /// How springs keep the bodies apart.
+    /// How springs keep the bodies apart at small strain, where their surfaces do not slip.
     pub method: ContactMethod,
 }
 
@@ -52,6 +64,7 @@ pub struct Model {
     pub(crate) contact_advances: bool,
     time_step: f64,
     plain_time_step: f64,
+    step_factor: f64,
     approach: Approach,
     /// Σ 1/m of both bodies with mass scaling, 1/kg; 0 of what is held.
     pub(crate) inverse_mass: f64,
@@ -74,7 +87,7 @@ impl Model {
     /// As [`Model::new`] does, with parts of the caller's beside or in place of the settings' own.
     ///
     /// # Errors
-    /// As [`Model::new`]; forces on a wall.
+    /// As [`Model::new`]; forces on a wall; finite strain of a rigid body.
     pub fn with_parts(
         inputs: [BodyInput; 2],
         approach: Approach,
@@ -82,19 +95,25 @@ impl Model {
         parts: Parts,
     ) -> Result<Self, ModelError> {
         check(settings)?;
-        let mut contact = match parts.contact {
+        let mut contact: Box<dyn Contact> = match parts.contact {
             Some(contact) => contact,
-            None => springs(&inputs, approach.gap(), settings, parts.method)?,
+            None if parts.finite_strain.iter().any(Option::is_some) => {
+                Box::new(MovedContact::new(&inputs, approach.gap(), settings)?)
+            }
+            None => springs(&inputs, approach.gap(), settings, parts.method, parts.surface_slip)?,
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
+        let [law_of_lower, law_of_upper] = parts.finite_strain;
+        let massless = [0, 1].map(|side: usize| contact.massless_nodes(side));
         let mut movable = [
-            LumpedBody::new(lower, forces_on_lower, contact.massless_nodes(0))?,
-            LumpedBody::new(upper, forces_on_upper, contact.massless_nodes(1))?,
+            LumpedBody::new(lower, law_of_lower, forces_on_lower, massless[0])?,
+            LumpedBody::new(upper, law_of_upper, forces_on_upper, massless[1])?,
         ];
         for (side, body) in movable.iter_mut().enumerate() {
             if let Some(body) = body {
                 contact.add_stiffness_bound(side, body.stiffness_mut());
+                contact.add_damping_bound(side, body.damping_mut());
             }
         }
         let smallest = |step: &dyn Fn(&LumpedBody) -> f64| {
@@ -131,6 +150,7 @@ impl Model {
             contact: Arc::from(contact),
             time_step,
             plain_time_step: settings.step_factor * plain,
+            step_factor: settings.step_factor,
             approach,
         })
     }
@@ -145,7 +165,7 @@ impl Model {
         self.contact.as_ref()
     }
 
-    /// The springs of their contact, where it has any.
+    /// The springs of their contact, where it has any and its surfaces do not slip.
     pub fn interface(&self) -> Option<&ContactInterface> {
         let contact = self.contact() as &dyn Any;
         let massless = || contact.downcast_ref().map(Massless::interface);
@@ -162,9 +182,64 @@ impl Model {
         self.contact.searched()
     }
 
-    /// Time step, s.
+    /// Time step, s; the longest of a run where the stiffness of a body changes.
     pub fn time_step(&self) -> f64 {
         self.time_step
+    }
+
+    /// Time step over critical time step.
+    pub(crate) fn step_factor(&self) -> f64 {
+        self.step_factor
+    }
+
+    /// Whether the stiffness of a body changes as it deforms, and the time step with it.
+    pub fn changes_stiffness(&self) -> bool {
+        self.bodies.iter().any(|body| body.bound.is_some())
+    }
+
+    /// Critical time step of the deformed bodies, and how fast they are strained; what it is made of goes
+    /// to `scratch`.
+    pub(crate) fn outlook(&self, state: &State, scratch: &mut Scratch) -> Outlook {
+        let motions = state.motions(self);
+        let (mut critical, mut strain_rate) = (f64::INFINITY, 0.0);
+        for (side, body) in self.bodies.iter().enumerate() {
+            let (stiffness, damping) = (&mut scratch.stiffness[side], &mut scratch.damping[side]);
+            if let (Some(bound), Some(stress)) = (&body.bound, &body.stress) {
+                stiffness.fill(0.0);
+                let history = stress.of(&state.bodies[side].history);
+                stress.part.add_stiffness_bound(&motions[side], history, stiffness);
+                damping.fill(0.0);
+                self.contact.add_bound_growth(&motions, side, stiffness, damping);
+                let own = bound.critical_time_step(&body.nodal_mass, stiffness, damping);
+                critical = if own < critical || own.is_nan() { own } else { critical };
+                strain_rate = f64::max(strain_rate, stress.part.strain_rate(&motions[side]));
+            }
+        }
+        Outlook { critical_time_step: critical, strain_rate }
+    }
+
+    /// The element that is compressed most, of a model whose stiffness changes.
+    pub(crate) fn most_compressed(&self, state: &State) -> Collapsed {
+        let of = |side: usize| {
+            let stress = self.bodies[side].stress.as_ref()?;
+            let collapse = stress.part.most_compressed(&state.bodies[side].displacement)?;
+            Some(Collapsed { side, collapse })
+        };
+        let ratio = |at: &Collapsed| at.collapse.volume_ratio;
+        let most = [0, 1].into_iter().filter_map(of).min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+        let none = Collapse { element: 0, volume_ratio: f64::NAN };
+        most.unwrap_or(Collapsed { side: 0, collapse: none })
+    }
+
+    /// Why a run ends whose body has collapsed.
+    pub(crate) fn stop(&self, at: Collapsed, state: &State) -> Stop {
+        let Collapsed { side, collapse: Collapse { element, volume_ratio } } = at;
+        let corners = self.bodies[side].mesh().map(|mesh| mesh.corners(element));
+        let place = corners.map_or([f64::NAN; 2], |corners| {
+            [0, 1].map(|axis: usize| corners.iter().map(|corner| corner[axis]).sum::<f64>() / 4.0)
+        });
+        let (time, step) = (state.time, state.step);
+        Stop::ElementCollapsed { time, step, body: side, element, place, volume_ratio }
     }
 
     /// Time after so many steps since the start of the case, s.
@@ -221,32 +296,42 @@ fn springs(
     gap: f64,
     settings: &Settings,
     method: ContactMethod,
+    surface_slip: bool,
 ) -> Result<Box<dyn Contact>, ModelError> {
     let [lower, upper] = inputs;
     let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
     let &Settings { contact_stiffness, candidate_radius, .. } = settings;
     let interface = match method {
-        ContactMethod::NodeToSurface => ContactInterface::node_to_surface,
-        ContactMethod::Penalty | ContactMethod::Massless => ContactInterface::new,
+        ContactMethod::NodeToSurface if !surface_slip => ContactInterface::node_to_surface,
+        _ => ContactInterface::new,
     };
     let interface =
         interface(lower_surface, upper_surface, contact_stiffness, gap, candidate_radius)?;
-    let interface = match (lower, upper) {
-        (BodyInput::Rigid { mass, .. }, BodyInput::Sphere { mesh, material })
-        | (BodyInput::Sphere { mesh, material }, BodyInput::Rigid { mass, .. }) => {
-            let volume = 4.0 / 3.0 * PI * mesh.radius().powi(3);
-            interface.with_rigid_mass(mass / (material.density() * volume))
-        }
-        _ => interface,
+    let interface = match mass_ratio(inputs) {
+        Some(ratio) => interface.with_rigid_mass(ratio),
+        None => interface,
     };
     Ok(match method {
+        _ if surface_slip => Box::new(SlippingInterface::new(interface)),
         ContactMethod::Massless => Box::new(Massless::new(inputs, interface)?),
         ContactMethod::Penalty | ContactMethod::NodeToSurface => Box::new(interface),
     })
 }
 
+/// Mass of a rigid sphere over that of the sphere that it meets; `None` of other pairs.
+pub(crate) fn mass_ratio(inputs: &[BodyInput; 2]) -> Option<f64> {
+    match inputs {
+        [BodyInput::Rigid { mass, .. }, BodyInput::Sphere { mesh, material }]
+        | [BodyInput::Sphere { mesh, material }, BodyInput::Rigid { mass, .. }] => {
+            let volume = 4.0 / 3.0 * PI * mesh.radius().powi(3);
+            Some(mass / (material.density() * volume))
+        }
+        _ => None,
+    }
+}
+
 /// The touching side of a body.
-fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
+pub(crate) fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     match input {
         BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
             Ok(Surface::of_sphere(mesh))

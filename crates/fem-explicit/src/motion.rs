@@ -6,6 +6,14 @@ use multiversion::multiversion;
 
 use crate::part::Field;
 
+/// An impulse of forces that last for a time (s): v ← v + t f/m.
+pub(crate) fn push(time: f64, inverse_mass: &Field, f: &Field, v: &mut Field) {
+    let nodes = inverse_mass.as_flattened().iter().zip(f.as_flattened());
+    for (v, (inverse_mass, f)) in v.as_flattened_mut().iter_mut().zip(nodes) {
+        *v += time * (inverse_mass * f);
+    }
+}
+
 /// Central differences: v ← v + Δt f/m, u ← u + Δt v.
 #[multiversion(targets("x86_64+avx2", "aarch64+neon"))]
 pub(crate) fn advance_motion(

@@ -26,7 +26,8 @@ pub trait Part: Any + Debug + Send + Sync {
         0
     }
 
-    /// Told once, when the model is built: the time step, s.
+    /// Told once, when the model is built: the time step, s. Where the stiffness of a body changes, it is
+    /// the longest of a run ([`Motion::time_step`]).
     fn set_time_step(&mut self, _: f64) {}
 }
 
@@ -35,6 +36,8 @@ pub trait Part: Any + Debug + Send + Sync {
 pub struct Motion<'a> {
     /// Since the start of the case, s.
     pub time: f64,
+    /// Δt, s: the model's, or shorter.
+    pub time_step: f64,
     /// Displacements, m.
     pub displacement: &'a Field,
     /// Velocities at t_n − Δt/2, m/s.
@@ -57,6 +60,8 @@ pub struct Accounts {
 pub struct MotionMut<'a> {
     /// Since the start of the case, s.
     pub time: f64,
+    /// Of the step, s.
+    pub time_step: f64,
     /// Displacements, m.
     pub displacement: &'a mut Field,
     /// Velocities over the step, m/s.
@@ -70,8 +75,8 @@ pub struct MotionMut<'a> {
 impl MotionMut<'_> {
     /// The body as parts see it.
     pub fn as_motion(&self) -> Motion<'_> {
-        let Self { time, displacement, velocity, nodal_mass, .. } = self;
-        Motion { time: *time, displacement, velocity, nodal_mass }
+        let &Self { time, time_step, ref displacement, ref velocity, nodal_mass, .. } = self;
+        Motion { time, time_step, displacement, velocity, nodal_mass }
     }
 }
 

@@ -147,7 +147,7 @@ impl Recorder {
             }
             SnapshotRequest::Times(times) => {
                 while let Some(&time) = times.get(self.next_time)
-                    && state.time + 0.5 * model.time_step() >= time
+                    && state.time + 0.5 * state.time_step(model) >= time
                 {
                     self.kept.push(copy(None, None));
                     self.next_time += 1;

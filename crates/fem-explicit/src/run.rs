@@ -12,8 +12,8 @@ use crate::memory::Memory;
 use crate::model::Model;
 use crate::outcome::outcome;
 use crate::recorder::Instant;
-use crate::state::Scratch;
-use crate::step::{advance, is_closed_next, update_forces};
+use crate::state::{Scratch, State};
+use crate::step::{Collapsed, advance, is_closed_next, update_forces, update_step};
 
 /// Runs a model from first touch until the force has been zero for a fifth of
 /// the contact time and the bodies recede.
@@ -161,7 +161,13 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
-    let contact = update_forces(model, state, scratch);
+    let stop = |at: Collapsed, state: &State| model.stop(at, state);
+    let contact = update_forces(model, state, scratch).map_err(|at| stop(at, state))?;
+    if let Some(shorter) = update_step(model, state, scratch).map_err(|at| stop(at, state))? {
+        ledger.push(model, scratch, contact.force, shorter);
+        log.force = contact.force;
+        log.push(model, scratch, shorter);
+    }
     let (time, step) = (state.time, state.step);
     let is_closed = contact.n_closed > 0;
     let is_first_contact = is_closed && log.first_contact.is_none();
@@ -175,7 +181,8 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     let has_separated = log.has_separated(time, model.gravity());
     // At the limit too: a run that blows up throws its nodes about, which is not a large contact, and
     // its balance tells.
-    let kind = match (is_last_contact, is_first_contact || has_separated || contact.at_limit) {
+    let is_beyond = contact.at_limit || contact.turned_at.is_some();
+    let kind = match (is_last_contact, is_first_contact || has_separated || is_beyond) {
         (_, true) => RowKind::Landmark,
         (true, _) => RowKind::LastContact,
         _ => RowKind::Regular,
@@ -214,6 +221,9 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     if stays_together {
         return Ok(Some(Ending::Together));
     }
+    if let Some(radius) = contact.turned_at {
+        return Err(Stop::SurfaceTurnsOver { time, step, radius });
+    }
     if contact.at_limit {
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });
     }
@@ -224,8 +234,9 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     if element_updates >= most_updates {
         return Err(Stop::TooManyUpdates { time, step, element_updates });
     }
-    ledger.count_step(model, scratch, contact.force);
-    log.advance(model, scratch);
+    let time_step = state.time_step(model);
+    ledger.push(model, scratch, contact.force, time_step);
+    log.advance(model, scratch, time_step);
     advance(model, state, scratch);
     Ok(None)
 }
@@ -233,8 +244,9 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
 /// The state where the run stopped ends what is observed and the history, if it is sound.
 fn record_stop(model: &Model, memory: &mut Memory, scratch: &mut Scratch) {
     let Memory { state, ledger, observed, history, .. } = memory;
-    if observed.last.is_none_or(|row| row.time < state.time) {
-        let contact = update_forces(model, state, scratch);
+    if observed.last.is_none_or(|row| row.time < state.time)
+        && let Ok(contact) = update_forces(model, state, scratch)
+    {
         let row = ledger.balance(model, state, scratch, &contact);
         if ledger.check(&row, state.step).is_ok() {
             observed.take(row, contact.n_closed > 0);

@@ -32,6 +32,7 @@ pub(crate) fn take(
     approach: f64,
     label: Option<Label>,
 ) {
+    let time_step = state.time_step(model);
     snapshot.label = label;
     snapshot.time = state.time;
     snapshot.approach = approach;
@@ -41,16 +42,12 @@ pub(crate) fn take(
             continue;
         }
         let state = &state.bodies[side];
-        match body.effective() {
-            Some(field) => fields.effective.clone_from(&state.history[field]),
-            None => fields.effective.clear(),
-        }
+        body.update_stress_fields(state, fields);
         fields.velocity.clone_from(&state.velocity);
-        fields.displacement.clone_from(&state.displacement);
         // Half a step brings the velocity to t_n; the displacement does not
         // move with it and is taken anew.
         advance_motion(
-            0.5 * model.time_step(),
+            0.5 * time_step,
             &body.inverse_mass,
             &forces[side],
             &mut fields.velocity,
@@ -65,11 +62,13 @@ pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
     let bodies = model.bodies().each_ref().map(|body| {
         let n = body.n_nodes();
         let n_effective = if body.effective().is_some() { n } else { 0 };
+        let n_stresses = if body.bound.is_some() { body.n_elements() } else { 0 };
         let displacement = [0.0, body.velocity * time];
         BodyFields {
             displacement: vec![displacement; n],
             velocity: vec![[0.0, body.velocity]; n],
             effective: vec![displacement; n_effective],
+            stress: vec![[0.0; 4]; n_stresses],
         }
     });
     let approach = model.approach().speed() * time - model.approach().gap();
@@ -81,8 +80,10 @@ pub(crate) fn fits(snapshot: &Snapshot, model: &Model) -> bool {
     snapshot.bodies.iter().zip(model.bodies()).all(|(fields, body)| {
         let n = body.n_nodes();
         let n_effective = if body.effective().is_some() { n } else { 0 };
+        let n_stresses = if body.bound.is_some() { body.n_elements() } else { 0 };
         fields.displacement.len() == n
             && fields.velocity.len() == n
             && fields.effective.len() == n_effective
+            && fields.stress.len() == n_stresses
     })
 }

@@ -10,7 +10,7 @@ use crate::body::Body;
 use crate::lumped::LumpedMesh;
 use crate::model::{Model, Settings};
 use crate::part::{Accounts, Field};
-use crate::state::{BodyState, State};
+use crate::state::{BodyState, Clock, State};
 use crate::stress::Moduli;
 
 /// ν = 0.244 in units of density, shear modulus and so of the shear wave's speed.
@@ -89,13 +89,14 @@ pub(crate) fn geometries(mesh: &SphereMesh) -> Vec<QuadGeometry> {
 
 /// Without forces on its nodes.
 pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> LumpedMesh {
-    LumpedMesh::new(mesh.clone(), material, Vec::new(), &[]).unwrap()
+    LumpedMesh::new(mesh.clone(), material, None, Vec::new(), &[]).unwrap()
 }
 
 /// Energies and powers of the parts of a body.
 pub(crate) fn accounts(body: &Body, state: &BodyState) -> Accounts {
     let mut accounts = Accounts::default();
-    body.add_energies(&state.motion(body, 0.0), &state.history, &mut accounts);
+    let clock = Clock { time: 0.0, time_step: 0.0 };
+    body.add_energies(&state.motion(body, clock), &state.history, &mut accounts);
     accounts
 }
 

@@ -98,15 +98,8 @@ impl NodalBound {
 
     /// Critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
-        let step = |[mass, stiffness, damping]: [f64; 3]| {
-            match damping == 0.0 {
-                true => 2.0 * (mass / stiffness).sqrt(),
-                // The same root without the difference of two large numbers.
-                false => 4.0 * mass / (damping + damping.hypot(2.0 * (stiffness * mass).sqrt())),
-            }
-        };
         let pulled = self.nodes().filter(|node| *node != [0.0; 3]);
-        pulled.map(step).fold(f64::INFINITY, f64::min)
+        pulled.map(critical_time_step).fold(f64::INFINITY, f64::min)
     }
 
     /// Mass that a critical time step (s) asks for beyond what is there, kg.
@@ -146,6 +139,53 @@ impl NodalBound {
         };
         let masses = self.nodes().map(filled).collect();
         (masses, added)
+    }
+}
+
+/// The same of a body whose stiffness changes as it deforms; mass scaling stays as it was.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ChangingBound {
+    /// κ_i of the undeformed body, its contact and its forces, N/m.
+    stiffness: Vec<f64>,
+    /// What of that is its elements', N/m.
+    of_elements: Vec<f64>,
+    /// γ_i, N s/m.
+    damping: Vec<f64>,
+}
+
+impl ChangingBound {
+    /// Of the bound that the time step was chosen from.
+    pub fn of(bound: NodalBound, stress: &dyn Stress) -> Self {
+        let mut of_elements = vec![0.0; bound.mass.len()];
+        stress.add_undeformed_stiffness_bound(&mut of_elements);
+        Self { stiffness: bound.stiffness, of_elements, damping: bound.damping }
+    }
+
+    /// Critical time step (s) at masses (kg), where the elements have these bounds now (N/m), with what the
+    /// contact's have grown by, and its damping (N s/m). What is no number counts.
+    pub fn critical_time_step(
+        &self,
+        mass: &[f64],
+        of_elements: &[f64],
+        grown_damping: &[f64],
+    ) -> f64 {
+        let step = |k: usize| {
+            let grown = of_elements[k] - self.of_elements[k];
+            let damping = self.damping[k] + grown_damping[k];
+            critical_time_step([mass[k], self.stiffness[k] + grown, damping])
+        };
+        (0..mass.len()).map(step).fold(f64::INFINITY, |least, step| {
+            if step < least || step.is_nan() { step } else { least }
+        })
+    }
+}
+
+/// Critical time step of a node of this mass (kg), stiffness (N/m) and damping (N s/m), s.
+fn critical_time_step([mass, stiffness, damping]: [f64; 3]) -> f64 {
+    match damping == 0.0 {
+        true => 2.0 * (mass / stiffness).sqrt(),
+        // The same root without the difference of two large numbers.
+        false => 4.0 * mass / (damping + damping.hypot(2.0 * (stiffness * mass).sqrt())),
     }
 }
 

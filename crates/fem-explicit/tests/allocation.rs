@@ -10,6 +10,7 @@ use common::Pair;
 use fem_collision::{Label, SnapshotRequest};
 use fem_explicit::collide;
 use fem_material::ActsOn;
+use fem_material::finite::HyperelasticLaw;
 
 thread_local! {
     static COUNT: Cell<usize> = const { Cell::new(0) };
@@ -41,9 +42,11 @@ fn count(pair: &Pair) -> (usize, u64) {
 
 #[test]
 fn the_number_of_allocations_does_not_depend_on_the_number_of_steps() {
-    for relaxation in [None, Some(ActsOn::Shear)] {
-        let pair =
-            Pair { element_size: 100e-6, candidate_radius: 0.45e-3, relaxation, ..Pair::default() };
+    let shear = Some(ActsOn::Shear);
+    let finite = Some(HyperelasticLaw::NeoHooke);
+    for (relaxation, law) in [(None, None), (shear, None), (None, finite), (shear, finite)] {
+        let (element_size, candidate_radius) = (100e-6, 0.45e-3);
+        let pair = Pair { element_size, candidate_radius, relaxation, law, ..Pair::default() };
         for (snapshots, n_kept) in [
             (SnapshotRequest::Times(Vec::new()), 0),
             (SnapshotRequest::Count(4), 8 * 4 + 2),

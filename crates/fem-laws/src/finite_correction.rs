@@ -86,6 +86,14 @@ impl RelaxingCorrection {
     pub fn none(n_elements: usize) -> Self {
         Self { equilibrium: Correction::NONE, fading: vec![Correction::NONE; n_elements] }
     }
+
+    /// Adds another correction of as many elements.
+    pub fn add(&mut self, other: &Self) {
+        self.equilibrium.add(&other.equilibrium, 1.0);
+        for (own, other) in self.fading.iter_mut().zip(&other.fading) {
+            own.add(other, 1.0);
+        }
+    }
 }
 
 #[cfg(test)]

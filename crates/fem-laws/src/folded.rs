@@ -219,5 +219,5 @@ fn material(body: &Material, fates: &[Fate]) -> Option<Material> {
         true => None,
         false => Some(PronySeries::new(kept, series.acts_on()).ok()?),
     };
-    Material::new(body.density(), moduli, relaxation).ok()
+    Some(Material::new(body.density(), moduli, relaxation).ok()?.with_law(body.law()))
 }

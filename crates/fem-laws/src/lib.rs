@@ -5,7 +5,8 @@
 //!
 //! - [`HertzImpact`]: elastic, closed forms;
 //! - [`Ting`]: viscoelastic, with the [`PairRelaxation`] of the two materials and, if wanted, the
-//!   [`FiniteSize`] of the spheres and the waves that a half-space takes away;
+//!   [`FiniteSize`] of the spheres, the [`SurfaceSlip`] of unlike ones and the waves that a half-space
+//!   takes away;
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. What leaving
@@ -63,6 +64,7 @@ mod radiation;
 mod rigid_partner;
 mod sphere_compliance;
 mod static_hertz;
+mod surface_slip;
 mod ting;
 mod ting_collision;
 mod ting_radiation;
@@ -88,4 +90,5 @@ pub use plastic_yield::{FirstYield, largest_von_mises};
 pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};
 pub use rigid_partner::rigid_partner;
 pub use static_hertz::StaticHertz;
+pub use surface_slip::{Face, SurfaceSlip};
 pub use ting::Ting;

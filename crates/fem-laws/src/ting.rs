@@ -31,6 +31,8 @@
 //! since t₁. Keeping it makes the restitution of glass, from 0.1 to 2 m/s and of whatever loss, too
 //! small by up to 4e-4, found by direct integration; finite elements agree.
 //!
+//! With a [`SurfaceSlip`] its compliance comes beside that of finite size in the same way.
+//!
 //! With bodies that radiate, −γ Ḟ of each comes beside them in δ: [`crate::radiation_damping`], in the
 //! passive form of `ting_radiation.rs`, by the force itself, in loading and unloading. The contact then is
 //! largest a little before the approach is, and t₁ looks back from there.
@@ -51,6 +53,7 @@ use crate::impact::Impact;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 use crate::radiation::{radiation_damping, share_of_damping};
+use crate::surface_slip::SurfaceSlip;
 use crate::ting_collision::{Collision, Units};
 use crate::ting_radiation::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
 use crate::ting_record::{Contact, Element};
@@ -64,6 +67,7 @@ pub struct Ting {
     pair: Pair,
     relaxation: PairRelaxation,
     finite_size: Option<FiniteSize>,
+    surface_slip: Option<SurfaceSlip>,
     /// γ of all bodies that radiate, m s/N.
     radiation_damping: Option<f64>,
     /// See [`Ting::with_coarse_waves`].
@@ -87,6 +91,7 @@ impl Ting {
             pair: *pair,
             relaxation,
             finite_size: None,
+            surface_slip: None,
             radiation_damping: None,
             has_coarse_waves: false,
             tolerance: Self::DEFAULT_TOLERANCE,
@@ -113,6 +118,11 @@ impl Ting {
     /// With the finite size of the spheres in series; of the same materials as the relaxation.
     pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
         Self { finite_size: Some(finite_size), ..self }
+    }
+
+    /// With surfaces that slip on each other; of the same materials as the relaxation.
+    pub fn with_surface_slip(self, surface_slip: SurfaceSlip) -> Self {
+        Self { surface_slip: Some(surface_slip), ..self }
     }
 
     /// With the loss by waves into each body so large that they do not come back, given by its
@@ -152,13 +162,16 @@ impl Ting {
         let hertz = HertzImpact::new(&self.pair, self.scale(approach_speed)?)?;
         let units = Units::of(&hertz);
         let terms = self.relaxation.terms();
-        let corrections = match &self.finite_size {
+        let mut corrections = match &self.finite_size {
             Some(size) => {
                 size.check(hertz.max_contact_radius())?;
                 size.correction(units.length, units.force, units.radius, &self.relaxation)
             }
             None => RelaxingCorrection::none(terms.len()),
         };
+        if let Some(slip) = &self.surface_slip {
+            corrections.add(&slip.correction(units.length, units.force, &self.relaxation));
+        }
         let elements = terms.iter().zip(corrections.fading).map(|(term, correction)| Element {
             weight: term.weight,
             rate: (units.time / term.relaxation_time).min(MAX_RATE),

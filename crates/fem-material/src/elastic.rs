@@ -169,6 +169,11 @@ impl ElasticModuli {
         let (k, g) = (self.bulk_modulus, self.shear_modulus);
         4.0 * g * ((3.0 * k + g) / (3.0 * k + 4.0 * g))
     }
+
+    /// (1−2ν)/G, by which a surface moves along itself under a pressure: 0 of what keeps its volume.
+    pub fn tangential_compliance(&self) -> f64 {
+        (self.bulk_modulus + self.shear_modulus / 3.0).recip()
+    }
 }
 
 /// E of K > 0 and G ≥ 0.

@@ -19,6 +19,7 @@
 
 mod elastic;
 mod error;
+pub mod finite;
 mod hooke;
 mod material;
 mod prony;

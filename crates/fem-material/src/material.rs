@@ -11,6 +11,7 @@
 
 use crate::elastic::{ElasticModuli, poissons_ratio, youngs_modulus};
 use crate::error::{MaterialError, positive};
+use crate::finite::HyperelasticLaw;
 use crate::prony::{ActsOn, PronySeries};
 
 /// A checked isotropic linear material, elastic or viscoelastic.
@@ -19,6 +20,7 @@ pub struct Material {
     density: f64,
     instantaneous: ElasticModuli,
     relaxation: Option<PronySeries>,
+    law: Option<HyperelasticLaw>,
 }
 
 impl Material {
@@ -31,7 +33,14 @@ impl Material {
         instantaneous: ElasticModuli,
         relaxation: Option<PronySeries>,
     ) -> Result<Self, MaterialError> {
-        Ok(Self { density: positive("density", density)?, instantaneous, relaxation })
+        let density = positive("density", density)?;
+        Ok(Self { density, instantaneous, relaxation, law: None })
+    }
+
+    /// The same material with another law at finite strain; small strain does not know it.
+    #[must_use]
+    pub fn with_law(self, law: HyperelasticLaw) -> Self {
+        Self { law: Some(law), ..self }
     }
 
     /// The elastic material with the same density and instantaneous moduli.
@@ -54,6 +63,16 @@ impl Material {
     /// Density ρ, kg/m³.
     pub fn density(&self) -> f64 {
         self.density
+    }
+
+    /// The energy that it stores at finite strain: neo-Hooke's where none was named.
+    pub fn law(&self) -> HyperelasticLaw {
+        self.law.unwrap_or_default()
+    }
+
+    /// The law at finite strain, if it was named.
+    pub fn named_law(&self) -> Option<HyperelasticLaw> {
+        self.law
     }
 
     /// Moduli at the instant of straining.

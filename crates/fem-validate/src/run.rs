@@ -99,15 +99,18 @@ impl ExplicitRun {
     /// The penalty springs between the bodies.
     ///
     /// # Errors
-    /// A case with another contact, of which a study of springs can tell nothing.
+    /// A case with another contact, as of surfaces that slip, of which a study of springs can tell nothing.
     pub fn springs(&self) -> Result<&ContactInterface, StudyError> {
         self.model.interface().ok_or_else(no_springs)
     }
 }
 
-/// What is said of a contact that has no penalty springs.
+/// What is said of a contact that is not of penalty springs alone.
 pub(crate) fn no_springs() -> StudyError {
-    StudyError::parameters("the study is of penalty springs, and the contact has none")
+    StudyError::parameters(
+        "the study is of penalty springs alone, which this contact has not; unlike bodies have them with \
+         effects.surface_slip = \"off\"",
+    )
 }
 
 impl Deref for ExplicitRun {

@@ -4,7 +4,7 @@
 use fem_case::{Body, ModelChoice, Scene};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
-use crate::effects::PartnerWaves;
+use crate::effects::{PartnerWaves, SurfaceSlip};
 use crate::estimate::Estimate;
 use crate::large_partner::radiating_impact;
 use crate::quasi_static::ting_of;
@@ -36,7 +36,7 @@ impl Expected {
             false => PartnerWaves::radiating(scene, &estimate),
         };
         let radiates = radiating != [None; 2];
-        if !radiates && !relaxes(scene) && !finite_size {
+        if !radiates && !relaxes(scene) && !finite_size && !SurfaceSlip::is_on(scene) {
             return Ok(Self::from(&estimate.hertz));
         }
         let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(TOLERANCE);

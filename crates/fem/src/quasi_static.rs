@@ -4,6 +4,8 @@ use fem_case::{Body, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
+use crate::effects::SurfaceSlip;
+
 /// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
 /// however large the contact.
 ///
@@ -14,8 +16,8 @@ pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impa
     ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
 }
 
-/// Ting's model of a scene and its pair; of elastic materials with the same instantaneous moduli where
-/// nothing relaxes.
+/// Ting's model of a scene and its pair, of surfaces that slip on each other where the scene has that on;
+/// of elastic materials with the same instantaneous moduli where nothing relaxes.
 ///
 /// # Errors
 /// Numbers that the law refuses.
@@ -32,7 +34,10 @@ pub(crate) fn ting_of(
     } else {
         PairRelaxation::new(elastic(first).as_ref(), elastic(second).as_ref())?
     };
-    let ting = Ting::new(pair, relaxation);
+    let mut ting = Ting::new(pair, relaxation);
+    if SurfaceSlip::is_on(scene) {
+        ting = ting.with_surface_slip(scene.surface_slip());
+    }
     Ok(match size {
         Some(size) => ting.with_finite_size(size),
         None => ting,

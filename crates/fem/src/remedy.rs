@@ -16,15 +16,29 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
     let (cause, remedy) = match stop {
         Stop::Interrupted { .. } => return None,
         Stop::EnergyGrowth { .. } => (
-            "the contact opens and closes faster than the time step resolves, or an imported \
-             mesh has elements that are far too distorted",
+            "the contact opens and closes faster than the time step resolves, an imported mesh has \
+             elements that are far too distorted, or a material at finite strain gives way under its \
+             load, as St Venant and Kirchhoff's does in compression",
             "set time.step_factor = 0.5 and time.mass_scaling = 0; if it stays, lower \
-             contact.penalty_factor, and send us the case: the step is meant to be stable",
+             contact.penalty_factor, name another material.NAME.hyperelastic, or send us the case: \
+             the step is meant to be stable",
+        ),
+        Stop::ElementCollapsed { .. } => (
+            "the impact is faster than this material can be compressed, or an element is far too \
+             distorted: at the rim of a contact, or of an imported mesh",
+            "lower body.N.approach_speed, use a coarser mesh.contact_element_size, or another law that \
+             stiffens as it is compressed",
         ),
         Stop::ContactBeyondCandidates { .. } | Stop::ContactTooLarge { .. } => (
             "the contact is as wide as the smaller sphere, where small strain says nothing: the \
              impact is too fast or the material too soft",
             "lower body.N.approach_speed, or check the moduli and their units",
+        ),
+        Stop::SurfaceTurnsOver { .. } => (
+            "the body folds under the load, or its elements are too few or too distorted to carry it: \
+             the impact is too fast or the material too soft",
+            "lower body.N.approach_speed or mesh.contact_element_size, or check the moduli and their \
+             units",
         ),
         Stop::NoSeparation { .. } => (
             "the material has relaxed so far that nothing is left to push the bodies apart, or a \

@@ -34,7 +34,11 @@ impl Check<'_> {
             }
             None => None,
         };
-        Material::new(density, elastic, relaxation).map_err(place)
+        let material = Material::new(density, elastic, relaxation).map_err(place)?;
+        Ok(match table.hyperelastic {
+            Some(law) => material.with_law(law.into()),
+            None => material,
+        })
     }
 
     fn relaxation_terms(

@@ -2,7 +2,9 @@
 
 mod common;
 mod forces;
+mod moved;
 mod node_to_surface;
 mod pressure;
 mod rigid;
+mod slip;
 mod stiffness;

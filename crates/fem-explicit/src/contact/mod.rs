@@ -1,7 +1,9 @@
 //! How the bodies touch: the port, and one file an implementation.
 
 mod massless;
+mod moved;
 mod penalty;
+mod slipping;
 
 use std::any::Any;
 
@@ -9,9 +11,10 @@ use fem_collision::Searched;
 use fem_contact::ContactForces;
 
 use crate::error::ModelError;
-use crate::part::{Field, Motion, MotionMut, NodalField, Part};
+use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 
 pub use massless::Massless;
+pub use moved::MovedContact;
 
 /// How springs keep the surfaces apart.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -38,6 +41,21 @@ pub trait Contact: Part {
     /// closed.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]);
 
+    /// Adds a bound of its damping at each node (N s/m) of a side; a contact that does not depend on the
+    /// velocity has none.
+    fn add_damping_bound(&self, _side: usize, _bound: &mut [f64]) {}
+
+    /// Adds what these bounds of a side have grown by since the bodies were undeformed: nothing of a
+    /// contact that does not change its stiffness with them. Asked for in runs whose bodies do.
+    fn add_bound_growth(
+        &self,
+        _motions: &[Motion<'_>; 2],
+        _side: usize,
+        _stiffness: &mut [f64],
+        _damping: &mut [f64],
+    ) {
+    }
+
     /// Adds the contact forces (N) of a configuration.
     fn add_forces(
         &self,
@@ -53,6 +71,9 @@ pub trait Contact: Part {
     fn check(&self) -> Result<(), ModelError> {
         Ok(())
     }
+
+    /// Adds what it has taken since first touch; what its springs hold is told with the forces.
+    fn add_energies(&self, _history: [&[NodalField]; 2], _accounts: &mut Accounts) {}
 
     /// Nodes of a side, 0 lower, 1 upper, that have no mass: the step leaves them the velocity that
     /// they had, and the contact moves them where they are in balance.

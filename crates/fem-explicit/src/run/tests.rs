@@ -105,10 +105,10 @@ fn the_next_contact_is_foreseen() {
     let model = model();
     let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
     for _ in 0..200 {
-        update_forces(&model, &state, &mut scratch);
+        update_forces(&model, &state, &mut scratch).unwrap();
         advance(&model, &mut state, &mut scratch);
     }
-    let contact = update_forces(&model, &state, &mut scratch);
+    let contact = update_forces(&model, &state, &mut scratch).unwrap();
     let forces = || {
         let mut other = Scratch::new(&model);
         other.forces.clone_from(&scratch.forces);
@@ -124,10 +124,10 @@ fn the_next_contact_is_foreseen() {
         let mut next = lifted(offset);
         let mut scratch = forces();
         advance(&model, &mut next, &mut scratch);
-        update_forces(&model, &next, &mut scratch).n_closed > 0
+        update_forces(&model, &next, &mut scratch).unwrap().n_closed > 0
     });
     let now = threshold(|offset| {
-        update_forces(&model, &lifted(offset), &mut Scratch::new(&model)).n_closed > 0
+        update_forces(&model, &lifted(offset), &mut Scratch::new(&model)).unwrap().n_closed > 0
     });
     // Rounding; a step moves the threshold by orders more.
     assert!((foreseen - found).abs() < 1e-14, "{foreseen:e} {found:e}");

@@ -9,7 +9,7 @@ use fem_element::{ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient
 
 use super::block::Blocks;
 use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
-use super::port::Stress;
+use super::port::{Collapse, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// The elements of a body and their moduli, which relaxing bodies start from.
@@ -33,8 +33,14 @@ impl Stress for Elastic {
         largest_eigenvalue(&matrix, masses, on_axis)
     }
 
-    fn subtract_forces(&self, motion: &Motion<'_>, _: &[NodalField], forces: &mut Field) {
+    fn subtract_forces(
+        &self,
+        motion: &Motion<'_>,
+        _: &[NodalField],
+        forces: &mut Field,
+    ) -> Result<(), Collapse> {
         subtract_internal_forces(&self.blocks, self.moduli, motion.displacement, forces);
+        Ok(())
     }
 
     fn stiffness_of_step(&self, geometry: &QuadGeometry) -> Option<ElementMatrix> {

@@ -4,18 +4,15 @@
 //! arrays and for AVX2, which is chosen at run time. Neither fuses multiply and
 //! add, so both give the same bits.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
+
+use fem_material::finite::{Number, inverse_cube_root_estimate};
 
 /// Elements that one pass of a kernel treats together.
 pub(crate) const LANES: usize = 4;
 
 /// One number of each of four elements.
-pub(crate) trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
-    /// The same number in all lanes.
-    fn splat(value: f64) -> Self;
-
+pub(crate) trait Lanes: Number {
     /// The larger of both, lane by lane; `other` where one is no number.
     fn max(self, other: Self) -> Self;
 
@@ -89,13 +86,22 @@ macro_rules! plain_operator {
 plain_operator!(Add, add);
 plain_operator!(Sub, sub);
 plain_operator!(Mul, mul);
+plain_operator!(Div, div);
 
-impl Lanes for Plain {
+impl Number for Plain {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         Self([value; LANES])
     }
 
+    #[inline(always)]
+    fn inverse_cube_root_estimate(self) -> Self {
+        let of = inverse_cube_root_estimate;
+        Self([of(self.0[0]), of(self.0[1]), of(self.0[2]), of(self.0[3])])
+    }
+}
+
+impl Lanes for Plain {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         let larger =
@@ -144,14 +150,15 @@ pub(crate) use avx2::Avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx2 {
     use std::arch::x86_64::{
-        __m256d, _mm_loadu_pd, _mm_storeu_pd, _mm_sub_pd, _mm256_add_pd, _mm256_castpd256_pd128,
-        _mm256_extractf128_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_mul_pd,
-        _mm256_set_m128d, _mm256_set1_pd, _mm256_storeu_pd, _mm256_sub_pd, _mm256_unpackhi_pd,
-        _mm256_unpacklo_pd,
+        __m256d, _mm_loadu_pd, _mm_storeu_pd, _mm_sub_pd, _mm256_add_pd, _mm256_castpd_si256,
+        _mm256_castpd256_pd128, _mm256_castsi256_pd, _mm256_div_pd, _mm256_extractf128_pd,
+        _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_mul_epu32, _mm256_mul_pd,
+        _mm256_set_m128d, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_slli_epi64, _mm256_srli_epi64,
+        _mm256_storeu_pd, _mm256_sub_epi64, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
     };
-    use std::ops::{Add, Mul, Sub};
+    use std::ops::{Add, Div, Mul, Sub};
 
-    use super::{LANES, Lanes};
+    use super::{LANES, Lanes, Number};
 
     /// Lanes as an AVX register. Values must be made and used only in functions
     /// that are compiled for AVX2 and called after the processor was asked.
@@ -175,14 +182,29 @@ mod avx2 {
     avx2_operator!(Add, add, _mm256_add_pd);
     avx2_operator!(Sub, sub, _mm256_sub_pd);
     avx2_operator!(Mul, mul, _mm256_mul_pd);
+    avx2_operator!(Div, div, _mm256_div_pd);
 
-    impl Lanes for Avx2 {
+    impl Number for Avx2 {
         #[inline(always)]
         fn splat(value: f64) -> Self {
             // SAFETY: the type's contract.
             Self(unsafe { _mm256_set1_pd(value) })
         }
 
+        #[inline(always)]
+        fn inverse_cube_root_estimate(self) -> Self {
+            // SAFETY: the type's contract.
+            unsafe {
+                let upper = _mm256_srli_epi64::<32>(_mm256_castpd_si256(self.0));
+                let factor = _mm256_set1_epi64x(0xAAAA_AAAB);
+                let third = _mm256_srli_epi64::<33>(_mm256_mul_epu32(upper, factor));
+                let rest = _mm256_sub_epi64(_mm256_set1_epi64x(0x553E_F0FF), third);
+                Self(_mm256_castsi256_pd(_mm256_slli_epi64::<32>(rest)))
+            }
+        }
+    }
+
+    impl Lanes for Avx2 {
         #[inline(always)]
         fn max(self, other: Self) -> Self {
             // SAFETY: the type's contract.

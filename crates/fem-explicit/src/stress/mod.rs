@@ -6,6 +6,7 @@
 //! constant_poisson    all moduli relax alike: Poisson's ratio stays
 //! relaxing_shear      shear relaxes, bulk is elastic
 //! prony               the history of both, one field a term
+//! finite              a law beyond Hooke at finite strain
 //! kernel              the element loops of all: forces and strain energy
 //! lanes, block        four elements at once, and how they lie in memory
 //! ```
@@ -13,6 +14,7 @@
 mod block;
 mod constant_poisson;
 mod elastic;
+mod finite;
 mod kernel;
 pub(crate) mod lanes;
 mod port;
@@ -26,8 +28,9 @@ use fem_mesh::SphereMesh;
 use block::Blocks;
 use constant_poisson::ConstantPoisson;
 use elastic::Elastic;
+pub(crate) use finite::{MOST_TERMS, finite_strain};
 pub(crate) use kernel::Moduli;
-pub use port::Stress;
+pub use port::{Collapse, Stress};
 use prony::Relaxing;
 use relaxing_shear::RelaxingShear;
 

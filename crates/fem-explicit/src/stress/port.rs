@@ -4,10 +4,26 @@ use fem_element::{ElementMatrix, QuadGeometry};
 
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
+/// An element that a stress cannot follow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collapse {
+    /// Number of the element.
+    pub element: usize,
+    /// Its volume over that of the undeformed element.
+    pub volume_ratio: f64,
+}
+
 /// The stress of a body: internal forces, what it stores and dissipates, and how stiff it is.
 ///
 /// The place of effects that depend on strain and its past: another material law, finite strain.
+///
+/// Its history are fields of its elements, one pair an element, and behind them those of the nodes.
 pub trait Stress: Part {
+    /// Number of fields of history of the elements.
+    fn n_element_history(&self) -> usize {
+        0
+    }
+
     /// Largest eigenvalue (s⁻²) of an element's stiffness against its lumped masses (kg), its
     /// corners `on_axis` free along y alone; or a bound of it.
     fn largest_eigenvalue(
@@ -24,7 +40,49 @@ pub trait Stress: Part {
     fn start_deformed(&self, _displacement: &Field, _history: &mut [NodalField]) {}
 
     /// Subtracts the internal forces (N) from `forces`.
-    fn subtract_forces(&self, motion: &Motion<'_>, history: &[NodalField], forces: &mut Field);
+    ///
+    /// # Errors
+    /// An element has collapsed; then the forces mean nothing.
+    fn subtract_forces(
+        &self,
+        motion: &Motion<'_>,
+        history: &[NodalField],
+        forces: &mut Field,
+    ) -> Result<(), Collapse>;
+
+    /// Whether its stiffness changes as the body deforms; then the time step may follow.
+    fn changes_stiffness(&self) -> bool {
+        false
+    }
+
+    /// Adds a bound of its stiffness at each node (N/m) of the undeformed body, where it changes.
+    fn add_undeformed_stiffness_bound(&self, _bound: &mut [f64]) {}
+
+    /// The same of the deformed body.
+    fn add_stiffness_bound(&self, _: &Motion<'_>, _: &[NodalField], _bound: &mut [f64]) {}
+
+    /// Largest rate (1/s) at which an element is strained, seen from how it is deformed, where that changes
+    /// its stiffness.
+    fn strain_rate(&self, _: &Motion<'_>) -> f64 {
+        0.0
+    }
+
+    /// The element that is compressed most, where an element can collapse.
+    fn most_compressed(&self, _displacement: &Field) -> Option<Collapse> {
+        None
+    }
+
+    /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of each element, tension positive, Pa, in place of what
+    /// is there; nothing where it follows from the displacement or the effective displacement at small
+    /// strain.
+    fn update_cauchy_stress(
+        &self,
+        _displacement: &Field,
+        _history: &[NodalField],
+        stress: &mut Vec<[f64; 4]>,
+    ) {
+        stress.clear();
+    }
 
     /// Takes the history to the end of a step, whose motion is given.
     fn advance(&self, _motion: &Motion<'_>, _history: &mut [NodalField]) {}

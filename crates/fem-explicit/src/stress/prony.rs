@@ -18,7 +18,7 @@ use multiversion::multiversion;
 
 use super::elastic::Elastic;
 use super::kernel::{Moduli, strain_energy};
-use super::port::Stress;
+use super::port::{Collapse, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
 /// Which part of the stress relaxes.
@@ -33,7 +33,7 @@ pub(super) trait Relaxes: Debug + Send + Sync + 'static {
     fn subtract_forces(elastic: &Elastic, u: &Field, w: &Field, f: &mut Field);
 }
 
-/// One Prony term at the run's time step.
+/// One Prony term at the model's time step.
 #[derive(Debug, Clone, Copy)]
 struct Branch {
     weight: f64,
@@ -46,12 +46,32 @@ struct Branch {
     share: f64,
 }
 
+impl Branch {
+    /// Of a step, s.
+    fn set_time_step(&mut self, time_step: f64) {
+        let step = RelaxationStep::new(self.relaxation_time, time_step);
+        self.decay = step.decay;
+        self.gain = step.gain * time_step;
+        self.share = step.gain;
+    }
+
+    /// This branch at a step (s) that may be shorter than the model's.
+    fn at(mut self, time_step: f64, of_model: f64) -> Self {
+        if time_step != of_model {
+            self.set_time_step(time_step);
+        }
+        self
+    }
+}
+
 /// A body whose stress relaxes. Its history is w, then q of each term.
 #[derive(Debug)]
 pub(super) struct Relaxing<R> {
     elastic: Elastic,
     equilibrium_weight: f64,
     branches: Vec<Branch>,
+    /// Of the model, s; 0 as long as it is not known.
+    time_step: f64,
     relaxes: PhantomData<R>,
 }
 
@@ -71,6 +91,7 @@ impl<R: Relaxes> Relaxing<R> {
             elastic,
             equilibrium_weight: series.equilibrium_weight(),
             branches: branches.collect(),
+            time_step: 0.0,
             relaxes: PhantomData,
         }
     }
@@ -97,12 +118,8 @@ impl<R: Relaxes> Part for Relaxing<R> {
     }
 
     fn set_time_step(&mut self, time_step: f64) {
-        for branch in &mut self.branches {
-            let step = RelaxationStep::new(branch.relaxation_time, time_step);
-            branch.decay = step.decay;
-            branch.gain = step.gain * time_step;
-            branch.share = step.gain;
-        }
+        self.time_step = time_step;
+        self.branches.iter_mut().for_each(|branch| branch.set_time_step(time_step));
     }
 }
 
@@ -128,14 +145,21 @@ impl<R: Relaxes> Stress for Relaxing<R> {
         self.update_effective(displacement, history);
     }
 
-    fn subtract_forces(&self, motion: &Motion<'_>, history: &[NodalField], forces: &mut Field) {
+    fn subtract_forces(
+        &self,
+        motion: &Motion<'_>,
+        history: &[NodalField],
+        forces: &mut Field,
+    ) -> Result<(), Collapse> {
         R::subtract_forces(&self.elastic, motion.displacement, &history[0], forces);
+        Ok(())
     }
 
     fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
         let [w, branches @ ..] = history else { return };
         start_effective(self.equilibrium_weight, motion.displacement, w);
         for (branch, q) in self.branches.iter().zip(branches) {
+            let branch = branch.at(motion.time_step, self.time_step);
             advance_branch(branch.decay, branch.gain, branch.weight, motion.velocity, q, w);
         }
     }

@@ -42,7 +42,7 @@ fn hold(model: &crate::Model, state: &mut State, n: usize) -> Vec<[f64; 2]> {
         advance(model, state, &mut scratch);
     }
     state.time -= start;
-    update_forces(model, state, &mut scratch);
+    update_forces(model, state, &mut scratch).unwrap();
     scratch.forces[1].clone()
 }
 

@@ -29,7 +29,7 @@ fn pair(sizes: [f64; 2], settings: &Settings) -> Model {
 pub(super) fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
     let forces = |state: &State| {
         let mut scratch = Scratch::new(model);
-        update_forces(model, state, &mut scratch);
+        update_forces(model, state, &mut scratch).unwrap();
         scratch.forces.concat()
     };
     let before = forces(state);

@@ -4,6 +4,7 @@
 
 use std::f64::consts::PI;
 
+use fem_material::finite::HyperelasticLaw;
 use fem_mesh::Side;
 
 use crate::FreeMotion;
@@ -12,7 +13,16 @@ use crate::test_support::{unit_glass, unit_sphere};
 /// Starts the unit sphere with a velocity field of (r, y), y from its centre, and finds the
 /// frequency near `guess` at which Σ m v₀·u, with a Hann window over 24 periods, is strongest.
 fn frequency(n: f64, guess: f64, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
-    let mut sphere = FreeMotion::new(unit_sphere(n, Side::Above), &unit_glass(), 0.9).unwrap();
+    let sphere = FreeMotion::new(unit_sphere(n, Side::Above), &unit_glass(), 0.9).unwrap();
+    frequency_of(sphere, guess, velocity)
+}
+
+/// The same of a sphere at rest.
+fn frequency_of(
+    mut sphere: FreeMotion,
+    guess: f64,
+    velocity: impl Fn([f64; 2]) -> [f64; 2],
+) -> f64 {
     sphere.set_velocity(|[r, y]| velocity([r, y - 1.0]));
     let start = sphere.velocity().to_vec();
     let time_step = sphere.time_step();
@@ -64,4 +74,27 @@ fn breathing_mode_0s0() {
 #[test]
 fn oblate_prolate_mode_0s2() {
     check(2.63906, |[r, y]| [-0.5 * r, y], 0.006);
+}
+
+/// Small vibrations at finite strain are those of small strain: at the same step the frequencies differ by
+/// rounding, and by the strain.
+#[test]
+fn small_vibrations_at_finite_strain_are_as_before() {
+    let mesh = || unit_sphere(8.0, Side::Above);
+    for (guess, axial) in [(4.38361, 1.0), (2.63906, -2.0)] {
+        let velocity = |[r, y]: [f64; 2]| [1e-9 * r, 1e-9 * axial * y];
+        let small = FreeMotion::new(mesh(), &unit_glass(), 0.5).unwrap();
+        let time_step = small.time_step();
+        let before = frequency_of(small, guess, velocity);
+        for law in HyperelasticLaw::ALL {
+            let at = |step_factor: f64| {
+                FreeMotion::at_finite_strain(mesh(), &unit_glass(), law, step_factor).unwrap()
+            };
+            let finite = at(0.5 * time_step / at(0.5).time_step());
+            assert!((finite.time_step() / time_step - 1.0).abs() < 1e-14);
+            let after = frequency_of(finite, guess, velocity);
+            // Strains of 1e-9; the peak is found to 1e-6.
+            assert!((after / before - 1.0).abs() < 1e-6, "{law:?}: {after} {before}");
+        }
+    }
 }

@@ -6,6 +6,7 @@ use fem_collision::{
 };
 use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
 use fem_material::ActsOn;
+use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
 /// About 1900 steps a contact and 270 elements.
@@ -13,11 +14,13 @@ fn small() -> Pair {
     Pair { element_size: 110e-6, candidate_radius: 0.45e-3, ..Pair::default() }
 }
 
-/// Elastic, relaxing with constant Poisson's ratio, and relaxing in shear with two terms.
-fn materials() -> [Pair; 3] {
+/// Elastic, relaxing with constant Poisson's ratio, relaxing in shear with two terms, and that at finite
+/// strain.
+fn materials() -> [Pair; 4] {
     let shear =
         Pair { relaxation: Some(ActsOn::Shear), terms: &[(0.3, 2e-5), (0.5, 1e-3)], ..small() };
-    [small(), Pair { relaxation: Some(ActsOn::All), ..small() }, shear]
+    let finite = Pair { law: Some(HyperelasticLaw::NeoHooke), ..shear.clone() };
+    [small(), Pair { relaxation: Some(ActsOn::All), ..small() }, shear, finite]
 }
 
 fn requests() -> [SnapshotRequest; 3] {

@@ -13,6 +13,11 @@ const STIFF: [&str; 2] = [
     "material.stiff={density=2390, youngs_modulus=6.3e12, poissons_ratio=0.244}",
     "body.0.material='stiff'",
 ];
+/// The larger one of a softer glass.
+const SOFT: [&str; 2] = [
+    "material.soft={density=2390, youngs_modulus=3.15e10, poissons_ratio=0.1}",
+    "body.0.material='soft'",
+];
 /// The smaller one on what does not end, and the weight that it may have there.
 const FLOOR: &str = "body.0={name='floor', wall={}}";
 const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
@@ -94,6 +99,16 @@ pub const ROWS: &[Row] = &[
         BARE,
         of(&["material.glass.relaxation={acts_on='shear', terms=[{weight=1.0, decay_rate=2708}]}"]),
     ),
+    row("finite strain", "neo-Hooke, forced on", BARE, of(&["effects.finite_strain='on'"])),
+    row(
+        "finite strain",
+        "neo-Hooke that relaxes, one term, forced on",
+        of(&["material.glass.relaxation={acts_on='all', terms=[{weight=1.0, decay_rate=2708}]}"]),
+        of(&[
+            "material.glass.relaxation={acts_on='all', terms=[{weight=1.0, decay_rate=2708}]}",
+            "effects.finite_strain='on'",
+        ]),
+    ),
     row(
         "mirror symmetry",
         "like bodies",
@@ -105,6 +120,12 @@ pub const ROWS: &[Row] = &[
         "100 times stiffer, forced on",
         of(&[STIFF[0], STIFF[1], "effects.rigid_partner='off'"]),
         of(&[STIFF[0], STIFF[1], "effects.rigid_partner='on'"]),
+    ),
+    row(
+        "surface slip",
+        "unlike bodies",
+        of(&[SOFT[0], SOFT[1], "effects.surface_slip='off'"]),
+        of(&[SOFT[0], SOFT[1]]),
     ),
     row("partner waves", "a half-space for a wall", of(&[FLOOR, FALLING]), of(&[BLOCK, FALLING])),
     row("gravity", "of one contact", of(&[FLOOR, FALLING]), of(&[FLOOR, FALLING, WEIGHT])),

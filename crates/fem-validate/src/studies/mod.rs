@@ -5,11 +5,14 @@ mod condensed_explicit;
 mod contact_patch;
 mod convergence;
 mod critical_step;
+mod finite_strain;
 mod hertz_field;
 mod invariance;
 mod paper;
+mod pressed_sphere;
 mod relaxing;
 mod summary;
+mod surface_slip;
 mod uniform_stress;
 mod vibration;
 mod vibration_loss;
@@ -29,6 +32,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("contact_patch", contact_patch::study),
     ("convergence", convergence::study),
     ("critical_step", critical_step::study),
+    ("finite_strain", finite_strain::study),
     ("hertz_field", hertz_field::study),
     ("invariance", invariance::study),
     ("paper_contact_stress", paper::contact_stress::study),
@@ -38,7 +42,9 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_restitution", paper::restitution::study),
     ("paper_solid", paper::solid::study),
     ("paper_velocities", paper::velocities::study),
+    ("pressed_sphere", pressed_sphere::study),
     ("summary", summary::study),
+    ("surface_slip", surface_slip::study),
     ("uniform_stress", uniform_stress::study),
     ("vibration", vibration::study),
     ("vibration_loss", vibration_loss::study),

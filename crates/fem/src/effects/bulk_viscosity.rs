@@ -23,6 +23,7 @@ use fem_case::{Body, ContactMethod, EffectsTable, Scene, Switch};
 use fem_material::Material;
 
 use super::effect::Effect;
+use super::finite_strain::FiniteStrain;
 use super::left_out::LeftOut;
 use super::need::Need;
 use super::speed::{MACH_LIMIT, above, number};
@@ -46,23 +47,23 @@ impl BulkViscosity {
     pub const NAME: &'static str = "bulk viscosity";
 
     /// Whether a model that has it computes it, for bodies that meet at so many times the shear wave
-    /// speed.
-    pub(crate) fn is_on(scene: &Scene, mach: f64) -> bool {
+    /// speed and may be computed at finite strain.
+    pub(crate) fn is_on(scene: &Scene, mach: f64, is_finite: bool) -> bool {
         match scene.effects().bulk_viscosity {
             Some(Switch::On) => true,
             Some(Switch::Off) => false,
-            None | Some(Switch::Auto) => is_called_for(scene, mach),
+            None | Some(Switch::Auto) => is_called_for(scene, mach, is_finite),
         }
     }
 }
 
-fn is_called_for(scene: &Scene, mach: f64) -> bool {
-    mach > MACH_LIMIT && rings(scene)
+fn is_called_for(scene: &Scene, mach: f64, is_finite: bool) -> bool {
+    mach > MACH_LIMIT && rings(scene, is_finite)
 }
 
-/// Whether the contact rings without it.
-fn rings(scene: &Scene) -> bool {
-    asked_for(scene) != ContactMethod::Massless
+/// Whether the contact rings without it: at finite strain springs pull at nodes with mass.
+fn rings(scene: &Scene, is_finite: bool) -> bool {
+    is_finite || asked_for(scene) != ContactMethod::Massless
 }
 
 impl Effect for BulkViscosity {
@@ -75,7 +76,8 @@ impl Effect for BulkViscosity {
     }
 
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
-        let is_called_for = is_called_for(scene, estimate.mach);
+        let is_finite = FiniteStrain::laws(scene, estimate) != [None; 2];
+        let is_called_for = is_called_for(scene, estimate.mach, is_finite);
         let otherwise = match estimate.mach > MACH_LIMIT {
             true => "a contact without mass does not ring behind steep fronts",
             false => "no steep fronts to spread",
@@ -93,8 +95,12 @@ impl Effect for BulkViscosity {
         })
     }
 
-    /// The contact time changes by no more than the ringing that ends it.
+    /// The contact time changes by no more than the ringing that ends it. At finite strain the contact
+    /// itself damps what rings, and nothing is foretold.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        if FiniteStrain::laws(scene, estimate) != [None; 2] {
+            return None;
+        }
         let materials = scene.bodies().iter().filter_map(Body::material);
         let squared_ratio = |material: &Material| {
             let nu = material.instantaneous().poissons_ratio();
@@ -102,7 +108,7 @@ impl Effect for BulkViscosity {
         };
         let largest = materials.map(squared_ratio).fold(0.0, f64::max);
         let growth = Some(estimate.mach).filter(|mach| *mach <= LARGEST_MACH)?.powf(0.6);
-        let smoothing = if rings(scene) { SMOOTHING } else { 0.0 };
+        let smoothing = if rings(scene, false) { SMOOTHING } else { 0.0 };
         let changes = LeftOut::shares(estimate, 0.0, smoothing * growth);
         let loss = LeftOut::restitution(LOSS * growth * largest.powi(2));
         Some(LeftOut { restitution: loss.restitution, contact_time_s: None, ..changes })

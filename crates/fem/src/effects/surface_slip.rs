@@ -1,30 +1,26 @@
 //! Surfaces of unlike materials move by different amounts along their common tangent, and the interface
 //! is curved: contact between the points that faced each other at first is off by the slope of the
-//! interface times the difference.
+//! interface times the difference. A part of the explicit step, and in first order a spring in series with
+//! the contact ([`fem_laws::SurfaceSlip`]), which condensed bodies and Ting's model have.
 //!
-//! ```math
-//! \frac{\Delta T}{T} = 0.24\, a\,|\kappa\,\beta|, \qquad
-//! \kappa = \frac{s_1}{R_2}-\frac{s_2}{R_1}, \qquad
-//! \beta = \frac{(1-2\nu_1)/\mu_1-(1-2\nu_2)/\mu_2}{2(1-\nu_1)/\mu_1+2(1-\nu_2)/\mu_2}
-//! ```
-//!
-//! with the shares s of the contact's compliance, so that κ is the curvature of the interface, and
-//! Dundurs' second parameter β. It is first order in a/R, and nothing between like bodies or against
-//! a plane that does not give way.
+//! Decided by κβ, the curvature of the interface times Dundurs' second parameter: on wherever it is not
+//! rounding, or bodies relax differently. It is nothing between like bodies and against a plane that does
+//! not give way. What leaving it out changes is first order in a/R: 0.24 aκβ of the contact time and
+//! 0.32 aκβ of the peak force. Above a/R* = 0.2 what explicit elements have of the second order may be
+//! larger where β is small, as of rubber.
 
-use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_case::{Body, EffectsTable, Scene, Shape, Switch};
+use fem_laws::{Face, RelativeError, SurfaceSlip as Slip};
+use fem_material::{ElasticModuli, Material};
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
-/// Change of the contact time over a κβ: explicit elements with and without the slip gave 0.22 for
-/// steel on a soft polymer and 0.27 for steel on glass.
-const TIME_SHARE: f64 = 0.24;
-/// The same of the peak force: 0.30 and 0.31.
-const FORCE_SHARE: f64 = 0.3;
-/// Change of the contact time that is worth a warning.
+/// Below this κβR* materials are alike but for the rounding of their moduli.
+const ROUNDING: f64 = 1e-9;
+/// Change of the contact time that is worth a warning where it is left out.
 const SMALL_SHARE: f64 = 1e-3;
 
 /// Surfaces that slip on each other.
@@ -34,6 +30,21 @@ pub struct SurfaceSlip;
 impl SurfaceSlip {
     /// Its name in results.
     pub const NAME: &'static str = "surface slip";
+
+    /// Whether a model that has it computes it, at whatever speed.
+    pub(crate) fn is_on(scene: &Scene) -> bool {
+        match scene.effects().surface_slip {
+            Some(Switch::On) => !has_wall(scene),
+            Some(Switch::Off) => false,
+            None | Some(Switch::Auto) => is_called_for(scene),
+        }
+    }
+
+    /// A scene with the case's switch in another place.
+    pub(crate) fn switched(scene: &Scene, switch: Switch) -> Scene {
+        let surface_slip = Some(switch);
+        scene.clone().with_effects(EffectsTable { surface_slip, ..*scene.effects() })
+    }
 }
 
 impl Effect for SurfaceSlip {
@@ -46,62 +57,89 @@ impl Effect for SurfaceSlip {
     }
 
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
-        let slope = slope(scene, estimate);
-        let share = TIME_SHARE * slope;
-        let is_called_for = share > SMALL_SHARE;
-        let warning = is_called_for.then(|| {
+        let RelativeError { contact_time, peak_force, .. } = change(scene, estimate);
+        let [time, force] = [contact_time, peak_force].map(|share| percent(share.abs()));
+        let slope = estimate.contact_radius * mismatch(scene, estimate).abs();
+        let warning = (contact_time.abs() > SMALL_SHARE).then(|| {
             format!(
                 "the surfaces of unlike materials slip on each other, which changes the contact time \
-                 by about {} and the peak force by {}; no model here has it",
-                percent(share),
-                percent(FORCE_SHARE * slope)
+                 by about {time} and the peak force by {force} and which this model leaves out; models \
+                 fem, condensed and ting have it"
             )
         });
         Some(Need {
-            is_called_for,
+            is_called_for: is_called_for(scene),
             number: format!("slope of the interface × mismatch of the materials = {slope:.1e}"),
             otherwise: "facing points move alike".to_string(),
-            left_open: format!("{} of the contact time is open", percent(share)),
+            left_open: format!("{time} of the contact time is open"),
             warning,
         })
     }
 
+    /// Between Ting's impacts with and without.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let slope = slope(scene, estimate);
-        Some(LeftOut::shares(estimate, TIME_SHARE * slope, FORCE_SHARE * slope))
+        if has_wall(scene) {
+            return Some(LeftOut::NOTHING);
+        }
+        let [with, without] = [Switch::On, Switch::Off].map(|to| Self::switched(scene, to));
+        Some(LeftOut::between(&with, &without, estimate.hertz.approach_speed()))
     }
 }
 
-/// a |κ β|.
-fn slope(scene: &Scene, estimate: &Estimate) -> f64 {
-    let [lower, upper] = scene.bodies().each_ref().map(Face::of);
-    let compliance = lower.normal + upper.normal;
-    let shares = [lower.normal / compliance, upper.normal / compliance];
-    let curvature = shares[0] * upper.curvature - shares[1] * lower.curvature;
-    let mismatch = (lower.tangential - upper.tangential) / (2.0 * compliance);
-    let slope = estimate.contact_radius * (curvature * mismatch).abs();
-    if slope.is_finite() { slope } else { 0.0 }
+fn has_wall(scene: &Scene) -> bool {
+    scene.bodies().iter().any(|body| *body.shape() == Shape::Wall)
 }
 
-/// What a body's surface gives way by.
-struct Face {
-    /// 1/m.
-    curvature: f64,
-    /// (1 − ν)/μ, 1/Pa.
-    normal: f64,
-    /// (1 − 2ν)/μ, 1/Pa.
-    tangential: f64,
+fn relaxes(scene: &Scene) -> bool {
+    let mut materials = scene.bodies().iter().filter_map(Body::material);
+    materials.any(|material| material.relaxation().is_some_and(|series| series.relaxes()))
 }
 
-impl Face {
-    /// Of a body; a wall neither bends nor gives way.
-    fn of(body: &Body) -> Self {
+fn is_called_for(scene: &Scene) -> bool {
+    if has_wall(scene) {
+        return false;
+    }
+    let radii = scene.bodies().each_ref().map(|body| body.diameter().map_or(0.0, f64::recip));
+    let effective_radius = 0.5 / (radii[0] + radii[1]);
+    let [first, second] =
+        scene.bodies().each_ref().map(|body| body.material().and_then(Material::relaxation));
+    let differs = scene.surface_slip().mismatch().abs() * effective_radius > ROUNDING;
+    differs || first != second
+}
+
+/// The larger change of the instantaneous moduli and of what is left of them after the contact.
+fn change(scene: &Scene, estimate: &Estimate) -> RelativeError {
+    let slip = largest(scene, estimate);
+    let change = slip.change(estimate.contact_radius);
+    let is_number = change.contact_time.is_finite() && change.peak_force.is_finite();
+    if is_number { change } else { RelativeError::default() }
+}
+
+/// κβ of the same moduli, 1/m.
+fn mismatch(scene: &Scene, estimate: &Estimate) -> f64 {
+    let mismatch = largest(scene, estimate).mismatch();
+    if mismatch.is_finite() { mismatch } else { 0.0 }
+}
+
+fn largest(scene: &Scene, estimate: &Estimate) -> Slip {
+    let now = scene.surface_slip();
+    if !relaxes(scene) {
+        return now;
+    }
+    let relaxed = Slip::new(scene.bodies().each_ref().map(|body| {
         let curvature = body.diameter().map_or(0.0, |diameter| 2.0 / diameter);
-        let Some(material) = body.material() else {
-            return Self { curvature, normal: 0.0, tangential: 0.0 };
-        };
-        let now = material.instantaneous();
-        let (nu, shear) = (now.poissons_ratio(), now.shear_modulus());
-        Self { curvature, normal: (1.0 - nu) / shear, tangential: (1.0 - 2.0 * nu) / shear }
-    }
+        let material = body.material().map(|m| left_at(m, estimate.contact_time));
+        Face::new(curvature, material.as_ref())
+    }));
+    if relaxed.mismatch().abs() > now.mismatch().abs() { relaxed } else { now }
+}
+
+/// An elastic material of what is left of the moduli at a time, s.
+fn left_at(material: &Material, time: f64) -> Material {
+    let moduli = ElasticModuli::from_bulk_shear(
+        material.bulk_modulus_at(time),
+        material.shear_modulus_at(time),
+    );
+    let left = moduli.and_then(|moduli| Material::new(material.density(), moduli, None));
+    left.unwrap_or_else(|_| material.without_relaxation())
 }

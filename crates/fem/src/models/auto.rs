@@ -11,7 +11,8 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    Answer, Effect, FiniteSizeEffect, LeftOut, PartnerWaves, Vibration, Viscoelasticity,
+    Answer, Effect, FiniteSizeEffect, FiniteStrain, LeftOut, PartnerWaves, Vibration,
+    Viscoelasticity,
 };
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
@@ -142,7 +143,7 @@ const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "hertz = {}",
         choice: || ModelChoice::Hertz { finite_size: false },
-        lacks: &[&Viscoelasticity, &FiniteSizeEffect, &PartnerWaves, &Vibration],
+        lacks: &[&Viscoelasticity, &FiniteSizeEffect, &FiniteStrain, &PartnerWaves, &Vibration],
         has_fields: false,
         is_first_order: false,
         own: [0.0; 4],
@@ -150,7 +151,7 @@ const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "hertz = { finite_size = true }",
         choice: || ModelChoice::Hertz { finite_size: true },
-        lacks: &[&Viscoelasticity, &PartnerWaves, &Vibration],
+        lacks: &[&Viscoelasticity, &FiniteStrain, &PartnerWaves, &Vibration],
         has_fields: false,
         is_first_order: true,
         own: [0.0; 4],
@@ -158,7 +159,7 @@ const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "ting = { finite_size = true }",
         choice: || ModelChoice::Ting { finite_size: true, tolerance: Ting::DEFAULT_TOLERANCE },
-        lacks: &[&PartnerWaves, &Vibration],
+        lacks: &[&FiniteStrain, &PartnerWaves, &Vibration],
         has_fields: false,
         is_first_order: true,
         own: [2e-4, 2e-4, 2e-4, 5e-3],
@@ -166,7 +167,7 @@ const CANDIDATES: [Candidate; 6] = [
     Candidate {
         name: "condensed = {}",
         choice: || ModelChoice::Condensed(CondensedOptions::default()),
-        lacks: &[&PartnerWaves, &Vibration],
+        lacks: &[&FiniteStrain, &PartnerWaves, &Vibration],
         has_fields: true,
         is_first_order: false,
         own: [1e-4, 5e-4, 2e-3, 1e-2],
@@ -177,7 +178,7 @@ const CANDIDATES: [Candidate; 6] = [
             let options = CondensedOptions { vibration_modes: 12, ..CondensedOptions::default() };
             ModelChoice::Condensed(options)
         },
-        lacks: &[&PartnerWaves],
+        lacks: &[&FiniteStrain, &PartnerWaves],
         has_fields: true,
         is_first_order: false,
         own: [1e-4, 5e-4, 3e-3, 1e-2],
@@ -240,7 +241,12 @@ impl Candidate {
         };
         let own_waves = self.own_waves(scene, estimate);
         for effect in self.lacks {
-            let Some(left_out) = effect.left_out(scene, estimate) else { continue };
+            // What elements leave out, too, tells none from another.
+            let is_small = effect.name() == FiniteStrain::NAME
+                && FiniteStrain::laws(scene, estimate) == [None; 2];
+            let Some(left_out) = effect.left_out(scene, estimate).filter(|_| !is_small) else {
+                continue;
+            };
             let part = if effect.name() == PartnerWaves::NAME { own_waves } else { 1.0 };
             let changes = Sum::of(&left_out, part);
             error.add(changes);
@@ -287,6 +293,7 @@ impl Candidate {
             mirror_symmetry,
             hourglass_control,
             bulk_viscosity,
+            finite_strain,
             ..
         } = *scene.effects();
         let choice = self.choice();
@@ -299,6 +306,7 @@ impl Candidate {
             (on(mirror_symmetry) && !self.has_fields, "mirror symmetry"),
             (on(hourglass_control) && !is_fem, "hourglass control"),
             (on(bulk_viscosity) && !is_fem, "bulk viscosity"),
+            (on(finite_strain) && !is_fem, "finite strain"),
             (partner_waves == Some(Switch::Off) && is_fem, "partner waves"),
             (hourglass_control == Some(Switch::Off) && is_fem, "hourglass control"),
         ];

@@ -18,6 +18,7 @@ use super::condensed::static_contact::of_elements;
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::approach_of;
 use crate::body_source::BodySource;
+use crate::contact_method::unread;
 use crate::course::{Course, stopped, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
@@ -116,14 +117,16 @@ impl Explicit {
             .bodies(&approach, plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
         let cost = cost(scene, &bodies, &plan)?;
-        let decisions = decide(scene, &plan.estimate, |effect| has(effect, scene, &bodies))?;
+        FiniteStrain::check(scene, &plan.estimate)?;
+        let decisions =
+            decide(scene, &plan.estimate, |effect| has(effect, scene, &plan.estimate, &bodies))?;
         let setup = Setup {
             description: "model fem, explicit finite elements".to_string(),
             approach,
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: unread(scene, &plan),
+            unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
             cost,
             elements: Some(ElementSetup {
                 finer_steps: quieter(plan.contact_method),
@@ -174,8 +177,13 @@ impl Made {
     /// Bodies that look for contact out to a radius, m, with the parts that effects ask for.
     fn bodies(&self, approach: &Approach, candidate_radius: f64) -> Result<Bodies, ModelError> {
         let settings = Settings { candidate_radius, ..self.settings };
-        let speed = approach.speed() / self.speed_share;
-        let parts = Parts { method: self.method, ..parts(&self.scene, &self.inputs, speed)? };
+        let parts = parts(
+            &self.scene,
+            &self.inputs,
+            approach.speed(),
+            approach.speed() / self.speed_share,
+        )?;
+        let parts = Parts { method: self.method, ..parts };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
@@ -193,7 +201,7 @@ impl Model for Explicit {
     }
 
     fn has(&self, effect: &dyn Effect, _: &Estimate) -> Option<Answer> {
-        has(effect, &self.made.scene, &self.bodies)
+        has(effect, &self.made.scene, &self.setup.estimate, &self.bodies)
     }
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
@@ -267,10 +275,20 @@ impl Course for ExplicitCourse<'_> {
 
 /// What effects of the scene put into the step, beside stress and contact, of bodies that meet at this
 /// speed (m/s) in the whole scene.
-fn parts(scene: &Scene, inputs: &[BodyInput; 2], speed: f64) -> Result<Parts, ModelError> {
+fn parts(
+    scene: &Scene,
+    inputs: &[BodyInput; 2],
+    approach_speed: f64,
+    speed: f64,
+) -> Result<Parts, ModelError> {
     let held = scene.bodies().each_ref().map(Body::is_held);
-    let mut parts = Parts { held, ..Parts::default() };
-    if BulkViscosity::is_on(scene, mach(scene, speed)) {
+    let surface_slip = SurfaceSlip::is_on(scene);
+    let mut parts = Parts { held, surface_slip, ..Parts::default() };
+    if let Ok(estimate) = Estimate::at(scene, approach_speed) {
+        parts.finite_strain = FiniteStrain::laws(scene, &estimate);
+    }
+    let is_finite = parts.finite_strain != [None; 2];
+    if BulkViscosity::is_on(scene, mach(scene, speed), is_finite) {
         for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
             forces.extend(bulk_viscosity(input, speed)?);
         }
@@ -301,19 +319,6 @@ fn settings(plan: &Plan) -> Settings {
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
     }
-}
-
-/// What the case gives and the model does not read.
-fn unread(scene: &Scene, plan: &Plan) -> Vec<String> {
-    let mut warnings = plan.warnings.clone();
-    if scene.contact_method().is_some_and(|named| named != plan.contact_method) {
-        warnings.push(
-            "contact.method = \"massless\" has no effect beside bulk viscosity, which pulls at nodes \
-             by their velocities: \"penalty\" is taken"
-                .to_string(),
-        );
-    }
-    warnings
 }
 
 /// What helps against a contact that rattles or gains energy.
@@ -364,7 +369,7 @@ fn n_branches(body: &Body) -> u64 {
 }
 
 /// What explicit elements have of each effect.
-fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
+fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) -> Option<Answer> {
     Some(match effect.name() {
         Viscoelasticity::NAME => Answer::Inherent { idle: "no history is kept" },
         HourglassControl::NAME => {
@@ -375,11 +380,13 @@ fn has(effect: &dyn Effect, scene: &Scene, model: &Bodies) -> Option<Answer> {
         MassScaling::NAME => mass_scaling(model, scene.bodies()),
         PartnerWaves::NAME | Gravity::NAME => Answer::Inherent { idle: "" },
         BulkViscosity::NAME => Answer::Computes { idle: "" },
-        FiniteStrain::NAME
-        | SurfaceSlip::NAME
-        | PlasticYield::NAME
-        | MirrorSymmetry::NAME
-        | RigidPartner::NAME => Answer::Lacks,
+        FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
+        // Contact between moved surfaces has it.
+        SurfaceSlip::NAME if FiniteStrain::laws(scene, estimate) != [None; 2] => {
+            Answer::Inherent { idle: "" }
+        }
+        SurfaceSlip::NAME => Answer::Computes { idle: "" },
+        PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => Answer::Lacks,
         _ => return None,
     })
 }

@@ -2,12 +2,13 @@
 //! elastic bodies.
 
 use fem_case::schema::{HertzTable, ModelTable};
-use fem_case::{CaseFile, ModelChoice, Scene};
+use fem_case::{CaseFile, ModelChoice, Scene, Switch};
 use fem_laws::{HertzImpact, Impact, LawError, Ting};
 
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, resolve_start};
 use super::ting;
+use crate::effects::SurfaceSlip;
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -61,7 +62,10 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let tolerance = Ting::DEFAULT_TOLERANCE;
     let motion: Box<dyn Motion> = match is_closed {
         true => Box::new(ClosedForm(estimate.hertz)),
-        false => Box::new(ting::motion(scene, &estimate, false, finite_size, tolerance)?),
+        false => {
+            let scene = SurfaceSlip::switched(scene, Switch::Off);
+            Box::new(ting::motion(&scene, &estimate, false, finite_size, tolerance)?)
+        }
     };
     let description = match !is_closed {
         false => "model hertz, a closed form",
@@ -69,6 +73,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     };
     let traits = Traits {
         waves: false,
+        slip: false,
         relaxation: Relaxation::Nothing,
         dashpot: None,
         finite_size: ting::finite_size(finite_size),

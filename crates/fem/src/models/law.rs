@@ -101,6 +101,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let motion = Box::new(LawMotion { impact, law, numbers });
     let traits = Traits {
         waves: false,
+        slip: false,
         relaxation: match takes_slow_limit {
             true => Relaxation::SlowLimit,
             false => Relaxation::Nothing,

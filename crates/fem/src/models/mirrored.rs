@@ -200,6 +200,7 @@ impl Whole {
             displacement: moved(&lower.displacement, sign, shift),
             velocity: moved(&lower.velocity, sign, self.velocity),
             effective: moved(&lower.effective, sign, shift),
+            stress: lower.stress.iter().map(|&[rr, yy, tt, ry]| [rr, yy, tt, sign * ry]).collect(),
         };
         Snapshot { approach: 2.0 * half.approach, bodies: [body(1.0), body(-1.0)], ..half }
     }

@@ -102,6 +102,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let motion = Box::new(WithWaves { ting, scene: scene.clone(), finite_size, tolerance });
     let traits = Traits {
         waves: true,
+        slip: true,
         relaxation: Relaxation::Whole,
         dashpot: None,
         finite_size: self::finite_size(finite_size),

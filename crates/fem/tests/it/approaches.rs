@@ -62,7 +62,7 @@ fn a_summary_is_of_the_collision_that_was_computed() {
                 let value = &found[key];
                 assert_eq!(value, &expected[key], "{name}: {key}");
             }
-            let strain = slow.warnings(&collision).iter().any(|w| w.contains("small-strain"));
+            let strain = slow.warnings(&collision).iter().any(|w| w.contains("Hooke's law"));
             assert_eq!(strain, approach == fast(), "{name}");
         }
     }

@@ -271,7 +271,7 @@ fn limits_are_told() {
     warned(&[CONDENSED, "contact.method='massless'"], "contact.method has no effect");
     warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");
-    warned(&[CONDENSED, "body.0.approach_speed=30"], "small-strain");
+    warned(&[CONDENSED, "body.0.approach_speed=30"], "small strain is off by");
     let tight = parse(&[CONDENSED, "limits.memory=1000"]).unwrap();
     let error = Simulation::new(tight).unwrap_err();
     assert!(error.help().is_some_and(|help| help.contains("limits.memory")), "{error}");

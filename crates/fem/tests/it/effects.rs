@@ -11,11 +11,8 @@ const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
 #[test]
 fn an_effect_that_is_forced_on_and_lacking_is_refused_at_its_switch() {
-    for model in ["fem={}", "condensed={}", "ting={}", "hertz={}", "law.falcon.c=300"] {
+    for model in ["condensed={}", "ting={}", "hertz={}", "law.falcon.c=300"] {
         for effect in ["finite_strain", "bulk_viscosity"] {
-            if (model, effect) == ("fem={}", "bulk_viscosity") {
-                continue;
-            }
             let switched = |switch: &str| {
                 let text = format!("{GLASS}\n[effects]\n{effect} = \"{switch}\"\n");
                 let set = [format!("model.{model}")];

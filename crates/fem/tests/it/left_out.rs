@@ -46,11 +46,14 @@ fn is_as_foretold(text: &str, set: &[&str], effect: &str) {
     assert!(told.iter().flatten().all(|change| change.is_finite() && *change >= 0.0));
     assert!(foretold.restitution.is_some() && foretold.peak_force_n.is_some());
     let what = |number: &str| format!("{number} of {effect} of {set:?}");
-    agree(foretold.restitution, with.restitution, without.restitution, 1e-4, &what("e"));
+    // What is left in vibrations depends on bodies that the foretold ones were not.
+    let vibration = if effect == "finite strain" { 1e-3 } else { 1e-4 };
+    agree(foretold.restitution, with.restitution, without.restitution, vibration, &what("e"));
     // Steps of a history, and the instant at which a relaxed force ends.
     let time = 1e-3 * with.contact_time.unwrap();
     agree(foretold.contact_time_s, with.contact_time, without.contact_time, time, &what("T"));
-    let force = 3e-3 * with.peak_force.unwrap();
+    // Springs of soft bodies scatter, which small strain has as it is.
+    let force = if effect == "finite strain" { 0.03 } else { 3e-3 } * with.peak_force.unwrap();
     agree(foretold.peak_force_n, with.peak_force, without.peak_force, force, &what("F"));
 }
 
@@ -100,6 +103,9 @@ const SLOW: &str = "body.1.approach_speed='1 mm/s'";
 const FAST: &str = "body.1.approach_speed='20 m/s'";
 const DUST: &str = "body.1.sphere.diameter='5 um'";
 const RIGID: &str = "effects.rigid_partner='on'";
+const HENCKY: &str = "material.soft.hyperelastic='hencky'";
+const SVK: &str = "material.soft.hyperelastic='saint-venant-kirchhoff'";
+const SMALL: &str = "effects.finite_strain='off'";
 const VISCOUS: &str = "effects.bulk_viscosity='on'";
 const PENALTY: &str = "contact.method='penalty'";
 
@@ -128,10 +134,23 @@ fn every_switch_changes_what_is_foretold() {
         ("rigid partner", &[TING, RIGID, PEER, RUBBER]),
         ("rigid partner", &[CONDENSED, RIGID, PEER]),
         ("rigid partner", &[CONDENSED, RIGID, BLOCK]),
-        ("bulk viscosity", &[FEM, VISCOUS, WALL, FAST]),
-        ("bulk viscosity", &[FEM, VISCOUS, PEER, FAST, AUXETIC]),
-        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, WALL, FAST]),
-        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, PEER, FAST, AUXETIC]),
+        ("finite strain", &[FEM, RUBBER, ELASTIC, HENCKY, WALL, "body.1.approach_speed='2 m/s'"]),
+        ("finite strain", &[FEM, RUBBER, FAST_TERM, SVK, PEER]),
+        ("finite strain", &[FEM, RUBBER, ELASTIC, SVK, PEER, HARD_AS_SOFT]),
+        ("finite strain", &[FEM, RUBBER, SHEAR, SVK, BLOCK]),
+        ("surface slip", &[TING, RIGID, PEER, ELASTIC, FAST]),
+        ("surface slip", &[TING, PEER, AUXETIC, STRONG]),
+        ("surface slip", &[TING, BLOCK, STRONG, FAST]),
+        ("surface slip", &[TING, RIGID, PEER, RUBBER, SHEAR]),
+        ("surface slip", &[CONDENSED, BLOCK, AUXETIC]),
+        ("surface slip", &[CONDENSED, RIGID, PEER, FAST]),
+        ("surface slip", &[CONDENSED, RIGID, PEER, SHEAR, STRONG, FAST]),
+        ("surface slip", &[FEM, RIGID, PEER, ELASTIC, AUXETIC, SMALL]),
+        ("surface slip", &[FEM, RIGID, PEER, SHEAR, FAST, SMALL]),
+        ("bulk viscosity", &[FEM, VISCOUS, WALL, FAST, SMALL]),
+        ("bulk viscosity", &[FEM, VISCOUS, PEER, FAST, AUXETIC, SMALL]),
+        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, WALL, FAST, SMALL]),
+        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, PEER, FAST, AUXETIC, SMALL]),
     ];
     for (effect, set) in rows {
         is_as_foretold(BALL, set, effect);

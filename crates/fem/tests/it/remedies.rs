@@ -14,8 +14,17 @@ fn stops() -> Vec<Stop> {
     let stops = vec![
         Stop::Interrupted { time, step },
         Stop::ContactBeyondCandidates { time, step, radius: 1e-3 },
+        Stop::SurfaceTurnsOver { time, step, radius: 1e-3 },
         Stop::ContactTooLarge { ratio: 0.9 },
         Stop::EnergyGrowth { time, step, ratio: 2.0 },
+        Stop::ElementCollapsed {
+            time,
+            step,
+            body: 1,
+            element: 7,
+            place: [1e-3; 2],
+            volume_ratio: -0.1,
+        },
         Stop::EnergyImbalance { time, relative: 0.1 },
         Stop::NoSeparation { time, step },
         Stop::TooManyUpdates { time, step, element_updates: 1000 },
@@ -31,8 +40,10 @@ fn stops() -> Vec<Stop> {
         match stop {
             Stop::Interrupted { .. }
             | Stop::ContactBeyondCandidates { .. }
+            | Stop::SurfaceTurnsOver { .. }
             | Stop::ContactTooLarge { .. }
             | Stop::EnergyGrowth { .. }
+            | Stop::ElementCollapsed { .. }
             | Stop::EnergyImbalance { .. }
             | Stop::NoSeparation { .. }
             | Stop::TooManyUpdates { .. }

@@ -74,6 +74,10 @@ impl Random {
             material.youngs_modulus = None;
         }
         material.yield_strength = self.maybe(|random| random.quantity(&[1e9]));
+        material.hyperelastic = self.maybe(|random| {
+            let words = HyperelasticLaw::WORDS;
+            HyperelasticLaw::from_word(words[random.below(words.len())]).unwrap()
+        });
         let n = self.below(3);
         let mut term = || TermTable {
             weight: self.quantity(&[0.3, 0.6]),

@@ -6,7 +6,7 @@ use fem_mesh::SphereMesh;
 
 use crate::error::ModelError;
 use crate::part::{Field, MotionMut};
-use crate::stress::{self, Stress};
+use crate::stress::{self, Collapse, Stress};
 
 /// The boundary of a body that deforms.
 #[derive(Debug)]
@@ -75,9 +75,16 @@ impl Boundary {
     }
 
     /// Overwrites the forces (N) of its elements on their nodes, those of no other node.
-    pub fn update_forces(&self, motion: &MotionMut<'_>, forces: &mut Field) {
+    ///
+    /// # Errors
+    /// An element has collapsed, which none does whose stress is a linear function of the motion.
+    pub fn update_forces(
+        &self,
+        motion: &MotionMut<'_>,
+        forces: &mut Field,
+    ) -> Result<(), Collapse> {
         self.touched.iter().for_each(|&node| forces[node as usize] = [0.0; 2]);
-        self.stress.subtract_forces(&motion.as_motion(), motion.stress_history, forces);
+        self.stress.subtract_forces(&motion.as_motion(), motion.stress_history, forces)
     }
 
     /// Moves a node by so much more (m) in a step (s) that is done.

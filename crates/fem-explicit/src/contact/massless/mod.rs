@@ -30,6 +30,7 @@ use fem_contact::{ContactForces, ContactInterface};
 use super::Contact;
 use crate::error::ModelError;
 use crate::part::{Field, Motion, MotionMut, NodalField, Part};
+use crate::stress::Collapse;
 use boundary::Boundary;
 use rounds::{Problem, Rounds, Spring};
 use skyline::Skyline;
@@ -143,11 +144,11 @@ impl Massless {
 
     /// What is lacking in the balance of the nodes without mass, and the gaps, of a step in which they
     /// kept their velocity.
-    fn update(&self, motions: &[MotionMut<'_>; 2], buffers: &mut Buffers) {
+    fn update(&self, motions: &[MotionMut<'_>; 2], buffers: &mut Buffers) -> Result<(), Collapse> {
         let Buffers { forces, rounds } = buffers;
         for (side, boundary) in self.sides.iter().enumerate() {
             if let Some(boundary) = boundary {
-                boundary.update_forces(&motions[side], &mut forces[side]);
+                boundary.update_forces(&motions[side], &mut forces[side])?;
             }
         }
         for (pair, &(side, place)) in rounds.lacking.chunks_exact_mut(2).zip(&self.unknowns) {
@@ -159,6 +160,7 @@ impl Massless {
         for (k, gap) in rounds.gaps.iter_mut().enumerate() {
             *gap = self.interface.gap(k, displacements);
         }
+        Ok(())
     }
 }
 
@@ -231,9 +233,8 @@ impl Contact for Massless {
         else {
             return;
         };
-        self.update(&motions, buffers);
-        // A matrix that was positive stays so with springs.
-        if buffers.rounds.solve(problem).is_none() {
+        // No element of these collapses, and a matrix that was positive stays so with springs.
+        if self.update(&motions, buffers).is_err() || buffers.rounds.solve(problem).is_none() {
             return;
         }
         for (pair, &(side, place)) in buffers.rounds.change.chunks_exact(2).zip(&self.unknowns) {

@@ -69,8 +69,6 @@ pub struct BulkViscosity {
     largest_drop: f64,
     /// N s/m, a number a node; of the time before the model is built.
     damping_bound: Vec<f64>,
-    /// s.
-    time_step: f64,
 }
 
 impl BulkViscosity {
@@ -125,7 +123,7 @@ impl BulkViscosity {
                 damping_bound[node as usize] += rate * mass;
             }
         }
-        Self { elements, coefficients, largest_drop, damping_bound, time_step: 0.0 }
+        Self { elements, coefficients, largest_drop, damping_bound }
     }
 }
 
@@ -161,8 +159,7 @@ impl Part for BulkViscosity {
     }
 
     /// The bound has been asked for by then.
-    fn set_time_step(&mut self, time_step: f64) {
-        self.time_step = time_step;
+    fn set_time_step(&mut self, _: f64) {
         self.damping_bound = Vec::new();
     }
 }
@@ -176,7 +173,7 @@ impl NodeForce for BulkViscosity {
 
     fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
         let [force, work] = history else { return };
-        let half_step = 0.5 * self.time_step;
+        let half_step = 0.5 * motion.time_step;
         take_work(half_step, motion.velocity, force, work);
         self.elements.subtract_forces(motion.velocity, force);
         add_work(half_step, motion.velocity, force, work);

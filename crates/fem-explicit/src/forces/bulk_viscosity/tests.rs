@@ -62,7 +62,13 @@ impl Column {
     }
 
     fn motion(&self) -> Motion<'_> {
-        Motion { time: 0.0, displacement: &self.u, velocity: &self.v, nodal_mass: &self.mass }
+        Motion {
+            time: 0.0,
+            time_step: self.time_step,
+            displacement: &self.u,
+            velocity: &self.v,
+            nodal_mass: &self.mass,
+        }
     }
 
     fn forces(&self) -> Vec<[f64; 2]> {
@@ -84,8 +90,14 @@ impl Column {
             self.v[node][1] += self.time_step * forces[node][1] / self.mass[node];
         }
         self.u.iter_mut().zip(&self.v).for_each(|(u, v)| u[1] += self.time_step * v[1]);
-        let Self { u, v, mass, history, .. } = self;
-        let motion = Motion { time: 0.0, displacement: u, velocity: v, nodal_mass: mass };
+        let Self { u, v, mass, history, time_step, .. } = self;
+        let motion = Motion {
+            time: 0.0,
+            time_step: *time_step,
+            displacement: u,
+            velocity: v,
+            nodal_mass: mass,
+        };
         self.viscosity.advance(&motion, history);
         self.n_steps += 1;
     }
@@ -222,7 +234,7 @@ fn the_work_of_viscosity_is_what_the_motion_loses() {
         state.bodies[1].velocity = velocities;
         let mut ledger = Ledger::new(&model, &state);
         let mut balance = |state: &State, scratch: &mut Scratch| {
-            let contact = update_forces(&model, state, scratch);
+            let contact = update_forces(&model, state, scratch).unwrap();
             let row = ledger.balance(&model, state, scratch, &contact);
             (row.residual.unwrap(), row.energy(Account::BulkViscosity).unwrap())
         };

@@ -4,6 +4,7 @@
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, SnapshotRequest, Want};
 use fem_explicit::{ContactMethod, Model, Parts, Settings, collide};
+use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side};
 
@@ -27,6 +28,8 @@ pub struct Pair {
     pub relaxation: Option<ActsOn>,
     /// Prony terms of a relaxing pair: weight, relaxation time.
     pub terms: &'static [(f64, f64)],
+    /// At finite strain.
+    pub law: Option<HyperelasticLaw>,
     /// Units of length, time and mass in m, s and kg.
     pub units: [f64; 3],
     pub candidate_radius: f64,
@@ -47,6 +50,7 @@ impl Default for Pair {
             penalty_factor: 1.0,
             relaxation: None,
             terms: &[(1.0, 1.0 / 2708.0)],
+            law: None,
             units: [1.0; 3],
             candidate_radius: 0.35e-3,
             history_rows: 1000,
@@ -106,7 +110,8 @@ impl Pair {
     }
 
     pub fn model_of(&self, bodies: [BodyInput; 2]) -> Model {
-        let parts = Parts { method: self.method, ..Parts::default() };
+        let finite_strain = bodies.each_ref().map(|body| body.mesh().and(self.law));
+        let parts = Parts { finite_strain, method: self.method, ..Parts::default() };
         Model::with_parts(bodies, self.approach(), &self.settings(), parts).unwrap()
     }
 

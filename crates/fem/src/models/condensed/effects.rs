@@ -20,6 +20,7 @@ pub(super) fn has(
     Some(match effect.name() {
         Viscoelasticity::NAME => Answer::Inherent { idle: "" },
         Gravity::NAME => Answer::Inherent { idle: "" },
+        SurfaceSlip::NAME => Answer::Computes { idle: "" },
         PartnerWaves::NAME => PartnerWaves::of_condensed(scene, estimate),
         Vibration::NAME => {
             let spheres = modes_of_spheres(scene, pair);
@@ -30,11 +31,9 @@ pub(super) fn has(
             false => Answer::is(false, "the surfaces do not overlap at the nodes"),
         },
         ContactSearch::NAME => ContactSearch::within(&pair.searched()),
-        FiniteStrain::NAME
-        | SurfaceSlip::NAME
-        | PlasticYield::NAME
-        | MirrorSymmetry::NAME
-        | RigidPartner::NAME => Answer::Lacks,
+        FiniteStrain::NAME | PlasticYield::NAME | MirrorSymmetry::NAME | RigidPartner::NAME => {
+            Answer::Lacks
+        }
         _ => return None,
     })
 }

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, StaticContact, Stop, Want};
-use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings};
+use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
 use fem_material::PronySeries;
 use fem_mesh::SphereMesh;
@@ -17,7 +17,9 @@ use fem_mesh::SphereMesh;
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
-use crate::effects::{Answer, Effect, MirrorSymmetry, PartnerWaves, Vibration, decide};
+use crate::effects::{
+    Answer, Effect, MirrorSymmetry, PartnerWaves, SurfaceSlip, Vibration, decide,
+};
 use crate::estimate::Estimate;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::pair_cache::PairKey;
@@ -340,6 +342,10 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
         contact,
         vibration_modes: options.vibration_modes,
         held: scene.bodies().each_ref().map(fem_case::Body::is_held),
+        slip: SurfaceSlip::is_on(scene).then(|| {
+            let slip = scene.surface_slip();
+            Slip { curvature: slip.curvature(), shares: slip.shares() }
+        }),
         ..PairSettings::new(candidate_radius(plan, &plan.estimate))
     }
 }

@@ -15,6 +15,8 @@ pub(in crate::models) struct Traits {
     pub relaxation: Relaxation,
     /// Its dashpot, in words; none where it has none.
     pub dashpot: Option<String>,
+    /// Whether it has surfaces that slip on each other, as a term of its own.
+    pub slip: bool,
     /// Whether it has the waves that do not come back, as a term of its own.
     pub waves: bool,
     /// Whether it has the spheres' own compliance, and why.
@@ -54,6 +56,7 @@ pub(super) fn has(
         }
         Gravity::NAME => Answer::Inherent { idle: "" },
         Vibration::NAME => Vibration::of_rigid_bodies(estimate),
+        SurfaceSlip::NAME if traits.slip => Answer::Computes { idle: "" },
         FiniteStrain::NAME
         | SurfaceSlip::NAME
         | PlasticYield::NAME

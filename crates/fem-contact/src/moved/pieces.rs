@@ -1,0 +1,168 @@
+//! The common refinement of both surfaces, in the order of the radius.
+
+use super::MovedInterface;
+use super::segment::{Place, Segment};
+use crate::interface::mean_length;
+
+/// Gauss points of a piece: shares of the half length from its middle, and weights.
+pub(super) const GAUSS: [[f64; 2]; 3] =
+    [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
+
+/// A piece of the radius over which neither surface has a node.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece<'a> {
+    /// Of the lower and the upper surface.
+    pub segments: [Segment<'a>; 2],
+    /// Its ends, m.
+    pub radii: [f64; 2],
+    /// Sides and nodes that the ends move with; none of the axis and of a rigid sphere's equator.
+    pub ends: [Option<(usize, u32)>; 2],
+    /// Penalty per area, Pa/m.
+    pub stiffness: f64,
+}
+
+/// A Gauss point of a piece.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    /// m.
+    pub radius: f64,
+    /// 2πr dr, m².
+    pub area: f64,
+    /// y of the upper less that of the lower surface, m.
+    pub gap: f64,
+    /// Of the lower and the upper surface.
+    pub places: [Place; 2],
+}
+
+/// Walks along both surfaces. `U` tells the displacement of a node, m.
+pub(super) struct Pieces<'a, U> {
+    interface: &'a MovedInterface,
+    displacement: [U; 2],
+    /// The segments in which the walk is; none if a surface turns over at the axis.
+    segments: Option<[Segment<'a>; 2]>,
+    is_over: bool,
+    radius: f64,
+    end: Option<(usize, u32)>,
+    /// The side whose surface turns over where the walk has ended.
+    turned: Option<usize>,
+}
+
+impl MovedInterface {
+    /// The pieces for displacements (m) of the nodes of the lower and the upper body.
+    pub(super) fn pieces<U: Fn(u32) -> [f64; 2]>(&self, displacement: [U; 2]) -> Pieces<'_, U> {
+        let [lower, upper] = [0, 1].map(|side| self.segment(side, 0, &displacement[side]));
+        let turned = [&lower, &upper].into_iter().position(Option::is_none);
+        Pieces {
+            interface: self,
+            displacement,
+            segments: lower.zip(upper).map(|(lower, upper)| [lower, upper]),
+            is_over: turned.is_some(),
+            radius: 0.0,
+            end: None,
+            turned,
+        }
+    }
+
+    /// All Gauss points.
+    pub(super) fn points<'a, U: Fn(u32) -> [f64; 2] + 'a>(
+        &'a self,
+        displacement: [U; 2],
+    ) -> impl Iterator<Item = (Piece<'a>, Point)> + 'a {
+        self.pieces(displacement).flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))))
+    }
+
+    /// A segment of a side, by the number of its inner node; `None` if it is turned over.
+    fn segment<U: Fn(u32) -> [f64; 2]>(
+        &self,
+        side: usize,
+        index: usize,
+        displacement: &U,
+    ) -> Option<Segment<'_>> {
+        let surface = &self.surfaces[side];
+        let ends = [surface.nodes[index], surface.nodes[index + 1]].map(displacement);
+        let (sign, gap) = if side == 0 { (-1.0, 0.0) } else { (1.0, self.gap) };
+        Segment::new(surface, index, ends, sign, gap)
+    }
+}
+
+impl<'a> Piece<'a> {
+    /// The point at a share of the half length from the middle, −1 to 1.
+    pub fn point(&self, [offset, weight]: [f64; 2]) -> Point {
+        let [start, end] = self.radii;
+        let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+        let radius = middle + offset * half;
+        let places = self.segments.each_ref().map(|segment| segment.at(radius));
+        Point {
+            radius,
+            area: 2.0 * std::f64::consts::PI * radius * (weight * half),
+            gap: places[1].height - places[0].height,
+            places,
+        }
+    }
+}
+
+impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
+    /// Where the walk has ended because a surface turns over, m, and whether it overlaps the other
+    /// one further on: nodes beyond are compared with the other surface's segment at the turn.
+    pub fn turn(&self) -> Option<(f64, bool)> {
+        let side = self.turned?;
+        let Some(segments) = self.segments else { return Some((0.0, true)) };
+        let (surface, other) = (&self.interface.surfaces[side], &segments[1 - side]);
+        let first = segments[side].index + 2;
+        let overlaps = (first..self.interface.n_nodes[side]).any(|k| {
+            let [u_r, u_y] = self.displacement[side](surface.nodes[k]);
+            let r = (surface.radii[k] + u_r).clamp(0.0, self.radius);
+            let [lower, upper] = [0, 1].map(|s| match s == side {
+                true if s == 0 => u_y - surface.depth(surface.radii[k]),
+                true => u_y + self.interface.gap + surface.depth(surface.radii[k]),
+                false => other.at(r).height,
+            });
+            upper <= lower
+        });
+        Some((self.radius, overlaps))
+    }
+}
+
+impl<'a, U: Fn(u32) -> [f64; 2]> Iterator for Pieces<'a, U> {
+    type Item = Piece<'a>;
+
+    fn next(&mut self) -> Option<Piece<'a>> {
+        while !self.is_over {
+            let segments = self.segments.as_ref()?;
+            let side = usize::from(segments[1].radii[1] < segments[0].radii[1]);
+            let ending = &segments[side];
+            let radii = [self.radius, ending.radii[1]];
+            let next = ending.index + 1;
+            let end = (!ending.is_rigid()).then(|| (side, ending.nodes()[1]));
+            let piece = (radii[1] > radii[0]).then(|| {
+                let numbers = segments.each_ref().map(|segment| segment.index);
+                let length = mean_length(&self.interface.surfaces, numbers);
+                let stiffness = self.interface.stiffness / length;
+                Piece { segments: *segments, radii, ends: [self.end, end], stiffness }
+            });
+            (self.radius, self.end) = (radii[1], end);
+            self.step(side, next);
+            if piece.is_some() {
+                return piece;
+            }
+        }
+        None
+    }
+}
+
+impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
+    /// Takes a side to the segment of this number, or ends the walk.
+    fn step(&mut self, side: usize, next: usize) {
+        if next + 1 >= self.interface.n_nodes[side] {
+            self.is_over = true;
+            return;
+        }
+        match (&mut self.segments, self.interface.segment(side, next, &self.displacement[side])) {
+            (Some(segments), Some(segment)) => segments[side] = segment,
+            _ => {
+                self.is_over = true;
+                self.turned = Some(side);
+            }
+        }
+    }
+}

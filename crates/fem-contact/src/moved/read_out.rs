@@ -1,0 +1,65 @@
+//! Contact radius and pressure of moved surfaces: true ones.
+
+use super::MovedInterface;
+use crate::pressure::centre_pressure;
+
+impl MovedInterface {
+    /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact.
+    ///
+    /// Interpolated linearly in the signed pressure −k g between the outermost closed point and the
+    /// next.
+    pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
+        let mut edge = 0.0;
+        let mut closed: Option<[f64; 2]> = None;
+        for (piece, point) in self.points(u.map(|u| move |node: u32| u[node as usize])) {
+            let pressure = -piece.stiffness * point.gap;
+            if pressure > 0.0 {
+                closed = Some([point.radius, pressure]);
+                edge = point.radius;
+            } else if let Some([radius, inside]) = closed.take() {
+                edge = radius + (point.radius - radius) * inside / (inside - pressure);
+            }
+        }
+        edge
+    }
+
+    /// Contact pressure at the nodes of a deformable side, from the axis outward: where the node is now
+    /// (r in m), and the force along y over the area of its surroundings seen along y, which is the true
+    /// pressure on the true area (p in Pa).
+    pub fn nodal_pressure<'a>(
+        &'a self,
+        u: [&'a [[f64; 2]]; 2],
+    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+        let side = usize::from(self.surfaces[0].is_rigid());
+        let surface = &self.surfaces[side];
+        let mut points = self.points(u.map(|u| move |node: u32| u[node as usize])).peekable();
+        // Force and area that the segment inside of a node has given to it.
+        let mut from_inside = [0.0; 2];
+        (0..self.n_nodes[side]).map(move |k| {
+            let [mut force, mut area] = from_inside;
+            from_inside = [0.0; 2];
+            while let Some((piece, point)) =
+                points.next_if(|(piece, _)| piece.segments[side].index == k)
+            {
+                let share = point.places[side].share;
+                let pressure = (-piece.stiffness * point.gap).max(0.0);
+                let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
+                force += inner * pressure;
+                area += inner;
+                from_inside[0] += outer * pressure;
+                from_inside[1] += outer;
+            }
+            let radius = surface.radii[k] + u[side][surface.nodes[k] as usize][0];
+            (radius, if area > 0.0 { force / area } else { 0.0 })
+        })
+    }
+
+    /// True contact pressure on the axis, Pa; 0 without contact there. Fitted to the nodes as
+    /// [`ContactInterface::centre_pressure`](crate::ContactInterface::centre_pressure) does, where they
+    /// are now.
+    pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
+        let side = usize::from(self.surfaces[0].is_rigid());
+        let spacing = self.surfaces[side].segment_length(0);
+        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), spacing)
+    }
+}

@@ -1,0 +1,86 @@
+//! A segment of a moved surface.
+
+use crate::surface::Surface;
+
+/// A segment where it is now: a curve r → y(r). Of a rigid body it is the whole surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Segment<'a> {
+    surface: &'a Surface,
+    /// Number of its inner node along the surface.
+    pub index: usize,
+    /// 1 if depth is along +y (upper body), −1 if along −y (lower body).
+    sign: f64,
+    /// Distances of its ends from the axis, m.
+    pub radii: [f64; 2],
+    /// 1 / (outer less inner radius), 1/m; 0 of a rigid body.
+    per_length: f64,
+    /// Displacement along y of its inner end, with the gap of the upper body, and its change to the
+    /// outer end, m.
+    rise: f64,
+    rise_change: f64,
+    /// Undeformed radius of its inner end and its change to the outer end, m.
+    reference: f64,
+    reference_change: f64,
+}
+
+/// A point of a segment.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// Shape function of the outer node; that of the inner is what is missing to 1.
+    pub share: f64,
+    /// y, m.
+    pub height: f64,
+    /// dy/dr.
+    pub slope: f64,
+}
+
+impl<'a> Segment<'a> {
+    /// Between two nodes of a surface that are displaced by (u_r, u_y), m; `sign` is that of its depth
+    /// along y and `gap` (m) what the surface is moved by along y. `None` if r does not grow.
+    pub fn new(
+        surface: &'a Surface,
+        index: usize,
+        [inner, outer]: [[f64; 2]; 2],
+        sign: f64,
+        gap: f64,
+    ) -> Option<Self> {
+        let [start, end] = [surface.radii[index], surface.radii[index + 1]];
+        let is_rigid = surface.is_rigid();
+        let radii = if is_rigid { [start, end] } else { [start + inner[0], end + outer[0]] };
+        (radii[1] > radii[0]).then(|| Self {
+            surface,
+            index,
+            sign,
+            radii,
+            per_length: if is_rigid { 0.0 } else { (radii[1] - radii[0]).recip() },
+            rise: inner[1] + gap,
+            rise_change: outer[1] - inner[1],
+            reference: start,
+            reference_change: end - start,
+        })
+    }
+
+    /// Its nodes, inner and outer.
+    pub fn nodes(&self) -> [u32; 2] {
+        [self.surface.nodes[self.index], self.surface.nodes[self.index + 1]]
+    }
+
+    /// Where it is at a radius, m.
+    pub fn at(&self, r: f64) -> Place {
+        let share = (r - self.radii[0]) * self.per_length;
+        if self.surface.is_rigid() {
+            let (depth, slope) = self.surface.arc(r);
+            let height = self.rise + self.sign * depth;
+            return Place { share: 0.0, height, slope: self.sign * slope };
+        }
+        let (depth, slope) = self.surface.arc(self.reference + share * self.reference_change);
+        let height = self.rise + share * self.rise_change + self.sign * depth;
+        let change = self.rise_change + self.sign * slope * self.reference_change;
+        Place { share, height, slope: change * self.per_length }
+    }
+
+    /// Whether it is of a body that moves as a whole, and along y alone.
+    pub fn is_rigid(&self) -> bool {
+        self.surface.is_rigid()
+    }
+}

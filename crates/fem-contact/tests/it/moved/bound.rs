@@ -1,0 +1,80 @@
+//! The diagonal bound of the contact stiffness, of moved surfaces.
+
+use fem_contact::Surface;
+use fem_mesh::Side;
+use nalgebra::DMatrix;
+
+use super::Scene;
+use super::geometry::displace;
+use crate::common::{Field, sphere};
+
+/// Largest eigenvalue of D^−1/2 K D^−1/2 along r and y, K = ∂²Π/∂u² and D the bound at `u`; the axis
+/// stays the axis, a rigid sphere straight.
+fn largest_quotient(scene: &Scene, u: &[Field; 2], is_wall: [bool; 2]) -> f64 {
+    let (mut bound, mut freedoms) = (Vec::new(), Vec::new());
+    for side in (0..2).filter(|side| !is_wall[*side]) {
+        let mut of_side = vec![0.0; u[side].len()];
+        scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], side, &mut of_side);
+        for (k, node) in scene.interface.candidate_nodes(side).enumerate() {
+            for axis in usize::from(k == 0)..2 {
+                freedoms.push((side, node as usize, axis));
+                bound.push(of_side[node as usize]);
+            }
+        }
+    }
+    let step = 1e-9;
+    let n = bound.len();
+    let mut matrix = DMatrix::zeros(n, n);
+    for (j, &(side, node, axis)) in freedoms.iter().enumerate() {
+        let forces = |change: f64| {
+            let mut moved = u.clone();
+            moved[side][node][axis] += change;
+            scene.forces(&moved).1
+        };
+        let (before, after) = (forces(-step), forces(step));
+        for (i, &(side, node, axis)) in freedoms.iter().enumerate() {
+            matrix[(i, j)] = (before[side][node][axis] - after[side][node][axis]) / (2.0 * step);
+        }
+    }
+    let asymmetry = (&matrix - matrix.transpose()).amax() / matrix.amax();
+    assert!(asymmetry < 1e-4, "{asymmetry:e}");
+    let scaled = DMatrix::from_fn(n, n, |i, j| {
+        0.5 * (matrix[(i, j)] + matrix[(j, i)]) / (bound[i] * bound[j]).sqrt()
+    });
+    scaled.symmetric_eigenvalues().max()
+}
+
+/// The bound takes the springs four times (for opening and closing), so the quotient of all springs
+/// closed is 1/4 and a little less: surfaces bent to bowls with slopes up to 0.8, stretched and shrunk
+/// by up to a half, pressed into each other and on a wall. The pressure's own terms add to it as overlap
+/// over segment length does: a tenth at 1, half as much again at a half of a segment on a wall.
+#[test]
+fn bound_is_never_below_the_springs() {
+    for (depth, limit) in [(1e-4, 0.251), (2e-3, 0.251), (5e-3, 0.27), (1e-2, 0.35), (2e-2, 0.6)] {
+        for (bend, stretch) in [(0.0, 1.0), (0.8, 1.3), (2.0, 1.0), (2.0, 0.7), (-1.0, 1.5)] {
+            let meshes =
+                [sphere(1.0, 0.02, 0.45, Side::Below), sphere(1.0, 0.0173, 0.45, Side::Above)];
+            let scene = Scene::pair(&meshes, 0.4);
+            let bowl = |sign: f64| {
+                move |r: f64| {
+                    let r = stretch * r;
+                    [r, 0.5 * bend * r * r + sign * depth * (0.5 - 4.0 * r * r)]
+                }
+            };
+            let u = [
+                displace(&scene, &meshes[0], 0, bowl(1.0)),
+                displace(&scene, &meshes[1], 1, bowl(-1.0)),
+            ];
+            let quotient = largest_quotient(&scene, &u, [false; 2]);
+            let mesh = &meshes[1];
+            let scene = Scene::above(Surface::wall(), mesh, 0.4);
+            let flat = |r: f64| [stretch * r, -depth * (1.0 - 8.0 * r * r)];
+            let u = [vec![[0.0; 2]], displace(&scene, mesh, 1, flat)];
+            let on_wall = largest_quotient(&scene, &u, [true, false]);
+            for quotient in [quotient, on_wall] {
+                assert!(quotient < limit, "{depth} {bend} {stretch}: {quotient}");
+                assert!(quotient > 0.24, "{depth} {bend} {stretch}: {quotient}");
+            }
+        }
+    }
+}

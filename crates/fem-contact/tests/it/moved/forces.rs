@@ -1,0 +1,119 @@
+//! Forces follow from one energy, balance, and have the limit of contact on undeformed surfaces.
+
+use fem_contact::{ContactInterface, Surface};
+use fem_mesh::Side;
+
+use super::{Scene, sum};
+use crate::common::{Field, STIFFNESS, glass_pair, interface, sphere};
+
+const SIZES: [[f64; 2]; 4] = [[30e-6, 30e-6], [30e-6, 37e-6], [37e-6, 30e-6], [15e-6, 200e-6]];
+
+/// Pairs of meshes, a wall and a rigid sphere, with ragged displacements: of a third of the
+/// smaller elements along r.
+fn scenes() -> Vec<(Scene, f64)> {
+    let pairs = SIZES.map(|sizes| {
+        (Scene::pair(&glass_pair(sizes), 0.4e-3), 0.33 * f64::min(sizes[0], sizes[1]))
+    });
+    let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
+    let rigid = [Surface::wall(), Surface::rigid_sphere(5e-3).unwrap()]
+        .map(|surface| (Scene::above(surface, &mesh, 0.4e-3), 10e-6));
+    pairs.into_iter().chain(rigid).collect()
+}
+
+/// Force = −∂Π/∂u along r and y, on both sides, with points that are open and others that slide
+/// over nodes of the other body.
+#[test]
+fn force_is_minus_the_gradient_of_the_energy() {
+    for (scene, along_r) in scenes() {
+        let u = scene.ragged(along_r, 20e-6);
+        let (total, f) = scene.forces(&u);
+        assert!(total.n_closed >= 5 && total.turned_at.is_none(), "{total:?}");
+        let step = 1e-11;
+        let mut worst = [0.0f64; 2];
+        for side in 0..2 {
+            for node in scene.interface.candidate_nodes(side) {
+                let is_bound = scene.n_nodes[side] == 1 || u[side][node as usize][0] == 0.0;
+                for axis in usize::from(is_bound)..2 {
+                    let energy = |change: f64| {
+                        let mut moved = u.clone();
+                        moved[side][node as usize][axis] += change;
+                        scene.forces(&moved).0.energy
+                    };
+                    let slope = (energy(step) - energy(-step)) / (2.0 * step);
+                    let error = (f[side][node as usize][axis] + slope).abs();
+                    worst[axis] = worst[axis].max(error * step / total.energy);
+                }
+            }
+        }
+        // Rounding of an energy of some ten terms. What is left out would be seen: the smallest of
+        // the forces' terms, by the ends of pieces, are some 1e-13 of this.
+        assert!(worst.iter().all(|error| *error < 2e-15), "{worst:?}");
+    }
+}
+
+/// Along y the forces of both bodies are opposite to rounding, however they are moved.
+#[test]
+fn momentum_is_kept_for_any_displacement() {
+    for (scene, along_r) in scenes() {
+        let (total, f) = scene.forces(&scene.ragged(along_r, 20e-6));
+        let [lower, upper] = f.each_ref().map(|f| sum(f, 1));
+        // Rounding of some hundred terms.
+        assert!((lower + total.force).abs() < 1e-13 * total.force, "{lower} {total:?}");
+        assert!((upper - total.force).abs() < 1e-13 * total.force, "{upper} {total:?}");
+    }
+}
+
+/// A body that does not deform has no force along r.
+#[test]
+fn a_rigid_body_is_not_pulled_sideways() {
+    let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
+    let scene = Scene::above(Surface::rigid_sphere(1e-3).unwrap(), &mesh, 0.4e-3);
+    let (total, f) = scene.forces(&scene.ragged(1e-6, 20e-6));
+    assert!(total.force > 0.0);
+    assert_eq!(f[0][0][0], 0.0);
+}
+
+/// Surfaces that have moved along y alone overlap as undeformed ones do. Where all points are closed,
+/// two Gauss points of a piece, as the other contact has them, are exact for forces along y, and three for
+/// the energy; where the edge of the contact lies within a piece both are quadratures.
+#[test]
+fn bodies_that_move_along_y_are_the_limit() {
+    let check = |scene: &Scene, other: &ContactInterface, [low, up]: [f64; 2], tolerance: f64| {
+        let u = [low, up].map(|rise| [0.0, rise]);
+        let u = [0, 1].map(|side: usize| vec![u[side]; scene.n_nodes[side]]);
+        let (total, f) = scene.forces(&u);
+        let mut g = scene.at_rest();
+        let [lower, upper] = &mut g;
+        let expected = other.add_forces([&u[0], &u[1]], [lower, upper]);
+        let close = |a: f64, b: f64| (a - b).abs() < tolerance * expected.force;
+        assert!(total.n_closed > 10);
+        assert!(close(total.force, expected.force), "{total:?} {expected:?}");
+        assert!((total.energy / expected.energy - 1.0).abs() < tolerance.max(1e-5), "{total:?}");
+        let forces = |f: &[Field; 2]| f.concat();
+        // Shares of nodes take one degree more: two points are 5e-8 off.
+        let close = |a: f64, b: f64| (a - b).abs() < tolerance.max(2e-7) * expected.force;
+        assert!(forces(&f).iter().zip(forces(&g)).all(|(f, g)| close(f[1], g[1])));
+        let of_undeformed = (other.candidate_radius(), total.at_limit);
+        assert_eq!((scene.interface.candidate_radius(), expected.at_limit), of_undeformed);
+        expected.at_limit
+    };
+    let (mut n_edges, mut n_whole) = (0, 0);
+    let mut check_both = |scene: &Scene, other: &ContactInterface| {
+        // An edge that lies a piece away moves 1e-3 of the load.
+        n_edges += u64::from(!check(scene, other, [4e-6, -5e-6], 2e-3));
+        // Rounding of the gaps, and what the arcs differ from parabolas.
+        n_whole += u64::from(check(scene, other, [150e-6, -50e-6], 1e-9));
+    };
+    for sizes in SIZES {
+        let meshes = glass_pair(sizes);
+        check_both(&Scene::pair(&meshes, 0.4e-3), &interface(&meshes, 0.4e-3));
+    }
+    let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
+    for surface in [Surface::wall(), Surface::rigid_sphere(5e-3).unwrap()] {
+        let scene = Scene::above(surface.clone(), &mesh, 0.4e-3);
+        let upper = Surface::of_sphere(&mesh);
+        let other = ContactInterface::new(surface, upper, STIFFNESS, 0.0, 0.4e-3).unwrap();
+        check_both(&scene, &other);
+    }
+    assert_eq!((n_edges, n_whole), (6, 6));
+}

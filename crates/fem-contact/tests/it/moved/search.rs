@@ -1,0 +1,102 @@
+//! Where contact is looked for, and what is said where that ends.
+
+use fem_contact::{ContactError, MovedInterface, Surface};
+use fem_mesh::Side;
+
+use super::Scene;
+use super::geometry::displace;
+use crate::common::{Field, STIFFNESS, flat, glass_pair, rigid, sphere};
+
+#[test]
+fn closed_is_what_has_a_force() {
+    let scene = Scene::pair(&glass_pair([30e-6, 37e-6]), 0.4e-3);
+    for (depth, closed) in [(-1e-12, false), (1.1e-9, false), (1.4e-9, true), (5e-6, true)] {
+        let u: [Field; 2] = [vec![[0.0, depth]; scene.n_nodes[0]], scene.at_rest()[1].clone()];
+        let (total, f) = scene.forces(&u);
+        let is_closed = scene.interface.is_closed([0, 1].map(|side: usize| {
+            let u = &u[side];
+            move |node: u32| u[node as usize]
+        }));
+        // The first point is 3.4e-6 m off the axis, where the arcs are 1.24e-9 m apart.
+        assert_eq!((total.n_closed > 0, is_closed), (closed, closed), "{depth}");
+        if !closed {
+            assert_eq!(total, Default::default());
+            assert!(f.iter().flatten().all(|f| *f == [0.0; 2]));
+            assert_eq!(scene.interface.contact_radius([&u[0], &u[1]]), 0.0);
+            assert_eq!(scene.interface.centre_pressure([&u[0], &u[1]]), 0.0);
+        }
+    }
+}
+
+/// Bodies that part along y have a gap, given by the interface or by the displacement.
+#[test]
+fn the_gap_separates_the_poles() {
+    let meshes = glass_pair([30e-6, 30e-6]);
+    let [lower, upper] = meshes.each_ref().map(Surface::of_sphere);
+    let apart = MovedInterface::new(lower, upper, STIFFNESS, 3e-6, 0.4e-3).unwrap();
+    let together = Scene::pair(&meshes, 0.4e-3);
+    let u = [rigid(&meshes[0], 8e-6), rigid(&meshes[1], 0.0)];
+    let mut f = together.at_rest();
+    let [lower, upper] = &mut f;
+    let force = apart.add_forces([&u[0], &u[1]], [lower, upper]).force;
+    let (expected, _) = together.forces(&[rigid(&meshes[0], 5e-6), rigid(&meshes[1], 0.0)]);
+    assert!((force / expected.force - 1.0).abs() < 1e-9, "{force} {expected:?}");
+}
+
+/// The first node beyond the candidate radius ends the search, as it is undeformed; the contact tells
+/// when it gets there.
+#[test]
+fn the_end_of_the_search_is_told() {
+    let mesh = sphere(7.95e-3, 30e-6, 0.5e-3, Side::Above);
+    let scene = Scene::above(Surface::wall(), &mesh, 0.3e-3);
+    let radius = scene.interface.candidate_radius();
+    assert!((0.3e-3..0.331e-3).contains(&radius));
+    let pressed = |depth: f64| scene.forces(&[vec![[0.0; 2]], rigid(&mesh, -depth)]).0;
+    let arc = radius * radius / (2.0 * 7.95e-3);
+    // The last point is 6e-6 m inside, where the arc is lower by 4 %.
+    assert!(!pressed(0.95 * arc).at_limit);
+    assert!(pressed(1.05 * arc).at_limit);
+}
+
+/// A disc of elements 0.01, bent by `y` (m) where its nodes beyond 0.06 come back inward by twice as much
+/// as they are out.
+fn folded(y: impl Fn(f64) -> f64) -> fem_contact::ContactForces {
+    let mesh = flat(0.01, Side::Above);
+    let scene = Scene::above(Surface::wall(), &mesh, 0.0999);
+    let fold = |r: f64| [if r > 0.0601 { 0.18 - 2.0 * r } else { r }, y(r)];
+    scene.forces(&[vec![[0.0; 2]], displace(&scene, &mesh, 1, fold)]).0
+}
+
+/// A surface that turns over beside the contact is no matter; one whose contact reaches the turn, or that
+/// touches again behind it, cannot be followed, and that is told.
+#[test]
+fn a_surface_that_turns_over_is_told_where_it_touches() {
+    let depth = 1e-3;
+    let bowl = |r: f64| 1.0 * r * r - depth;
+    let beside = folded(bowl);
+    assert!(beside.n_closed > 2 && beside.turned_at.is_none() && !beside.at_limit);
+    let up_to_it = folded(|r| if r < 0.065 { -depth } else { depth });
+    assert_eq!(up_to_it.turned_at.map(|r| (r * 1e6).round()), Some(60e3));
+    assert!(!up_to_it.at_limit);
+    let behind = folded(|r| if r > 0.075 { -depth } else { bowl(r) });
+    assert_eq!(behind.turned_at.map(|r| (r * 1e6).round()), Some(60e3));
+    // Displacements that are no numbers give no force.
+    let blown_up = folded(|_| f64::NAN);
+    assert_eq!(blown_up.n_closed, 0);
+}
+
+#[test]
+fn what_cannot_touch_is_refused() {
+    let mesh = sphere(1.0, 0.05, 0.4, Side::Above);
+    let new = |lower: Surface, stiffness: f64, radius: f64| {
+        MovedInterface::new(lower, Surface::of_sphere(&mesh), stiffness, 0.0, radius)
+    };
+    assert!(new(Surface::wall(), 1.0, 0.3).is_ok());
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for refused in [new(Surface::wall(), value, 0.3), new(Surface::wall(), 1.0, value)] {
+            assert!(matches!(refused, Err(ContactError::NotPositive { .. })), "{refused:?}");
+        }
+    }
+    let rigid = MovedInterface::new(Surface::wall(), Surface::wall(), 1.0, 0.0, 0.3);
+    assert_eq!(rigid, Err(ContactError::BothRigid));
+}

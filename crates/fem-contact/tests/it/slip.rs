@@ -1,0 +1,145 @@
+//! Surfaces that slip on each other: energy, balance, and where it is nothing.
+
+use crate::common::{Field, STIFFNESS, forces, glass_pair, interface, noise, ragged, sphere};
+use fem_contact::{ContactForces, ContactInterface, SlippingInterface, Surface};
+use fem_mesh::Side;
+
+fn slipping_forces(interface: &SlippingInterface, u: &[Field; 2]) -> (ContactForces, [Field; 2]) {
+    let mut f = u.each_ref().map(|u| vec![[0.0; 2]; u.len()]);
+    let [lower, upper] = &mut f;
+    let total = interface.add_forces([&u[0], &u[1]], [lower, upper]);
+    (total, f)
+}
+
+/// A pair of two meshed spheres, or one of them rigid, with ragged displacements.
+fn scenes() -> Vec<(SlippingInterface, [Field; 2])> {
+    let mut scenes = Vec::new();
+    for sizes in [[30e-6, 37e-6], [15e-6, 300e-6]] {
+        let meshes = glass_pair(sizes);
+        let plain = interface(&meshes, 0.4e-3);
+        scenes.push((SlippingInterface::new(plain), ragged(&meshes, 20e-6)));
+    }
+    for rigid_side in 0..2 {
+        let side = [Side::Above, Side::Below][rigid_side];
+        let mesh = sphere(7.95e-3, 40e-6, 0.5e-3, side);
+        let (round, own) = (Surface::rigid_sphere(11.1e-3).unwrap(), Surface::of_sphere(&mesh));
+        let [lower, upper] = if rigid_side == 0 { [round, own] } else { [own, round] };
+        let plain = ContactInterface::new(lower, upper, STIFFNESS, 0.0, 0.4e-3).unwrap();
+        let mut u = ragged(&[mesh.clone(), mesh], 20e-6);
+        u[rigid_side] = vec![[0.0, [1.0, -1.0][rigid_side] * 5e-6]];
+        scenes.push((SlippingInterface::new(plain), u));
+    }
+    scenes
+}
+
+/// Force = −∂energy/∂displacement, along r and along y, with what turns the slope.
+#[test]
+fn force_is_minus_the_gradient_of_the_energy() {
+    for (interface, u) in scenes() {
+        let (total, f) = slipping_forces(&interface, &u);
+        assert!(total.n_closed > 10 && total.n_closed < interface.interface().n_points());
+        let step = 1e-10;
+        let mut largest = [0.0; 2];
+        for side in 0..2 {
+            for node in interface.interface().candidate_nodes(side) {
+                // A rigid body does not move along r.
+                let first = usize::from(u[side].len() == 1);
+                for axis in first..2 {
+                    let energy = |change: f64| {
+                        let mut moved = u.clone();
+                        moved[side][node as usize][axis] += change;
+                        slipping_forces(&interface, &moved).0.energy
+                    };
+                    let slope = (energy(step) - energy(-step)) / (2.0 * step);
+                    let force = f[side][node as usize][axis];
+                    // Rounding of the energy over the step; it is of fourth order in u, whose third
+                    // derivative is worth (step/20 µm)² of it.
+                    let error = (force + slope).abs();
+                    assert!(error < 1e-13 * total.energy / step, "{error:e} {total:?}");
+                    largest[axis] = force.abs().max(largest[axis]);
+                }
+            }
+        }
+        // What is along r is worth the name: slopes are up to 0.04, and ragged ones more.
+        assert!(largest[0] > 0.01 * largest[1], "{largest:?}");
+    }
+}
+
+#[test]
+fn forces_along_the_axis_balance() {
+    for (interface, u) in scenes() {
+        let (total, f) = slipping_forces(&interface, &u);
+        let [lower, upper] = f.each_ref().map(|f| f.iter().map(|f| f[1]).sum::<f64>());
+        // Rounding of some hundred terms.
+        assert!((lower + total.force).abs() < 1e-13 * total.force, "{lower} {total:?}");
+        assert!((upper - total.force).abs() < 1e-13 * total.force, "{upper} {total:?}");
+    }
+}
+
+/// Facing points that move alike do not slip: force, pressure and radius are those of the plain
+/// interface; only the shares along r are new.
+#[test]
+fn what_moves_alike_does_not_slip() {
+    let meshes = glass_pair([30e-6, 30e-6]);
+    let plain = interface(&meshes, 0.4e-3);
+    let slipping = SlippingInterface::new(plain.clone());
+    let u = [0, 1].map(|side: usize| {
+        let down = -5e-6 * side as f64;
+        meshes[side].nodes().iter().map(|[r, _]| [1e-3 * r, down]).collect::<Field>()
+    });
+    let ((a, f), (b, g)) = (forces(&plain, &u), slipping_forces(&slipping, &u));
+    assert!(a.n_closed > 10 && a.n_closed == b.n_closed);
+    // u_r of linear elements is linear too: what is left is rounding.
+    assert!((a.force - b.force).abs() < 1e-12 * a.force);
+    assert!((a.energy - b.energy).abs() < 1e-12 * a.energy);
+    for (f, g) in f.iter().zip(&g).flat_map(|(f, g)| f.iter().zip(g)) {
+        assert!((f[1] - g[1]).abs() < 1e-12 * a.force && f[0] == 0.0);
+    }
+    let of = [&u[0][..], &u[1][..]];
+    assert!((plain.contact_radius(of) / slipping.contact_radius(of) - 1.0).abs() < 1e-12);
+    assert!((plain.centre_pressure(of) / slipping.centre_pressure(of) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn is_closed_agrees_with_the_forces() {
+    let meshes = glass_pair([30e-6, 37e-6]);
+    let interface = SlippingInterface::new(interface(&meshes, 0.4e-3));
+    let mut n_closed = 0;
+    for sample in 0..40 {
+        // The innermost point closes at 4e-9 m without slip; the slope there, 2e-3, takes 1e-8 m of it away
+        // or adds it.
+        let depth = 4e-8 * noise(sample);
+        let mut u = ragged(&meshes, 1e-5);
+        u[0].iter_mut().for_each(|u| u[1] = depth);
+        u[1].iter_mut().for_each(|u| u[1] = 0.0);
+        let (total, _) = slipping_forces(&interface, &u);
+        let at = |side: usize| {
+            let u = &u[side];
+            move |node: u32| u[node as usize]
+        };
+        let closed = interface.is_closed([at(0), at(1)]);
+        assert_eq!(closed, total.n_closed > 0, "{sample}");
+        n_closed += usize::from(closed);
+    }
+    assert!(n_closed > 5 && n_closed < 35, "{n_closed}");
+}
+
+/// More than that of the plain interface by the square of the steeper slope, 0.05 at the end.
+#[test]
+fn the_stiffness_bound_grows_with_the_slope() {
+    let meshes = glass_pair([30e-6, 37e-6]);
+    let plain = interface(&meshes, 0.4e-3);
+    let slipping = SlippingInterface::new(plain.clone());
+    for side in 0..2 {
+        let mut bounds = [0, 1].map(|_| vec![0.0; meshes[side].nodes().len()]);
+        plain.add_stiffness_bound(side, &mut bounds[0]);
+        slipping.add_stiffness_bound(side, &mut bounds[1]);
+        let ratios: Vec<f64> = plain
+            .candidate_nodes(side)
+            .map(|node| bounds[1][node as usize] / bounds[0][node as usize])
+            .collect();
+        assert!(ratios.windows(2).all(|pair| pair[1] > pair[0]), "{ratios:?}");
+        let last = ratios[ratios.len() - 1] - 1.0;
+        assert!((last / (0.4e-3f64 / 7.95e-3).powi(2) - 1.0).abs() < 0.1, "{last}");
+    }
+}

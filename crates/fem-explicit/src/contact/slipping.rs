@@ -1,0 +1,45 @@
+//! The penalty interface of [`fem_contact`] between surfaces that slip on each other as a contact.
+
+use fem_collision::Searched;
+use fem_contact::{ContactForces, SlippingInterface};
+
+use super::Contact;
+use crate::part::{Field, Motion, NodalField, Part};
+
+impl Part for SlippingInterface {}
+
+impl Contact for SlippingInterface {
+    fn searched(&self) -> Searched {
+        Contact::searched(self.interface())
+    }
+
+    fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
+        self.add_stiffness_bound(side, bound);
+    }
+
+    fn add_forces(
+        &self,
+        motions: &[Motion<'_>; 2],
+        _: [&[NodalField]; 2],
+        forces: [&mut Field; 2],
+    ) -> ContactForces {
+        self.add_forces(motions.each_ref().map(|motion| motion.displacement), forces)
+    }
+
+    fn is_closed_next(
+        &self,
+        _: &ContactForces,
+        next: [&dyn Fn(u32) -> [f64; 2]; 2],
+        _: [&[NodalField]; 2],
+    ) -> bool {
+        self.is_closed(next)
+    }
+
+    fn contact_radius(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
+        self.contact_radius(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
+        self.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+}

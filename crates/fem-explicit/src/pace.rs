@@ -1,0 +1,139 @@
+//! How long the steps of a run are whose bodies change their stiffness as they deform.
+//!
+//! Steps are shorter than the model's by powers of the sixteenth root of two, which a level counts. The
+//! critical step of the deformed bodies is bounded anew after some steps, the sooner the faster it
+//! changes and any element is strained; the level follows it down at once, and up where the longer step
+//! leaves room.
+//!
+//! Where the step changes from Δt to Δt′ at t_n, velocities of t_n − Δt/2 become those of t_n − Δt′/2,
+//!
+//! ```math
+//! v \leftarrow v + \tfrac12 (\Delta t - \Delta t')\, f_n/m,
+//! ```
+//!
+//! as if the run had always had its new step; what counts impulses to the half step takes the same.
+//! Leapfrog's energy changes there by ⅛ (Δt² − Δt′²) f·f/m, of the order of its own error.
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::Model;
+
+/// A thousandth of the model's step: bodies of which that asks have collapsed.
+const MOST_LEVELS: u32 = 160;
+/// Steps before the first bound.
+const FIRST_PAUSE: u64 = 4;
+/// Most steps from one bound to the next.
+const LONGEST_PAUSE: f64 = 128.0;
+/// Change of the critical step from one bound to the next that is aimed at.
+const CHANGE_BETWEEN_BOUNDS: f64 = 0.02;
+/// Strain of any element from one bound to the next at the rate of now, which shortens its critical step by
+/// about as much: less than the step factor and the bound leave.
+const STRAIN_BETWEEN_BOUNDS: f64 = 0.05;
+/// By so much a longer step has to be below what is allowed.
+const ROOM_ABOVE: f64 = 1.01;
+/// The step that was chosen for the undeformed bodies is allowed, whatever rounding says.
+const ROUNDING: f64 = 1.0 + 1e-9;
+
+/// What the next steps have to bear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Outlook {
+    /// Of the bodies as they are deformed, s.
+    pub critical_time_step: f64,
+    /// Largest of any element, 1/s.
+    pub strain_rate: f64,
+}
+
+/// Level of a run and when it is looked at again.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Pace {
+    level: u32,
+    /// Number and time (s) of the first instant of this level.
+    since: (u64, f64),
+    /// Step and critical step (s) of the last bound.
+    last: (u64, f64),
+    /// Step of the next bound.
+    next: u64,
+}
+
+impl Pace {
+    /// At first touch; `None` of a model whose stiffness is constant.
+    pub fn of(model: &Model) -> Option<Self> {
+        model.changes_stiffness().then(|| Self {
+            level: 0,
+            since: (0, model.approach().first_touch()),
+            last: (0, model.time_step() / model.step_factor()),
+            next: FIRST_PAUSE,
+        })
+    }
+
+    /// Time step, s.
+    pub fn time_step(&self, model: &Model) -> f64 {
+        model.time_step() * share(self.level)
+    }
+
+    /// Time after a step of this level, s.
+    pub fn time_after(&self, step: u64, model: &Model) -> f64 {
+        let (since_step, since_time) = self.since;
+        since_time + step.saturating_sub(since_step) as f64 * self.time_step(model)
+    }
+
+    /// Whether the critical step is to be bounded at this step.
+    pub fn is_due(&self, step: u64) -> bool {
+        step >= self.next
+    }
+
+    /// Whether it can be of a run at this step.
+    pub fn is_sound_at(&self, step: u64) -> bool {
+        let critical = self.last.1;
+        self.level <= MOST_LEVELS
+            && self.since.0 <= step
+            && self.last.0 <= step
+            && critical > 0.0
+            && critical.is_finite()
+    }
+
+    /// The pace from a step and its time (s) on, with this outlook; `None` if no level is short enough.
+    pub fn after(&self, model: &Model, (step, time): (u64, f64), outlook: Outlook) -> Option<Self> {
+        let Outlook { critical_time_step: critical, strain_rate } = outlook;
+        let allowed = model.step_factor() * critical * ROUNDING;
+        let longest = |room: f64| {
+            (0..=MOST_LEVELS).find(|&level| model.time_step() * share(level) * room <= allowed)
+        };
+        let shortened = longest(1.0)?;
+        let level = if shortened > self.level {
+            shortened
+        } else {
+            longest(ROOM_ABOVE).unwrap_or(self.level).min(self.level)
+        };
+        let since = if level == self.level { self.since } else { (step, time) };
+        let n_steps = step.saturating_sub(self.last.0).max(1) as f64;
+        let ratio = critical / self.last.1;
+        let change = ratio.max(ratio.recip()) - 1.0;
+        let as_before = CHANGE_BETWEEN_BOUNDS / change * n_steps;
+        let time_step = model.time_step() * share(level);
+        let until_strained = STRAIN_BETWEEN_BOUNDS / (strain_rate * time_step);
+        let pause = as_before.min(until_strained).clamp(1.0, LONGEST_PAUSE);
+        Some(Self { level, since, last: (step, critical), next: step + pause as u64 })
+    }
+}
+
+/// All time steps (s) of a run whose longest is given.
+pub(crate) fn time_steps(longest: f64) -> impl Iterator<Item = f64> {
+    (0..=MOST_LEVELS).map(move |level| longest * share(level))
+}
+
+/// 2^(−level/16), of roots and products alone, which are the same on all machines.
+fn share(level: u32) -> f64 {
+    let (mut share, mut root, mut rest) = (1.0, 0.5f64.sqrt().sqrt().sqrt().sqrt(), level);
+    while rest > 0 {
+        if rest % 2 == 1 {
+            share *= root;
+        }
+        root *= root;
+        rest /= 2;
+    }
+    share
+}
+
+#[cfg(test)]
+mod tests;

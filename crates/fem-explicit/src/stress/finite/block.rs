@@ -1,0 +1,200 @@
+//! Undeformed elements in blocks of four lanes, as the loops of finite strain read them.
+
+use fem_element::QuadGeometry;
+use fem_material::finite::AxisymmetricTensor;
+use fem_mesh::SphereMesh;
+
+use super::super::lanes::{LANES, Lanes};
+use super::super::port::Collapse;
+use crate::part::Field;
+
+/// One number of each element of a block.
+pub(super) type Numbers = [f64; LANES];
+
+/// Geometry of four elements.
+///
+/// Gradients and hourglass shapes sum to zero over the corners, so those of corner 3 are left out and
+/// displacements are taken relative to it: a rigid translation gives exactly no force.
+#[derive(Debug, Clone)]
+#[repr(C, align(64))]
+pub(super) struct Block {
+    pub corners: [[u32; LANES]; 4],
+    /// 1/m.
+    pub gradient_r: [Numbers; 3],
+    /// 1/m.
+    pub gradient_y: [Numbers; 3],
+    /// 1/m.
+    pub hoop: [Numbers; 4],
+    pub hourglass: [Numbers; 3],
+    /// Of the hourglass shape at unit amplitude: rr, yy, ry, m.
+    pub measures: [Numbers; 3],
+    /// m³.
+    pub volume: Numbers,
+}
+
+impl Block {
+    /// Without volume: no deformation, no force.
+    const EMPTY: Self = Self {
+        corners: [[0; LANES]; 4],
+        gradient_r: [[0.0; LANES]; 3],
+        gradient_y: [[0.0; LANES]; 3],
+        hoop: [[0.0; LANES]; 4],
+        hourglass: [[0.0; LANES]; 3],
+        measures: [[0.0; LANES]; 3],
+        volume: [0.0; LANES],
+    };
+
+    /// Puts an element of these corners into a lane.
+    fn put(&mut self, lane: usize, corners: &[u32; 4], geometry: &QuadGeometry) {
+        for a in 0..4 {
+            self.corners[a][lane] = corners[a];
+            self.hoop[a][lane] = geometry.hoop[a];
+        }
+        for a in 0..3 {
+            self.gradient_r[a][lane] = geometry.gradient_r[a];
+            self.gradient_y[a][lane] = geometry.gradient_y[a];
+            self.hourglass[a][lane] = geometry.hourglass[a];
+            // The amplitude γ·u is four times that of the field ξη.
+            self.measures[a][lane] = geometry.hourglass_measures[a] / 16.0;
+        }
+        self.volume[lane] = geometry.volume;
+    }
+
+    /// One element, in the first lane, of corners 0 to 3.
+    pub fn of_one(geometry: &QuadGeometry) -> Self {
+        let mut block = Self::EMPTY;
+        block.put(0, &[0, 1, 2, 3], geometry);
+        block
+    }
+}
+
+/// The elements of a body. Every corner number is below `n_nodes`, which lets the loops index without a
+/// check.
+#[derive(Debug, Clone)]
+pub(super) struct Blocks {
+    blocks: Vec<Block>,
+    n_nodes: usize,
+    n_elements: usize,
+}
+
+impl Blocks {
+    /// Packs the integrated elements of a mesh; lanes as those of the small-strain loops.
+    pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry]) -> Self {
+        let n_nodes = mesh.nodes().len();
+        assert!(
+            mesh.quads().iter().flatten().all(|&node| (node as usize) < n_nodes),
+            "an element names a node that the mesh does not have"
+        );
+        let n_elements = geometries.len();
+        let mut blocks = vec![Block::EMPTY; n_elements.div_ceil(LANES)];
+        for (element, geometry) in geometries.iter().enumerate() {
+            let (place, lane) = place(element, blocks.len());
+            blocks[place].put(lane, &mesh.quads()[element], geometry);
+        }
+        Self { blocks, n_nodes, n_elements }
+    }
+
+    /// Number of elements.
+    pub fn n_elements(&self) -> usize {
+        self.n_elements
+    }
+
+    /// The blocks, after a check that nodal fields are long enough for them.
+    #[inline(always)]
+    pub fn checked(&self, field_lengths: &[usize]) -> &[Block] {
+        assert!(field_lengths.iter().all(|&length| length >= self.n_nodes));
+        &self.blocks
+    }
+
+    /// Numbers of the elements of a block, the last one in lanes that are empty; how many are not.
+    #[inline(always)]
+    pub fn elements(&self, place: usize) -> ([u32; LANES], usize) {
+        let mut elements = [0; LANES];
+        let mut n_lanes = 0;
+        for lane in 0..LANES {
+            let element = place + lane * self.blocks.len();
+            n_lanes += usize::from(element < self.n_elements);
+            elements[lane] = element.min(self.n_elements - 1) as u32;
+        }
+        (elements, n_lanes)
+    }
+
+    /// Volume (m³) and measures (m) of an element, and the amplitude of its hourglass shape, m.
+    pub fn shape(&self, element: usize, u: &Field) -> (f64, [f64; 3], (f64, f64)) {
+        let (place, lane) = place(element, self.blocks.len());
+        let block = &self.blocks[place];
+        let at = |a: usize| u[block.corners[a][lane] as usize];
+        let (mut amplitude, last) = ((0.0, 0.0), at(3));
+        for a in 0..3 {
+            let gamma = block.hourglass[a][lane];
+            amplitude.0 += gamma * (at(a)[0] - last[0]);
+            amplitude.1 += gamma * (at(a)[1] - last[1]);
+        }
+        (block.volume[lane], [0, 1, 2].map(|k: usize| block.measures[k][lane]), amplitude)
+    }
+
+    /// Mean displacement gradient of an element.
+    pub fn gradient(&self, element: usize, u: &Field) -> AxisymmetricTensor {
+        let (place, lane) = place(element, self.blocks.len());
+        let block = &self.blocks[place];
+        let at = |a: usize| u[block.corners[a][lane] as usize];
+        let mut h = AxisymmetricTensor { tt: block.hoop[3][lane] * at(3)[0], ..Default::default() };
+        for a in 0..3 {
+            let (r, y) = (block.gradient_r[a][lane], block.gradient_y[a][lane]);
+            let (du_r, du_y) = (at(a)[0] - at(3)[0], at(a)[1] - at(3)[1]);
+            h.rr += r * du_r;
+            h.ry += y * du_r;
+            h.yr += r * du_y;
+            h.yy += y * du_y;
+            h.tt += block.hoop[a][lane] * at(a)[0];
+        }
+        h
+    }
+
+    /// Largest component (1/s) of the rate Ḟ F⁻¹ of any element; no number where one is none.
+    pub fn strain_rate(&self, u: &Field, v: &Field) -> f64 {
+        let mut largest = 0.0;
+        for element in 0..self.n_elements {
+            let (h, rate) = (self.gradient(element, u), self.gradient(element, v));
+            // Row by row: of Ḟ with F⁻ᵀ.
+            let turned = |r: f64, y: f64| {
+                let inverse = 1.0 / ((1.0 + h.rr) * (1.0 + h.yy) - h.ry * h.yr);
+                let (along_r, along_y) = ((1.0 + h.yy) * r - h.yr * y, (1.0 + h.rr) * y - h.ry * r);
+                (inverse * along_r).abs().max((inverse * along_y).abs())
+            };
+            let hoop = (rate.tt / (1.0 + h.tt)).abs();
+            let own = turned(rate.rr, rate.ry).max(turned(rate.yr, rate.yy)).max(hoop);
+            if own > largest || own.is_nan() {
+                largest = own;
+            }
+        }
+        largest
+    }
+
+    /// The element that is compressed most, or whose displacement is no number.
+    pub fn most_compressed(&self, u: &Field) -> Collapse {
+        let mut most = Collapse { element: 0, volume_ratio: f64::INFINITY };
+        for element in 0..self.n_elements {
+            let h = self.gradient(element, u);
+            let jacobian = 1.0 + h.volume_change();
+            // Beyond the axis hoop and meridian are both inside out.
+            let volume_ratio = if h.tt <= -1.0 { -jacobian.abs() } else { jacobian };
+            if volume_ratio < most.volume_ratio || volume_ratio.is_nan() {
+                most = Collapse { element, volume_ratio };
+            }
+        }
+        most
+    }
+}
+
+/// Block and lane of an element: lane l takes the l-th stretch of the elements.
+pub(super) fn place(element: usize, n_blocks: usize) -> (usize, usize) {
+    (element % n_blocks, element / n_blocks)
+}
+
+// Closures and `map` would be compiled without the instruction set of the kernel that they stand in, so
+// numbers are loaded one by one.
+#[inline(always)]
+pub(super) fn load_three<L: Lanes>(values: &[Numbers; 3]) -> [L; 3] {
+    [L::load(&values[0]), L::load(&values[1]), L::load(&values[2])]
+}

@@ -1,0 +1,233 @@
+//! The element loops of finite strain.
+
+use fem_material::finite::AxisymmetricTensor;
+
+use super::super::lanes::{LANES, LaneKernel, Lanes, run_lanes};
+use super::block::{Block, Blocks, load_three};
+use super::hourglass::{Amplitudes, Deformed};
+use super::law::{ElasticLaw, Law};
+use super::past::{self, Past};
+use crate::part::{Field, NodalField};
+
+/// The elements of a body, their law and what they remember.
+pub(super) struct Elements<'a, W> {
+    pub blocks: &'a Blocks,
+    pub law: &'a W,
+    pub history: &'a [NodalField],
+}
+
+impl<W: Law> Elements<'_, W> {
+    /// Subtracts the internal forces (N) of a displacement (m) from `f`. Whether every element has a
+    /// volume; if not, the forces mean nothing.
+    pub fn subtract_forces(&self, u: &Field, f: &mut Field) -> bool {
+        let mut output = (f, true);
+        run_lanes(Forces { elements: self, u }, &mut output);
+        output.1
+    }
+
+    #[inline(always)]
+    pub fn subtract<L: Lanes>(&self, u: &Field, f: &mut Field) -> bool {
+        let Self { blocks, law, history } = self;
+        let n_terms = law.weights().len();
+        assert!(past::is_sound(history, n_terms, blocks.n_elements()));
+        let mut past = Past::<L>::none();
+        let mut volumes = Volumes::<L>::new();
+        for (place, block) in blocks.checked(&[u.len(), f.len()]).iter().enumerate() {
+            if n_terms > 0 {
+                past.load(n_terms, history, &blocks.elements(place).0);
+            }
+            // SAFETY: the fields have been checked against the corner numbers.
+            let strain = unsafe { Strain::<L>::gather(block, u) };
+            let (conjugate, volume_change) = strain.conjugate(block, *law, &past);
+            volumes.observe(volume_change, strain.h.tt);
+            // SAFETY: as above.
+            unsafe { conjugate.scatter_subtract(block, f) };
+        }
+        volumes.are_sound()
+    }
+}
+
+struct Forces<'a, W> {
+    elements: &'a Elements<'a, W>,
+    u: &'a Field,
+}
+
+impl<'a, W: Law> LaneKernel for Forces<'a, W> {
+    type Output = (&'a mut Field, bool);
+
+    #[inline(always)]
+    fn on<L: Lanes>(self, (f, is_sound): &mut Self::Output) {
+        *is_sound = self.elements.subtract::<L>(self.u, f);
+    }
+}
+
+/// Stored energy (J) of elements that do not relax, of a displacement (m).
+pub(super) fn stored_energy<W: ElasticLaw>(blocks: &Blocks, law: &W, u: &Field) -> f64 {
+    let mut energy = 0.0;
+    run_lanes(Energy { blocks, law, u }, &mut energy);
+    energy
+}
+
+struct Energy<'a, W> {
+    blocks: &'a Blocks,
+    law: &'a W,
+    u: &'a Field,
+}
+
+impl<W: ElasticLaw> LaneKernel for Energy<'_, W> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn on<L: Lanes>(self, energy: &mut f64) {
+        *energy = sum_energy::<L, W>(self.blocks, self.law, self.u);
+    }
+}
+
+/// How lanes of elements are deformed: mean displacement gradient, and amplitude of the hourglass shape,
+/// m.
+#[derive(Clone, Copy)]
+pub(super) struct Strain<L> {
+    pub h: AxisymmetricTensor<L>,
+    pub q: (L, L),
+}
+
+/// What is conjugate to that: J, and N.
+pub(super) struct Conjugate<L> {
+    pub stress: AxisymmetricTensor<L>,
+    pub q: (L, L),
+}
+
+impl<L: Lanes> Strain<L> {
+    /// # Safety
+    /// Every corner of the block is an index of `u`.
+    #[inline(always)]
+    pub unsafe fn gather(block: &Block, u: &Field) -> Self {
+        // SAFETY: the caller's promise.
+        let ((r0, y0), (r1, y1), (r2, y2), (r3, y3)) = unsafe {
+            (
+                L::gather(u, &block.corners[0]),
+                L::gather(u, &block.corners[1]),
+                L::gather(u, &block.corners[2]),
+                L::gather(u, &block.corners[3]),
+            )
+        };
+        let (dr0, dr1, dr2) = (r0 - r3, r1 - r3, r2 - r3);
+        let (dy0, dy1, dy2) = (y0 - y3, y1 - y3, y2 - y3);
+        let [a0, a1, a2] = load_three::<L>(&block.gradient_r);
+        let [b0, b1, b2] = load_three::<L>(&block.gradient_y);
+        let [g0, g1, g2] = load_three::<L>(&block.hourglass);
+        let [t0, t1] = [L::load(&block.hoop[0]), L::load(&block.hoop[1])];
+        let [t2, t3] = [L::load(&block.hoop[2]), L::load(&block.hoop[3])];
+        Self {
+            h: AxisymmetricTensor {
+                rr: a0 * dr0 + a1 * dr1 + a2 * dr2,
+                ry: b0 * dr0 + b1 * dr1 + b2 * dr2,
+                yr: a0 * dy0 + a1 * dy1 + a2 * dy2,
+                yy: b0 * dy0 + b1 * dy1 + b2 * dy2,
+                tt: (t0 * r0 + t1 * r1) + (t2 * r2 + t3 * r3),
+            },
+            q: (g0 * dr0 + g1 * dr1 + g2 * dr2, g0 * dy0 + g1 * dy1 + g2 * dy2),
+        }
+    }
+
+    /// Derivative of the energy, and J − 1.
+    #[inline(always)]
+    pub fn conjugate<W: Law>(&self, block: &Block, law: &W, past: &Past<L>) -> (Conjugate<L>, L) {
+        let weights = law.weights();
+        let (p, volume_change) = law.first_piola(&self.h, &past.strains[..weights.len()]);
+        let measures = load_three(&block.measures);
+        let deformed = Deformed::of(&self.h, L::splat(law.shear()), measures);
+        let own = deformed.pull(self.q);
+        let mut amplitudes = Amplitudes::new(own, law.equilibrium_weight());
+        for (term, &weight) in weights.iter().enumerate() {
+            amplitudes.add_term(weight, past.amplitudes[term]);
+        }
+        let shape = deformed.force(&amplitudes);
+        let volume = L::load(&block.volume);
+        let stress = AxisymmetricTensor {
+            rr: volume * p.rr + shape.stress.rr,
+            ry: volume * p.ry + shape.stress.ry,
+            yr: volume * p.yr + shape.stress.yr,
+            yy: volume * p.yy + shape.stress.yy,
+            tt: volume * p.tt + shape.stress.tt,
+        };
+        (Conjugate { stress, q: shape.q }, volume_change)
+    }
+}
+
+impl<L: Lanes> Conjugate<L> {
+    /// Force at a corner but for the hoop stress.
+    #[inline(always)]
+    fn force(&self, block: &Block, a: usize) -> (L, L) {
+        let (g_r, g_y) = (L::load(&block.gradient_r[a]), L::load(&block.gradient_y[a]));
+        let gamma = L::load(&block.hourglass[a]);
+        let Self { stress, q } = self;
+        (
+            g_r * stress.rr + g_y * stress.ry + gamma * q.0,
+            g_r * stress.yr + g_y * stress.yy + gamma * q.1,
+        )
+    }
+
+    /// # Safety
+    /// Every corner of the block is an index of `f`.
+    #[inline(always)]
+    pub unsafe fn scatter_subtract(&self, block: &Block, f: &mut Field) {
+        let (r0, y0) = self.force(block, 0);
+        let (r1, y1) = self.force(block, 1);
+        let (r2, y2) = self.force(block, 2);
+        let zero = L::splat(0.0);
+        let (r3, y3) = (zero - (r0 + r1 + r2), zero - (y0 + y1 + y2));
+        let tt = self.stress.tt;
+        // SAFETY: the caller's promise.
+        unsafe {
+            (r0 + L::load(&block.hoop[0]) * tt).scatter_subtract(y0, f, &block.corners[0]);
+            (r1 + L::load(&block.hoop[1]) * tt).scatter_subtract(y1, f, &block.corners[1]);
+            (r2 + L::load(&block.hoop[2]) * tt).scatter_subtract(y2, f, &block.corners[2]);
+            (r3 + L::load(&block.hoop[3]) * tt).scatter_subtract(y3, f, &block.corners[3]);
+        }
+    }
+}
+
+/// What the loops learn of the volumes on their way.
+pub(super) struct Volumes<L> {
+    /// Least J − 1, and least hoop.
+    least: L,
+    /// 0, or no number where a J is none.
+    zero: L,
+}
+
+impl<L: Lanes> Volumes<L> {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self { least: L::splat(0.0), zero: L::splat(0.0) }
+    }
+
+    #[inline(always)]
+    pub fn observe(&mut self, volume_change: L, hoop: L) {
+        self.least = volume_change.min(hoop.min(self.least));
+        self.zero = self.zero + volume_change * L::splat(0.0);
+    }
+
+    /// Whether all are positive.
+    #[inline(always)]
+    pub fn are_sound(&self) -> bool {
+        let (least, zero): ([f64; LANES], [f64; LANES]) =
+            (self.least.to_array(), self.zero.to_array());
+        least.iter().all(|change| *change > -1.0) && zero.iter().all(|zero| *zero == 0.0)
+    }
+}
+
+#[inline(always)]
+pub(super) fn sum_energy<L: Lanes, W: ElasticLaw>(blocks: &Blocks, law: &W, u: &Field) -> f64 {
+    let shear = L::splat(law.shear());
+    let mut energy = L::splat(0.0);
+    for block in blocks.checked(&[u.len()]) {
+        // SAFETY: the field has been checked against the corner numbers.
+        let strain = unsafe { Strain::<L>::gather(block, u) };
+        let deformed = Deformed::of(&strain.h, shear, load_three(&block.measures));
+        let shape = deformed.energy_of(deformed.pull(strain.q));
+        energy = energy + L::load(&block.volume) * law.energy(&strain.h) + shape;
+    }
+    let energy: [f64; LANES] = energy.to_array();
+    energy.iter().sum::<f64>()
+}

@@ -1,0 +1,301 @@
+//! The elements at finite strain: derivatives, objectivity, patches, the limit of small strain.
+
+use fem_material::ElasticModuli;
+use fem_material::finite::{AxisymmetricTensor, Number};
+use fem_mesh::Side;
+
+use super::super::lanes::{LANES, Lanes, Plain};
+use super::super::of_material;
+use super::block::Block;
+use super::kernel::{Conjugate, Strain};
+use super::law::Law;
+use super::past::Past;
+use super::*;
+use crate::test_support::{geometries, moduli, ragged, unit_glass, unit_sphere, vector};
+
+/// ν = 0.495 with the shear modulus of the unit glass.
+fn nearly_incompressible() -> Material {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(2.0 * 1.495, 0.495).unwrap();
+    Material::new(1.0, moduli, None).unwrap()
+}
+
+/// 96 elements of four blocks' shapes.
+fn mesh() -> SphereMesh {
+    unit_sphere(8.0, Side::Above)
+}
+
+mod relaxation;
+
+fn stress(mesh: &SphereMesh, material: &Material, law: HyperelasticLaw) -> Box<dyn Stress> {
+    finite_strain(mesh, &geometries(mesh), material, law)
+}
+
+fn motion(displacement: &Field) -> Motion<'_> {
+    Motion { time: 0.0, time_step: 0.0, displacement, velocity: &[], nodal_mass: &[] }
+}
+
+fn forces(stress: &dyn Stress, u: &Field) -> Vec<[f64; 2]> {
+    let mut f = vec![[0.0; 2]; u.len()];
+    stress.subtract_forces(&motion(u), &[], &mut f).unwrap();
+    f
+}
+
+fn energy(stress: &dyn Stress, u: &Field) -> f64 {
+    let mut accounts = Accounts::default();
+    stress.add_energies(&motion(u), &[], &mut accounts);
+    accounts.energies.get(Account::Strain).unwrap()
+}
+
+/// Stretched by a third along y, pressed by a quarter along r, sheared, and ragged.
+fn deformed(mesh: &SphereMesh) -> Vec<[f64; 2]> {
+    let noise = ragged(mesh, 3);
+    let places = mesh.nodes().iter().zip(&noise);
+    places
+        .map(|([r, y], n)| {
+            [r * (0.1 * y - 0.25) + 0.03 * n[0], 0.33 * y + 0.2 * r * r + 0.03 * n[1]]
+        })
+        .collect()
+}
+
+/// Forces of every law are the slope of its energy, in a patch where no element is like another.
+#[test]
+fn forces_are_the_derivative_of_the_energy() {
+    let mesh = mesh();
+    let u = deformed(&mesh);
+    for law in HyperelasticLaw::ALL {
+        let stress = stress(&mesh, &unit_glass(), law);
+        let f = forces(&*stress, &u);
+        let size = vector(&f).amax();
+        for k in (0..2 * u.len()).step_by(7) {
+            // Errors of δ² and of rounding over δ are 1e-9 of the largest force.
+            let delta = 1e-5;
+            let at = |shift: f64| {
+                let mut moved = u.clone();
+                moved[k / 2][k % 2] += shift;
+                energy(&*stress, &moved)
+            };
+            let slope = (at(delta) - at(-delta)) / (2.0 * delta);
+            let error = (slope + f[k / 2][k % 2]).abs();
+            assert!(error < 1e-7 * size, "{law:?} {k}: {error:e} of {size}");
+        }
+    }
+}
+
+/// A uniform stretch: the stress of the law everywhere, no force on any node inside, energy W V.
+#[test]
+fn a_large_uniform_stretch_is_exact() {
+    let mesh = mesh();
+    let on_surface: Vec<_> = mesh.surface().to_vec();
+    let volume: f64 = geometries(&mesh).iter().map(|geometry| geometry.volume).sum();
+    for material in [unit_glass(), nearly_incompressible()] {
+        for law in HyperelasticLaw::ALL {
+            let solid = Hyperelastic::new(law, material.instantaneous());
+            for (radial, axial) in [(0.6, -0.5), (-0.4, 1.2), (-0.3, -0.3), (0.4, 0.0)] {
+                let u: Vec<_> =
+                    mesh.nodes().iter().map(|[r, y]| [radial * r, 3.0 + axial * y]).collect();
+                let stress = stress(&mesh, &material, law);
+                let h =
+                    AxisymmetricTensor { rr: radial, yy: axial, tt: radial, ..Default::default() };
+                let exact = solid.cauchy(&h).unwrap();
+                let scale = material.instantaneous().bulk_modulus();
+                let mut cells = Vec::new();
+                stress.update_cauchy_stress(&u, &[], &mut cells);
+                for [rr, yy, tt, ry] in cells {
+                    // Rounding of a translation of 3 over elements of 1/8 against the stiffness.
+                    for error in [rr - exact.rr, yy - exact.yy, tt - exact.tt, ry] {
+                        assert!(error.abs() < 1e-12 * scale, "{law:?}: {error:e}");
+                    }
+                }
+                let f = forces(&*stress, &u);
+                for node in (0..f.len()).filter(|&node| !on_surface.contains(&(node as u32))) {
+                    // On the axis the sum of the hoop forces is taken up by the axis.
+                    let radial =
+                        if mesh.axis().contains(&(node as u32)) { 0.0 } else { f[node][0] };
+                    // The same, of forces of stress times element size.
+                    assert!(
+                        radial.abs() + f[node][1].abs() < 1e-12 * scale,
+                        "{node}: {:?}",
+                        f[node]
+                    );
+                }
+                let stored = energy(&*stress, &u) / (volume * solid.energy(&h).unwrap());
+                assert!((stored - 1.0).abs() < 1e-12, "{law:?}: {stored}");
+            }
+        }
+    }
+}
+
+/// A quad far from the axis and no two of whose sides are alike.
+fn far_quad() -> Block {
+    let corners = [[10.0, 0.1], [10.9, -0.1], [11.2, 1.0], [9.9, 0.8]];
+    Block::of_one(&QuadGeometry::new(&corners))
+}
+
+fn tensor([rr, ry, yr, yy, tt]: [f64; 5]) -> AxisymmetricTensor<Plain> {
+    let splat = Plain::splat;
+    AxisymmetricTensor { rr: splat(rr), ry: splat(ry), yr: splat(yr), yy: splat(yy), tt: splat(tt) }
+}
+
+fn first([rr, ry, yr, yy, tt]: [Plain; 5]) -> [f64; 5] {
+    [rr, ry, yr, yy, tt].map(|lanes| lanes.to_array()[0])
+}
+
+/// A deformation gradient (rr, ry, yr, yy, tt) and an amplitude.
+const F: [f64; 5] = [0.6, 0.3, -0.2, 1.5, 1.2];
+const Q: [f64; 2] = [0.2, -0.3];
+
+/// What a deformed and an hourglassed quad gives: stress (rr, ry, yr, yy, tt) and amplitude forces.
+fn conjugate_with(
+    law: &impl Law,
+    past: &Past<Plain>,
+    [rr, ry, yr, yy, tt]: [f64; 5],
+    q: [f64; 2],
+) -> ([f64; 5], [f64; 2]) {
+    let h = tensor([rr - 1.0, ry, yr, yy - 1.0, tt - 1.0]);
+    let strain = Strain { h, q: (Plain::splat(q[0]), Plain::splat(q[1])) };
+    let (Conjugate { stress, q }, _) = strain.conjugate(&far_quad(), law, past);
+    let stress = first([stress.rr, stress.ry, stress.yr, stress.yy, stress.tt]);
+    (stress, [q.0.to_array()[0], q.1.to_array()[0]])
+}
+
+fn conjugate(law: &impl Law, f: [f64; 5], q: [f64; 2]) -> ([f64; 5], [f64; 2]) {
+    conjugate_with(law, &Past::none(), f, q)
+}
+
+fn turn([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+/// The meridian part of a tensor after a rotation.
+fn turned([rr, ry, yr, yy, tt]: [f64; 5], angle: f64) -> [f64; 5] {
+    let ([rr, yr], [ry, yy]) = (turn([rr, yr], angle), turn([ry, yy], angle));
+    [rr, ry, yr, yy, tt]
+}
+
+/// A rotation of the meridian part turns stress and amplitude forces with it, and nothing else.
+#[test]
+fn a_rotation_turns_stress_and_hourglass_forces() {
+    for law in HyperelasticLaw::ALL {
+        let solid = Hyperelastic::new(law, unit_glass().instantaneous());
+        let (stress, force) = conjugate(&solid, F, Q);
+        for angle in [0.1, 1.0, 2.5, -2.0] {
+            let (found, found_force) = conjugate(&solid, turned(F, angle), turn(Q, angle));
+            let (expected, expected_force) = (turned(stress, angle), turn(force, angle));
+            let all = found.iter().chain(&found_force);
+            for (found, expected) in all.zip(expected.iter().chain(&expected_force)) {
+                // Rounding: the volume is 60, the stiffness 3.
+                assert!((found - expected).abs() < 1e-12, "{law:?} {angle}: {found} {expected}");
+            }
+        }
+        // A rotation alone gives none.
+        let (stress, force) = conjugate(&solid, turned([1.0, 0.0, 0.0, 1.0, 1.0], 0.7), [0.0; 2]);
+        assert!(stress.iter().chain(&force).all(|x| x.abs() < 1e-12), "{law:?} {stress:?}");
+    }
+}
+
+/// The difference to the small-strain element is of second order in the displacement.
+#[test]
+fn small_strain_is_the_limit() {
+    let mesh = mesh();
+    for material in [unit_glass(), nearly_incompressible()] {
+        let small = of_material(&mesh, &geometries(&mesh), &material);
+        let shape = ragged(&mesh, 4);
+        for law in HyperelasticLaw::ALL {
+            let finite = stress(&mesh, &material, law);
+            let error = |scale: f64| {
+                let u: Vec<_> = shape.iter().map(|u| u.map(|u| scale * u)).collect();
+                let exact = vector(&forces(&*small, &u));
+                (vector(&forces(&*finite, &u)) - &exact).amax() / exact.amax()
+            };
+            let (one, half) = (error(2e-5), error(1e-5));
+            let order = (one / half).log2();
+            // The force itself is of first order.
+            assert!((order - 1.0).abs() < 0.01, "{law:?}: {order} {one:e} {half:e}");
+        }
+    }
+}
+
+#[test]
+fn a_rigid_translation_gives_exactly_no_force() {
+    let mesh = mesh();
+    for law in HyperelasticLaw::ALL {
+        let stress = stress(&mesh, &unit_glass(), law);
+        let u = vec![[0.0, 1.234_567e3]; mesh.nodes().len()];
+        assert!(forces(&*stress, &u).iter().flatten().all(|f| *f == 0.0), "{law:?}");
+        assert_eq!(energy(&*stress, &u), 0.0);
+    }
+}
+
+/// Axial momentum: the forces of any deformation sum to zero.
+#[test]
+fn internal_forces_balance() {
+    let mesh = mesh();
+    let f = forces(&*stress(&mesh, &unit_glass(), HyperelasticLaw::NeoHooke), &deformed(&mesh));
+    let (sum, size) = f.iter().fold((0.0, 0.0), |(sum, size), f| (sum + f[1], size + f[1].abs()));
+    // Rounding of a hundred terms.
+    assert!(f64::abs(sum) < 1e-15 * size, "{sum:e} {size}");
+}
+
+/// An element that is turned inside out, or is no number, is told by its number.
+#[test]
+fn a_collapsed_element_is_named() {
+    let mesh = mesh();
+    for law in HyperelasticLaw::ALL {
+        let stress = stress(&mesh, &unit_glass(), law);
+        // J = 1 − 2 c y: inside out at the far pole, and most at y = 2.
+        let c = 0.3;
+        let u: Vec<_> = mesh.nodes().iter().map(|[_, y]| [0.0, -c * y * y]).collect();
+        let height = |element: usize| mesh.corners(element).iter().map(|x| 0.25 * x[1]).sum();
+        let heights: Vec<f64> = (0..mesh.quads().len()).map(height).collect();
+        let top = (0..heights.len()).max_by(|&a, &b| heights[a].total_cmp(&heights[b])).unwrap();
+        let mut f = vec![[0.0; 2]; u.len()];
+        let collapse = stress.subtract_forces(&motion(&u), &[], &mut f).unwrap_err();
+        assert_eq!(collapse.element, top, "{law:?}");
+        // The mean over the volume is not that of the corners.
+        assert!((collapse.volume_ratio - (1.0 - 2.0 * c * heights[top])).abs() < 0.02);
+        assert!(collapse.volume_ratio < 0.0, "{collapse:?}");
+        // All of it beyond the axis: J = 1.
+        let u: Vec<_> = mesh.nodes().iter().map(|[r, _]| [-2.0 * r, 0.0]).collect();
+        let mut f = vec![[0.0; 2]; u.len()];
+        let collapse = stress.subtract_forces(&motion(&u), &[], &mut f).unwrap_err();
+        // Rounding.
+        assert!((collapse.volume_ratio + 1.0).abs() < 1e-12, "{law:?} {collapse:?}");
+        for wrong in [f64::NAN, f64::INFINITY] {
+            let mut u = deformed(&mesh);
+            u[mesh.quads()[5][2] as usize][1] = wrong;
+            let mut f = vec![[0.0; 2]; u.len()];
+            let collapse = stress.subtract_forces(&motion(&u), &[], &mut f).unwrap_err();
+            assert!(mesh.quads()[collapse.element].contains(&mesh.quads()[5][2]), "{law:?}");
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn plain_and_avx2_lanes_give_the_same_bits() {
+    use super::super::lanes::Avx2;
+    #[target_feature(enable = "avx2")]
+    fn avx2(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
+        Elements { blocks, law, history: &[] }.subtract::<Avx2>(u, f);
+        kernel::sum_energy::<Avx2, _>(blocks, law, u)
+    }
+    if !std::arch::is_x86_feature_detected!("avx2") {
+        return;
+    }
+    let mesh = mesh();
+    let blocks = Blocks::pack(&mesh, &geometries(&mesh));
+    let moduli = moduli(&unit_glass());
+    let law = NeoHooke { bulk: moduli.bulk, shear: moduli.shear };
+    let u = deformed(&mesh);
+    let mut f = [vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]];
+    let [f_plain, f_avx2] = &mut f;
+    Elements { blocks: &blocks, law: &law, history: &[] }.subtract::<Plain>(&u, f_plain);
+    let one = kernel::sum_energy::<Plain, _>(&blocks, &law, &u);
+    // SAFETY: the processor has been asked.
+    let other = unsafe { avx2(&blocks, &law, &u, f_avx2) };
+    assert_eq!(one.to_bits(), other.to_bits());
+    let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&f[0]), bits(&f[1]));
+    assert!(LANES == 4 && mesh.quads().len() > LANES);
+}

@@ -1,0 +1,270 @@
+//! Elements that relax: the limit of small strain, energy, objectivity, and what they remember.
+
+use fem_material::finite::{Viscoelastic, ViscousStrain};
+use fem_material::{ActsOn, RelaxationStep};
+
+use super::super::hourglass::pulled_back;
+use super::super::law::{Law, Relaxing};
+use super::super::past::FIELDS_A_TERM;
+use super::super::relaxing::Step;
+use super::*;
+use crate::stress::lanes::LaneKernel;
+use crate::test_support::relaxing_glass;
+
+const MODES: [ActsOn; 2] = [ActsOn::All, ActsOn::Shear];
+/// Fast and slow beside the paths of the tests, and something that lasts.
+const TERMS: [(f64, f64); 2] = [(0.3, 0.2), (0.5, 2.0)];
+
+/// The elements of a body on a path that the test chooses.
+struct March {
+    stress: Box<dyn Stress>,
+    history: Vec<NodalField>,
+    u: Vec<[f64; 2]>,
+}
+
+impl March {
+    fn new(mut stress: Box<dyn Stress>, mesh: &SphereMesh, time_step: f64) -> Self {
+        stress.set_time_step(time_step);
+        let of_elements = vec![vec![[0.0; 2]; mesh.quads().len()]; stress.n_element_history()];
+        let of_nodes = vec![vec![[0.0; 2]; mesh.nodes().len()]; stress.n_history()];
+        let history = [of_elements, of_nodes].concat();
+        Self { stress, history, u: vec![[0.0; 2]; mesh.nodes().len()] }
+    }
+
+    fn step(&mut self, time_step: f64, u: &Field) {
+        let rate = |(after, before): (&[f64; 2], &[f64; 2])| {
+            [0, 1].map(|axis: usize| (after[axis] - before[axis]) / time_step)
+        };
+        let velocity: Vec<_> = u.iter().zip(&self.u).map(rate).collect();
+        self.u = u.to_vec();
+        let motion = Motion { time_step, velocity: &velocity, ..motion(&self.u) };
+        self.stress.advance(&motion, &mut self.history);
+    }
+
+    fn forces(&self) -> Vec<[f64; 2]> {
+        let mut f = vec![[0.0; 2]; self.u.len()];
+        self.stress.subtract_forces(&motion(&self.u), &self.history, &mut f).unwrap();
+        f
+    }
+
+    /// What is stored, and dissipated a second.
+    fn energies(&self, u: &Field) -> (f64, f64) {
+        let mut accounts = Accounts::default();
+        self.stress.add_energies(&motion(u), &self.history, &mut accounts);
+        let power = accounts.powers.get(Account::ViscousDissipation).unwrap();
+        (accounts.energies.get(Account::Strain).unwrap(), power)
+    }
+}
+
+fn scaled(shape: &Field, factor: f64) -> Vec<[f64; 2]> {
+    shape.iter().map(|u| u.map(|u| factor * u)).collect()
+}
+
+/// Shares of a deformation over time, up and back.
+const PATH: [(f64, f64); 4] = [(0.05, 0.6), (0.2, 1.0), (1.0, 0.7), (0.1, -0.2)];
+
+/// The difference to the small-strain element, whose terms relax alike, is of second order.
+#[test]
+fn small_strain_relaxation_is_the_limit() {
+    let mesh = mesh();
+    let shape = ragged(&mesh, 4);
+    for acts_on in MODES {
+        let material = relaxing_glass(&TERMS, acts_on);
+        for law in HyperelasticLaw::ALL {
+            let error = |scale: f64| {
+                let small = of_material(&mesh, &geometries(&mesh), &material);
+                let mut small = March::new(small, &mesh, PATH[0].0);
+                let mut finite = March::new(stress(&mesh, &material, law), &mesh, PATH[0].0);
+                for (time_step, share) in PATH {
+                    let u = scaled(&shape, scale * share);
+                    small.step(time_step, &u);
+                    finite.step(time_step, &u);
+                }
+                let exact = vector(&small.forces());
+                (vector(&finite.forces()) - &exact).amax() / exact.amax()
+            };
+            let (one, half) = (error(2e-5), error(1e-5));
+            let order = (one / half).log2();
+            assert!((order - 1.0).abs() < 0.01, "{law:?} {acts_on:?}: {order} {one:e} {half:e}");
+        }
+    }
+}
+
+/// A body that is deformed and held for a while.
+fn held(law: HyperelasticLaw, acts_on: ActsOn) -> (SphereMesh, March) {
+    let mesh = mesh();
+    let stress = stress(&mesh, &relaxing_glass(&TERMS, acts_on), law);
+    let mut march = March::new(stress, &mesh, 0.3);
+    let u = deformed(&mesh);
+    for share in [0.4, 1.0, 0.9] {
+        march.step(0.3, &scaled(&u, share));
+    }
+    (mesh, march)
+}
+
+/// At a fixed past.
+#[test]
+fn forces_are_the_derivative_of_what_is_stored() {
+    for acts_on in MODES {
+        for law in HyperelasticLaw::ALL {
+            let (_, march) = held(law, acts_on);
+            let f = march.forces();
+            let size = vector(&f).amax();
+            for k in (0..2 * f.len()).step_by(7) {
+                // Errors of δ² and of rounding over δ are 1e-9 of the largest force.
+                let delta = 1e-5;
+                let at = |shift: f64| {
+                    let mut moved = march.u.clone();
+                    moved[k / 2][k % 2] += shift;
+                    march.energies(&moved).0
+                };
+                let slope = (at(delta) - at(-delta)) / (2.0 * delta);
+                let error = (slope + f[k / 2][k % 2]).abs();
+                assert!(error < 1e-7 * size, "{law:?} {k}: {error:e} of {size}");
+            }
+        }
+    }
+}
+
+/// Work of the forces is stored or dissipated, up to the second order of the step.
+#[test]
+fn energy_balances() {
+    let mesh = mesh();
+    let shape = deformed(&mesh);
+    for acts_on in MODES {
+        for law in HyperelasticLaw::ALL {
+            let material = relaxing_glass(&TERMS, acts_on);
+            let residual = |n: u32| {
+                let time_step = 1.0 / f64::from(n);
+                let mut march = March::new(stress(&mesh, &material, law), &mesh, time_step);
+                let (mut work, mut dissipated) = (0.0, 0.0);
+                let (mut f, mut power) = (vector(&march.forces()), 0.0);
+                for k in 1..=n {
+                    let t = f64::from(k) * time_step;
+                    let before = vector(&march.u);
+                    // There, and a third of the way back.
+                    march.step(time_step, &scaled(&shape, t * t * (3.0 - 2.3 * t)));
+                    let (f_next, power_next) =
+                        (vector(&march.forces()), march.energies(&march.u).1);
+                    work -= 0.5 * (&f + &f_next).dot(&(vector(&march.u) - before));
+                    dissipated += 0.5 * time_step * (power + power_next);
+                    (f, power) = (f_next, power_next);
+                }
+                assert!(dissipated > 0.02 * work, "{law:?}: {dissipated} of {work}");
+                (work - march.energies(&march.u).0 - dissipated) / work
+            };
+            let (coarse, fine) = (residual(40), residual(80));
+            let order = (coarse / fine).abs().log2();
+            assert!((order - 2.0).abs() < 0.2, "{law:?} {acts_on:?}: {order} {coarse:e} {fine:e}");
+            assert!(fine.abs() < 1e-3, "{law:?} {acts_on:?}: {fine:e}");
+        }
+    }
+}
+
+/// The past lies in the undeformed element: a rotation of the present turns stress and amplitude forces.
+#[test]
+fn a_rotation_turns_what_has_relaxed() {
+    let series_of = relaxing_glass(&TERMS, ActsOn::All);
+    let series = series_of.relaxation().unwrap();
+    for law in HyperelasticLaw::ALL {
+        let solid = Hyperelastic::new(law, series_of.instantaneous());
+        let law = Relaxing::of(Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
+        let mut past = Past::none();
+        let splat = Plain::splat;
+        let strain = |rr, yy, ry, volume| ViscousStrain {
+            rr: splat(rr),
+            yy: splat(yy),
+            ry: splat(ry),
+            volume_change: splat(volume),
+        };
+        past.strains[0] = strain(-0.3, 0.4, 0.2, 0.1);
+        past.strains[1] = strain(-0.1, 0.1, -0.1, -0.1);
+        past.amplitudes[0] = (splat(0.1), splat(0.2));
+        past.amplitudes[1] = (splat(-0.1), splat(0.05));
+        let at = |angle: f64| conjugate_with(&law, &past, turned(F, angle), turn(Q, angle));
+        let (stress, force) = at(0.0);
+        for angle in [0.1, 1.0, 2.5, -2.0] {
+            let (expected, expected_force) = (turned(stress, angle), turn(force, angle));
+            let (found, found_force) = at(angle);
+            let all = found.iter().chain(&found_force);
+            for (found, expected) in all.zip(expected.iter().chain(&expected_force)) {
+                // Rounding: the volume is 60, the stiffness 3.
+                assert!((found - expected).abs() < 1e-12, "{angle}: {found} {expected}");
+            }
+        }
+    }
+}
+
+/// An amplitude on an undeformed element flows as a Maxwell element does, exactly.
+#[test]
+fn a_held_amplitude_relaxes_exactly() {
+    let (mesh, hold) = (mesh(), 0.7);
+    let material = relaxing_glass(&TERMS, ActsOn::Shear);
+    let mut march = March::new(stress(&mesh, &material, HyperelasticLaw::NeoHooke), &mesh, 0.1);
+    let (u, blocks) = (deformed(&mesh), Blocks::pack(&mesh, &geometries(&mesh)));
+    march.step(1e-12, &u);
+    let at_once = march.history.clone();
+    march.step(hold, &u);
+    for (term, (_, time)) in TERMS.iter().enumerate() {
+        let decay = RelaxationStep::new(*time, hold).decay;
+        for element in 0..mesh.quads().len() {
+            let (_, _, amplitude) = blocks.shape(element, &u);
+            let own = pulled_back(&blocks.gradient(element, &u), amplitude);
+            let flown = march.history[FIELDS_A_TERM * term + 2][element];
+            let before = at_once[FIELDS_A_TERM * term + 2][element];
+            let error = (own.0 - flown[0]) - decay * (own.0 - before[0]);
+            // Rounding of amplitudes of a hundredth.
+            assert!(error.abs() < 1e-15, "{error:e}");
+            assert!((own.0 - flown[0]).abs() <= own.0.abs());
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[test]
+fn plain_and_avx2_lanes_relax_to_the_same_bits() {
+    use super::super::super::lanes::Avx2;
+    use super::super::relaxing::Advance;
+    #[target_feature(enable = "avx2")]
+    fn avx2(advance: Advance<'_>, history: &mut [NodalField]) {
+        advance.on::<Avx2>(history);
+    }
+    #[target_feature(enable = "avx2")]
+    fn forces_on_avx2(elements: &Elements<'_, impl Law>, u: &Field, f: &mut Field) {
+        elements.subtract::<Avx2>(u, f);
+    }
+    if !std::arch::is_x86_feature_detected!("avx2") {
+        return;
+    }
+    let mesh = mesh();
+    let material = relaxing_glass(&TERMS, ActsOn::All);
+    let series = material.relaxation().unwrap();
+    let solid = Hyperelastic::new(HyperelasticLaw::NeoHooke, material.instantaneous());
+    let viscoelastic = Viscoelastic::new(&solid, series);
+    let law = viscoelastic.neo_hooke().unwrap().clone();
+    let law = Relaxing::of(law, solid.shear_modulus(), series);
+    let blocks = Blocks::pack(&mesh, &geometries(&mesh));
+    let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
+    let (u, v) = (deformed(&mesh), ragged(&mesh, 9));
+    let motion = Motion { velocity: &v, ..motion(&u) };
+    let history = vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 6];
+    let history: Vec<Vec<_>> = history;
+    let mut both = [history.clone(), history];
+    let [plain, lanes] = &mut both;
+    let advance = || Advance { blocks: &blocks, step: &step, motion: &motion };
+    advance().on::<Plain>(plain);
+    // SAFETY: the processor has been asked.
+    unsafe { avx2(advance(), lanes) };
+    let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
+    for (plain, lanes) in plain.iter().zip(lanes.iter()) {
+        assert_eq!(bits(plain), bits(lanes));
+    }
+    let elements = Elements { blocks: &blocks, law: &law, history: plain };
+    let mut f = [vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]];
+    let [f_plain, f_lanes] = &mut f;
+    elements.subtract::<Plain>(&u, f_plain);
+    // SAFETY: as above.
+    unsafe { forces_on_avx2(&elements, &u, f_lanes) };
+    assert_eq!(bits(f_plain), bits(f_lanes));
+    assert!(vector(f_plain).amax() > 0.0);
+}

@@ -1,0 +1,192 @@
+//! A law beyond Hooke by its name, and the stress of a point.
+
+use super::hencky::Hencky;
+use super::kinematics::{Strain, first_piola};
+use super::neo_hooke::NeoHooke;
+use super::neo_hooke_ln::NeoHookeLn;
+use super::principal::{PrincipalAxes, PrincipalStiffness, Response};
+use super::saint_venant_kirchhoff::SaintVenantKirchhoff;
+use super::tensor::{AxisymmetricTensor, SymmetricTensor};
+use crate::elastic::ElasticModuli;
+
+/// Which energy a solid stores at finite strain; all have the moduli K and G at small strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HyperelasticLaw {
+    /// G/2 (J^(−2/3) tr b − 3) + K/2 (J − 1)².
+    #[default]
+    NeoHooke,
+    /// G/2 (tr b − 3) − G ln J + λ/2 ln²J.
+    NeoHookeLn,
+    /// K/2 ln²J + G |dev ln V|².
+    Hencky,
+    /// λ/2 (tr E)² + G E:E, with Green's strain E.
+    SaintVenantKirchhoff,
+}
+
+impl HyperelasticLaw {
+    /// All laws, the default first.
+    pub const ALL: [Self; 4] =
+        [Self::NeoHooke, Self::NeoHookeLn, Self::Hencky, Self::SaintVenantKirchhoff];
+
+    /// The name that case files give it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NeoHooke => "neo-hooke",
+            Self::NeoHookeLn => "neo-hooke-ln",
+            Self::Hencky => "hencky",
+            Self::SaintVenantKirchhoff => "saint-venant-kirchhoff",
+        }
+    }
+}
+
+/// A point that is deformed inside out: J = det F is not positive.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("the material is turned inside out: its volume is {jacobian:?} times the undeformed one")]
+pub struct Inverted {
+    /// J = det F, or no number where the displacement is none.
+    pub jacobian: f64,
+}
+
+/// A hyperelastic solid: a law and its moduli.
+///
+/// Deformation is given as the displacement gradient H, F = 1 + H: at small strain F − 1 would
+/// have lost digits. Energies are those of the undeformed volume.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hyperelastic {
+    law: HyperelasticLaw,
+    bulk: f64,
+    shear: f64,
+}
+
+impl Hyperelastic {
+    /// Of a law that has these moduli at small strain.
+    pub fn new(law: HyperelasticLaw, moduli: &ElasticModuli) -> Self {
+        Self { law, bulk: moduli.bulk_modulus(), shear: moduli.shear_modulus() }
+    }
+
+    /// The same law with these parts of K and G.
+    pub(super) fn scaled(&self, bulk: f64, shear: f64) -> Self {
+        Self { law: self.law, bulk: bulk * self.bulk, shear: shear * self.shear }
+    }
+
+    /// The law.
+    pub fn law(&self) -> HyperelasticLaw {
+        self.law
+    }
+
+    /// Bulk modulus K at small strain, Pa.
+    pub fn bulk_modulus(&self) -> f64 {
+        self.bulk
+    }
+
+    /// Shear modulus G at small strain, Pa.
+    pub fn shear_modulus(&self) -> f64 {
+        self.shear
+    }
+
+    /// Energy per undeformed volume W, J/m³.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    #[inline]
+    pub fn energy(&self, h: &AxisymmetricTensor) -> Result<f64, Inverted> {
+        Ok(self.energy_of(&upright(h)?))
+    }
+
+    /// First Piola-Kirchhoff stress P = ∂W/∂F, Pa: force by undeformed area.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    #[inline]
+    pub fn first_piola(&self, h: &AxisymmetricTensor) -> Result<AxisymmetricTensor, Inverted> {
+        let strain = upright(h)?;
+        let Self { law, bulk, shear } = *self;
+        if law == HyperelasticLaw::NeoHooke {
+            return Ok(NeoHooke { bulk, shear }.first_piola(h).0);
+        }
+        Ok(first_piola(&self.kirchhoff(&strain), h, 1.0 / (1.0 + strain.volume_change)))
+    }
+
+    /// Cauchy stress σ = P Fᵀ/J, Pa: force by deformed area.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    #[inline]
+    pub fn cauchy(&self, h: &AxisymmetricTensor) -> Result<SymmetricTensor, Inverted> {
+        let strain = upright(h)?;
+        Ok(self.kirchhoff(&strain).times(1.0 / (1.0 + strain.volume_change)))
+    }
+
+    /// A = ∂P/∂F, Pa, of the components rr, ry, yr, yy, tt; symmetric.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn tangent(&self, h: &AxisymmetricTensor) -> Result<[[f64; 5]; 5], Inverted> {
+        upright(h)?;
+        let axes = PrincipalAxes::of(h);
+        Ok(self.principal_stiffness(axes.stretches).tangent(&axes))
+    }
+
+    /// The largest eigenvalue of ∂P/∂F from above, to 1e-6, Pa.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn largest_stiffness(&self, h: &AxisymmetricTensor) -> Result<f64, Inverted> {
+        upright(h)?;
+        Ok(self.principal_stiffness(PrincipalAxes::of(h).stretches).largest_eigenvalue())
+    }
+
+    fn principal_stiffness(&self, stretches: [f64; 3]) -> PrincipalStiffness {
+        PrincipalStiffness::new(stretches, &self.principal(stretches))
+    }
+
+    #[inline]
+    pub(super) fn energy_of(&self, strain: &Strain) -> f64 {
+        let Self { law, bulk, shear } = *self;
+        match law {
+            HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.energy_of(strain),
+            HyperelasticLaw::NeoHookeLn => NeoHookeLn { bulk, shear }.energy(strain),
+            HyperelasticLaw::Hencky => Hencky { bulk, shear }.energy(strain),
+            HyperelasticLaw::SaintVenantKirchhoff => {
+                SaintVenantKirchhoff { bulk, shear }.energy(strain)
+            }
+        }
+    }
+
+    #[inline]
+    pub(super) fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+        let Self { law, bulk, shear } = *self;
+        match law {
+            HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.kirchhoff(strain),
+            HyperelasticLaw::NeoHookeLn => NeoHookeLn { bulk, shear }.kirchhoff(strain),
+            HyperelasticLaw::Hencky => Hencky { bulk, shear }.kirchhoff(strain),
+            HyperelasticLaw::SaintVenantKirchhoff => {
+                SaintVenantKirchhoff { bulk, shear }.kirchhoff(strain)
+            }
+        }
+    }
+
+    fn principal(&self, stretches: [f64; 3]) -> Response {
+        let Self { law, bulk, shear } = *self;
+        match law {
+            HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.principal(stretches),
+            HyperelasticLaw::NeoHookeLn => NeoHookeLn { bulk, shear }.principal(stretches),
+            HyperelasticLaw::Hencky => Hencky { bulk, shear }.principal(stretches),
+            HyperelasticLaw::SaintVenantKirchhoff => {
+                SaintVenantKirchhoff { bulk, shear }.principal(stretches)
+            }
+        }
+    }
+}
+
+/// The strain of a displacement gradient that turns nothing inside out: J, the plane part and the
+/// hoop are positive, and numbers.
+#[inline]
+pub(super) fn upright(h: &AxisymmetricTensor) -> Result<Strain, Inverted> {
+    let strain = Strain::of(h);
+    if strain.volume_change > -1.0 && strain.volume_change.is_finite() && h.tt > -1.0 {
+        Ok(strain)
+    } else {
+        Err(Inverted { jacobian: 1.0 + strain.volume_change })
+    }
+}

@@ -1,0 +1,31 @@
+//! Finite strain: what a point of a hyperelastic body of revolution stores and exerts.
+//!
+//! All is per volume of the undeformed body, of the displacement gradient H, F = 1 + H:
+//!
+//! ```math
+//! W = W(F), \qquad P = \frac{\partial W}{\partial F}, \qquad \tau = P F^T, \qquad \sigma = \tau/J
+//! ```
+//!
+//! with P the first Piola-Kirchhoff stress, τ Kirchhoff's, σ Cauchy's; tension is positive.
+
+mod hencky;
+mod hyperelastic;
+mod kinematics;
+mod logarithm;
+mod neo_hooke;
+mod neo_hooke_ln;
+mod number;
+mod principal;
+mod relaxing_neo_hooke;
+mod saint_venant_kirchhoff;
+mod tensor;
+mod viscoelastic;
+mod viscous;
+
+pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};
+pub use neo_hooke::NeoHooke;
+pub use number::{Number, inverse_cube_root, inverse_cube_root_estimate};
+pub use relaxing_neo_hooke::RelaxingNeoHooke;
+pub use tensor::{AxisymmetricTensor, SymmetricTensor};
+pub use viscoelastic::Viscoelastic;
+pub use viscous::{ViscousStep, ViscousStrain};

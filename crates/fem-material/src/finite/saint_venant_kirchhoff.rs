@@ -1,0 +1,67 @@
+//! St Venant and Kirchhoff: Hooke's law of Green's strain.
+//!
+//! ```math
+//! W = \frac\lambda2 (\mathrm{tr}\, E)^2 + G\, E:E, \qquad E = \tfrac12 (F^T F - 1), \qquad
+//! \tau = \tfrac\lambda2 \mathrm{tr}(b-1)\, b + G\, b\,(b - 1)
+//! ```
+//!
+//! (Ogden 1984, Non-linear Elastic Deformations; Ciarlet 1988, Mathematical Elasticity I, sections
+//! 3.9 and 4.10). It is what a program computes that puts Hooke's moduli into large rotations.
+//!
+//! Limits: it softens in compression and does not resist inversion. Under uniform pressure the
+//! resistance to shear, S + G λ², is gone at λ² = 1/(1 + 2G/3K), where the pressure is G λ: at
+//! J = 0.54, 0.67, 0.90 and 0.99 for ν = 0.2, 0.3, 0.45 and 0.495. In uniaxial strain the law loses
+//! ellipticity at F = 0.64, 0.71, 0.91 and 0.99. A mesh collapses from there on. The law is for
+//! comparison, at strains of some per cent.
+
+use super::kinematics::Strain;
+use super::principal::Response;
+use super::tensor::SymmetricTensor;
+
+/// Bulk and shear modulus, Pa.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SaintVenantKirchhoff {
+    pub bulk: f64,
+    pub shear: f64,
+}
+
+impl SaintVenantKirchhoff {
+    fn lambda(&self) -> f64 {
+        self.bulk - 2.0 / 3.0 * self.shear
+    }
+
+    /// Green's strain has the invariants of ½ (b − 1).
+    pub fn energy(&self, strain: &Strain) -> f64 {
+        let SymmetricTensor { rr, yy, tt, ry } = strain.left;
+        let trace = rr + yy + tt;
+        let squares = rr * rr + yy * yy + tt * tt + 2.0 * ry * ry;
+        0.125 * self.lambda() * trace * trace + 0.25 * self.shear * squares
+    }
+
+    #[inline]
+    pub fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+        let SymmetricTensor { rr, yy, tt, ry } = strain.left;
+        let half = 0.5 * self.lambda() * (rr + yy + tt);
+        let shear = self.shear;
+        // b (b − 1) = (b − 1) + (b − 1)².
+        SymmetricTensor {
+            rr: half * (1.0 + rr) + shear * (rr + (rr * rr + ry * ry)),
+            yy: half * (1.0 + yy) + shear * (yy + (yy * yy + ry * ry)),
+            tt: half * (1.0 + tt) + shear * (tt + tt * tt),
+            ry: half * ry + shear * (ry + ry * (rr + yy)),
+        }
+    }
+
+    /// τ_i and ∂τ_i/∂ln λ_j at principal stretches.
+    pub fn principal(&self, stretches: [f64; 3]) -> Response {
+        let b = stretches.map(|stretch| stretch * stretch);
+        let half = 0.5 * self.lambda() * (b.iter().sum::<f64>() - 3.0);
+        Response::new(
+            |i| b[i] * (half + self.shear * (b[i] - 1.0)),
+            |i, j| {
+                let own = half + self.shear * (2.0 * b[i] - 1.0);
+                self.lambda() * b[i] * b[j] + if i == j { 2.0 * b[i] * own } else { 0.0 }
+            },
+        )
+    }
+}

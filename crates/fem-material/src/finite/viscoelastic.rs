@@ -1,0 +1,288 @@
+//! A hyperelastic solid that relaxes: Maxwell branches beside an equilibrium spring.
+//!
+//! ```math
+//! W = g_\infty W(F) + \sum_k g_k W(F F_{v,k}^{-1}), \qquad
+//! \tau = \frac{\partial W}{\partial F} F^T, \qquad
+//! D = \sum_k \frac1{\tau_k}\left[\tfrac12\, \mathrm{dev}\,\tau_k : \mathrm{dev}\,\bar b_{e,k}
+//! + \tfrac13 \mathrm{tr}\,\tau_k\, (J_{e,k} - 1)\right]
+//! ```
+//!
+//! Every branch has the law's own form, scaled by its weight, and its own metric C_v, which flows as
+//! [`ViscousStep`] says. What is stored, W, and what is dissipated a second, D, are functions of the
+//! state, and W grows by the work of P less D.
+//!
+//! [`ActsOn::All`]: shape and volume flow with the same times, so that Poisson's ratio stays.
+//! [`ActsOn::Shear`]: only the shape flows. All laws are linear in K and G: the branches have that
+//! part of the law which goes with G, and K stays elastic.
+//!
+//! D ≥ 0: of the shape since of τ and b the larger belongs to the larger (Baker & Ericksen's
+//! inequalities, which hold wherever a law is elliptic); of the volume for neo-Hooke and Hencky,
+//! whose pressure has the sign of J_e − 1. With ln J the sum is not negative. St Venant-Kirchhoff
+//! keeps neither beyond its limits of stability, nor D ≥ 0 there.
+//!
+//! Limits: at small strain it is the Prony series, each term exact for a constant rate. At finite
+//! strain relaxation in the long run is that of all branches flowing with constant times; the
+//! viscosity of rubber that depends on the stress is not in it.
+
+use super::hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted, upright};
+use super::kinematics::{Strain, first_piola, push_forward};
+use super::neo_hooke::NeoHooke;
+use super::number::inverse_cube_root_change;
+use super::relaxing_neo_hooke::RelaxingNeoHooke;
+use super::tensor::{AxisymmetricTensor, SymmetricTensor};
+use super::viscous::{ViscousStep, ViscousStrain};
+use crate::prony::{ActsOn, PronySeries};
+
+/// A hyperelastic solid that relaxes. Its history at a point is one [`ViscousStrain`] a term.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Viscoelastic {
+    equilibrium: Hyperelastic,
+    branches: Vec<Branch>,
+    volume_flows: bool,
+    /// All branches in one, where the law allows it.
+    neo_hooke: Option<RelaxingNeoHooke>,
+}
+
+/// A Maxwell branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Branch {
+    /// The law with the branch's moduli.
+    solid: Hyperelastic,
+    relaxation_time: f64,
+}
+
+impl Viscoelastic {
+    /// Of a solid that has this law at once, and relaxes.
+    pub fn new(instantaneous: &Hyperelastic, relaxation: &PronySeries) -> Self {
+        let equilibrium_weight = relaxation.equilibrium_weight();
+        let volume_flows = relaxation.acts_on() == ActsOn::All;
+        let (of_bulk, lasting_bulk) =
+            if volume_flows { (1.0, equilibrium_weight) } else { (0.0, 1.0) };
+        let weights: Vec<f64> = relaxation.terms().iter().map(|term| term.weight).collect();
+        let branches = relaxation.terms().iter().map(|term| Branch {
+            solid: instantaneous.scaled(of_bulk * term.weight, term.weight),
+            relaxation_time: term.relaxation_time,
+        });
+        let neo_hooke = (instantaneous.law() == HyperelasticLaw::NeoHooke).then(|| {
+            let moduli = NeoHooke {
+                bulk: instantaneous.bulk_modulus(),
+                shear: instantaneous.shear_modulus(),
+            };
+            RelaxingNeoHooke { moduli, equilibrium_weight, weights, volume_flows }
+        });
+        Self {
+            equilibrium: instantaneous.scaled(lasting_bulk, equilibrium_weight),
+            branches: branches.collect(),
+            volume_flows,
+            neo_hooke,
+        }
+    }
+
+    /// The same for lanes, of the default law.
+    pub fn neo_hooke(&self) -> Option<&RelaxingNeoHooke> {
+        self.neo_hooke.as_ref()
+    }
+
+    /// How many entries the history of a point has.
+    pub fn n_terms(&self) -> usize {
+        self.branches.len()
+    }
+
+    /// A time step (s), which takes histories on.
+    pub fn step(&self, time_step: f64) -> ViscousStep {
+        let times = self.branches.iter().map(|branch| branch.relaxation_time);
+        ViscousStep::new(times, self.volume_flows, time_step)
+    }
+
+    /// Energy that is stored per undeformed volume W, J/m³.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn energy(
+        &self,
+        h: &AxisymmetricTensor,
+        history: &[ViscousStrain],
+    ) -> Result<f64, Inverted> {
+        let strain = upright(h)?;
+        let viscous = self.elastic_strains(h, strain, history);
+        Ok(self.equilibrium.energy_of(&strain)
+            + viscous.map(|(branch, elastic)| branch.solid.energy_of(&elastic)).sum::<f64>())
+    }
+
+    /// First Piola-Kirchhoff stress, Pa.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    #[inline]
+    pub fn first_piola(
+        &self,
+        h: &AxisymmetricTensor,
+        history: &[ViscousStrain],
+    ) -> Result<AxisymmetricTensor, Inverted> {
+        let strain = upright(h)?;
+        if let Some(law) = &self.neo_hooke {
+            return Ok(law.first_piola(h, history).0);
+        }
+        let stress = self.kirchhoff(h, strain, history);
+        Ok(first_piola(&stress, h, 1.0 / (1.0 + strain.volume_change)))
+    }
+
+    /// Cauchy stress, Pa.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn cauchy(
+        &self,
+        h: &AxisymmetricTensor,
+        history: &[ViscousStrain],
+    ) -> Result<SymmetricTensor, Inverted> {
+        let strain = upright(h)?;
+        Ok(self.kirchhoff(h, strain, history).times(1.0 / (1.0 + strain.volume_change)))
+    }
+
+    /// What is dissipated a second per undeformed volume D, W/m³.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn dissipation_rate(
+        &self,
+        h: &AxisymmetricTensor,
+        history: &[ViscousStrain],
+    ) -> Result<f64, Inverted> {
+        let strain = upright(h)?;
+        let rates = self.elastic_strains(h, strain, history).map(|(branch, elastic)| {
+            let stress = branch.solid.kirchhoff(&elastic);
+            let z = inverse_cube_root_change(elastic.volume_change);
+            let unimodular = (1.0 + z) * (1.0 + z);
+            let shape = unimodular * deviatoric_dot(&stress, &elastic.left);
+            let volume =
+                if self.volume_flows { stress.trace() * elastic.volume_change } else { 0.0 };
+            (0.5 * shape + volume / 3.0) / branch.relaxation_time
+        });
+        Ok(rates.sum())
+    }
+
+    /// A = ∂P/∂F at a fixed history, Pa, of the components rr, ry, yr, yy, tt: the answer to what is
+    /// short beside the relaxation times.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn tangent(
+        &self,
+        h: &AxisymmetricTensor,
+        history: &[ViscousStrain],
+    ) -> Result<[[f64; 5]; 5], Inverted> {
+        let mut sum = self.equilibrium.tangent(h)?;
+        for (branch, viscous) in self.branches.iter().zip(history) {
+            let inverse = viscous.inverse_stretch();
+            let elastic = branch.solid.tangent(&elastic_gradient(h, &inverse))?;
+            add_elastic_tangent(&mut sum, &elastic, &inverse);
+        }
+        Ok(sum)
+    }
+
+    /// The largest eigenvalue of ∂P/∂F at a fixed history from above, to 2.6 % at worst, Pa.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn largest_stiffness(
+        &self,
+        h: &AxisymmetricTensor,
+        history: &[ViscousStrain],
+    ) -> Result<f64, Inverted> {
+        Ok(largest_eigenvalue(self.tangent(h, history)?))
+    }
+
+    fn kirchhoff(
+        &self,
+        h: &AxisymmetricTensor,
+        strain: Strain,
+        history: &[ViscousStrain],
+    ) -> SymmetricTensor {
+        self.elastic_strains(h, strain, history)
+            .fold(self.equilibrium.kirchhoff(&strain), |sum, (branch, elastic)| {
+                sum.plus(&branch.solid.kirchhoff(&elastic))
+            })
+    }
+
+    /// The branches and b_e − 1, J_e − 1 of their elastic parts: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
+    fn elastic_strains<'a>(
+        &'a self,
+        h: &'a AxisymmetricTensor,
+        strain: Strain,
+        history: &'a [ViscousStrain],
+    ) -> impl Iterator<Item = (&'a Branch, Strain)> {
+        self.branches.iter().zip(history).map(move |(branch, viscous)| {
+            let (inverse, _) = viscous.inverse();
+            let left = strain.left.plus(&push_forward(&inverse, h));
+            let z = inverse_cube_root_change(viscous.volume_change);
+            let elastic = Strain {
+                left: left.rescaled(z + z + z * z),
+                volume_change: (strain.volume_change - viscous.volume_change)
+                    / (1.0 + viscous.volume_change),
+            };
+            (branch, elastic)
+        })
+    }
+}
+
+/// dev A : dev B.
+fn deviatoric_dot(a: &SymmetricTensor, b: &SymmetricTensor) -> f64 {
+    let mean = b.trace() / 3.0;
+    let deviator = SymmetricTensor { rr: b.rr - mean, yy: b.yy - mean, tt: b.tt - mean, ry: b.ry };
+    a.dot(&deviator)
+}
+
+/// F_e − 1 of F_e = F U_v⁻¹.
+fn elastic_gradient(h: &AxisymmetricTensor, inverse: &SymmetricTensor) -> AxisymmetricTensor {
+    let (f_rr, f_yy) = (1.0 + h.rr, 1.0 + h.yy);
+    AxisymmetricTensor {
+        rr: f_rr * inverse.rr + h.ry * inverse.ry - 1.0,
+        ry: f_rr * inverse.ry + h.ry * inverse.yy,
+        yr: h.yr * inverse.rr + f_yy * inverse.ry,
+        yy: h.yr * inverse.ry + f_yy * inverse.yy - 1.0,
+        tt: (1.0 + h.tt) * inverse.tt - 1.0,
+    }
+}
+
+/// Adds T A_e Tᵀ, with δF_e = Tᵀ δF = δF U_v⁻¹.
+fn add_elastic_tangent(
+    sum: &mut [[f64; 5]; 5],
+    elastic: &[[f64; 5]; 5],
+    inverse: &SymmetricTensor,
+) {
+    let SymmetricTensor { rr, yy, tt, ry } = *inverse;
+    let t = [
+        [rr, ry, 0.0, 0.0, 0.0],
+        [ry, yy, 0.0, 0.0, 0.0],
+        [0.0, 0.0, rr, ry, 0.0],
+        [0.0, 0.0, ry, yy, 0.0],
+        [0.0, 0.0, 0.0, 0.0, tt],
+    ];
+    for k in 0..5 {
+        for l in 0..5 {
+            let pairs = (0..5).flat_map(|m| (0..5).map(move |n| (m, n)));
+            sum[k][l] += pairs.map(|(m, n)| t[k][m] * elastic[m][n] * t[l][n]).sum::<f64>();
+        }
+    }
+}
+
+/// The largest eigenvalue of a symmetric matrix from above: (tr A⁶⁴)^(1/64), which is at most
+/// 5^(1/64) too large.
+fn largest_eigenvalue(matrix: [[f64; 5]; 5]) -> f64 {
+    let size = matrix.iter().flatten().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    if size == 0.0 {
+        return 0.0;
+    }
+    let mut power = matrix.map(|row| row.map(|x| x / size));
+    for _ in 0..6 {
+        power = std::array::from_fn(|k| {
+            std::array::from_fn(|l| (0..5).map(|m| power[k][m] * power[m][l]).sum())
+        });
+    }
+    let mut root: f64 = (0..5).map(|k| power[k][k]).sum();
+    for _ in 0..6 {
+        root = root.sqrt();
+    }
+    size * root
+}

@@ -1,0 +1,189 @@
+//! How a Maxwell branch flows at finite strain.
+//!
+//! F = F_e F_v, of which the metric C_v = F_vᵀ F_v is all that counts: its volume J_v² and its shape
+//! C̄_v, det C̄_v = 1. With the shape C̄ = J^{−2/3} C of the whole and a relaxation time τ
+//!
+//! ```math
+//! \dot{\bar C}_v = \frac1\tau (\bar C - s\, \bar C_v), \quad
+//! s = \tfrac13 \mathrm{tr}(\bar C \bar C_v^{-1}), \qquad \dot J_v = \frac1\tau (J - J_v)
+//! ```
+//!
+//! s keeps det C̄_v = 1. In the deformed body that is a viscous rate of dev b̄_e/2τ and a relative
+//! rate of volume (J_e − 1)/τ. For the shape it is the evolution of Reese & Govindjee (1998,
+//! International Journal of Solids and Structures 35:3455), −½ 𝓛_v b_e b_e⁻¹ = dev τ/2η, of a
+//! neo-Hooke branch with the constant viscosity η = Gτ. The other laws share it: a flow that is
+//! proportional to elastic strain where theirs would be to stress. See also Lubliner (1985,
+//! Mechanics Research Communications 12:93).
+//!
+//! **The step.** C̄ is taken to grow evenly and s to stay, so that C̄ − s C̄_v takes the Maxwell
+//! element's exact step ([`RelaxationStep`]) with the time τ/s. What s is in between only scales
+//! C̄_v, and its scale follows from its determinant (Shutov, Landgraf & Ihlemann 2013, Computer Methods in
+//! Applied Mechanics and Engineering 265:213, for the implicit Euler step):
+//!
+//! ```math
+//! \bar C_v \leftarrow \mathrm{unimodular}\left[\bar C_1 - a(\bar C_0 - s\bar C_v) - b(\bar C_1 - \bar C_0)\right],
+//! \quad a = e^{-s\Delta t/\tau}, \quad b = \frac{1-a}{s\Delta t/\tau}
+//! ```
+//!
+//! It needs no iteration and no eigenvectors. It is of second order, and exact at small strain for
+//! a constant rate, where s = 1. 0 ≤ a ≤ b ≤ 1 make C̄_v a mean of metrics: positive definite, hence
+//! stable, for any Δt/τ. For that e^{−y}, y = (s − 1)Δt/τ ≥ 0, may be 1/(1 + y + y²/2).
+
+use super::number::{Number, inverse_cube_root_change};
+use super::tensor::{AxisymmetricTensor, SymmetricTensor};
+use crate::relaxation_step::RelaxationStep;
+
+/// What one term of relaxation remembers at a point: all zero in a body that was never strained.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ViscousStrain<N = f64> {
+    /// Radial component of C̄_v − 1; the hoop's follows from det C̄_v = 1.
+    pub rr: N,
+    /// Axial component of C̄_v − 1.
+    pub yy: N,
+    /// Shear component of C̄_v − 1.
+    pub ry: N,
+    /// J_v − 1.
+    pub volume_change: N,
+}
+
+impl<N: Number> ViscousStrain<N> {
+    /// C̄_v⁻¹ − 1, and the hoop component of C̄_v − 1.
+    #[inline(always)]
+    pub(super) fn inverse(&self) -> (SymmetricTensor<N>, N) {
+        let zero = N::splat(0.0);
+        let plane = self.rr + self.yy + (self.rr * self.yy - self.ry * self.ry);
+        let scale = N::splat(1.0) / (N::splat(1.0) + plane);
+        let inverse = SymmetricTensor {
+            rr: (self.yy - plane) * scale,
+            yy: (self.rr - plane) * scale,
+            tt: plane,
+            ry: (zero - self.ry) * scale,
+        };
+        (inverse, zero - plane * scale)
+    }
+}
+
+impl ViscousStrain {
+    /// U_v⁻¹, the root of C_v⁻¹. That of a plane M is (M + √det M)/√(tr M + 2 √det M).
+    pub(super) fn inverse_stretch(&self) -> SymmetricTensor {
+        let (inverse, viscous_tt) = self.inverse();
+        let determinant_root = (1.0 + viscous_tt).sqrt();
+        let (rr, yy) = (1.0 + inverse.rr, 1.0 + inverse.yy);
+        let scale = 1.0 / (rr + yy + 2.0 * determinant_root).sqrt();
+        let stretch = SymmetricTensor {
+            rr: (rr + determinant_root) * scale,
+            yy: (yy + determinant_root) * scale,
+            tt: 1.0 / determinant_root,
+            ry: inverse.ry * scale,
+        };
+        stretch.times(1.0 + inverse_cube_root_change(self.volume_change))
+    }
+}
+
+/// C̄ − 1 and J − 1 of a deformation.
+#[derive(Debug, Clone, Copy)]
+struct Shape<N> {
+    strain: SymmetricTensor<N>,
+    volume_change: N,
+}
+
+impl<N: Number> Shape<N> {
+    #[inline(always)]
+    fn of(h: &AxisymmetricTensor<N>) -> Self {
+        let volume_change = h.volume_change();
+        let z = inverse_cube_root_change(volume_change);
+        Self { strain: h.right_strain().rescaled(z + z + z * z), volume_change }
+    }
+}
+
+/// Factors of a step of one term, made once for its relaxation time and the time step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct TermStep {
+    linear: RelaxationStep,
+    /// Δt/τ.
+    ratio: f64,
+}
+
+/// A time step of all terms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ViscousStep {
+    terms: Vec<TermStep>,
+    volume_flows: bool,
+}
+
+impl ViscousStep {
+    /// For relaxation times and a time step, all positive, s; the volume flows too or is elastic.
+    pub(super) fn new(
+        relaxation_times: impl Iterator<Item = f64>,
+        volume_flows: bool,
+        time_step: f64,
+    ) -> Self {
+        let of = |tau: f64| TermStep {
+            linear: RelaxationStep::new(tau, time_step),
+            ratio: time_step / tau,
+        };
+        Self { terms: relaxation_times.map(of).collect(), volume_flows }
+    }
+
+    /// Takes the history, one entry a term, from the displacement gradient at the start of the step
+    /// to that at its end; of both J > 0. Without a branch on what is computed.
+    #[inline(always)]
+    pub fn advance<N: Number>(
+        &self,
+        before: &AxisymmetricTensor<N>,
+        after: &AxisymmetricTensor<N>,
+        history: &mut [ViscousStrain<N>],
+    ) {
+        let (before, after) = (Shape::of(before), Shape::of(after));
+        for (term, viscous) in self.terms.iter().zip(history) {
+            term.advance_shape(&before.strain, &after.strain, viscous);
+            if self.volume_flows {
+                let (decay, gain) = (N::splat(term.linear.decay), N::splat(term.linear.gain));
+                let elastic = decay * (before.volume_change - viscous.volume_change)
+                    + gain * (after.volume_change - before.volume_change);
+                viscous.volume_change = after.volume_change - elastic;
+            }
+        }
+    }
+}
+
+impl TermStep {
+    #[inline(always)]
+    fn advance_shape<N: Number>(
+        &self,
+        before: &SymmetricTensor<N>,
+        after: &SymmetricTensor<N>,
+        viscous: &mut ViscousStrain<N>,
+    ) {
+        let (one, half) = (N::splat(1.0), N::splat(0.5));
+        let (inverse, viscous_tt) = viscous.inverse();
+        // s − 1 of the mean of C̄ over the step: tr((1 + A)(1 + B))/3 − 1.
+        let mean = before.plus(after).times(half);
+        let excess = (mean.trace() + inverse.trace() + mean.dot(&inverse)) * N::splat(1.0 / 3.0);
+        let speed = one + excess;
+        let y = excess * N::splat(self.ratio);
+        let growth = one + y + half * y * y;
+        let both = one / (speed * growth);
+        let (r, inverse_speed) = (both * speed, both * growth);
+        let linear_decay = N::splat(self.linear.decay);
+        let decay = linear_decay * r;
+        let lost = linear_decay * excess * (one + half * y) * r;
+        let gain = (N::splat(self.linear.gain) + lost) * inverse_speed;
+
+        let old =
+            SymmetricTensor { rr: viscous.rr, yy: viscous.yy, tt: viscous_tt, ry: viscous.ry };
+        let old = old.rescaled(excess);
+        let next = |old: N, before: N, after: N| {
+            after - (decay * (before - old) + gain * (after - before))
+        };
+        let rr = next(old.rr, before.rr, after.rr);
+        let yy = next(old.yy, before.yy, after.yy);
+        let ry = next(old.ry, before.ry, after.ry);
+        let tt = next(old.tt, before.tt, after.tt);
+        let plane = rr + yy + (rr * yy - ry * ry);
+        let z = inverse_cube_root_change(plane + tt + plane * tt);
+        viscous.rr = rr + (z + z * rr);
+        viscous.yy = yy + (z + z * yy);
+        viscous.ry = ry + z * ry;
+    }
+}

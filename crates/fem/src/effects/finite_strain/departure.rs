@@ -1,0 +1,138 @@
+//! What finite strain changes of a collision, foretold from collisions that were computed with and
+//! without it.
+
+use std::iter::Sum;
+use std::ops::{Add, Mul};
+
+use fem_case::Accuracy;
+use fem_material::finite::HyperelasticLaw;
+
+use super::measured::{CHANGES, POISSONS_RATIOS, STRAINS};
+
+/// What finite strain changes: of the restitution as it is, of the others as shares.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Departure {
+    pub restitution: f64,
+    pub contact_time: f64,
+    pub peak_force: f64,
+}
+
+impl Departure {
+    /// Of an elastic sphere of a law and a Poisson's ratio on a rigid wall, its contact radius a share of
+    /// its radius as Hertz foretells it: linear between the collisions of [`CHANGES`], and proportional
+    /// to the strain beyond them.
+    pub fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
+        let changes = &CHANGES[HyperelasticLaw::ALL.iter().position(|l| *l == law).unwrap_or(0)];
+        let (row, weight) = place(&POISSONS_RATIOS, poissons_ratio);
+        let slope = |row: usize| {
+            let (k, weight) = place(&STRAINS, strain);
+            let slope = |k: usize| (1.0 / STRAINS[k]) * Self::from(changes[row][k]);
+            (1.0 - weight) * slope(k) + weight * slope(k + 1)
+        };
+        strain * ((1.0 - weight) * slope(row) + weight * slope(row + 1))
+    }
+
+    /// The largest change over what a case allows of it. Of the peak pressure nothing is told: nominal
+    /// and true ones differ by more.
+    pub fn over(&self, accuracy: &Accuracy) -> f64 {
+        let shares = [
+            self.restitution / accuracy.restitution,
+            self.contact_time / accuracy.contact_time,
+            self.peak_force / accuracy.peak_force,
+        ];
+        shares.into_iter().map(f64::abs).fold(0.0, f64::max)
+    }
+
+    /// "1.00 % of the contact time and 1.80 % of the peak force".
+    pub fn in_words(&self) -> String {
+        let percent = |share: f64| super::percent(share.abs());
+        let (time, force) = (percent(self.contact_time), percent(self.peak_force));
+        format!("{time} of the contact time and {force} of the peak force")
+    }
+}
+
+/// Where a number stands in an ascending grid: the point before it, and its share of the way to the next;
+/// the ends for what lies beyond.
+fn place(grid: &[f64], x: f64) -> (usize, f64) {
+    let before = grid.partition_point(|point| *point <= x).saturating_sub(1);
+    let before = before.min(grid.len() - 2);
+    let weight = (x - grid[before]) / (grid[before + 1] - grid[before]);
+    (before, weight.clamp(0.0, 1.0))
+}
+
+impl From<[f64; 3]> for Departure {
+    fn from([restitution, contact_time, peak_force]: [f64; 3]) -> Self {
+        Self { restitution, contact_time, peak_force }
+    }
+}
+
+impl Add for Departure {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            restitution: self.restitution + other.restitution,
+            contact_time: self.contact_time + other.contact_time,
+            peak_force: self.peak_force + other.peak_force,
+        }
+    }
+}
+
+impl Mul<Departure> for f64 {
+    type Output = Departure;
+
+    fn mul(self, change: Departure) -> Departure {
+        Departure {
+            restitution: self * change.restitution,
+            contact_time: self * change.contact_time,
+            peak_force: self * change.peak_force,
+        }
+    }
+}
+
+impl Sum for Departure {
+    fn sum<I: Iterator<Item = Self>>(changes: I) -> Self {
+        changes.fold(Self::default(), Add::add)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_in_a_grid() {
+        let grid = [1.0, 2.0, 4.0];
+        let places =
+            [(0.5, (0, 0.0)), (1.0, (0, 0.0)), (3.0, (1, 0.5)), (4.0, (1, 1.0)), (9.0, (1, 1.0))];
+        for (x, expected) in places {
+            assert_eq!(place(&grid, x), expected, "{x}");
+        }
+        assert_eq!(place(&grid, f64::NAN).0, 0);
+    }
+
+    #[test]
+    fn passes_through_what_was_computed() {
+        for (law, changes) in HyperelasticLaw::ALL.into_iter().zip(&CHANGES) {
+            for (nu, row) in POISSONS_RATIOS.into_iter().zip(changes) {
+                for (strain, change) in STRAINS.into_iter().zip(row) {
+                    let found = Departure::on_a_wall(law, nu, strain);
+                    assert!(
+                        (found.contact_time - change[1]).abs() < 1e-12,
+                        "{law:?} {nu} {strain}"
+                    );
+                    assert!((found.peak_force - change[2]).abs() < 1e-12, "{law:?} {nu} {strain}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn grows_with_the_strain_from_nothing() {
+        for law in HyperelasticLaw::ALL {
+            let [none, small] = [0.0, 1e-6].map(|strain| Departure::on_a_wall(law, 0.3, strain));
+            assert_eq!(none.contact_time, 0.0);
+            assert!(small.contact_time.abs() < 1e-6 && small.peak_force.abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Finite strain: where it is on, of which bodies, and what the user is told.
+
+use std::path::Path;
+
+use fem::effects::Verdict;
+use fem::{Case, Simulation};
+
+/// Rubber that is squeezed to a contact radius of some half of its own, on a wall.
+const RUBBER: &str = r#"
+[material.rubber]
+density = "1100 kg/m^3"
+youngs_modulus = "1 MPa"
+poissons_ratio = 0.45
+hyperelastic = "hencky"
+
+[material.steel]
+density = "7800 kg/m^3"
+youngs_modulus = "200 GPa"
+poissons_ratio = 0.3
+
+[[body]]
+name = "wall"
+wall = {}
+
+[[body]]
+name = "ball"
+sphere = { diameter = "30 mm" }
+material = "rubber"
+approach_speed = "2 m/s"
+
+[output]
+snapshots = []
+"#;
+
+const STEEL_BALL: &str =
+    "body.0={ name = 'wall', sphere = { diameter = '10 mm' }, material = 'steel' }";
+const TWIN: &str = "body.0={ name = 'wall', sphere = { diameter = '30 mm' }, material = 'rubber' }";
+const SLOW: &str = "body.1.approach_speed='1 mm/s'";
+const OFF: &str = "effects.finite_strain='off'";
+const ON: &str = "effects.finite_strain='on'";
+const STIFF: &str = "material.rubber.poissons_ratio=0.499";
+
+fn simulation(set: &[&str]) -> Result<Simulation, fem::CaseError> {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    Simulation::new(Case::parse("rubber.toml", RUBBER, Path::new("."), &set).unwrap())
+}
+
+fn verdict(simulation: &Simulation) -> Verdict {
+    let verdicts = &simulation.setup().decisions.verdicts;
+    verdicts.iter().find(|verdict| verdict.name == "finite strain").unwrap().clone()
+}
+
+#[test]
+fn on_where_it_changes_more_than_the_case_allows() {
+    for (set, active) in [
+        (&[][..], true),
+        (&[OFF], false),
+        (&["accuracy.tolerance='20 %'"], false),
+        (&[SLOW], false),
+        (&[SLOW, ON], true),
+        (&[SLOW, "accuracy.tolerance=1e-6"], true),
+        (&[TWIN], true),
+        (&[STEEL_BALL], true),
+        (&[STIFF], false),
+    ] {
+        let verdict = verdict(&simulation(set).unwrap());
+        assert_eq!(verdict.active, active, "{set:?}: {verdict:?}");
+        assert!(verdict.reason.contains("hencky") || set.contains(&STIFF), "{verdict:?}");
+    }
+}
+
+/// What is said is what is computed: the same bits where it is off, and others where it is on.
+#[test]
+fn what_is_on_is_computed() {
+    let coarse = "mesh.contact_element_size='1.5 mm'";
+    let run = |set: &[&str]| simulation(set).unwrap().run(&mut ());
+    let auto = run(&[coarse]);
+    assert_eq!(auto, run(&[coarse, ON]));
+    assert_ne!(auto.contact_time, run(&[coarse, OFF]).contact_time);
+    let slow = run(&[coarse, SLOW]);
+    assert_eq!(slow.contact_time, run(&[coarse, SLOW, OFF]).contact_time);
+    // Where nothing forces it on, the law of a small strain has no part.
+    let svk = "material.rubber.hyperelastic='saint-venant-kirchhoff'";
+    assert_eq!(slow.contact_time, run(&[coarse, SLOW, svk]).contact_time);
+    assert_ne!(auto.contact_time, run(&[coarse, svk]).contact_time);
+}
+
+#[test]
+fn a_case_that_names_no_law_is_told_what_a_law_is_worth() {
+    let unnamed = RUBBER.replace("hyperelastic = \"hencky\"\n", "");
+    let set = ["mesh.contact_element_size='2 mm'".to_string()];
+    let case = Case::parse("rubber.toml", &unnamed, Path::new("."), &set).unwrap();
+    let simulation = Simulation::new(case).unwrap();
+    let reason = verdict(&simulation).reason;
+    assert!(reason.contains("neo-hooke") && reason.contains("laws differ"), "{reason}");
+    let warnings = simulation.warnings(&simulation.run(&mut ())).join("\n");
+    assert!(warnings.contains("material.NAME.hyperelastic"), "{warnings}");
+}
+
+#[test]
+fn models_without_it_say_what_they_leave_out() {
+    for model in ["model.condensed={}", "model.ting={}", "model.hertz={}"] {
+        let simulation = simulation(&[model]).unwrap();
+        let warnings = simulation.setup().warnings().join("\n");
+        assert!(warnings.contains("small strain is off by"), "{model}: {warnings}");
+        let error = self::simulation(&[model, ON]).unwrap_err();
+        assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
+    }
+    let auto = simulation(&["model.auto={}"]).unwrap();
+    assert!(verdict(&auto).active, "elements are chosen");
+}
+
+#[test]
+fn a_volume_that_hardly_gives_way_is_refused_by_force_and_told_of_otherwise() {
+    let error = simulation(&[STIFF, ON]).unwrap_err();
+    assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
+    assert!(error.message().contains("0.499 of ball is above 0.495"), "{error}");
+    let warnings = simulation(&[STIFF]).unwrap().setup().warnings().join("\n");
+    assert!(warnings.contains("0.499 of ball") && warnings.contains("leaves out"), "{warnings}");
+    assert!(simulation(&[STIFF, OFF]).is_ok());
+}

@@ -1,0 +1,154 @@
+//! Surfaces of unlike bodies that slip on each other: where a scene calls for it, and what it changes.
+
+use std::path::Path;
+
+use fem::effects::Verdict;
+use fem::{Case, Collision, Simulation};
+
+use crate::coarse;
+
+/// A steel ball on a soft sphere ten times larger; the contact grows to 0.073 of the ball's radius.
+const STEEL_ON_SOFT: &str = r#"
+[material.soft]
+density = "1200 kg/m^3"
+youngs_modulus = "3 GPa"
+poissons_ratio = 0.2
+
+[material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "206 GPa"
+poissons_ratio = 0.3
+
+[[body]]
+name = "soft"
+sphere = { diameter = "40 mm" }
+material = "soft"
+
+[[body]]
+name = "ball"
+sphere = { diameter = "4 mm" }
+material = "steel"
+approach_speed = "0.5 m/s"
+
+[output]
+snapshots = []
+"#;
+
+const OFF: &str = "effects.surface_slip='off'";
+const ON: &str = "effects.surface_slip='on'";
+/// The same springs with slip and without.
+const PENALTY: &str = "contact.method='penalty'";
+const LAW: &str = "model.law.hertz={}";
+
+fn simulation(set: &[&str]) -> Simulation {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    let case = Case::parse("steel_on_soft.toml", STEEL_ON_SOFT, Path::new("."), &set).unwrap();
+    Simulation::new(case).unwrap()
+}
+
+fn run(set: &[&str]) -> Collision {
+    simulation(set).run(&mut ())
+}
+
+fn verdict(simulation: &Simulation) -> Verdict {
+    let verdicts = &simulation.setup().decisions.verdicts;
+    verdicts.iter().find(|verdict| verdict.name == "surface slip").unwrap().clone()
+}
+
+/// Of contact time, peak force, approach, contact radius and pressure.
+fn change(with: &Collision, without: &Collision) -> [f64; 5] {
+    let numbers = |c: &Collision| {
+        [c.contact_time, c.peak_force, c.max_approach, c.max_contact_radius, c.peak_pressure]
+            .map(Option::unwrap)
+    };
+    let (with, without) = (numbers(with), numbers(without));
+    std::array::from_fn(|k| with[k] / without[k] - 1.0)
+}
+
+/// Explicit elements have the gap and the forces between the surfaces as they lie, the other models their
+/// first order: it is within a tenth, a share of a/R = 0.073.
+#[test]
+fn every_model_that_has_it_changes_alike() {
+    let [fem, condensed, ting] = ["model.fem={}", "model.condensed={}", "model.ting={}"]
+        .map(|model| change(&run(&[model, PENALTY]), &run(&[model, PENALTY, OFF])));
+    // Found with explicit elements of a 1/8 and of a 1/14: −0.60 and −0.58 %, 0.79 and 0.76 %.
+    assert!((fem[0] + 5.9e-3).abs() < 3e-4 && (fem[1] - 7.8e-3).abs() < 4e-4, "{fem:?}");
+    for other in [condensed, ting] {
+        for k in 0..3 {
+            assert!((other[k] / fem[k] - 1.0).abs() < 0.12, "{k}: {other:?} {fem:?}");
+        }
+    }
+    // The surfaces have moved together: more pressure on less area. The contact radius of explicit elements
+    // is read to a thousandth.
+    assert!((condensed[3] - fem[3]).abs() < 1.5e-3, "{condensed:?} {fem:?}");
+    assert!((condensed[4] / fem[4] - 1.0).abs() < 0.12, "{condensed:?} {fem:?}");
+    assert!(fem[4] > 1.7e-2, "{fem:?}");
+}
+
+#[test]
+fn unlike_bodies_call_for_it_and_a_switch_is_obeyed() {
+    let words = |simulation: &Simulation| simulation.setup().warnings().join("\n");
+    for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
+        let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
+        assert!(verdict(&plain).active, "{}", verdict(&plain).reason);
+        assert!(!words(&plain).contains("slip"), "{}", words(&plain));
+        assert!(!verdict(&off).active);
+        assert!(words(&off).contains("surface slip is called for, but switched off"));
+        // The resolved case says the same again.
+        let again = Simulation::new(Case::of(off.resolved().clone()).unwrap()).unwrap();
+        assert!(!verdict(&again).active);
+    }
+    // Models that lack it say how much that is.
+    for model in ["model.hertz={}", "model.hertz.finite_size=true", LAW] {
+        let (plain, off) = (simulation(&[model]), simulation(&[model, OFF]));
+        assert!(!verdict(&plain).active);
+        let said = words(&plain);
+        assert!(
+            said.contains("contact time by about 0.63 % and the peak force by 0.84 %"),
+            "{said}"
+        );
+        assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
+    }
+}
+
+/// Like bodies, and a wall, have nothing of it, to the bits; nor is there a word.
+#[test]
+fn like_bodies_have_none() {
+    for model in ["fem", "condensed", "ting"] {
+        let [plain, off] = ["effects={}", OFF].map(|switch| coarse::simulation(model, &[switch]));
+        let own = verdict(&plain);
+        assert!(!own.active && own.reason.contains("move alike"), "{}", own.reason);
+        assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
+        let wall = "body.0={ name = 'block', wall = {} }";
+        let [plain, off] = [ON, OFF].map(|switch| {
+            coarse::simulation(model, &[switch, wall, "body.1.approach_speed='0.5 m/s'"])
+        });
+        assert_eq!(plain.run(&mut ()), off.run(&mut ()), "{model}");
+    }
+}
+
+/// Forced on between like bodies it is nothing in first order, and of explicit elements what their sizes
+/// make of it: 4e-4 of the force on this coarse mesh, which is noise, and 1e-6 of the approach.
+#[test]
+fn forced_on_between_like_bodies_it_changes_nothing() {
+    for (model, allowed) in [("fem", 1e-3), ("condensed", 1e-7), ("ting", 1e-7)] {
+        let [on, off] = [ON, OFF].map(|switch| coarse::simulation(model, &[switch, PENALTY]));
+        assert!(verdict(&on).active, "{model}");
+        let change = change(&on.run(&mut ()), &off.run(&mut ()));
+        assert!(change[2].abs() < 1e-2 * allowed, "{model}: {change:?}");
+        assert!(change[..4].iter().all(|change| change.abs() < allowed), "{model}: {change:?}");
+    }
+}
+
+/// Materials that relax differently slip once they have, even if they are alike at first.
+#[test]
+fn bodies_that_relax_differently_call_for_it() {
+    let relaxing = "material.steel={ density = 1200, youngs_modulus = '3 GPa', poissons_ratio = 0.2, \
+                    relaxation = { acts_on = 'shear', terms = [{ weight = 0.8, decay_rate = 3e4 }] } }";
+    let [condensed, ting] = ["model.condensed={}", "model.ting={}"].map(|model| {
+        assert!(verdict(&simulation(&[model, relaxing])).active);
+        change(&run(&[model, relaxing]), &run(&[model, relaxing, OFF]))
+    });
+    assert!(condensed[1].abs() > 5e-5, "{condensed:?}");
+    assert!((condensed[1] / ting[1] - 1.0).abs() < 0.2, "{condensed:?} {ting:?}");
+}
