@@ -171,8 +171,9 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     let (time, step) = (state.time, state.step);
     let is_closed = contact.n_closed > 0;
     let is_first_contact = is_closed && log.first_contact.is_none();
-    let is_last_contact =
-        is_closed && contact.force < 0.5 * log.peak_force && !is_closed_next(model, state, scratch);
+    let is_last_contact = is_closed
+        && contact.force < 0.5 * log.peak_force
+        && !is_closed_next(model, state, scratch, &contact);
     log.observe(time, &contact);
     if is_closed {
         observed.touch();

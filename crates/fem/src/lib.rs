@@ -20,6 +20,7 @@ mod assess;
 mod body_source;
 pub mod calibrate;
 mod checkpoint;
+mod contact_method;
 mod course;
 pub mod effects;
 mod estimate;

@@ -106,22 +106,28 @@ fn the_next_contact_is_foreseen() {
     let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
     for _ in 0..200 {
         update_forces(&model, &state, &mut scratch).unwrap();
-        advance(&model, &mut state, &scratch);
+        advance(&model, &mut state, &mut scratch);
     }
-    update_forces(&model, &state, &mut scratch).unwrap();
+    let contact = update_forces(&model, &state, &mut scratch).unwrap();
+    let forces = || {
+        let mut other = Scratch::new(&model);
+        other.forces.clone_from(&scratch.forces);
+        other
+    };
     let lifted = |offset: f64| {
         let mut state = state.clone();
         state.bodies[1].displacement.iter_mut().for_each(|u| u[1] += offset);
         state
     };
-    let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch));
+    let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch, &contact));
     let found = threshold(|offset| {
         let mut next = lifted(offset);
-        advance(&model, &mut next, &scratch);
-        update_forces(&model, &next, &mut scratch.clone()).unwrap().n_closed > 0
+        let mut scratch = forces();
+        advance(&model, &mut next, &mut scratch);
+        update_forces(&model, &next, &mut scratch).unwrap().n_closed > 0
     });
     let now = threshold(|offset| {
-        update_forces(&model, &lifted(offset), &mut scratch.clone()).unwrap().n_closed > 0
+        update_forces(&model, &lifted(offset), &mut Scratch::new(&model)).unwrap().n_closed > 0
     });
     // Rounding; a step moves the threshold by orders more.
     assert!((foreseen - found).abs() < 1e-14, "{foreseen:e} {found:e}");

@@ -40,8 +40,18 @@ pub(crate) fn of_material(
     geometries: &[QuadGeometry],
     material: &Material,
 ) -> Box<dyn Stress> {
+    of_quads(mesh.nodes().len(), mesh.quads(), geometries, material)
+}
+
+/// The same on some elements, quads of so many nodes.
+pub(crate) fn of_quads(
+    n_nodes: usize,
+    quads: &[[u32; 4]],
+    geometries: &[QuadGeometry],
+    material: &Material,
+) -> Box<dyn Stress> {
     let elastic = Elastic {
-        blocks: Blocks::pack(mesh, geometries),
+        blocks: Blocks::pack(n_nodes, quads, geometries),
         moduli: Moduli::of(material.instantaneous()),
     };
     let relaxation = material.relaxation().filter(|series| series.relaxes());

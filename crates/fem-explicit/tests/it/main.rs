@@ -6,6 +6,7 @@ mod common;
 mod ending;
 mod finite_strain;
 mod half_space;
+mod massless;
 mod moved;
 mod observed;
 mod outputs;

@@ -8,7 +8,8 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop, Want,
 };
 use fem_explicit::{
-    Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients, Weight,
+    ContactMethod, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings,
+    ViscosityCoefficients, Weight,
 };
 use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
@@ -18,6 +19,7 @@ use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
+use crate::contact_method::unread;
 use crate::course::{Course, stopped, to_the_end};
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
@@ -82,6 +84,7 @@ struct Made {
     settings: Settings,
     /// m.
     contact_element_size: f64,
+    method: ContactMethod,
     /// See [`Plan::speed_share`].
     speed_share: f64,
     inputs: [BodyInput; 2],
@@ -105,12 +108,15 @@ impl Explicit {
         if *scene.model() != ModelChoice::Fem {
             return Err(Refusal::chose_another(scene, "fem"));
         }
-        let inputs = inputs(scene, &plan)?;
         let approach = approach_of(scene)?;
-        let contact_element_size = plan.contact_element_size;
-        let (settings, speed_share) = (settings(&plan), plan.speed_share);
-        let made =
-            Made { scene: scene.clone(), settings, contact_element_size, speed_share, inputs };
+        let made = Made {
+            scene: scene.clone(),
+            settings: settings(&plan),
+            contact_element_size: plan.contact_element_size,
+            method: method(plan.contact_method),
+            speed_share: plan.speed_share,
+            inputs: inputs(scene, &plan)?,
+        };
         let frame =
             made.own_frame(&approach).map_err(|error| Refusal::new("body", error.to_string()))?;
         let bodies = made
@@ -126,12 +132,12 @@ impl Explicit {
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: plan.warnings.clone(),
+            unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
             cost,
             elements: Some(ElementSetup {
+                finer_steps: quieter(plan.contact_method),
                 plan,
                 has_springs: true,
-                finer_steps: "lower time.step_factor",
             }),
         };
         Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
@@ -206,6 +212,7 @@ impl Made {
             approach.speed(),
             approach.speed() / self.speed_share,
         )?;
+        let parts = Parts { method: self.method, ..parts };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
@@ -310,7 +317,8 @@ fn parts(
     if let Ok(estimate) = Estimate::at(scene, approach_speed) {
         parts.finite_strain = FiniteStrain::laws(scene, &estimate);
     }
-    if BulkViscosity::is_on(scene, mach(scene, speed)) {
+    let is_finite = parts.finite_strain != [None; 2];
+    if BulkViscosity::is_on(scene, mach(scene, speed), is_finite) {
         for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
             forces.extend(bulk_viscosity(input, speed)?);
         }
@@ -340,6 +348,22 @@ fn settings(plan: &Plan) -> Settings {
         candidate_radius: plan.candidate_radius,
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
+    }
+}
+
+/// What helps against a contact that rattles or gains energy.
+fn quieter(planned: fem_case::ContactMethod) -> &'static str {
+    match planned {
+        fem_case::ContactMethod::Massless => "lower time.step_factor",
+        _ => "write contact.method = \"massless\"",
+    }
+}
+
+fn method(planned: fem_case::ContactMethod) -> ContactMethod {
+    match planned {
+        fem_case::ContactMethod::Massless => ContactMethod::Massless,
+        fem_case::ContactMethod::Penalty => ContactMethod::Penalty,
+        fem_case::ContactMethod::NodeToSurface => ContactMethod::NodeToSurface,
     }
 }
 
