@@ -25,12 +25,14 @@ impl Departure {
     pub fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
         let changes = &CHANGES[HyperelasticLaw::ALL.iter().position(|l| *l == law).unwrap_or(0)];
         let (row, weight) = place(&POISSONS_RATIOS, poissons_ratio);
-        let slope = |row: usize| {
-            let (k, weight) = place(&STRAINS, strain);
-            let slope = |k: usize| (1.0 / STRAINS[k]) * Self::from(changes[row][k]);
-            (1.0 - weight) * slope(k) + weight * slope(k + 1)
+        let (k, share) = place(&STRAINS, strain);
+        let change = |row: usize| {
+            let [before, after] = [k, k + 1].map(|k| Self::from(changes[row][k]));
+            (1.0 - share) * before + share * after
         };
-        strain * ((1.0 - weight) * slope(row) + weight * slope(row + 1))
+        // Beyond the ends, where `place` stays.
+        let beyond = strain / strain.clamp(STRAINS[0], STRAINS[STRAINS.len() - 1]);
+        beyond * ((1.0 - weight) * change(row) + weight * change(row + 1))
     }
 
     /// The most of it up to that strain, as sizes: what changes its sign on the way is not small again
