@@ -220,7 +220,7 @@ impl Body {
     }
 
     /// Number of nodal fields of history that its parts keep: none of an elastic body, one and one
-    /// for each Prony term of a relaxing body.
+    /// for each Prony term of a relaxing body, one of a body that relaxes at finite strain.
     pub fn n_history(&self) -> usize {
         self.n_history
     }

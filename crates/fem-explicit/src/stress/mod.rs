@@ -8,7 +8,7 @@
 //! prony               the history of both, one field a term
 //! finite              a law beyond Hooke at finite strain
 //! kernel              the element loops of all: forces and strain energy
-//! lanes, block        four elements at once, and how they lie in memory
+//! lanes, block        four elements at once, at finite strain eight, and how they lie in memory
 //! ```
 
 mod block;

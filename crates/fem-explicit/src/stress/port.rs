@@ -39,7 +39,8 @@ pub trait Stress: Part {
     /// History of a body that has been deformed in no time: nothing of it has relaxed.
     fn start_deformed(&self, _displacement: &Field, _history: &mut [NodalField]) {}
 
-    /// Subtracts the internal forces (N) from `forces`.
+    /// Subtracts the internal forces (N) from `forces`: of a motion to which the history has been taken,
+    /// which may hold them.
     ///
     /// # Errors
     /// An element has collapsed; then the forces mean nothing.
