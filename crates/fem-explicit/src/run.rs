@@ -113,11 +113,11 @@ impl<M: Deref<Target = Model>> Run<M> {
     pub fn progress(&self) -> Progress {
         let Memory { state, log, expected, .. } = &self.memory;
         let length = (1.0 + FLIGHT_AFTER) * expected.contact_time;
-        let done = (state.time - self.model.approach().first_touch()) / length;
+        let elapsed = state.time - self.model.approach().first_touch();
         Progress {
             time: state.time,
             step: state.step,
-            fraction: done.min(0.99),
+            fraction: Progress::share(elapsed, length),
             contact_force: log.force,
         }
     }

@@ -22,6 +22,7 @@ pub mod calibrate;
 mod checkpoint;
 mod contact_method;
 mod course;
+mod duration;
 pub mod effects;
 mod estimate;
 mod expected;

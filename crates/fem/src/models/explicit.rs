@@ -11,23 +11,23 @@ use fem_explicit::{
     ContactMethod, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings,
     ViscosityCoefficients, Weight,
 };
-use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
 use super::condensed::static_contact::of_elements;
+use super::explicit_cost::cost;
 use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
 use crate::contact_method::unread;
 use crate::course::{Course, stopped, to_the_end};
+use crate::duration::expected_duration;
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
     MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, SurfaceSlip,
     Viscoelasticity, decide,
 };
 use crate::estimate::{Estimate, mach};
-use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::memory::Memory;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::{Plan, candidate_radius};
@@ -173,9 +173,10 @@ impl Explicit {
         match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
                 let (expected, want) = (estimate.expectation(), frame.want(want));
+                let duration = expected_duration(&self.made.scene, &estimate, approach);
                 let run = Run::new(bodies, expected, &want);
                 let made = self.made.clone();
-                Box::new(ExplicitCourse { made, frame, expected, want, run })
+                Box::new(ExplicitCourse { made, frame, expected, duration, want, run })
             }
             Err(stop) => stopped(*approach, stop),
         }
@@ -253,8 +254,12 @@ impl Model for Explicit {
         let want = memory.want().clone();
         let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
         let run = Run::resume(bodies, memory).map_err(refused)?;
+        let scene = &self.made.scene;
+        let estimate = Estimate::at(scene, approach.speed())
+            .map_err(|error| Refusal::new("body", error.to_string()))?;
+        let duration = expected_duration(scene, &estimate, &approach);
         let made = self.made.clone();
-        Ok(Box::new(ExplicitCourse { made, frame, expected, want, run }))
+        Ok(Box::new(ExplicitCourse { made, frame, expected, duration, want, run }))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
@@ -272,6 +277,8 @@ struct ExplicitCourse {
     made: Arc<Made>,
     frame: OwnFrame,
     expected: Expectation,
+    /// Of the run, s.
+    duration: f64,
     want: Want,
     run: Run<Arc<Bodies>>,
 }
@@ -290,7 +297,10 @@ impl Course for ExplicitCourse {
     }
 
     fn progress(&self) -> Progress {
-        self.frame.progress(self.run.progress())
+        let progress = self.run.progress();
+        let elapsed = progress.time - self.run.model().approach().first_touch();
+        let fraction = Progress::share(elapsed, self.duration);
+        self.frame.progress(Progress { fraction, ..progress })
     }
 
     fn memory(&self) -> Option<Memory> {
@@ -365,37 +375,6 @@ fn method(planned: fem_case::ContactMethod) -> ContactMethod {
         fem_case::ContactMethod::Penalty => ContactMethod::Penalty,
         fem_case::ContactMethod::NodeToSurface => ContactMethod::NodeToSurface,
     }
-}
-
-/// What a run takes, within the limits.
-fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
-    let elements = model.n_elements() as u64;
-    let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
-    let branches: u64 = (model.bodies().iter().zip(scene.bodies()))
-        .map(|(body, named)| body.n_elements() as u64 * n_branches(named))
-        .sum();
-    let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
-    let element_updates = (steps * elements as f64) as u64;
-    let memory = explicit_memory(scene, plan, elements, branches);
-    check_elements(scene, plan, elements)?;
-    check_memory(scene, plan, elements, memory)?;
-    check_updates(scene, plan, steps as u64, elements, element_updates)?;
-    Ok(Cost::Steps {
-        elements,
-        nodes,
-        steps: steps as u64,
-        element_updates,
-        memory,
-        time_step: model.time_step(),
-        plain_time_step: model.plain_time_step(),
-    })
-}
-
-/// Prony terms whose history is kept of a body.
-fn n_branches(body: &Body) -> u64 {
-    let series = body.material().and_then(Material::relaxation);
-    let terms = series.into_iter().flat_map(PronySeries::terms);
-    terms.filter(|term| term.weight > 0.0).count() as u64
 }
 
 /// What explicit elements have of each effect.
