@@ -89,4 +89,4 @@ pub use model::{Model, Parts, Settings};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, collide};
 pub use snapshot::n_states;
-pub use stress::{Collapse, Stress};
+pub use stress::{Collapse, MOST_FINITE_STRAIN_TERMS, Stress};

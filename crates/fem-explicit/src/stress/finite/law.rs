@@ -10,7 +10,7 @@ use fem_material::finite::{
 };
 
 use super::super::lanes::{LANES, Lanes};
-use super::past::MOST_TERMS;
+use super::past::MOST_FINITE_STRAIN_TERMS;
 
 /// A law per undeformed volume, of a displacement gradient and of what its terms of relaxation remember.
 pub(super) trait Law: Debug + Send + Sync + 'static {
@@ -162,7 +162,7 @@ impl Law for Relaxing<Viscoelastic> {
         past: &[ViscousStrain<L>],
     ) -> (AxisymmetricTensor<L>, L) {
         let gradients = unpacked(h);
-        let mut strains = [[ViscousStrain::default(); MOST_TERMS]; LANES];
+        let mut strains = [[ViscousStrain::default(); MOST_FINITE_STRAIN_TERMS]; LANES];
         for (term, strain) in past.iter().enumerate() {
             let (rr, yy) = (strain.rr.to_array(), strain.yy.to_array());
             let (ry, volume_change) = (strain.ry.to_array(), strain.volume_change.to_array());
