@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::outcome::outcome;
 use crate::recorder::Instant;
 use crate::state::{Scratch, State};
-use crate::step::{Collapsed, advance, is_closed_next, update_forces, update_step};
+use crate::step::{Fault, advance, is_closed_next, update_forces, update_step};
 
 /// Runs a model from first touch until the force has been zero for a fifth of
 /// the contact time and the bodies recede.
@@ -161,8 +161,9 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
-    let stop = |at: Collapsed, state: &State| model.stop(at, state);
-    let contact = update_forces(model, state, scratch).map_err(|at| stop(at, state))?;
+    let stop = |fault: Fault, state: &State| model.stop(fault, state);
+    let contact = update_forces(model, state, scratch)
+        .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
     if let Some(shorter) = update_step(model, state, scratch).map_err(|at| stop(at, state))? {
         ledger.push(model, scratch, contact.force, shorter);
         log.force = contact.force;
