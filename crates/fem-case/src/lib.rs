@@ -89,7 +89,7 @@ pub use quantity::{
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use scene::{Accuracy, Limits, MeshSettings, Scene, Snapshots};
-pub use schema::{CaseFile, EffectsTable, SnapshotLabel, Switch};
+pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};
 pub use sweep_file::{Combine, Keep, PlotTable};

@@ -6,7 +6,7 @@ use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip};
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};
 use crate::model::ModelChoice;
-use crate::schema::{EffectsTable, SnapshotLabel};
+use crate::schema::{ContactMethod, EffectsTable, SnapshotLabel};
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,7 @@ pub struct Scene {
     pub(crate) gap: Option<f64>,
     pub(crate) gravity: Option<Gravity>,
     pub(crate) mesh: MeshSettings,
+    pub(crate) contact_method: Option<ContactMethod>,
     pub(crate) penalty_factor: Option<f64>,
     pub(crate) step_factor: Option<f64>,
     pub(crate) mass_scaling: Option<f64>,
@@ -51,6 +52,11 @@ impl Scene {
     /// How finely the bodies are divided.
     pub fn mesh(&self) -> MeshSettings {
         self.mesh
+    }
+
+    /// How springs keep the surfaces apart.
+    pub fn contact_method(&self) -> Option<ContactMethod> {
+        self.contact_method
     }
 
     /// Times the default normal stiffness per area, > 0.

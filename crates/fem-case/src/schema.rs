@@ -125,13 +125,29 @@ pub struct MeshTable {
     pub far_radius: Option<Quantity<Length>>,
 }
 
-/// `[contact]`: how stiff the springs between the surfaces are.
+/// `[contact]`: how springs keep the surfaces apart, and how stiff they are.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields, expecting = "a table [contact]")]
 pub struct ContactTable {
+    /// Where the springs are, and what they pull at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<ContactMethod>,
     /// Times the default normal stiffness per area, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub penalty_factor: Option<Quantity<Number>>,
+}
+
+keywords! {
+    /// How springs keep the surfaces apart.
+    ContactMethod {
+        /// Springs at the Gauss points of both surfaces, whose nodes have no mass and are always in
+        /// balance.
+        Massless = "massless",
+        /// The same springs between nodes that have mass.
+        Penalty = "penalty",
+        /// Springs at the nodes of each surface against the other one.
+        NodeToSurface = "node_to_surface",
+    }
 }
 
 /// `[time]`: how long a time step is.

@@ -1,6 +1,6 @@
 //! Contact forces of a configuration.
 
-use crate::interface::ContactInterface;
+use crate::interface::{ContactInterface, ContactPoint};
 use crate::surface::Foot;
 
 /// What the contact does in one configuration.
@@ -30,10 +30,22 @@ impl Foot {
     }
 }
 
+impl ContactPoint {
+    /// Gap (m) for displacements along y of the nodes of the lower and the upper body.
+    fn gap_of(&self, displacement: &[impl Fn(u32) -> f64; 2]) -> f64 {
+        let [lower, upper] = [0, 1].map(|side: usize| {
+            let foot = &self.feet[side];
+            foot.shape[0] * displacement[side](foot.nodes[0])
+                + foot.shape[1] * displacement[side](foot.nodes[1])
+        });
+        self.initial_gap + (upper - lower)
+    }
+}
+
 impl ContactInterface {
     /// Gap at point k for displacements (u_r, u_y) of the lower and the upper
     /// body, m; negative when closed.
-    fn gap(&self, k: usize, u: [&[[f64; 2]]; 2]) -> f64 {
+    pub fn gap(&self, k: usize, u: [&[[f64; 2]]; 2]) -> f64 {
         let point = &self.points[k];
         point.initial_gap + (point.feet[1].displacement(u[1]) - point.feet[0].displacement(u[0]))
     }
@@ -61,14 +73,15 @@ impl ContactInterface {
     /// Whether any point is closed for the given displacements along y of the
     /// candidate nodes.
     pub fn is_closed(&self, displacement: [impl Fn(u32) -> f64; 2]) -> bool {
-        self.points.iter().any(|point| {
-            let [lower, upper] = [0, 1].map(|side: usize| {
-                let foot = &point.feet[side];
-                foot.shape[0] * displacement[side](foot.nodes[0])
-                    + foot.shape[1] * displacement[side](foot.nodes[1])
-            });
-            point.initial_gap + (upper - lower) < 0.0
-        })
+        self.points.iter().any(|point| point.gap_of(&displacement) < 0.0)
+    }
+
+    /// Total force (N) for the given displacements along y of the candidate nodes, m.
+    pub fn force(&self, displacement: [impl Fn(u32) -> f64; 2]) -> f64 {
+        let force = |point: &ContactPoint| {
+            point.stiffness * point.area * (-point.gap_of(&displacement)).max(0.0)
+        };
+        self.points.iter().map(force).sum()
     }
 
     /// Signed penalty pressure −k g at every point with its radius: the contact

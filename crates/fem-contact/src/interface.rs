@@ -25,10 +25,10 @@ pub struct ContactPoint {
 pub struct ContactInterface {
     pub(crate) points: Vec<ContactPoint>,
     pub(crate) surfaces: [Surface; 2],
-    candidate_radius: f64,
+    pub(crate) candidate_radius: f64,
     /// How many times a spring counts at the nodes of the lower and of the upper body, if it is
     /// always closed; see [`ContactInterface::add_stiffness_bound`].
-    springs: [f64; 2],
+    pub(crate) springs: [f64; 2],
 }
 
 /// How many times the penalty springs enter the critical time step. A closed
@@ -119,18 +119,24 @@ impl ContactInterface {
     /// [`ContactInterface::with_rigid_mass`]), which gives the sphere on all springs the frequency of
     /// two rigid bodies, k/m_a + k/m_b. The whole is taken four times, for opening and closing.
     pub fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
-        self.add_weighted_bound(side, bound, |_| 1.0);
+        self.add_weighted_bound(side, self.springs[side], bound, |_| 1.0);
     }
 
-    /// The same with a factor of each point.
+    /// The same where the other body's surface stays where it is, whatever this one does: θ is 0.
+    pub fn add_bound_against_held(&self, side: usize, bound: &mut [f64]) {
+        self.add_weighted_bound(side, 1.0, bound, |_| 1.0);
+    }
+
+    /// The same of springs that count so many times, with a factor of each point.
     pub(crate) fn add_weighted_bound(
         &self,
         side: usize,
+        springs: f64,
         bound: &mut [f64],
         factor: impl Fn(&ContactPoint) -> f64,
     ) {
         for point in &self.points {
-            let springs = self.springs[side] * factor(point);
+            let springs = springs * factor(point);
             let stiffness = OPENING_SAFETY * springs * point.stiffness * point.area;
             let foot = &point.feet[side];
             for (&node, &shape) in foot.nodes.iter().zip(&foot.shape) {

@@ -133,7 +133,9 @@ impl SlippingInterface {
             let slopes = self.interface.surfaces.each_ref().map(|s| s.slope(point.radius));
             slopes[0].max(slopes[1])
         };
-        self.interface.add_weighted_bound(side, bound, |point| 1.0 + steepest(point).powi(2));
+        self.interface.add_weighted_bound(side, self.interface.springs[side], bound, |point| {
+            1.0 + steepest(point).powi(2)
+        });
     }
 
     /// As [`ContactInterface::contact_radius`].

@@ -108,7 +108,9 @@ impl Body {
         time_step: f64,
     ) -> Self {
         let LumpedMesh { mesh, material, mut stress, node_forces, bound } = lumped;
-        let mut inverse_mass: Vec<_> = nodal_mass.iter().map(|m| [m.recip(); 2]).collect();
+        // What has no mass the step does not accelerate.
+        let inverse = |m: &f64| if *m > 0.0 { [m.recip(); 2] } else { [0.0; 2] };
+        let mut inverse_mass: Vec<_> = nodal_mass.iter().map(inverse).collect();
         for &node in mesh.axis() {
             inverse_mass[node as usize][0] = 0.0;
         }
@@ -218,7 +220,7 @@ impl Body {
     }
 
     /// Number of nodal fields of history that its parts keep: none of an elastic body, one and one
-    /// for each Prony term of a relaxing body.
+    /// for each Prony term of a relaxing body, one of a body that relaxes at finite strain.
     pub fn n_history(&self) -> usize {
         self.n_history
     }

@@ -23,6 +23,22 @@ pub enum ModelError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// Surface nodes without mass need an inside that has it.
+    #[error(
+        "all corners of element {element} lie in the surface that can be in contact, which has no \
+         mass with contact.method = \"massless\"; a mesh of more layers, or \
+         contact.method = \"penalty\""
+    )]
+    NoInterior {
+        /// Its number in the mesh.
+        element: usize,
+    },
+    /// The matrix of a boundary without mass is not positive.
+    #[error(
+        "the boundary without mass of contact.method = \"massless\" cannot be in balance: an \
+         element at the contact has no stiffness; contact.method = \"penalty\" needs none"
+    )]
+    NoBalance,
     /// A rigid body is to be computed at finite strain.
     #[error("a rigid body does not deform: it has no finite strain")]
     StrainOfRigid,

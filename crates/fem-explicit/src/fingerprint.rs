@@ -11,7 +11,7 @@ use std::fmt::{self, Debug, Write};
 use fem_contact::{ContactInterface, SlippingInterface};
 
 use crate::body::Body;
-use crate::contact::Contact;
+use crate::contact::{Contact, Massless};
 use crate::model::Model;
 
 /// What takes words, one after the other: rotated, mixed in, multiplied by an odd number. The same on
@@ -81,12 +81,15 @@ fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
     digest.take_numbers(&[searched.radius]);
     digest.take(searched.n_points as u64);
     let contact_of_any_kind = contact as &dyn Any;
-    let interface = match contact_of_any_kind.downcast_ref::<SlippingInterface>() {
-        None => contact_of_any_kind.downcast_ref(),
-        Some(slipping) => {
-            digest.take_text("slipping");
-            Some(slipping.interface())
-        }
+    let interface = if let Some(slipping) = contact_of_any_kind.downcast_ref::<SlippingInterface>()
+    {
+        digest.take_text("slipping");
+        Some(slipping.interface())
+    } else if let Some(massless) = contact_of_any_kind.downcast_ref::<Massless>() {
+        digest.take_text("massless");
+        Some(massless.interface())
+    } else {
+        contact_of_any_kind.downcast_ref()
     };
     let Some(interface): Option<&ContactInterface> = interface else {
         return digest.take_text(contact);

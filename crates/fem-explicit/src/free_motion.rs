@@ -14,7 +14,7 @@ use crate::lumped::LumpedMesh;
 use crate::model::check_step_factor;
 use crate::part::Accounts;
 use crate::state::{BodyState, Clock};
-use crate::step::{advance_nodes, advance_parts, update_internal_forces};
+use crate::step::{advance_nodes, advance_stress, update_internal_forces};
 use crate::stress::Collapse;
 
 /// A sphere that nothing touches, at rest until it is given a velocity or a deformation.
@@ -90,7 +90,7 @@ impl FreeMotion {
         step_factor: f64,
     ) -> Result<Self, ModelError> {
         check_step_factor(step_factor)?;
-        let sphere = LumpedMesh::new(mesh, material.clone(), law, Vec::new())?;
+        let sphere = LumpedMesh::new(mesh, material.clone(), law, Vec::new(), &[])?;
         let time_step = step_factor * sphere.bound.critical_time_step();
         let nodal_mass = sphere.bound.mass.clone();
         let body = Body::of_mesh(sphere, 0.0, nodal_mass, 0.0, time_step);
@@ -134,7 +134,7 @@ impl FreeMotion {
     pub fn step(&mut self) {
         advance_nodes(&self.body, self.time_step, &mut self.state, &self.forces);
         self.n_steps += 1;
-        advance_parts(&self.body, self.clock(), &mut self.state);
+        advance_stress(&self.body, self.clock(), &mut self.state);
         self.update_forces();
     }
 

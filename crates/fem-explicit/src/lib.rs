@@ -18,8 +18,8 @@
 //! ```text
 //! a step                     Stress                NodeForce             Contact
 //!                            of each body          list of each body     of both bodies
-//!                            elastic               bulk viscosity,       penalty springs
-//!                            constant_poisson      or none
+//!                            elastic               bulk viscosity,       massless boundary,
+//!                            constant_poisson      or none               penalty springs
 //!                            relaxing_shear
 //!                            finite
 //!
@@ -30,11 +30,13 @@
 //! where stiffness changes     add_stiffness_bound,
 //!   bound the step           strain_rate
 //! advance: nodes (leapfrog)
-//!   what contact remembers                                               advance
-//!   what parts remember      advance               advance
+//!   what stress remembers    advance
+//!   what contact remembers,                                              advance
+//!   nodes without mass       shift
+//!   what forces remember                           advance
 //!
 //! when the model is built    largest_eigenvalue    add_stiffness_bound   add_stiffness_bound
-//!                                                  add_damping_bound
+//!                            stiffness_of_step     add_damping_bound     massless_nodes
 //!                            set_time_step         set_time_step         set_time_step
 //! ```
 //!
@@ -52,6 +54,7 @@
 //! of the collision; [`Run`] is the same in steps. [`FreeMotion`] is one body without contact.
 
 mod body;
+mod boundary_mass;
 mod contact;
 mod contact_log;
 mod error;
@@ -70,6 +73,7 @@ mod part;
 mod recorder;
 mod run;
 mod snapshot;
+mod sound;
 mod state;
 mod step;
 mod stress;
@@ -80,7 +84,7 @@ mod tests;
 mod time_step;
 
 pub use body::Body;
-pub use contact::{Contact, MovedContact};
+pub use contact::{Contact, ContactMethod, Massless, MovedContact};
 pub use error::ModelError;
 pub use forces::{BulkViscosity, NodeForce, ViscosityCoefficients, Weight};
 pub use free_motion::FreeMotion;

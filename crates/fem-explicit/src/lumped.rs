@@ -6,6 +6,7 @@ use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
 
+use crate::boundary_mass::BoundaryMass;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::stress::{self, MOST_FINITE_STRAIN_TERMS, Stress};
@@ -39,22 +40,23 @@ pub(crate) struct RigidSphere {
 }
 
 impl LumpedBody {
-    /// `None` for a wall, which nothing moves.
+    /// `None` for a wall, which nothing moves; some nodes of a mesh may have no mass.
     ///
     /// # Errors
-    /// A rigid sphere's mass that is not positive and finite; forces on a wall; finite strain of a body
-    /// that does not deform, or that relaxes by too many terms.
+    /// A rigid sphere's mass that is not positive and finite; forces on a wall; an element without mass;
+    /// finite strain of a body that does not deform, or that relaxes by too many terms.
     pub fn new(
         input: BodyInput,
         finite_strain: Option<HyperelasticLaw>,
         node_forces: Vec<Box<dyn NodeForce>>,
+        massless: &[u32],
     ) -> Result<Option<Self>, ModelError> {
         if input.mesh().is_none() && finite_strain.is_some() {
             return Err(ModelError::StrainOfRigid);
         }
         match input {
             BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
-                let meshed = LumpedMesh::new(mesh, material, finite_strain, node_forces)?;
+                let meshed = LumpedMesh::new(mesh, material, finite_strain, node_forces, massless)?;
                 Ok(Some(Self::Meshed(Box::new(meshed))))
             }
             BodyInput::Rigid { mass, .. } => {
@@ -113,15 +115,17 @@ impl LumpedBody {
 
 impl LumpedMesh {
     /// Integrates the elements, once for stress, masses and bound. Its stress is that of small strain, or
-    /// of a law beyond.
+    /// of a law beyond; some nodes may have no mass.
     ///
     /// # Errors
-    /// Too many terms of relaxation for finite strain.
+    /// Too many terms of relaxation for finite strain; an element whose corners all are among the nodes
+    /// without mass.
     pub fn new(
         mesh: SphereMesh,
         material: Material,
         finite_strain: Option<HyperelasticLaw>,
         node_forces: Vec<Box<dyn NodeForce>>,
+        massless: &[u32],
     ) -> Result<Self, ModelError> {
         let n_terms = material.relaxation().map_or(0, |series| series.terms().len());
         if finite_strain.is_some() && n_terms > MOST_FINITE_STRAIN_TERMS {
@@ -134,12 +138,14 @@ impl LumpedMesh {
             None => stress::of_material(&mesh, &geometries, &material),
             Some(law) => stress::finite_strain(&mesh, &geometries, &material, law),
         };
+        let (boundary, density) = (BoundaryMass::new(&mesh, massless)?, material.density());
         let mut bound =
-            NodalBound::of_elements(&mesh, &geometries, material.density(), stress.as_ref());
+            NodalBound::of_elements(&mesh, &geometries, density, stress.as_ref(), &boundary);
         for force in &node_forces {
             force.add_stiffness_bound(&mut bound.stiffness);
             force.add_damping_bound(&mut bound.damping);
         }
+        bound.leave_out(boundary.nodes());
         Ok(Self { mesh, material, stress, node_forces, bound })
     }
 }

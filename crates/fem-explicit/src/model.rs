@@ -9,7 +9,7 @@ use fem_contact::{ContactError, ContactInterface, SlippingInterface, Surface};
 use fem_material::finite::HyperelasticLaw;
 
 use crate::body::Body;
-use crate::contact::{Contact, MovedContact};
+use crate::contact::{Contact, ContactMethod, Massless, MovedContact};
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::lumped::LumpedBody;
@@ -49,8 +49,10 @@ pub struct Parts {
     /// Whether the surfaces slip on each other, as those of unlike materials do. At finite strain they do
     /// of themselves.
     pub surface_slip: bool,
-    /// Instead of the settings' own.
+    /// Instead of springs.
     pub contact: Option<Box<dyn Contact>>,
+    /// How springs keep the bodies apart at small strain, where their surfaces do not slip.
+    pub method: ContactMethod,
 }
 
 /// Two bodies, their contact and the time step. The first body lies below.
@@ -58,6 +60,8 @@ pub struct Parts {
 pub struct Model {
     bodies: [Body; 2],
     contact: Arc<dyn Contact>,
+    /// Whether it has anything to do at the end of a step.
+    pub(crate) contact_advances: bool,
     time_step: f64,
     plain_time_step: f64,
     step_factor: f64,
@@ -96,20 +100,15 @@ impl Model {
             None if parts.finite_strain.iter().any(Option::is_some) => {
                 Box::new(MovedContact::new(&inputs, approach.gap(), settings)?)
             }
-            None => {
-                let interface = penalty(&inputs, approach.gap(), settings)?;
-                match parts.surface_slip {
-                    true => Box::new(SlippingInterface::new(interface)),
-                    false => Box::new(interface),
-                }
-            }
+            None => springs(&inputs, approach.gap(), settings, parts.method, parts.surface_slip)?,
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
         let [law_of_lower, law_of_upper] = parts.finite_strain;
+        let massless = [0, 1].map(|side: usize| contact.massless_nodes(side));
         let mut movable = [
-            LumpedBody::new(lower, law_of_lower, forces_on_lower)?,
-            LumpedBody::new(upper, law_of_upper, forces_on_upper)?,
+            LumpedBody::new(lower, law_of_lower, forces_on_lower, massless[0])?,
+            LumpedBody::new(upper, law_of_upper, forces_on_upper, massless[1])?,
         ];
         for (side, body) in movable.iter_mut().enumerate() {
             if let Some(body) = body {
@@ -134,6 +133,7 @@ impl Model {
             return Err(ModelError::Setting { name, value: time_step, allowed });
         }
         contact.set_time_step(time_step);
+        contact.check()?;
         let mut movable = movable.into_iter().zip(parts.held);
         let mut next = || movable.next().and_then(|(body, held)| Some((body?, held)));
         let bodies = approach.velocities().map(|velocity| match next() {
@@ -145,6 +145,8 @@ impl Model {
         Ok(Self {
             inverse_mass: bodies.iter().map(Body::inverse_total_mass).sum(),
             bodies,
+            contact_advances: contact.n_history() > 0
+                || (0..2).any(|side| !contact.massless_nodes(side).is_empty()),
             contact: Arc::from(contact),
             time_step,
             plain_time_step: settings.step_factor * plain,
@@ -163,9 +165,11 @@ impl Model {
         self.contact.as_ref()
     }
 
-    /// Their contact where it is the penalty interface without slip.
+    /// The springs of their contact, where it has any and its surfaces do not slip.
     pub fn interface(&self) -> Option<&ContactInterface> {
-        (self.contact() as &dyn Any).downcast_ref()
+        let contact = self.contact() as &dyn Any;
+        let massless = || contact.downcast_ref().map(Massless::interface);
+        contact.downcast_ref().or_else(massless)
     }
 
     /// Radius out to which contact is looked for, m.
@@ -333,25 +337,31 @@ impl Model {
     }
 }
 
-/// The penalty contact that settings ask for.
-fn penalty(
+/// The contact that settings ask for.
+fn springs(
     inputs: &[BodyInput; 2],
     gap: f64,
     settings: &Settings,
-) -> Result<ContactInterface, ContactError> {
+    method: ContactMethod,
+    surface_slip: bool,
+) -> Result<Box<dyn Contact>, ModelError> {
     let [lower, upper] = inputs;
     let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
     let &Settings { contact_stiffness, candidate_radius, .. } = settings;
-    let interface = ContactInterface::new(
-        lower_surface,
-        upper_surface,
-        contact_stiffness,
-        gap,
-        candidate_radius,
-    )?;
-    Ok(match mass_ratio(inputs) {
+    let interface = match method {
+        ContactMethod::NodeToSurface if !surface_slip => ContactInterface::node_to_surface,
+        _ => ContactInterface::new,
+    };
+    let interface =
+        interface(lower_surface, upper_surface, contact_stiffness, gap, candidate_radius)?;
+    let interface = match mass_ratio(inputs) {
         Some(ratio) => interface.with_rigid_mass(ratio),
         None => interface,
+    };
+    Ok(match method {
+        _ if surface_slip => Box::new(SlippingInterface::new(interface)),
+        ContactMethod::Massless => Box::new(Massless::new(inputs, interface)?),
+        ContactMethod::Penalty | ContactMethod::NodeToSurface => Box::new(interface),
     })
 }
 

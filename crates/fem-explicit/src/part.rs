@@ -68,6 +68,16 @@ pub struct MotionMut<'a> {
     pub velocity: &'a mut Field,
     /// Lumped masses, mass scaling included, kg; 0 for the one node of a wall.
     pub nodal_mass: &'a [f64],
+    /// What the body's stress remembers at the end of the step.
+    pub stress_history: &'a mut [NodalField],
+}
+
+impl MotionMut<'_> {
+    /// The body as parts see it.
+    pub fn as_motion(&self) -> Motion<'_> {
+        let &Self { time, time_step, ref displacement, ref velocity, nodal_mass, .. } = self;
+        Motion { time, time_step, displacement, velocity, nodal_mass }
+    }
 }
 
 /// A part of a body, and which of the body's fields of history are its own.

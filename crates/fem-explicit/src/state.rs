@@ -1,5 +1,7 @@
 //! What changes in a run.
 
+use std::any::Any;
+
 use fem_collision::Snapshot;
 use serde::{Deserialize, Serialize};
 
@@ -43,8 +45,8 @@ pub(crate) struct Clock {
     pub time_step: f64,
 }
 
-/// Forces of the present step, and buffers; never read across steps.
-#[derive(Debug, Clone)]
+/// Forces of the present step, and buffers; nothing that is read across steps decides a bit.
+#[derive(Debug)]
 pub(crate) struct Scratch {
     /// Nodal forces of both bodies, N.
     pub forces: [NodalField; 2],
@@ -56,6 +58,8 @@ pub(crate) struct Scratch {
     pub damping: [Vec<f64>; 2],
     /// Snapshots that are not needed any more, to be overwritten.
     pub pool: Vec<Snapshot>,
+    /// The contact's own.
+    pub contact: Box<dyn Any + Send + Sync>,
 }
 
 impl State {
@@ -166,9 +170,15 @@ impl BodyState {
         Clock { time, time_step }: Clock,
     ) -> (MotionMut<'a>, &'a mut [NodalField]) {
         let Self { displacement, velocity, history } = self;
+        let (of_parts, of_contact) = history.split_at_mut(body.n_fields());
+        let stress_history = match &body.stress {
+            Some(stress) => stress.of_mut(of_parts),
+            None => &mut [],
+        };
         let nodal_mass = &body.nodal_mass;
-        let motion = MotionMut { time, time_step, displacement, velocity, nodal_mass };
-        (motion, &mut history[body.n_fields()..])
+        let motion =
+            MotionMut { time, time_step, displacement, velocity, nodal_mass, stress_history };
+        (motion, of_contact)
     }
 
     fn fits(&self, body: &Body, n_contact: usize) -> bool {
@@ -187,7 +197,7 @@ impl Scratch {
             Some(_) => vec![0.0; body.nodal_mass.len()],
             None => Vec::new(),
         });
-        let damping = stiffness.clone();
-        Self { forces, resultants: [0.0; 2], stiffness, damping, pool: Vec::new() }
+        let (damping, contact) = (stiffness.clone(), model.contact().buffers());
+        Self { forces, resultants: [0.0; 2], stiffness, damping, pool: Vec::new(), contact }
     }
 }

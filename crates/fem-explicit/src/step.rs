@@ -85,24 +85,31 @@ pub(crate) fn update_step(
     Ok(Some(shorter))
 }
 
-/// Takes both bodies to the next time: the nodes, then what contact, stress and forces remember.
-pub(crate) fn advance(model: &Model, state: &mut State, scratch: &Scratch) {
+/// Takes both bodies to the next time: the nodes, what stress remembers, the nodes that have no mass
+/// and what contact remembers, then what forces remember.
+pub(crate) fn advance(model: &Model, state: &mut State, scratch: &mut Scratch) {
     state.time = state.time_after(state.step + 1, model);
     state.step += 1;
     let clock = state.clock(model);
     for side in 0..2 {
         let (body, forces) = (&model.bodies()[side], &scratch.forces[side]);
         advance_nodes(body, clock.time_step, &mut state.bodies[side], forces);
+        advance_stress(body, clock, &mut state.bodies[side]);
     }
-    advance_contact(model, state);
+    advance_contact(model, state, scratch);
     for side in 0..2 {
-        advance_parts(&model.bodies()[side], clock, &mut state.bodies[side]);
+        advance_node_forces(&model.bodies()[side], clock, &mut state.bodies[side]);
     }
 }
 
 /// Whether the next configuration is in contact; reads the forces of the
 /// present one and moves nothing.
-pub(crate) fn is_closed_next(model: &Model, state: &State, scratch: &Scratch) -> bool {
+pub(crate) fn is_closed_next(
+    model: &Model,
+    state: &State,
+    scratch: &Scratch,
+    now: &ContactForces,
+) -> bool {
     let time_step = state.time_step(model);
     let next = |side: usize| {
         let (inverse_mass, forces) = (&model.bodies()[side].inverse_mass, &scratch.forces[side]);
@@ -115,7 +122,7 @@ pub(crate) fn is_closed_next(model: &Model, state: &State, scratch: &Scratch) ->
             })
         }
     };
-    model.contact().is_closed_next([&next(0), &next(1)], state.contact_history(model))
+    model.contact().is_closed_next(now, [&next(0), &next(1)], state.contact_history(model))
 }
 
 /// Internal forces alone, by their sign on the nodes.
@@ -141,9 +148,9 @@ pub(crate) fn advance_nodes(body: &Body, time_step: f64, state: &mut BodyState, 
     advance_motion(time_step, &body.inverse_mass, forces, velocity, displacement);
 }
 
-/// What the contact remembers of a step that the nodes have done.
-fn advance_contact(model: &Model, state: &mut State) {
-    if model.contact().n_history() == 0 {
+/// What the contact does at the end of a step that the nodes have done.
+fn advance_contact(model: &Model, state: &mut State, scratch: &mut Scratch) {
+    if !model.contact_advances {
         return;
     }
     let clock = state.clock(model);
@@ -151,11 +158,12 @@ fn advance_contact(model: &Model, state: &mut State) {
     let [state_of_lower, state_of_upper] = &mut state.bodies;
     let (lower_motion, lower_history) = state_of_lower.split_contact(lower, clock);
     let (upper_motion, upper_history) = state_of_upper.split_contact(upper, clock);
-    model.contact().advance([lower_motion, upper_motion], [lower_history, upper_history]);
+    let (motions, history) = ([lower_motion, upper_motion], [lower_history, upper_history]);
+    model.contact().advance(motions, history, scratch.contact.as_mut());
 }
 
-/// What the parts of a body remember of a step that the nodes have done, at its end.
-pub(crate) fn advance_parts(body: &Body, clock: Clock, state: &mut BodyState) {
+/// What the stress of a body remembers of a step that the nodes have done, at its end.
+pub(crate) fn advance_stress(body: &Body, clock: Clock, state: &mut BodyState) {
     let BodyState { displacement, velocity, history } = state;
     let Clock { time, time_step } = clock;
     let nodal_mass = &body.nodal_mass;
@@ -163,6 +171,14 @@ pub(crate) fn advance_parts(body: &Body, clock: Clock, state: &mut BodyState) {
     if let Some(stress) = body.stress.as_ref().filter(|stress| stress.has_history()) {
         stress.part.advance(&motion, stress.of_mut(history));
     }
+}
+
+/// What the forces on the nodes of a body remember of a step; the time (s) is its end.
+pub(crate) fn advance_node_forces(body: &Body, clock: Clock, state: &mut BodyState) {
+    let BodyState { displacement, velocity, history } = state;
+    let Clock { time, time_step } = clock;
+    let nodal_mass = &body.nodal_mass;
+    let motion = Motion { time, time_step, displacement, velocity, nodal_mass };
     for force in body.node_forces.iter().filter(|force| force.has_history()) {
         force.part.advance(&motion, force.of_mut(history));
     }

@@ -89,7 +89,7 @@ pub(crate) fn geometries(mesh: &SphereMesh) -> Vec<QuadGeometry> {
 
 /// Without forces on its nodes.
 pub(crate) fn lumped(mesh: &SphereMesh, material: Material) -> LumpedMesh {
-    LumpedMesh::new(mesh.clone(), material, None, Vec::new()).unwrap()
+    LumpedMesh::new(mesh.clone(), material, None, Vec::new(), &[]).unwrap()
 }
 
 /// Energies and powers of the parts of a body.

@@ -28,10 +28,18 @@
 //!
 //! the step of an oscillator of damping ratio ξ (Belytschko, Liu & Moran 2000, eq. 6.2.30). Without
 //! damping it is the step above, to the bit.
+//!
+//! Nodes without mass ([`BoundaryMass`]) are where the others have them: at the least of the energy, so
+//! that the potential of the others is V(u) = min_b W(u, b), with a convex W of stress and contact. Its
+//! curvature is at most that of W at fixed b, which is the stiffness of the elements without those
+//! corners: λ_e is that of what is left of an element, and the springs of the contact, whichever are
+//! closed and however stiff, are not in the bound. V is convex and its gradient continuous, so springs
+//! that open and close change nothing of that.
 
 use fem_element::QuadGeometry;
 use fem_mesh::{SphereMesh, lump_mass};
 
+use crate::boundary_mass::BoundaryMass;
 use crate::stress::Stress;
 
 /// Masses of a body's nodes and a bound of the stiffness that pulls at them.
@@ -46,16 +54,19 @@ pub(crate) struct NodalBound {
 }
 
 impl NodalBound {
-    /// Of the elements of a body without contact, for a density (kg/m³) and a stress.
+    /// Of the elements of a body without contact, for a density (kg/m³) and a stress; some nodes may
+    /// have no mass.
     pub fn of_elements(
         mesh: &SphereMesh,
         geometries: &[QuadGeometry],
         density: f64,
         stress: &dyn Stress,
+        boundary: &BoundaryMass,
     ) -> Self {
         let mut stiffness = vec![0.0; mesh.nodes().len()];
         for (element, (quad, geometry)) in mesh.quads().iter().zip(geometries).enumerate() {
             let masses = geometry.nodal_volumes.map(|volume| density * volume);
+            let masses = boundary.of_corners(quad, masses);
             let on_axis = mesh.corners(element).map(|corner| corner[0] == 0.0);
             let eigenvalue = stress.largest_eigenvalue(geometry, &masses, on_axis);
             for (&node, mass) in quad.iter().zip(masses) {
@@ -65,7 +76,8 @@ impl NodalBound {
         let nodal_volumes: Vec<_> =
             geometries.iter().map(|geometry| geometry.nodal_volumes).collect();
         let damping = vec![0.0; mesh.nodes().len()];
-        Self { mass: lump_mass(mesh, density, &nodal_volumes), stiffness, damping }
+        let mass = lump_mass(mesh, density, &nodal_volumes);
+        Self { mass: boundary.of_nodes(mesh, geometries, mass), stiffness, damping }
     }
 
     /// Mass (kg), stiffness (N/m) and damping (N s/m) of each node.
@@ -77,9 +89,17 @@ impl NodalBound {
             .map(|(&mass, (&stiffness, &damping))| [mass, stiffness, damping])
     }
 
+    /// Leaves out nodes that have no mass: what pulls at them is in balance.
+    pub fn leave_out(&mut self, massless: impl Iterator<Item = usize>) {
+        for node in massless {
+            (self.stiffness[node], self.damping[node]) = (0.0, 0.0);
+        }
+    }
+
     /// Critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
-        self.nodes().map(critical_time_step).fold(f64::INFINITY, f64::min)
+        let pulled = self.nodes().filter(|node| *node != [0.0; 3]);
+        pulled.map(critical_time_step).fold(f64::INFINITY, f64::min)
     }
 
     /// Mass that a critical time step (s) asks for beyond what is there, kg.

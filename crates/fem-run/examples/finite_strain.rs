@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("| law | ν | a/R | Δe | ΔT/T | ΔF/F | Δp₀/p₀ |\n|---|---|---|---|---|---|---|");
     let mut numbers = vec![String::new(); LAWS.len()];
     for nu in POISSONS_RATIOS {
-        let mut rows: Vec<Vec<[f64; 3]>> = vec![Vec::new(); LAWS.len()];
+        let mut rows: Vec<Vec<[f64; 4]>> = vec![Vec::new(); LAWS.len()];
         for (k, strain) in STRAINS.into_iter().enumerate() {
             let small = collide(nu, strain, None)?;
             for (law, row) in LAWS.into_iter().zip(&mut rows) {
@@ -35,15 +35,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     100.0 * pressure
                 );
                 row.push(match (found, k) {
-                    (Some(_), _) | (None, 0) => [e, time, force],
+                    (Some(_), _) | (None, 0) => [e, time, force, pressure],
                     // What collapses: of less strain in proportion.
                     (None, _) => row[k - 1].map(|change| change * strain / STRAINS[k - 1]),
                 });
             }
         }
         for (row, lines) in rows.into_iter().zip(&mut numbers) {
-            let row =
-                row.into_iter().map(|[e, time, force]| format!("[{e:.4}, {time:.5}, {force:.5}]"));
+            let row = row.into_iter().map(|[e, time, force, pressure]| {
+                format!("[{e:.4}, {time:.5}, {force:.5}, {pressure:.4}]")
+            });
             lines.push_str(&format!("        [{}],\n", row.collect::<Vec<_>>().join(", ")));
         }
     }

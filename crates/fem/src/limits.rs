@@ -3,7 +3,7 @@
 use fem_case::{Scene, Shape};
 use fem_explicit::n_states;
 
-use crate::effects::BulkViscosity;
+use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
 use crate::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
@@ -25,7 +25,8 @@ const BYTES_PER_VISCOUS_ELEMENT: u64 = 150;
 /// terms that each has.
 pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branches: u64) -> u64 {
     let whole = mach(scene, scene.approach_speed() / plan.speed_share);
-    let is_viscous = BulkViscosity::is_on(scene, whole);
+    let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+    let is_viscous = BulkViscosity::is_on(scene, whole, is_finite);
     let viscous = if is_viscous { elements * BYTES_PER_VISCOUS_ELEMENT } else { 0 };
     let fields = elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH + viscous;
     state_memory(plan, elements).saturating_add(fields)

@@ -145,6 +145,8 @@ pub enum Cost {
         steps: u64,
         /// Elements times steps.
         element_updates: u64,
+        /// On one core of 3 GHz, s; an order of magnitude.
+        seconds: f64,
         /// Memory of the run, bytes.
         memory: u64,
         /// Time step, s.

@@ -4,9 +4,12 @@ use fem_case::schema::{
     ContactTable, EmptyTable, LimitsTable, MeshTable, ModelTable, OutputTable, SnapshotsValue,
     StartTable, TimeTable,
 };
-use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, Snapshots};
+use fem_case::{
+    Body, Case, CaseError, CaseFile, ContactMethod, ModelChoice, Quantity, Scene, Shape, Snapshots,
+};
 use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius_of_waves};
 
+use crate::contact_method::contact_method;
 use crate::estimate::Estimate;
 use crate::refusal::Refusal;
 
@@ -50,6 +53,8 @@ pub struct Plan {
     pub makes_meshes: bool,
     /// Radius out to which contact is looked for, m.
     pub candidate_radius: f64,
+    /// How springs keep the surfaces apart.
+    pub contact_method: ContactMethod,
     /// Times the default penalty stiffness.
     pub penalty_factor: f64,
     /// Penalty stiffness per area times element size, Pa.
@@ -115,6 +120,7 @@ impl Plan {
             far_radius,
             makes_meshes,
             candidate_radius,
+            contact_method: contact_method(scene),
             penalty_factor,
             contact_stiffness: penalty_factor
                 * PENALTY_OVER_MODULUS
@@ -156,8 +162,10 @@ impl Plan {
             growth: self.growth.map(Quantity::from_si),
             far_radius: self.far_radius.map(Quantity::from_si),
         });
-        file.contact =
-            Some(ContactTable { penalty_factor: Some(Quantity::from_si(self.penalty_factor)) });
+        file.contact = Some(ContactTable {
+            method: Some(self.contact_method),
+            penalty_factor: Some(Quantity::from_si(self.penalty_factor)),
+        });
         file.time = Some(TimeTable {
             step_factor: Some(Quantity::from_si(self.step_factor)),
             mass_scaling: Some(Quantity::from_si(self.mass_scaling)),

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use fem_case::engineering::show;
 use fem_case::schema::StartTable;
-use fem_case::{Case, CaseError, CaseFile, Quantity};
+use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
 use crate::course::{Course, begun};
@@ -11,7 +12,7 @@ use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
 use crate::identity::identity_of;
 use crate::memory::Memory;
-use crate::method::{Model, Setup, Shared};
+use crate::method::{Cost, Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 use crate::resolution::Resolution;
 
@@ -109,8 +110,8 @@ impl Simulation {
 
     /// What the user should know before the run.
     pub fn warnings_before(&self) -> Vec<String> {
-        let of_meshes = self.mesh_warning();
-        self.choice_warning().into_iter().chain(self.setup().warnings()).chain(of_meshes).collect()
+        let own = self.mesh_warning().into_iter().chain(self.cheaper());
+        self.choice_warning().into_iter().chain(self.setup().warnings()).chain(own).collect()
     }
 
     /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
@@ -125,6 +126,29 @@ impl Simulation {
         let (scene, meshes) = (self.case.scene(), self.model.meshes());
         let resolution = Resolution::of(scene, meshes, contact_radius)?;
         resolution.warning(scene, plan, meshes, contact_radius)
+    }
+
+    /// That the run takes long, and that the condensed model, which has fields too and is expected to serve
+    /// as well, does not.
+    pub fn cheaper(&self) -> Option<String> {
+        const LONG: f64 = 3.0;
+        let Cost::Steps { seconds, .. } = self.setup().cost else { return None };
+        let scene = self.case.scene();
+        if seconds < LONG || *scene.model() != ModelChoice::Fem {
+            return None;
+        }
+        let open = Chosen::of(&scene.clone().with_model(ModelChoice::Auto)).ok()?;
+        // It has fields to draw, as explicit elements do.
+        let serves = |it: &&Considered| {
+            it.model.starts_with("condensed") && (it.chosen || it.reason.starts_with("serves"))
+        };
+        let other = open.considered.iter().find(serves).filter(|_| open.warning.is_none())?;
+        Some(format!(
+            "the run will take some {}; model.{} is expected to be within the tolerance of the case, too, \
+             and takes hundredths of a second",
+            show(seconds, "s"),
+            other.model
+        ))
     }
 
     /// That no model is known to serve, where the case leaves the choice open.

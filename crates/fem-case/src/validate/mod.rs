@@ -77,6 +77,7 @@ pub(crate) fn validate(
             growth: check.optional("mesh.growth", mesh.growth.as_ref(), ABOVE_ONE)?,
             far_radius: check.optional("mesh.far_radius", mesh.far_radius.as_ref(), POSITIVE)?,
         },
+        contact_method: contact.method,
         penalty_factor: check.optional(
             "contact.penalty_factor",
             contact.penalty_factor.as_ref(),

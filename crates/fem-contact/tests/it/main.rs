@@ -3,6 +3,7 @@
 mod common;
 mod forces;
 mod moved;
+mod node_to_surface;
 mod pressure;
 mod rigid;
 mod slip;

@@ -1,15 +1,32 @@
 //! How the bodies touch: the port, and one file an implementation.
 
+mod massless;
 mod moved;
 mod penalty;
 mod slipping;
 
+use std::any::Any;
+
 use fem_collision::Searched;
 use fem_contact::ContactForces;
 
+use crate::error::ModelError;
 use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 
+pub use massless::Massless;
 pub use moved::MovedContact;
+
+/// How springs keep the surfaces apart.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum ContactMethod {
+    /// Springs at the Gauss points of both surfaces, between nodes that have mass.
+    #[default]
+    Penalty,
+    /// The same springs between nodes without mass, which are always in balance.
+    Massless,
+    /// Springs at the nodes of each surface against the other one, as textbooks have them.
+    NodeToSurface,
+}
 
 /// The contact of both bodies; arrays are of the lower and the upper one.
 ///
@@ -49,17 +66,45 @@ pub trait Contact: Part {
         forces: [&mut Field; 2],
     ) -> ContactForces;
 
-    /// Takes the history to the end of a step, whose motion is given; moves the nodes that the step
-    /// does not, if there are any.
-    fn advance(&self, _motions: [MotionMut<'_>; 2], _history: [&mut [NodalField]; 2]) {}
+    /// Whether it can be, once it knows the time step.
+    ///
+    /// # Errors
+    /// What it lacks.
+    fn check(&self) -> Result<(), ModelError> {
+        Ok(())
+    }
 
     /// Adds what it has taken since first touch; what its springs hold is told with the forces.
     fn add_energies(&self, _history: [&[NodalField]; 2], _accounts: &mut Accounts) {}
 
-    /// Whether the next configuration is in contact, of whose nodes `next` tells the displacements,
-    /// m.
+    /// Nodes of a side, 0 lower, 1 upper, that have no mass: the step leaves them the velocity that
+    /// they had, and the contact moves them where they are in balance.
+    fn massless_nodes(&self, _side: usize) -> &[u32] {
+        &[]
+    }
+
+    /// Room that a run has for it. A run that goes on from its memory begins with another: nothing that
+    /// is found in it decides a bit.
+    fn buffers(&self) -> Box<dyn Any + Send + Sync> {
+        Box::new(())
+    }
+
+    /// Takes the history to the end of a step, whose motion is given, that of stress included; moves
+    /// the nodes without mass.
+    fn advance(
+        &self,
+        _motions: [MotionMut<'_>; 2],
+        _history: [&mut [NodalField]; 2],
+        _buffers: &mut dyn Any,
+    ) {
+    }
+
+    /// Whether the next configuration is in contact, of whose nodes `next` tells the displacements (m),
+    /// those of nodes without mass as if they kept their velocity; `now` is the present contact. Where
+    /// that leaves a doubt, it is not.
     fn is_closed_next(
         &self,
+        now: &ContactForces,
         next: [&dyn Fn(u32) -> [f64; 2]; 2],
         history: [&[NodalField]; 2],
     ) -> bool;

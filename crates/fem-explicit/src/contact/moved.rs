@@ -9,6 +9,8 @@
 //!
 //! is exactly what the energy that leapfrog keeps loses in a step.
 
+use std::any::Any;
+
 use fem_collision::{Account, BodyInput, Searched};
 use fem_contact::{ContactError, ContactForces, MovedInterface};
 
@@ -125,7 +127,12 @@ impl Contact for MovedContact {
         total
     }
 
-    fn advance(&self, motions: [MotionMut<'_>; 2], history: [&mut [NodalField]; 2]) {
+    fn advance(
+        &self,
+        motions: [MotionMut<'_>; 2],
+        history: [&mut [NodalField]; 2],
+        _: &mut dyn Any,
+    ) {
         let half_step = 0.5 * motions[0].time_step;
         let [lower, upper] = history;
         let u = motions.each_ref().map(|motion| &*motion.displacement);
@@ -151,7 +158,12 @@ impl Contact for MovedContact {
         accounts.energies.add(Account::ContactDamping, work);
     }
 
-    fn is_closed_next(&self, next: [&dyn Fn(u32) -> [f64; 2]; 2], _: [&[NodalField]; 2]) -> bool {
+    fn is_closed_next(
+        &self,
+        _: &ContactForces,
+        next: [&dyn Fn(u32) -> [f64; 2]; 2],
+        _: [&[NodalField]; 2],
+    ) -> bool {
         self.interface.is_closed(next)
     }
 

@@ -28,7 +28,12 @@ impl Contact for ContactInterface {
         self.add_forces(motions.each_ref().map(|motion| motion.displacement), forces)
     }
 
-    fn is_closed_next(&self, next: [&dyn Fn(u32) -> [f64; 2]; 2], _: [&[NodalField]; 2]) -> bool {
+    fn is_closed_next(
+        &self,
+        _: &ContactForces,
+        next: [&dyn Fn(u32) -> [f64; 2]; 2],
+        _: [&[NodalField]; 2],
+    ) -> bool {
         self.is_closed(next.map(|displacement| move |node| displacement(node)[1]))
     }
 

@@ -50,6 +50,36 @@ fn energy_out_of_nowhere_stops_the_run() {
     assert_eq!(run.restitution, None);
 }
 
+/// A run that fails leaves the last state whose energy added up; one that is interrupted, or asked for no
+/// fields, leaves none.
+#[test]
+fn a_run_that_fails_leaves_its_last_sound_state() {
+    let model = model();
+    let labels = || want(SnapshotRequest::Labels(vec![fem_collision::Label::LastContact]));
+    for (want, is_kept) in [(labels(), true), (want(SnapshotRequest::none()), false)] {
+        let mut run = Run::new(&model, EXPECTED, &want);
+        assert_eq!(run.advance(128), None);
+        let disturbed_at = run.memory.state.time;
+        for v in run.memory.state.bodies[0].velocity.as_flattened_mut() {
+            *v = f64::NAN;
+        }
+        run.advance(u64::MAX);
+        let collision = run.finish();
+        assert!(matches!(collision.stop(), Some(Stop::EnergyGrowth { .. })));
+        assert_eq!(collision.snapshots.len(), usize::from(is_kept));
+        for snapshot in &collision.snapshots {
+            assert!(snapshot.label.is_none() && snapshot.time <= disturbed_at);
+            let mut fields = snapshot.bodies.iter().flat_map(|body| {
+                body.displacement.as_flattened().iter().chain(body.velocity.as_flattened())
+            });
+            assert!(fields.all(|value| value.is_finite()));
+        }
+    }
+    let mut run = Run::new(&model, EXPECTED, &labels());
+    run.advance(128);
+    assert!(run.finish().snapshots.is_empty());
+}
+
 #[test]
 fn numbers_that_are_not_finite_stop_the_run() {
     for factor in [f64::NAN, f64::INFINITY] {
@@ -106,22 +136,28 @@ fn the_next_contact_is_foreseen() {
     let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
     for _ in 0..200 {
         update_forces(&model, &state, &mut scratch).unwrap();
-        advance(&model, &mut state, &scratch);
+        advance(&model, &mut state, &mut scratch);
     }
-    update_forces(&model, &state, &mut scratch).unwrap();
+    let contact = update_forces(&model, &state, &mut scratch).unwrap();
+    let forces = || {
+        let mut other = Scratch::new(&model);
+        other.forces.clone_from(&scratch.forces);
+        other
+    };
     let lifted = |offset: f64| {
         let mut state = state.clone();
         state.bodies[1].displacement.iter_mut().for_each(|u| u[1] += offset);
         state
     };
-    let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch));
+    let foreseen = threshold(|offset| is_closed_next(&model, &lifted(offset), &scratch, &contact));
     let found = threshold(|offset| {
         let mut next = lifted(offset);
-        advance(&model, &mut next, &scratch);
-        update_forces(&model, &next, &mut scratch.clone()).unwrap().n_closed > 0
+        let mut scratch = forces();
+        advance(&model, &mut next, &mut scratch);
+        update_forces(&model, &next, &mut scratch).unwrap().n_closed > 0
     });
     let now = threshold(|offset| {
-        update_forces(&model, &lifted(offset), &mut scratch.clone()).unwrap().n_closed > 0
+        update_forces(&model, &lifted(offset), &mut Scratch::new(&model)).unwrap().n_closed > 0
     });
     // Rounding; a step moves the threshold by orders more.
     assert!((foreseen - found).abs() < 1e-14, "{foreseen:e} {found:e}");

@@ -1,7 +1,6 @@
 //! Elements in blocks of four lanes, as the kernels read them.
 
 use fem_element::QuadGeometry;
-use fem_mesh::SphereMesh;
 
 use super::lanes::LANES;
 
@@ -36,14 +35,13 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Packs the integrated elements of a mesh. Lane l takes the l-th stretch of the
+    /// Packs integrated elements, quads of so many nodes. Lane l takes the l-th stretch of the
     /// elements, so that the lanes of a block share no node and their sums do
     /// not wait for each other. Empty lanes have no stiffness and point at
     /// node 0.
-    pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry]) -> Self {
-        let n_nodes = mesh.nodes().len();
+    pub fn pack(n_nodes: usize, quads: &[[u32; 4]], geometries: &[QuadGeometry]) -> Self {
         assert!(
-            mesh.quads().iter().flatten().all(|&node| (node as usize) < n_nodes),
+            quads.iter().flatten().all(|&node| (node as usize) < n_nodes),
             "an element names a node that the mesh does not have"
         );
         let empty = Block {
@@ -61,7 +59,7 @@ impl Blocks {
             let scale = geometry.volume.sqrt();
             let (block, lane) = (&mut blocks[element % n_blocks], element / n_blocks);
             for a in 0..4 {
-                block.corners[a][lane] = mesh.quads()[element][a];
+                block.corners[a][lane] = quads[element][a];
                 block.hoop[a][lane] = scale * geometry.hoop[a];
             }
             let stiffness = geometry.hourglass_stiffness();

@@ -5,7 +5,7 @@
 //! ```
 
 use fem_collision::Account;
-use fem_element::{QuadGeometry, largest_eigenvalue, mean_gradient};
+use fem_element::{ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient};
 
 use super::block::Blocks;
 use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
@@ -41,6 +41,10 @@ impl Stress for Elastic {
     ) -> Result<(), Collapse> {
         subtract_internal_forces(&self.blocks, self.moduli, motion.displacement, forces);
         Ok(())
+    }
+
+    fn stiffness_of_step(&self, geometry: &QuadGeometry) -> Option<ElementMatrix> {
+        Some(mean_gradient(geometry).combine(self.moduli.bulk, self.moduli.shear))
     }
 
     fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {

@@ -1,18 +1,22 @@
-//! Four elements at once.
+//! Several elements at once: four at small strain, eight at finite strain, whose long chains of
+//! operations would leave four waiting for themselves.
 //!
 //! The element kernels are written once over [`Lanes`] and compiled for plain
-//! arrays and for AVX2, which is chosen at run time. Neither fuses multiply and
-//! add, so both give the same bits.
+//! arrays, for AVX2 and, where they take eight, for AVX-512, which is chosen at run time. None fuses
+//! multiply and add, so all give the same bits.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use fem_material::finite::{Number, inverse_cube_root_estimate};
+use fem_material::finite::{Number, inverse_cube_root_estimate, power_of_two};
 
 /// Elements that one pass of a kernel treats together.
 pub(crate) const LANES: usize = 4;
 
-/// One number of each of four elements.
-pub(crate) trait Lanes: Number {
+/// The same of a kernel of finite strain.
+pub(crate) const WIDE: usize = 8;
+
+/// One number of each of several elements.
+pub(crate) trait Lanes<const N: usize = LANES>: Number {
     /// The larger of both, lane by lane; `other` where one is no number.
     fn max(self, other: Self) -> Self;
 
@@ -20,26 +24,26 @@ pub(crate) trait Lanes: Number {
     fn min(self, other: Self) -> Self;
 
     /// The numbers of an array.
-    fn load(values: &[f64; LANES]) -> Self;
+    fn load(values: &[f64; N]) -> Self;
 
     /// The numbers as an array.
-    fn to_array(self) -> [f64; LANES];
+    fn to_array(self) -> [f64; N];
 
-    /// The pairs (r, y) of four nodes, all r and all y.
+    /// The pairs (r, y) of some nodes, all r and all y.
     ///
     /// # Safety
     /// Every node is an index of `field`.
-    unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; LANES]) -> (Self, Self);
+    unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; N]) -> (Self, Self);
 
-    /// Subtracts (r, y) from the pairs of four nodes, lane by lane.
+    /// Subtracts (r, y) from the pairs of some nodes, lane by lane.
     ///
     /// # Safety
     /// Every node is an index of `field`.
-    unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; LANES]);
+    unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; N]);
 }
 
 /// A loop over elements that is written once for lanes of any kind.
-pub(crate) trait LaneKernel {
+pub(crate) trait LaneKernel<const N: usize = LANES> {
     /// What the loop writes to.
     type Output: ?Sized;
 
@@ -47,7 +51,7 @@ pub(crate) trait LaneKernel {
     /// the instruction set of its lanes. The output is a parameter of its own, which tells the
     /// compiler that nothing of the kernel points there: as a field of the kernel it cost a tenth
     /// of the time.
-    fn on<L: Lanes>(self, output: &mut Self::Output);
+    fn on<L: Lanes<N>>(self, output: &mut Self::Output);
 }
 
 /// Runs a kernel on the widest lanes that the processor has.
@@ -66,13 +70,37 @@ pub(crate) fn run_lanes<K: LaneKernel>(kernel: K, output: &mut K::Output) {
     kernel.on::<Plain>(output);
 }
 
+/// Runs a kernel of finite strain on the widest lanes that the processor has.
+pub(crate) fn run_wide_lanes<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        #[target_feature(enable = "avx512f")]
+        fn on_avx512<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+            kernel.on::<Avx512>(output);
+        }
+        #[target_feature(enable = "avx2")]
+        fn on_avx2<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+            kernel.on::<Twice<Avx2>>(output);
+        }
+        if std::arch::is_x86_feature_detected!("avx512f") {
+            // SAFETY: the processor has been asked.
+            return unsafe { on_avx512(kernel, output) };
+        }
+        if std::arch::is_x86_feature_detected!("avx2") {
+            // SAFETY: the processor has been asked.
+            return unsafe { on_avx2(kernel, output) };
+        }
+    }
+    kernel.on::<Plain<WIDE>>(output);
+}
+
 /// Lanes as an array, for any machine.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Plain([f64; LANES]);
+pub(crate) struct Plain<const N: usize = LANES>([f64; N]);
 
 macro_rules! plain_operator {
     ($operator:ident, $method:ident) => {
-        impl $operator for Plain {
+        impl<const N: usize> $operator for Plain<N> {
             type Output = Self;
 
             #[inline(always)]
@@ -88,54 +116,76 @@ plain_operator!(Sub, sub);
 plain_operator!(Mul, mul);
 plain_operator!(Div, div);
 
-impl Number for Plain {
+impl<const N: usize> Number for Plain<N> {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Self([value; LANES])
+        Self([value; N])
     }
 
     #[inline(always)]
     fn inverse_cube_root_estimate(self) -> Self {
-        let of = inverse_cube_root_estimate;
-        Self([of(self.0[0]), of(self.0[1]), of(self.0[2]), of(self.0[3])])
+        Self(self.0.map(inverse_cube_root_estimate))
+    }
+
+    #[inline(always)]
+    fn power_of_two(self) -> (Self, Self) {
+        let both = self.0.map(power_of_two);
+        (Self(both.map(|(power, _)| power)), Self(both.map(|(_, inverse)| inverse)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.map(f64::sqrt))
+    }
+
+    #[inline(always)]
+    fn all_within(self, bound: f64) -> bool {
+        self.0.iter().all(|x| x.all_within(bound))
+    }
+
+    #[inline(always)]
+    fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self {
+        let choose =
+            |lane: usize| self.0[lane].choose_within(bound, inside.0[lane], outside.0[lane]);
+        Self(std::array::from_fn(choose))
     }
 }
 
-impl Lanes for Plain {
+impl<const N: usize> Lanes<N> for Plain<N> {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         let larger =
             |lane: usize| if self.0[lane] > other.0[lane] { self.0[lane] } else { other.0[lane] };
-        Self([larger(0), larger(1), larger(2), larger(3)])
+        Self(std::array::from_fn(larger))
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         let smaller =
             |lane: usize| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] };
-        Self([smaller(0), smaller(1), smaller(2), smaller(3)])
+        Self(std::array::from_fn(smaller))
     }
 
     #[inline(always)]
-    fn load(values: &[f64; LANES]) -> Self {
+    fn load(values: &[f64; N]) -> Self {
         Self(*values)
     }
 
     #[inline(always)]
-    fn to_array(self) -> [f64; LANES] {
+    fn to_array(self) -> [f64; N] {
         self.0
     }
 
     #[inline(always)]
-    unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; LANES]) -> (Self, Self) {
+    unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; N]) -> (Self, Self) {
         // SAFETY: the caller's promise.
         let pairs = nodes.map(|node| unsafe { *field.get_unchecked(node as usize) });
         (Self(pairs.map(|pair| pair[0])), Self(pairs.map(|pair| pair[1])))
     }
 
     #[inline(always)]
-    unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; LANES]) {
-        for lane in 0..LANES {
+    unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; N]) {
+        for lane in 0..N {
             // SAFETY: the caller's promise.
             let pair = unsafe { field.get_unchecked_mut(nodes[lane] as usize) };
             pair[0] -= self.0[lane];
@@ -145,123 +195,11 @@ impl Lanes for Plain {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use avx2::Avx2;
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+#[cfg(target_arch = "x86_64")]
+mod twice;
 
 #[cfg(target_arch = "x86_64")]
-mod avx2 {
-    use std::arch::x86_64::{
-        __m256d, _mm_loadu_pd, _mm_storeu_pd, _mm_sub_pd, _mm256_add_pd, _mm256_castpd_si256,
-        _mm256_castpd256_pd128, _mm256_castsi256_pd, _mm256_div_pd, _mm256_extractf128_pd,
-        _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_mul_epu32, _mm256_mul_pd,
-        _mm256_set_m128d, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_slli_epi64, _mm256_srli_epi64,
-        _mm256_storeu_pd, _mm256_sub_epi64, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
-    };
-    use std::ops::{Add, Div, Mul, Sub};
-
-    use super::{LANES, Lanes, Number};
-
-    /// Lanes as an AVX register. Values must be made and used only in functions
-    /// that are compiled for AVX2 and called after the processor was asked.
-    #[derive(Debug, Clone, Copy)]
-    pub(crate) struct Avx2(__m256d);
-
-    macro_rules! avx2_operator {
-        ($operator:ident, $method:ident, $instruction:ident) => {
-            impl $operator for Avx2 {
-                type Output = Self;
-
-                #[inline(always)]
-                fn $method(self, other: Self) -> Self {
-                    // SAFETY: the type's contract.
-                    Self(unsafe { $instruction(self.0, other.0) })
-                }
-            }
-        };
-    }
-
-    avx2_operator!(Add, add, _mm256_add_pd);
-    avx2_operator!(Sub, sub, _mm256_sub_pd);
-    avx2_operator!(Mul, mul, _mm256_mul_pd);
-    avx2_operator!(Div, div, _mm256_div_pd);
-
-    impl Number for Avx2 {
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            // SAFETY: the type's contract.
-            Self(unsafe { _mm256_set1_pd(value) })
-        }
-
-        #[inline(always)]
-        fn inverse_cube_root_estimate(self) -> Self {
-            // SAFETY: the type's contract.
-            unsafe {
-                let upper = _mm256_srli_epi64::<32>(_mm256_castpd_si256(self.0));
-                let factor = _mm256_set1_epi64x(0xAAAA_AAAB);
-                let third = _mm256_srli_epi64::<33>(_mm256_mul_epu32(upper, factor));
-                let rest = _mm256_sub_epi64(_mm256_set1_epi64x(0x553E_F0FF), third);
-                Self(_mm256_castsi256_pd(_mm256_slli_epi64::<32>(rest)))
-            }
-        }
-    }
-
-    impl Lanes for Avx2 {
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            // SAFETY: the type's contract.
-            Self(unsafe { _mm256_max_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            // SAFETY: the type's contract.
-            Self(unsafe { _mm256_min_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn load(values: &[f64; LANES]) -> Self {
-            // SAFETY: the type's contract; the array is as long as the register.
-            Self(unsafe { _mm256_loadu_pd(values.as_ptr()) })
-        }
-
-        #[inline(always)]
-        fn to_array(self) -> [f64; LANES] {
-            let mut values = [0.0; LANES];
-            // SAFETY: the type's contract; the array is as long as the register.
-            unsafe { _mm256_storeu_pd(values.as_mut_ptr(), self.0) };
-            values
-        }
-
-        #[inline(always)]
-        unsafe fn gather(field: &[[f64; 2]], nodes: &[u32; LANES]) -> (Self, Self) {
-            // SAFETY: the caller's promise and the type's contract.
-            unsafe {
-                let pair_0 = _mm_loadu_pd(field.get_unchecked(nodes[0] as usize).as_ptr());
-                let pair_1 = _mm_loadu_pd(field.get_unchecked(nodes[1] as usize).as_ptr());
-                let pair_2 = _mm_loadu_pd(field.get_unchecked(nodes[2] as usize).as_ptr());
-                let pair_3 = _mm_loadu_pd(field.get_unchecked(nodes[3] as usize).as_ptr());
-                let even = _mm256_set_m128d(pair_2, pair_0);
-                let odd = _mm256_set_m128d(pair_3, pair_1);
-                (Self(_mm256_unpacklo_pd(even, odd)), Self(_mm256_unpackhi_pd(even, odd)))
-            }
-        }
-
-        #[inline(always)]
-        unsafe fn scatter_subtract(self, y: Self, field: &mut [[f64; 2]], nodes: &[u32; LANES]) {
-            // SAFETY: the caller's promise and the type's contract.
-            unsafe {
-                let even = _mm256_unpacklo_pd(self.0, y.0);
-                let odd = _mm256_unpackhi_pd(self.0, y.0);
-                let pairs = [
-                    _mm256_castpd256_pd128(even),
-                    _mm256_castpd256_pd128(odd),
-                    _mm256_extractf128_pd::<1>(even),
-                    _mm256_extractf128_pd::<1>(odd),
-                ];
-                for (node, pair) in nodes.iter().zip(pairs) {
-                    let place = field.get_unchecked_mut(*node as usize).as_mut_ptr();
-                    _mm_storeu_pd(place, _mm_sub_pd(_mm_loadu_pd(place), pair));
-                }
-            }
-        }
-    }
-}
+pub(crate) use {avx2::Avx2, avx512::Avx512, twice::Twice};

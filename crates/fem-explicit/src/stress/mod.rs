@@ -8,7 +8,7 @@
 //! prony               the history of both, one field a term
 //! finite              a law beyond Hooke at finite strain
 //! kernel              the element loops of all: forces and strain energy
-//! lanes, block        four elements at once, and how they lie in memory
+//! lanes, block        four elements at once, at finite strain eight, and how they lie in memory
 //! ```
 
 mod block;
@@ -41,8 +41,18 @@ pub(crate) fn of_material(
     geometries: &[QuadGeometry],
     material: &Material,
 ) -> Box<dyn Stress> {
+    of_quads(mesh.nodes().len(), mesh.quads(), geometries, material)
+}
+
+/// The same on some elements, quads of so many nodes.
+pub(crate) fn of_quads(
+    n_nodes: usize,
+    quads: &[[u32; 4]],
+    geometries: &[QuadGeometry],
+    material: &Material,
+) -> Box<dyn Stress> {
     let elastic = Elastic {
-        blocks: Blocks::pack(mesh, geometries),
+        blocks: Blocks::pack(n_nodes, quads, geometries),
         moduli: Moduli::of(material.instantaneous()),
     };
     let relaxation = material.relaxation().filter(|series| series.relaxes());

@@ -1,6 +1,6 @@
 //! What the step asks of a body's stress.
 
-use fem_element::QuadGeometry;
+use fem_element::{ElementMatrix, QuadGeometry};
 
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
@@ -39,7 +39,8 @@ pub trait Stress: Part {
     /// History of a body that has been deformed in no time: nothing of it has relaxed.
     fn start_deformed(&self, _displacement: &Field, _history: &mut [NodalField]) {}
 
-    /// Subtracts the internal forces (N) from `forces`.
+    /// Subtracts the internal forces (N) from `forces`: of a motion to which the history has been taken,
+    /// which may hold them.
     ///
     /// # Errors
     /// An element has collapsed; then the forces mean nothing.
@@ -86,6 +87,15 @@ pub trait Stress: Part {
 
     /// Takes the history to the end of a step, whose motion is given.
     fn advance(&self, _motion: &Motion<'_>, _history: &mut [NodalField]) {}
+
+    /// Stiffness (N/m) of an element against what a node moves more by the end of a step, the time step
+    /// known; `None` of a stress that is no linear function of the motion.
+    fn stiffness_of_step(&self, _geometry: &QuadGeometry) -> Option<ElementMatrix> {
+        None
+    }
+
+    /// A node has moved by so much more (m) in the step that the history has been taken to the end of.
+    fn shift(&self, _node: usize, _change: [f64; 2], _history: &mut [NodalField]) {}
 
     /// Adds what the body stores and dissipates.
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);

@@ -12,7 +12,7 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use fem_collision::Account;
-use fem_element::QuadGeometry;
+use fem_element::{ElementMatrix, QuadGeometry, mean_gradient};
 use fem_material::{PronySeries, RelaxationStep};
 use multiversion::multiversion;
 
@@ -42,6 +42,8 @@ struct Branch {
     decay: f64,
     /// What it gains of a velocity in a step, s.
     gain: f64,
+    /// What it gains of a displacement in a step.
+    share: f64,
 }
 
 impl Branch {
@@ -50,6 +52,7 @@ impl Branch {
         let step = RelaxationStep::new(self.relaxation_time, time_step);
         self.decay = step.decay;
         self.gain = step.gain * time_step;
+        self.share = step.gain;
     }
 
     /// This branch at a step (s) that may be shorter than the model's.
@@ -82,6 +85,7 @@ impl<R: Relaxes> Relaxing<R> {
             relaxation_time: term.relaxation_time,
             decay: 1.0,
             gain: 0.0,
+            share: 0.0,
         });
         Self {
             elastic,
@@ -90,6 +94,12 @@ impl<R: Relaxes> Relaxing<R> {
             time_step: 0.0,
             relaxes: PhantomData,
         }
+    }
+
+    /// What the effective displacement gains of a displacement in a step, g∞ + Σ g_k ∂q_k/∂u.
+    fn weight_of_step(&self) -> f64 {
+        let branches = self.branches.iter().map(|branch| branch.weight * branch.share);
+        self.equilibrium_weight + branches.sum::<f64>()
     }
 
     /// w = g∞ u + Σ g_k q_k.
@@ -151,6 +161,26 @@ impl<R: Relaxes> Stress for Relaxing<R> {
         for (branch, q) in self.branches.iter().zip(branches) {
             let branch = branch.at(motion.time_step, self.time_step);
             advance_branch(branch.decay, branch.gain, branch.weight, motion.velocity, q, w);
+        }
+    }
+
+    /// Of the moduli that are left of what a step adds at its end.
+    fn stiffness_of_step(&self, geometry: &QuadGeometry) -> Option<ElementMatrix> {
+        let weight = self.weight_of_step();
+        let Moduli { bulk, shear } = R::lasting(self.elastic.moduli, weight);
+        Some(mean_gradient(geometry).combine(bulk, shear))
+    }
+
+    fn shift(&self, node: usize, change: [f64; 2], history: &mut [NodalField]) {
+        let [w, branches @ ..] = history else { return };
+        let weight = self.weight_of_step();
+        for axis in 0..2 {
+            w[node][axis] += weight * change[axis];
+        }
+        for (branch, q) in self.branches.iter().zip(branches) {
+            for axis in 0..2 {
+                q[node][axis] += branch.share * change[axis];
+            }
         }
     }
 

@@ -149,7 +149,7 @@ fn every_step_of_a_collision_is_stable() {
                 largest = largest.max(state.time_step(&model) * half);
                 at_first = at_first.max(model.time_step() * half);
             }
-            advance(&model, &mut state, &scratch);
+            advance(&model, &mut state, &mut scratch);
         }
         // The step factor and what the bound leaves; the first step would have used that up.
         assert!(largest < 0.8 && largest > 0.65, "{law:?} {largest}");
@@ -186,7 +186,7 @@ fn every_step_of_bulging_spheres_is_stable() {
                 let stiffness = largest_eigenvalue(&tangent, &[lower, upper]);
                 largest = largest.max(time_step * stiffness.sqrt() / 2.0);
             }
-            advance(&model, &mut state, &scratch);
+            advance(&model, &mut state, &mut scratch);
         }
         assert!(range.contains(&largest), "{stiffness} {largest}");
         assert!(shortest > least, "{stiffness} {shortest}");

@@ -24,7 +24,7 @@ fn rigid_flight_strains_nothing() {
     for _ in 0..200 {
         let contact = update_forces(&model, &state, &mut scratch).unwrap();
         assert_eq!(contact.n_closed, 0);
-        advance(&model, &mut state, &scratch);
+        advance(&model, &mut state, &mut scratch);
     }
     for (side, velocity) in [0.3, -0.7].into_iter().enumerate() {
         let (body, state) = (&model.bodies()[side], &state.bodies[side]);
@@ -54,7 +54,7 @@ fn leapfrog_conserves_energy_and_momentum() {
         for _ in 0..1000 {
             update_forces(&model, &state, &mut scratch).unwrap();
             let before = state.clone();
-            advance(&model, &mut state, &scratch);
+            advance(&model, &mut state, &mut scratch);
             let kinetic: f64 = body
                 .nodal_mass
                 .iter()

@@ -2,6 +2,7 @@
 
 mod finite_strain;
 mod free_motion;
+mod massless;
 mod node_forces;
 mod relaxation;
 mod stability;

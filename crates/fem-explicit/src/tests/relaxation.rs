@@ -39,7 +39,7 @@ fn hold(model: &crate::Model, state: &mut State, n: usize) -> Vec<[f64; 2]> {
     let mut scratch = Scratch::new(model);
     let start = state.time;
     for _ in 0..n {
-        advance(model, state, &scratch);
+        advance(model, state, &mut scratch);
     }
     state.time -= start;
     update_forces(model, state, &mut scratch).unwrap();

@@ -26,7 +26,7 @@ fn pair(sizes: [f64; 2], settings: &Settings) -> Model {
 
 /// −∂f/∂u of bodies and contact at a state, from the step's own forces, which are linear while no
 /// contact opens or closes.
-fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
+pub(super) fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
     let forces = |state: &State| {
         let mut scratch = Scratch::new(model);
         update_forces(model, state, &mut scratch).unwrap();
@@ -70,6 +70,24 @@ fn critical_time_step_of_a_body_is_safe_and_tight() {
     }
 }
 
+/// All points closed: the pole of the upper body is a radius inside of the lower.
+pub(super) fn both_closed(model: &Model) -> State {
+    let mut state = State::at_first_touch(model);
+    state.bodies[1].displacement.iter_mut().for_each(|u| u[1] -= 1.0);
+    state
+}
+
+/// Some points closed, without pattern.
+pub(super) fn partly_closed(model: &Model) -> State {
+    let mut state = State::at_first_touch(model);
+    for (side, body) in model.bodies().iter().enumerate() {
+        let field = ragged(body.mesh().unwrap(), side);
+        let nodes = state.bodies[side].displacement.iter_mut().zip(&field);
+        nodes.for_each(|(u, x)| *u = [0.0, 4.0 * x[1]]);
+    }
+    state
+}
+
 #[test]
 fn critical_time_step_with_closed_contact_is_safe() {
     for stiffness in [1.0, 10.0, 100.0] {
@@ -79,19 +97,8 @@ fn critical_time_step_with_closed_contact_is_safe() {
             let model = pair(sizes, &settings);
             let bodies = model.bodies();
             let both = [&bodies[0], &bodies[1]];
-            let mut state = State::at_first_touch(&model);
-            // All points closed: the pole of the upper body is a radius inside of the lower.
-            state.bodies[1].displacement.iter_mut().for_each(|u| u[1] -= 1.0);
-            let closed = largest_eigenvalue(&tangent(&model, &state), &both);
-            for (side, body) in bodies.iter().enumerate() {
-                let field = ragged(body.mesh().unwrap(), side);
-                state.bodies[side]
-                    .displacement
-                    .iter_mut()
-                    .zip(&field)
-                    .for_each(|(u, x)| *u = [0.0, 4.0 * x[1]]);
-            }
-            let some = largest_eigenvalue(&tangent(&model, &state), &both);
+            let closed = largest_eigenvalue(&tangent(&model, &both_closed(&model)), &both);
+            let some = largest_eigenvalue(&tangent(&model, &partly_closed(&model)), &both);
             let ratio = |value: f64| model.time_step() * value.sqrt() / 2.0;
             // Safe for either pattern. Springs that decide are taken four times for opening
             // and closing, half of the step, beside what the body's bound leaves.

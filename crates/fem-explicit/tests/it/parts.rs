@@ -1,5 +1,7 @@
 //! Parts that the caller hands to the model.
 
+use std::any::Any;
+
 use crate::common::{Pair, quantities};
 use fem_collision::{Account, BodyInput, Collision, Label, Searched, SnapshotRequest};
 use fem_contact::{ContactForces, ContactInterface, Surface};
@@ -258,15 +260,25 @@ impl Contact for Counting {
         Contact::add_forces(&self.penalty, motions, [&[]; 2], forces)
     }
 
-    fn advance(&self, motions: [MotionMut<'_>; 2], history: [&mut [NodalField]; 2]) {
+    fn advance(
+        &self,
+        motions: [MotionMut<'_>; 2],
+        history: [&mut [NodalField]; 2],
+        _: &mut dyn Any,
+    ) {
         assert!(motions[0].time > self.first_touch);
         for fields in history {
             fields[0].iter_mut().flatten().for_each(|count| *count += 1.0);
         }
     }
 
-    fn is_closed_next(&self, next: [&dyn Fn(u32) -> [f64; 2]; 2], _: [&[NodalField]; 2]) -> bool {
-        self.penalty.is_closed_next(next, [&[]; 2])
+    fn is_closed_next(
+        &self,
+        now: &ContactForces,
+        next: [&dyn Fn(u32) -> [f64; 2]; 2],
+        _: [&[NodalField]; 2],
+    ) -> bool {
+        self.penalty.is_closed_next(now, next, [&[]; 2])
     }
 
     fn contact_radius(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64 {

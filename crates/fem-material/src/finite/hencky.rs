@@ -6,15 +6,16 @@
 //! ```
 //!
 //! (Hencky 1928; Anand 1979, Journal of Applied Mechanics 46:78). The logarithm of the meridian
-//! block with mean eigenvalue m and half difference ρ is
-//! ½ ln(m² − ρ²) 1 + (artanh(x)/x)(b − m 1)/m, x = ρ/m: no eigenvector is needed.
+//! block with the eigenvalues m ± ρ is ½ (ln(m + ρ) + ln(m − ρ)) 1 +
+//! (ln(m + ρ) − ln(m − ρ))(b − m 1)/2ρ: no eigenvector is needed.
 //!
 //! Limits: elliptic while all stretches lie in 0.2116 .. e^(1/3) = 1.3956 (Bruhns, Xiao & Meyers
 //! 2001, Proceedings of the Royal Society A 457:2207); in uniaxial strain the slope is zero at
 //! F = e.
 
 use super::kinematics::Strain;
-use super::logarithm::{artanh_over, ln_of_one_plus};
+use super::logarithm::ln_of_one_plus;
+use super::number::Number;
 use super::principal::Response;
 use super::tensor::SymmetricTensor;
 
@@ -26,20 +27,21 @@ pub(super) struct Hencky {
 }
 
 impl Hencky {
-    pub fn energy(&self, strain: &Strain) -> f64 {
+    #[inline(always)]
+    pub fn energy<N: Number>(&self, strain: &Strain<N>) -> N {
         let SymmetricTensor { rr, yy, tt, ry } = logarithmic_strain(&strain.left);
         let volumetric = rr + yy + tt;
-        let mean = volumetric / 3.0;
-        let (rr, yy, tt) = (rr - mean, yy - mean, tt - mean);
-        let shape = rr * rr + yy * yy + tt * tt + 2.0 * ry * ry;
-        0.5 * self.bulk * volumetric * volumetric + self.shear * shape
+        let mean = volumetric * N::splat(1.0 / 3.0);
+        let deviator = SymmetricTensor { rr: rr - mean, yy: yy - mean, tt: tt - mean, ry };
+        N::splat(0.5 * self.bulk) * (volumetric * volumetric)
+            + N::splat(self.shear) * deviator.dot(&deviator)
     }
 
-    #[inline]
-    pub fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+    #[inline(always)]
+    pub fn kirchhoff<N: Number>(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
         let SymmetricTensor { rr, yy, tt, ry } = logarithmic_strain(&strain.left);
-        let mean = (self.bulk - 2.0 / 3.0 * self.shear) * (rr + yy + tt);
-        let two_g = 2.0 * self.shear;
+        let mean = N::splat(self.bulk - 2.0 / 3.0 * self.shear) * (rr + yy + tt);
+        let two_g = N::splat(2.0 * self.shear);
         SymmetricTensor {
             rr: mean + two_g * rr,
             yy: mean + two_g * yy,
@@ -62,19 +64,22 @@ impl Hencky {
 }
 
 /// ½ ln b of b − 1.
-#[inline]
-fn logarithmic_strain(left: &SymmetricTensor) -> SymmetricTensor {
+#[inline(always)]
+fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N> {
     let SymmetricTensor { rr, yy, tt, ry } = *left;
-    let half_difference = 0.5 * (rr - yy);
-    let mean = 1.0 + 0.5 * (rr + yy);
-    let radius_squared = half_difference * half_difference + ry * ry;
-    let ratio = artanh_over(radius_squared / (mean * mean)) / mean;
-    let common = 0.25 * ln_of_one_plus(rr + yy + (rr * yy - ry * ry));
-    let own = 0.5 * ratio * half_difference;
+    let (half, quarter) = (N::splat(0.5), N::splat(0.25));
+    let (half_difference, mean) = (half * (rr - yy), half * (rr + yy));
+    // Where both are zero so is the difference of the logarithms.
+    let square = half_difference * half_difference + ry * ry + N::splat(f64::MIN_POSITIVE);
+    let radius = square.sqrt();
+    let (first, second) = (ln_of_one_plus(mean + radius), ln_of_one_plus(mean - radius));
+    let common = quarter * (first + second);
+    let ratio = quarter * (first - second) / radius;
+    let own = ratio * half_difference;
     SymmetricTensor {
         rr: common + own,
         yy: common - own,
-        tt: 0.5 * ln_of_one_plus(tt),
-        ry: 0.5 * ratio * ry,
+        tt: half * ln_of_one_plus(tt),
+        ry: ratio * ry,
     }
 }

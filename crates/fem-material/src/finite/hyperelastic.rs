@@ -4,6 +4,7 @@ use super::hencky::Hencky;
 use super::kinematics::{Strain, first_piola};
 use super::neo_hooke::NeoHooke;
 use super::neo_hooke_ln::NeoHookeLn;
+use super::number::{Number, inverse_cube_root};
 use super::principal::{PrincipalAxes, PrincipalStiffness, Response};
 use super::saint_venant_kirchhoff::SaintVenantKirchhoff;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
@@ -100,11 +101,35 @@ impl Hyperelastic {
     #[inline]
     pub fn first_piola(&self, h: &AxisymmetricTensor) -> Result<AxisymmetricTensor, Inverted> {
         let strain = upright(h)?;
-        let Self { law, bulk, shear } = *self;
-        if law == HyperelasticLaw::NeoHooke {
-            return Ok(NeoHooke { bulk, shear }.first_piola(h).0);
-        }
-        Ok(first_piola(&self.kirchhoff(&strain), h, 1.0 / (1.0 + strain.volume_change)))
+        Ok(self.first_piola_of(h, &strain))
+    }
+
+    /// First Piola-Kirchhoff stress, Pa, and J − 1, on one number or several side by side: it means
+    /// something where J − 1 > −1. The caller has to look: nothing here stops.
+    #[inline(always)]
+    pub fn first_piola_unchecked<N: Number>(
+        &self,
+        h: &AxisymmetricTensor<N>,
+    ) -> (AxisymmetricTensor<N>, N) {
+        let strain = Strain::of(h);
+        (self.first_piola_of(h, &strain), strain.volume_change)
+    }
+
+    /// Energy per undeformed volume, J/m³, as [`Hyperelastic::first_piola_unchecked`].
+    #[inline(always)]
+    pub fn energy_unchecked<N: Number>(&self, h: &AxisymmetricTensor<N>) -> N {
+        self.energy_of(&Strain::of(h))
+    }
+
+    #[inline(always)]
+    fn first_piola_of<N: Number>(
+        &self,
+        h: &AxisymmetricTensor<N>,
+        strain: &Strain<N>,
+    ) -> AxisymmetricTensor<N> {
+        // The hourglass shape of an element asks for this root of every law.
+        let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
+        first_piola(&self.kirchhoff(strain), h, y * y * y)
     }
 
     /// Cauchy stress σ = P Fᵀ/J, Pa: force by deformed area.
@@ -140,11 +165,13 @@ impl Hyperelastic {
         PrincipalStiffness::new(stretches, &self.principal(stretches))
     }
 
-    #[inline]
-    pub(super) fn energy_of(&self, strain: &Strain) -> f64 {
+    #[inline(always)]
+    pub(super) fn energy_of<N: Number>(&self, strain: &Strain<N>) -> N {
         let Self { law, bulk, shear } = *self;
         match law {
-            HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.energy_of(strain),
+            HyperelasticLaw::NeoHooke => {
+                NeoHooke { bulk: N::splat(bulk), shear: N::splat(shear) }.energy_of(strain)
+            }
             HyperelasticLaw::NeoHookeLn => NeoHookeLn { bulk, shear }.energy(strain),
             HyperelasticLaw::Hencky => Hencky { bulk, shear }.energy(strain),
             HyperelasticLaw::SaintVenantKirchhoff => {
@@ -153,11 +180,13 @@ impl Hyperelastic {
         }
     }
 
-    #[inline]
-    pub(super) fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+    #[inline(always)]
+    pub(super) fn kirchhoff<N: Number>(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
         let Self { law, bulk, shear } = *self;
         match law {
-            HyperelasticLaw::NeoHooke => NeoHooke { bulk, shear }.kirchhoff(strain),
+            HyperelasticLaw::NeoHooke => {
+                NeoHooke { bulk: N::splat(bulk), shear: N::splat(shear) }.kirchhoff(strain)
+            }
             HyperelasticLaw::NeoHookeLn => NeoHookeLn { bulk, shear }.kirchhoff(strain),
             HyperelasticLaw::Hencky => Hencky { bulk, shear }.kirchhoff(strain),
             HyperelasticLaw::SaintVenantKirchhoff => {

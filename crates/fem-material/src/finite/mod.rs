@@ -24,8 +24,11 @@ mod viscous;
 
 pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};
 pub use neo_hooke::NeoHooke;
-pub use number::{Number, inverse_cube_root, inverse_cube_root_estimate};
+pub use number::{
+    Number, POWER_OFFSET, UNITS, UNITS_AND_OFFSET, inverse_cube_root, inverse_cube_root_estimate,
+    power_of_two,
+};
 pub use relaxing_neo_hooke::RelaxingNeoHooke;
 pub use tensor::{AxisymmetricTensor, SymmetricTensor};
 pub use viscoelastic::Viscoelastic;
-pub use viscous::{ViscousStep, ViscousStrain};
+pub use viscous::{Shape, ViscousStep, ViscousStrain};

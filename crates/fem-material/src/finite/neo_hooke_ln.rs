@@ -11,6 +11,7 @@
 
 use super::kinematics::Strain;
 use super::logarithm::ln_of_one_plus;
+use super::number::Number;
 use super::principal::Response;
 use super::tensor::SymmetricTensor;
 
@@ -22,24 +23,29 @@ pub(super) struct NeoHookeLn {
 }
 
 impl NeoHookeLn {
+    /// Lamé's λ.
+    #[inline(always)]
     fn lambda(&self) -> f64 {
         self.bulk - 2.0 / 3.0 * self.shear
     }
 
-    pub fn energy(&self, strain: &Strain) -> f64 {
+    #[inline(always)]
+    pub fn energy<N: Number>(&self, strain: &Strain<N>) -> N {
         let ln = ln_of_one_plus(strain.volume_change);
-        0.5 * self.shear * (strain.left.trace() - 2.0 * ln) + 0.5 * self.lambda() * ln * ln
+        let (half_shear, half_lambda) = (0.5 * self.shear, 0.5 * self.lambda());
+        N::splat(half_shear) * (strain.left.trace() - (ln + ln)) + N::splat(half_lambda) * (ln * ln)
     }
 
-    #[inline]
-    pub fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+    #[inline(always)]
+    pub fn kirchhoff<N: Number>(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
         let SymmetricTensor { rr, yy, tt, ry } = strain.left;
-        let mean = self.lambda() * ln_of_one_plus(strain.volume_change);
+        let shear = N::splat(self.shear);
+        let mean = N::splat(self.lambda()) * ln_of_one_plus(strain.volume_change);
         SymmetricTensor {
-            rr: mean + self.shear * rr,
-            yy: mean + self.shear * yy,
-            tt: mean + self.shear * tt,
-            ry: self.shear * ry,
+            rr: mean + shear * rr,
+            yy: mean + shear * yy,
+            tt: mean + shear * tt,
+            ry: shear * ry,
         }
     }
 

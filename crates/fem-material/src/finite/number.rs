@@ -1,8 +1,8 @@
 //! What a law computes with: one number, or several side by side.
 //!
 //! A law that is written over [`Number`] runs on plain numbers and on the lanes of a vector unit,
-//! to the same bits: additions, multiplications, divisions and one estimate from the bits of a
-//! number, which IEEE 754 fixes, and no function of a mathematical library, which differ.
+//! to the same bits: additions, multiplications, divisions, square roots and what is read from the bits
+//! of a number, which IEEE 754 fixes, and no function of a mathematical library, which differ.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -15,6 +15,18 @@ pub trait Number:
 
     /// [`inverse_cube_root_estimate`] of each lane.
     fn inverse_cube_root_estimate(self) -> Self;
+
+    /// [`power_of_two`] of each lane.
+    fn power_of_two(self) -> (Self, Self);
+
+    /// The square root of each lane.
+    fn sqrt(self) -> Self;
+
+    /// Whether every lane lies within ± a bound.
+    fn all_within(self, bound: f64) -> bool;
+
+    /// In lanes that lie within ± a bound the one number, else the other.
+    fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self;
 }
 
 impl Number for f64 {
@@ -27,6 +39,41 @@ impl Number for f64 {
     fn inverse_cube_root_estimate(self) -> Self {
         inverse_cube_root_estimate(self)
     }
+
+    #[inline(always)]
+    fn power_of_two(self) -> (Self, Self) {
+        power_of_two(self)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn all_within(self, bound: f64) -> bool {
+        self.abs() <= bound
+    }
+
+    #[inline(always)]
+    fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self {
+        if self.abs() <= bound { inside } else { outside }
+    }
+}
+
+/// What takes the bits of √½ to those of 1, so that a number's exponent changes at √½ and √2.
+pub const POWER_OFFSET: u64 = 1f64.to_bits() - std::f64::consts::FRAC_1_SQRT_2.to_bits();
+/// The bits of 2⁵², whose last ones count units.
+pub const UNITS: u64 = 0x4330_0000_0000_0000;
+/// 2⁵² and the offset of exponents.
+pub const UNITS_AND_OFFSET: f64 = 4_503_599_627_370_496.0 + 1023.0;
+
+/// k and 2^(−k) of a positive normal number x, with x 2^(−k) between √½ and √2.
+#[inline(always)]
+pub fn power_of_two(x: f64) -> (f64, f64) {
+    let exponent = x.to_bits().wrapping_add(POWER_OFFSET) >> 52;
+    let power = f64::from_bits(exponent | UNITS) - UNITS_AND_OFFSET;
+    (power, f64::from_bits(2046u64.wrapping_sub(exponent) << 52))
 }
 
 /// x^(−1/3) of a positive normal number to 3.5 %, from its bits.
@@ -68,9 +115,54 @@ pub(super) fn inverse_cube_root_change<N: Number>(volume_change: N) -> N {
     z - (one + z) * (volume_change + jacobian * cube) * N::splat(1.0 / 3.0)
 }
 
+/// Where the series takes the place of the root: its first term left out is 8e-20 of the result.
+const SERIES_BOUND: f64 = 1e-3;
+
+/// The same where J is near 1 as a rule, at a quarter of the time: the binomial series, and the root
+/// where that does not serve.
+#[inline(always)]
+pub(super) fn inverse_cube_root_change_near_one<N: Number>(d: N) -> N {
+    let (c_1, c_2) = (N::splat(-1.0 / 3.0), N::splat(2.0 / 9.0));
+    let (c_3, c_4) = (N::splat(-14.0 / 81.0), N::splat(35.0 / 243.0));
+    let (c_5, c_6) = (N::splat(-91.0 / 729.0), N::splat(728.0 / 6561.0));
+    let square = d * d;
+    let tail = (c_3 + d * c_4) + square * (c_5 + d * c_6);
+    let series = d * ((c_1 + d * c_2) + square * tail);
+    if d.all_within(SERIES_BOUND) {
+        return series;
+    }
+    d.choose_within(SERIES_BOUND, series, inverse_cube_root_change(d))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Both ways, where they meet, and between.
+    #[test]
+    fn the_change_of_the_root_keeps_its_own_last_digit() {
+        for size in [1e-12f64, 1e-6, 9.99e-4, 1.001e-3, 0.1, 0.6] {
+            for d in [size, -size] {
+                let exact = (-d.ln_1p() / 3.0).exp_m1();
+                for found in [inverse_cube_root_change(d), inverse_cube_root_change_near_one(d)] {
+                    assert!((found / exact - 1.0).abs() < 4.0 * f64::EPSILON, "{d}: {found}");
+                }
+            }
+        }
+        assert_eq!(inverse_cube_root_change_near_one(0.0), 0.0);
+    }
+
+    #[test]
+    fn the_power_of_two_leaves_a_number_near_one() {
+        use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
+        for k in 0..20_000 {
+            let x = 10f64.powf(-100.0 + 0.01 * f64::from(k));
+            let (power, inverse) = power_of_two(x);
+            assert_eq!(inverse, 2f64.powf(-power), "{x}");
+            assert!((FRAC_1_SQRT_2..=SQRT_2).contains(&(x * inverse)), "{x}: {power}");
+        }
+        assert_eq!(power_of_two(1.0), (0.0, 1.0));
+    }
 
     /// Three binades: the estimate repeats itself eight-fold.
     #[test]

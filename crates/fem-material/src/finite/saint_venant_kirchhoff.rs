@@ -15,6 +15,7 @@
 //! comparison, at strains of some per cent.
 
 use super::kinematics::Strain;
+use super::number::Number;
 use super::principal::Response;
 use super::tensor::SymmetricTensor;
 
@@ -26,29 +27,32 @@ pub(super) struct SaintVenantKirchhoff {
 }
 
 impl SaintVenantKirchhoff {
+    /// Lamé's λ.
+    #[inline(always)]
     fn lambda(&self) -> f64 {
         self.bulk - 2.0 / 3.0 * self.shear
     }
 
     /// Green's strain has the invariants of ½ (b − 1).
-    pub fn energy(&self, strain: &Strain) -> f64 {
-        let SymmetricTensor { rr, yy, tt, ry } = strain.left;
-        let trace = rr + yy + tt;
-        let squares = rr * rr + yy * yy + tt * tt + 2.0 * ry * ry;
-        0.125 * self.lambda() * trace * trace + 0.25 * self.shear * squares
+    #[inline(always)]
+    pub fn energy<N: Number>(&self, strain: &Strain<N>) -> N {
+        let (trace, squares) = (strain.left.trace(), strain.left.dot(&strain.left));
+        N::splat(0.125 * self.lambda()) * (trace * trace) + N::splat(0.25 * self.shear) * squares
     }
 
-    #[inline]
-    pub fn kirchhoff(&self, strain: &Strain) -> SymmetricTensor {
+    #[inline(always)]
+    pub fn kirchhoff<N: Number>(&self, strain: &Strain<N>) -> SymmetricTensor<N> {
         let SymmetricTensor { rr, yy, tt, ry } = strain.left;
-        let half = 0.5 * self.lambda() * (rr + yy + tt);
-        let shear = self.shear;
-        // b (b − 1) = (b − 1) + (b − 1)².
+        let half = N::splat(0.5 * self.lambda()) * (rr + yy + tt);
+        let shear = N::splat(self.shear);
+        // b (λ/2 tr(b − 1) + G (b − 1)) = s + (b − 1) s of the bracket s.
+        let (s_rr, s_yy) = (half + shear * rr, half + shear * yy);
+        let (s_tt, s_ry) = (half + shear * tt, shear * ry);
         SymmetricTensor {
-            rr: half * (1.0 + rr) + shear * (rr + (rr * rr + ry * ry)),
-            yy: half * (1.0 + yy) + shear * (yy + (yy * yy + ry * ry)),
-            tt: half * (1.0 + tt) + shear * (tt + tt * tt),
-            ry: half * ry + shear * (ry + ry * (rr + yy)),
+            rr: s_rr + (rr * s_rr + ry * s_ry),
+            yy: s_yy + (yy * s_yy + ry * s_ry),
+            tt: s_tt + tt * s_tt,
+            ry: s_ry + (rr * s_ry + ry * s_yy),
         }
     }
 

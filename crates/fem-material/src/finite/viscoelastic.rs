@@ -27,7 +27,7 @@
 use super::hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted, upright};
 use super::kinematics::{Strain, first_piola, push_forward};
 use super::neo_hooke::NeoHooke;
-use super::number::inverse_cube_root_change;
+use super::number::{Number, inverse_cube_root, inverse_cube_root_change};
 use super::relaxing_neo_hooke::RelaxingNeoHooke;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use super::viscous::{ViscousStep, ViscousStrain};
@@ -104,9 +104,11 @@ impl Viscoelastic {
         history: &[ViscousStrain],
     ) -> Result<f64, Inverted> {
         let strain = upright(h)?;
-        let viscous = self.elastic_strains(h, strain, history);
-        Ok(self.equilibrium.energy_of(&strain)
-            + viscous.map(|(branch, elastic)| branch.solid.energy_of(&elastic)).sum::<f64>())
+        let mut energy = self.equilibrium.energy_of(&strain);
+        for (branch, viscous) in self.branches.iter().zip(history) {
+            energy += branch.solid.energy_of(&self.elastic_strain(h, &strain, viscous));
+        }
+        Ok(energy)
     }
 
     /// First Piola-Kirchhoff stress, Pa.
@@ -119,12 +121,25 @@ impl Viscoelastic {
         h: &AxisymmetricTensor,
         history: &[ViscousStrain],
     ) -> Result<AxisymmetricTensor, Inverted> {
-        let strain = upright(h)?;
+        upright(h)?;
         if let Some(law) = &self.neo_hooke {
             return Ok(law.first_piola(h, history).0);
         }
-        let stress = self.kirchhoff(h, strain, history);
-        Ok(first_piola(&stress, h, 1.0 / (1.0 + strain.volume_change)))
+        Ok(self.first_piola_unchecked(h, history).0)
+    }
+
+    /// First Piola-Kirchhoff stress, Pa, and J − 1, on one number or several side by side; as of
+    /// [`Hyperelastic::first_piola_unchecked`], the caller has to look at J.
+    #[inline(always)]
+    pub fn first_piola_unchecked<N: Number>(
+        &self,
+        h: &AxisymmetricTensor<N>,
+        history: &[ViscousStrain<N>],
+    ) -> (AxisymmetricTensor<N>, N) {
+        let strain = Strain::of(h);
+        let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
+        let stress = self.kirchhoff(h, &strain, history);
+        (first_piola(&stress, h, y * y * y), strain.volume_change)
     }
 
     /// Cauchy stress, Pa.
@@ -137,7 +152,7 @@ impl Viscoelastic {
         history: &[ViscousStrain],
     ) -> Result<SymmetricTensor, Inverted> {
         let strain = upright(h)?;
-        Ok(self.kirchhoff(h, strain, history).times(1.0 / (1.0 + strain.volume_change)))
+        Ok(self.kirchhoff(h, &strain, history).times(1.0 / (1.0 + strain.volume_change)))
     }
 
     /// What is dissipated a second per undeformed volume D, W/m³.
@@ -150,7 +165,8 @@ impl Viscoelastic {
         history: &[ViscousStrain],
     ) -> Result<f64, Inverted> {
         let strain = upright(h)?;
-        let rates = self.elastic_strains(h, strain, history).map(|(branch, elastic)| {
+        let rates = self.branches.iter().zip(history).map(|(branch, viscous)| {
+            let elastic = self.elastic_strain(h, &strain, viscous);
             let stress = branch.solid.kirchhoff(&elastic);
             let z = inverse_cube_root_change(elastic.volume_change);
             let unimodular = (1.0 + z) * (1.0 + z);
@@ -193,36 +209,40 @@ impl Viscoelastic {
         Ok(largest_eigenvalue(self.tangent(h, history)?))
     }
 
-    fn kirchhoff(
+    #[inline(always)]
+    fn kirchhoff<N: Number>(
         &self,
-        h: &AxisymmetricTensor,
-        strain: Strain,
-        history: &[ViscousStrain],
-    ) -> SymmetricTensor {
-        self.elastic_strains(h, strain, history)
-            .fold(self.equilibrium.kirchhoff(&strain), |sum, (branch, elastic)| {
-                sum.plus(&branch.solid.kirchhoff(&elastic))
-            })
+        h: &AxisymmetricTensor<N>,
+        strain: &Strain<N>,
+        history: &[ViscousStrain<N>],
+    ) -> SymmetricTensor<N> {
+        let mut sum = self.equilibrium.kirchhoff(strain);
+        for (branch, viscous) in self.branches.iter().zip(history) {
+            sum = sum.plus(&branch.solid.kirchhoff(&self.elastic_strain(h, strain, viscous)));
+        }
+        sum
     }
 
-    /// The branches and b_e − 1, J_e − 1 of their elastic parts: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
-    fn elastic_strains<'a>(
-        &'a self,
-        h: &'a AxisymmetricTensor,
-        strain: Strain,
-        history: &'a [ViscousStrain],
-    ) -> impl Iterator<Item = (&'a Branch, Strain)> {
-        self.branches.iter().zip(history).map(move |(branch, viscous)| {
-            let (inverse, _) = viscous.inverse();
-            let left = strain.left.plus(&push_forward(&inverse, h));
-            let z = inverse_cube_root_change(viscous.volume_change);
-            let elastic = Strain {
-                left: left.rescaled(z + z + z * z),
-                volume_change: (strain.volume_change - viscous.volume_change)
-                    / (1.0 + viscous.volume_change),
-            };
-            (branch, elastic)
-        })
+    /// b_e − 1 and J_e − 1 of the elastic part of a branch: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
+    #[inline(always)]
+    fn elastic_strain<N: Number>(
+        &self,
+        h: &AxisymmetricTensor<N>,
+        strain: &Strain<N>,
+        viscous: &ViscousStrain<N>,
+    ) -> Strain<N> {
+        let (inverse, _) = viscous.inverse();
+        let left = strain.left.plus(&push_forward(&inverse, h));
+        if !self.volume_flows {
+            return Strain { left, volume_change: strain.volume_change };
+        }
+        let z = inverse_cube_root_change(viscous.volume_change);
+        // 1/J_v = (1 + z)³.
+        let inverse_volume = (N::splat(1.0) + z) * (N::splat(1.0) + (z + z + z * z));
+        Strain {
+            left: left.rescaled(z + z + z * z),
+            volume_change: (strain.volume_change - viscous.volume_change) * inverse_volume,
+        }
     }
 }
 

@@ -29,7 +29,7 @@
 //! a constant rate, where s = 1. 0 ≤ a ≤ b ≤ 1 make C̄_v a mean of metrics: positive definite, hence
 //! stable, for any Δt/τ. For that e^{−y}, y = (s − 1)Δt/τ ≥ 0, may be 1/(1 + y + y²/2).
 
-use super::number::{Number, inverse_cube_root_change};
+use super::number::{Number, inverse_cube_root_change, inverse_cube_root_change_near_one};
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use crate::relaxation_step::RelaxationStep;
 
@@ -80,19 +80,35 @@ impl ViscousStrain {
     }
 }
 
-/// C̄ − 1 and J − 1 of a deformation.
+/// Shape and volume of a deformation: C̄ − 1 and J − 1.
 #[derive(Debug, Clone, Copy)]
-struct Shape<N> {
+pub struct Shape<N = f64> {
     strain: SymmetricTensor<N>,
     volume_change: N,
 }
 
 impl<N: Number> Shape<N> {
+    /// Of a displacement gradient with J > 0.
     #[inline(always)]
-    fn of(h: &AxisymmetricTensor<N>) -> Self {
+    pub fn of(h: &AxisymmetricTensor<N>) -> Self {
         let volume_change = h.volume_change();
         let z = inverse_cube_root_change(volume_change);
         Self { strain: h.right_strain().rescaled(z + z + z * z), volume_change }
+    }
+
+    /// As four numbers, which a body may remember until the next step.
+    #[inline(always)]
+    pub fn remembered(&self) -> ViscousStrain<N> {
+        let Self { strain: SymmetricTensor { rr, yy, ry, .. }, volume_change } = *self;
+        ViscousStrain { rr, yy, ry, volume_change }
+    }
+
+    /// From those.
+    #[inline(always)]
+    pub fn of_remembered(past: &ViscousStrain<N>) -> Self {
+        let ViscousStrain { rr, yy, ry, volume_change } = *past;
+        let (_, tt) = past.inverse();
+        Self { strain: SymmetricTensor { rr, yy, tt, ry }, volume_change }
     }
 }
 
@@ -125,8 +141,7 @@ impl ViscousStep {
         Self { terms: relaxation_times.map(of).collect(), volume_flows }
     }
 
-    /// Takes the history, one entry a term, from the displacement gradient at the start of the step
-    /// to that at its end; of both J > 0. Without a branch on what is computed.
+    /// [`ViscousStep::advance_between`] shapes of displacement gradients, both of J > 0.
     #[inline(always)]
     pub fn advance<N: Number>(
         &self,
@@ -134,15 +149,39 @@ impl ViscousStep {
         after: &AxisymmetricTensor<N>,
         history: &mut [ViscousStrain<N>],
     ) {
-        let (before, after) = (Shape::of(before), Shape::of(after));
-        for (term, viscous) in self.terms.iter().zip(history) {
-            term.advance_shape(&before.strain, &after.strain, viscous);
-            if self.volume_flows {
-                let (decay, gain) = (N::splat(term.linear.decay), N::splat(term.linear.gain));
-                let elastic = decay * (before.volume_change - viscous.volume_change)
-                    + gain * (after.volume_change - before.volume_change);
-                viscous.volume_change = after.volume_change - elastic;
-            }
+        self.advance_between(&Shape::of(before), &Shape::of(after), history);
+    }
+
+    /// Takes the history, one entry a term, from the shape at the start of the step to that at its
+    /// end. Without a branch on what is computed.
+    #[inline(always)]
+    pub fn advance_between<N: Number>(
+        &self,
+        before: &Shape<N>,
+        after: &Shape<N>,
+        history: &mut [ViscousStrain<N>],
+    ) {
+        for (term, viscous) in history.iter_mut().enumerate() {
+            self.advance_term(term, before, after, viscous);
+        }
+    }
+
+    /// The same of one term.
+    #[inline(always)]
+    pub fn advance_term<N: Number>(
+        &self,
+        term: usize,
+        before: &Shape<N>,
+        after: &Shape<N>,
+        viscous: &mut ViscousStrain<N>,
+    ) {
+        let term = &self.terms[term];
+        term.advance_shape(&before.strain, &after.strain, viscous);
+        if self.volume_flows {
+            let (decay, gain) = (N::splat(term.linear.decay), N::splat(term.linear.gain));
+            let elastic = decay * (before.volume_change - viscous.volume_change)
+                + gain * (after.volume_change - before.volume_change);
+            viscous.volume_change = after.volume_change - elastic;
         }
     }
 }
@@ -181,7 +220,8 @@ impl TermStep {
         let ry = next(old.ry, before.ry, after.ry);
         let tt = next(old.tt, before.tt, after.tt);
         let plane = rr + yy + (rr * yy - ry * ry);
-        let z = inverse_cube_root_change(plane + tt + plane * tt);
+        // Of second order in the step.
+        let z = inverse_cube_root_change_near_one(plane + tt + plane * tt);
         viscous.rr = rr + (z + z * rr);
         viscous.yy = yy + (z + z * yy);
         viscous.ry = ry + z * ry;

@@ -129,7 +129,13 @@ pub const ROWS: &[Row] = &[
     ),
     row("partner waves", "a half-space for a wall", of(&[FLOOR, FALLING]), of(&[BLOCK, FALLING])),
     row("gravity", "of one contact", of(&[FLOOR, FALLING]), of(&[FLOOR, FALLING, WEIGHT])),
-    row("bulk viscosity", "forced on", BARE, of(&["effects.bulk_viscosity='on'"])),
+    // With viscosity springs are between nodes that have mass.
+    row(
+        "bulk viscosity",
+        "forced on",
+        of(&["contact.method='penalty'"]),
+        of(&["effects.bulk_viscosity='on'"]),
+    ),
     row("mass scaling", "2e-4 of the mass", of(&["time.mass_scaling=0"]), BARE),
     row("history", "1000 rows", BARE, keeping(Kept::History)),
     row("snapshots", "four", BARE, keeping(Kept::Snapshots)),

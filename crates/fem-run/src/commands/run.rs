@@ -8,6 +8,7 @@ use std::time::Instant;
 use fem::results::Summary;
 use fem::{Cost, Identity, Memory, Simulation, remedy_of};
 use fem_case::Keep;
+use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -144,15 +145,19 @@ fn announce(simulation: &Simulation, case: &str, place: &ResultPlace) {
     if let Some(warning) = simulation.mesh_warning() {
         let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
     }
+    if let Some(hint) = simulation.cheaper() {
+        let _ = writeln!(stderr(), "hint: {}", one_line(&hint));
+    }
 }
 
 /// The model and what it costs.
 fn price(simulation: &Simulation) -> String {
     match simulation.setup().cost {
-        Cost::Steps { elements, steps, memory, .. } => format!(
-            "{} elements, about {} steps, about {}",
+        Cost::Steps { elements, steps, seconds, memory, .. } => format!(
+            "{} elements, about {} steps, some {}, about {}",
             HumanCount(elements),
             HumanCount(steps),
+            show(seconds, "s"),
             DecimalBytes(memory)
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(

@@ -9,6 +9,7 @@
 //! printed   that are run, and what they print and leave
 //! keys      names in a result folder
 //! accuracy  the table of what accuracy costs
+//! contact   the table of ways to keep surfaces apart
 //! effects   the table of what effects cost
 //! shipped_cases  the table of the cases of the repository
 //! ```
@@ -17,6 +18,7 @@ mod accuracy;
 mod commands;
 #[path = "../it/common/mod.rs"]
 mod common;
+mod contact;
 mod effects;
 mod keys;
 mod pages;

@@ -35,7 +35,7 @@ mod transformed;
 mod vibration;
 mod viscoelasticity;
 
-use fem_case::{Scene, Switch};
+use fem_case::{ModelChoice, Scene, Switch};
 use fem_collision::Collision;
 use serde::Serialize;
 
@@ -170,8 +170,10 @@ fn lacking(scene: &Scene, effect: &dyn Effect) -> Refusal {
     let key = key_of(effect);
     let model = scene.model().name();
     let message = format!("effect `{key}` is not available in model {model} of this version");
-    Refusal::new(format!("effects.{key}"), message)
-        .with_help("write \"auto\" or \"off\", or leave it out")
+    Refusal::new(format!("effects.{key}"), message).with_help(match scene.model() {
+        ModelChoice::Fem => "write \"auto\" or \"off\", or leave it out",
+        _ => "write \"auto\" or \"off\", leave it out, or compute the case with model.fem",
+    })
 }
 
 /// An effect that is forced off must be one that the model can leave out.

@@ -8,24 +8,26 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, StaticContact, Stop, Want,
 };
 use fem_explicit::{
-    Model as Bodies, ModelError, NodeForce, Parts, Run, Settings, ViscosityCoefficients, Weight,
+    ContactMethod, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings,
+    ViscosityCoefficients, Weight,
 };
-use fem_material::{Material, PronySeries};
 use fem_mesh::SphereMesh;
 
 use super::condensed::static_contact::of_elements;
+use super::explicit_cost::cost;
 use super::mirrored::{Mirrored, plan_of_half};
 use super::own_frame::OwnFrame;
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
+use crate::contact_method::unread;
 use crate::course::{Course, stopped, to_the_end};
+use crate::duration::expected_duration;
 use crate::effects::{
     Answer, BulkViscosity, ContactSearch, Effect, FiniteStrain, Gravity, HourglassControl,
     MassScaling, MirrorSymmetry, PartnerWaves, PlasticYield, RigidPartner, SurfaceSlip,
     Viscoelasticity, decide,
 };
 use crate::estimate::{Estimate, mach};
-use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::memory::Memory;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::{Plan, candidate_radius};
@@ -82,6 +84,7 @@ struct Made {
     settings: Settings,
     /// m.
     contact_element_size: f64,
+    method: ContactMethod,
     /// See [`Plan::speed_share`].
     speed_share: f64,
     inputs: [BodyInput; 2],
@@ -105,12 +108,15 @@ impl Explicit {
         if *scene.model() != ModelChoice::Fem {
             return Err(Refusal::chose_another(scene, "fem"));
         }
-        let inputs = inputs(scene, &plan)?;
         let approach = approach_of(scene)?;
-        let contact_element_size = plan.contact_element_size;
-        let (settings, speed_share) = (settings(&plan), plan.speed_share);
-        let made =
-            Made { scene: scene.clone(), settings, contact_element_size, speed_share, inputs };
+        let made = Made {
+            scene: scene.clone(),
+            settings: settings(&plan),
+            contact_element_size: plan.contact_element_size,
+            method: method(plan.contact_method),
+            speed_share: plan.speed_share,
+            inputs: inputs(scene, &plan)?,
+        };
         let frame =
             made.own_frame(&approach).map_err(|error| Refusal::new("body", error.to_string()))?;
         let bodies = made
@@ -126,12 +132,12 @@ impl Explicit {
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: plan.warnings.clone(),
+            unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
             cost,
             elements: Some(ElementSetup {
+                finer_steps: quieter(plan.contact_method),
                 plan,
                 has_springs: true,
-                finer_steps: "lower time.step_factor",
             }),
         };
         Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
@@ -167,9 +173,10 @@ impl Explicit {
         match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
                 let (expected, want) = (estimate.expectation(), frame.want(want));
+                let duration = expected_duration(&self.made.scene, &estimate, approach);
                 let run = Run::new(bodies, expected, &want);
                 let made = self.made.clone();
-                Box::new(ExplicitCourse { made, frame, expected, want, run })
+                Box::new(ExplicitCourse { made, frame, expected, duration, want, run })
             }
             Err(stop) => stopped(*approach, stop),
         }
@@ -206,6 +213,7 @@ impl Made {
             approach.speed(),
             approach.speed() / self.speed_share,
         )?;
+        let parts = Parts { method: self.method, ..parts };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
@@ -246,8 +254,12 @@ impl Model for Explicit {
         let want = memory.want().clone();
         let bodies = self.bodies_at(&approach, memory.candidate_radius()).map_err(refused)?;
         let run = Run::resume(bodies, memory).map_err(refused)?;
+        let scene = &self.made.scene;
+        let estimate = Estimate::at(scene, approach.speed())
+            .map_err(|error| Refusal::new("body", error.to_string()))?;
+        let duration = expected_duration(scene, &estimate, &approach);
         let made = self.made.clone();
-        Ok(Box::new(ExplicitCourse { made, frame, expected, want, run }))
+        Ok(Box::new(ExplicitCourse { made, frame, expected, duration, want, run }))
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
@@ -265,6 +277,8 @@ struct ExplicitCourse {
     made: Arc<Made>,
     frame: OwnFrame,
     expected: Expectation,
+    /// Of the run, s.
+    duration: f64,
     want: Want,
     run: Run<Arc<Bodies>>,
 }
@@ -283,7 +297,10 @@ impl Course for ExplicitCourse {
     }
 
     fn progress(&self) -> Progress {
-        self.frame.progress(self.run.progress())
+        let progress = self.run.progress();
+        let elapsed = progress.time - self.run.model().approach().first_touch();
+        let fraction = Progress::share(elapsed, self.duration);
+        self.frame.progress(Progress { fraction, ..progress })
     }
 
     fn memory(&self) -> Option<Memory> {
@@ -310,7 +327,8 @@ fn parts(
     if let Ok(estimate) = Estimate::at(scene, approach_speed) {
         parts.finite_strain = FiniteStrain::laws(scene, &estimate);
     }
-    if BulkViscosity::is_on(scene, mach(scene, speed)) {
+    let is_finite = parts.finite_strain != [None; 2];
+    if BulkViscosity::is_on(scene, mach(scene, speed), is_finite) {
         for (input, forces) in inputs.iter().zip(&mut parts.node_forces) {
             forces.extend(bulk_viscosity(input, speed)?);
         }
@@ -343,35 +361,20 @@ fn settings(plan: &Plan) -> Settings {
     }
 }
 
-/// What a run takes, within the limits.
-fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
-    let elements = model.n_elements() as u64;
-    let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
-    let branches: u64 = (model.bodies().iter().zip(scene.bodies()))
-        .map(|(body, named)| body.n_elements() as u64 * n_branches(named))
-        .sum();
-    let steps = (1.2 * plan.estimate.contact_time / model.time_step()).ceil();
-    let element_updates = (steps * elements as f64) as u64;
-    let memory = explicit_memory(scene, plan, elements, branches);
-    check_elements(scene, plan, elements)?;
-    check_memory(scene, plan, elements, memory)?;
-    check_updates(scene, plan, steps as u64, elements, element_updates)?;
-    Ok(Cost::Steps {
-        elements,
-        nodes,
-        steps: steps as u64,
-        element_updates,
-        memory,
-        time_step: model.time_step(),
-        plain_time_step: model.plain_time_step(),
-    })
+/// What helps against a contact that rattles or gains energy.
+fn quieter(planned: fem_case::ContactMethod) -> &'static str {
+    match planned {
+        fem_case::ContactMethod::Massless => "lower time.step_factor",
+        _ => "write contact.method = \"massless\"",
+    }
 }
 
-/// Prony terms whose history is kept of a body.
-fn n_branches(body: &Body) -> u64 {
-    let series = body.material().and_then(Material::relaxation);
-    let terms = series.into_iter().flat_map(PronySeries::terms);
-    terms.filter(|term| term.weight > 0.0).count() as u64
+fn method(planned: fem_case::ContactMethod) -> ContactMethod {
+    match planned {
+        fem_case::ContactMethod::Massless => ContactMethod::Massless,
+        fem_case::ContactMethod::Penalty => ContactMethod::Penalty,
+        fem_case::ContactMethod::NodeToSurface => ContactMethod::NodeToSurface,
+    }
 }
 
 /// What explicit elements have of each effect.

@@ -4,6 +4,7 @@ mod auto;
 mod bouncing;
 mod condensed;
 mod explicit;
+mod explicit_cost;
 mod hertz;
 mod law;
 mod law_numbers;

@@ -1,4 +1,4 @@
-//! Bulk viscosity as a case asks for it, and where a scene calls for it.
+//! Bulk viscosity as a case asks for it, and where a scene calls for it whose springs ring.
 
 use fem::{Approach, Simulation, Want};
 use fem_collision::Account;
@@ -10,6 +10,7 @@ const SLOW: &str = "body.0.approach_speed='60 m/s'";
 const FAST: &str = "body.0.approach_speed='80 m/s'";
 const ON: &str = "effects.bulk_viscosity='on'";
 const OFF: &str = "effects.bulk_viscosity='off'";
+const PENALTY: &str = "contact.method='penalty'";
 /// A coarse mesh for such speeds.
 const MESH: &str = "mesh={contact_element_size='0.4 mm', refined_radius='1.6 mm'}";
 /// Contact of small strain has nothing of its own that damps.
@@ -18,7 +19,7 @@ const SMALL: &str = "effects.finite_strain='off'";
 const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
 
 fn fem(overrides: &[&str]) -> Simulation {
-    simulation("fem", &[&[MESH], overrides, &[SMALL]].concat())
+    simulation("fem", &[&[MESH, PENALTY], overrides, &[SMALL]].concat())
 }
 
 /// Whether it is on, and why.

@@ -268,6 +268,7 @@ fn limits_are_told() {
     };
     assert!(simulation(&[CONDENSED]).setup().warnings().is_empty());
     warned(&[CONDENSED, "time.step_factor=0.5"], "time.step_factor has no effect");
+    warned(&[CONDENSED, "contact.method='massless'"], "contact.method has no effect");
     warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "small strain is off by");

@@ -107,6 +107,7 @@ const HENCKY: &str = "material.soft.hyperelastic='hencky'";
 const SVK: &str = "material.soft.hyperelastic='saint-venant-kirchhoff'";
 const SMALL: &str = "effects.finite_strain='off'";
 const VISCOUS: &str = "effects.bulk_viscosity='on'";
+const PENALTY: &str = "contact.method='penalty'";
 
 /// Every effect that a switch leaves out, in the models that obey it, alone and beside the others: waves of
 /// what relaxes, relaxation of what radiates, a rigid partner that would do both.
@@ -148,6 +149,8 @@ fn every_switch_changes_what_is_foretold() {
         ("surface slip", &[FEM, RIGID, PEER, SHEAR, FAST, SMALL]),
         ("bulk viscosity", &[FEM, VISCOUS, WALL, FAST, SMALL]),
         ("bulk viscosity", &[FEM, VISCOUS, PEER, FAST, AUXETIC, SMALL]),
+        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, WALL, FAST, SMALL]),
+        ("bulk viscosity", &[FEM, VISCOUS, PENALTY, PEER, FAST, AUXETIC, SMALL]),
     ];
     for (effect, set) in rows {
         is_as_foretold(BALL, set, effect);

@@ -7,6 +7,7 @@ mod bulk_viscosity;
 mod calibrate;
 mod coarse;
 mod condensed;
+mod contact_method;
 mod courses;
 mod effects;
 mod finite_strain;

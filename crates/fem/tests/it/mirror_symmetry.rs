@@ -58,8 +58,8 @@ fn close(a: f64, b: f64, scale: f64, relative: f64) {
 #[test]
 fn half_of_the_work_gives_the_whole() {
     for (model, relative) in [
-        // The same steps of the same numbers: rounding, which contact that opens and closes enlarges.
-        ("model.fem={}", 1e-6),
+        // The same steps of the same numbers but for rounding, which nothing enlarges.
+        ("model.fem={}", 1e-8),
         // One factor in place of a sum of two.
         ("model.condensed={vibration_modes=4}", 1e-8),
         ("model.condensed={penalty_springs=true}", 1e-8),
@@ -85,7 +85,8 @@ fn half_of_the_work_gives_the_whole() {
             close(mirrored.initial_energy, whole.initial_energy);
             for (a, b) in mirrored.bodies.iter().zip(&whole.bodies) {
                 close(a.velocity_after, b.velocity_after);
-                assert_eq!((a.mass, a.added_mass), (b.mass, b.added_mass));
+                assert_eq!(a.mass, b.mass);
+                close(a.added_mass, b.added_mass);
                 assert_eq!(a.elements, b.elements);
             }
             rows_are_those_of_the_whole(&mirrored, &whole, relative);

@@ -125,3 +125,20 @@ fn the_coarser_body_is_named() {
     );
     assert!(warning.contains("leave body.1.sphere.mesh out"), "{warning}");
 }
+
+/// A volume that hardly gives way makes explicit steps short; condensed bodies have none.
+#[test]
+fn a_long_run_names_the_model_that_is_not() {
+    let hint = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap();
+        Simulation::new(case).unwrap().cheaper()
+    };
+    let stiff = "material.glass.poissons_ratio=0.499999";
+    let found = hint(&[stiff]).expect("a hint");
+    assert!(found.contains("model.condensed = {}") && found.contains("hundredths"), "{found}");
+    assert_eq!(hint(&[]), None);
+    assert_eq!(hint(&[stiff, "model.condensed={}"]), None);
+    // Where only explicit elements serve, there is none to name.
+    assert_eq!(hint(&[stiff, "effects.hourglass_control='on'"]), None);
+}

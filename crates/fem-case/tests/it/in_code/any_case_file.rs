@@ -168,8 +168,17 @@ impl Random {
                 growth: random.maybe(|random| random.quantity(&[1.1])),
                 far_radius: random.maybe(|random| random.quantity(&[0.1])),
             }),
-            contact: self
-                .maybe(|random| ContactTable { penalty_factor: Some(random.quantity(&[1.0])) }),
+            contact: self.maybe(|random| ContactTable {
+                method: random.maybe(|random| {
+                    let [a, b] = [random.below(2), random.below(2)];
+                    match (a, b) {
+                        (0, _) => ContactMethod::Massless,
+                        (_, 0) => ContactMethod::Penalty,
+                        _ => ContactMethod::NodeToSurface,
+                    }
+                }),
+                penalty_factor: random.maybe(|random| random.quantity(&[1.0])),
+            }),
             time: self.maybe(|random| TimeTable {
                 step_factor: random.maybe(|random| random.quantity(&[0.9])),
                 mass_scaling: random.maybe(|random| random.quantity(&[2e-4])),

@@ -85,7 +85,7 @@ pub fn made() -> CaseFile {
             growth: Some(1.1.into()),
             far_radius: None,
         }),
-        contact: Some(ContactTable { penalty_factor: Some(1.0.into()) }),
+        contact: Some(ContactTable { penalty_factor: Some(1.0.into()), ..Default::default() }),
         time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),
         output: Some(OutputTable { snapshots: Some(SnapshotsValue::List(labels)) }),
         effects: Some(EffectsTable { bulk_viscosity: Some(Switch::Off), ..Default::default() }),

@@ -243,7 +243,7 @@ fn the_work_of_viscosity_is_what_the_motion_loses() {
         assert_eq!(nothing, 0.0);
         let mut before = 0.0;
         for n in 0..400 {
-            advance(&model, &mut state, &scratch);
+            advance(&model, &mut state, &mut scratch);
             let (residual, work) = balance(&state, &mut scratch);
             // Sums over hundreds of nodes and steps.
             assert!((residual - start).abs() < 1e-12 * initial, "{n}: {residual} {start}");

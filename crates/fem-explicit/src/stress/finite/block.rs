@@ -1,24 +1,24 @@
-//! Undeformed elements in blocks of four lanes, as the loops of finite strain read them.
+//! Undeformed elements in blocks of lanes, as the loops of finite strain read them.
 
 use fem_element::QuadGeometry;
 use fem_material::finite::AxisymmetricTensor;
 use fem_mesh::SphereMesh;
 
-use super::super::lanes::{LANES, Lanes};
+use super::super::lanes::{Lanes, WIDE};
 use super::super::port::Collapse;
 use crate::part::Field;
 
 /// One number of each element of a block.
-pub(super) type Numbers = [f64; LANES];
+pub(super) type Numbers = [f64; WIDE];
 
-/// Geometry of four elements.
+/// Geometry of the elements of a block.
 ///
 /// Gradients and hourglass shapes sum to zero over the corners, so those of corner 3 are left out and
 /// displacements are taken relative to it: a rigid translation gives exactly no force.
 #[derive(Debug, Clone)]
 #[repr(C, align(64))]
 pub(super) struct Block {
-    pub corners: [[u32; LANES]; 4],
+    pub corners: [[u32; WIDE]; 4],
     /// 1/m.
     pub gradient_r: [Numbers; 3],
     /// 1/m.
@@ -35,13 +35,13 @@ pub(super) struct Block {
 impl Block {
     /// Without volume: no deformation, no force.
     const EMPTY: Self = Self {
-        corners: [[0; LANES]; 4],
-        gradient_r: [[0.0; LANES]; 3],
-        gradient_y: [[0.0; LANES]; 3],
-        hoop: [[0.0; LANES]; 4],
-        hourglass: [[0.0; LANES]; 3],
-        measures: [[0.0; LANES]; 3],
-        volume: [0.0; LANES],
+        corners: [[0; WIDE]; 4],
+        gradient_r: [[0.0; WIDE]; 3],
+        gradient_y: [[0.0; WIDE]; 3],
+        hoop: [[0.0; WIDE]; 4],
+        hourglass: [[0.0; WIDE]; 3],
+        measures: [[0.0; WIDE]; 3],
+        volume: [0.0; WIDE],
     };
 
     /// Puts an element of these corners into a lane.
@@ -68,6 +68,54 @@ impl Block {
     }
 }
 
+/// Places of a block in the fields of elements, each one pair an element: the first, and how many. Of a
+/// block without empty lanes the fields hold the first numbers of all lanes, then the second ones; of
+/// another one pair after the other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slots {
+    pub first: usize,
+    pub n_lanes: usize,
+}
+
+impl Slots {
+    /// The pairs of the lanes; zero in empty ones.
+    #[inline(always)]
+    pub fn load<L: Lanes<WIDE>>(self, field: &Field) -> (L, L) {
+        let own = &field[self.first..self.first + self.n_lanes];
+        if let ([first, second], _) = own.as_flattened().as_chunks() {
+            return (L::load(first), L::load(second));
+        }
+        let mut both = [[0.0; WIDE]; 2];
+        for (lane, pair) in own.iter().enumerate() {
+            (both[0][lane], both[1][lane]) = (pair[0], pair[1]);
+        }
+        (L::load(&both[0]), L::load(&both[1]))
+    }
+
+    /// Puts them back.
+    #[inline(always)]
+    pub fn store<L: Lanes<WIDE>>(self, field: &mut Field, first: L, second: L) {
+        let own = &mut field[self.first..self.first + self.n_lanes];
+        let both = [first.to_array(), second.to_array()];
+        if let (chunks @ [_, _], _) = own.as_flattened_mut().as_chunks_mut() {
+            chunks.copy_from_slice(&both);
+            return;
+        }
+        for (lane, pair) in own.iter_mut().enumerate() {
+            *pair = [both[0][lane], both[1][lane]];
+        }
+    }
+
+    /// The pair of a lane.
+    pub fn pair(self, lane: usize, field: &Field) -> [f64; 2] {
+        let own = &field[self.first..self.first + self.n_lanes];
+        match own.as_flattened().as_chunks::<WIDE>() {
+            ([first, second], _) => [first[lane], second[lane]],
+            _ => own[lane],
+        }
+    }
+}
+
 /// The elements of a body. Every corner number is below `n_nodes`, which lets the loops index without a
 /// check.
 #[derive(Debug, Clone)]
@@ -86,7 +134,7 @@ impl Blocks {
             "an element names a node that the mesh does not have"
         );
         let n_elements = geometries.len();
-        let mut blocks = vec![Block::EMPTY; n_elements.div_ceil(LANES)];
+        let mut blocks = vec![Block::EMPTY; n_elements.div_ceil(WIDE)];
         for (element, geometry) in geometries.iter().enumerate() {
             let (place, lane) = place(element, blocks.len());
             blocks[place].put(lane, &mesh.quads()[element], geometry);
@@ -106,17 +154,24 @@ impl Blocks {
         &self.blocks
     }
 
-    /// Numbers of the elements of a block, the last one in lanes that are empty; how many are not.
+    /// Where the fields of elements hold a block.
     #[inline(always)]
-    pub fn elements(&self, place: usize) -> ([u32; LANES], usize) {
-        let mut elements = [0; LANES];
-        let mut n_lanes = 0;
-        for lane in 0..LANES {
-            let element = place + lane * self.blocks.len();
-            n_lanes += usize::from(element < self.n_elements);
-            elements[lane] = element.min(self.n_elements - 1) as u32;
+    pub fn slots(&self, place: usize) -> Slots {
+        let n_blocks = self.blocks.len();
+        // The first blocks have an element in the last lane.
+        let n_full = (self.n_elements + n_blocks).saturating_sub(WIDE * n_blocks);
+        if place < n_full {
+            return Slots { first: WIDE * place, n_lanes: WIDE };
         }
-        (elements, n_lanes)
+        let n_lanes = |place: usize| (self.n_elements - place).div_ceil(n_blocks);
+        let first = WIDE * n_full + (n_full..place).map(n_lanes).sum::<usize>();
+        Slots { first, n_lanes: n_lanes(place) }
+    }
+
+    /// Slots and lane of an element.
+    pub fn slot(&self, element: usize) -> (Slots, usize) {
+        let (place, lane) = place(element, self.blocks.len());
+        (self.slots(place), lane)
     }
 
     /// Volume (m³) and measures (m) of an element, and the amplitude of its hourglass shape, m.
@@ -195,6 +250,6 @@ pub(super) fn place(element: usize, n_blocks: usize) -> (usize, usize) {
 // Closures and `map` would be compiled without the instruction set of the kernel that they stand in, so
 // numbers are loaded one by one.
 #[inline(always)]
-pub(super) fn load_three<L: Lanes>(values: &[Numbers; 3]) -> [L; 3] {
+pub(super) fn load_three<L: Lanes<WIDE>>(values: &[Numbers; 3]) -> [L; 3] {
     [L::load(&values[0]), L::load(&values[1]), L::load(&values[2])]
 }

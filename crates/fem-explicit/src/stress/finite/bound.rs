@@ -14,7 +14,7 @@
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
-use super::super::lanes::{LANES, LaneKernel, Lanes, Plain, run_lanes};
+use super::super::lanes::{LaneKernel, Lanes, Plain, WIDE, run_wide_lanes};
 use super::block::{Block, Numbers, place};
 use super::kernel::{Conjugate, Elements, Strain};
 use super::law::Law;
@@ -31,7 +31,7 @@ const STRAIN_STEP: f64 = 1e-6;
 
 type Square<L> = [[L; N_STRAINS]; N_STRAINS];
 
-/// Masses of four elements, and Q.
+/// Masses of the elements of a block, and Q.
 #[derive(Debug, Clone)]
 struct Metric {
     /// kg.
@@ -45,9 +45,9 @@ struct Metric {
 impl Metric {
     /// Without mass: no eigenvalue.
     const EMPTY: Self = Self {
-        masses: [[0.0; LANES]; 4],
-        length: [1.0; LANES],
-        q: [[[0.0; LANES]; N_STRAINS]; N_STRAINS],
+        masses: [[0.0; WIDE]; 4],
+        length: [1.0; WIDE],
+        q: [[[0.0; WIDE]; N_STRAINS]; N_STRAINS],
     };
 
     /// Puts an element into a lane; corners `on_axis` move along y alone.
@@ -85,7 +85,7 @@ pub(super) struct Metrics(Vec<Metric>);
 impl Metrics {
     /// Of the integrated elements of a mesh and a density, kg/m³.
     pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry], density: f64) -> Self {
-        let mut metrics = vec![Metric::EMPTY; geometries.len().div_ceil(LANES)];
+        let mut metrics = vec![Metric::EMPTY; geometries.len().div_ceil(WIDE)];
         let n_blocks = metrics.len();
         for (element, geometry) in geometries.iter().enumerate() {
             let masses = geometry.nodal_volumes.map(|volume| density * volume);
@@ -108,7 +108,7 @@ pub(super) fn at_rest<W: Law>(
     metric.put(0, geometry, masses, on_axis);
     let block = Block::of_one(geometry);
     // SAFETY: the block's corners are 0 to 3.
-    let strain = unsafe { Strain::<Plain>::gather(&block, &[[0.0; 2]; 4]) };
+    let strain = unsafe { Strain::<Plain<WIDE>>::gather(&block, &[[0.0; 2]; 4]) };
     eigenvalues(&strain, &block, &metric, law, &Past::none())[0]
 }
 
@@ -119,7 +119,7 @@ pub(super) fn add_stiffness<W: Law>(
     u: &Field,
     bound: &mut [f64],
 ) {
-    run_lanes(Bound { elements, metrics, u }, bound);
+    run_wide_lanes(Bound { elements, metrics, u }, bound);
 }
 
 struct Bound<'a, W> {
@@ -128,22 +128,22 @@ struct Bound<'a, W> {
     u: &'a Field,
 }
 
-impl<W: Law> LaneKernel for Bound<'_, W> {
+impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
     type Output = [f64];
 
     #[inline(always)]
-    fn on<L: Lanes>(self, bound: &mut [f64]) {
+    fn on<L: Lanes<WIDE>>(self, bound: &mut [f64]) {
         let Self { elements: Elements { blocks, law, history }, metrics, u } = self;
         let n_terms = if history.is_empty() { 0 } else { law.weights().len() };
         assert!(past::is_sound(history, n_terms, blocks.n_elements()));
         let mut past = Past::<L>::none();
         let both = blocks.checked(&[u.len(), bound.len()]).iter().zip(metrics);
         for (place, (block, metric)) in both.enumerate() {
-            past.load(n_terms, history, &blocks.elements(place).0);
+            past.load(n_terms, history, blocks.slots(place));
             // SAFETY: the field has been checked against the corner numbers.
             let strain = unsafe { Strain::<L>::gather(block, u) };
             let eigenvalues = eigenvalues(&strain, block, metric, *law, &past);
-            for lane in 0..LANES {
+            for lane in 0..WIDE {
                 for a in 0..4 {
                     let node = block.corners[a][lane] as usize;
                     bound[node] += eigenvalues[lane] * metric.masses[a][lane];
@@ -155,13 +155,13 @@ impl<W: Law> LaneKernel for Bound<'_, W> {
 
 /// Bounds of the largest eigenvalues, s⁻².
 #[inline(always)]
-fn eigenvalues<L: Lanes, W: Law>(
+fn eigenvalues<L: Lanes<WIDE>, W: Law>(
     strain: &Strain<L>,
     block: &Block,
     metric: &Metric,
     law: &W,
     past: &Past<L>,
-) -> [f64; LANES] {
+) -> [f64; WIDE] {
     let length = L::load(&metric.length);
     let step = L::splat(STRAIN_STEP);
     let per_step = L::splat(1.0 / STRAIN_STEP);
@@ -193,18 +193,18 @@ fn eigenvalues<L: Lanes, W: Law>(
 
 /// Derivatives by the strains in their order; an amplitude is that over the length.
 #[inline(always)]
-fn in_order<L: Lanes>(conjugate: &Conjugate<L>, length: L) -> [L; N_STRAINS] {
+fn in_order<L: Lanes<WIDE>>(conjugate: &Conjugate<L>, length: L) -> [L; N_STRAINS] {
     let Conjugate { stress, q } = conjugate;
     [stress.rr, stress.ry, stress.tt, q.0 * length, stress.yr, stress.yy, q.1 * length]
 }
 
 /// (tr X¹⁶)^(1/16), lane by lane.
 #[inline(always)]
-fn largest<L: Lanes>(mut x: Square<L>) -> [f64; LANES] {
+fn largest<L: Lanes<WIDE>>(mut x: Square<L>) -> [f64; WIDE] {
     // Numbers whose sixteenth power is one.
     let size = trace_of_square(&x).to_array();
-    let mut scale = [0.0; LANES];
-    for lane in 0..LANES {
+    let mut scale = [0.0; WIDE];
+    for lane in 0..WIDE {
         scale[lane] = if size[lane] > 0.0 { size[lane].sqrt().recip() } else { 0.0 };
     }
     let factor = L::load(&scale);
@@ -217,8 +217,8 @@ fn largest<L: Lanes>(mut x: Square<L>) -> [f64; LANES] {
         x = square(&x);
     }
     let trace = trace_of_square(&x).to_array();
-    let mut largest = [0.0; LANES];
-    for lane in 0..LANES {
+    let mut largest = [0.0; WIDE];
+    for lane in 0..WIDE {
         let root = trace[lane].max(0.0).sqrt().sqrt().sqrt().sqrt();
         let own = root * size[lane].max(0.0).sqrt();
         // What is no number stays none.
@@ -228,7 +228,7 @@ fn largest<L: Lanes>(mut x: Square<L>) -> [f64; LANES] {
 }
 
 #[inline(always)]
-fn square<L: Lanes>(x: &Square<L>) -> Square<L> {
+fn square<L: Lanes<WIDE>>(x: &Square<L>) -> Square<L> {
     let mut squared = [[L::splat(0.0); N_STRAINS]; N_STRAINS];
     for i in 0..N_STRAINS {
         for k in 0..N_STRAINS {
@@ -241,7 +241,7 @@ fn square<L: Lanes>(x: &Square<L>) -> Square<L> {
 }
 
 #[inline(always)]
-fn trace_of_square<L: Lanes>(x: &Square<L>) -> L {
+fn trace_of_square<L: Lanes<WIDE>>(x: &Square<L>) -> L {
     let mut sum = L::splat(0.0);
     for i in 0..N_STRAINS {
         for j in 0..N_STRAINS {

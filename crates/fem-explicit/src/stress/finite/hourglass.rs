@@ -178,15 +178,6 @@ impl<N: Number> Deformed<N> {
     }
 }
 
-/// F̄⁻¹ x of a displacement gradient of the meridian.
-#[inline(always)]
-pub(super) fn pulled_back<N: Number>(h: &AxisymmetricTensor<N>, x: (N, N)) -> (N, N) {
-    let one = N::splat(1.0);
-    let (f_rr, f_yy) = (one + h.rr, one + h.yy);
-    let inverse = one / (f_rr * f_yy - h.ry * h.yr);
-    (inverse * (f_yy * x.0 - h.ry * x.1), inverse * (f_rr * x.1 - h.yr * x.0))
-}
-
 /// tr M X − 2/3 (M X + X M) of symmetric plane tensors.
 #[inline(always)]
 fn turned<N: Number>(m: [N; 3], x: [N; 3]) -> [N; 3] {

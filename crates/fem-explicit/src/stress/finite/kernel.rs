@@ -2,7 +2,7 @@
 
 use fem_material::finite::AxisymmetricTensor;
 
-use super::super::lanes::{LANES, LaneKernel, Lanes, run_lanes};
+use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use super::block::{Block, Blocks, load_three};
 use super::hourglass::{Amplitudes, Deformed};
 use super::law::{ElasticLaw, Law};
@@ -21,12 +21,12 @@ impl<W: Law> Elements<'_, W> {
     /// volume; if not, the forces mean nothing.
     pub fn subtract_forces(&self, u: &Field, f: &mut Field) -> bool {
         let mut output = (f, true);
-        run_lanes(Forces { elements: self, u }, &mut output);
+        run_wide_lanes(Forces { elements: self, u }, &mut output);
         output.1
     }
 
     #[inline(always)]
-    pub fn subtract<L: Lanes>(&self, u: &Field, f: &mut Field) -> bool {
+    pub fn subtract<L: Lanes<WIDE>>(&self, u: &Field, f: &mut Field) -> bool {
         let Self { blocks, law, history } = self;
         let n_terms = law.weights().len();
         assert!(past::is_sound(history, n_terms, blocks.n_elements()));
@@ -34,7 +34,7 @@ impl<W: Law> Elements<'_, W> {
         let mut volumes = Volumes::<L>::new();
         for (place, block) in blocks.checked(&[u.len(), f.len()]).iter().enumerate() {
             if n_terms > 0 {
-                past.load(n_terms, history, &blocks.elements(place).0);
+                past.load(n_terms, history, blocks.slots(place));
             }
             // SAFETY: the fields have been checked against the corner numbers.
             let strain = unsafe { Strain::<L>::gather(block, u) };
@@ -52,11 +52,11 @@ struct Forces<'a, W> {
     u: &'a Field,
 }
 
-impl<'a, W: Law> LaneKernel for Forces<'a, W> {
+impl<'a, W: Law> LaneKernel<WIDE> for Forces<'a, W> {
     type Output = (&'a mut Field, bool);
 
     #[inline(always)]
-    fn on<L: Lanes>(self, (f, is_sound): &mut Self::Output) {
+    fn on<L: Lanes<WIDE>>(self, (f, is_sound): &mut Self::Output) {
         *is_sound = self.elements.subtract::<L>(self.u, f);
     }
 }
@@ -64,7 +64,7 @@ impl<'a, W: Law> LaneKernel for Forces<'a, W> {
 /// Stored energy (J) of elements that do not relax, of a displacement (m).
 pub(super) fn stored_energy<W: ElasticLaw>(blocks: &Blocks, law: &W, u: &Field) -> f64 {
     let mut energy = 0.0;
-    run_lanes(Energy { blocks, law, u }, &mut energy);
+    run_wide_lanes(Energy { blocks, law, u }, &mut energy);
     energy
 }
 
@@ -74,11 +74,11 @@ struct Energy<'a, W> {
     u: &'a Field,
 }
 
-impl<W: ElasticLaw> LaneKernel for Energy<'_, W> {
+impl<W: ElasticLaw> LaneKernel<WIDE> for Energy<'_, W> {
     type Output = f64;
 
     #[inline(always)]
-    fn on<L: Lanes>(self, energy: &mut f64) {
+    fn on<L: Lanes<WIDE>>(self, energy: &mut f64) {
         *energy = sum_energy::<L, W>(self.blocks, self.law, self.u);
     }
 }
@@ -97,7 +97,7 @@ pub(super) struct Conjugate<L> {
     pub q: (L, L),
 }
 
-impl<L: Lanes> Strain<L> {
+impl<L: Lanes<WIDE>> Strain<L> {
     /// # Safety
     /// Every corner of the block is an index of `u`.
     #[inline(always)]
@@ -133,11 +133,28 @@ impl<L: Lanes> Strain<L> {
     /// Derivative of the energy, and J − 1.
     #[inline(always)]
     pub fn conjugate<W: Law>(&self, block: &Block, law: &W, past: &Past<L>) -> (Conjugate<L>, L) {
+        let deformed = self.deformed(block, law);
+        self.conjugate_of(&deformed, deformed.pull(self.q), block, law, past)
+    }
+
+    /// What the hourglass shape asks of the elements.
+    #[inline(always)]
+    pub fn deformed<W: Law>(&self, block: &Block, law: &W) -> Deformed<L> {
+        Deformed::of(&self.h, L::splat(law.shear()), load_three(&block.measures))
+    }
+
+    /// The same of elements that are known as `deformed`, and their amplitude in the undeformed element.
+    #[inline(always)]
+    pub fn conjugate_of<W: Law>(
+        &self,
+        deformed: &Deformed<L>,
+        own: (L, L),
+        block: &Block,
+        law: &W,
+        past: &Past<L>,
+    ) -> (Conjugate<L>, L) {
         let weights = law.weights();
         let (p, volume_change) = law.first_piola(&self.h, &past.strains[..weights.len()]);
-        let measures = load_three(&block.measures);
-        let deformed = Deformed::of(&self.h, L::splat(law.shear()), measures);
-        let own = deformed.pull(self.q);
         let mut amplitudes = Amplitudes::new(own, law.equilibrium_weight());
         for (term, &weight) in weights.iter().enumerate() {
             amplitudes.add_term(weight, past.amplitudes[term]);
@@ -155,7 +172,7 @@ impl<L: Lanes> Strain<L> {
     }
 }
 
-impl<L: Lanes> Conjugate<L> {
+impl<L: Lanes<WIDE>> Conjugate<L> {
     /// Force at a corner but for the hoop stress.
     #[inline(always)]
     fn force(&self, block: &Block, a: usize) -> (L, L) {
@@ -196,7 +213,7 @@ pub(super) struct Volumes<L> {
     zero: L,
 }
 
-impl<L: Lanes> Volumes<L> {
+impl<L: Lanes<WIDE>> Volumes<L> {
     #[inline(always)]
     pub fn new() -> Self {
         Self { least: L::splat(0.0), zero: L::splat(0.0) }
@@ -211,14 +228,18 @@ impl<L: Lanes> Volumes<L> {
     /// Whether all are positive.
     #[inline(always)]
     pub fn are_sound(&self) -> bool {
-        let (least, zero): ([f64; LANES], [f64; LANES]) =
+        let (least, zero): ([f64; WIDE], [f64; WIDE]) =
             (self.least.to_array(), self.zero.to_array());
         least.iter().all(|change| *change > -1.0) && zero.iter().all(|zero| *zero == 0.0)
     }
 }
 
 #[inline(always)]
-pub(super) fn sum_energy<L: Lanes, W: ElasticLaw>(blocks: &Blocks, law: &W, u: &Field) -> f64 {
+pub(super) fn sum_energy<L: Lanes<WIDE>, W: ElasticLaw>(
+    blocks: &Blocks,
+    law: &W,
+    u: &Field,
+) -> f64 {
     let shear = L::splat(law.shear());
     let mut energy = L::splat(0.0);
     for block in blocks.checked(&[u.len()]) {
@@ -228,6 +249,6 @@ pub(super) fn sum_energy<L: Lanes, W: ElasticLaw>(blocks: &Blocks, law: &W, u: &
         let shape = deformed.energy_of(deformed.pull(strain.q));
         energy = energy + L::load(&block.volume) * law.energy(&strain.h) + shape;
     }
-    let energy: [f64; LANES] = energy.to_array();
+    let energy: [f64; WIDE] = energy.to_array();
     energy.iter().sum::<f64>()
 }

@@ -1,6 +1,7 @@
 //! Stress and energy of a law on lanes.
 //!
-//! The default law runs on all lanes at once. Any other runs lane by lane.
+//! All laws run on all lanes at once. The default law has loops of its own; in those of the others the
+//! law is asked for block by block, which costs nothing that could be measured.
 
 use std::fmt::Debug;
 
@@ -9,8 +10,7 @@ use fem_material::finite::{
     AxisymmetricTensor, Hyperelastic, NeoHooke, RelaxingNeoHooke, Viscoelastic, ViscousStrain,
 };
 
-use super::super::lanes::{LANES, Lanes};
-use super::past::MOST_FINITE_STRAIN_TERMS;
+use super::super::lanes::{Lanes, WIDE};
 
 /// A law per undeformed volume, of a displacement gradient and of what its terms of relaxation remember.
 pub(super) trait Law: Debug + Send + Sync + 'static {
@@ -30,7 +30,7 @@ pub(super) trait Law: Debug + Send + Sync + 'static {
     }
 
     /// First Piola-Kirchhoff stress (Pa), and J − 1. The stress means something where J − 1 > −1.
-    fn first_piola<L: Lanes>(
+    fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
         past: &[ViscousStrain<L>],
@@ -40,7 +40,7 @@ pub(super) trait Law: Debug + Send + Sync + 'static {
 /// A law that does not relax.
 pub(super) trait ElasticLaw: Law {
     /// Stored energy, J/m³.
-    fn energy<L: Lanes>(&self, h: &AxisymmetricTensor<L>) -> L;
+    fn energy<L: Lanes<WIDE>>(&self, h: &AxisymmetricTensor<L>) -> L;
 }
 
 impl Law for NeoHooke {
@@ -49,7 +49,7 @@ impl Law for NeoHooke {
     }
 
     #[inline(always)]
-    fn first_piola<L: Lanes>(
+    fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
         _: &[ViscousStrain<L>],
@@ -60,44 +60,31 @@ impl Law for NeoHooke {
 
 impl ElasticLaw for NeoHooke {
     #[inline(always)]
-    fn energy<L: Lanes>(&self, h: &AxisymmetricTensor<L>) -> L {
+    fn energy<L: Lanes<WIDE>>(&self, h: &AxisymmetricTensor<L>) -> L {
         NeoHooke { bulk: L::splat(self.bulk), shear: L::splat(self.shear) }.energy(h).0
     }
 }
 
-/// Any law, one lane after the other.
+/// Any law by its name, which is asked once a block.
 impl Law for Hyperelastic {
     fn shear(&self) -> f64 {
         self.shear_modulus()
     }
 
     #[inline(always)]
-    fn first_piola<L: Lanes>(
+    fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
         _: &[ViscousStrain<L>],
     ) -> (AxisymmetricTensor<L>, L) {
-        let gradients = unpacked(h);
-        // What is inside out has no stress, and is told by its J.
-        let mut stresses = [AxisymmetricTensor::default(); LANES];
-        for lane in 0..LANES {
-            if let Ok(stress) = Hyperelastic::first_piola(self, &gradients[lane]) {
-                stresses[lane] = stress;
-            }
-        }
-        (packed(&stresses), h.volume_change())
+        self.first_piola_unchecked(h)
     }
 }
 
 impl ElasticLaw for Hyperelastic {
     #[inline(always)]
-    fn energy<L: Lanes>(&self, h: &AxisymmetricTensor<L>) -> L {
-        let gradients = unpacked(h);
-        let mut energies = [0.0; LANES];
-        for lane in 0..LANES {
-            energies[lane] = Hyperelastic::energy(self, &gradients[lane]).unwrap_or(f64::NAN);
-        }
-        L::load(&energies)
+    fn energy<L: Lanes<WIDE>>(&self, h: &AxisymmetricTensor<L>) -> L {
+        self.energy_unchecked(h)
     }
 }
 
@@ -132,7 +119,7 @@ impl Law for Relaxing<RelaxingNeoHooke> {
     }
 
     #[inline(always)]
-    fn first_piola<L: Lanes>(
+    fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
         past: &[ViscousStrain<L>],
@@ -141,7 +128,7 @@ impl Law for Relaxing<RelaxingNeoHooke> {
     }
 }
 
-/// Any law, one lane after the other.
+/// Any law by its name.
 impl Law for Relaxing<Viscoelastic> {
     fn shear(&self) -> f64 {
         self.shear
@@ -156,62 +143,11 @@ impl Law for Relaxing<Viscoelastic> {
     }
 
     #[inline(always)]
-    fn first_piola<L: Lanes>(
+    fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
         past: &[ViscousStrain<L>],
     ) -> (AxisymmetricTensor<L>, L) {
-        let gradients = unpacked(h);
-        let mut strains = [[ViscousStrain::default(); MOST_FINITE_STRAIN_TERMS]; LANES];
-        for (term, strain) in past.iter().enumerate() {
-            let (rr, yy) = (strain.rr.to_array(), strain.yy.to_array());
-            let (ry, volume_change) = (strain.ry.to_array(), strain.volume_change.to_array());
-            for lane in 0..LANES {
-                strains[lane][term] = ViscousStrain {
-                    rr: rr[lane],
-                    yy: yy[lane],
-                    ry: ry[lane],
-                    volume_change: volume_change[lane],
-                };
-            }
-        }
-        // What is inside out has no stress, and is told by its J.
-        let mut stresses = [AxisymmetricTensor::default(); LANES];
-        for lane in 0..LANES {
-            let past = &strains[lane][..past.len()];
-            if let Ok(stress) = self.law.first_piola(&gradients[lane], past) {
-                stresses[lane] = stress;
-            }
-        }
-        (packed(&stresses), h.volume_change())
-    }
-}
-
-/// The tensor of each lane.
-#[inline(always)]
-fn unpacked<L: Lanes>(tensor: &AxisymmetricTensor<L>) -> [AxisymmetricTensor; LANES] {
-    let (rr, ry, yr) = (tensor.rr.to_array(), tensor.ry.to_array(), tensor.yr.to_array());
-    let (yy, tt) = (tensor.yy.to_array(), tensor.tt.to_array());
-    let mut tensors = [AxisymmetricTensor::default(); LANES];
-    for k in 0..LANES {
-        tensors[k] = AxisymmetricTensor { rr: rr[k], ry: ry[k], yr: yr[k], yy: yy[k], tt: tt[k] };
-    }
-    tensors
-}
-
-/// The tensors of all lanes as one.
-#[inline(always)]
-fn packed<L: Lanes>(tensors: &[AxisymmetricTensor; LANES]) -> AxisymmetricTensor<L> {
-    let [mut rr, mut ry, mut yr, mut yy, mut tt] = [[0.0; LANES]; 5];
-    for (k, tensor) in tensors.iter().enumerate() {
-        (rr[k], ry[k], yr[k]) = (tensor.rr, tensor.ry, tensor.yr);
-        (yy[k], tt[k]) = (tensor.yy, tensor.tt);
-    }
-    AxisymmetricTensor {
-        rr: L::load(&rr),
-        ry: L::load(&ry),
-        yr: L::load(&yr),
-        yy: L::load(&yy),
-        tt: L::load(&tt),
+        self.law.first_piola_unchecked(h, past)
     }
 }

@@ -13,10 +13,10 @@
 //! are those of the small-strain element.
 //!
 //! ```text
-//! block       what the loops read of four elements
-//! law         stress and energy of a law, on lanes or lane by lane
+//! block       what the loops read of eight elements, and where elements lie in a history
+//! law         stress and energy of a law, on lanes
 //! past        what elements that relax remember
-//! relaxing    how that changes in a step, what it stores and dissipates
+//! relaxing    how that changes in a step and what forces follow, what it stores and dissipates
 //! hourglass   energy of the hourglass shape in a deformed element, and its derivatives
 //! kernel      the element loops: forces, energy
 //! bound       the largest eigenvalue of deformed elements

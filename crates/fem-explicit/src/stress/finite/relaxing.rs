@@ -2,7 +2,8 @@
 //! ([`Viscoelastic`]), and those of the hourglass shape ([`hourglass`](super::hourglass)).
 //!
 //! The past of an element moves with the deformation from the start of a step to its end; that at the
-//! start is the one at the end less what the velocity did.
+//! start is remembered. One loop over the elements takes their past to the end of a step and makes the
+//! forces there, which the start of the next step asks for: what both need of a deformation is had once.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -10,17 +11,17 @@ use std::fmt;
 use fem_collision::Account;
 use fem_element::QuadGeometry;
 
-use fem_material::finite::{AxisymmetricTensor, Hyperelastic, Viscoelastic, ViscousStep};
+use fem_material::finite::{Hyperelastic, Shape, Viscoelastic, ViscousStep, ViscousStrain};
 use fem_material::{PronySeries, RelaxationStep};
 
-use super::super::lanes::{LaneKernel, Lanes, run_lanes};
+use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use super::super::port::{Collapse, Stress};
 use super::block::Blocks;
 use super::bound::{self, Metrics};
-use super::hourglass::{Amplitudes, Deformed, pulled_back};
-use super::kernel::{Elements, Strain};
+use super::hourglass::{Amplitudes, Deformed};
+use super::kernel::{Elements, Strain, Volumes};
 use super::law::{Law, Relaxing};
-use super::past::{self, FIELDS_A_TERM, Past};
+use super::past::{self, Past};
 use crate::pace;
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 
@@ -111,6 +112,11 @@ impl<W: 'static> Part for RelaxingStrain<W>
 where
     Relaxing<W>: Law,
 {
+    /// The internal forces.
+    fn n_history(&self) -> usize {
+        1
+    }
+
     fn set_time_step(&mut self, time_step: f64) {
         self.steps = pace::time_steps(time_step).map(|time_step| self.step(time_step)).collect();
     }
@@ -121,7 +127,7 @@ where
     Relaxing<W>: Law,
 {
     fn n_element_history(&self) -> usize {
-        FIELDS_A_TERM * self.solid.n_terms()
+        past::n_element_fields(self.solid.n_terms())
     }
 
     fn largest_eigenvalue(
@@ -139,8 +145,15 @@ where
         history: &[NodalField],
         forces: &mut Field,
     ) -> Result<(), Collapse> {
-        let is_sound = self.elements(history).subtract_forces(motion.displacement, forces);
-        if is_sound { Ok(()) } else { Err(self.blocks.most_compressed(motion.displacement)) }
+        // Made by the last step; no numbers where an element has collapsed in it.
+        let own = &history[self.n_element_history()];
+        if own.first().is_some_and(|force| force[0].is_nan()) {
+            return Err(self.blocks.most_compressed(motion.displacement));
+        }
+        for (force, own) in forces.as_flattened_mut().iter_mut().zip(own.as_flattened()) {
+            *force += own;
+        }
+        Ok(())
     }
 
     fn changes_stiffness(&self) -> bool {
@@ -170,7 +183,7 @@ where
         stress.clear();
         stress.extend((0..self.blocks.n_elements()).map(|element| {
             let h = self.blocks.gradient(element, u);
-            let (strains, _) = past::of_element(history, n_terms, element);
+            let (strains, _) = past::of_element(history, n_terms, self.blocks.slot(element));
             // No run goes on behind a collapse.
             let stress = self.solid.cauchy(&h, &strains[..n_terms]).ok();
             stress.map_or([f64::NAN; 4], |stress| [stress.rr, stress.yy, stress.tt, stress.ry])
@@ -183,7 +196,11 @@ where
             Some(step) => Cow::Borrowed(step),
             None => Cow::Owned(self.step(motion.time_step)),
         };
-        run_lanes(Advance { blocks: &self.blocks, step: &step, motion }, history);
+        self.update(Some(&step), motion.displacement, history);
+    }
+
+    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
+        self.update(None, displacement, history);
     }
 
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
@@ -203,11 +220,20 @@ impl<W> RelaxingStrain<W>
 where
     Relaxing<W>: Law,
 {
+    /// Takes the history to a displacement, by a step or in no time.
+    fn update(&self, step: Option<&Step>, u: &Field, history: &mut [NodalField]) {
+        let Self { blocks, law, .. } = self;
+        let (of_elements, forces) =
+            history.split_at_mut(past::n_element_fields(self.solid.n_terms()));
+        let Some(forces) = forces.first_mut() else { return };
+        run_wide_lanes(Advance { blocks, law, step, u }, &mut Advanced { of_elements, forces });
+    }
+
     /// What an element stores (J) and dissipates, W; no numbers of one that has collapsed.
     fn energies(&self, element: usize, u: &Field, history: &[NodalField]) -> (f64, f64) {
         let Self { blocks, law, solid, relaxation_times, .. } = self;
         let n_terms = solid.n_terms();
-        let (strains, amplitudes) = past::of_element(history, n_terms, element);
+        let (strains, amplitudes) = past::of_element(history, n_terms, self.blocks.slot(element));
         let (h, strains) = (blocks.gradient(element, u), &strains[..n_terms]);
         let (volume, measures, amplitude) = blocks.shape(element, u);
         let deformed = Deformed::of(&h, law.shear(), measures);
@@ -225,61 +251,89 @@ where
     }
 }
 
-/// The past of all elements over a step, whose motion is given at its end.
-pub(super) struct Advance<'a> {
+/// The past of all elements over a step, or of none, whose displacement is given at its end.
+pub(super) struct Advance<'a, W> {
     pub blocks: &'a Blocks,
-    pub step: &'a Step,
-    pub motion: &'a Motion<'a>,
+    pub law: &'a W,
+    pub step: Option<&'a Step>,
+    pub u: &'a Field,
 }
 
-impl LaneKernel for Advance<'_> {
-    type Output = [NodalField];
+impl<W> Clone for Advance<'_, W> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<W> Copy for Advance<'_, W> {}
+
+/// What that changes: the fields of the elements, and the forces on the nodes.
+pub(super) struct Advanced<'a> {
+    pub of_elements: &'a mut [NodalField],
+    pub forces: &'a mut Field,
+}
+
+impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
+    type Output = Advanced<'a>;
 
     #[inline(always)]
-    fn on<L: Lanes>(self, history: &mut [NodalField]) {
-        let Self { blocks, step, motion: Motion { displacement: u, velocity: v, .. } } = self;
-        let n_terms = step.amplitudes.len();
-        assert!(past::is_sound(history, n_terms, blocks.n_elements()));
+    fn on<L: Lanes<WIDE>>(self, Advanced { of_elements, forces }: &mut Advanced<'a>) {
+        let Self { blocks, law, step, u } = self;
+        let n_terms = law.weights().len();
+        assert!(past::is_sound(of_elements, n_terms + 1, blocks.n_elements()));
+        forces.fill([0.0; 2]);
         let mut past = Past::<L>::none();
-        for (place, block) in blocks.checked(&[u.len(), v.len()]).iter().enumerate() {
-            let (elements, n_lanes) = blocks.elements(place);
-            past.load(n_terms, history, &elements);
+        let mut volumes = Volumes::<L>::new();
+        for (place, block) in blocks.checked(&[u.len(), forces.len()]).iter().enumerate() {
+            let slots = blocks.slots(place);
             // SAFETY: the fields have been checked against the corner numbers.
-            let (after, rate) =
-                unsafe { (Strain::<L>::gather(block, u), Strain::<L>::gather(block, v)) };
-            past.advance(step, &before(&after, &rate, L::splat(step.time_step)), &after);
-            past.store(n_terms, history, &elements, n_lanes);
+            let strain = unsafe { Strain::<L>::gather(block, u) };
+            let deformed = strain.deformed(block, law);
+            let after = (Shape::of(&strain.h), deformed.pull(strain.q));
+            if let Some(step) = step {
+                let (whole, amplitude) = past::load_term(of_elements, n_terms, slots);
+                let before = (Shape::of_remembered(&whole), amplitude);
+                for term in 0..n_terms {
+                    let (strain, amplitude) = past::load_term(of_elements, term, slots);
+                    let (strain, amplitude) =
+                        step.advance_term(term, &before, &after, strain, amplitude);
+                    past::store_term(of_elements, term, slots, &strain, amplitude);
+                    (past.strains[term], past.amplitudes[term]) = (strain, amplitude);
+                }
+            } else {
+                past.load(n_terms, of_elements, slots);
+            }
+            past::store_term(of_elements, n_terms, slots, &after.0.remembered(), after.1);
+            let (conjugate, volume_change) =
+                strain.conjugate_of(&deformed, after.1, block, law, &past);
+            volumes.observe(volume_change, strain.h.tt);
+            // SAFETY: as above.
+            unsafe { conjugate.scatter_subtract(block, forces) };
+        }
+        if !volumes.are_sound() {
+            forces.fill([f64::NAN; 2]);
         }
     }
 }
 
-impl<L: Lanes> Past<L> {
+impl Step {
+    /// What a term remembers after a step between two shapes and amplitudes in the undeformed element.
     #[inline(always)]
-    fn advance(&mut self, step: &Step, before: &Strain<L>, after: &Strain<L>) {
-        let n_terms = step.amplitudes.len();
-        step.law.advance(&before.h, &after.h, &mut self.strains[..n_terms]);
-        let (first, last) = (pulled_back(&before.h, before.q), pulled_back(&after.h, after.q));
-        for (term, factors) in step.amplitudes.iter().enumerate() {
-            let (decay, gain) = (L::splat(factors.decay), L::splat(factors.gain));
-            let flown = &mut self.amplitudes[term];
-            flown.0 = last.0 - (decay * (first.0 - flown.0) + gain * (last.0 - first.0));
-            flown.1 = last.1 - (decay * (first.1 - flown.1) + gain * (last.1 - first.1));
-        }
-    }
-}
-
-/// A strain a time step (s) ago.
-#[inline(always)]
-fn before<L: Lanes>(after: &Strain<L>, rate: &Strain<L>, time_step: L) -> Strain<L> {
-    let (h, r) = (&after.h, &rate.h);
-    Strain {
-        h: AxisymmetricTensor {
-            rr: h.rr - time_step * r.rr,
-            ry: h.ry - time_step * r.ry,
-            yr: h.yr - time_step * r.yr,
-            yy: h.yy - time_step * r.yy,
-            tt: h.tt - time_step * r.tt,
-        },
-        q: (after.q.0 - time_step * rate.q.0, after.q.1 - time_step * rate.q.1),
+    fn advance_term<L: Lanes<WIDE>>(
+        &self,
+        term: usize,
+        (before, first): &(Shape<L>, (L, L)),
+        (after, last): &(Shape<L>, (L, L)),
+        mut strain: ViscousStrain<L>,
+        flown: (L, L),
+    ) -> (ViscousStrain<L>, (L, L)) {
+        self.law.advance_term(term, before, after, &mut strain);
+        let RelaxationStep { decay, gain } = self.amplitudes[term];
+        let (decay, gain) = (L::splat(decay), L::splat(gain));
+        let amplitude = (
+            last.0 - (decay * (first.0 - flown.0) + gain * (last.0 - first.0)),
+            last.1 - (decay * (first.1 - flown.1) + gain * (last.1 - first.1)),
+        );
+        (strain, amplitude)
     }
 }

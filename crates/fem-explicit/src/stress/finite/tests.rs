@@ -4,14 +4,14 @@ use fem_material::ElasticModuli;
 use fem_material::finite::{AxisymmetricTensor, Number};
 use fem_mesh::Side;
 
-use super::super::lanes::{LANES, Lanes, Plain};
+use super::super::lanes::{Lanes, Plain, WIDE};
 use super::super::of_material;
 use super::block::Block;
 use super::kernel::{Conjugate, Strain};
 use super::law::Law;
 use super::past::Past;
 use super::*;
-use crate::test_support::{geometries, moduli, ragged, unit_glass, unit_sphere, vector};
+use crate::test_support::{geometries, ragged, unit_glass, unit_sphere, vector};
 
 /// ν = 0.495 with the shear modulus of the unit glass.
 fn nearly_incompressible() -> Material {
@@ -131,12 +131,12 @@ fn far_quad() -> Block {
     Block::of_one(&QuadGeometry::new(&corners))
 }
 
-fn tensor([rr, ry, yr, yy, tt]: [f64; 5]) -> AxisymmetricTensor<Plain> {
-    let splat = Plain::splat;
+fn tensor([rr, ry, yr, yy, tt]: [f64; 5]) -> AxisymmetricTensor<Plain<WIDE>> {
+    let splat = Plain::<WIDE>::splat;
     AxisymmetricTensor { rr: splat(rr), ry: splat(ry), yr: splat(yr), yy: splat(yy), tt: splat(tt) }
 }
 
-fn first([rr, ry, yr, yy, tt]: [Plain; 5]) -> [f64; 5] {
+fn first([rr, ry, yr, yy, tt]: [Plain<WIDE>; 5]) -> [f64; 5] {
     [rr, ry, yr, yy, tt].map(|lanes| lanes.to_array()[0])
 }
 
@@ -147,12 +147,12 @@ const Q: [f64; 2] = [0.2, -0.3];
 /// What a deformed and an hourglassed quad gives: stress (rr, ry, yr, yy, tt) and amplitude forces.
 fn conjugate_with(
     law: &impl Law,
-    past: &Past<Plain>,
+    past: &Past<Plain<WIDE>>,
     [rr, ry, yr, yy, tt]: [f64; 5],
     q: [f64; 2],
 ) -> ([f64; 5], [f64; 2]) {
     let h = tensor([rr - 1.0, ry, yr, yy - 1.0, tt - 1.0]);
-    let strain = Strain { h, q: (Plain::splat(q[0]), Plain::splat(q[1])) };
+    let strain = Strain { h, q: (Plain::<WIDE>::splat(q[0]), Plain::<WIDE>::splat(q[1])) };
     let (Conjugate { stress, q }, _) = strain.conjugate(&far_quad(), law, past);
     let stress = first([stress.rr, stress.ry, stress.yr, stress.yy, stress.tt]);
     (stress, [q.0.to_array()[0], q.1.to_array()[0]])
@@ -271,31 +271,44 @@ fn a_collapsed_element_is_named() {
     }
 }
 
+/// Every law, on registers that the processor has.
 #[cfg(target_arch = "x86_64")]
 #[test]
-fn plain_and_avx2_lanes_give_the_same_bits() {
-    use super::super::lanes::Avx2;
+fn lanes_of_every_kind_give_the_same_bits() {
+    use super::super::lanes::{Avx2, Avx512, Twice};
     #[target_feature(enable = "avx2")]
     fn avx2(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
-        Elements { blocks, law, history: &[] }.subtract::<Avx2>(u, f);
-        kernel::sum_energy::<Avx2, _>(blocks, law, u)
+        Elements { blocks, law, history: &[] }.subtract::<Twice<Avx2>>(u, f);
+        kernel::sum_energy::<Twice<Avx2>, _>(blocks, law, u)
     }
-    if !std::arch::is_x86_feature_detected!("avx2") {
-        return;
+    #[target_feature(enable = "avx512f")]
+    fn avx512(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
+        Elements { blocks, law, history: &[] }.subtract::<Avx512>(u, f);
+        kernel::sum_energy::<Avx512, _>(blocks, law, u)
     }
     let mesh = mesh();
     let blocks = Blocks::pack(&mesh, &geometries(&mesh));
-    let moduli = moduli(&unit_glass());
-    let law = NeoHooke { bulk: moduli.bulk, shear: moduli.shear };
     let u = deformed(&mesh);
-    let mut f = [vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]];
-    let [f_plain, f_avx2] = &mut f;
-    Elements { blocks: &blocks, law: &law, history: &[] }.subtract::<Plain>(&u, f_plain);
-    let one = kernel::sum_energy::<Plain, _>(&blocks, &law, &u);
-    // SAFETY: the processor has been asked.
-    let other = unsafe { avx2(&blocks, &law, &u, f_avx2) };
-    assert_eq!(one.to_bits(), other.to_bits());
     let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
-    assert_eq!(bits(&f[0]), bits(&f[1]));
-    assert!(LANES == 4 && mesh.quads().len() > LANES);
+    for law in HyperelasticLaw::ALL {
+        let law = Hyperelastic::new(law, unit_glass().instantaneous());
+        let none = vec![[0.0; 2]; u.len()];
+        let mut plain = none.clone();
+        Elements { blocks: &blocks, law: &law, history: &[] }
+            .subtract::<Plain<WIDE>>(&u, &mut plain);
+        let energy = kernel::sum_energy::<Plain<WIDE>, _>(&blocks, &law, &u);
+        if std::arch::is_x86_feature_detected!("avx2") {
+            let mut f = none.clone();
+            // SAFETY: the processor has been asked.
+            let other = unsafe { avx2(&blocks, &law, &u, &mut f) };
+            assert_eq!((energy.to_bits(), bits(&plain)), (other.to_bits(), bits(&f)), "{law:?}");
+        }
+        if std::arch::is_x86_feature_detected!("avx512f") {
+            let mut f = none;
+            // SAFETY: the processor has been asked.
+            let other = unsafe { avx512(&blocks, &law, &u, &mut f) };
+            assert_eq!((energy.to_bits(), bits(&plain)), (other.to_bits(), bits(&f)), "{law:?}");
+        }
+    }
+    assert!(WIDE == 8 && mesh.quads().len() > WIDE);
 }

@@ -11,7 +11,7 @@ fn meshes() -> [SphereMesh; 2] {
 }
 
 fn pack(mesh: &SphereMesh) -> Blocks {
-    Blocks::pack(mesh, &geometries(mesh))
+    Blocks::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
 }
 
 /// Largest difference over the largest number.

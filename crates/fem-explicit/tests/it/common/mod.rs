@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test file uses its share")]
 
 use fem_collision::{Approach, BodyInput, Collision, Expectation, SnapshotRequest, Want};
-use fem_explicit::{Model, Parts, Settings, collide};
+use fem_explicit::{ContactMethod, Model, Parts, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, Side};
@@ -22,6 +22,9 @@ pub struct Pair {
     pub gap: f64,
     pub element_size: f64,
     pub step_factor: f64,
+    pub method: ContactMethod,
+    /// Times the usual stiffness of the springs.
+    pub penalty_factor: f64,
     pub relaxation: Option<ActsOn>,
     /// Prony terms of a relaxing pair: weight, relaxation time.
     pub terms: &'static [(f64, f64)],
@@ -43,6 +46,8 @@ impl Default for Pair {
             gap: 0.0,
             element_size: 45e-6,
             step_factor: 0.9,
+            method: ContactMethod::Penalty,
+            penalty_factor: 1.0,
             relaxation: None,
             terms: &[(1.0, 1.0 / 2708.0)],
             law: None,
@@ -92,7 +97,8 @@ impl Pair {
     pub fn settings(&self) -> Settings {
         let [length, time, mass] = self.units;
         Settings {
-            contact_stiffness: 10.0 * CONTACT_MODULUS * mass / (length * time * time),
+            contact_stiffness: self.penalty_factor * 10.0 * CONTACT_MODULUS * mass
+                / (length * time * time),
             candidate_radius: self.candidate_radius * length,
             step_factor: self.step_factor,
             mass_scaling: 2e-4,
@@ -105,7 +111,7 @@ impl Pair {
 
     pub fn model_of(&self, bodies: [BodyInput; 2]) -> Model {
         let finite_strain = bodies.each_ref().map(|body| body.mesh().and(self.law));
-        let parts = Parts { finite_strain, ..Parts::default() };
+        let parts = Parts { finite_strain, method: self.method, ..Parts::default() };
         Model::with_parts(bodies, self.approach(), &self.settings(), parts).unwrap()
     }
 

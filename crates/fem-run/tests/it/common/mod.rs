@@ -40,7 +40,7 @@ pub const FAILS: [&str; 6] = [
     "--set",
     "material.glass={density=2390, youngs_modulus=1e6, poissons_ratio=0.244}",
     "--set",
-    "body.0.approach_speed=30",
+    "body.0.approach_speed=60",
     "--set",
     "mesh.contact_element_size=0.5e-3",
 ];

@@ -15,6 +15,7 @@ pub(super) struct Departure {
     pub restitution: f64,
     pub contact_time: f64,
     pub peak_force: f64,
+    pub peak_pressure: f64,
 }
 
 impl Departure {
@@ -24,30 +25,49 @@ impl Departure {
     pub fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
         let changes = &CHANGES[HyperelasticLaw::ALL.iter().position(|l| *l == law).unwrap_or(0)];
         let (row, weight) = place(&POISSONS_RATIOS, poissons_ratio);
-        let slope = |row: usize| {
-            let (k, weight) = place(&STRAINS, strain);
-            let slope = |k: usize| (1.0 / STRAINS[k]) * Self::from(changes[row][k]);
-            (1.0 - weight) * slope(k) + weight * slope(k + 1)
+        let (k, share) = place(&STRAINS, strain);
+        let change = |row: usize| {
+            let [before, after] = [k, k + 1].map(|k| Self::from(changes[row][k]));
+            (1.0 - share) * before + share * after
         };
-        strain * ((1.0 - weight) * slope(row) + weight * slope(row + 1))
+        // Beyond the ends, where `place` stays.
+        let beyond = strain / strain.clamp(STRAINS[0], STRAINS[STRAINS.len() - 1]);
+        beyond * ((1.0 - weight) * change(row) + weight * change(row + 1))
     }
 
-    /// The largest change over what a case allows of it. Of the peak pressure nothing is told: nominal
-    /// and true ones differ by more.
+    /// The most of it up to that strain, as sizes: what changes its sign on the way is not small again
+    /// where it does.
+    pub fn up_to(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
+        let strains = STRAINS.into_iter().filter(|one| *one < strain).chain([strain]);
+        strains.fold(Self::default(), |most, strain| {
+            let here = Self::on_a_wall(law, poissons_ratio, strain);
+            Self {
+                restitution: most.restitution.max(here.restitution.abs()),
+                contact_time: most.contact_time.max(here.contact_time.abs()),
+                peak_force: most.peak_force.max(here.peak_force.abs()),
+                peak_pressure: most.peak_pressure.max(here.peak_pressure.abs()),
+            }
+        })
+    }
+
+    /// The largest change over what a case allows of it.
     pub fn over(&self, accuracy: &Accuracy) -> f64 {
         let shares = [
             self.restitution / accuracy.restitution,
             self.contact_time / accuracy.contact_time,
             self.peak_force / accuracy.peak_force,
+            self.peak_pressure / accuracy.peak_pressure,
         ];
         shares.into_iter().map(f64::abs).fold(0.0, f64::max)
     }
 
-    /// "1.00 % of the contact time and 1.80 % of the peak force".
+    /// "1.00 % of the contact time, 1.80 % of the peak force and 5.00 % of the peak pressure".
     pub fn in_words(&self) -> String {
-        let percent = |share: f64| super::percent(share.abs());
-        let (time, force) = (percent(self.contact_time), percent(self.peak_force));
-        format!("{time} of the contact time and {force} of the peak force")
+        let shares = [self.contact_time, self.peak_force, self.peak_pressure];
+        let [time, force, pressure] = shares.map(|share| super::percent(share.abs()));
+        format!(
+            "{time} of the contact time, {force} of the peak force and {pressure} of the peak pressure"
+        )
     }
 }
 
@@ -60,9 +80,9 @@ fn place(grid: &[f64], x: f64) -> (usize, f64) {
     (before, weight.clamp(0.0, 1.0))
 }
 
-impl From<[f64; 3]> for Departure {
-    fn from([restitution, contact_time, peak_force]: [f64; 3]) -> Self {
-        Self { restitution, contact_time, peak_force }
+impl From<[f64; 4]> for Departure {
+    fn from([restitution, contact_time, peak_force, peak_pressure]: [f64; 4]) -> Self {
+        Self { restitution, contact_time, peak_force, peak_pressure }
     }
 }
 
@@ -74,6 +94,7 @@ impl Add for Departure {
             restitution: self.restitution + other.restitution,
             contact_time: self.contact_time + other.contact_time,
             peak_force: self.peak_force + other.peak_force,
+            peak_pressure: self.peak_pressure + other.peak_pressure,
         }
     }
 }
@@ -86,6 +107,7 @@ impl Mul<Departure> for f64 {
             restitution: self * change.restitution,
             contact_time: self * change.contact_time,
             peak_force: self * change.peak_force,
+            peak_pressure: self * change.peak_pressure,
         }
     }
 }
@@ -123,6 +145,19 @@ mod tests {
                     );
                     assert!((found.peak_force - change[2]).abs() < 1e-12, "{law:?} {nu} {strain}");
                 }
+            }
+        }
+    }
+
+    /// A faster impact is not decided on otherwise than a slower one.
+    #[test]
+    fn what_a_strain_calls_for_a_larger_one_does() {
+        let accuracy = Accuracy::within(0.01);
+        for law in HyperelasticLaw::ALL {
+            for nu in [-0.5, 0.0, 0.1, 0.25, 0.33, 0.4, 0.45, 0.47, 0.49, 0.495] {
+                let shares = (0..200)
+                    .map(|k| Departure::up_to(law, nu, 0.005 * f64::from(k)).over(&accuracy));
+                assert!(shares.is_sorted(), "{law:?} {nu}");
             }
         }
     }

@@ -29,9 +29,6 @@ use crate::estimate::Estimate;
 use crate::expected::Expected;
 use crate::refusal::Refusal;
 
-/// Contact time that St Venant and Kirchhoff's law, the one that departs most, adds over a/R*: how
-/// much a law is worth that nobody gave.
-const SPREAD: f64 = 0.09;
 /// Contact radius over the effective radius beyond which nothing is foretold.
 const LARGEST_STRAIN: f64 = 1.0;
 /// Largest Poisson's ratio that the elements bear at large strain: beyond it the volume is nearly
@@ -100,6 +97,8 @@ struct Strained<'a> {
     material: &'a Material,
     /// What its own strain changes of the collision.
     departure: Departure,
+    /// How far laws are apart in what it changes of the contact time, as a share.
+    spread: f64,
 }
 
 impl<'a> Strained<'a> {
@@ -113,19 +112,25 @@ impl<'a> Strained<'a> {
             let material = body.material()?;
             let share = compliance(body) / sum;
             let nu = material.instantaneous().poissons_ratio();
-            let departure =
-                share * Departure::on_a_wall(material.law(), nu, share * estimate.strain);
-            Some(Self { name: body.name(), material, departure })
+            let strain = share * estimate.strain;
+            let departure = share * Departure::up_to(material.law(), nu, strain);
+            let times = HyperelasticLaw::ALL
+                .map(|law| share * Departure::on_a_wall(law, nu, strain).contact_time);
+            let (least, most) = times
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(*t), b.max(*t)));
+            Some(Self { name: body.name(), material, departure, spread: most - least })
         })
     }
 
     /// Whether elements bear its Poisson's ratio at large strain.
     fn is_borne(&self) -> bool {
-        self.material.instantaneous().poissons_ratio() <= LARGEST_POISSONS_RATIO
+        // Made of two moduli it is rounded.
+        self.material.instantaneous().poissons_ratio() <= LARGEST_POISSONS_RATIO + 1e-9
     }
 
     fn too_stiff(&self) -> String {
-        let nu = self.material.instantaneous().poissons_ratio();
+        let nu = (self.material.instantaneous().poissons_ratio() * 1e9).round() / 1e9;
         format!(
             "Poisson's ratio {nu} of {} is above {LARGEST_POISSONS_RATIO}, the largest that elements \
              bear at large strain",
@@ -143,6 +148,11 @@ impl<'a> Strained<'a> {
 fn departure(scene: &Scene, estimate: &Estimate) -> Departure {
     let both = Strained::of_both(scene, estimate).into_iter().flatten();
     both.map(|strained| strained.departure).sum()
+}
+
+/// How far laws are apart in the contact time, as a share.
+fn spread(scene: &Scene, estimate: &Estimate) -> f64 {
+    Strained::of_both(scene, estimate).into_iter().flatten().map(|strained| strained.spread).sum()
 }
 
 fn is_forced_on(scene: &Scene) -> bool {
@@ -172,7 +182,7 @@ fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
         true => names,
         false => format!(
             "{names}, which the case does not say: laws differ by up to {} of the contact time",
-            percent(SPREAD * estimate.strain)
+            percent(spread(scene, estimate))
         ),
     }
 }
@@ -213,7 +223,7 @@ impl Effect for FiniteStrain {
         if estimate.strain > LARGEST_STRAIN {
             return Some(LeftOut::default());
         }
-        let Departure { restitution, contact_time, peak_force } = departure(scene, estimate);
+        let Departure { restitution, contact_time, peak_force, .. } = departure(scene, estimate);
         let shares = LeftOut::shares(estimate, contact_time, peak_force);
         // What relaxes loses with the time that it has, if less than in proportion.
         let impact = Expected::of(scene, estimate.hertz.approach_speed(), false).ok();
@@ -237,14 +247,15 @@ impl Effect for FiniteStrain {
                 in_words(scene, &found)
             )
         });
-        let spread = percent(SPREAD * strain);
+        let spread = spread(scene, &found);
         let mut materials = scene.bodies().iter().filter_map(Body::material);
         let is_unnamed = materials.any(|material| material.named_law().is_none());
-        let matters = SPREAD * strain > scene.accuracy().contact_time;
+        let matters = spread > scene.accuracy().contact_time;
         let law = (is_unnamed && matters).then(|| {
             format!(
-                "how the materials go on beyond Hooke's law changes the contact time by up to {spread}, and \
-                 the case does not say: name a law (material.NAME.hyperelastic)"
+                "how the materials go on beyond Hooke's law changes the contact time by up to {}, and \
+                 the case does not say: name a law (material.NAME.hyperelastic)",
+                percent(spread)
             )
         });
         news.into_iter().chain(law).collect()

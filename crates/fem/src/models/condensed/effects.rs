@@ -56,6 +56,14 @@ pub(super) fn unread_keys(scene: &Scene, options: CondensedOptions) -> Vec<Strin
             warnings.push(format!("{key} has no effect: model condensed has no critical step"));
         }
     }
+    if scene.contact_method().is_some() {
+        let what = if options.penalty_springs {
+            "springs are at Gauss points"
+        } else {
+            "contact is exact"
+        };
+        warnings.push(format!("contact.method has no effect: {what}"));
+    }
     if scene.penalty_factor().is_some() && !options.penalty_springs {
         warnings.push(
             "contact.penalty_factor has no effect: contact is exact unless \

@@ -3,7 +3,7 @@
 use fem_material::finite::{Viscoelastic, ViscousStrain};
 use fem_material::{ActsOn, RelaxationStep};
 
-use super::super::hourglass::pulled_back;
+use super::super::hourglass::Deformed;
 use super::super::law::{Law, Relaxing};
 use super::super::past::FIELDS_A_TERM;
 use super::super::relaxing::Step;
@@ -170,7 +170,7 @@ fn a_rotation_turns_what_has_relaxed() {
         let solid = Hyperelastic::new(law, series_of.instantaneous());
         let law = Relaxing::of(Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
         let mut past = Past::none();
-        let splat = Plain::splat;
+        let splat = Plain::<WIDE>::splat;
         let strain = |rr, yy, ry, volume| ViscousStrain {
             rr: splat(rr),
             yy: splat(yy),
@@ -208,10 +208,11 @@ fn a_held_amplitude_relaxes_exactly() {
     for (term, (_, time)) in TERMS.iter().enumerate() {
         let decay = RelaxationStep::new(*time, hold).decay;
         for element in 0..mesh.quads().len() {
-            let (_, _, amplitude) = blocks.shape(element, &u);
-            let own = pulled_back(&blocks.gradient(element, &u), amplitude);
-            let flown = march.history[FIELDS_A_TERM * term + 2][element];
-            let before = at_once[FIELDS_A_TERM * term + 2][element];
+            let (slots, lane) = blocks.slot(element);
+            let (_, measures, amplitude) = blocks.shape(element, &u);
+            let own = Deformed::of(&blocks.gradient(element, &u), 1.0, measures).pull(amplitude);
+            let flown = slots.pair(lane, &march.history[FIELDS_A_TERM * term + 2]);
+            let before = slots.pair(lane, &at_once[FIELDS_A_TERM * term + 2]);
             let error = (own.0 - flown[0]) - decay * (own.0 - before[0]);
             // Rounding of amplitudes of a hundredth.
             assert!(error.abs() < 1e-15, "{error:e}");
@@ -220,51 +221,79 @@ fn a_held_amplitude_relaxes_exactly() {
     }
 }
 
+/// Every law, on registers that the processor has, blocks with empty lanes among them.
 #[cfg(target_arch = "x86_64")]
 #[test]
-fn plain_and_avx2_lanes_relax_to_the_same_bits() {
-    use super::super::super::lanes::Avx2;
-    use super::super::relaxing::Advance;
+fn lanes_of_every_kind_relax_to_the_same_bits() {
+    use super::super::super::lanes::{Avx2, Avx512, Twice};
+    use super::super::relaxing::{Advance, Advanced};
     #[target_feature(enable = "avx2")]
-    fn avx2(advance: Advance<'_>, history: &mut [NodalField]) {
-        advance.on::<Avx2>(history);
+    fn avx2<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
+        advance.on::<Twice<Avx2>>(output);
     }
-    #[target_feature(enable = "avx2")]
-    fn forces_on_avx2(elements: &Elements<'_, impl Law>, u: &Field, f: &mut Field) {
-        elements.subtract::<Avx2>(u, f);
-    }
-    if !std::arch::is_x86_feature_detected!("avx2") {
-        return;
+    #[target_feature(enable = "avx512f")]
+    fn avx512<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
+        advance.on::<Avx512>(output);
     }
     let mesh = mesh();
+    let geometries = geometries(&mesh);
     let material = relaxing_glass(&TERMS, ActsOn::All);
     let series = material.relaxation().unwrap();
-    let solid = Hyperelastic::new(HyperelasticLaw::NeoHooke, material.instantaneous());
-    let viscoelastic = Viscoelastic::new(&solid, series);
-    let law = viscoelastic.neo_hooke().unwrap().clone();
-    let law = Relaxing::of(law, solid.shear_modulus(), series);
-    let blocks = Blocks::pack(&mesh, &geometries(&mesh));
-    let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
-    let (u, v) = (deformed(&mesh), ragged(&mesh, 9));
-    let motion = Motion { velocity: &v, ..motion(&u) };
-    let history = vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 6];
-    let history: Vec<Vec<_>> = history;
-    let mut both = [history.clone(), history];
-    let [plain, lanes] = &mut both;
-    let advance = || Advance { blocks: &blocks, step: &step, motion: &motion };
-    advance().on::<Plain>(plain);
-    // SAFETY: the processor has been asked.
-    unsafe { avx2(advance(), lanes) };
+    let u = deformed(&mesh);
+    let of_elements: Vec<Vec<_>> =
+        vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 9];
     let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
-    for (plain, lanes) in plain.iter().zip(lanes.iter()) {
-        assert_eq!(bits(plain), bits(lanes));
+    for (law, n_elements) in HyperelasticLaw::ALL.into_iter().zip([96, 95, 91, 7]) {
+        let blocks = Blocks::pack(&mesh, &geometries[..n_elements]);
+        let solid = Hyperelastic::new(law, material.instantaneous());
+        let viscoelastic = Viscoelastic::new(&solid, series);
+        let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
+        let law = Relaxing::of(viscoelastic, solid.shear_modulus(), series);
+        let advance = Advance { blocks: &blocks, law: &law, step: Some(&step), u: &u };
+        let start = || (of_elements.clone(), vec![[0.0; 2]; u.len()]);
+        let [mut plain, mut two, mut one] = [start(), start(), start()];
+        advance
+            .on::<Plain<WIDE>>(&mut Advanced { of_elements: &mut plain.0, forces: &mut plain.1 });
+        assert!(vector(&plain.1).amax() > 1e-3);
+        let all_bits = |(history, forces): &(Vec<Vec<_>>, Vec<_>)| {
+            history.iter().chain([forces]).map(|field| bits(field)).collect::<Vec<_>>()
+        };
+        if std::arch::is_x86_feature_detected!("avx2") {
+            let mut output = Advanced { of_elements: &mut two.0, forces: &mut two.1 };
+            // SAFETY: the processor has been asked.
+            unsafe { avx2(advance, &mut output) };
+            assert!(all_bits(&plain) == all_bits(&two), "{law:?}");
+        }
+        if std::arch::is_x86_feature_detected!("avx512f") {
+            let mut output = Advanced { of_elements: &mut one.0, forces: &mut one.1 };
+            // SAFETY: as above.
+            unsafe { avx512(advance, &mut output) };
+            assert!(all_bits(&plain) == all_bits(&one), "{law:?}");
+        }
     }
-    let elements = Elements { blocks: &blocks, law: &law, history: plain };
-    let mut f = [vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]];
-    let [f_plain, f_lanes] = &mut f;
-    elements.subtract::<Plain>(&u, f_plain);
-    // SAFETY: as above.
-    unsafe { forces_on_avx2(&elements, &u, f_lanes) };
-    assert_eq!(bits(f_plain), bits(f_lanes));
-    assert!(vector(f_plain).amax() > 0.0);
+}
+
+/// Each element has a place of its own, also where lanes are empty.
+#[test]
+fn slots_hold_each_element_once() {
+    let mesh = mesh();
+    let geometries = geometries(&mesh);
+    for n_elements in [96, 95, 91, 89, 57, 12, 9, 7, 1] {
+        let blocks = Blocks::pack(&mesh, &geometries[..n_elements]);
+        let mut field = vec![[f64::NAN; 2]; n_elements];
+        for place in 0..n_elements.div_ceil(WIDE) {
+            let numbers =
+                |shift: f64| std::array::from_fn(|lane| (10 * place + lane) as f64 + shift);
+            let (first, second) = (numbers(0.0), numbers(0.5));
+            let load = <Plain<WIDE> as Lanes<WIDE>>::load;
+            blocks.slots(place).store(&mut field, load(&first), load(&second));
+        }
+        for element in 0..n_elements {
+            let (slots, lane) = blocks.slot(element);
+            let number = (10 * (element % n_elements.div_ceil(WIDE)) + lane) as f64;
+            assert_eq!(slots.pair(lane, &field), [number, number + 0.5], "{element} {n_elements}");
+            let (first, _) = slots.load::<Plain<WIDE>>(&field);
+            assert_eq!(first.to_array()[lane], number);
+        }
+    }
 }

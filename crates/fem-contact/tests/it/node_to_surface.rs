@@ -1,0 +1,91 @@
+//! Springs at the nodes of each surface.
+
+use std::f64::consts::PI;
+
+use crate::common::{STIFFNESS, flat, forces, glass_pair, ragged, rigid};
+use fem_contact::{ContactError, ContactInterface, Surface};
+use fem_mesh::{Side, SphereMesh};
+
+fn interface(meshes: &[SphereMesh; 2], candidate_radius: f64) -> ContactInterface {
+    let [lower, upper] = meshes.each_ref().map(Surface::of_sphere);
+    ContactInterface::node_to_surface(lower, upper, STIFFNESS, 0.0, candidate_radius).unwrap()
+}
+
+/// Radii of the nodes of a surface.
+fn radii(mesh: &SphereMesh) -> Vec<f64> {
+    mesh.surface().iter().map(|&node| mesh.nodes()[node as usize][0]).collect()
+}
+
+/// ∫ N 2πr dr of the hat of node k, from Simpson's rule, which is exact for it.
+fn hat_area(radii: &[f64], k: usize) -> f64 {
+    let piece = |from: f64, to: f64| {
+        let middle = 0.5 * (from + to);
+        (to - from).abs() / 6.0 * 2.0 * PI * (4.0 * 0.5 * middle + to)
+    };
+    let inner = if k > 0 { piece(radii[k - 1], radii[k]) } else { 0.0 };
+    inner + piece(radii[k + 1], radii[k])
+}
+
+/// On equal meshes each node has the consistent share of a uniform pressure, half of it in each pass.
+#[test]
+fn uniform_penetration_loads_nodes_by_their_hats() {
+    let meshes = [flat(0.01, Side::Below), flat(0.01, Side::Above)];
+    let interface = interface(&meshes, 0.0999);
+    // So deep that the 5e-6 m of the surface are 5e-12 of it.
+    let depth = 1e6;
+    let (total, f) = forces(&interface, &[rigid(&meshes[0], depth), rigid(&meshes[1], 0.0)]);
+    let (pressure, radii) = (STIFFNESS / 0.01 * depth, radii(&meshes[0]));
+    let n = interface.n_points() / 2;
+    assert_eq!((n, total.n_closed), (radii.iter().take_while(|r| **r < 0.0999).count(), 2 * n));
+    let areas: f64 = (0..n).map(|k| hat_area(&radii, k)).sum();
+    // Element lengths, and with them the penalty, differ by 2.5e-9.
+    assert!((total.force / (pressure * areas) - 1.0).abs() < 1e-8);
+    for k in 0..n {
+        let force = f[0][meshes[0].surface()[k] as usize][1];
+        assert!((force / (-pressure * hat_area(&radii, k)) - 1.0).abs() < 1e-8, "{k}");
+    }
+}
+
+/// Against a wall there is one pass, with all of the area.
+#[test]
+fn a_wall_is_met_in_one_pass() {
+    let mesh = flat(0.01, Side::Above);
+    let surfaces = [Surface::wall(), Surface::of_sphere(&mesh)];
+    let [wall, sphere] = surfaces.clone();
+    let interface = ContactInterface::node_to_surface(wall, sphere, STIFFNESS, 0.0, 0.0999);
+    let interface = interface.unwrap();
+    let (total, _) = forces(&interface, &[vec![[0.0; 2]], rigid(&mesh, -1e6)]);
+    let radii = radii(&mesh);
+    let areas: f64 = (0..interface.n_points()).map(|k| hat_area(&radii, k)).sum();
+    assert!((total.force / (STIFFNESS / 0.01 * 1e6 * areas) - 1.0).abs() < 1e-8);
+    let [lower, upper] = [Surface::wall(), Surface::wall()];
+    let refused = ContactInterface::node_to_surface(lower, upper, STIFFNESS, 0.0, 0.1);
+    assert_eq!(refused, Err(ContactError::BothRigid));
+}
+
+#[test]
+fn forces_balance_and_derive_from_the_energy() {
+    let meshes = glass_pair([30e-6, 37e-6]);
+    let interface = interface(&meshes, 0.4e-3);
+    let u = ragged(&meshes, 20e-6);
+    let (total, f) = forces(&interface, &u);
+    assert!(total.n_closed > 5 && total.n_closed < interface.n_points());
+    let [lower, upper] = f.each_ref().map(|f| f.iter().map(|f| f[1]).sum::<f64>());
+    // Rounding of some hundred terms.
+    assert!((lower + total.force).abs() < 1e-13 * total.force);
+    assert!((upper - total.force).abs() < 1e-13 * total.force);
+    let step = 1e-10;
+    for side in 0..2 {
+        for node in interface.candidate_nodes(side) {
+            let energy = |change: f64| {
+                let mut moved = u.clone();
+                moved[side][node as usize][1] += change;
+                forces(&interface, &moved).0.energy
+            };
+            let slope = (energy(step) - energy(-step)) / (2.0 * step);
+            // Quadratic: the difference is exact but for rounding, 1e-15 · energy / step.
+            let error = (f[side][node as usize][1] + slope).abs();
+            assert!(error < 1e-14 * total.energy / step, "{error:e}");
+        }
+    }
+}

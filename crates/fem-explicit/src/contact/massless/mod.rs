@@ -1,0 +1,266 @@
+//! A boundary without mass: the surface nodes that can be in contact carry none and are where the forces
+//! on them are in balance, at the end of every step.
+//!
+//! ```math
+//! 0 = -K_b w + B^T p(w_b), \qquad M_i \ddot u_i = -K_i w + f_i
+//! ```
+//!
+//! with the rows b of the nodes without mass and i of the others (Khenous, Laborde & Renard 2008, Eur. J.
+//! Mech. A 27, 918; in explicit dynamics Monjaraz-Tec, Gross & Krack 2022, Comput. Struct. 277–278). The
+//! springs p of the surfaces are those of [`ContactInterface`]; they open and close without mass between
+//! them that could ring, and are not in the time step, however stiff. What the others feel of the
+//! boundary is the gradient of a convex potential ([`crate::time_step`]), so that contact neither gains
+//! energy nor loses any.
+//!
+//! In a step the nodes without mass keep their velocity first; of the forces R that they lack then, and
+//! of the gaps, follows what they have to move more, x: its balance is linear but for the springs that
+//! close ([`Rounds`]). The matrix is that of the elements at the end of a step, in which history has a
+//! share ([`Stress::stiffness_of_step`](crate::Stress::stiffness_of_step)). Masses are moved inward
+//! ([`BoundaryMass`](crate::boundary_mass::BoundaryMass)).
+
+mod boundary;
+mod rounds;
+mod skyline;
+
+use std::any::Any;
+
+use fem_collision::{BodyInput, Searched};
+use fem_contact::{ContactForces, ContactInterface};
+
+use super::Contact;
+use crate::error::ModelError;
+use crate::part::{Field, Motion, MotionMut, NodalField, Part};
+use crate::stress::Collapse;
+use boundary::Boundary;
+use rounds::{Problem, Rounds, Spring};
+use skyline::Skyline;
+
+/// A contact is taken for the last where it would lose more than this share of its force in a step if
+/// nodes without mass kept their velocity.
+const LAST_LOSS: f64 = 0.25;
+
+/// A massless boundary of each body that deforms.
+#[derive(Debug)]
+pub struct Massless {
+    interface: ContactInterface,
+    sides: [Option<Boundary>; 2],
+    /// Side and place of the node of each pair of unknowns (r, y), from the axis outward.
+    unknowns: Vec<(usize, usize)>,
+    /// Once the time step is known, unless elements have no stiffness.
+    problem: Option<Problem>,
+    inverse_step: f64,
+}
+
+impl Massless {
+    /// Of two bodies and the springs between them, all of whose feet lose their mass.
+    ///
+    /// # Errors
+    /// An element none of whose corners has mass.
+    pub fn new(bodies: &[BodyInput; 2], interface: ContactInterface) -> Result<Self, ModelError> {
+        let nodes = |side: usize| {
+            interface.points().iter().flat_map(|point| point.feet[side].nodes).collect()
+        };
+        let sides = [Boundary::new(&bodies[0], nodes(0))?, Boundary::new(&bodies[1], nodes(1))?];
+        let places = |side: usize| {
+            let n = sides[side].as_ref().map_or(0, |boundary| boundary.nodes.len());
+            (0..n).map(move |place| (side, place))
+        };
+        let mut unknowns: Vec<_> = places(0).chain(places(1)).collect();
+        let radius = |(side, place): (usize, usize)| {
+            sides[side].as_ref().map_or(0.0, |boundary| boundary.radii[place])
+        };
+        unknowns.sort_by(|&a, &b| radius(a).total_cmp(&radius(b)));
+        Ok(Self { interface, sides, unknowns, problem: None, inverse_step: 0.0 })
+    }
+
+    /// The springs.
+    pub fn interface(&self) -> &ContactInterface {
+        &self.interface
+    }
+
+    /// First row of the unknowns of a node of a side.
+    fn row(&self, side: usize, node: u32) -> Option<usize> {
+        let nodes = &self.sides[side].as_ref()?.nodes;
+        let is_node = |&(other, place): &(usize, usize)| other == side && nodes[place] == node;
+        Some(2 * self.unknowns.iter().position(is_node)?)
+    }
+
+    /// What each spring opens by.
+    fn springs(&self) -> Vec<Spring> {
+        let spring = |point: &fem_contact::ContactPoint| {
+            let ends = [0, 1].into_iter().flat_map(|side: usize| {
+                let (foot, sign) = (&point.feet[side], [-1.0, 1.0][side]);
+                foot.nodes.into_iter().zip(foot.shape).filter_map(move |(node, shape)| {
+                    Some((self.row(side, node)? + 1, sign * shape))
+                })
+            });
+            Spring { stiffness: point.stiffness * point.area, opening: ends.collect() }
+        };
+        self.interface.points().iter().map(spring).collect()
+    }
+
+    /// Matrix and springs of a time step that the boundaries know.
+    fn assemble(&self) -> Option<Problem> {
+        let springs = self.springs();
+        let mut entries = Vec::new();
+        for (side, boundary) in self.sides.iter().enumerate() {
+            let Some(boundary) = boundary else { continue };
+            for (quad, matrix) in boundary.elements()? {
+                let rows = quad.map(|node| self.row(side, node));
+                let unknown = |k: usize| {
+                    let row = rows[k / 2]? + k % 2;
+                    (!self.is_fixed(row)).then_some(row)
+                };
+                for (a, b) in (0..8).flat_map(|a| (0..8).map(move |b| (a, b))) {
+                    if let (Some(i), Some(j)) = (unknown(a), unknown(b))
+                        && j <= i
+                    {
+                        entries.push((i, j, matrix[(a, b)]));
+                    }
+                }
+            }
+        }
+        let n = 2 * self.unknowns.len();
+        let mut first: Vec<_> = (0..n).collect();
+        let coupled = springs.iter().flat_map(|Spring { opening, .. }| {
+            opening.iter().flat_map(|&(i, _)| opening.iter().map(move |&(j, _)| (i, j)))
+        });
+        for (i, j) in entries.iter().map(|&(i, j, _)| (i, j)).chain(coupled) {
+            first[i] = first[i].min(j);
+        }
+        let mut stiffness = Skyline::new(first);
+        entries.into_iter().for_each(|(i, j, value)| *stiffness.entry(i, j) += value);
+        (0..n).filter(|&row| self.is_fixed(row)).for_each(|row| *stiffness.entry(row, row) = 1.0);
+        stiffness.clone().factor(0)?;
+        Some(Problem { stiffness, springs })
+    }
+
+    /// Whether an unknown is the radial motion of a node on the axis, which there is not.
+    fn is_fixed(&self, row: usize) -> bool {
+        let (side, place) = self.unknowns[row / 2];
+        let on_axis = |boundary: &Boundary| boundary.radii[place] == 0.0;
+        row.is_multiple_of(2) && self.sides[side].as_ref().is_some_and(on_axis)
+    }
+
+    /// What is lacking in the balance of the nodes without mass, and the gaps, of a step in which they
+    /// kept their velocity.
+    fn update(&self, motions: &[MotionMut<'_>; 2], buffers: &mut Buffers) -> Result<(), Collapse> {
+        let Buffers { forces, rounds } = buffers;
+        for (side, boundary) in self.sides.iter().enumerate() {
+            if let Some(boundary) = boundary {
+                boundary.update_forces(&motions[side], &mut forces[side])?;
+            }
+        }
+        for (pair, &(side, place)) in rounds.lacking.chunks_exact_mut(2).zip(&self.unknowns) {
+            let Some(boundary) = &self.sides[side] else { continue };
+            let [r, y] = forces[side][boundary.nodes[place] as usize];
+            pair.copy_from_slice(&[if boundary.radii[place] == 0.0 { 0.0 } else { r }, y]);
+        }
+        let displacements = motions.each_ref().map(|motion| &*motion.displacement);
+        for (k, gap) in rounds.gaps.iter_mut().enumerate() {
+            *gap = self.interface.gap(k, displacements);
+        }
+        Ok(())
+    }
+}
+
+/// What a run has for it.
+#[derive(Debug)]
+struct Buffers {
+    /// Of the elements at the boundaries, N; of no meaning at other nodes.
+    forces: [NodalField; 2],
+    rounds: Rounds,
+}
+
+impl Part for Massless {
+    fn set_time_step(&mut self, time_step: f64) {
+        self.sides.iter_mut().flatten().for_each(|boundary| boundary.set_time_step(time_step));
+        self.inverse_step = time_step.recip();
+        self.problem = self.assemble();
+    }
+}
+
+impl Contact for Massless {
+    fn searched(&self) -> Searched {
+        Contact::searched(&self.interface)
+    }
+
+    fn check(&self) -> Result<(), ModelError> {
+        self.problem.as_ref().map(|_| ()).ok_or(ModelError::NoBalance)
+    }
+
+    /// A rigid sphere feels the springs as if the other body were held: more than they can pull.
+    fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
+        if self.sides[side].is_none() {
+            self.interface.add_bound_against_held(side, bound);
+        }
+    }
+
+    fn massless_nodes(&self, side: usize) -> &[u32] {
+        self.sides[side].as_ref().map_or(&[], |boundary| &boundary.nodes)
+    }
+
+    fn buffers(&self) -> Box<dyn Any + Send + Sync> {
+        let field =
+            |side: &Option<Boundary>| vec![[0.0; 2]; side.as_ref().map_or(0, Boundary::n_nodes)];
+        let Some(problem) = &self.problem else { return Box::new(()) };
+        Box::new(Buffers { forces: self.sides.each_ref().map(field), rounds: Rounds::new(problem) })
+    }
+
+    fn add_forces(
+        &self,
+        motions: &[Motion<'_>; 2],
+        _: [&[NodalField]; 2],
+        [lower, upper]: [&mut Field; 2],
+    ) -> ContactForces {
+        let displacements = motions.each_ref().map(|motion| motion.displacement);
+        let contact = self.interface.add_forces(displacements, [&mut *lower, &mut *upper]);
+        for (boundary, forces) in self.sides.iter().zip([lower, upper]) {
+            if let Some(boundary) = boundary {
+                boundary.hand_over(forces);
+            }
+        }
+        contact
+    }
+
+    fn advance(
+        &self,
+        mut motions: [MotionMut<'_>; 2],
+        _: [&mut [NodalField]; 2],
+        buffers: &mut dyn Any,
+    ) {
+        let (Some(problem), Some(buffers)) = (&self.problem, buffers.downcast_mut::<Buffers>())
+        else {
+            return;
+        };
+        // No element of these collapses, and a matrix that was positive stays so with springs.
+        if self.update(&motions, buffers).is_err() || buffers.rounds.solve(problem).is_none() {
+            return;
+        }
+        for (pair, &(side, place)) in buffers.rounds.change.chunks_exact(2).zip(&self.unknowns) {
+            if let Some(boundary) = &self.sides[side] {
+                let (node, change) = (boundary.nodes[place], [pair[0], pair[1]]);
+                boundary.shift(&mut motions[side], node, change, self.inverse_step);
+            }
+        }
+    }
+
+    fn is_closed_next(
+        &self,
+        now: &ContactForces,
+        next: [&dyn Fn(u32) -> [f64; 2]; 2],
+        _: [&[NodalField]; 2],
+    ) -> bool {
+        let force =
+            self.interface.force(next.map(|displacement| move |node| displacement(node)[1]));
+        force > (1.0 - LAST_LOSS) * now.force
+    }
+
+    fn contact_radius(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
+        self.interface.contact_radius(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
+        self.interface.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+}

@@ -1,0 +1,128 @@
+//! The step and the balance of a boundary without mass.
+
+use fem_collision::{Approach, BodyInput};
+use fem_mesh::Side;
+use nalgebra::DMatrix;
+
+use super::stability::{both_closed, partly_closed, tangent};
+use crate::contact::ContactMethod;
+use crate::model::{Model, Parts, Settings};
+use crate::state::{Scratch, State};
+use crate::step::{advance, update_forces, update_internal_forces};
+use crate::test_support::{relaxing_glass, settings, sphere, unit_glass};
+use fem_material::{ActsOn, Material};
+
+fn pair(method: ContactMethod, sizes: [f64; 2], settings: &Settings, glass: &Material) -> Model {
+    let body = |size: f64, side: Side| {
+        let mesh = sphere(size, 2.0 * size, side);
+        BodyInput::Sphere { mesh, material: glass.clone() }
+    };
+    let bodies = [body(sizes[0], Side::Below), body(sizes[1], Side::Above)];
+    let parts = Parts { method, ..Parts::default() };
+    Model::with_parts(bodies, Approach::at(1.0).unwrap(), settings, parts).unwrap()
+}
+
+/// Rows (r, y) of the nodes of both bodies that have mass, with its root, and of those without that can
+/// move.
+fn rows(model: &Model) -> (Vec<(usize, f64)>, Vec<usize>) {
+    let (mut heavy, mut bare, mut first) = (Vec::new(), Vec::new(), 0);
+    for (side, body) in model.bodies().iter().enumerate() {
+        let massless = model.contact().massless_nodes(side);
+        let nodes = body.mesh().unwrap().nodes();
+        for (node, place) in nodes.iter().enumerate() {
+            for axis in 0..2 {
+                let row = 2 * (first + node) + axis;
+                if body.inverse_mass[node][axis] > 0.0 {
+                    heavy.push((row, body.nodal_mass[node].sqrt()));
+                } else if massless.contains(&(node as u32)) && (axis == 1 || place[0] > 0.0) {
+                    bare.push(row);
+                }
+            }
+        }
+        first += nodes.len();
+    }
+    (heavy, bare)
+}
+
+/// Largest ω² of the nodes with mass, where those without are in balance with a stiffness.
+fn largest_square(stiffness: &DMatrix<f64>, model: &Model) -> f64 {
+    let (heavy, bare) = rows(model);
+    let rows: Vec<usize> = heavy.iter().map(|(row, _)| *row).collect();
+    let block = |a: &[usize], b: &[usize]| {
+        DMatrix::from_fn(a.len(), b.len(), |i, j| stiffness[(a[i], b[j])])
+    };
+    let across = block(&bare, &rows);
+    let inner = block(&bare, &bare).cholesky().expect("a boundary that resists").solve(&across);
+    let mut of_heavy = block(&rows, &rows) - across.transpose() * inner;
+    for (i, (_, of_i)) in heavy.iter().enumerate() {
+        for (j, (_, of_j)) in heavy.iter().enumerate() {
+            of_heavy[(i, j)] /= of_i * of_j;
+        }
+    }
+    of_heavy.symmetric_eigenvalues().max()
+}
+
+/// Whatever is closed and however stiff: without the springs in the bound, and with the elements that
+/// lost corners.
+#[test]
+fn the_critical_time_step_is_safe_and_knows_no_springs() {
+    for sizes in [[0.25, 0.25], [0.25, 0.125], [0.25, 0.05]] {
+        let mut steps = Vec::new();
+        for stiffness in [1.0, 100.0, 1e4] {
+            let settings =
+                Settings { contact_stiffness: stiffness, step_factor: 1.0, ..settings() };
+            let of = |method| pair(method, sizes, &settings, &unit_glass());
+            let (model, springs) = (of(ContactMethod::Massless), of(ContactMethod::Penalty));
+            for state in [both_closed(&springs), partly_closed(&springs)] {
+                let square = largest_square(&tangent(&springs, &state), &model);
+                let ratio = model.time_step() * square.sqrt() / 2.0;
+                // As of bodies alone.
+                assert!(ratio <= 1.0 && ratio > 0.7, "{stiffness} {sizes:?}: {ratio}");
+            }
+            steps.push(model.time_step());
+        }
+        assert!(steps.iter().all(|step| *step == steps[0]), "{steps:?}");
+    }
+}
+
+/// At the end of each step nothing pulls at the bare nodes: what is handed over to their neighbours is
+/// rounding of the forces of elements.
+#[test]
+fn bare_nodes_are_in_balance() {
+    let settings = Settings { contact_stiffness: 50.0, ..settings() };
+    let relaxing = |acts_on| relaxing_glass(&[(0.4, 0.3), (0.5, 3.0)], acts_on);
+    for glass in [unit_glass(), relaxing(ActsOn::All), relaxing(ActsOn::Shear)] {
+        let model = pair(ContactMethod::Massless, [0.125, 0.1], &settings, &glass);
+        let springs = model.interface().expect("springs");
+        let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
+        let mut n_closed = 0;
+        for _ in 0..60 {
+            update_forces(&model, &state, &mut scratch).unwrap();
+            advance(&model, &mut state, &mut scratch);
+            let mut forces = scratch.forces.clone();
+            for side in 0..2 {
+                let body = &model.bodies()[side];
+                let motion = state.bodies[side].motion(body, state.clock(&model));
+                let history = &state.bodies[side].history;
+                let own = &mut forces[side];
+                update_internal_forces(body, &motion, history, own).unwrap();
+            }
+            let largest =
+                forces.concat().as_flattened().iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+            let [lower, upper] = &mut forces;
+            let u = state.bodies.each_ref().map(|body| body.displacement.as_slice());
+            n_closed += springs.add_forces(u, [lower, upper]).n_closed;
+            for side in 0..2 {
+                for &node in model.contact().massless_nodes(side) {
+                    let on_axis =
+                        model.bodies()[side].mesh().unwrap().nodes()[node as usize][0] == 0.0;
+                    let [r, y] = forces[side][node as usize];
+                    let lack = if on_axis { y.abs() } else { r.abs().max(y.abs()) };
+                    // Rounding of displacements of size 0.1 times stiffness of size 1, and of the solution.
+                    assert!(lack < 1e-13 * (1.0 + largest), "{lack:e} of {largest:e}");
+                }
+            }
+        }
+        assert!(n_closed > 60, "{n_closed}");
+    }
+}

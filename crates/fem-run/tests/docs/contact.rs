@@ -1,0 +1,29 @@
+//! The table of docs/contact.md: its rows are those of the study, its numbers those of runs; but for stiff
+//! springs between masses, whose steps are short.
+
+use crate::pages::Page;
+
+#[path = "../../examples/contact/rows.rs"]
+mod rows;
+
+/// The cells of the table's lines.
+fn lines() -> Vec<Vec<String>> {
+    let page = Page::load("docs/contact.md");
+    let lines = page.text.lines().skip_while(|line| !line.starts_with("| scene |")).skip(2);
+    let lines = lines.take_while(|line| line.starts_with('|'));
+    let cells = |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().into()).collect();
+    lines.map(cells).collect()
+}
+
+#[test]
+fn the_contact_table_is_what_runs_show() {
+    let (rows, lines) = (rows::rows(), lines());
+    assert_eq!(rows.len(), lines.len(), "cargo run --release -p fem-run --example contact");
+    for (row, line) in rows.iter().zip(lines) {
+        let of_row = [row.scene.name.into(), format!("`{}`", row.method), row.factor.to_string()];
+        assert_eq!(line[..3], of_row, "cargo run --release -p fem-run --example contact");
+        if row.factor == 1.0 || row.method == "massless" {
+            assert_eq!(line, row.cells(&row.simulation().run(&mut ())));
+        }
+    }
+}

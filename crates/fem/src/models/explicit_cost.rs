@@ -1,0 +1,77 @@
+//! What a run of explicit elements takes, within the limits.
+
+use fem_case::{Body, Scene};
+use fem_explicit::Model as Bodies;
+use fem_material::{Material, PronySeries};
+
+use crate::duration::expected_duration;
+use crate::effects::{BulkViscosity, FiniteStrain};
+use crate::estimate::mach;
+use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
+use crate::method::Cost;
+use crate::plan::Plan;
+use crate::refusal::Refusal;
+
+/// Seconds of an update of an element on one core of 3 GHz, as docs/effects.md has them: at small
+/// strain, ...
+const SECONDS_AN_UPDATE: f64 = 6e-9;
+/// ... of each of its Prony terms, ...
+const SECONDS_A_BRANCH: f64 = 1e-9;
+/// ... at finite strain, ...
+const SECONDS_AT_FINITE_STRAIN: f64 = 15e-9;
+/// ... of each Prony term there, ...
+const SECONDS_A_BRANCH_AT_FINITE_STRAIN: f64 = 7e-9;
+/// ... and of bulk viscosity. Other machines differ by a factor.
+const SECONDS_OF_BULK_VISCOSITY: f64 = 5e-9;
+
+/// What a run takes, within the limits.
+pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
+    let elements = model.n_elements() as u64;
+    let nodes = model.bodies().iter().map(|body| body.n_nodes() as u64).sum();
+    let branches: u64 = (model.bodies().iter().zip(scene.bodies()))
+        .map(|(body, named)| body.n_elements() as u64 * n_branches(named))
+        .sum();
+    let duration = expected_duration(scene, &plan.estimate, model.approach());
+    let steps = (duration / model.time_step()).ceil();
+    let element_updates = (steps * elements as f64) as u64;
+    let memory = explicit_memory(scene, plan, elements, branches);
+    check_elements(scene, plan, elements)?;
+    check_memory(scene, plan, elements, memory)?;
+    check_updates(scene, plan, steps as u64, elements, element_updates)?;
+    Ok(Cost::Steps {
+        elements,
+        nodes,
+        steps: steps as u64,
+        element_updates,
+        seconds: steps * seconds_a_step(scene, model, plan),
+        memory,
+        time_step: model.time_step(),
+        plain_time_step: model.plain_time_step(),
+    })
+}
+
+/// Seconds that a step of both bodies takes.
+fn seconds_a_step(scene: &Scene, model: &Bodies, plan: &Plan) -> f64 {
+    let laws = FiniteStrain::laws(scene, &plan.estimate);
+    let whole = mach(scene, scene.approach_speed() / plan.speed_share);
+    let is_finite = laws != [None; 2];
+    let viscous =
+        if BulkViscosity::is_on(scene, whole, is_finite) { SECONDS_OF_BULK_VISCOSITY } else { 0.0 };
+    let bodies = model.bodies().iter().zip(scene.bodies()).zip(laws);
+    let seconds = bodies.map(|((body, named), law)| {
+        let branches = n_branches(named) as f64;
+        let each = match law {
+            None => SECONDS_AN_UPDATE + branches * SECONDS_A_BRANCH,
+            Some(_) => SECONDS_AT_FINITE_STRAIN + branches * SECONDS_A_BRANCH_AT_FINITE_STRAIN,
+        };
+        body.n_elements() as f64 * (each + viscous)
+    });
+    seconds.sum()
+}
+
+/// Prony terms whose history is kept of a body.
+fn n_branches(body: &Body) -> u64 {
+    let series = body.material().and_then(Material::relaxation);
+    let terms = series.into_iter().flat_map(PronySeries::terms);
+    terms.filter(|term| term.weight > 0.0).count() as u64
+}
