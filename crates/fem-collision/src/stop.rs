@@ -95,6 +95,26 @@ pub enum Stop {
         /// Its volume over that of the undeformed element; not positive of one that is inside out.
         volume_ratio: f64,
     },
+    /// Something has become so stiff that no time step is short enough for it.
+    #[error(
+        "at {time:.4e} s (step {step}) {} is too stiff for any time step; undeformed it lies at \
+         r = {:.4e} m, y = {:.4e} m",
+        place_at_fault(*body, *of_contact),
+        place[0],
+        place[1]
+    )]
+    NoStepShortEnough {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// 0 of the lower body, 1 of the upper.
+        body: usize,
+        /// The node that asks for the shortest step (r, y) before the collision, m.
+        place: [f64; 2],
+        /// Whether more of its stiffness is the contact's than that of its elements.
+        of_contact: bool,
+    },
     /// The bodies stayed together too long.
     #[error("at {time:.4e} s (step {step}) the bodies have not separated")]
     NoSeparation {
@@ -140,6 +160,12 @@ pub enum Stop {
     OutOfRange(String),
 }
 
+/// What no step is short enough for.
+fn place_at_fault(body: usize, of_contact: bool) -> String {
+    let what = if of_contact { "the contact, on steep flanks, at" } else { "the material around" };
+    format!("{what} a node of the {} body", if body == 0 { "lower" } else { "upper" })
+}
+
 /// What has become of an element with so much of its volume.
 fn fate(volume_ratio: f64) -> String {
     if volume_ratio > 0.0 {
@@ -165,6 +191,7 @@ impl Stop {
             | Self::SurfaceTurnsOver { time, .. }
             | Self::EnergyGrowth { time, .. }
             | Self::ElementCollapsed { time, .. }
+            | Self::NoStepShortEnough { time, .. }
             | Self::EnergyImbalance { time, .. }
             | Self::NoSeparation { time, .. }
             | Self::TooManyUpdates { time, .. }

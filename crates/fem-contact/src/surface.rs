@@ -5,7 +5,7 @@ use fem_mesh::SphereMesh;
 use crate::error::ContactError;
 
 /// Slope of an arc up to which it counts, that at 0.7 radii: no contact of small strain is so large.
-const STEEPEST: f64 = 1.0;
+pub(crate) const STEEPEST: f64 = 1.0;
 
 /// One body's end of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq)]

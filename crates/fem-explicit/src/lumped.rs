@@ -9,7 +9,7 @@ use fem_mesh::SphereMesh;
 use crate::boundary_mass::BoundaryMass;
 use crate::error::ModelError;
 use crate::forces::NodeForce;
-use crate::stress::{self, MOST_TERMS, Stress};
+use crate::stress::{self, MOST_FINITE_STRAIN_TERMS, Stress};
 use crate::time_step::NodalBound;
 
 /// A body that contact and forces move, with its masses and a bound of the stiffness that pulls at
@@ -128,8 +128,8 @@ impl LumpedMesh {
         massless: &[u32],
     ) -> Result<Self, ModelError> {
         let n_terms = material.relaxation().map_or(0, |series| series.terms().len());
-        if finite_strain.is_some() && n_terms > MOST_TERMS {
-            return Err(ModelError::TooManyTerms { n_terms, most: MOST_TERMS });
+        if finite_strain.is_some() && n_terms > MOST_FINITE_STRAIN_TERMS {
+            return Err(ModelError::TooManyTerms { n_terms, most: MOST_FINITE_STRAIN_TERMS });
         }
         let elements = 0..mesh.quads().len();
         let geometries: Vec<_> =

@@ -55,6 +55,14 @@ pub(crate) struct Pace {
     next: u64,
 }
 
+impl Outlook {
+    /// Time (s) to the next bound at most, by the largest strain rate of any element, 1/s.
+    pub fn reaches(model: &Model, strain_rate: f64) -> f64 {
+        let longest = model.time_step();
+        (STRAIN_BETWEEN_BOUNDS / strain_rate).clamp(longest, LONGEST_PAUSE * longest)
+    }
+}
+
 impl Pace {
     /// At first touch; `None` of a model whose stiffness is constant.
     pub fn of(model: &Model) -> Option<Self> {

@@ -12,8 +12,9 @@ use crate::memory::Memory;
 use crate::model::Model;
 use crate::outcome::outcome;
 use crate::recorder::Instant;
+use crate::sound::LastSound;
 use crate::state::{Scratch, State};
-use crate::step::{Collapsed, advance, is_closed_next, update_forces, update_step};
+use crate::step::{Fault, advance, is_closed_next, update_forces, update_step};
 
 /// Runs a model from first touch until the force has been zero for a fifth of
 /// the contact time and the bodies recede.
@@ -77,13 +78,15 @@ pub struct Run<M> {
     model: M,
     pub(crate) memory: Memory,
     scratch: Scratch,
+    sound: LastSound,
 }
 
 impl<M: Deref<Target = Model>> Run<M> {
     /// A run at first touch.
     pub fn new(model: M, expected: Expectation, want: &Want) -> Self {
         let (memory, scratch) = (Memory::new(&model, expected, want), Scratch::new(&model));
-        Self { model, memory, scratch }
+        let sound = LastSound::of(want);
+        Self { model, memory, scratch, sound }
     }
 
     /// Goes on from a memory of a run of the same model; a run that had ended has ended.
@@ -95,8 +98,8 @@ impl<M: Deref<Target = Model>> Run<M> {
         if !memory.fits(&model) {
             return Err(ModelError::MemoryOfAnother);
         }
-        let scratch = Scratch::new(&model);
-        Ok(Self { model, memory, scratch })
+        let (scratch, sound) = (Scratch::new(&model), LastSound::of(memory.want()));
+        Ok(Self { model, memory, scratch, sound })
     }
 
     /// What holds the model.
@@ -124,14 +127,14 @@ impl<M: Deref<Target = Model>> Run<M> {
 
     /// At most so many steps. How the run ended, once it has: then there is no step any more.
     pub fn advance(&mut self, n_steps: u64) -> Option<&Ending> {
-        let Self { model, memory, scratch } = self;
-        advance_run(model, memory, scratch, n_steps);
+        let Self { model, memory, scratch, sound } = self;
+        advance_run(model, memory, scratch, sound, n_steps);
         memory.ending.as_ref()
     }
 
     /// What came out so far. A run that has not ended is interrupted here.
     pub fn finish(self) -> Collision {
-        let Self { model, mut memory, mut scratch } = self;
+        let Self { model, mut memory, mut scratch, sound } = self;
         let ending = memory.ending.take().unwrap_or_else(|| {
             let (time, step) = (memory.state.time, memory.state.step);
             Ending::Stopped(Stop::Interrupted { time, step })
@@ -139,17 +142,27 @@ impl<M: Deref<Target = Model>> Run<M> {
         if let Ending::Stopped(_) = ending {
             record_stop(&model, &mut memory, &mut scratch);
         }
-        outcome(&model, memory, ending)
+        let mut collision = outcome(&model, memory, ending);
+        if !collision.is_complete() && !collision.is_interrupted() {
+            collision.snapshots.extend(sound.after(&collision.snapshots));
+        }
+        collision
     }
 }
 
 /// At most so many steps of a run that has not ended; none of one that has.
-fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_steps: u64) {
+fn advance_run(
+    model: &Model,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sound: &mut LastSound,
+    n_steps: u64,
+) {
     for _ in 0..n_steps {
         if memory.ending.is_some() {
             return;
         }
-        memory.ending = match step(model, memory, scratch) {
+        memory.ending = match step(model, memory, scratch, sound) {
             Ok(ending) => ending,
             Err(stop) => Some(Ending::Stopped(stop)),
         };
@@ -158,11 +171,17 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 
 /// Forces of the present configuration, what is observed of it, and the motion to the next; or how the
 /// run has ended instead.
-fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
+fn step(
+    model: &Model,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    sound: &mut LastSound,
+) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
-    let stop = |at: Collapsed, state: &State| model.stop(at, state);
-    let contact = update_forces(model, state, scratch).map_err(|at| stop(at, state))?;
+    let stop = |fault: Fault, state: &State| model.stop(fault, state);
+    let contact = update_forces(model, state, scratch)
+        .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
     if let Some(shorter) = update_step(model, state, scratch).map_err(|at| stop(at, state))? {
         ledger.push(model, scratch, contact.force, shorter);
         log.force = contact.force;
@@ -194,6 +213,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
         let row = ledger.balance(model, state, scratch, &contact);
         ledger.check(&row, step)?;
         observed.take(row, is_closed);
+        sound.observe(model, state, scratch, log.approach);
         if let Some(history) = &mut history {
             history.push(row, kind);
         }

@@ -18,6 +18,19 @@ pub(crate) struct Collapsed {
     pub collapse: Collapse,
 }
 
+/// Why a step cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Fault {
+    Collapsed(Collapsed),
+    /// No step is short enough for what holds a node: the contact, or else its elements.
+    TooStiff {
+        /// 0 lower, 1 upper.
+        side: usize,
+        node: usize,
+        is_of_contact: bool,
+    },
+}
+
 /// Forces of the present configuration: of stress, on the nodes, of contact, of what holds a body.
 ///
 /// # Errors
@@ -53,12 +66,12 @@ pub(crate) fn update_step(
     model: &Model,
     state: &mut State,
     scratch: &mut Scratch,
-) -> Result<Option<f64>, Collapsed> {
+) -> Result<Option<f64>, Fault> {
     let Some(pace) = state.pace.filter(|pace| pace.is_due(state.step)) else { return Ok(None) };
     let outlook = model.outlook(state, scratch);
     let now = (state.step, state.time);
     let Some(next) = pace.after(model, now, outlook) else {
-        return Err(model.most_compressed(state));
+        return Err(model.fault(state, scratch));
     };
     state.pace = Some(next);
     let [before, after] = [&pace, &next].map(|pace: &Pace| pace.time_step(model));

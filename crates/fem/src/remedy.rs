@@ -29,6 +29,17 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
             "lower body.N.approach_speed, use a coarser mesh.contact_element_size, or another law that \
              stiffens as it is compressed",
         ),
+        Stop::NoStepShortEnough { of_contact: true, .. } => (
+            "a surface is about to turn over where the other body touches it: the impact is too fast or \
+             the material too soft",
+            "lower body.N.approach_speed, or check the moduli and their units",
+        ),
+        Stop::NoStepShortEnough { .. } => (
+            "the material is strained beyond what its law bears: it stiffens without limit, or elements \
+             are drawn out or far too distorted",
+            "lower body.N.approach_speed, use a coarser mesh.contact_element_size, or name another \
+             material.NAME.hyperelastic",
+        ),
         Stop::ContactBeyondCandidates { .. } | Stop::ContactTooLarge { .. } => (
             "the contact is as wide as the smaller sphere, where small strain says nothing: the \
              impact is too fast or the material too soft",

@@ -93,12 +93,20 @@ impl Piece<'_> {
         force
     }
 
+    /// Velocity (r, y) of a side at a point, m/s, for those of its nodes.
+    pub fn velocity(&self, point: &Point, side: usize, v: &[[f64; 2]]) -> [f64; 2] {
+        let (segment, place) = (&self.segments[side], &point.places[side]);
+        let [inner, outer] = segment.nodes().map(|node| v[node as usize]);
+        [0, 1].map(|axis: usize| (1.0 - place.share) * inner[axis] + place.share * outer[axis])
+    }
+
     /// How fast the material of a side moves away from the tangent at a point along +y, m/s: N (ẏ − y' ṙ),
     /// for velocities (m/s) of its nodes.
     pub fn rate_of_height(&self, point: &Point, side: usize, v: &[[f64; 2]]) -> f64 {
-        let (segment, place) = (&self.segments[side], &point.places[side]);
-        let [inner, outer] = segment.nodes().map(|node| v[node as usize]);
-        let at = |axis: usize| (1.0 - place.share) * inner[axis] + place.share * outer[axis];
-        if segment.is_rigid() { at(1) } else { at(1) - place.slope * at(0) }
+        let [along_r, along_y] = self.velocity(point, side, v);
+        match self.segments[side].is_rigid() {
+            true => along_y,
+            false => along_y - point.places[side].slope * along_r,
+        }
     }
 }

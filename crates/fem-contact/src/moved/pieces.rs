@@ -103,11 +103,11 @@ impl<'a> Piece<'a> {
 
 impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
     /// Where the walk has ended because a surface turns over, m, and whether it overlaps the other
-    /// one further on: nodes beyond are compared with the other surface's segment at the turn.
+    /// one further on: nodes beyond are compared with the other surface where they have come back to.
     pub fn turn(&self) -> Option<(f64, bool)> {
         let side = self.turned?;
         let Some(segments) = self.segments else { return Some((0.0, true)) };
-        let (surface, other) = (&self.interface.surfaces[side], &segments[1 - side]);
+        let surface = &self.interface.surfaces[side];
         let first = segments[side].index + 2;
         let overlaps = (first..self.interface.n_nodes[side]).any(|k| {
             let [u_r, u_y] = self.displacement[side](surface.nodes[k]);
@@ -115,11 +115,23 @@ impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
             let [lower, upper] = [0, 1].map(|s| match s == side {
                 true if s == 0 => u_y - surface.depth(surface.radii[k]),
                 true => u_y + self.interface.gap + surface.depth(surface.radii[k]),
-                false => other.at(r).height,
+                false => self.height_inside(s, &segments[s], r),
             });
             upper <= lower
         });
         Some((self.radius, overlaps))
+    }
+
+    /// Height (m) of a side at a radius (m) up to the last segment in which the walk was.
+    fn height_inside(&self, side: usize, last: &Segment<'_>, r: f64) -> f64 {
+        if last.is_rigid() || r >= last.radii[0] {
+            return last.at(r).height;
+        }
+        let (surface, displacement) = (&self.interface.surfaces[side], &self.displacement[side]);
+        let is_beyond = |k: &usize| surface.radii[*k] + displacement(surface.nodes[*k])[0] > r;
+        let outer = (1..last.index).find(is_beyond).unwrap_or(last.index);
+        let segment = self.interface.segment(side, outer - 1, displacement);
+        segment.as_ref().unwrap_or(last).at(r).height
     }
 }
 

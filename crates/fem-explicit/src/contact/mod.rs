@@ -45,11 +45,13 @@ pub trait Contact: Part {
     /// velocity has none.
     fn add_damping_bound(&self, _side: usize, _bound: &mut [f64]) {}
 
-    /// Adds what these bounds of a side have grown by since the bodies were undeformed: nothing of a
-    /// contact that does not change its stiffness with them. Asked for in runs whose bodies do.
+    /// Adds what these bounds of a side have grown by since the bodies were undeformed, of all that can be
+    /// closed within a time, s: nothing of a contact that does not change its stiffness with them. Asked for
+    /// in runs whose bodies do.
     fn add_bound_growth(
         &self,
         _motions: &[Motion<'_>; 2],
+        _within: f64,
         _side: usize,
         _stiffness: &mut [f64],
         _damping: &mut [f64],

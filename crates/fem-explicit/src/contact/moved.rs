@@ -94,12 +94,15 @@ impl Contact for MovedContact {
     fn add_bound_growth(
         &self,
         motions: &[Motion<'_>; 2],
+        within: f64,
         side: usize,
         stiffness: &mut [f64],
         damping: &mut [f64],
     ) {
         let u = motions.each_ref().map(|motion| motion.displacement);
-        self.interface.add_bound_growth(u, side, stiffness, damping);
+        let v = motions.each_ref().map(|motion| motion.velocity);
+        let reach = self.interface.reach(u, v, within);
+        self.interface.add_bound_growth(u, reach, side, stiffness, damping);
     }
 
     fn add_forces(

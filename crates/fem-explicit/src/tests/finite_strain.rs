@@ -1,6 +1,6 @@
 //! Finite strain in the step: the critical step of deformed bodies, and how it is followed.
 
-use fem_collision::{Approach, BodyInput};
+use fem_collision::{Approach, BodyInput, Stop};
 use fem_contact::{ContactInterface, Surface};
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::Side;
@@ -25,22 +25,30 @@ fn free(law: HyperelasticLaw, n: f64) -> (Model, State) {
 
 /// −∂f/∂u of the upper body.
 fn tangent(model: &Model, state: &State) -> DMatrix<f64> {
+    tangent_of(model, state, &[1])
+}
+
+/// −∂f/∂u of these bodies.
+fn tangent_of(model: &Model, state: &State, sides: &[usize]) -> DMatrix<f64> {
     let forces = |state: &State| {
         let mut scratch = Scratch::new(model);
         update_forces(model, state, &mut scratch).unwrap();
-        scratch.forces[1].clone()
+        let of_bodies = sides.iter().map(|&side| scratch.forces[side].as_flattened());
+        of_bodies.collect::<Vec<_>>().concat()
     };
-    let n = 2 * state.bodies[1].displacement.len();
+    let freedoms: Vec<_> = sides
+        .iter()
+        .flat_map(|&side| (0..2 * state.bodies[side].displacement.len()).map(move |j| (side, j)))
+        .collect();
     let step = 1e-6;
-    let mut matrix = DMatrix::zeros(n, n);
-    for j in 0..n {
+    let mut matrix = DMatrix::zeros(freedoms.len(), freedoms.len());
+    for (j, &(side, freedom)) in freedoms.iter().enumerate() {
         let moved = |by: f64| {
             let mut state = state.clone();
-            state.bodies[1].displacement[j / 2][j % 2] += by;
+            state.bodies[side].displacement[freedom / 2][freedom % 2] += by;
             forces(&state)
         };
-        let (before, after) = (moved(-step), moved(step));
-        for (i, (f, g)) in before.as_flattened().iter().zip(after.as_flattened()).enumerate() {
+        for (i, (f, g)) in moved(-step).into_iter().zip(moved(step)).enumerate() {
             matrix[(i, j)] = (f - g) / (2.0 * step);
         }
     }
@@ -147,4 +155,78 @@ fn every_step_of_a_collision_is_stable() {
         assert!(largest < 0.8 && largest > 0.65, "{law:?} {largest}");
         assert!(at_first > 0.9, "{law:?} {at_first}");
     }
+}
+
+/// Every step of two spheres that flatten each other until their flanks bulge is below the critical one of
+/// both, their contact included; and flanks that touch nothing ask for no shorter one.
+#[test]
+fn every_step_of_bulging_spheres_is_stable() {
+    let sphere = |n: f64, side: Side| BodyInput::Sphere {
+        mesh: unit_sphere(n, side),
+        material: unit_glass(),
+    };
+    for (stiffness, range, least) in [(1.0, 0.7..0.8, 0.5), (20.0, 0.42..0.5, 0.9)] {
+        let bodies = [sphere(4.0, Side::Below), sphere(5.0, Side::Above)];
+        let approach = Approach::new([0.6, -0.6], 0.0).unwrap();
+        let law = Some(HyperelasticLaw::NeoHooke);
+        let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
+        let settings =
+            Settings { contact_stiffness: stiffness, candidate_radius: 0.999, ..settings() };
+        let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+        let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
+        let (mut largest, mut shortest) = (0.0f64, 1.0f64);
+        for step in 0..600 {
+            update_forces(&model, &state, &mut scratch).unwrap();
+            update_step(&model, &mut state, &mut scratch).unwrap();
+            let time_step = state.time_step(&model);
+            shortest = shortest.min(time_step / model.time_step());
+            if step % 20 == 0 {
+                let [lower, upper] = model.bodies();
+                let tangent = tangent_of(&model, &state, &[0, 1]);
+                let stiffness = largest_eigenvalue(&tangent, &[lower, upper]);
+                largest = largest.max(time_step * stiffness.sqrt() / 2.0);
+            }
+            advance(&model, &mut state, &mut scratch);
+        }
+        assert!(range.contains(&largest), "{stiffness} {largest}");
+        assert!(shortest > least, "{stiffness} {shortest}");
+    }
+}
+
+/// A flank that stands upright where it is closed: no step is short enough, and the stop names the contact and
+/// the place, not the element that happens to be compressed most.
+#[test]
+fn what_no_step_is_short_enough_for_is_named() {
+    let sphere =
+        |side: Side| BodyInput::Sphere { mesh: unit_sphere(4.0, side), material: unit_glass() };
+    let law = Some(HyperelasticLaw::NeoHooke);
+    let parts = Parts { finite_strain: [law; 2], ..Parts::default() };
+    let settings = Settings { candidate_radius: 0.999, ..settings() };
+    let bodies = [sphere(Side::Below), sphere(Side::Above)];
+    let model = Model::with_parts(bodies, Approach::at(1.0).unwrap(), &settings, parts).unwrap();
+    let mut state = State::at_first_touch(&model);
+    state.step = 100;
+    let mut scratch = Scratch::new(&model);
+    assert!(update_step(&model, &mut state.clone(), &mut scratch).is_ok());
+    // As deep in each other as they are high, so that the flanks overlap, too.
+    state.bodies[1].displacement.fill([0.0, -2.5]);
+    let nodes = model.bodies()[1].mesh().unwrap().nodes();
+    let candidates: Vec<_> = Surface::of_sphere(model.bodies()[1].mesh().unwrap())
+        .nodes_within(1.0)
+        .iter()
+        .map(|&node| node as usize)
+        .collect();
+    let [.., inner, outer] = candidates[..] else { panic!() };
+    state.bodies[1].displacement[outer][0] = nodes[inner][0] - nodes[outer][0] + 1e-9;
+    let fault = update_step(&model, &mut state, &mut scratch).unwrap_err();
+    let stop = model.stop(fault, &state);
+    // The springs of the flank hold a node of either body, and that which is lighter is named.
+    let Stop::NoStepShortEnough { step: 100, body, place, of_contact: true, .. } = stop else {
+        panic!("{stop:?}")
+    };
+    assert!(place[0] >= nodes[inner][0], "{place:?}");
+    let text = stop.to_string();
+    let whose = ["lower", "upper"][body];
+    let expected = format!("the contact, on steep flanks, at a node of the {whose} body");
+    assert!(text.contains(&expected), "{text}");
 }

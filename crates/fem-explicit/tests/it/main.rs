@@ -5,6 +5,7 @@ mod collision;
 mod common;
 mod ending;
 mod finite_strain;
+mod flanks;
 mod half_space;
 mod massless;
 mod moved;

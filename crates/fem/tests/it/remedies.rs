@@ -25,6 +25,8 @@ fn stops() -> Vec<Stop> {
             place: [1e-3; 2],
             volume_ratio: -0.1,
         },
+        Stop::NoStepShortEnough { time, step, body: 0, place: [1e-3; 2], of_contact: true },
+        Stop::NoStepShortEnough { time, step, body: 1, place: [1e-3; 2], of_contact: false },
         Stop::EnergyImbalance { time, relative: 0.1 },
         Stop::NoSeparation { time, step },
         Stop::TooManyUpdates { time, step, element_updates: 1000 },
@@ -44,6 +46,7 @@ fn stops() -> Vec<Stop> {
             | Stop::ContactTooLarge { .. }
             | Stop::EnergyGrowth { .. }
             | Stop::ElementCollapsed { .. }
+            | Stop::NoStepShortEnough { .. }
             | Stop::EnergyImbalance { .. }
             | Stop::NoSeparation { .. }
             | Stop::TooManyUpdates { .. }

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::Scene;
 use super::geometry::displace;
-use crate::common::{Field, sphere};
+use crate::common::{Field, flat, sphere};
 
 /// Largest eigenvalue of D^−1/2 K D^−1/2 along r and y, K = ∂²Π/∂u² and D the bound at `u`; the axis
 /// stays the axis, a rigid sphere straight.
@@ -14,7 +14,7 @@ fn largest_quotient(scene: &Scene, u: &[Field; 2], is_wall: [bool; 2]) -> f64 {
     let (mut bound, mut freedoms) = (Vec::new(), Vec::new());
     for side in (0..2).filter(|side| !is_wall[*side]) {
         let mut of_side = vec![0.0; u[side].len()];
-        scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], side, &mut of_side);
+        scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], 0.0, side, &mut of_side);
         for (k, node) in scene.interface.candidate_nodes(side).enumerate() {
             for axis in usize::from(k == 0)..2 {
                 freedoms.push((side, node as usize, axis));
@@ -77,4 +77,38 @@ fn bound_is_never_below_the_springs() {
             }
         }
     }
+}
+
+/// A flat body below a barrel: flat out to 0.05, then with a flank of slope 8 that opens at once. The flank's slope
+/// counts where it is closed or within reach, and nowhere else.
+#[test]
+fn slopes_count_where_surfaces_can_touch() {
+    let meshes = [Side::Below, Side::Above].map(|side| flat(0.005, side));
+    let scene = Scene::pair(&meshes, 0.0999);
+    let barrel = |r: f64| {
+        let out = (r - 0.05).max(0.0);
+        [r.min(0.05) + 0.25 * out, 2.0 * out - 1e-4]
+    };
+    let flat = |r: f64| [r.min(0.05) + 0.25 * (r - 0.05).max(0.0), 0.0];
+    let bound = |reach: f64, place: &dyn Fn(f64) -> [f64; 2]| {
+        let u = [scene.at_rest()[0].clone(), displace(&scene, &meshes[1], 1, place)];
+        let mut bound = vec![0.0; meshes[1].nodes().len()];
+        scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], reach, 1, &mut bound);
+        scene.interface.candidate_nodes(1).map(|node| bound[node as usize]).collect::<Vec<_>>()
+    };
+    let level = bound(0.0, &flat);
+    // Nodes 0 to 10 are level; a step of 0.005 along the flank is 0.01 of gap.
+    let ratios = |reach: f64| {
+        let bound = bound(reach, &barrel);
+        bound.iter().zip(&level).map(|(one, other)| one / other).collect::<Vec<_>>()
+    };
+    let is_near = |ratio: f64, expected: f64| (ratio / expected - 1.0).abs() < 1e-3;
+    let closed = ratios(0.0);
+    assert!(closed.len() > 18, "{}", closed.len());
+    assert!((0..10).chain(12..19).all(|k| is_near(closed[k], 1.0)), "{closed:?}");
+    let all = ratios(0.1);
+    assert!((12..19).all(|k| is_near(all[k], 1.0 + 8.0 * 8.0)), "{all:?}");
+    // Up to a gap of 0.03, that of node 13: the way along r brings the flank no nearer than twice that along y.
+    let some = ratios(0.03);
+    assert!(is_near(some[12], 65.0) && (19 - 1..19).all(|k| is_near(some[k], 1.0)), "{some:?}");
 }

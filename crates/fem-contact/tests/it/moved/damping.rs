@@ -150,9 +150,9 @@ fn bounds_grow_with_the_area() {
     scene.interface.add_stiffness_bound(1, &mut stiffness);
     scene.interface.add_damping_bound(1, &mut damping);
     let before = [stiffness.clone(), damping.clone()];
-    scene.interface.add_bound_growth([&u[0], &u[1]], 1, &mut stiffness, &mut damping);
+    scene.interface.add_bound_growth([&u[0], &u[1]], 0.0, 1, &mut stiffness, &mut damping);
     let mut moved = vec![0.0; mesh.nodes().len()];
-    scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], 1, &mut moved);
+    scene.interface.add_moved_stiffness_bound([&u[0], &u[1]], 0.0, 1, &mut moved);
     for (k, [after, expected]) in stiffness.iter().zip(&moved).map(|(a, b)| [a, b]).enumerate() {
         assert!((after - expected).abs() <= 1e-14 * expected, "{k}: {after} {expected}");
     }

@@ -85,6 +85,34 @@ fn a_surface_that_turns_over_is_told_where_it_touches() {
     assert_eq!(blown_up.n_closed, 0);
 }
 
+/// Two barrels: flat on each other out to 0.05, from there their flanks lean out, the lower one's steeper, and
+/// come back above and below. What lies behind the turn is compared with the other surface where it is, not
+/// with a flank that is drawn on inward.
+#[test]
+fn a_flank_that_comes_back_touches_nothing() {
+    let meshes = [Side::Below, Side::Above].map(|side| flat(0.005, side));
+    let scene = Scene::pair(&meshes, 0.0999);
+    let barrel = |sign: f64, bulge: f64| {
+        move |r: f64| {
+            let (out, back) = ((r - 0.05).clamp(0.0, 0.02), (r - 0.07).max(0.0));
+            [r.min(0.05) + bulge * out - back, sign * (2.0 * (out + back) - 1e-4)]
+        }
+    };
+    let u = [
+        displace(&scene, &meshes[0], 0, barrel(-1.0, 0.2)),
+        displace(&scene, &meshes[1], 1, barrel(1.0, 0.15)),
+    ];
+    let (total, _) = scene.forces(&u);
+    assert!(total.n_closed > 20 && total.turned_at.is_none() && !total.at_limit, "{total:?}");
+    // Back into the flat part of the other one.
+    let touches = |r: f64| {
+        let [at, y] = barrel(1.0, 0.15)(r);
+        [at, if r > 0.085 { -2e-4 } else { y }]
+    };
+    let u = [u[0].clone(), displace(&scene, &meshes[1], 1, touches)];
+    assert!(scene.forces(&u).0.turned_at.is_some());
+}
+
 #[test]
 fn what_cannot_touch_is_refused() {
     let mesh = sphere(1.0, 0.05, 0.4, Side::Above);

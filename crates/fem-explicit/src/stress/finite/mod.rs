@@ -44,7 +44,7 @@ use block::Blocks;
 use bound::Metrics;
 use kernel::Elements;
 use law::ElasticLaw;
-pub(crate) use past::MOST_TERMS;
+pub use past::MOST_FINITE_STRAIN_TERMS;
 
 /// The stress of a body at finite strain, elastic.
 struct FiniteStrain<W> {
@@ -54,7 +54,7 @@ struct FiniteStrain<W> {
     solid: Hyperelastic,
 }
 
-/// The stress of a material that stores energy by a law, and relaxes by no more than [`MOST_TERMS`].
+/// The stress of a material that stores energy by a law, and relaxes by no more than [`MOST_FINITE_STRAIN_TERMS`].
 pub(crate) fn finite_strain(
     mesh: &SphereMesh,
     geometries: &[QuadGeometry],

@@ -19,7 +19,7 @@ use crate::part::{Field, NodalField};
 
 /// Most terms that a material at finite strain may have: a longer series is a table, of which so many
 /// terms a decade of time say as much. They lie on the stack in the element loops.
-pub(crate) const MOST_TERMS: usize = 32;
+pub const MOST_FINITE_STRAIN_TERMS: usize = 32;
 /// Fields of history of a term.
 pub(super) const FIELDS_A_TERM: usize = 3;
 
@@ -30,8 +30,8 @@ pub(super) fn n_element_fields(n_terms: usize) -> usize {
 
 /// The past of lanes of elements, term by term.
 pub(super) struct Past<L> {
-    pub strains: [ViscousStrain<L>; MOST_TERMS],
-    pub amplitudes: [(L, L); MOST_TERMS],
+    pub strains: [ViscousStrain<L>; MOST_FINITE_STRAIN_TERMS],
+    pub amplitudes: [(L, L); MOST_FINITE_STRAIN_TERMS],
 }
 
 impl<L: Lanes<WIDE>> Past<L> {
@@ -40,7 +40,10 @@ impl<L: Lanes<WIDE>> Past<L> {
     pub fn none() -> Self {
         let zero = L::splat(0.0);
         let strain = ViscousStrain { rr: zero, yy: zero, ry: zero, volume_change: zero };
-        Self { strains: [strain; MOST_TERMS], amplitudes: [(zero, zero); MOST_TERMS] }
+        Self {
+            strains: [strain; MOST_FINITE_STRAIN_TERMS],
+            amplitudes: [(zero, zero); MOST_FINITE_STRAIN_TERMS],
+        }
     }
 
     /// Reads the first terms of a block's elements.
@@ -82,7 +85,7 @@ pub(super) fn store_term<L: Lanes<WIDE>>(
 
 /// Whether a history has so many terms of so many elements.
 pub(super) fn is_sound(history: &[NodalField], n_terms: usize, n_elements: usize) -> bool {
-    n_terms <= MOST_TERMS
+    n_terms <= MOST_FINITE_STRAIN_TERMS
         && history.len() >= FIELDS_A_TERM * n_terms
         && history[..FIELDS_A_TERM * n_terms].iter().all(|field| field.len() >= n_elements)
 }
@@ -92,9 +95,9 @@ pub(super) fn of_element(
     history: &[NodalField],
     n_terms: usize,
     (slots, lane): (Slots, usize),
-) -> ([ViscousStrain; MOST_TERMS], [(f64, f64); MOST_TERMS]) {
-    let mut strains = [ViscousStrain::default(); MOST_TERMS];
-    let mut amplitudes = [(0.0, 0.0); MOST_TERMS];
+) -> ([ViscousStrain; MOST_FINITE_STRAIN_TERMS], [(f64, f64); MOST_FINITE_STRAIN_TERMS]) {
+    let mut strains = [ViscousStrain::default(); MOST_FINITE_STRAIN_TERMS];
+    let mut amplitudes = [(0.0, 0.0); MOST_FINITE_STRAIN_TERMS];
     for term in 0..n_terms {
         let [[rr, yy], [ry, volume_change], [r, y]] =
             of_term(history, term).map(|field| slots.pair(lane, field));
