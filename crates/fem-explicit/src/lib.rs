@@ -73,7 +73,6 @@ mod part;
 mod recorder;
 mod run;
 mod snapshot;
-mod sound;
 mod state;
 mod step;
 mod stress;

@@ -12,7 +12,6 @@ use crate::memory::Memory;
 use crate::model::Model;
 use crate::outcome::outcome;
 use crate::recorder::Instant;
-use crate::sound::LastSound;
 use crate::state::{Scratch, State};
 use crate::step::{Fault, advance, is_closed_next, update_forces, update_step};
 
@@ -78,15 +77,13 @@ pub struct Run<M> {
     model: M,
     pub(crate) memory: Memory,
     scratch: Scratch,
-    sound: LastSound,
 }
 
 impl<M: Deref<Target = Model>> Run<M> {
     /// A run at first touch.
     pub fn new(model: M, expected: Expectation, want: &Want) -> Self {
         let (memory, scratch) = (Memory::new(&model, expected, want), Scratch::new(&model));
-        let sound = LastSound::of(want);
-        Self { model, memory, scratch, sound }
+        Self { model, memory, scratch }
     }
 
     /// Goes on from a memory of a run of the same model; a run that had ended has ended.
@@ -98,8 +95,8 @@ impl<M: Deref<Target = Model>> Run<M> {
         if !memory.fits(&model) {
             return Err(ModelError::MemoryOfAnother);
         }
-        let (scratch, sound) = (Scratch::new(&model), LastSound::of(memory.want()));
-        Ok(Self { model, memory, scratch, sound })
+        let scratch = Scratch::new(&model);
+        Ok(Self { model, memory, scratch })
     }
 
     /// What holds the model.
@@ -127,14 +124,14 @@ impl<M: Deref<Target = Model>> Run<M> {
 
     /// At most so many steps. How the run ended, once it has: then there is no step any more.
     pub fn advance(&mut self, n_steps: u64) -> Option<&Ending> {
-        let Self { model, memory, scratch, sound } = self;
-        advance_run(model, memory, scratch, sound, n_steps);
+        let Self { model, memory, scratch } = self;
+        advance_run(model, memory, scratch, n_steps);
         memory.ending.as_ref()
     }
 
     /// What came out so far. A run that has not ended is interrupted here.
     pub fn finish(self) -> Collision {
-        let Self { model, mut memory, mut scratch, sound } = self;
+        let Self { model, mut memory, mut scratch } = self;
         let ending = memory.ending.take().unwrap_or_else(|| {
             let (time, step) = (memory.state.time, memory.state.step);
             Ending::Stopped(Stop::Interrupted { time, step })
@@ -142,27 +139,17 @@ impl<M: Deref<Target = Model>> Run<M> {
         if let Ending::Stopped(_) = ending {
             record_stop(&model, &mut memory, &mut scratch);
         }
-        let mut collision = outcome(&model, memory, ending);
-        if !collision.is_complete() && !collision.is_interrupted() {
-            collision.snapshots.extend(sound.after(&collision.snapshots));
-        }
-        collision
+        outcome(&model, memory, ending)
     }
 }
 
 /// At most so many steps of a run that has not ended; none of one that has.
-fn advance_run(
-    model: &Model,
-    memory: &mut Memory,
-    scratch: &mut Scratch,
-    sound: &mut LastSound,
-    n_steps: u64,
-) {
+fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_steps: u64) {
     for _ in 0..n_steps {
         if memory.ending.is_some() {
             return;
         }
-        memory.ending = match step(model, memory, scratch, sound) {
+        memory.ending = match step(model, memory, scratch) {
             Ok(ending) => ending,
             Err(stop) => Some(Ending::Stopped(stop)),
         };
@@ -171,12 +158,7 @@ fn advance_run(
 
 /// Forces of the present configuration, what is observed of it, and the motion to the next; or how the
 /// run has ended instead.
-fn step(
-    model: &Model,
-    memory: &mut Memory,
-    scratch: &mut Scratch,
-    sound: &mut LastSound,
-) -> Result<Option<Ending>, Stop> {
+fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
     let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
     let stop = |fault: Fault, state: &State| model.stop(fault, state);
@@ -213,7 +195,6 @@ fn step(
         let row = ledger.balance(model, state, scratch, &contact);
         ledger.check(&row, step)?;
         observed.take(row, is_closed);
-        sound.observe(model, state, scratch, log.approach);
         if let Some(history) = &mut history {
             history.push(row, kind);
         }

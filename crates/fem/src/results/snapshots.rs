@@ -132,8 +132,6 @@ fn label(snapshot: &Snapshot, request: &SnapshotRequest) -> &'static str {
     match (snapshot.label, request) {
         (Some(label), _) => label.name(),
         (None, SnapshotRequest::Times(_)) => "time",
-        // Of a run that failed.
-        (None, SnapshotRequest::Labels(_)) => "last-sound",
         (None, _) => "even",
     }
 }
