@@ -1,10 +1,12 @@
 //! The whole problem, constant over a run.
 
+mod outlook;
+
 use std::any::Any;
-use std::f64::consts::{PI, SQRT_2};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-use fem_collision::{Approach, BodyInput, Frame, Searched, Stop};
+use fem_collision::{Approach, BodyInput, Frame, Searched};
 use fem_contact::{ContactError, ContactInterface, SlippingInterface, Surface};
 use fem_material::finite::HyperelasticLaw;
 
@@ -13,10 +15,6 @@ use crate::contact::{Contact, ContactMethod, Massless, MovedContact};
 use crate::error::ModelError;
 use crate::forces::NodeForce;
 use crate::lumped::LumpedBody;
-use crate::pace::Outlook;
-use crate::state::{Scratch, State};
-use crate::step::{Collapsed, Fault};
-use crate::stress::Collapse;
 
 /// Numerical settings of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -195,98 +193,6 @@ impl Model {
     /// Whether the stiffness of a body changes as it deforms, and the time step with it.
     pub fn changes_stiffness(&self) -> bool {
         self.bodies.iter().any(|body| body.bound.is_some())
-    }
-
-    /// Critical time step of the deformed bodies, and how fast they are strained; what it is made of goes
-    /// to `scratch`.
-    pub(crate) fn outlook(&self, state: &State, scratch: &mut Scratch) -> Outlook {
-        self.outlook_and_node(state, scratch).0
-    }
-
-    /// The same, and body and node that ask for the critical step.
-    fn outlook_and_node(&self, state: &State, scratch: &mut Scratch) -> (Outlook, [usize; 2]) {
-        let motions = state.motions(self);
-        let rates = self.bodies.iter().zip(&motions).filter_map(|(body, motion)| {
-            let stress = body.stress.as_ref().filter(|_| body.bound.is_some())?;
-            Some(stress.part.strain_rate(motion))
-        });
-        let strain_rate = rates.fold(0.0, f64::max);
-        let within = Outlook::reaches(self, strain_rate);
-        let (mut critical, mut node) = (f64::INFINITY, [0, 0]);
-        for (side, body) in self.bodies.iter().enumerate() {
-            let (stiffness, damping) = (&mut scratch.stiffness[side], &mut scratch.damping[side]);
-            if let (Some(bound), Some(stress)) = (&body.bound, &body.stress) {
-                stiffness.fill(0.0);
-                let history = stress.of(&state.bodies[side].history);
-                stress.part.add_stiffness_bound(&motions[side], history, stiffness);
-                damping.fill(0.0);
-                self.contact.add_bound_growth(&motions, within, side, stiffness, damping);
-                let (own, at) = bound.critical_time_step(&body.nodal_mass, stiffness, damping);
-                if own < critical || own.is_nan() {
-                    (critical, node) = (own, [side, at]);
-                }
-            }
-        }
-        (Outlook { critical_time_step: critical, strain_rate }, node)
-    }
-
-    /// What is at fault where no step is short enough: an element that is compressed most and has the node
-    /// that asks for it, or what holds that node.
-    pub(crate) fn fault(&self, state: &State, scratch: &mut Scratch) -> Fault {
-        let (outlook, [side, node]) = self.outlook_and_node(state, scratch);
-        let (body, bodies) = (&self.bodies[side], &state.bodies[side]);
-        let (stiffness, damping) = (&mut scratch.stiffness[side], &mut scratch.damping[side]);
-        stiffness.fill(0.0);
-        damping.fill(0.0);
-        let mut without_contact = f64::INFINITY;
-        if let (Some(bound), Some(stress)) = (&body.bound, &body.stress) {
-            let history = stress.of(&bodies.history);
-            stress.part.add_stiffness_bound(&state.motions(self)[side], history, stiffness);
-            without_contact = bound.critical_time_step(&body.nodal_mass, stiffness, damping).0;
-        }
-        // More of the stiffness than the elements'.
-        let is_of_contact = without_contact > SQRT_2 * outlook.critical_time_step;
-        let collapsed = self.most_compressed(state);
-        let is_corner = self.bodies[collapsed.side].mesh().is_some_and(|mesh| {
-            let quad = mesh.quads().get(collapsed.collapse.element);
-            collapsed.side == side && quad.is_some_and(|quad| quad.contains(&(node as u32)))
-        });
-        match is_corner && !is_of_contact {
-            true => Fault::Collapsed(collapsed),
-            false => Fault::TooStiff { side, node, is_of_contact },
-        }
-    }
-
-    /// The element that is compressed most, of a model whose stiffness changes.
-    fn most_compressed(&self, state: &State) -> Collapsed {
-        let of = |side: usize| {
-            let stress = self.bodies[side].stress.as_ref()?;
-            let collapse = stress.part.most_compressed(&state.bodies[side].displacement)?;
-            Some(Collapsed { side, collapse })
-        };
-        let ratio = |at: &Collapsed| at.collapse.volume_ratio;
-        let most = [0, 1].into_iter().filter_map(of).min_by(|a, b| ratio(a).total_cmp(&ratio(b)));
-        let none = Collapse { element: 0, volume_ratio: f64::NAN };
-        most.unwrap_or(Collapsed { side: 0, collapse: none })
-    }
-
-    /// Why a run ends that cannot go on.
-    pub(crate) fn stop(&self, fault: Fault, state: &State) -> Stop {
-        let (time, step) = (state.time, state.step);
-        match fault {
-            Fault::Collapsed(Collapsed { side, collapse: Collapse { element, volume_ratio } }) => {
-                let corners = self.bodies[side].mesh().map(|mesh| mesh.corners(element));
-                let place = corners.map_or([f64::NAN; 2], |corners| {
-                    [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0)
-                });
-                Stop::ElementCollapsed { time, step, body: side, element, place, volume_ratio }
-            }
-            Fault::TooStiff { side, node, is_of_contact } => {
-                let place = self.bodies[side].mesh().map(|mesh| mesh.nodes()[node]);
-                let place = place.unwrap_or([f64::NAN; 2]);
-                Stop::NoStepShortEnough { time, step, body: side, place, of_contact: is_of_contact }
-            }
-        }
     }
 
     /// Time after so many steps since the start of the case, s.

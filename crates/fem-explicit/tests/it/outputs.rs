@@ -199,7 +199,9 @@ fn a_finished_run_reports_its_progress() {
     // Every 64 steps.
     assert_eq!(watcher.seen.len() as u64, found.steps / 64 + 1);
     assert!(watcher.seen.windows(2).all(|pair| pair[0].fraction <= pair[1].fraction));
-    assert!(watcher.seen[0].fraction == 0.0 && watcher.seen.last().unwrap().fraction > 0.97);
+    // The last tenth is for runs that take longer than expected.
+    let last = watcher.seen.last().unwrap().fraction;
+    assert!(watcher.seen[0].fraction == 0.0 && last > 0.88 && last < 1.0, "{last}");
     assert!(watcher.seen.iter().any(|progress| progress.contact_force > 0.5 * found.peak_force));
     assert_eq!(run.element_updates, Some(found.steps * pair.model().n_elements() as u64));
 }

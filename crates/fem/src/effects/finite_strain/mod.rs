@@ -17,6 +17,7 @@ mod measured;
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_collision::Collision;
+use fem_explicit::MOST_FINITE_STRAIN_TERMS;
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
@@ -63,13 +64,13 @@ impl FiniteStrain {
     /// A scene that is forced to large strain must be one that the elements bear.
     ///
     /// # Errors
-    /// A Poisson's ratio too near 1/2.
+    /// A Poisson's ratio too near 1/2, or too many terms of relaxation.
     pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Refusal> {
         let mut strained = Strained::of_both(scene, estimate).into_iter().flatten();
         let unborne = strained.find(|strained| !strained.is_borne());
         let Some(strained) = unborne.filter(|_| is_forced_on(scene)) else { return Ok(()) };
-        let message = format!("finite strain is forced on, and {}", strained.too_stiff());
-        let help = "lower material.NAME.poissons_ratio, or write \"auto\" or \"off\"";
+        let message = format!("finite strain is forced on, and {}", strained.not_borne());
+        let help = "change the material, or write \"auto\" or \"off\"";
         Err(Refusal::new("effects.finite_strain", message).with_help(help))
     }
 
@@ -83,7 +84,7 @@ impl FiniteStrain {
         let Some(strained) = unborne.next().filter(|_| is_asked) else {
             return Answer::Computes { idle: "" };
         };
-        let why = format!("called for, but {}", strained.too_stiff());
+        let why = format!("called for, but {}", strained.not_borne());
         let left_out = FiniteStrain.left_out(scene, estimate).unwrap_or_default();
         let warning = format!("{} is {why}; small strain leaves out {left_out}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
@@ -123,13 +124,27 @@ impl<'a> Strained<'a> {
         })
     }
 
-    /// Whether elements bear its Poisson's ratio at large strain.
+    /// Whether elements bear it at large strain.
     fn is_borne(&self) -> bool {
         // Made of two moduli it is rounded.
-        self.material.instantaneous().poissons_ratio() <= LARGEST_POISSONS_RATIO + 1e-9
+        let nu = self.material.instantaneous().poissons_ratio();
+        nu <= LARGEST_POISSONS_RATIO + 1e-9 && self.n_terms() <= MOST_FINITE_STRAIN_TERMS
     }
 
-    fn too_stiff(&self) -> String {
+    /// Prony terms whose history would be kept.
+    fn n_terms(&self) -> usize {
+        self.material.relaxation().map_or(0, |series| series.terms().len())
+    }
+
+    fn not_borne(&self) -> String {
+        let n_terms = self.n_terms();
+        if n_terms > MOST_FINITE_STRAIN_TERMS {
+            return format!(
+                "{} relaxes with {n_terms} terms, of which elements bear {MOST_FINITE_STRAIN_TERMS} at \
+                 large strain",
+                self.name
+            );
+        }
         let nu = (self.material.instantaneous().poissons_ratio() * 1e9).round() / 1e9;
         format!(
             "Poisson's ratio {nu} of {} is above {LARGEST_POISSONS_RATIO}, the largest that elements \
