@@ -119,3 +119,18 @@ fn a_volume_that_hardly_gives_way_is_refused_by_force_and_told_of_otherwise() {
     assert!(warnings.contains("0.499 of ball") && warnings.contains("leaves out"), "{warnings}");
     assert!(simulation(&[STIFF, OFF]).is_ok());
 }
+
+/// A case that small strain bears is not refused for a strain that is called for by itself.
+#[test]
+fn more_terms_than_elements_bear_stay_at_small_strain() {
+    let terms: Vec<String> =
+        (0..40).map(|k| format!("{{weight=0.01, relaxation_time={}e-5}}", 10 + k)).collect();
+    let many =
+        format!("material.rubber.relaxation={{acts_on='shear', terms=[{}]}}", terms.join(", "));
+    let simulation = simulation(&[&many]).unwrap();
+    assert!(!verdict(&simulation).active);
+    let warnings = simulation.setup().warnings().join("\n");
+    assert!(warnings.contains("ball relaxes with 40 terms"), "{warnings}");
+    let error = self::simulation(&[&many, ON]).unwrap_err();
+    assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
+}
