@@ -108,6 +108,7 @@ impl Explicit {
         if *scene.model() != ModelChoice::Fem {
             return Err(Refusal::chose_another(scene, "fem"));
         }
+        FiniteStrain::check(scene, &plan.estimate)?;
         let approach = approach_of(scene)?;
         let made = Made {
             scene: scene.clone(),
@@ -123,7 +124,6 @@ impl Explicit {
             .bodies(frame.own(), plan.candidate_radius)
             .map_err(|error| Refusal::new("body", error.to_string()))?;
         let cost = cost(scene, &bodies, &plan)?;
-        FiniteStrain::check(scene, &plan.estimate)?;
         let decisions =
             decide(scene, &plan.estimate, |effect| has(effect, scene, &plan.estimate, &bodies))?;
         let setup = Setup {
