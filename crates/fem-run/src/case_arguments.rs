@@ -22,6 +22,19 @@ pub struct CaseArguments {
     /// the file leaves out.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// How far restitution, contact time and force may be off: 0.01, '1 %'; accuracy.tolerance of the
+    /// case
+    #[arg(long, value_name = "SHARE", value_parser = tolerance)]
+    tolerance: Option<String>,
+}
+
+/// A share as an override of the case.
+fn tolerance(text: &str) -> Result<String, std::convert::Infallible> {
+    let value = match text.parse::<f64>() {
+        Ok(share) => format!("{share:?}"),
+        Err(_) => format!("{text:?}"),
+    };
+    Ok(format!("accuracy.tolerance={value}"))
 }
 
 impl CaseArguments {
@@ -30,10 +43,11 @@ impl CaseArguments {
     /// # Errors
     /// The first thing that is wrong with it.
     pub fn load(&self) -> Result<Case, CaseError> {
+        let overrides = [&self.set[..], self.tolerance.as_slice()].concat();
         if self.case.as_os_str() == STDIN {
-            return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), &self.set);
+            return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), &overrides);
         }
-        Case::load(&self.case, &self.set)
+        Case::load(&self.case, &overrides)
     }
 
     /// What messages call it.

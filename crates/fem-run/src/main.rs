@@ -16,6 +16,7 @@
     reason = "the command has the clock, the terminal and the exit status"
 )]
 
+mod accuracy;
 mod arguments;
 mod bounces;
 mod calibrate;

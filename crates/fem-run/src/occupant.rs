@@ -13,8 +13,8 @@ use crate::hidden_folder::LOCK_FILE;
 use crate::restart::{RESTART_FILE, head_of};
 
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.
-const MARK_FILES: [&str; 5] =
-    [SUMMARY_FILE, "fit.json", "calibrate.json", "export.json", "cradle.json"];
+const MARK_FILES: [&str; 6] =
+    [SUMMARY_FILE, "fit.json", "calibrate.json", "export.json", "cradle.json", "accuracy.json"];
 
 /// What is at a path.
 #[derive(Debug)]

@@ -1,5 +1,6 @@
 //! The jobs of the command line: one variant and one file a job.
 
+pub mod accuracy;
 pub mod calibrate;
 pub mod check;
 pub mod completions;
@@ -22,6 +23,7 @@ pub enum Command {
     Check(check::Arguments),
     Mesh(mesh::Arguments),
     Sweep(sweep::Arguments),
+    Accuracy(accuracy::Arguments),
     Validate(validate::Arguments),
     Fit(fit::Arguments),
     Calibrate(calibrate::Arguments),
@@ -38,6 +40,7 @@ impl Command {
             Self::Check(arguments) => check::execute(&arguments),
             Self::Mesh(arguments) => mesh::execute(&arguments),
             Self::Sweep(arguments) => sweep::execute(&arguments),
+            Self::Accuracy(arguments) => accuracy::execute(&arguments),
             Self::Validate(arguments) => validate::execute(&arguments),
             Self::Fit(arguments) => fit::execute(&arguments),
             Self::Calibrate(arguments) => calibrate::execute(&arguments),

@@ -1,5 +1,6 @@
 //! The command as its users call it, in one program: linked once, its tests run side by side.
 
+mod accuracy;
 mod bad_input;
 mod bounces;
 mod calibrate;

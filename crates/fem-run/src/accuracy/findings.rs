@@ -1,0 +1,138 @@
+//! What a study of accuracy found, for programs: `accuracy.csv` and `accuracy.json`.
+
+use fem::accuracy::{Headline, Judged, Ladder, Measurement, Rung, Study};
+use fem_case::{Accuracy, CaseFile};
+use serde_json::{Value, json as object};
+
+use crate::failure::Failure;
+use crate::output::Output;
+
+/// All of it.
+pub struct Findings<'a> {
+    /// What the case is about.
+    pub title: &'a str,
+    /// The case with every default filled in.
+    pub default: CaseFile,
+    /// What the case asks for.
+    pub accuracy: Accuracy,
+    /// What could be computed.
+    pub ladder: &'a Ladder,
+    /// What each rung gave, and its seconds.
+    pub measured: &'a [Option<(Measurement, f64)>],
+    /// What that tells.
+    pub study: &'a Study,
+    /// Rungs that the budget had no room for.
+    pub left_out: usize,
+    /// Seconds.
+    pub budget: f64,
+}
+
+/// A rung that ran, and what is known of it.
+pub struct Line<'a> {
+    /// Its place in the ladder.
+    pub index: usize,
+    /// What it is.
+    pub rung: &'a Rung,
+    /// What it gave.
+    pub measurement: &'a Measurement,
+    /// What it took, s.
+    pub seconds: f64,
+    /// How far it is off.
+    pub judged: Judged,
+}
+
+impl Findings<'_> {
+    /// The rungs that ran, in the order of the ladder.
+    pub fn lines(&self) -> impl Iterator<Item = Line<'_>> {
+        let rungs = self.ladder.rungs.iter().zip(self.measured).enumerate();
+        rungs.filter_map(|(index, (rung, measured))| {
+            let (measurement, seconds) = measured.as_ref()?;
+            let judged = self.study.judged[index]?;
+            Some(Line { index, rung, measurement, seconds: *seconds, judged })
+        })
+    }
+}
+
+/// `accuracy.csv`: a row a rung. Errors are relative but that of the restitution; the settings are what
+/// `--set` takes.
+///
+/// # Errors
+/// The file system.
+pub fn write_csv(output: &mut Output, findings: &Findings<'_>) -> Result<(), Failure> {
+    let failed =
+        |error: csv::Error| Failure::failed(format!("accuracy.csv cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut header: Vec<String> =
+        ["series", "settings", "elements_across", "elements", "steps", "element_updates"]
+            .map(String::from)
+            .into();
+    header.extend(["memory_bytes", "seconds"].map(String::from));
+    header.extend(Headline::ALL.map(|headline| headline.key().to_string()));
+    header.extend(Headline::ALL.map(|headline| format!("{}_error", error_key(headline))));
+    header.extend(
+        ["stress_error", "worst_error", "in_tolerances", "is_on_frontier"].map(String::from),
+    );
+    writer.write_record(&header).map_err(failed)?;
+    let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+    let count = |value: Option<u64>| value.map_or(String::new(), |value| value.to_string());
+    for line in findings.lines() {
+        let Line { rung, measurement, judged, .. } = &line;
+        let mut cells = vec![
+            rung.series.name().to_string(),
+            rung.overrides().join(" "),
+            number(rung.elements_across),
+            count(Some(measurement.elements).filter(|n| *n > 0)),
+            count(measurement.steps),
+            count(measurement.element_updates),
+            count(measurement.memory),
+            number(Some(line.seconds)),
+        ];
+        cells.extend(measurement.values.map(number));
+        cells.extend(judged.errors.map(number));
+        cells.extend([judged.stress_error, judged.worst, judged.in_tolerances].map(number));
+        cells.push(judged.is_on_frontier.to_string());
+        writer.write_record(&cells).map_err(failed)?;
+    }
+    let bytes = writer
+        .into_inner()
+        .map_err(|error| Failure::failed(format!("accuracy.csv cannot be written: {error}")))?;
+    output.write("accuracy.csv", bytes)
+}
+
+/// The key of a number without its unit: errors have none.
+fn error_key(headline: Headline) -> String {
+    headline.name().replace(' ', "_")
+}
+
+/// `accuracy.json`: limits, orders and parts of the error.
+pub fn json(findings: &Findings<'_>) -> Value {
+    let by_name = |values: [Option<f64>; 6]| -> Value {
+        let pairs = Headline::ALL.into_iter().zip(values);
+        pairs.map(|(headline, value)| (error_key(headline), object!(value))).collect()
+    };
+    let limits: Value = Headline::ALL
+        .into_iter()
+        .zip(findings.study.limits)
+        .map(|(headline, limit)| {
+            let limit = limit.map(|limit| {
+                object!({ "value": limit.value, "uncertainty": limit.uncertainty,
+                    "condensed": limit.condensed, "explicit_adds": limit.added })
+            });
+            (headline.key().to_string(), object!(limit))
+        })
+        .collect();
+    let orders = findings.study.orders.iter();
+    let orders = orders.map(|(series, orders)| (series.name().to_string(), by_name(*orders)));
+    let parts = findings.study.parts.iter();
+    let parts = parts.map(|part| (part.source.name().to_string(), by_name(part.errors)));
+    object!({
+        "title": findings.title,
+        "rungs": findings.ladder.rungs.len(),
+        "left_out": findings.left_out,
+        "budget_s": findings.budget,
+        "limits": limits,
+        "orders": orders.collect::<Value>(),
+        "error_parts": parts.collect::<Value>(),
+        "case": findings.default,
+    })
+}

@@ -1,0 +1,240 @@
+//! What a study of accuracy found, for people: what is printed, and `accuracy.md`.
+
+use std::fmt::Write;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::accuracy::{ErrorPart, Headline, Series};
+use fem_case::engineering::show;
+use indicatif::HumanCount;
+
+use super::findings::{Findings, Line};
+use crate::standard_output::one_line;
+use crate::tables::table;
+
+/// Shown for a number that there is not.
+const NONE: &str = "-";
+const SHORT: [&str; 6] = ["e", "T", "F", "approach", "a", "p0"];
+
+/// Rows of text under a heading.
+struct Rows {
+    heading: &'static str,
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+/// What is printed: the frontier, where errors come from, and what to take.
+pub fn report(findings: &Findings<'_>) -> String {
+    let mut text = format!("{}\n", one_line(findings.title));
+    let parts = [
+        rungs(findings, "Nearest to the limit for their time", |line| line.judged.is_on_frontier),
+        limits(findings),
+        error_parts(findings),
+    ];
+    for Rows { heading, header, rows } in parts {
+        if rows.is_empty() {
+            continue;
+        }
+        let mut alignment = vec![Right; header.len()];
+        alignment[0] = Left;
+        let rows = std::iter::once(header).chain(rows);
+        let _ = writeln!(text, "\n{heading}\n{}", table(&alignment, rows).trim_end());
+    }
+    for sentence in sentences(findings) {
+        let _ = writeln!(text, "\n{sentence}");
+    }
+    text
+}
+
+/// `accuracy.md`: all of it.
+pub fn markdown(findings: &Findings<'_>, has_picture: bool) -> String {
+    let mut text = format!("# {}\n", one_line(findings.title));
+    for sentence in sentences(findings) {
+        let _ = writeln!(text, "\n{sentence}");
+    }
+    if has_picture {
+        let _ = writeln!(text, "\n![errors over seconds](accuracy.svg)");
+    }
+    let parts = [
+        limits(findings),
+        error_parts(findings),
+        orders(findings),
+        rungs(findings, "All", |_| true),
+    ];
+    for Rows { heading, header, rows } in parts {
+        if rows.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n## {heading}\n\n| {} |", header.join(" | "));
+        let _ = writeln!(text, "|{}", " --- |".repeat(header.len()));
+        for row in rows {
+            let _ = writeln!(text, "| {} |", row.join(" | "));
+        }
+    }
+    let _ = writeln!(
+        text,
+        "\nErrors are differences to the limit, relative but that of the restitution; a dash is a number \
+         that a model has not. Seconds are medians, meshes and factors made anew each time, no files \
+         written. The error of the stress is the root mean square of that of σ_yy at 49 places of each body around the \
+         contact, at the largest approach, over that of the stress."
+    );
+    text
+}
+
+/// Errors as they stand in a table: the restitution's as it is, all others in percent.
+fn errors(errors: [Option<f64>; 6]) -> impl Iterator<Item = String> {
+    Headline::ALL.into_iter().zip(errors).map(|(headline, error)| own(headline, error))
+}
+
+fn own(headline: Headline, error: Option<f64>) -> String {
+    match (headline, error) {
+        (Headline::Restitution, Some(0.0)) => "0".to_string(),
+        (Headline::Restitution, Some(error)) => format!("{error:+.1e}"),
+        _ => percent(error),
+    }
+}
+
+fn percent(error: Option<f64>) -> String {
+    error.map_or(NONE.into(), |error| match 100.0 * error {
+        percent if percent.abs() >= 10.0 => format!("{percent:+.0} %"),
+        percent if percent.abs() >= 0.1 => format!("{percent:+.2} %"),
+        percent => format!("{percent:+.3} %"),
+    })
+}
+
+fn rungs(
+    findings: &Findings<'_>,
+    heading: &'static str,
+    is_shown: impl Fn(&Line<'_>) -> bool,
+) -> Rows {
+    let header = ["", "", "time", "updates"].into_iter().chain(SHORT).chain(["stress"]);
+    let row = |line: Line<'_>| {
+        let updates = line.measurement.element_updates;
+        let mut cells = vec![
+            line.rung.series.name().to_string(),
+            line.rung.describe(),
+            show(line.seconds, "s"),
+            updates.map_or(NONE.into(), |n| HumanCount(n).to_string()),
+        ];
+        cells.extend(errors(line.judged.errors));
+        cells.push(line.judged.stress_error.map_or(NONE.into(), |e| format!("{:.1} %", 100.0 * e)));
+        cells
+    };
+    let rows = findings.lines().filter(is_shown).map(row).collect();
+    Rows { heading, header: header.map(String::from).collect(), rows }
+}
+
+fn limits(findings: &Findings<'_>) -> Rows {
+    let rows =
+        Headline::ALL.into_iter().zip(findings.study.limits).filter_map(|(headline, limit)| {
+            let limit = limit?;
+            let quantity = |value: f64| match headline {
+                Headline::Restitution => format!("{value:.5}"),
+                _ => show(value, headline.unit()),
+            };
+            let scale = headline.scale(limit.value);
+            Some(vec![
+                headline.name().to_string(),
+                quantity(limit.value),
+                own(headline, Some(limit.uncertainty / scale)).replacen('+', "±", 1),
+                limit.condensed.map_or(NONE.into(), quantity),
+                own(headline, limit.added.map(|added| added / scale)),
+            ])
+        });
+    let header = ["", "limit", "known to", "condensed alone", "explicit adds"];
+    Rows { heading: "The limit", header: header.map(String::from).into(), rows: rows.collect() }
+}
+
+fn error_parts(findings: &Findings<'_>) -> Rows {
+    let row = |part: &ErrorPart| {
+        let mut cells = vec![part.source.name().to_string()];
+        cells.extend(errors(part.errors));
+        cells
+    };
+    let header = std::iter::once("").chain(SHORT).map(String::from).collect();
+    let rows = findings.study.parts.iter().map(row).collect();
+    Rows { heading: "Where errors come from, eight elements across the contact", header, rows }
+}
+
+fn orders(findings: &Findings<'_>) -> Rows {
+    let rows = findings.study.orders.iter().map(|(series, orders)| {
+        let mut cells = vec![series.name().to_string()];
+        let order = |order: &Option<f64>| order.map_or(NONE.into(), |order| format!("{order:.1}"));
+        cells.extend(orders.iter().map(order));
+        cells
+    });
+    let header = std::iter::once("").chain(SHORT).map(String::from).collect();
+    Rows { heading: "Observed orders in the size of the elements", header, rows: rows.collect() }
+}
+
+/// What to take, and what the study does not know.
+fn sentences(findings: &Findings<'_>) -> Vec<String> {
+    let study = findings.study;
+    let cheapest = |serves: &dyn Fn(usize) -> bool| {
+        let index = study.cheapest_within(findings.ladder, findings.measured, serves)?;
+        findings.lines().find(|line| line.index == index)
+    };
+    let told = |line: &Line<'_>| {
+        let describe = line.rung.describe();
+        let gap = if describe.is_empty() { "" } else { ", " };
+        let settings: Vec<String> =
+            line.rung.overrides().iter().map(|set| format!("--set '{set}'")).collect();
+        format!(
+            "{}{gap}{describe}: {} (`{}`)",
+            line.rung.series.name(),
+            show(line.seconds, "s"),
+            settings.join(" ")
+        )
+    };
+    let asked = {
+        let accuracy = findings.accuracy;
+        let share = |share: f64| format!("{} %", fem_figure::tick(100.0 * share));
+        let all = [accuracy.restitution, accuracy.contact_time, accuracy.peak_force];
+        match all.iter().all(|other| *other == all[0]) {
+            true => format!(
+                "{} in e, T and F and {} in the peak pressure",
+                share(all[0]),
+                share(accuracy.peak_pressure)
+            ),
+            false => "the tolerances of the case".to_string(),
+        }
+    };
+    let mut sentences = Vec::new();
+    match cheapest(&|_| true) {
+        Some(line) => sentences.push(format!("Within {asked}: {}.", told(&line))),
+        None => sentences.push(format!("Nothing that was computed is within {asked}.")),
+    }
+    let has_fields = |line: &Line<'_>| line.measurement.stress.is_some();
+    let with_fields = findings.lines().filter(has_fields).map(|line| line.index);
+    let with_fields: Vec<usize> = with_fields.collect();
+    if let Some(line) = cheapest(&|index| with_fields.contains(&index)) {
+        sentences.push(format!("With fields to draw: {}.", told(&line)));
+    }
+    let explicit = cheapest(&|index| findings.ladder.rungs[index].is_explicit());
+    if let Some(line) = explicit {
+        let own = as_written(findings).filter(|own| own.index != line.index);
+        let own = own.and_then(|own| {
+            let (took, share) = (show(own.seconds, "s"), own.judged.in_tolerances?);
+            Some(format!(" The case as written: {took}, {share:.2} times what is allowed."))
+        });
+        let own = own.unwrap_or_default();
+        sentences.push(format!("With explicit elements: {}.{own}", told(&line)));
+    }
+    if findings.left_out > 0 {
+        sentences.push(format!(
+            "{} of {} ways were left out: they would have taken more than the {} of the budget.",
+            findings.left_out,
+            findings.ladder.rungs.len(),
+            show(findings.budget, "s")
+        ));
+    }
+    sentences
+}
+
+/// The case as written; where it leaves everything to the plan, that is the plan's.
+fn as_written<'a>(findings: &'a Findings<'_>) -> Option<Line<'a>> {
+    let of = |series| findings.lines().filter(move |line| line.rung.series == series);
+    let planned = |line: &Line<'_>| {
+        line.rung.elements_across.is_some_and(|across| (across - 8.0).abs() < 0.01)
+    };
+    of(Series::AsWritten).next().or_else(|| of(Series::Explicit).find(planned))
+}

@@ -1,0 +1,91 @@
+//! `accuracy.svg`: errors over seconds, both logarithmic, and the rungs that none beats.
+
+use fem::accuracy::{Headline, Series};
+use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
+
+use super::findings::{Findings, Line};
+
+/// Errors below this are drawn there: no study knows its limit better.
+const LEAST: f64 = 1e-6;
+/// What is drawn with a line: over the size of the elements.
+const DRAWN: [Series; 7] = [
+    Series::Condensed,
+    Series::CondensedVibrating,
+    Series::Explicit,
+    Series::ExplicitScaled,
+    Series::ExplicitGrown,
+    Series::Penalty,
+    Series::NodeToSurface,
+];
+
+/// The picture; none without any rung.
+pub fn picture(findings: &Findings<'_>) -> Option<String> {
+    let uncertain = |headline: Headline| {
+        let limit = findings.study.limits[headline as usize]?;
+        Some((limit.uncertainty / headline.scale(limit.value)).max(LEAST))
+    };
+    let three = [Headline::Restitution, Headline::ContactTime, Headline::PeakForce];
+    let worst = three.into_iter().filter_map(uncertain).fold(LEAST, f64::max);
+    let pressure = Headline::PeakPressure;
+    let panels = [
+        panel(findings, "worst error of e, T and F", worst, |line| line.judged.worst),
+        panel(
+            findings,
+            "error of the peak pressure",
+            uncertain(pressure).unwrap_or(LEAST),
+            |line| line.judged.sure[pressure as usize],
+        ),
+        panel(findings, "error of the contact radius", LEAST, |line| {
+            line.judged.sure[Headline::MaxContactRadius as usize]
+        }),
+        panel(findings, "error of the stress field", LEAST, |line| line.judged.stress_error),
+    ];
+    fem_figure::svg(&panels)
+}
+
+/// An error over seconds. Below `known` the limit itself is not known.
+fn panel(
+    findings: &Findings<'_>,
+    label: &str,
+    known: f64,
+    error: impl Fn(&Line<'_>) -> Option<f64>,
+) -> Chart {
+    let lines: Vec<Line<'_>> = findings.lines().collect();
+    let point = |line: &Line<'_>| Some((line.seconds, error(line)?.max(LEAST)));
+    let of = |series| -> Vec<(f64, f64)> {
+        lines.iter().filter(|line| line.rung.series == series).filter_map(point).collect()
+    };
+    let axis = |label: &str| Axis::new(label).logarithmic();
+    let mut chart = Chart::new(axis("seconds"), axis(label));
+    for (series, colour) in DRAWN.into_iter().zip(COLOURS) {
+        let points = of(series);
+        if !points.is_empty() {
+            chart = chart.with(Curve::points_on_line(series.name(), points).coloured(colour));
+        }
+    }
+    for (series, colour) in [(Series::Hertz, GREY), (Series::Ting, COLOURS[1])] {
+        let points = of(series);
+        if !points.is_empty() {
+            chart = chart.with(Curve::points(series.name(), points).coloured(colour));
+        }
+    }
+    let own = of(Series::AsWritten);
+    chart = chart.with(Curve::points(Series::AsWritten.name(), own).coloured(COLOURS[3]));
+    let seconds = lines.iter().map(|line| line.seconds);
+    let (from, to) =
+        seconds.fold((f64::INFINITY, 0.0), |(from, to): (f64, f64), s| (from.min(s), to.max(s)));
+    if known > LEAST && from < to {
+        let limit = vec![(from, known), (to, known)];
+        chart = chart.with(Curve::dashed("what is known of the limit", limit).coloured(GREY));
+    }
+    let choices = lines.iter().filter(|line| line.rung.series.is_choice());
+    let mut frontier: Vec<(f64, f64)> = choices.filter_map(point).collect();
+    frontier.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut nearest = f64::INFINITY;
+    frontier.retain(|(_, error)| {
+        let is_nearer = *error < nearest;
+        nearest = nearest.min(*error);
+        is_nearer
+    });
+    chart.with(Curve::dashed("frontier", frontier).coloured(COLOURS[6]))
+}

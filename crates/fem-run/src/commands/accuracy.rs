@@ -1,0 +1,94 @@
+//! `fem-run accuracy CASE`: how far each way to compute a case is off, and what it takes.
+
+use std::io::{Write, stderr};
+
+use fem::accuracy::{Ladder, Study};
+use fem::{Identity, Simulation};
+use fem_case::engineering::show;
+use indicatif::HumanCount;
+
+use crate::accuracy::{Climb, Findings, climb, json, markdown, picture, report, write_csv};
+use crate::case_arguments::CaseArguments;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::output::OutputArguments;
+use crate::standard_output::{self, one_line};
+
+/// What accuracy costs: every model and many settings, their errors and their seconds
+///
+/// The collision of a case is computed by closed forms, condensed bodies and explicit elements, over
+/// the size of the elements and all that costs time. Prints how far each is from the limit, which are
+/// the fastest at their accuracy, where errors come from, and what to take; writes a table
+/// (accuracy.csv), a page (accuracy.md) and a picture (accuracy.svg).
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: CaseArguments,
+    /// Seconds after which nothing more is begun, and what runs is given up
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
+    budget: f64,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().ok().filter(|s| *s > 0.0 && s.is_finite());
+    seconds.ok_or_else(|| "seconds are a number greater than 0".to_string())
+}
+
+/// Computes the ladder of a case.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let interrupt = Interrupt::listen();
+    let case = arguments.input.load()?;
+    let ladder = Ladder::of(&case)?;
+    let identity = Identity::of(&case)?;
+    let stem = arguments.input.stem();
+    let mut output = arguments.output.claim(&stem, "accuracy", &[&identity.case])?;
+    if !arguments.output.quiet {
+        announce(&arguments.input.name(), &ladder, arguments.budget);
+    }
+
+    let climbed = climb(&ladder, arguments.budget, &interrupt, arguments.output.quiet)?;
+    if interrupt.is_requested() {
+        return Err(Failure::interrupted("interrupted: nothing was written")
+            .with_help("--budget SECONDS ends the study by itself, and keeps what is done"));
+    }
+    let Climb { measured, left_out } = climbed;
+    let study = Study::of(&ladder, &measured, &case.scene().accuracy());
+    let resolved = Simulation::resolve(&case)?;
+    let findings = Findings {
+        title: case.scene().title(),
+        default: resolved,
+        accuracy: case.scene().accuracy(),
+        ladder: &ladder,
+        measured: &measured,
+        study: &study,
+        left_out,
+        budget: arguments.budget,
+    };
+    write_csv(&mut output, &findings)?;
+    let svg = picture(&findings);
+    let has_picture = svg.is_some();
+    if let Some(svg) = svg {
+        output.write("accuracy.svg", svg)?;
+    }
+    output.write("accuracy.md", markdown(&findings, has_picture))?;
+    let place = output.publish(&json(&findings))?;
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    standard_output::print(&format!("{}\nResult: {place}\n", report(&findings)))
+}
+
+/// One line on stderr about what begins.
+fn announce(case: &str, ladder: &Ladder, budget: f64) {
+    let updates = ladder.rungs.iter().fold(0u64, |sum, rung| sum.saturating_add(rung.price));
+    let _ = writeln!(
+        stderr(),
+        "{}: {} ways to compute it, {} element updates in all, from cheap to dear; ends after {}",
+        one_line(case),
+        ladder.rungs.len(),
+        HumanCount(updates),
+        show(budget, "s")
+    );
+}

@@ -1,0 +1,76 @@
+//! `fem-run accuracy`: the files that it writes, its budget, and what it refuses.
+
+use crate::common::{CASE, Place};
+
+/// The elastic pair of the tests; its limits leave coarse meshes, whatever the machine.
+fn elastic() -> Place {
+    let (head, tail) = CASE.split_once("[material.glass.relaxation]").unwrap();
+    let (_, tail) = tail.split_once("[[body]]").unwrap();
+    Place::with(&format!("{head}[[body]]{tail}[limits]\nelements = 2000\nelement_updates = 4e6\n"))
+}
+
+#[test]
+fn a_table_a_page_and_a_picture_are_written() {
+    let place = elastic();
+    let ran = place.run(&["accuracy", "case.toml", "--out", "out"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert_eq!(place.list("out"), ["accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg"]);
+    let csv = String::from_utf8(place.read("out/accuracy.csv")).unwrap();
+    let header: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    for column in ["settings", "element_updates", "seconds", "restitution", "peak_pressure_error"] {
+        assert!(header.contains(&column), "{column}: {header:?}");
+    }
+    for series in ["Hertz", "condensed", "the case as written"] {
+        assert!(csv.lines().any(|line| line.starts_with(series)), "{series}:\n{csv}");
+    }
+    let page = String::from_utf8(place.read("out/accuracy.md")).unwrap();
+    assert!(page.contains("![errors over seconds](accuracy.svg)"), "{page}");
+    // What is advised can be written as it is told.
+    let advised = page.split("--set '").nth(1).and_then(|rest| rest.split('\'').next()).unwrap();
+    place.succeed(&["case.toml", "--set", advised, "--out", "advised", "--quiet"]);
+    // What the study is done again with replaces it.
+    place.succeed(&["accuracy", "case.toml", "--budget", "1e-3", "--out", "out", "--quiet"]);
+    let page = String::from_utf8(place.read("out/accuracy.md")).unwrap();
+    assert!(page.contains("were left out"), "{page}");
+}
+
+/// What is asked for decides what serves.
+#[test]
+fn the_tolerance_is_that_of_the_case() {
+    let place = elastic();
+    for (tolerance, begins) in [
+        ("1 %", "Within 1 % in e, T and F and 3 % in the peak pressure: "),
+        ("0.000001", "Nothing that was computed is within 0.0001 % in e, T and F"),
+    ] {
+        let ran = place.run(&[
+            "accuracy",
+            "case.toml",
+            "--tolerance",
+            tolerance,
+            "--out",
+            "out",
+            "--force",
+        ]);
+        assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+        assert!(ran.stdout.lines().any(|line| line.starts_with(begins)), "{}", ran.stdout);
+    }
+}
+
+#[test]
+fn bad_input_is_refused_before_anything_is_written() {
+    let place = elastic();
+    for (arguments, said) in [
+        (&["--budget", "0"][..], "a number greater than 0"),
+        (&["--budget", "soon"], "a number greater than 0"),
+        (&["--tolerance", "2"], "at most 0.5"),
+        (&["--tolerance", "much"], "accuracy.tolerance"),
+        (&["--set", "mesh.contact_element_size=-1"], "greater than 0"),
+        (&["--set", "limits.elements=10"], "at most 10 are allowed"),
+    ] {
+        let all = [&["accuracy", "case.toml"], arguments].concat();
+        let ran = place.run(&all);
+        assert_eq!(ran.code, Some(2), "{all:?} {}", ran.stderr);
+        assert!(ran.stderr.contains(said), "{all:?} {}", ran.stderr);
+        assert_eq!(place.list("."), ["case.toml"]);
+    }
+}

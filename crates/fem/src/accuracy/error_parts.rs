@@ -1,0 +1,65 @@
+//! Where the error of explicit elements with eight of them across the contact comes from.
+
+use super::headline::Headline;
+
+/// What an error comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorSource {
+    /// Elements are of finite size: as condensed bodies have it on the same mesh.
+    Mesh,
+    /// Springs between the surfaces give way: what is left with four times their stiffness, extrapolated.
+    ContactSprings,
+    /// Mass is added for a longer step: against a run without.
+    AddedMass,
+    /// Steps are of finite length: of second order, from half the step.
+    TimeStep,
+    /// Condensed bodies have no waves and no large strains: what explicit elements add to them.
+    LeftOutByCondensed,
+    /// Strains are taken as small: against a run at finite strain, with springs between nodes that have
+    /// mass in both.
+    SmallStrain,
+}
+
+impl ErrorSource {
+    /// Its name for readers.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::ContactSprings => "contact springs",
+            Self::AddedMass => "added mass",
+            Self::TimeStep => "time step",
+            Self::LeftOutByCondensed => "left out by condensed",
+            Self::SmallStrain => "small strain",
+        }
+    }
+}
+
+/// An error and its source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorPart {
+    /// Where it comes from.
+    pub source: ErrorSource,
+    /// What it adds to each number, in the order of [`Headline::ALL`]: the restitution's absolute, all
+    /// others relative.
+    pub errors: [Option<f64>; 6],
+}
+
+impl ErrorPart {
+    /// The difference of two sets of values over the limits, times a factor.
+    pub(super) fn between(
+        source: ErrorSource,
+        values: [Option<f64>; 6],
+        others: [Option<f64>; 6],
+        limits: [Option<f64>; 6],
+        factor: f64,
+    ) -> Self {
+        let mut errors = [None; 6];
+        for (k, headline) in Headline::ALL.into_iter().enumerate() {
+            errors[k] = values[k]
+                .zip(others[k])
+                .zip(limits[k])
+                .map(|((value, other), limit)| factor * (value - other) / headline.scale(limit));
+        }
+        Self { source, errors }
+    }
+}

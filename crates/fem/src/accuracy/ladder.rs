@@ -1,0 +1,165 @@
+//! The ways in which a scene is computed.
+
+use fem_case::schema::{ContactMethod, StopTable};
+use fem_case::{Case, CaseError, CaseFile, Quantity};
+
+use super::rung::{Rung, Series};
+use super::setting::Setting;
+use crate::plan::Plan;
+
+/// Elements across the contact radius, of condensed bodies.
+const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
+/// The same of condensed bodies that vibrate.
+const VIBRATING: [f64; 3] = [4.0, 8.0, 16.0];
+/// The same of explicit elements.
+const EXPLICIT: [f64; 8] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0];
+/// The same with much added mass, and with other springs.
+const COMPARED: [f64; 5] = [3.0, 4.0, 5.0, 8.0, 11.0];
+/// The same at finite strain.
+const STRAINED: [f64; 2] = [4.0, 8.0];
+/// Where one setting is varied by itself.
+pub(super) const COMMON: f64 = 8.0;
+/// Modes of each body that vibrates.
+const MODES: u8 = 12;
+/// Added mass that shortens the run by half, as a share.
+const MUCH_MASS: f64 = 4e-3;
+const PENALTY_FACTORS: [f64; 2] = [0.25, 4.0];
+const MASS_SCALINGS: [f64; 3] = [0.0, 1e-3, 2e-2];
+const STEP_FACTORS: [f64; 1] = [0.45];
+/// Growth of a mesh of half as many elements.
+const GROWN: f64 = 1.25;
+
+/// Keys that choose a mesh, a contact, a step or a model.
+const CHOSEN: [&str; 4] = ["mesh", "contact", "time", "model"];
+
+/// A scene, computed in many ways.
+#[derive(Clone, Debug)]
+pub struct Ladder {
+    /// The ways, those of a series beside each other, from coarse to fine.
+    pub rungs: Vec<Rung>,
+    /// Contact radius (m) that closed forms foretell: what elements are counted across.
+    pub contact_radius: f64,
+    /// The first of what was left out.
+    refused: Option<CaseError>,
+}
+
+impl Ladder {
+    /// The ladder of a case: of its first contact, where gravity brings its body back.
+    ///
+    /// # Errors
+    /// A case of which all models with elements refuse all meshes: the first refusal. What else is refused,
+    /// by the limits of the case for one, is left out.
+    pub fn of(case: &Case) -> Result<Self, CaseError> {
+        let base = case.edited(|file| {
+            (file.mesh, file.contact, file.time, file.output) = (None, None, None, None);
+            file.stop = first_contact(file);
+        })?;
+        let plan = Plan::of_case(&base)?;
+        let across = (plan.estimate.contact_radius, plan.contact_element_size * COMMON);
+        // Of a contact as wide as its sphere the plan counts elements across less than all of it.
+        let unit = across.0.min(across.1);
+        let mut ladder = Self { rungs: Vec::new(), contact_radius: across.0, refused: None };
+        if CHOSEN.iter().any(|key| case.gives(key)) {
+            let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
+            ladder.add(&own, Series::AsWritten, &[], None);
+        }
+        let add = |series, settings: &[Setting], value| {
+            ladder.add(&base, series, settings, value);
+        };
+        Self::fill(case, plan.makes_meshes, unit, add);
+        match ladder.refused.take() {
+            // What has only closed forms has no limit to tell.
+            Some(refused) if !ladder.rungs.iter().any(Rung::has_elements) => Err(refused),
+            _ => Ok(ladder),
+        }
+    }
+
+    /// The ways that the scene calls for, a series after the other.
+    fn fill(
+        case: &Case,
+        makes_meshes: bool,
+        unit: f64,
+        mut add: impl FnMut(Series, &[Setting], Option<f64>),
+    ) {
+        for finite_size in [false, true] {
+            add(Series::Hertz, &[Setting::Hertz { finite_size }], None);
+        }
+        let relaxes = case.scene().bodies().iter().filter_map(|body| body.material());
+        if relaxes.into_iter().any(|material| material.relaxation().is_some()) {
+            for finite_size in [false, true] {
+                add(Series::Ting, &[Setting::Ting { finite_size }], None);
+            }
+        }
+        let mut over_size = |series, across: &[f64], settings: &[Setting]| {
+            if !makes_meshes {
+                return add(series, settings, None);
+            }
+            for across in across {
+                let size = short(unit / across);
+                let settings = [settings, &[Setting::ElementSize(size)]].concat();
+                add(series, &settings, Some(size));
+            }
+        };
+        for (series, across, vibration_modes, penalty_springs) in [
+            (Series::Condensed, &CONDENSED[..], 0, false),
+            (Series::CondensedSprings, &EXPLICIT[..], 0, true),
+            (Series::CondensedVibrating, &VIBRATING[..], MODES, false),
+        ] {
+            over_size(series, across, &[Setting::Condensed { vibration_modes, penalty_springs }]);
+        }
+        let explicit = Setting::Explicit;
+        over_size(Series::Explicit, &EXPLICIT, &[explicit]);
+        let much = Setting::MassScaling(MUCH_MASS);
+        over_size(Series::ExplicitScaled, &COMPARED, &[explicit, much]);
+        if makes_meshes {
+            over_size(Series::ExplicitGrown, &COMPARED, &[explicit, Setting::Growth(GROWN)]);
+        }
+        for (series, method) in [
+            (Series::Penalty, ContactMethod::Penalty),
+            (Series::NodeToSurface, ContactMethod::NodeToSurface),
+        ] {
+            over_size(series, &COMPARED, &[explicit, Setting::ContactMethod(method)]);
+        }
+        over_size(Series::FiniteStrain, &STRAINED, &[explicit, Setting::FiniteStrain]);
+        let size = makes_meshes.then(|| Setting::ElementSize(short(unit / COMMON)));
+        let mut varied = |series, values: &[f64], setting: fn(f64) -> Setting| {
+            for value in values {
+                let settings = [Some(explicit), size, Some(setting(*value))];
+                let settings: Vec<Setting> = settings.into_iter().flatten().collect();
+                add(series, &settings, Some(*value));
+            }
+        };
+        varied(Series::PenaltyFactor, &PENALTY_FACTORS, Setting::PenaltyFactor);
+        varied(Series::MassScaling, &MASS_SCALINGS, Setting::MassScaling);
+        varied(Series::StepFactor, &STEP_FACTORS, Setting::StepFactor);
+    }
+
+    /// Adds what is not refused.
+    fn add(&mut self, base: &Case, series: Series, settings: &[Setting], value: Option<f64>) {
+        match Rung::new(base, series, settings.to_vec(), value, self.contact_radius) {
+            Ok(rung) => self.rungs.push(rung),
+            Err(refused) => {
+                self.refused.get_or_insert(refused);
+            }
+        }
+    }
+
+    /// Places of the rungs in the order in which they are computed: from cheap to dear, so that a run
+    /// that ends early has told most.
+    pub fn cheapest_first(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.rungs.len()).collect();
+        order.sort_by_key(|&k| self.rungs[k].price);
+        order
+    }
+}
+
+/// `[stop]` after the first contact, where there are more.
+fn first_contact(file: &CaseFile) -> Option<StopTable> {
+    file.gravity.as_ref()?;
+    Some(StopTable { bounces: Some(Quantity::from_si(1.0)) })
+}
+
+/// A length of four digits: as a user would write it.
+fn short(length: f64) -> f64 {
+    format!("{length:.3e}").parse().unwrap_or(length)
+}

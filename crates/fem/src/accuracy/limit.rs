@@ -1,0 +1,142 @@
+//! What the numbers of a scene tend to.
+//!
+//! Condensed bodies converge smoothly and at little cost, but have no waves and no large strains;
+//! explicit elements have all, and scatter. With the same springs between them both make the same errors
+//! on the same mesh. So the limit is that of condensed bodies, L, and what explicit elements add to them
+//! on the same mesh with the same springs, D:
+//!
+//! ```math
+//! q_\infty = L + D, \qquad L = \lim_{h\to 0} q^{\rm condensed}(h), \qquad
+//! D = q^{\rm explicit}(h) - q^{\rm springs}(h)
+//! ```
+//!
+//! with D of the finest mesh that both have. Its uncertainty is that of L, found by leaving one level
+//! out, and how far D moves from the next coarser mesh to the finest. Where D is less than its own
+//! uncertainty it is left out and counts as uncertain.
+
+use super::power_law::PowerLaw;
+
+/// What a number tends to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// The limit, SI.
+    pub value: f64,
+    /// How far it may be off, SI.
+    pub uncertainty: f64,
+    /// Of condensed bodies alone, SI; none where they were not computed.
+    pub condensed: Option<f64>,
+    /// What explicit elements add to them, SI: waves, vibrations, large strains.
+    pub added: Option<f64>,
+}
+
+/// Orders that a sequence is believed to have.
+const ORDERS: std::ops::Range<f64> = 0.5..3.9;
+/// A limit lies at most so many times the last step beyond the finest level.
+const FARTHEST: f64 = 2.0;
+/// Levels that a limit is made of.
+const N_LEVELS: usize = 6;
+
+impl Limit {
+    /// Of values over the size of the elements (m, SI), in any order: of condensed bodies, of those with
+    /// springs, of explicit elements; none without any.
+    pub fn of(
+        condensed: &[(f64, f64)],
+        springs: &[(f64, f64)],
+        explicit: &[(f64, f64)],
+    ) -> Option<Self> {
+        let condensed = finest_first(condensed);
+        let explicit = finest_first(explicit);
+        let Some((value, uncertainty)) = alone(&condensed) else {
+            let (value, uncertainty) = alone(&explicit)?;
+            return Some(Self { value, uncertainty, condensed: None, added: None });
+        };
+        let own = |size: f64| {
+            let same = |other: &&(f64, f64)| (other.0 / size - 1.0).abs() < 1e-9;
+            springs.iter().find(same).map(|(_, value)| *value)
+        };
+        let both = explicit.iter().filter_map(|(size, value)| Some(value - own(*size)?));
+        let added: Vec<f64> = both.take(2).collect();
+        let limit = Self { value, uncertainty, condensed: Some(value), added: None };
+        Some(match added[..] {
+            [] => limit,
+            [only] => Self { uncertainty: uncertainty + only.abs(), added: Some(only), ..limit },
+            [fine, coarse, ..] => {
+                let moved = (fine - coarse).abs();
+                let added = Some(fine);
+                match fine.abs() > moved {
+                    true => Self {
+                        value: value + fine,
+                        uncertainty: uncertainty + moved,
+                        added,
+                        ..limit
+                    },
+                    false => Self { uncertainty: uncertainty + fine.abs(), added, ..limit },
+                }
+            }
+        })
+    }
+}
+
+fn finest_first(levels: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let mut sorted = levels.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sorted
+}
+
+/// Limit and uncertainty of levels, the finest first.
+fn alone(levels: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let finest = levels.first()?.1;
+    let Some(step) = levels.get(1).map(|(_, next)| (finest - next).abs()) else {
+        return Some((finest, f64::INFINITY));
+    };
+    let fit = PowerLaw::fit(&levels[..levels.len().min(N_LEVELS)]);
+    let is_sound = |fit: &PowerLaw| {
+        ORDERS.contains(&fit.order) && (fit.limit - finest).abs() <= FARTHEST * step
+    };
+    Some(match fit.filter(is_sound) {
+        // What is left of the way to the limit is not known better than to a fifth.
+        Some(fit) => (fit.limit, fit.uncertainty.max(0.2 * (fit.limit - finest).abs())),
+        None => (finest, step),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn levels(sizes: &[f64], value: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        sizes.iter().map(|size| (*size, value(*size))).collect()
+    }
+
+    /// Errors that both models share cancel: the limit is right however coarse the explicit meshes.
+    #[test]
+    fn what_explicit_elements_add_is_taken_on_the_same_mesh() {
+        let condensed = levels(&[8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0], |h| 3.0 + 0.01 * h * h);
+        let springs = levels(&[8.0, 4.0], |h| 3.0 + 0.01 * h * h + 0.1 * h);
+        let explicit = levels(&[8.0, 4.0], |h| 3.5 + 0.01 * h * h + 0.1 * h + 1e-4 * h);
+        let limit = Limit::of(&condensed, &springs, &explicit).unwrap();
+        assert!((limit.value - 3.5).abs() <= limit.uncertainty, "{limit:?}");
+        assert!(limit.uncertainty < 5e-3, "{limit:?}");
+        assert!((limit.condensed.unwrap() - 3.0).abs() < 1e-4, "{limit:?}");
+    }
+
+    /// What is lost in scatter is left out, and makes the limit less certain.
+    #[test]
+    fn a_difference_that_is_scatter_is_no_part_of_the_limit() {
+        let condensed = levels(&[8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0], |h| 3.0 + 0.01 * h * h);
+        let explicit = vec![(8.0, 3.64 - 0.02), (4.0, 3.16 + 0.01)];
+        let limit = Limit::of(&condensed, &condensed, &explicit).unwrap();
+        assert!((limit.value - 3.0).abs() < 1e-4 && limit.uncertainty >= 0.01, "{limit:?}");
+    }
+
+    /// Without order there is no extrapolation, and with one level no certainty.
+    #[test]
+    fn what_does_not_converge_is_not_extrapolated() {
+        let noise = vec![(4.0, 1.0), (3.0, 1.2), (2.0, 0.9), (1.5, 1.15), (1.0, 1.05)];
+        let limit = Limit::of(&noise, &[], &[]).unwrap();
+        assert_eq!((limit.value, limit.condensed), (1.05, Some(1.05)));
+        assert!((limit.uncertainty - 0.1).abs() < 1e-12);
+        assert_eq!(Limit::of(&[], &[], &[(1.0, 2.0)]).unwrap().uncertainty, f64::INFINITY);
+        assert_eq!(Limit::of(&[], &[], &[]), None);
+    }
+}

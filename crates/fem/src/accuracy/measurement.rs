@@ -1,0 +1,80 @@
+//! What a rung gives.
+
+use fem_case::CaseError;
+use fem_collision::{Label, Monitor, SnapshotRequest, Want};
+
+use super::headline::Headline;
+use super::rung::Rung;
+use super::stress_places::StressPlaces;
+use crate::method::{Cost, Shared};
+use crate::simulation::Simulation;
+
+/// What a rung gives, SI.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measurement {
+    /// The numbers, in the order of [`Headline::ALL`]; none of what the model has not, nor where the
+    /// run did not end by itself.
+    pub values: [Option<f64>; 6],
+    /// σ_yy at the largest approach, tension positive, Pa, at each of the study's places; none of a
+    /// model without fields.
+    pub stress: Option<Vec<f64>>,
+    /// Elements of both bodies.
+    pub elements: u64,
+    /// Steps, of a model that has a fixed step.
+    pub steps: Option<u64>,
+    /// Elements times steps, of a model that computes each element at each step.
+    pub element_updates: Option<u64>,
+    /// Memory of the run or of the factors, bytes.
+    pub memory: Option<u64>,
+    /// Whether the collision ended by itself.
+    pub is_complete: bool,
+}
+
+impl Measurement {
+    /// Computes a rung, its fields at the largest approach too.
+    ///
+    /// # Errors
+    /// What the model refuses.
+    pub fn of(
+        rung: &Rung,
+        contact_radius: f64,
+        shared: &Shared,
+        monitor: &mut dyn Monitor,
+    ) -> Result<Self, CaseError> {
+        let mut simulation = Simulation::sharing(rung.case.clone(), shared)?;
+        let snapshots = SnapshotRequest::Labels(vec![Label::Maximum]);
+        let want = Want { snapshots, ..simulation.want().clone() };
+        // A label more or less is no fault.
+        let _ = simulation.ask_for(want);
+        let collision = simulation.run(monitor);
+        let (elements, memory) = match simulation.setup().cost {
+            Cost::Steps { elements, memory, .. } => (elements, Some(memory)),
+            Cost::Factors { elements, factor_bytes, .. } => (elements, Some(factor_bytes)),
+            Cost::Little { .. } => (0, None),
+        };
+        let is_complete = collision.is_complete();
+        let finite = |value: f64| value.is_finite().then_some(value);
+        let value = |headline: Headline| match is_complete {
+            true => headline.of(&collision).and_then(finite),
+            false => None,
+        };
+        let snapshot = collision.snapshot(Label::Maximum).filter(|_| is_complete);
+        let stress = snapshot.and_then(|snapshot| {
+            StressPlaces::around(contact_radius).sample(&simulation, snapshot)
+        });
+        Ok(Self {
+            values: Headline::ALL.map(value),
+            stress,
+            elements,
+            steps: collision.steps,
+            element_updates: collision.element_updates,
+            memory,
+            is_complete,
+        })
+    }
+
+    /// A value.
+    pub fn value(&self, headline: Headline) -> Option<f64> {
+        self.values[headline as usize]
+    }
+}

@@ -1,0 +1,189 @@
+//! One way to compute a scene.
+
+use fem_case::{Case, CaseError, ModelChoice};
+
+use super::setting::Setting;
+use crate::simulation::Simulation;
+
+/// Ways that differ in one thing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Series {
+    /// Hertz' closed form, without and with the spheres' finite size.
+    Hertz,
+    /// Ting's half-spaces, without and with the spheres' finite size.
+    Ting,
+    /// With all settings that the case itself gives.
+    AsWritten,
+    /// Condensed bodies over the size of the elements.
+    Condensed,
+    /// The same with the springs of explicit elements between them.
+    CondensedSprings,
+    /// Condensed bodies that vibrate.
+    CondensedVibrating,
+    /// Explicit elements over their size, all else as the plan has it.
+    Explicit,
+    /// Explicit elements over their size, with much added mass.
+    ExplicitScaled,
+    /// Explicit elements in fewer rings around the contact, over their size.
+    ExplicitGrown,
+    /// Explicit elements with springs between nodes that have mass, over the size of the elements.
+    Penalty,
+    /// Explicit elements with springs at nodes, over the size of the elements.
+    NodeToSurface,
+    /// Over the stiffness of the springs.
+    PenaltyFactor,
+    /// Over the added mass.
+    MassScaling,
+    /// Over the time step.
+    StepFactor,
+    /// At finite strain.
+    FiniteStrain,
+}
+
+impl Series {
+    /// All, from the cheapest to the dearest.
+    pub const ALL: [Self; 15] = [
+        Self::Hertz,
+        Self::Ting,
+        Self::AsWritten,
+        Self::Condensed,
+        Self::CondensedSprings,
+        Self::CondensedVibrating,
+        Self::Explicit,
+        Self::ExplicitScaled,
+        Self::ExplicitGrown,
+        Self::Penalty,
+        Self::NodeToSurface,
+        Self::PenaltyFactor,
+        Self::MassScaling,
+        Self::StepFactor,
+        Self::FiniteStrain,
+    ];
+
+    /// Its name for readers.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hertz => "Hertz",
+            Self::Ting => "Ting",
+            Self::AsWritten => "the case as written",
+            Self::Condensed => "condensed",
+            Self::CondensedSprings => "condensed, springs",
+            Self::CondensedVibrating => "condensed, 12 modes",
+            Self::Explicit => "explicit",
+            Self::ExplicitScaled => "explicit, mass scaling 0.4 %",
+            Self::ExplicitGrown => "explicit, growth 1.25",
+            Self::Penalty => "explicit, penalty",
+            Self::NodeToSurface => "explicit, node to surface",
+            Self::PenaltyFactor => "penalty factor",
+            Self::MassScaling => "mass scaling",
+            Self::StepFactor => "step factor",
+            Self::FiniteStrain => "finite strain",
+        }
+    }
+
+    /// Whether its rungs differ in the size of their elements.
+    pub fn is_over_element_size(self) -> bool {
+        matches!(
+            self,
+            Self::Condensed
+                | Self::CondensedSprings
+                | Self::CondensedVibrating
+                | Self::Explicit
+                | Self::ExplicitScaled
+                | Self::ExplicitGrown
+                | Self::Penalty
+                | Self::NodeToSurface
+        )
+    }
+
+    /// Whether a user would take it: what varies one setting alone, or makes condensed bodies as coarse
+    /// as explicit elements, is there to tell where errors come from.
+    pub fn is_choice(self) -> bool {
+        !matches!(
+            self,
+            Self::CondensedSprings
+                | Self::PenaltyFactor
+                | Self::MassScaling
+                | Self::StepFactor
+                | Self::FiniteStrain
+        )
+    }
+}
+
+/// One way to compute a scene.
+#[derive(Clone, Debug)]
+pub struct Rung {
+    /// What it belongs to.
+    pub series: Series,
+    /// What in its series it differs by: an element size (m), a factor, a share; none where there is
+    /// one only.
+    pub value: Option<f64>,
+    /// Elements across the contact radius, where the mesh is of this program.
+    pub elements_across: Option<f64>,
+    /// What it has otherwise than the case.
+    pub settings: Vec<Setting>,
+    /// The case.
+    pub case: Case,
+    /// Element updates to come; 0 of what has no such.
+    pub price: u64,
+}
+
+impl Rung {
+    /// A scene with these settings.
+    ///
+    /// # Errors
+    /// What the method refuses.
+    pub(super) fn new(
+        base: &Case,
+        series: Series,
+        settings: Vec<Setting>,
+        value: Option<f64>,
+        contact_radius: f64,
+    ) -> Result<Self, CaseError> {
+        let case = base.edited(|file| {
+            for setting in &settings {
+                setting.apply(file);
+            }
+        })?;
+        let price = Simulation::price(&case)?;
+        let size = settings.iter().find_map(|setting| match setting {
+            Setting::ElementSize(size) => Some(*size),
+            _ => None,
+        });
+        let elements_across = size.map(|size| contact_radius / size);
+        Ok(Self { series, value, elements_across, settings, case, price })
+    }
+
+    /// Whether explicit elements compute it.
+    pub fn is_explicit(&self) -> bool {
+        *self.case.scene().model() == ModelChoice::Fem
+    }
+
+    /// Whether it divides bodies into elements.
+    pub(super) fn has_elements(&self) -> bool {
+        matches!(self.case.scene().model(), ModelChoice::Fem | ModelChoice::Condensed(_))
+    }
+
+    /// What in its series it is, in words.
+    pub fn describe(&self) -> String {
+        let finite_size = "with finite size".to_string();
+        let own = self.settings.iter().rev().find_map(|setting| match *setting {
+            Setting::Hertz { finite_size: true } | Setting::Ting { finite_size: true } => {
+                Some(finite_size.clone())
+            }
+            Setting::PenaltyFactor(value) => Some(format!("penalty factor {value}")),
+            Setting::MassScaling(share) if self.series == Series::MassScaling => {
+                Some(format!("{} % of mass added", 100.0 * share))
+            }
+            Setting::StepFactor(value) => Some(format!("step factor {value}")),
+            _ => None,
+        });
+        let across = self.elements_across.map(|across| format!("a/h = {across:.1}"));
+        [across, own].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// What to write beside the case's own keys for it: `--set KEY=VALUE`, in order.
+    pub fn overrides(&self) -> Vec<String> {
+        self.settings.iter().map(|setting| setting.as_override()).collect()
+    }
+}

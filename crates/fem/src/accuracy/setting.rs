@@ -1,0 +1,160 @@
+//! One thing that a rung has otherwise than the case.
+
+use fem_case::schema::{CondensedTable, ContactMethod, HertzTable, ModelTable, Switch, TingTable};
+use fem_case::{CaseFile, Quantity};
+
+/// One thing that a rung has otherwise than the case. SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Setting {
+    /// `model.hertz`, with the spheres' finite size or without.
+    Hertz {
+        /// Whether the spheres' finite size adds to the approach.
+        finite_size: bool,
+    },
+    /// `model.ting`, with the spheres' finite size or without.
+    Ting {
+        /// Whether the spheres' finite size adds to the approach.
+        finite_size: bool,
+    },
+    /// `model.condensed`.
+    Condensed {
+        /// Modes of free vibration of each body.
+        vibration_modes: u8,
+        /// Whether the springs of explicit elements resist overlap.
+        penalty_springs: bool,
+    },
+    /// `model.fem`.
+    Explicit,
+    /// `mesh.contact_element_size`, m.
+    ElementSize(f64),
+    /// `mesh.growth`.
+    Growth(f64),
+    /// `contact.method`.
+    ContactMethod(ContactMethod),
+    /// `contact.penalty_factor`.
+    PenaltyFactor(f64),
+    /// `time.mass_scaling`.
+    MassScaling(f64),
+    /// `time.step_factor`.
+    StepFactor(f64),
+    /// `effects.finite_strain = "on"`.
+    FiniteStrain,
+}
+
+impl Setting {
+    /// Puts it into a case.
+    pub fn apply(self, file: &mut CaseFile) {
+        match self {
+            Self::Hertz { finite_size } => {
+                file.model = Some(HertzTable { finite_size: Some(finite_size) }.into());
+            }
+            Self::Ting { finite_size } => {
+                let table = TingTable { finite_size: Some(finite_size), ..TingTable::default() };
+                file.model = Some(table.into());
+            }
+            Self::Condensed { vibration_modes, penalty_springs } => {
+                let table = CondensedTable {
+                    vibration_modes: Some(Quantity::from_si(f64::from(vibration_modes))),
+                    penalty_springs: Some(penalty_springs),
+                    ..CondensedTable::default()
+                };
+                file.model = Some(table.into());
+            }
+            Self::Explicit => file.model = Some(ModelTable::fem()),
+            Self::ElementSize(size) => {
+                file.mesh.get_or_insert_default().contact_element_size =
+                    Some(Quantity::from_si(size));
+            }
+            Self::Growth(growth) => {
+                file.mesh.get_or_insert_default().growth = Some(Quantity::from_si(growth));
+            }
+            Self::ContactMethod(method) => {
+                file.contact.get_or_insert_default().method = Some(method);
+            }
+            Self::PenaltyFactor(factor) => {
+                file.contact.get_or_insert_default().penalty_factor =
+                    Some(Quantity::from_si(factor));
+            }
+            Self::MassScaling(share) => {
+                file.time.get_or_insert_default().mass_scaling = Some(Quantity::from_si(share));
+            }
+            Self::StepFactor(factor) => {
+                file.time.get_or_insert_default().step_factor = Some(Quantity::from_si(factor));
+            }
+            Self::FiniteStrain => {
+                file.effects.get_or_insert_default().finite_strain = Some(Switch::On);
+            }
+        }
+    }
+
+    /// As an override of a case on the command line: `mesh.contact_element_size=2.8e-5`.
+    pub fn as_override(self) -> String {
+        match self {
+            Self::Hertz { finite_size: false } => "model.hertz={}".to_string(),
+            Self::Hertz { finite_size: true } => "model.hertz={finite_size=true}".to_string(),
+            Self::Ting { finite_size: false } => "model.ting={}".to_string(),
+            Self::Ting { finite_size: true } => "model.ting={finite_size=true}".to_string(),
+            Self::Condensed { vibration_modes, penalty_springs } => {
+                let modes =
+                    (vibration_modes > 0).then(|| format!("vibration_modes={vibration_modes}"));
+                let springs = penalty_springs.then(|| "penalty_springs=true".to_string());
+                let keys: Vec<String> = modes.into_iter().chain(springs).collect();
+                format!("model.condensed={{{}}}", keys.join(","))
+            }
+            Self::Explicit => "model.fem={}".to_string(),
+            Self::ElementSize(size) => format!("mesh.contact_element_size={size:e}"),
+            Self::Growth(growth) => format!("mesh.growth={growth:?}"),
+            Self::ContactMethod(method) => format!("contact.method=\"{}\"", method.word()),
+            Self::PenaltyFactor(factor) => format!("contact.penalty_factor={factor:?}"),
+            Self::MassScaling(share) => format!("time.mass_scaling={share:?}"),
+            Self::StepFactor(factor) => format!("time.step_factor={factor:?}"),
+            Self::FiniteStrain => "effects.finite_strain=\"on\"".to_string(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use fem_case::Case;
+
+    use super::*;
+
+    const BALL: &str =
+        "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
+        body = [{ name = 'ball', sphere.diameter = 0.02, material = 'ice', approach_speed = 0.1 },
+                { name = 'floor', wall = {} }]";
+
+    /// What a rung does and what it tells the user to write are the same.
+    #[test]
+    fn the_override_is_what_is_applied() {
+        let settings = [
+            Setting::Hertz { finite_size: false },
+            Setting::Hertz { finite_size: true },
+            Setting::Ting { finite_size: false },
+            Setting::Ting { finite_size: true },
+            Setting::Condensed { vibration_modes: 0, penalty_springs: false },
+            Setting::Condensed { vibration_modes: 12, penalty_springs: true },
+            Setting::Explicit,
+            Setting::ElementSize(2.8125e-5),
+            Setting::Growth(1.25),
+            Setting::ContactMethod(ContactMethod::Massless),
+            Setting::ContactMethod(ContactMethod::Penalty),
+            Setting::ContactMethod(ContactMethod::NodeToSurface),
+            Setting::PenaltyFactor(4.0),
+            Setting::MassScaling(1e-3),
+            Setting::MassScaling(0.0),
+            Setting::StepFactor(0.45),
+            Setting::FiniteStrain,
+        ];
+        let parse = |overrides: &[String]| Case::parse("ball", BALL, Path::new("."), overrides);
+        for setting in settings {
+            let case = parse(&[]).unwrap();
+            let edited = case.edited(|file| setting.apply(file)).unwrap();
+            let overridden = parse(&[setting.as_override()]).unwrap();
+            assert_ne!(edited.scene(), case.scene(), "{setting:?}");
+            assert_eq!(edited.scene(), overridden.scene(), "{setting:?}");
+        }
+    }
+}
