@@ -12,6 +12,8 @@ mod invariance;
 mod paper;
 mod pressed_sphere;
 mod relaxing;
+mod sections;
+mod soft_contours;
 mod summary;
 mod surface_slip;
 mod uniform_stress;
@@ -46,6 +48,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_solid", paper::solid::study),
     ("paper_velocities", paper::velocities::study),
     ("pressed_sphere", pressed_sphere::study),
+    ("soft_contours", soft_contours::study),
     ("summary", summary::study),
     ("surface_slip", surface_slip::study),
     ("uniform_stress", uniform_stress::study),
