@@ -42,6 +42,7 @@ mod standard_output;
 mod stopwatch;
 mod sweep;
 mod tables;
+mod uncertainty;
 mod validation;
 mod whole_file;
 

@@ -1,10 +1,11 @@
 //! A case with the model that computes it, whichever that is.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use fem_case::engineering::show;
 use fem_case::schema::StartTable;
-use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity};
+use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
 use crate::course::{Course, begun};
@@ -261,13 +262,15 @@ impl Simulation {
     /// By how much the numbers of a collision of which closed forms say this change without an effect.
     pub fn left_out(&self, verdict: &Verdict, estimate: &Estimate) -> Option<LeftOut> {
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
+        effect.left_out(&self.scene_of_model(), estimate)
+    }
+
+    /// The scene with the model that computes it, where the case leaves that open.
+    pub(crate) fn scene_of_model(&self) -> Cow<'_, Scene> {
         let scene = self.case.scene();
         match &self.chosen {
-            Some(chosen) => {
-                let scene = scene.clone().with_model(chosen.scene.model().clone());
-                effect.left_out(&scene, estimate)
-            }
-            None => effect.left_out(scene, estimate),
+            Some(chosen) => Cow::Owned(scene.clone().with_model(chosen.scene.model().clone())),
+            None => Cow::Borrowed(scene),
         }
     }
 

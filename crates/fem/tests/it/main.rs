@@ -37,3 +37,4 @@ mod stress;
 mod surface_slip;
 mod sweep;
 mod together;
+mod uncertainty;
