@@ -1,7 +1,7 @@
 //! A validated case in SI units: two bodies that are about to meet, and what the case says on
 //! how to compute it. `None` is left to the plan.
 
-use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip};
+use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip, compliance_shares};
 
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};
@@ -225,6 +225,13 @@ impl Scene {
             Shape::HalfSpace { .. } | Shape::Rigid { .. } | Shape::Wall => None,
         });
         FiniteSize::new(first, second)
+    }
+
+    /// Shares of the contact's compliance, with instantaneous moduli, lower body first.
+    pub fn compliance_shares(&self) -> [f64; 2] {
+        compliance_shares(
+            self.bodies.each_ref().map(|body| body.partner().plane_strain_modulus().recip()),
+        )
     }
 
     /// Slip of the bodies' surfaces on each other.

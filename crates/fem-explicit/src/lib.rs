@@ -1,4 +1,4 @@
-//! Explicit dynamics of two small-strain viscoelastic bodies in contact.
+//! Explicit dynamics of two viscoelastic bodies in contact, at small or finite strain.
 //!
 //! ```math
 //! M \ddot u = -\int B^T (K_{bulk} + G\,dev)\, d V + f_{nodes} + f_{contact}

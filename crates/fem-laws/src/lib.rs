@@ -11,7 +11,7 @@
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. What leaving
 //! something out costs is a [`Difference`] of two impacts, or a [`RelativeError`] in closed form: of
-//! relaxation that is not followed in time ([`Folded`]), of a [`rigid_partner`], of [`finite_strain`].
+//! relaxation that is not followed in time ([`Folded`]), of a [`rigid_partner`].
 //! One law a file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and
 //! pressures of a closed contact are positive, stresses are positive in tension.
 //!
@@ -47,7 +47,6 @@ mod family;
 mod finite_coefficient;
 mod finite_correction;
 mod finite_size;
-mod finite_strain;
 mod folded;
 mod hertz;
 mod hertz_field;
@@ -77,7 +76,6 @@ pub use end_rule::EndRule;
 pub use error::LawError;
 pub use family::{Family, Parameter, Role};
 pub use finite_size::FiniteSize;
-pub use finite_strain::finite_strain;
 pub use folded::Folded;
 pub use hertz::{HertzImpact, contact_time_coefficient};
 pub use hertz_history::HertzInstant;
@@ -85,7 +83,7 @@ pub use hertz_pressure::{AxisStress, HertzPressure};
 pub use impact::{Impact, ImpactInstant};
 pub use impact_path::ImpactPath;
 pub use law_impact::LawImpact;
-pub use pair::{Pair, Partner, restitution_of_mass_centres, sphere_mass};
+pub use pair::{Pair, Partner, compliance_shares, restitution_of_mass_centres, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, largest_von_mises};
 pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};

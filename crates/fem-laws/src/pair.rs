@@ -94,6 +94,12 @@ pub fn sphere_mass(diameter: f64, density: f64) -> f64 {
     density * PI * diameter.powi(3) / 6.0
 }
 
+/// Shares s of a contact's compliance of two bodies of these compliances of their own, such as 1/E′, in any
+/// unit; nothing of a rigid one. At most one is.
+pub fn compliance_shares([first, second]: [f64; 2]) -> [f64; 2] {
+    [first / (first + second), second / (first + second)]
+}
+
 /// The restitution of the mass centres of a body and a large partner, of the mass ratio m/M, from that of
 /// the body alone, e′.
 ///

@@ -44,6 +44,7 @@ use statrs::function::beta::beta;
 
 use crate::difference::RelativeError;
 use crate::finite_correction::{Correction, RelaxingCorrection};
+use crate::pair::compliance_shares;
 use crate::pair_relaxation::PairRelaxation;
 
 /// One of two surfaces, as it bends and gives way.
@@ -111,8 +112,7 @@ pub struct SurfaceSlip {
 impl SurfaceSlip {
     /// Of two bodies, the lower one first; at most one of them is rigid.
     pub fn new(faces: [Face; 2]) -> Self {
-        let [lower, upper] = faces.each_ref().map(Face::normal);
-        let shares = [lower / (lower + upper), upper / (lower + upper)];
+        let shares = compliance_shares(faces.each_ref().map(Face::normal));
         let curvature = shares[0] * faces[1].curvature - shares[1] * faces[0].curvature;
         Self { faces, curvature, shares }
     }

@@ -7,13 +7,14 @@
 
 #![allow(clippy::disallowed_macros, reason = "a study prints what it found")]
 
+#[path = "page/mod.rs"]
+mod page;
 #[path = "contact/rows.rs"]
 mod rows;
 
-use rows::rows;
+use std::path::Path;
 
-/// Between these lines of the page stands the table.
-const MARKS: [&str; 2] = ["<!-- table -->\n", "<!-- end of table -->\n"];
+use rows::rows;
 
 const HEAD: &str = "\
 | scene | method | factor | e, 1e-4 off | T, % off | F, % off | noise | imbalance | contacts | step, ns | \
@@ -28,15 +29,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         eprint!("{line}");
         table.push_str(&line);
     }
-    let Some(path) = std::env::args().nth(1) else {
-        print!("{table}");
-        return Ok(());
-    };
-    let page = std::fs::read_to_string(&path)?;
-    let parts = page
-        .split_once(MARKS[0])
-        .and_then(|(before, rest)| rest.split_once(MARKS[1]).map(|(_, after)| [before, after]));
-    let [before, after] = parts.ok_or("the page has no place for the table")?;
-    let [begin, end] = MARKS;
-    Ok(std::fs::write(path, format!("{before}{begin}\n{table}\n{end}{after}"))?)
+    match std::env::args().nth(1) {
+        Some(path) => page::put(Path::new(&path), "table", &table)?,
+        None => print!("{table}"),
+    }
+    Ok(())
 }

@@ -12,18 +12,19 @@
     reason = "a benchmark has the clock and prints what it found"
 )]
 
+#[path = "page/mod.rs"]
+mod page;
 #[path = "effects/rows.rs"]
 mod rows;
 
 use std::fmt::Write;
+use std::path::Path;
 use std::time::Instant;
 
 use rows::{Kept, ROWS, Row, Side, n_bytes};
 
 /// Runs of each side.
 const N_RUNS: usize = 9;
-/// Between these lines of the page stands the table.
-const MARKS: [&str; 2] = ["<!-- table -->\n", "<!-- end of table -->\n"];
 
 /// What a run took.
 struct Cost {
@@ -35,18 +36,12 @@ struct Cost {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let table = ROWS.iter().map(line).collect::<String>();
-    let table = format!("{}\n{HEAD}{table}\n", machine());
-    let Some(path) = std::env::args().nth(1) else {
-        print!("{table}");
-        return Ok(());
-    };
-    let page = std::fs::read_to_string(&path)?;
-    let parts = page
-        .split_once(MARKS[0])
-        .and_then(|(before, rest)| rest.split_once(MARKS[1]).map(|(_, after)| [before, after]));
-    let [before, after] = parts.ok_or("the page has no place for the table")?;
-    let [begin, end] = MARKS;
-    Ok(std::fs::write(path, format!("{before}{begin}\n{table}{end}{after}"))?)
+    let table = format!("{}\n{HEAD}{table}", machine());
+    match std::env::args().nth(1) {
+        Some(path) => page::put(Path::new(&path), "table", &table)?,
+        None => print!("{table}"),
+    }
+    Ok(())
 }
 
 const HEAD: &str = "\

@@ -43,6 +43,7 @@ mod standard_output;
 mod stopwatch;
 mod sweep;
 mod tables;
+mod uncertainty;
 mod validation;
 mod whole_file;
 

@@ -14,6 +14,7 @@ use indicatif::{DecimalBytes, HumanCount};
 use crate::bounces::bounces;
 use crate::standard_output::one_line;
 use crate::tables::table;
+use crate::uncertainty::may_be_off_by;
 
 /// Shown for a number that there is not.
 const NONE: &str = "-";
@@ -33,6 +34,7 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     if let Some(deficit) = elastic_deficit(summary.collision.restitution) {
         let _ = writeln!(text, "\n1 - restitution  {deficit}");
     }
+    let _ = writeln!(text, "\n{}", may_be_off_by(&summary.uncertainty));
     if summary.contact_episodes > 1 {
         let _ = writeln!(
             text,

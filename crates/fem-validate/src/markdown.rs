@@ -9,18 +9,17 @@ use crate::findings::Figure;
 /// The study whose tables the page shows.
 const HARD: &str = "hard";
 
-/// The figures that the Markdown page shows, those of the paper, by their addresses from its
-/// folder.
+/// The figures of all claims, by their addresses from the folder of the Markdown page.
 pub fn pictures(results: &[ClaimResult]) -> impl Iterator<Item = (String, &Figure)> {
-    let of_paper = results.iter().filter(|result| result.claim.section == Section::Paper);
-    of_paper.flat_map(|result| {
-        let name =
-            move |figure: &Figure| format!("images/{}_{}.svg", result.claim.name, figure.name);
-        result.findings.figures.iter().map(move |figure| (name(figure), figure))
-    })
+    results.iter().flat_map(pictures_of)
 }
 
-/// A Markdown page: a table a section, a row a check, the hard scenes, and the paper's figures. It says nothing that changes from run to
+fn pictures_of(result: &ClaimResult) -> impl Iterator<Item = (String, &Figure)> {
+    let name = move |figure: &Figure| format!("images/{}_{}.svg", result.claim.name, figure.name);
+    result.findings.figures.iter().map(move |figure| (name(figure), figure))
+}
+
+/// A Markdown page: a table a section, a row a check, the hard scenes, and the figures. It says nothing that changes from run to
 /// run on the same program: no times, no machine.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
@@ -49,13 +48,17 @@ pub fn markdown(results: &[ClaimResult]) -> String {
         }
     }
     hard_scenes(&mut text, results);
-    let mut figures = pictures(results).peekable();
-    if figures.peek().is_some() {
-        text += "\n## The paper's figures\n";
-    }
-    for (address, figure) in figures {
-        let caption = cell(&figure.caption);
-        let _ = write!(text, "\n![{}]({address})\n\n{caption}\n", figure.name.replace('_', " "));
+    for (heading, is_paper) in [("The paper's figures", true), ("Other figures", false)] {
+        let of = |result: &&ClaimResult| (result.claim.section == Section::Paper) == is_paper;
+        let mut figures = results.iter().filter(of).flat_map(pictures_of).peekable();
+        if figures.peek().is_some() {
+            let _ = write!(text, "\n## {heading}\n");
+        }
+        for (address, figure) in figures {
+            let caption = cell(&figure.caption);
+            let name = figure.name.replace('_', " ");
+            let _ = write!(text, "\n![{name}]({address})\n\n{caption}\n");
+        }
     }
     text
 }

@@ -47,6 +47,7 @@ pub mod results;
 mod simulation;
 mod stress;
 pub mod sweep;
+mod uncertainty;
 
 pub use approach::approach_of;
 pub use assess::assess;
@@ -71,6 +72,7 @@ pub use results::Summary;
 pub use simulation::{Simulation, collide};
 pub use stress::BodyStress;
 pub use sweep::sweep;
+pub use uncertainty::Uncertainty;
 
 pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
 pub use fem_collision::{

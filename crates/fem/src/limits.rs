@@ -18,6 +18,12 @@ const BYTES_PER_BRANCH: u64 = 40;
 /// effective displacement.
 const BYTES_PER_STATE: u64 = 48;
 
+/// Bytes a Prony term takes an element at finite strain: three pairs of what flows in place of one.
+const BYTES_PER_FINITE_BRANCH: u64 = BYTES_PER_BRANCH + 32;
+/// Bytes that finite strain takes an element: force and work of the moved contact's dashpots, and of what
+/// relaxes the deformation at the end of a step and its forces.
+const BYTES_PER_FINITE_ELEMENT: u64 = 120;
+
 /// Bytes that bulk viscosity takes an element: its blocks, force and work.
 const BYTES_PER_VISCOUS_ELEMENT: u64 = 150;
 
@@ -28,7 +34,11 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
     let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
     let is_viscous = BulkViscosity::is_on(scene, whole, is_finite);
     let viscous = if is_viscous { elements * BYTES_PER_VISCOUS_ELEMENT } else { 0 };
-    let fields = elements * BYTES_PER_ELEMENT + branches * BYTES_PER_BRANCH + viscous;
+    let (branch, finite) = match is_finite {
+        true => (BYTES_PER_FINITE_BRANCH, elements * BYTES_PER_FINITE_ELEMENT),
+        false => (BYTES_PER_BRANCH, 0),
+    };
+    let fields = elements * BYTES_PER_ELEMENT + branches * branch + finite + viscous;
     state_memory(plan, elements).saturating_add(fields)
 }
 
@@ -141,4 +151,49 @@ pub(crate) fn check_updates(
 fn blamed(scene: &Scene, limit: &'static str, given: Option<u64>) -> &'static str {
     let has_size = scene.mesh().contact_element_size.is_some();
     if !has_size && given.is_some() { limit } else { "mesh.contact_element_size" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fem_case::Case;
+    use std::path::Path;
+
+    use crate::simulation::Simulation;
+
+    const BALL: &str = include_str!("../../../cases/soft_sphere.toml");
+
+    /// What the plan counts for a run, and the bytes of what the run knows, late in the contact.
+    fn counted_and_kept(switch: &str, terms: usize) -> [f64; 2] {
+        let term = "{ weight = 0.01, relaxation_time = '3 ms' }";
+        let set = [
+            format!("effects.finite_strain='{switch}'"),
+            "effects.bulk_viscosity='off'".to_string(),
+            "effects.viscoelasticity='on'".to_string(),
+            "output.snapshots=[]".to_string(),
+            format!("material.rubber.relaxation.terms=[{}]", vec![term; terms].join(",")),
+        ];
+        let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();
+        let plan = Plan::of(case.scene()).unwrap();
+        let simulation = Simulation::new(case).unwrap();
+        let n = simulation.model().meshes()[1].unwrap().quads().len() as u64;
+        let counted = explicit_memory(simulation.case().scene(), &plan, n, n * terms as u64);
+        let mut course = simulation.start();
+        while course.progress().fraction < 0.1 && course.advance(&mut ()) {}
+        let kept = postcard::to_stdvec(&course.memory().unwrap().contact).unwrap().len();
+        [counted as f64, kept as f64]
+    }
+
+    /// Fields are written as they are kept, eight bytes a number.
+    #[test]
+    fn what_finite_strain_keeps_is_counted() {
+        for terms in [1, 6] {
+            let (off, on) = (counted_and_kept("off", terms), counted_and_kept("on", terms));
+            let [counted, kept] = [0, 1].map(|k| on[k] - off[k]);
+            assert!(kept > 0.0, "{terms}: {kept}");
+            assert!(kept <= counted, "{terms}: counts {counted} of {kept} bytes");
+            // Not by more than half too much.
+            assert!(counted <= 1.5 * kept, "{terms}: counts {counted} of {kept} bytes");
+        }
+    }
 }

@@ -4,6 +4,7 @@
 //! is one file a method in `models/`, where [`METHODS`](crate::METHODS) lists them.
 
 use std::fmt;
+use std::sync::Arc;
 
 use fem_case::{CaseFile, Scene};
 use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
@@ -43,11 +44,20 @@ pub trait Method: Sync {
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal>;
 }
 
-/// What the models of several scenes share.
-#[derive(Debug, Default)]
+/// What the models of several scenes share; a clone shares the same.
+#[derive(Clone, Debug, Default)]
 pub struct Shared {
     /// Condensed pairs of bodies.
-    pub pairs: PairCache,
+    pub pairs: Arc<PairCache>,
+    /// The same of companions, which tell how far results are off.
+    pub companions: Arc<PairCache>,
+}
+
+impl Shared {
+    /// What companions share.
+    pub(crate) fn of_companions(&self) -> Self {
+        Self { pairs: self.companions.clone(), companions: self.companions.clone() }
+    }
 }
 
 /// A scene ready to be computed, at any approach and from any number of threads: what a collision

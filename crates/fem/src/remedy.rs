@@ -26,8 +26,8 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
         Stop::ElementCollapsed { .. } => (
             "the impact is faster than this material can be compressed, or an element is far too \
              distorted: at the rim of a contact, or of an imported mesh",
-            "lower body.N.approach_speed, use a coarser mesh.contact_element_size, or another law that \
-             stiffens as it is compressed",
+            "lower body.N.approach_speed, use a coarser mesh.contact_element_size, or name a \
+             material.NAME.hyperelastic that stiffens as it is compressed",
         ),
         Stop::NoStepShortEnough { of_contact: true, .. } => (
             "a surface is about to turn over where the other body touches it: the impact is too fast or \
@@ -41,8 +41,8 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
              material.NAME.hyperelastic",
         ),
         Stop::ContactBeyondCandidates { .. } | Stop::ContactTooLarge { .. } => (
-            "the contact is as wide as the smaller sphere, where small strain says nothing: the \
-             impact is too fast or the material too soft",
+            "the contact is as wide as the smaller sphere: the impact is too fast or the material \
+             too soft",
             "lower body.N.approach_speed, or check the moduli and their units",
         ),
         Stop::SurfaceTurnsOver { .. } => (

@@ -1,14 +1,15 @@
 //! A case with the model that computes it, whichever that is.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use fem_case::engineering::show;
 use fem_case::schema::StartTable;
-use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity};
+use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
 use crate::course::{Course, begun};
-use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
+use crate::effects::{Decisions, EFFECTS, Effect, FiniteStrain, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
 use crate::identity::identity_of;
 use crate::memory::Memory;
@@ -52,6 +53,7 @@ pub struct Simulation {
     chosen: Option<Chosen>,
     want: Want,
     resolved: CaseFile,
+    shared: Shared,
 }
 
 impl Simulation {
@@ -74,7 +76,7 @@ impl Simulation {
         let resolved = Self::resolve(&case)?;
         let chosen = chosen(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
         let want = model.setup().want.clone();
-        Ok(Self { case, model, chosen, want, resolved })
+        Ok(Self { case, model, chosen, want, resolved, shared: shared.clone() })
     }
 
     /// The case with every default filled in, without the cost of building its model.
@@ -159,6 +161,11 @@ impl Simulation {
     /// What was decided on the case as it is.
     pub fn setup(&self) -> &Setup {
         self.model.setup()
+    }
+
+    /// What models of other cases made, and made for them.
+    pub(crate) fn shared(&self) -> &Shared {
+        &self.shared
     }
 
     /// What the run is asked for.
@@ -261,14 +268,22 @@ impl Simulation {
     /// By how much the numbers of a collision of which closed forms say this change without an effect.
     pub fn left_out(&self, verdict: &Verdict, estimate: &Estimate) -> Option<LeftOut> {
         let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
+        effect.left_out(&self.scene_of_model(), estimate)
+    }
+
+    /// The scene with the model that computes it, where the case leaves that open.
+    pub(crate) fn scene_of_model(&self) -> Cow<'_, Scene> {
         let scene = self.case.scene();
         match &self.chosen {
-            Some(chosen) => {
-                let scene = scene.clone().with_model(chosen.scene.model().clone());
-                effect.left_out(&scene, estimate)
-            }
-            None => effect.left_out(scene, estimate),
+            Some(chosen) => Cow::Owned(scene.clone().with_model(chosen.scene.model().clone())),
+            None => Cow::Borrowed(scene),
         }
+    }
+
+    /// Whether a collision of the case's bodies was computed with large strains.
+    pub(crate) fn is_at_finite_strain(&self, collision: &Collision) -> bool {
+        let verdicts = self.decisions(collision).verdicts;
+        verdicts.iter().any(|verdict| verdict.name == FiniteStrain::NAME && verdict.active)
     }
 
     /// Which effects were on in a collision of the case's bodies, and why; and what was to be known

@@ -1,6 +1,6 @@
 //! What leaving effects out costs, against the collision with and without, and published spreads.
 
-use fem_laws::{HertzImpact, Pair, Partner, RelativeError, finite_strain, rigid_partner};
+use fem_laws::{HertzImpact, Pair, Partner, RelativeError, rigid_partner};
 use fem_material::{ElasticModuli, Material};
 
 fn material(youngs_modulus: f64, poissons_ratio: f64, density: f64) -> Material {
@@ -40,41 +40,6 @@ fn the_only_body_that_deforms_cannot_be_rigid() {
     let pair = Pair::new(ball, Partner::Wall).unwrap();
     assert_eq!(rigid_partner(&pair, &ball), None);
     assert_eq!(rigid_partner(&pair, &Partner::Wall), Some(RelativeError::default()));
-}
-
-/// Axisymmetric total-Lagrangian elements with St Venant and Kirchhoff's law against the same mesh with
-/// small strain, glass: between spheres at two speeds, and on a wall.
-#[test]
-fn finite_strain_covers_the_widest_law() {
-    let glass = material(63e9, 0.244, 2390.0);
-    let ball = Partner::solid_sphere(22.2e-3, &glass);
-    let target = Partner::solid_sphere(15.9e-3, &glass);
-    for (partners, speed, time, force) in [
-        ([ball, target], 0.5, 0.00451, 0.00562),
-        ([ball, target], 0.1, 0.00219, 0.00276),
-        ([ball, Partner::Wall], 0.5, 0.0053, 0.0070),
-    ] {
-        let pair = Pair::new(partners[0], partners[1]).unwrap();
-        let hertz = HertzImpact::new(&pair, speed).unwrap();
-        let found = finite_strain(&hertz, &partners);
-        // A bound for all three, a fifth too wide at most.
-        assert!(found.contact_time > time && found.contact_time < 1.2 * time, "{found:?}");
-        assert!(found.peak_force > force && found.peak_force < 1.2 * force, "{found:?}");
-        let absolute = found.of(&hertz);
-        assert_eq!(absolute.contact_time, Some(found.contact_time * hertz.contact_time()));
-        assert_eq!(absolute.peak_force, found.peak_force * hertz.peak_force());
-    }
-}
-
-/// The contact time of the glass pair that CalculiX prints with NLGEOM, which is that law: 63.0 to 63.1 µs
-/// where small strain has 62.82.
-#[test]
-fn finite_strain_covers_another_programs() {
-    let glass = material(63e9, 0.244, 2390.0);
-    let partners = [22.2e-3, 15.9e-3].map(|diameter| Partner::solid_sphere(diameter, &glass));
-    let pair = Pair::new(partners[0], partners[1]).unwrap();
-    let found = finite_strain(&HertzImpact::new(&pair, 0.5).unwrap(), &partners);
-    assert!(62.82 * (1.0 + found.contact_time) > 63.1);
 }
 
 #[test]

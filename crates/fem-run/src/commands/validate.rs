@@ -36,7 +36,7 @@ pub struct Arguments {
     /// Replace the result of a case or of another command
     #[arg(long)]
     force: bool,
-    /// Also write the table as Markdown, and the pictures of the paper's figures into images
+    /// Also write the table as Markdown, and the pictures into images
     /// beside it; for all claims only
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,

@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 27] = [
+const KEYS: [&str; 28] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -22,6 +22,7 @@ const KEYS: [&str; 27] = [
     "element_updates",
     "cost",
     "effects",
+    "uncertainty",
     "models_considered",
     "warnings",
     "complete",
@@ -78,6 +79,12 @@ fn the_summary_has_the_keys_of_the_contract() {
     assert_eq!(keys(&summary["bodies"][1]), body);
     assert_eq!(keys(&summary["cost"]), cost);
     assert_eq!(keys(&summary["effects"][0]), ["name", "active", "reason", "error_if_left_out"]);
+    assert_eq!(keys(&summary["uncertainty"]), KEYS[..6]);
+    for key in &KEYS[..6] {
+        let parts = &summary["uncertainty"][key];
+        assert_eq!(keys(parts), ["discretisation", "model"]);
+        assert!(parts["model"].as_f64().unwrap() > 0.0, "{key}: the case names no law");
+    }
     assert_eq!(summary["complete"], true);
     assert_eq!(summary["cost"]["threads"], 1);
     assert!(summary["stopped_because"].is_null());

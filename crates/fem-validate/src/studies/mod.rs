@@ -5,6 +5,7 @@ mod condensed_explicit;
 mod contact_patch;
 mod convergence;
 mod critical_step;
+mod error_bars;
 mod finite_strain;
 mod hard;
 mod hertz_field;
@@ -12,6 +13,8 @@ mod invariance;
 mod paper;
 mod pressed_sphere;
 mod relaxing;
+mod sections;
+mod soft_contours;
 mod summary;
 mod surface_slip;
 mod uniform_stress;
@@ -33,6 +36,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("contact_patch", contact_patch::study),
     ("convergence", convergence::study),
     ("critical_step", critical_step::study),
+    ("error_bars", error_bars::study),
     ("finite_strain", finite_strain::study),
     ("hard", hard::study),
     ("hard_random", hard::random_study),
@@ -46,6 +50,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_solid", paper::solid::study),
     ("paper_velocities", paper::velocities::study),
     ("pressed_sphere", pressed_sphere::study),
+    ("soft_contours", soft_contours::study),
     ("summary", summary::study),
     ("surface_slip", surface_slip::study),
     ("uniform_stress", uniform_stress::study),

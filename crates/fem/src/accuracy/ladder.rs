@@ -154,7 +154,7 @@ impl Ladder {
 }
 
 /// `[stop]` after the first contact, where there are more.
-fn first_contact(file: &CaseFile) -> Option<StopTable> {
+pub(super) fn first_contact(file: &CaseFile) -> Option<StopTable> {
     file.gravity.as_ref()?;
     Some(StopTable { bounces: Some(Quantity::from_si(1.0)) })
 }

@@ -5,6 +5,7 @@
 //! which it tends, how far each rung is from it, where its error comes from, and which rungs no other
 //! beats in both error and time.
 
+mod companion;
 mod error_parts;
 mod headline;
 mod ladder;
@@ -16,6 +17,7 @@ mod setting;
 mod stress_places;
 mod study;
 
+pub(crate) use companion::discretisation_errors;
 pub use error_parts::{ErrorPart, ErrorSource};
 pub use headline::Headline;
 pub use ladder::Ladder;

@@ -69,7 +69,7 @@ impl Answer {
                 (false, joined([&number, &otherwise, idle]), none())
             }
             Self::Lacks if is_called_for => {
-                let lacking = "called for, but not available in this version";
+                let lacking = "called for, but not available in this model";
                 let warnings = warning.into_iter().collect();
                 (false, joined([&number, lacking, &left_open]), warnings)
             }

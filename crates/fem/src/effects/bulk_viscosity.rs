@@ -22,6 +22,7 @@
 use fem_case::{Body, ContactMethod, EffectsTable, Scene, Switch};
 use fem_material::Material;
 
+use super::doubt::Doubt;
 use super::effect::Effect;
 use super::finite_strain::FiniteStrain;
 use super::left_out::LeftOut;
@@ -93,6 +94,11 @@ impl Effect for BulkViscosity {
             left_open: String::new(),
             warning,
         })
+    }
+
+    /// It is the mesh's, not nature's.
+    fn doubt(&self, _: &Scene, _: &Estimate, _: bool) -> Doubt {
+        Doubt::NOTHING
     }
 
     /// The contact time changes by no more than the ringing that ends it. At finite strain the contact

@@ -16,6 +16,7 @@ mod answer;
 mod bulk_viscosity;
 mod contact_search;
 mod dashpot;
+mod doubt;
 mod effect;
 mod finite_size;
 mod finite_strain;
@@ -46,8 +47,10 @@ pub use answer::Answer;
 pub use bulk_viscosity::BulkViscosity;
 pub use contact_search::ContactSearch;
 pub use dashpot::DashpotEffect;
+pub use doubt::Doubt;
 pub use effect::Effect;
 pub use finite_size::FiniteSizeEffect;
+pub(crate) use finite_size::SECOND_ORDER;
 pub use finite_strain::FiniteStrain;
 pub use gravity::Gravity;
 pub use hourglass_control::HourglassControl;
@@ -57,6 +60,7 @@ pub use mirror_symmetry::MirrorSymmetry;
 pub use need::Need;
 pub(crate) use need::percent;
 pub use partner_waves::PartnerWaves;
+pub(crate) use partner_waves::RADIATION_ERROR;
 pub use penalty_springs::PenaltySprings;
 pub use plastic_yield::PlasticYield;
 pub use rigid_partner::RigidPartner;
@@ -96,6 +100,9 @@ pub struct Verdict {
     pub active: bool,
     /// The number that decided.
     pub reason: String,
+    /// Whether the run lacks what it is: it is off in a model that could leave it out.
+    #[serde(skip)]
+    pub is_lacking: bool,
 }
 
 /// What was decided on all effects of a model.
@@ -140,11 +147,13 @@ pub fn decide(
         let need = effect.need(scene, estimate).unwrap_or_default();
         let obeys = answer.obeys();
         let (is_called_for, doubt) = (need.is_called_for, need.warning.clone());
+        let is_inherent = matches!(answer, Answer::Inherent { .. });
         let (active, reason, warnings) = answer.of(need, switch);
         if switch == Some(Switch::Off) && active {
             return Err(inherent(scene, effect, &reason));
         }
-        decisions.verdicts.push(Verdict { name: effect.name(), active, reason });
+        let is_lacking = !active && !is_inherent;
+        decisions.verdicts.push(Verdict { name: effect.name(), active, reason, is_lacking });
         decisions.warnings.extend(warnings);
         if switch == Some(Switch::On) && obeys && !is_called_for {
             let left_out = effect.left_out(scene, estimate).unwrap_or_default();
@@ -169,7 +178,7 @@ pub fn decide(
 fn lacking(scene: &Scene, effect: &dyn Effect) -> Refusal {
     let key = key_of(effect);
     let model = scene.model().name();
-    let message = format!("effect `{key}` is not available in model {model} of this version");
+    let message = format!("effect `{key}` is not available in model {model}");
     Refusal::new(format!("effects.{key}"), message).with_help(match scene.model() {
         ModelChoice::Fem => "write \"auto\" or \"off\", or leave it out",
         _ => "write \"auto\" or \"off\", leave it out, or compute the case with model.fem",

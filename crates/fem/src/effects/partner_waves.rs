@@ -10,6 +10,7 @@ use fem_laws::{Ting, radiated_share};
 use fem_material::Material;
 
 use super::answer::Answer;
+use super::doubt::Doubt;
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
@@ -31,6 +32,12 @@ const RESOLVED_BY_MODES: f64 = 0.8;
 const OWN_MOTION: f64 = 0.1;
 /// Restitution that waves take and that is worth a warning.
 const SMALL_LOSS: f64 = 1e-4;
+
+/// What a term for waves that do not come back is off by, over what they take.
+pub(crate) const RADIATION_ERROR: f64 = 0.15;
+/// Change of contact time and peak force over that of the restitution: 0.1 of balls on a half-space of their
+/// own material at a/R* = 0.7.
+const SHARE_OF_LOSS: f64 = 0.2;
 
 /// Waves in a large partner.
 #[derive(Clone, Copy, Debug)]
@@ -91,6 +98,11 @@ impl PartnerWaves {
             let is_heavy = 2.0 * other / own < OWN_MOTION * loss;
             (!has_modes && (is_heavy || is_forced)).then_some(material)
         })
+    }
+
+    /// Restitution that waves which do not come back in time take of elastic bodies.
+    pub(crate) fn loss(scene: &Scene, estimate: &Estimate) -> f64 {
+        lost(radiated(&passages(scene, estimate), estimate))
     }
 
     /// What a model has of it whose term has these bodies radiate.
@@ -193,6 +205,23 @@ impl Effect for PartnerWaves {
         }
         let share = radiated(&passages(&with, &estimate), &estimate);
         (share > 0.0).then(|| LeftOut::restitution(lost(share)))
+    }
+
+    /// A term for them is off by a share of them; a mesh has them.
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, is_lacking: bool) -> Doubt {
+        let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
+        let Some(left_out) = self.left_out(scene, estimate).filter(|_| !is_of_mesh) else {
+            return Doubt::NOTHING;
+        };
+        // Where closed forms tell the loss alone.
+        let others = SHARE_OF_LOSS * left_out.restitution.unwrap_or(f64::NAN);
+        let shares = LeftOut::shares(estimate, others, others);
+        let told = LeftOut {
+            contact_time_s: left_out.contact_time_s.or(shares.contact_time_s),
+            peak_force_n: left_out.peak_force_n.or(shares.peak_force_n),
+            ..left_out
+        };
+        Doubt::of(&told, estimate).times(if is_lacking { 1.0 } else { RADIATION_ERROR })
     }
 }
 

@@ -9,6 +9,7 @@
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
 use super::answer::Answer;
+use super::doubt::Doubt;
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::Need;
@@ -72,6 +73,12 @@ impl Effect for RigidPartner {
         Some(format!("{number}, and is forced to be rigid, which changes {change}"))
     }
 
+    /// Nature has none: it is what taking a body as rigid changes.
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, _: bool) -> Doubt {
+        let left_out = self.left_out(scene, estimate).unwrap_or_default();
+        Doubt::of(&left_out, estimate)
+    }
+
     /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         let switch = scene.effects().rigid_partner;
@@ -113,9 +120,8 @@ fn stiffer(scene: &Scene) -> Option<Stiffer<'_>> {
     if below.is_infinite() || above.is_infinite() {
         return None;
     }
-    let (side, stiffest) = if below > above { (0, below) } else { (1, above) };
-    // 1/E* is the sum of both bodies' 1/E'.
-    let share = stiffest.recip() / (below.recip() + above.recip());
+    let side = if below > above { 0 } else { 1 };
+    let share = scene.compliance_shares()[side];
     Some(Stiffer { body: &scene.bodies()[side], side, share })
 }
 

@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    Answer, Effect, FiniteSizeEffect, FiniteStrain, LeftOut, PartnerWaves, Vibration,
-    Viscoelasticity,
+    Answer, Effect, FiniteSizeEffect, FiniteStrain, LeftOut, PartnerWaves, RADIATION_ERROR,
+    SECOND_ORDER, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 use crate::method::{Method, Model, Shared};
@@ -130,13 +130,6 @@ struct Candidate {
     /// contact time, of the peak force and of the peak pressure.
     own: [f64; 4],
 }
-
-/// Second order of the contact's size over the spheres', of contact time and peak force: Ting's with
-/// finite size is within 0.02 % of finite elements at a/R* = 0.05.
-const SECOND_ORDER: f64 = 0.1;
-
-/// What a term for waves that do not come back is off by, over what they take.
-const RADIATION_ERROR: f64 = 0.15;
 
 /// From the cheapest to the dearest. A contact law is none of them: its numbers are the user's.
 const CANDIDATES: [Candidate; 6] = [

@@ -64,8 +64,7 @@ impl Resolution {
         }
         let moduli =
             scene.bodies().each_ref().map(|body| body.material().map(|m| *m.instantaneous()));
-        let compliance = moduli.map(|m| m.map_or(0.0, |m| m.plane_strain_modulus().recip()));
-        let whole: f64 = compliance.iter().sum();
+        let shares = scene.compliance_shares();
         let elements = contact_radius / longest_contact_edge(meshes, contact_radius)?;
         let none = Source { side: 0, is_under: false, element: 0, error: f64::NEG_INFINITY };
         let mut sum = Self { contact_time: 0.0, peak_force: 0.0, elements, source: none };
@@ -74,7 +73,7 @@ impl Resolution {
             let losses = BodyLoss::of(mesh, moduli.poissons_ratio(), contact_radius);
             for (is_under, Loss { energy, worst }) in [(false, losses.around), (true, losses.under)]
             {
-                let lost = energy * compliance[side] / whole;
+                let lost = energy * shares[side];
                 let (time, force) = (
                     TIME_OVER_LOSS[usize::from(is_under)] * lost,
                     FORCE_OVER_LOSS[usize::from(is_under)] * lost,

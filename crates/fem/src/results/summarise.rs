@@ -6,7 +6,7 @@ use fem_laws::HertzImpact;
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
-    Summary,
+    Summary, UncertaintySummary,
 };
 use crate::effects::Verdict;
 use crate::estimate::Estimate;
@@ -40,8 +40,11 @@ impl Summary {
     ) -> Self {
         let mut numbers = Numbers { warnings };
         let updates = collision.element_updates.filter(|updates| *updates > 0);
+        let quantities = quantities(collision, &mut numbers);
+        let uncertainty = simulation.uncertainty(collision).of_numbers(&quantities);
         Self {
-            collision: quantities(collision, &mut numbers),
+            uncertainty: UncertaintySummary::from(&uncertainty),
+            collision: quantities,
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(collision, &mut numbers),

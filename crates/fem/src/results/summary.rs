@@ -4,8 +4,9 @@ use fem_case::CaseFile;
 use serde::Serialize;
 
 use super::energy::Energy;
-use crate::effects::{LeftOut, Verdict};
+use crate::effects::{Doubt, LeftOut, Verdict};
 use crate::models::Considered;
+use crate::uncertainty::Uncertainty;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
@@ -42,6 +43,8 @@ pub struct Summary {
     pub cost: CostSummary,
     /// Which effects were on, why, and what they are worth.
     pub effects: Vec<EffectSummary>,
+    /// How far the quantities may be off.
+    pub uncertainty: UncertaintySummary,
     /// Where the case leaves the model open: which were considered, from the cheapest to the dearest.
     pub models_considered: Option<Vec<Considered>>,
     /// What the user should know.
@@ -89,6 +92,49 @@ pub struct Quantities {
     pub max_contact_radius_m: Option<f64>,
     /// Largest pressure on the axis.
     pub peak_pressure_pa: Option<f64>,
+}
+
+/// How far each quantity may be off; sizes in its own unit.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct UncertaintySummary {
+    /// Of the restitution.
+    pub restitution: Parts,
+    /// Of the contact time, s.
+    pub contact_time_s: Parts,
+    /// Of the peak force, N.
+    pub peak_force_n: Parts,
+    /// Of the largest approach, m.
+    pub max_approach_m: Parts,
+    /// Of the largest contact radius, m.
+    pub max_contact_radius_m: Parts,
+    /// Of the peak pressure, Pa.
+    pub peak_pressure_pa: Parts,
+}
+
+/// The two parts of how far a quantity may be off.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Parts {
+    /// The truth of the continuum problem is expected within it.
+    pub discretisation: Option<f64>,
+    /// Nature is expected within it and the first part together.
+    pub model: Option<f64>,
+}
+
+impl From<&Uncertainty> for UncertaintySummary {
+    fn from(uncertainty: &Uncertainty) -> Self {
+        let parts = |doubt: fn(&Doubt) -> Option<f64>| Parts {
+            discretisation: doubt(&uncertainty.discretisation),
+            model: doubt(&uncertainty.model),
+        };
+        Self {
+            restitution: parts(|doubt| doubt.restitution),
+            contact_time_s: parts(|doubt| doubt.contact_time),
+            peak_force_n: parts(|doubt| doubt.peak_force),
+            max_approach_m: parts(|doubt| doubt.max_approach),
+            max_contact_radius_m: parts(|doubt| doubt.max_contact_radius),
+            peak_pressure_pa: parts(|doubt| doubt.peak_pressure),
+        }
+    }
 }
 
 /// One contact of a ball that bounces.

@@ -187,7 +187,7 @@ fn nine_pairings_take_nine_factors_in_any_order() {
         nine_pairings(speed_is_slow).into_iter().map(|case| restitution(case, shared)).collect()
     };
     let [slow, fast] = [Shared::default(), Shared::default()];
-    let tight = Shared { pairs: PairCache::with_max_bytes(1) };
+    let tight = Shared { pairs: PairCache::with_max_bytes(1).into(), ..Shared::default() };
     let (by_speed, by_pairing) = (run(true, &slow), run(false, &fast));
     assert_eq!((slow.pairs.n_made(), fast.pairs.n_made()), (9, 9));
     assert_eq!(slow.pairs.n_kept(), 9);

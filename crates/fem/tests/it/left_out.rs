@@ -103,6 +103,8 @@ const SLOW: &str = "body.1.approach_speed='1 mm/s'";
 const FAST: &str = "body.1.approach_speed='20 m/s'";
 const DUST: &str = "body.1.sphere.diameter='5 um'";
 const RIGID: &str = "effects.rigid_partner='on'";
+const INCOMPRESSIBLE: &str = "material.soft.poissons_ratio=0.45";
+const FLAT: &str = "body.1.approach_speed='4.5 m/s'";
 const HENCKY: &str = "material.soft.hyperelastic='hencky'";
 const SVK: &str = "material.soft.hyperelastic='saint-venant-kirchhoff'";
 const SMALL: &str = "effects.finite_strain='off'";
@@ -138,6 +140,8 @@ fn every_switch_changes_what_is_foretold() {
         ("finite strain", &[FEM, RUBBER, FAST_TERM, SVK, PEER]),
         ("finite strain", &[FEM, RUBBER, ELASTIC, SVK, PEER, HARD_AS_SOFT]),
         ("finite strain", &[FEM, RUBBER, SHEAR, SVK, BLOCK]),
+        ("finite strain", &[FEM, RUBBER, ELASTIC, BLOCK, HARD_AS_SOFT, INCOMPRESSIBLE, FLAT]),
+        ("finite strain", &[FEM, RUBBER, ELASTIC, BLOCK, HARD_AS_SOFT, HENCKY, FLAT]),
         ("surface slip", &[TING, RIGID, PEER, ELASTIC, FAST]),
         ("surface slip", &[TING, PEER, AUXETIC, STRONG]),
         ("surface slip", &[TING, BLOCK, STRONG, FAST]),

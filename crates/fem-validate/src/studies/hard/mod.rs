@@ -9,7 +9,7 @@
 mod axis;
 mod random;
 mod reference;
-mod scenes;
+pub(in crate::studies) mod scenes;
 mod trial;
 
 use rayon::prelude::*;

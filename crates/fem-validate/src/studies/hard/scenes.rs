@@ -6,7 +6,7 @@
 //! against a wall, a tenth of identical bodies.
 
 /// A generator of numbers in [0, 1): SplitMix64, Steele et al. 2014.
-pub(super) struct Random(u64);
+pub(in crate::studies) struct Random(u64);
 
 impl Random {
     pub fn new(seed: u64) -> Self {
@@ -62,7 +62,7 @@ fn material(random: &mut Random, contact_time: f64, stiffness: f64, density: f64
 }
 
 /// Overrides of a case of two spheres.
-pub(super) fn overrides(random: &mut Random) -> Vec<String> {
+pub(in crate::studies) fn overrides(random: &mut Random) -> Vec<String> {
     let diameters = {
         let first = random.decades(-3.0, -1.0);
         [first, first * random.decades(-1.5, 1.5)]

@@ -9,11 +9,11 @@ use crate::error::StudyError;
 use crate::findings::{Figure, Findings};
 use crate::laboratory::Laboratory;
 use crate::run::ExplicitRun;
+use crate::studies::sections;
 
-/// σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
-const AXIAL: usize = 1;
 const MILLI: f64 = 1e3;
 const GIGA: f64 = 1e-9;
+const GIGA_PASCAL: f64 = 1e9;
 /// Bands over the largest stress, about.
 const N_BANDS: usize = 11;
 /// The stressed region ends where the compression falls to this share of Hertz' p₀.
@@ -55,21 +55,11 @@ struct Instant {
 
 impl Instant {
     fn of(run: &ExplicitRun, label: Label, snapshot: &Snapshot) -> Self {
+        let mut halves = sections::halves(run, snapshot, GIGA_PASCAL);
         let bodies = run.model.bodies();
-        let mut halves: [Section; 2] = Default::default();
-        let mut poles = [f64::NAN; 2];
-        for (k, (body, fields)) in bodies.iter().zip(&snapshot.bodies).enumerate() {
-            let Some(mesh) = body.mesh() else { continue };
-            let stress = body.stress(fields).points;
-            let nodes = mesh.nodes().iter().zip(snapshot.displacement(k));
-            halves[k] = Section {
-                points: nodes.map(|(x, u)| [0, 1].map(|axis: usize| x[axis] + u[axis])).collect(),
-                values: stress.iter().map(|stress| GIGA * stress[AXIAL]).collect(),
-                quads: mesh.quads().to_vec(),
-                outline: mesh.surface().to_vec(),
-            };
-            poles[k] = halves[k].values[mesh.surface()[0] as usize];
-        }
+        let poles = [0, 1].map(|k: usize| {
+            bodies[k].mesh().map_or(f64::NAN, |mesh| halves[k].values[mesh.surface()[0] as usize])
+        });
         // Height is measured from the middle between the poles.
         let pole = |k: usize| {
             let section: &Section = &halves[k];
@@ -77,18 +67,14 @@ impl Instant {
         };
         let middle = 0.5 * (pole(0) + pole(1));
         for point in halves.iter_mut().flat_map(|half| &mut half.points) {
-            *point = [MILLI * point[0], MILLI * (point[1] - middle)];
+            point[1] -= middle;
         }
         Self { label, time: snapshot.time, halves, poles }
     }
 
     /// Smallest and largest σ_yy, GPa; NaN if any point's is.
     fn range(&self) -> (f64, f64) {
-        let values = || self.halves.iter().flat_map(|half| half.values.iter().copied());
-        if values().any(f64::is_nan) {
-            return (f64::NAN, f64::NAN);
-        }
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+        sections::range(&self.halves)
     }
 
     /// Of the half section, mm², where σ_yy is at most `level`.

@@ -1,0 +1,147 @@
+//! How wide and how high the force of a collision is, from its history.
+//!
+//! The width is the time of Hertz' pulse that is as wide by its second moment, √(∫F (t − t̄)² dt/∫F dt); the
+//! height the top of the parabola that fits the force best within a tenth of the contact time around its
+//! largest value, and so of the pressure. Neither knows of single points that close last or ring.
+
+use fem_collision::Row;
+
+/// Time of Hertz' elastic pulse over the root of its second moment, by quadrature.
+const TIME_OVER_WIDTH: f64 = 5.152_65;
+
+/// Half of what the parabola is fitted to, over the contact time.
+const HALF_WIDTH: f64 = 0.05;
+
+/// A pulse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    /// By its second moment, s.
+    pub time: f64,
+    /// Its top, N.
+    pub force: f64,
+    /// Of the pressure on the axis around the instant of the largest force, Pa.
+    pub pressure: f64,
+}
+
+impl Pulse {
+    /// Of the rows of a collision whose contact lasts so long, s.
+    pub fn of(rows: &[Row], contact_time: f64) -> Self {
+        let axis = |row: &Row| row.centre_pressure.unwrap_or_default();
+        Self {
+            time: TIME_OVER_WIDTH * width(rows),
+            force: top(rows, contact_time, |row| row.contact_force),
+            pressure: top(rows, contact_time, axis),
+        }
+    }
+}
+
+/// Root of the second moment of the force over time, trapezoidal rule.
+fn width(rows: &[Row]) -> f64 {
+    let moment = |of: &dyn Fn(f64) -> f64| -> f64 {
+        let value = |row: &Row| row.contact_force * of(row.time);
+        let piece = |pair: &[Row]| {
+            0.5 * (value(&pair[0]) + value(&pair[1])) * (pair[1].time - pair[0].time)
+        };
+        rows.windows(2).map(piece).sum()
+    };
+    let impulse = moment(&|_| 1.0);
+    let mean = moment(&|time| time) / impulse;
+    (moment(&|time| (time - mean) * (time - mean)) / impulse).sqrt()
+}
+
+/// The top of the parabola of least squares through the rows around the largest force.
+fn top(rows: &[Row], contact_time: f64, value: fn(&Row) -> f64) -> f64 {
+    let Some(peak) = rows.iter().max_by(|a, b| a.contact_force.total_cmp(&b.contact_force)) else {
+        return f64::NAN;
+    };
+    let half = HALF_WIDTH * contact_time;
+    let near = rows.iter().filter(|row| (row.time - peak.time).abs() <= half);
+    // Σ x^(i+j) c_j = Σ x^i F in x = (t − t_peak)/half.
+    let (mut moments, mut sums) = ([0.0; 5], [0.0; 3]);
+    for row in near {
+        let x = (row.time - peak.time) / half;
+        let mut power = 1.0;
+        for k in 0..5 {
+            moments[k] += power;
+            if k < 3 {
+                sums[k] += power * value(row);
+            }
+            power *= x;
+        }
+    }
+    let matrix = |i: usize, j: usize| moments[i + j];
+    let minor = |column: Option<usize>| {
+        let entry = |i: usize, j: usize| if column == Some(j) { sums[i] } else { matrix(i, j) };
+        entry(0, 0) * (entry(1, 1) * entry(2, 2) - entry(1, 2) * entry(2, 1))
+            - entry(0, 1) * (entry(1, 0) * entry(2, 2) - entry(1, 2) * entry(2, 0))
+            + entry(0, 2) * (entry(1, 0) * entry(2, 1) - entry(1, 1) * entry(2, 0))
+    };
+    let [c_0, c_1, c_2] = [0, 1, 2].map(|j| minor(Some(j)) / minor(None));
+    c_0 - c_1 * c_1 / (4.0 * c_2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fem_collision::Book;
+
+    fn force(rows: &[Row]) -> f64 {
+        top(rows, 1.0, |row| row.contact_force)
+    }
+
+    fn pulse(force: impl Fn(f64) -> f64) -> Vec<Row> {
+        let row = |k: usize| {
+            let time = 1e-3 * k as f64;
+            Row {
+                time,
+                contact_force: force(time),
+                contact_radius: None,
+                approach: 0.0,
+                centre_pressure: None,
+                velocity: [0.0; 2],
+                energies: Book::EMPTY,
+                residual: None,
+                vibration: [0.0; 2],
+            }
+        };
+        (0..=1000).map(row).collect()
+    }
+
+    /// In s² = 1 − δ/δ_max, time is ∫ 2s ds/√(1 − (1 − s²)^(5/2)) and force (1 − s²)^(3/2).
+    #[test]
+    fn the_width_of_hertz_pulse_is_known() {
+        let n = 100_000;
+        let (mut time, mut impulse, mut moment) = (0.0, 0.0, 0.0);
+        for k in 0..n {
+            let s = (f64::from(k) + 0.5) / f64::from(n);
+            let depth = 1.0 - s * s;
+            let dt = 2.0 * s / (1.0 - depth.powf(2.5)).sqrt() / f64::from(n);
+            let (force, middle) = (depth.powf(1.5), time + 0.5 * dt);
+            impulse += force * dt;
+            moment += force * middle * middle * dt;
+            time += dt;
+        }
+        let ratio = 2.0 * time / (moment / impulse).sqrt();
+        assert!((ratio - TIME_OVER_WIDTH).abs() < 1e-4, "{ratio}");
+    }
+
+    /// Of t (1 − t) the second moment is a twentieth; the top lies between two rows.
+    #[test]
+    fn a_parabola_has_its_top_and_its_width() {
+        let rows = pulse(|t| 4.0 * t * (1.0 - t));
+        assert!((width(&rows) - 0.05f64.sqrt()).abs() < 1e-5);
+        let rows = pulse(|t| 4.0 * t * (0.9993 - t));
+        assert!((force(&rows) / 0.9993f64.powi(2) - 1.0).abs() < 1e-9);
+    }
+
+    /// A point that rings by a per cent over a hundredth of the time moves the top by next to nothing.
+    #[test]
+    fn ringing_does_not_count() {
+        let quiet = pulse(|t| (std::f64::consts::PI * t).sin());
+        let ringing = pulse(|t| (std::f64::consts::PI * t).sin() + 0.01 * (628.3 * t).sin());
+        let change = force(&ringing) / force(&quiet) - 1.0;
+        assert!(change.abs() < 5e-4, "{change}");
+        let change = width(&ringing) / width(&quiet) - 1.0;
+        assert!(change.abs() < 5e-4, "{change}");
+    }
+}

@@ -1,0 +1,130 @@
+//! σ_yy in section of soft bodies on a wall at four instants, on the deformed bodies.
+//!
+//! Of each run and instant, with the upper body's σ_yy where it touches the wall on the axis, the contact
+//! pressure there, and the surface where it is:
+//!
+//! - `RUN.INSTANT.smallest`: the largest compression, Pa;
+//! - `RUN.INSTANT.into_wall`: how far the surface is beyond the wall, over the largest approach;
+//! - `RUN.pole_over_pressure`: −σ_yy at the pole over the contact pressure on the axis at the largest approach;
+//! - `RUN.last_over_maximum`: the largest compression at the last contact over that at the largest approach;
+//! - `RUN.height`: what is left of the height on the axis at the largest approach, over the diameter.
+
+use fem_case::engineering::Unit;
+use fem_collision::{Label, Snapshot};
+use fem_figure::contour::{Contour, Levels, Panel, Section, Window};
+
+use super::sections;
+use crate::error::StudyError;
+use crate::findings::{Figure, Findings};
+use crate::laboratory::Laboratory;
+use crate::run::ExplicitRun;
+
+const MILLI: f64 = 1e3;
+const MEGA: f64 = 1e6;
+/// Bands over the largest stress, about.
+const N_BANDS: usize = 11;
+/// The upper body: the wall is the lower one.
+const UPPER: usize = 1;
+/// What is seen, in radii of the ball: to each side, below the wall, above it.
+const WIDTH: f64 = 1.45;
+const BELOW: f64 = 0.12;
+const ABOVE: f64 = 2.15;
+
+/// Runs every case of the claim, whose snapshots are the four named instants.
+pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
+    let names: Vec<&String> = laboratory.claim().runs.keys().collect();
+    let cases = names.iter().map(|name| laboratory.case(name)).collect::<Result<_, _>>()?;
+    let runs = laboratory.run_all(cases)?;
+    let mut findings = Findings::new();
+    for (name, run) in names.into_iter().zip(&runs) {
+        let missing = || StudyError::parameters("a case does not keep the four named snapshots");
+        let instants = Label::ALL.map(|label| {
+            let snapshots = &run.collision.snapshots;
+            snapshots.iter().find(|snapshot| snapshot.label == Some(label))
+        });
+        let instants = instants.into_iter().collect::<Option<Vec<_>>>().ok_or_else(missing)?;
+        measure(name, run, &instants, &mut findings);
+        findings.figures.push(draw(name, run, &instants));
+    }
+    Ok(findings)
+}
+
+fn measure(name: &str, run: &ExplicitRun, instants: &[&Snapshot], findings: &mut Findings) {
+    let mut smallest = Vec::new();
+    for (snapshot, label) in instants.iter().zip(Label::ALL) {
+        let halves = sections::halves(run, snapshot, 1.0);
+        let instant = label.name().replace('-', "_");
+        smallest.push(sections::range(&halves).0);
+        findings.measure(format!("{name}.{instant}.smallest"), sections::range(&halves).0);
+        let lowest = |half: &Section| {
+            let outline = half.outline.iter().map(|point| half.points[*point as usize][1]);
+            outline.fold(f64::INFINITY, f64::min)
+        };
+        let into_wall = -lowest(&halves[UPPER]) / MILLI / run.max_approach();
+        findings.measure(format!("{name}.{instant}.into_wall"), into_wall);
+        if label == Label::Maximum {
+            let Some(mesh) = run.model.bodies()[UPPER].mesh() else { continue };
+            let half = &halves[UPPER];
+            let pole = -half.values[mesh.surface()[0] as usize];
+            let near = run.collision.history.iter().min_by(|a, b| {
+                let away = |time: f64| (time - snapshot.time).abs();
+                away(a.time).total_cmp(&away(b.time))
+            });
+            let pressure = near.and_then(|row| row.centre_pressure).unwrap_or(f64::NAN);
+            findings.measure(format!("{name}.pole_over_pressure"), pole / pressure);
+            let axis = || mesh.axis().iter().map(|node| half.points[*node as usize][1]);
+            let height =
+                axis().fold(f64::NEG_INFINITY, f64::max) - axis().fold(f64::INFINITY, f64::min);
+            let diameter = 2.0 * MILLI * run.smallest_radius();
+            findings.measure(format!("{name}.height"), height / diameter);
+        }
+    }
+    if let [_, maximum, _, last] = smallest[..] {
+        findings.measure(format!("{name}.last_over_maximum"), last / maximum);
+    }
+}
+
+fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
+    let radius = MILLI * run.smallest_radius();
+    let halves: Vec<_> =
+        instants.iter().map(|snapshot| sections::halves(run, snapshot, MEGA)).collect();
+    let ranges = halves.iter().map(sections::range);
+    let (smallest, largest) =
+        ranges.fold((0.0f64, 0.0f64), |(from, to), (a, b)| (from.min(a), to.max(b)));
+    let wall = Section {
+        points: vec![[-2.0 * radius, 0.0], [2.0 * radius, 0.0]],
+        values: vec![0.0; 2],
+        quads: Vec::new(),
+        outline: vec![0, 1],
+    };
+    let panel = |(k, letter): (usize, char)| {
+        let least = sections::range(&halves[k]).0 * MEGA;
+        let least = Unit::fitting(least, "Pa").with_digits(3).show(least).replace('-', "\u{2212}");
+        let label = Label::ALL[k].name().replace('-', " ");
+        let time = 1e3 * instants[k].time;
+        Panel {
+            title: format!("({letter}) {label}, {time:.2} ms, σ_yy ≥ {least}"),
+            sections: vec![halves[k][UPPER].mirrored(), wall.clone()],
+        }
+    };
+    let contour = Contour {
+        quantity: "σ_yy [MPa]".into(),
+        x_label: "r [mm]".into(),
+        y_label: "y [mm]".into(),
+        window: Window {
+            x: (-WIDTH * radius, WIDTH * radius),
+            y: (-BELOW * radius, ABOVE * radius),
+        },
+        levels: Levels::about_zero(smallest, largest, N_BANDS),
+        panels: (0..instants.len()).zip('a'..).map(panel).collect(),
+    };
+    let title = run.case.file().title.clone().unwrap_or_default();
+    Figure {
+        name: name.into(),
+        caption: format!(
+            "{title}, at finite strain: true stress in the direction of the contact, σ_yy, in section, \
+             tension positive. The lines are the outline of the deformed ball, true to scale, and the wall."
+        ),
+        svg: contour.svg(),
+    }
+}

@@ -1,0 +1,169 @@
+//! What mesh, springs, added mass and steps of a collision are off by, from cheap companions.
+//!
+//! Condensed bodies with the springs of explicit elements make the same errors on the same mesh, down to
+//! where the edge of the contact falls between two nodes, and take a fortieth of the time. So the error
+//! of explicit elements with elements of length h is
+//!
+//! ```math
+//! q^{\rm springs}(h) - q_0, \qquad
+//! q_0 = q\bigl(\tfrac h2\bigr) + \tfrac{1}{2^p-1}\,\bigl[q\bigl(\tfrac h2\bigr) - q(h)\bigr]
+//! ```
+//!
+//! with q of condensed bodies without springs and p = 1.9, the order that is seen; to which comes what
+//! added mass does, and how explicit elements scatter beside condensed bodies. Of condensed bodies
+//! themselves, and of elements at finite strain, companions are coarser, since they must be cheap, and the
+//! larger of two errors is taken, since the place of the edge is another one on each mesh:
+//!
+//! ```math
+//! q(h) - q_0 \approx \frac{q(rh) - q(h)}{r^p-1}, \qquad r = \tfrac32,\ 2
+//! ```
+//!
+//! Errors are told without their sign and with a margin: the limit is expected within them. Margins and
+//! scatter are measured on random scenes of all kinds (`validation/error_bars`).
+
+use fem_case::schema::ContactMethod;
+use fem_collision::{Collision, Want};
+
+use super::headline::Headline;
+use super::ladder::first_contact;
+use super::setting::Setting;
+use crate::plan::Plan;
+use crate::simulation::Simulation;
+
+/// Errors of a sequence of meshes fall with this power of the length of their elements.
+const ORDER: f64 = 1.9;
+/// Elements of coarser companions over those of the collision.
+const COARSER: [f64; 2] = [1.5, 2.0];
+/// Errors that are told over those that are estimated: by condensed bodies on the same mesh, and by
+/// coarser companions.
+const MARGIN: [f64; 2] = [1.6, 2.0];
+/// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
+/// others relative, in the order of [`Headline::ALL`].
+const SCATTER: [f64; 6] = [2e-5, 1e-4, 4e-4, 5e-5, 1e-3, 1e-3];
+/// The same of condensed bodies: steps, and the place of the contact's edge.
+const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 1e-3, 1.5e-4, 3e-3, 4e-3];
+/// Relative change for each share of mass that is added.
+const OF_ADDED_MASS: [f64; 6] = [0.05, 0.3, 0.8, 0.3, 0.1, 0.3];
+
+/// Errors of the numbers of a collision of bodies with elements, SI, in the order of [`Headline::ALL`].
+/// None of what has no number, of a collision that did not end by itself, nor of a mesh that was read from
+/// a file: it has no companions.
+pub(crate) fn discretisation_errors(
+    simulation: &Simulation,
+    collision: &Collision,
+) -> [Option<f64>; 6] {
+    let values = Headline::ALL.map(|headline| headline.of(collision));
+    let Some(elements) = simulation.setup().elements.as_ref() else { return [None; 6] };
+    if !(collision.is_complete() && elements.plan.makes_meshes) {
+        return [None; 6];
+    }
+    let companions = Companions { simulation, collision, plan: &elements.plan };
+    let is_explicit = collision.element_updates.is_some();
+    // Condensed bodies know no large strains, nor what keeps such surfaces apart.
+    let condensed = match is_explicit && !simulation.is_at_finite_strain(collision) {
+        true => companions.of_condensed(),
+        false => None,
+    };
+    let (errors, margin) = match condensed {
+        Some(errors) => (errors, MARGIN[0]),
+        None => (companions.of_coarser(values), MARGIN[1]),
+    };
+    let scatter = if is_explicit { SCATTER } else { CONDENSED_SCATTER };
+    let added = added_share(collision);
+    let mut sums = [None; 6];
+    for (k, headline) in Headline::ALL.into_iter().enumerate() {
+        let share = |error: f64| margin * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
+        let both = errors[k].zip(values[k]);
+        sums[k] = both.map(|(error, value)| share(error) * headline.scale(value));
+    }
+    sums
+}
+
+/// The largest share of mass that is added to a body.
+fn added_share(collision: &Collision) -> f64 {
+    let share = |body: &fem_collision::BodyResult| Some(body.added_mass? / body.mass?);
+    collision.bodies.iter().filter_map(share).fold(0.0, f64::max)
+}
+
+/// Cheaper collisions of the same bodies.
+struct Companions<'a> {
+    simulation: &'a Simulation,
+    collision: &'a Collision,
+    plan: &'a Plan,
+}
+
+impl Companions<'_> {
+    /// Errors of explicit elements, the restitution's absolute, all others relative; none where condensed
+    /// bodies cannot be had.
+    fn of_condensed(&self) -> Option<[Option<f64>; 6]> {
+        let size = self.plan.contact_element_size;
+        let condensed = |penalty_springs, size| {
+            self.collide(&[
+                Setting::Condensed { vibration_modes: 0, penalty_springs },
+                Setting::ElementSize(size),
+            ])
+        };
+        let same = condensed(true, size)?;
+        let (coarse, fine) = (condensed(false, size)?, condensed(false, 0.5 * size)?);
+        let mut errors = [None; 6];
+        for (k, headline) in Headline::ALL.into_iter().enumerate() {
+            errors[k] = same[k].zip(coarse[k]).zip(fine[k]).map(|((same, coarse), fine)| {
+                let limit = fine + remaining(2.0) * (fine - coarse);
+                (same - limit) / headline.scale(limit)
+            });
+        }
+        Some(errors)
+    }
+
+    /// The same from the model itself with longer elements.
+    fn of_coarser(&self, values: [Option<f64>; 6]) -> [Option<f64>; 6] {
+        let mut errors = [None; 6];
+        for ratio in COARSER {
+            let size = Setting::ElementSize(ratio * self.plan.contact_element_size);
+            let Some(coarse) = self.collide(&[size]) else { continue };
+            for (k, headline) in Headline::ALL.into_iter().enumerate() {
+                let both = coarse[k].zip(values[k]);
+                let error = both.map(|(coarse, value)| {
+                    remaining(ratio) * (coarse - value).abs() / headline.scale(value)
+                });
+                errors[k] =
+                    error.map(|error| errors[k].map_or(error, |other: f64| error.max(other)));
+            }
+        }
+        errors
+    }
+
+    /// The numbers of the bodies' first contact with these settings; none where the model refuses them.
+    fn collide(&self, settings: &[Setting]) -> Option<[Option<f64>; 6]> {
+        let case = self.simulation.case().edited(|file| {
+            file.stop = first_contact(file);
+            // Where the case leaves the model open, the one that was chosen.
+            file.model = self.simulation.resolved().model.clone();
+            let is_condensed = settings.iter().any(|it| matches!(it, Setting::Condensed { .. }));
+            if is_condensed {
+                // Switches of what condensed bodies lack, and springs that they have not.
+                file.effects = None;
+                let contact = file.contact.as_mut();
+                if let Some(method) = contact.and_then(|contact| contact.method.as_mut())
+                    && *method == ContactMethod::NodeToSurface
+                {
+                    *method = ContactMethod::Massless;
+                }
+            }
+            for setting in settings {
+                setting.apply(file);
+            }
+        });
+        let shared = self.simulation.shared().of_companions();
+        let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
+        let want = Want { history_rows: 0, ..Want::history() };
+        let collision = companion.model().collide(&self.collision.approach, &want, &mut ());
+        let values = Headline::ALL.map(|headline| headline.of(&collision));
+        collision.is_complete().then_some(values)
+    }
+}
+
+/// What is left of the way to the limit, over the last step of a length that is this many times smaller.
+fn remaining(ratio: f64) -> f64 {
+    1.0 / (ratio.powf(ORDER) - 1.0)
+}

@@ -1,0 +1,42 @@
+//! What mesh, springs, added mass and steps may be off by.
+
+use fem_collision::Collision;
+
+use crate::accuracy::{Headline, discretisation_errors};
+use crate::effects::Doubt;
+use crate::simulation::Simulation;
+
+/// What closed forms are off by: rounding.
+const ROUNDING: f64 = 1e-12;
+/// Of motions of one degree of freedom, over their tolerance: approach, radius and pressure are read from
+/// the instants of a history.
+const OF_HISTORY: f64 = 20.0;
+
+/// Of the quantities of a collision: of elements by companions, of one degree of freedom by its tolerance.
+pub(super) fn of(simulation: &Simulation, collision: &Collision) -> Doubt {
+    use fem_case::ModelChoice::{Auto, Condensed, Fem, Hertz, Law, Ting};
+    match *simulation.scene_of_model().model() {
+        Fem | Condensed(_) => told(discretisation_errors(simulation, collision)),
+        Hertz { .. } => of_tolerance(collision, ROUNDING),
+        Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),
+        // Its choice is one of the others.
+        Auto => Doubt::default(),
+    }
+}
+
+/// Errors in the order of [`Headline::ALL`].
+fn told(errors: [Option<f64>; 6]) -> Doubt {
+    let [restitution, contact_time, peak_force, max_approach, max_contact_radius, peak_pressure] =
+        errors;
+    Doubt { restitution, contact_time, peak_force, max_approach, max_contact_radius, peak_pressure }
+}
+
+fn of_tolerance(collision: &Collision, tolerance: f64) -> Doubt {
+    told(Headline::ALL.map(|headline| {
+        let share = match headline {
+            Headline::Restitution | Headline::ContactTime | Headline::PeakForce => tolerance,
+            _ => OF_HISTORY * tolerance,
+        };
+        headline.of(collision).map(|value| share * headline.scale(value))
+    }))
+}

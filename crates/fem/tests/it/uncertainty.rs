@@ -1,0 +1,156 @@
+//! What a result says it may be off by because of its model, held against collisions of finite elements at
+//! finite strain, which lack nothing of these scenes.
+
+use std::path::Path;
+
+use fem::results::{Parts, Quantities, Summary, UncertaintySummary};
+use fem::{Case, Simulation};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+const RUBBER: &str = include_str!("rubber_ball.toml");
+const NAMED: &str = "material.glass.hyperelastic='hencky'";
+const SOFTENING: &str = "material.glass.hyperelastic='saint-venant-kirchhoff'";
+const ELASTIC: &str = "material.glass.relaxation.terms.0.weight=0";
+const FINITE: [&str; 2] = ["model.fem={}", "effects.finite_strain='on'"];
+const SMALL: [&str; 2] = ["model.fem={}", "effects.finite_strain='off'"];
+const HERTZ: &str = "model.hertz={}";
+const TING: &str = "model.ting={}";
+const CONDENSED: &str = "model.condensed={}";
+const NO_SNAPSHOTS: &str = "output.snapshots=[]";
+const BLOCK: &str = "body.0={ name = 'striker', half_space = {}, material = 'glass' }";
+const BALL: &str = "body.1.approach_speed='5 m/s'";
+
+fn summary(text: &str, set: &[&str]) -> Summary {
+    let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+    let case = Case::parse("scene.toml", text, Path::new("."), &set).unwrap();
+    let simulation = Simulation::new(case).unwrap();
+    let collision = simulation.run(&mut ());
+    simulation.summary(&collision)
+}
+
+fn numbers(quantities: &Quantities) -> [Option<f64>; 6] {
+    let Quantities {
+        restitution,
+        contact_time_s,
+        peak_force_n,
+        max_approach_m,
+        max_contact_radius_m,
+        peak_pressure_pa,
+    } = *quantities;
+    [
+        restitution,
+        contact_time_s,
+        peak_force_n,
+        max_approach_m,
+        max_contact_radius_m,
+        peak_pressure_pa,
+    ]
+}
+
+fn parts(uncertainty: &UncertaintySummary) -> [Parts; 6] {
+    let UncertaintySummary {
+        restitution,
+        contact_time_s,
+        peak_force_n,
+        max_approach_m,
+        max_contact_radius_m,
+        peak_pressure_pa,
+    } = *uncertainty;
+    [
+        restitution,
+        contact_time_s,
+        peak_force_n,
+        max_approach_m,
+        max_contact_radius_m,
+        peak_pressure_pa,
+    ]
+}
+
+fn model(summary: &Summary) -> [f64; 6] {
+    parts(&summary.uncertainty).map(|parts| parts.model.unwrap())
+}
+
+/// Every model, from the one that lacks most: off by what it says within a factor of three, and by what the
+/// mesh of the reference is. Where effects take away what others bring all are told, and the result is off
+/// by less: of a softening law beside the spheres' own stiffness, and of waves beside either.
+#[test]
+fn models_are_off_by_what_they_say() {
+    let mut n_doubted = 0;
+    for scene in [
+        &[NAMED, ELASTIC][..],
+        &[NAMED],
+        &[NAMED, BLOCK, BALL],
+        &[SOFTENING, ELASTIC],
+        &[SOFTENING, BLOCK, BALL],
+    ] {
+        let with = |more: &[&str]| {
+            let set: Vec<&str> = scene.iter().chain(more).chain([&NO_SNAPSHOTS]).copied().collect();
+            summary(GLASS, &set)
+        };
+        let truth = with(&FINITE);
+        let truth = numbers(&truth.collision).map(Option::unwrap);
+        for lacking in [&[HERTZ][..], &[TING], &[CONDENSED], &SMALL] {
+            let found = with(lacking);
+            let doubt = model(&found);
+            let found = numbers(&found.collision).map(Option::unwrap);
+            for k in 0..6 {
+                let what = format!("quantity {k} of {lacking:?} of {scene:?}");
+                let off = (found[k] - truth[k]).abs();
+                // Meshes of eight elements across the contact: radius and pressure are worse.
+                let mesh = [1e-3, 3e-3, 5e-3, 3e-3, 1.5e-2, 1.5e-2][k] * truth[k];
+                let told = doubt[k];
+                assert!(off <= 3.0 * told + mesh, "{what}: off by {off:e}, told {told:e}");
+                let partly_cancels = scene.contains(&SOFTENING) || scene.contains(&BLOCK);
+                let is_tight = told <= 3.0 * off + 2.0 * mesh;
+                assert!(is_tight || partly_cancels, "{what}: off by {off:e}, told {told:e}");
+                n_doubted += usize::from(told > mesh);
+            }
+        }
+    }
+    assert!(n_doubted > 30, "{n_doubted}");
+}
+
+/// A law that the case names is no doubt where it is computed; one that it does not name is as far off as the
+/// laws are from each other, at finite strain less than at small strain.
+#[test]
+fn an_unnamed_law_is_a_doubt() {
+    let unnamed = summary(GLASS, &[&FINITE[..], &[NO_SNAPSHOTS]].concat());
+    let named = summary(GLASS, &[&FINITE[..], &[NO_SNAPSHOTS, NAMED]].concat());
+    assert_eq!(model(&named), [0.0; 6]);
+    let share =
+        |summary: &Summary, k: usize| model(summary)[k] / numbers(&summary.collision)[k].unwrap();
+    // From 0 to 0.1 a/R* of contact time and force, at a/R* = 0.048: neo-Hooke's +0.03 of it to
+    // St Venant and Kirchhoff's +0.11.
+    assert!((0.003..0.005).contains(&share(&unnamed, 1)), "{}", share(&unnamed, 1));
+    assert!((0.003..0.005).contains(&share(&unnamed, 2)), "{}", share(&unnamed, 2));
+    let small = summary(GLASS, &[&SMALL[..], &[NO_SNAPSHOTS]].concat());
+    assert!(model(&small)[1] > model(&unnamed)[1]);
+    assert!(parts(&small.uncertainty).iter().all(|parts| parts.discretisation.is_none()));
+}
+
+/// Sums, not roots of squares: what a cheaper model lacks beside what another one lacks.
+#[test]
+fn what_is_left_out_adds_up() {
+    let set = [NAMED, NO_SNAPSHOTS];
+    let [hertz, sized] = [HERTZ, "model.hertz.finite_size=true"]
+        .map(|chosen| summary(GLASS, &[&set[..], &[chosen]].concat()));
+    let size = hertz.effects.iter().find(|effect| effect.verdict.name == "finite size").unwrap();
+    let left_out = size.error_if_left_out.unwrap().contact_time_s.unwrap();
+    let step = model(&hertz)[1] - model(&sized)[1];
+    // The term's own second order is what is left.
+    assert!((step / left_out - 1.0).abs() < 0.05, "{step:e} {left_out:e}");
+}
+
+/// Bodies that stay together have no contact time, and nothing is said of what is not told.
+#[test]
+fn what_is_no_number_has_no_doubt() {
+    let stuck = "material.glass.relaxation.terms.0.decay_rate='1e9 1/s'";
+    let summary = summary(GLASS, &[TING, stuck, NO_SNAPSHOTS]);
+    assert_eq!(summary.collision.contact_time_s, None);
+    assert_eq!(summary.uncertainty.contact_time_s.model, None);
+    assert!(summary.collision.max_approach_m.is_some());
+    // Twice beyond all that was computed.
+    let flat = ["effects.finite_strain='off'", "body.1.approach_speed='60 m/s'", NO_SNAPSHOTS];
+    let flat = self::summary(RUBBER, &[&flat[..], &["model.hertz={}"]].concat());
+    assert!(parts(&flat.uncertainty).iter().all(|parts| parts.model.is_none()));
+}
