@@ -3,6 +3,7 @@
 use fem_collision::{Book, Collision, Rest};
 use fem_laws::HertzImpact;
 
+use super::elastic_null::elastic_null;
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
@@ -42,6 +43,8 @@ impl Summary {
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         Self {
             collision: quantities(collision, &mut numbers),
+            peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
+            elastic_null: elastic_null(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(collision, &mut numbers),
