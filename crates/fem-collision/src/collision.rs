@@ -32,13 +32,16 @@ pub struct Collision {
     pub last_contact: Option<f64>,
     /// Number of separate contacts.
     pub contact_episodes: u64,
-    /// Largest contact force, N.
+    /// Largest contact force, a mean over [`PEAK_WINDOW`](crate::PEAK_WINDOW) of the pulse in models that step, N.
     pub peak_force: Option<f64>,
+    /// Largest contact force of a single step, N.
+    pub peak_force_raw: Option<f64>,
     /// Largest approach, m.
     pub max_approach: Option<f64>,
-    /// Largest contact radius, m.
+    /// Largest contact radius, a mean as is the force, m.
     pub max_contact_radius: Option<f64>,
-    /// Largest contact pressure on the axis, Pa.
+    /// Largest contact pressure on the axis, a mean as is the force, Pa: of first touch nothing counts
+    /// ([`Pulse`](crate::Pulse)).
     pub peak_pressure: Option<f64>,
     /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
     pub force_scatter: Option<f64>,
@@ -112,6 +115,7 @@ impl Collision {
             last_contact: None,
             contact_episodes: 0,
             peak_force: None,
+            peak_force_raw: None,
             max_approach: None,
             max_contact_radius: None,
             peak_pressure: None,

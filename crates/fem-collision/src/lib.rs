@@ -11,7 +11,7 @@
 //! * [`Account`] names a place of energy and [`Book`] holds what is in each; every model, part of a
 //!   step, column of a history and key of a summary means the same by them.
 //! * [`Cadence`] says at which steps of a run something is observed, [`Aftermath`] and [`Scatter`]
-//!   what follows from it beside extremes.
+//!   what follows from it beside extremes; [`Pulse`] has the peaks without noise.
 //! * [`Frame`] leads from the relative motion of two bodies to each of them.
 //! * [`far_radius_of_waves`] and [`far_radius_at_rest`] say how far the mesh of a half-space has to
 //!   reach.
@@ -36,6 +36,7 @@ mod instants;
 mod losses;
 mod monitor;
 mod patches;
+mod pulse;
 mod row;
 mod scatter;
 mod searched;
@@ -60,6 +61,7 @@ pub use history::{History, RowKind};
 pub use instants::{did_not_occur, evenly, fewer_than_asked};
 pub use losses::Losses;
 pub use monitor::{Monitor, Phase, Progress, STEPS_BETWEEN_REPORTS};
+pub use pulse::{PEAK_WINDOW, Peaks, Pulse};
 pub use row::Row;
 pub use scatter::Scatter;
 pub use searched::Searched;

@@ -32,10 +32,6 @@ pub(crate) struct DiscSolver {
 pub(crate) struct Disc {
     /// Points from the axis outward up to the last with a force.
     pub n_closed: usize,
-    /// Force that would close the next point, ≤ 0, N; 0 where the contact is no disc.
-    pub tension: f64,
-    /// Gap at the next point, m.
-    pub gap: f64,
 }
 
 impl DiscSolver {
@@ -87,11 +83,9 @@ impl DiscSolver {
         let n = overlap.len();
         forces.fill(0.0);
         let mut n_closed = 0;
-        let mut beyond = None;
         for k in 0..n {
             let y = self.forward(k, overlap[k]).ok_or(NoState)?;
             if y <= 0.0 {
-                beyond = Some(y / self.row(k)[k]);
                 break;
             }
             self.solution[k] = y;
@@ -106,15 +100,12 @@ impl DiscSolver {
                 self.solution[j] -= self.factor[start + j] * force;
             }
         }
-        let mut tension = beyond.unwrap_or(0.0);
         if !self.is_solution(overlap, forces, n_closed) {
             self.n_fallbacks += 1;
             complementarity::solve(&self.compliance, overlap, forces)?;
             n_closed = forces.iter().rposition(|&force| force > 0.0).map_or(0, |k| k + 1);
-            tension = 0.0;
         }
-        let gap = if n_closed < n { self.gap(n_closed, overlap, &forces[..n_closed]) } else { 0.0 };
-        Ok(Disc { n_closed, tension, gap })
+        Ok(Disc { n_closed })
     }
 
     /// Gap at point k, m.

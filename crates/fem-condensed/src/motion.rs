@@ -121,7 +121,7 @@ impl<'a> Motion<'a> {
             overlap: vec![0.0; n_points],
             forces: vec![0.0; n_points],
             force: 0.0,
-            contact: Disc { n_closed: 0, tension: 0.0, gap: 0.0 },
+            contact: Disc { n_closed: 0 },
         })
     }
 

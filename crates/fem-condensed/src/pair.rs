@@ -9,7 +9,7 @@ use crate::curve::{ElasticCurve, ElasticImpact};
 use crate::error::CondensedError;
 use crate::points::Points;
 use crate::settings::{ContactModel, PairSettings};
-use crate::side::{PairSide, PressureNode, pressure_nodes};
+use crate::side::{PairSide, PressureNode, coarser, pressure_nodes};
 
 /// A shear modulus that falls below this share within the elastic contact time is strongly relaxed:
 /// two blocks are 4e-5 off in the restitution of glass at 0.02 and 2e-4 at 0.002, and leave a spring
@@ -90,7 +90,7 @@ impl CondensedPair {
             let added = of_side(0) + of_side(1);
             compliance = Mat::from_fn(n, n, |i, j| compliance[(i, j)] + added);
         }
-        let carrier = if nodal_side.is_some() { None } else { sides.iter().flatten().next() };
+        let carrier = if nodal_side.is_some() { None } else { coarser(&sides) };
         let nodes = pressure_nodes(&points, carrier);
         let gaps: Vec<f64> = points.iter().map(|point| point.initial_gap).collect();
         let curve = match settings.contact {

@@ -2,7 +2,7 @@
 
 use fem_collision::{
     Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, Monitor, Progress,
-    STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill, Stop, Want, worst,
+    Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill, Stop, Want, worst,
 };
 
 use crate::instants::Trace;
@@ -44,8 +44,7 @@ pub(crate) struct Run<'a> {
     approach: Peak,
     force: Peak,
     scatter: Scatter,
-    max_radius: f64,
-    max_pressure: f64,
+    pulse: Pulse,
     aftermath: Aftermath,
     standstill: Standstill,
     /// Since when the bodies no longer approach each other, after first touch, s.
@@ -94,8 +93,7 @@ impl<'a> Run<'a> {
             approach: Peak::default(),
             force: Peak::default(),
             scatter: Scatter::default(),
-            max_radius: 0.0,
-            max_pressure: 0.0,
+            pulse: Pulse::default(),
             aftermath: Aftermath::default(),
             standstill: Standstill::new(frame),
             turned: 0.0,
@@ -227,8 +225,7 @@ impl<'a> Run<'a> {
         self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
             self.pair.radius_and_pressure(&motion.contact, &motion.forces, motion.slipped());
-        self.max_radius = worst(self.max_radius, contact_radius);
-        self.max_pressure = worst(self.max_pressure, centre_pressure);
+        self.pulse.observe(time, self.impulse, contact_radius, centre_pressure);
         if self.episodes > 0 {
             self.aftermath.observe(self.was_closed, vibration);
         }
@@ -288,6 +285,7 @@ impl<'a> Run<'a> {
             body.vibration_energy =
                 vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }
+        let peaks = self.pulse.peaks(self.force.highest);
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
         let mut history = self.history.map(History::into_rows).unwrap_or_default();
@@ -307,10 +305,11 @@ impl<'a> Run<'a> {
             first_contact: has_touched.then_some(first_touch),
             last_contact: has_touched.then_some(first_touch + self.last_contact),
             contact_episodes: self.episodes,
-            peak_force: Some(self.force.highest),
+            peak_force: Some(peaks.force),
+            peak_force_raw: Some(self.force.highest),
             max_approach: Some(self.approach.highest),
-            max_contact_radius: Some(self.max_radius),
-            peak_pressure: Some(self.max_pressure),
+            max_contact_radius: Some(peaks.radius),
+            peak_pressure: Some(peaks.pressure),
             force_scatter: self.scatter.force(),
             searched: Some(self.pair.searched()),
             initial_energy: Some(frame.kinetic(frame.speed())),

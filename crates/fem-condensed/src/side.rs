@@ -115,6 +115,11 @@ pub(crate) struct PressureNode {
     pub shares: Vec<(usize, f64)>,
 }
 
+/// The side that deforms and has the fewer contact nodes.
+pub(crate) fn coarser(sides: &[Option<PairSide>; 2]) -> Option<&PairSide> {
+    sides.iter().flatten().min_by_key(|side| side.body.numbering.n_contact)
+}
+
 /// Nodes of the points' own surface, or those of a deformable side that carry the Gauss points.
 pub(crate) fn pressure_nodes(
     points: &[ContactPoint],

@@ -89,7 +89,7 @@ impl ContactInterface {
     pub(crate) fn signed_pressure<'a>(
         &'a self,
         u: [&'a [[f64; 2]]; 2],
-    ) -> impl DoubleEndedIterator<Item = (f64, f64)> + 'a {
+    ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
         (0..self.points.len())
             .map(move |k| (self.points[k].radius, -self.points[k].stiffness * self.gap(k, u)))
     }

@@ -31,6 +31,10 @@ pub struct ContactInterface {
     pub(crate) springs: [f64; 2],
 }
 
+/// Shorter pieces than this share of a segment are joined to the next: springs there would carry nothing
+/// and cost as much as others.
+const SLIVER: f64 = 1e-3;
+
 /// How many times the penalty springs enter the critical time step. A closed
 /// spring is stable with one. One that opens and closes within a few steps
 /// changes the energy by up to the fraction s/4 each time, s = (ω Δt)², up or
@@ -105,7 +109,7 @@ impl ContactInterface {
     }
 
     /// Nodes of a side (0 lower, 1 upper) out to the candidate radius.
-    pub fn candidate_nodes(&self, side: usize) -> impl Iterator<Item = u32> + '_ {
+    pub fn candidate_nodes(&self, side: usize) -> impl Iterator<Item = u32> + Clone + '_ {
         self.surfaces[side].nodes_within(self.candidate_radius).iter().copied()
     }
 
@@ -200,8 +204,12 @@ fn cuts(surfaces: &[Surface; 2], limit: f64) -> Vec<f64> {
         .filter(|r| r.is_finite())
         .collect();
     radii.sort_by(f64::total_cmp);
-    // Nodes that lie on each other but for rounding make one cut.
-    radii.dedup_by(|outer, inner| *outer - *inner <= 1e-9 * *outer);
+    // Nodes that all but lie on each other make one cut: those of like meshes on unlike spheres do.
+    radii.dedup_by(|outer, inner| {
+        let length = mean_length(surfaces, surfaces.each_ref().map(|s| s.locate(*inner).0));
+        let sliver = if length.is_finite() { SLIVER * length } else { 0.0 };
+        *outer - *inner <= sliver.max(1e-9 * *outer)
+    });
     let common = surfaces[0].extent().min(surfaces[1].extent());
     radii.retain(|&r| r <= common * (1.0 + 1e-9));
     let n = radii.partition_point(|&r| r < limit * (1.0 - 1e-9)) + 1;

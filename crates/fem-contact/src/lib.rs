@@ -30,6 +30,7 @@ mod moved;
 mod nodal;
 mod node_to_surface;
 mod pressure;
+mod read_out;
 mod slip;
 mod surface;
 
@@ -38,6 +39,6 @@ pub use evaluate::ContactForces;
 pub use interface::{ContactInterface, ContactPoint};
 pub use moved::MovedInterface;
 pub use nodal::NodalContact;
-pub use pressure::centre_pressure;
+pub use read_out::{Barrier, centre_pressure, contact_radius};
 pub use slip::SlippingInterface;
 pub use surface::{Foot, Surface};

@@ -20,7 +20,7 @@
 
 use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::pressure::edge;
+use crate::read_out::{self, Barrier};
 use crate::surface::Foot;
 
 /// Displacement (u_r, u_y) of a node, m.
@@ -140,26 +140,27 @@ impl SlippingInterface {
 
     /// As [`ContactInterface::contact_radius`].
     pub fn contact_radius(&self, u: [&[Displacement]; 2]) -> f64 {
-        edge(self.signed_pressure(u))
+        read_out::contact_radius(self.nodal_pressure(u), Barrier::Springs)
     }
 
     /// As [`ContactInterface::nodal_pressure`].
     pub fn nodal_pressure<'a>(
         &'a self,
         u: [&'a [Displacement]; 2],
-    ) -> impl Iterator<Item = (f64, f64)> + 'a {
+    ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
         self.interface.at_nodes(self.signed_pressure(u))
     }
 
     /// As [`ContactInterface::centre_pressure`].
     pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
-        self.interface.on_axis(self.nodal_pressure(u), self.contact_radius(u))
+        let radius = self.contact_radius(u);
+        read_out::centre_pressure(self.nodal_pressure(u), radius, Barrier::Springs)
     }
 
     fn signed_pressure<'a>(
         &'a self,
         u: [&'a [Displacement]; 2],
-    ) -> impl DoubleEndedIterator<Item = (f64, f64)> + 'a {
+    ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
         self.interface
             .points
             .iter()

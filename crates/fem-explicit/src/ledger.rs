@@ -107,6 +107,11 @@ impl Ledger {
         }
     }
 
+    /// ∫ F dt of the contact so far, half a step behind the state, N s.
+    pub fn impulse(&self) -> f64 {
+        self.impulse
+    }
+
     /// Balances the state at t_n, whose forces are in `scratch`.
     pub fn balance(
         &mut self,

@@ -5,7 +5,7 @@
 //! integrals and means are those of these instants, the same for any number of rows that are kept.
 
 use fem_collision::{
-    Account, Aftermath, Cadence, Held, Row, Scatter, Side, Standstill, Want, worst,
+    Account, Aftermath, Cadence, Held, Pulse, Row, Scatter, Side, Standstill, Want,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,10 +20,8 @@ const GONE_WITH_WAVES: f64 = 0.95;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Observed {
     cadence: Cadence,
-    /// Largest contact radius, m.
-    pub max_contact_radius: f64,
-    /// Largest contact pressure on the axis, Pa.
-    pub peak_pressure: f64,
+    /// Of force, contact radius and pressure.
+    pub pulse: Pulse,
     /// Scatter of the contact force.
     pub scatter: Scatter,
     /// Since the last contact; `None` before the first one.
@@ -38,8 +36,7 @@ impl Observed {
     pub fn new(model: &Model, expected_steps: f64) -> Self {
         Self {
             cadence: Cadence::new(Want::ROWS, expected_steps),
-            max_contact_radius: 0.0,
-            peak_pressure: 0.0,
+            pulse: Pulse::default(),
             scatter: Scatter::default(),
             aftermath: None,
             last: None,
@@ -79,11 +76,11 @@ impl Observed {
         self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
     }
 
-    /// Takes the balance of an instant, and whether the contact is closed in it.
-    pub fn take(&mut self, row: Row, is_closed: bool) {
+    /// Takes the balance of an instant, the impulse of the contact so far (N s), and whether it is closed.
+    pub fn take(&mut self, row: Row, impulse: f64, is_closed: bool) {
         self.cadence.count();
-        self.max_contact_radius = worst(self.max_contact_radius, row.contact_radius.unwrap_or(0.0));
-        self.peak_pressure = worst(self.peak_pressure, row.centre_pressure.unwrap_or(0.0));
+        let (radius, pressure) = (row.contact_radius, row.centre_pressure);
+        self.pulse.observe(row.time, impulse, radius.unwrap_or(0.0), pressure.unwrap_or(0.0));
         self.scatter.observe(row.contact_force);
         if let Some(aftermath) = &mut self.aftermath {
             aftermath.observe(is_closed, row.vibration);
@@ -95,6 +92,8 @@ impl Observed {
     pub fn fits(&self, model: &Model, state: &State) -> bool {
         self.cadence.is_sound()
             && self.standstill.is_of(&model.frame())
+            && self.pulse.is_sound()
+            && self.pulse.last_time().is_none_or(|time| time <= state.time)
             && self.last.is_none_or(|row| row.time <= state.time)
     }
 }

@@ -37,6 +37,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         }
     });
     let ends = log.first_contact.zip(log.last_contact);
+    let peaks = observed.pulse.peaks(log.peak_force);
     let (snapshots, mut warnings) = recorder.finish();
     if is_complete && !is_parted {
         warnings.push(STAY_TOGETHER.to_string());
@@ -61,10 +62,11 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         first_contact: log.first_contact,
         last_contact: log.last_contact,
         contact_episodes: log.episodes,
-        peak_force: Some(log.peak_force),
+        peak_force: Some(peaks.force),
+        peak_force_raw: Some(log.peak_force),
         max_approach: Some(log.max_approach),
-        max_contact_radius: Some(observed.max_contact_radius),
-        peak_pressure: Some(observed.peak_pressure),
+        max_contact_radius: Some(peaks.radius),
+        peak_pressure: Some(peaks.pressure),
         force_scatter: observed.scatter.force(),
         searched: Some(model.searched()),
         initial_energy: Some(ledger.initial),

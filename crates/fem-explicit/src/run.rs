@@ -194,7 +194,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     if is_landmark || observed.is_due(step) {
         let row = ledger.balance(model, state, scratch, &contact);
         ledger.check(&row, step)?;
-        observed.take(row, is_closed);
+        observed.take(row, ledger.impulse(), is_closed);
         if let Some(history) = &mut history {
             history.push(row, kind);
         }
@@ -250,7 +250,7 @@ fn record_stop(model: &Model, memory: &mut Memory, scratch: &mut Scratch) {
     {
         let row = ledger.balance(model, state, scratch, &contact);
         if ledger.check(&row, state.step).is_ok() {
-            observed.take(row, contact.n_closed > 0);
+            observed.take(row, ledger.impulse(), contact.n_closed > 0);
         }
     }
     if let (Some(history), Some(row)) = (history, observed.last)

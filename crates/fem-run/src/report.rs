@@ -121,6 +121,18 @@ fn balances(summary: &Summary) -> String {
     let of_effects = of_effects.map(|(account, energy)| {
         format!("; {} {}", account.name().replace('_', " "), show(energy, "J"))
     });
+    let raw = summary.peak_force_raw_n.map(|force| {
+        let text =
+            format!("means over 1/64 of the pulse; force of a single step {}", show(force, "N"));
+        ["peaks".to_string(), text]
+    });
+    let null = summary.elastic_null.map(|null| {
+        let lost = null.one_minus_restitution;
+        let text = format!(
+            "with relaxation off these settings lose {lost:.0e} of the restitution (estimated)"
+        );
+        ["elastic null".to_string(), text]
+    });
     let rows = [
         [
             "energy".to_string(),
@@ -134,7 +146,7 @@ fn balances(summary: &Summary) -> String {
         ["momentum".into(), format!("residual {}", residual(summary.momentum_residual_relative))],
         ["cost".into(), price(summary)],
     ];
-    table(&[Left, Left], rows)
+    table(&[Left, Left], raw.into_iter().chain(null).chain(rows))
 }
 
 fn price(summary: &Summary) -> String {

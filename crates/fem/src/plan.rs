@@ -84,7 +84,7 @@ impl Plan {
         let estimate = Estimate::checked(scene)?;
         // Elements are made no larger for a contact that is wider.
         let half_radius = 0.5 * estimate.smallest_radius;
-        let contact_radius = estimate.contact_radius.min(half_radius);
+        let contact_radius = radius_of_elements(&estimate).min(half_radius);
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
             (contact_radius / ELEMENTS_PER_CONTACT_RADIUS).min(estimate.smallest_radius / 12.0),
         );
@@ -185,6 +185,15 @@ impl Plan {
         });
         file
     }
+}
+
+/// The contact radius (m) that elements divide. Bodies that relax have the mesh of elastic ones up to
+/// twice the radius with fully relaxed moduli, an upper limit that the contact does not reach; from four times
+/// on, where it goes on growing, that radius counts.
+fn radius_of_elements(estimate: &Estimate) -> f64 {
+    let elastic = estimate.hertz.max_contact_radius();
+    let wider = 0.5 * estimate.contact_radius / elastic;
+    if wider <= 1.0 { elastic } else { (elastic * wider * wider).min(estimate.contact_radius) }
 }
 
 /// Radius out to which explicit elements of this size (m) look for the contact of an estimate at

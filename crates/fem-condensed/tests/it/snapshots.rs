@@ -97,6 +97,69 @@ fn snapshots_are_the_motion() {
     }
 }
 
+/// Velocities of a snapshot are those by which displacements change from step to step, in contact, with
+/// modes of vibration, and of a shear modulus that relaxes beside them.
+#[test]
+fn velocities_are_the_change_of_displacements() {
+    for (glass, vibration_modes) in [(glass(), 0), (relaxing(Shear), 6)] {
+        let scene = Scene { speed: 3.0, ..Scene::paper(glass.clone(), glass) };
+        let settings = PairSettings { vibration_modes, ..scene.settings() };
+        let pair = CondensedPair::new(scene.inputs(6.0), settings).unwrap();
+        let frame = pair.frame(scene.speed).unwrap();
+        let step = drawn(&pair, frame, SnapshotRequest::none(), 400).time_step.unwrap();
+        for k in [60.0, 240.0] {
+            let times = [-1.0, 0.0, 1.0].map(|j| (k + j) * step).to_vec();
+            let run = drawn(&pair, frame, SnapshotRequest::Times(times), 400);
+            let [before, now, after] = &run.snapshots[..] else { panic!("{:?}", run.warnings) };
+            for side in 0..2 {
+                let ends = [before, after].map(|snapshot| snapshot.displacement(side));
+                let (mut off, mut largest) = (0.0_f64, 0.0_f64);
+                let velocity = &now.bodies[side].velocity;
+                let mean = velocity.iter().map(|v| v[1]).sum::<f64>() / velocity.len() as f64;
+                for (v, (from, to)) in velocity.iter().zip(ends[0].iter().zip(&ends[1])) {
+                    for axis in 0..2 {
+                        let change = (to[axis] - from[axis]) / (2.0 * step);
+                        off = off.max((v[axis] - change).abs());
+                        // Relative to the body as a whole.
+                        largest = largest.max((v[axis] - [0.0, mean][axis]).abs());
+                    }
+                }
+                // Nodes that join the contact move by jumps, 3 % of the largest velocity; half of it is 50 %.
+                assert!(off < 0.1 * largest, "{vibration_modes} {k} {side}: {off} {largest}");
+            }
+        }
+    }
+}
+
+/// The energy of vibrations that a run tells is twice the mean kinetic energy, about the mass centre, of the
+/// fields after the contact.
+#[test]
+fn vibration_energy_is_that_of_the_fields() {
+    let scene = Scene { speed: 5.0, ..Scene::paper(glass(), glass()) };
+    let settings = PairSettings { vibration_modes: 8, ..scene.settings() };
+    let pair = CondensedPair::new(scene.inputs(5.0), settings).unwrap();
+    let frame = pair.frame(scene.speed).unwrap();
+    let run = drawn(&pair, frame, SnapshotRequest::none(), 200);
+    let (step, last) = (run.time_step.unwrap(), run.last_contact.unwrap());
+    let first = (last / step).ceil() as u64;
+    let times = (first..run.steps.unwrap()).map(|k| k as f64 * step).collect::<Vec<_>>();
+    let run = drawn(&pair, frame, SnapshotRequest::Times(times), 200);
+    assert!(run.snapshots.len() > 20, "{:?}", run.warnings);
+    for side in 0..2 {
+        let masses = pair.nodal_masses(side);
+        let kinetic = run.snapshots.iter().map(|snapshot| {
+            let velocity = &snapshot.bodies[side].velocity;
+            let nodes = || masses.iter().zip(velocity);
+            let mass: f64 = masses.iter().sum();
+            let mean = nodes().map(|(m, v)| m * v[1]).sum::<f64>() / mass;
+            0.5 * nodes().map(|(m, v)| m * (v[0] * v[0] + (v[1] - mean).powi(2))).sum::<f64>()
+        });
+        let of_fields = 2.0 * kinetic.sum::<f64>() / run.snapshots.len() as f64;
+        let told = run.bodies[side].vibration_energy.unwrap();
+        assert!((of_fields / told - 1.0).abs() < 0.05, "{side}: {of_fields:e} {told:e}");
+    }
+}
+
 /// Counts and times.
 #[test]
 fn counts_and_times() {

@@ -35,6 +35,7 @@ pub(super) struct Point {
 }
 
 /// Walks along both surfaces. `U` tells the displacement of a node, m.
+#[derive(Clone)]
 pub(super) struct Pieces<'a, U> {
     interface: &'a MovedInterface,
     displacement: [U; 2],

@@ -1,26 +1,15 @@
 //! Contact radius and pressure of moved surfaces: true ones.
 
 use super::MovedInterface;
-use crate::pressure::centre_pressure;
+use super::pieces::GAUSS;
+use crate::pressure::coarser;
+use crate::read_out::{Barrier, centre_pressure, contact_radius};
 
 impl MovedInterface {
-    /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact.
-    ///
-    /// Interpolated linearly in the signed pressure −k g between the outermost closed point and the
-    /// next.
+    /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact: see
+    /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let mut edge = 0.0;
-        let mut closed: Option<[f64; 2]> = None;
-        for (piece, point) in self.points(u.map(|u| move |node: u32| u[node as usize])) {
-            let pressure = -piece.stiffness * point.gap;
-            if pressure > 0.0 {
-                closed = Some([point.radius, pressure]);
-                edge = point.radius;
-            } else if let Some([radius, inside]) = closed.take() {
-                edge = radius + (point.radius - radius) * inside / (inside - pressure);
-            }
-        }
-        edge
+        contact_radius(self.nodal_pressure(u), Barrier::Springs)
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis outward: where the node is now
@@ -29,10 +18,12 @@ impl MovedInterface {
     pub fn nodal_pressure<'a>(
         &'a self,
         u: [&'a [[f64; 2]]; 2],
-    ) -> impl Iterator<Item = (f64, f64)> + 'a {
-        let side = usize::from(self.surfaces[0].is_rigid());
+    ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+        let side = coarser(&self.surfaces, self.candidate_radius);
         let surface = &self.surfaces[side];
-        let mut points = self.points(u.map(|u| move |node: u32| u[node as usize])).peekable();
+        let pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize]));
+        let points = pieces.flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))));
+        let mut points = points.peekable();
         // Force and area that the segment inside of a node has given to it.
         let mut from_inside = [0.0; 2];
         (0..self.n_nodes[side]).map(move |k| {
@@ -54,12 +45,9 @@ impl MovedInterface {
         })
     }
 
-    /// True contact pressure on the axis, Pa; 0 without contact there. Fitted to the nodes as
-    /// [`ContactInterface::centre_pressure`](crate::ContactInterface::centre_pressure) does, where they
-    /// are now.
+    /// True contact pressure on the axis, Pa; 0 without contact there: see
+    /// [`centre_pressure`](crate::centre_pressure), of the nodes where they are now.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let side = usize::from(self.surfaces[0].is_rigid());
-        let spacing = self.surfaces[side].segment_length(0);
-        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), spacing)
+        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs)
     }
 }

@@ -1,4 +1,4 @@
-//! Contact radius and centre pressure of an imposed Hertzian contact.
+//! Force and pressures at the nodes of an imposed Hertzian contact.
 
 use std::f64::consts::PI;
 
@@ -29,42 +29,28 @@ fn hertzian(meshes: &[SphereMesh; 2], size: f64) -> [Field; 2] {
 }
 
 #[test]
-fn radius_force_and_centre_pressure_of_hertz_are_recovered() {
+fn force_and_nodal_pressures_of_hertz_are_recovered() {
     let exact = 2.0 / 3.0 * PI * CONTACT_RADIUS.powi(2) * PEAK_PRESSURE;
     let errors = [40e-6, 20e-6, 10e-6].map(|size| {
         let meshes = glass_pair([size, size]);
         let interface = interface(&meshes, 0.45e-3);
         let u = hertzian(&meshes, size);
         let both = [u[0].as_slice(), u[1].as_slice()];
-        // The rim's square root is cut by straight lines between nodes: 0.14 h is measured.
-        let radius = interface.contact_radius(both);
-        assert!((radius - CONTACT_RADIUS).abs() < 0.2 * size, "{radius} at {size}");
-        let centre = interface.centre_pressure(both) / PEAK_PRESSURE - 1.0;
+        let nodes = interface.nodal_pressure(both);
+        let hertz = |r: f64| PEAK_PRESSURE * (1.0 - (r / CONTACT_RADIUS).powi(2)).max(0.0).sqrt();
+        let inner = nodes.take_while(|(r, _)| *r < 0.5 * CONTACT_RADIUS);
+        let worst = inner.map(|(r, p)| (p / hertz(r) - 1.0).abs()).fold(0.0, f64::max);
         let force = forces(&interface, &u).0.force / exact - 1.0;
-        [centre, force]
+        [worst, force]
     });
-    // At 5.6, 11 and 22 elements a contact radius; measured are 0.94 and 2.9 % at the first.
-    assert!(errors[0][0].abs() < 0.01 && errors[0][1].abs() < 0.03, "{errors:?}");
+    // At 5.6, 11 and 22 elements a contact radius; measured are 1.3 and 2.9 % at the first.
+    assert!(errors[0][0].abs() < 0.015 && errors[0][1].abs() < 0.03, "{errors:?}");
     for pair in errors.windows(2) {
         for k in 0..2 {
             // Second order, but that the rim falls into an element at another place each time.
             let order = (pair[0][k] / pair[1][k]).log2();
             assert!((1.6..2.4).contains(&order), "{order} {errors:?}");
         }
-    }
-}
-
-/// With three nodes or fewer within 0.8 contact radii the axis node stands for the centre.
-#[test]
-fn a_contact_of_a_few_nodes_gives_the_pressure_of_the_axis_node() {
-    let meshes = glass_pair([30e-6, 30e-6]);
-    let interface = interface(&meshes, 0.4e-3);
-    for (depth, is_fitted) in [(0.5e-6, false), (2e-6, true)] {
-        let u = [rigid(&meshes[0], depth), rigid(&meshes[1], 0.0)];
-        let both = [u[0].as_slice(), u[1].as_slice()];
-        let axis = interface.nodal_pressure(both).next().unwrap();
-        assert_eq!(axis.0, 0.0);
-        assert_eq!(interface.centre_pressure(both) != axis.1, is_fitted);
     }
 }
 
@@ -78,18 +64,23 @@ fn nodal_pressures_add_up_to_the_force() {
         let (total, f) = forces(&interface, &u);
         let mut sum = 0.0;
         let pressures = interface.nodal_pressure([&u[0], &u[1]]);
+        // At the nodes of the coarser mesh; the upper body is pushed up.
+        let side = usize::from(sizes[1] > sizes[0]);
+        let (mesh, sign) = (&meshes[side], [1.0, -1.0][side]);
         for (k, (r, p)) in pressures.enumerate() {
-            let node = meshes[0].surface()[k] as usize;
-            assert_eq!(r, meshes[0].nodes()[node][0]);
-            let r = |k: usize| [meshes[0].nodes()[meshes[0].surface()[k] as usize][0], 0.0];
+            let node = mesh.surface()[k] as usize;
+            assert_eq!(r, mesh.nodes()[node][0]);
+            let r = |k: usize| [mesh.nodes()[mesh.surface()[k] as usize][0], 0.0];
             let mut area = segment_measures(r(k), r(k + 1))[0];
             if k > 0 {
                 area += segment_measures(r(k - 1), r(k))[1];
             }
-            // Rounding; the contact ends well before the candidates do.
-            assert!((p * area + f[0][node][1]).abs() < 1e-13 * total.force, "{sizes:?} {k}");
+            // Where pieces are joined, nodes that lie 1e-5 of a segment apart share one's area; the
+            // contact ends well before the candidates do.
+            let off = (p * area + sign * f[side][node][1]).abs() / total.force;
+            assert!(off < 2e-6, "{sizes:?} {k}: {off:e}");
             sum += p * area;
         }
-        assert!((sum / total.force - 1.0).abs() < 1e-13, "{sum} {total:?}");
+        assert!((sum / total.force - 1.0).abs() < 2e-6, "{sum} {total:?}");
     }
 }

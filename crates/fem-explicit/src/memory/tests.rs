@@ -165,8 +165,9 @@ fn a_memory_grows_by_what_is_asked_for() {
         run.advance(n_steps);
         run.memory().clone()
     };
-    // Numbers of the state that differ in length, and a row.
-    assert!(n_bytes(&bare(u64::MAX)) < n_bytes(&bare(0)) + 500);
+    // Numbers of the state that differ in length, a row, and the pulse: four numbers an instant observed.
+    let n_observed = 2 * Want::ROWS;
+    assert!(n_bytes(&bare(u64::MAX)) < n_bytes(&bare(0)) + 500 + 32 * n_observed);
     // One state: two fields of each body, a third of the one that relaxes.
     let ended = memory(&model, SnapshotRequest::Labels(vec![Label::LastContact]), u64::MAX);
     let rows = size_of_val(ended.history.as_ref().unwrap().rows());

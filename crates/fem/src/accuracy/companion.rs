@@ -34,9 +34,14 @@ use crate::simulation::Simulation;
 const ORDER: f64 = 1.9;
 /// Elements of coarser companions over those of the collision.
 const COARSER: [f64; 2] = [1.5, 2.0];
-/// Errors that are told over those that are estimated: by condensed bodies on the same mesh, and by
-/// coarser companions.
-const MARGIN: [f64; 2] = [1.6, 2.0];
+/// Errors that are told over those that are estimated, in the order of [`Headline::ALL`]: by condensed
+/// bodies on the same mesh, ...
+const MARGIN: [f64; 6] = [1.6; 6];
+/// ... of condensed bodies by coarser ones, whose contact time and force converge faster than is counted
+/// with, ...
+const MARGIN_OF_CONDENSED: [f64; 6] = [2.0, 1.0, 1.0, 2.0, 2.2, 3.0];
+/// ... and of explicit elements by coarser ones.
+const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
 /// others relative, in the order of [`Headline::ALL`].
 const SCATTER: [f64; 6] = [2e-5, 1e-4, 4e-4, 5e-5, 1e-3, 1e-3];
@@ -65,14 +70,15 @@ pub(crate) fn discretisation_errors(
         false => None,
     };
     let (errors, margin) = match condensed {
-        Some(errors) => (errors, MARGIN[0]),
-        None => (companions.of_coarser(values), MARGIN[1]),
+        Some(errors) => (errors, MARGIN),
+        None if is_explicit => (companions.of_coarser(values), MARGIN_OF_STRAINED),
+        None => (companions.of_coarser(values), MARGIN_OF_CONDENSED),
     };
     let scatter = if is_explicit { SCATTER } else { CONDENSED_SCATTER };
     let added = added_share(collision);
     let mut sums = [None; 6];
     for (k, headline) in Headline::ALL.into_iter().enumerate() {
-        let share = |error: f64| margin * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
+        let share = |error: f64| margin[k] * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
         let both = errors[k].zip(values[k]);
         sums[k] = both.map(|(error, value)| share(error) * headline.scale(value));
     }

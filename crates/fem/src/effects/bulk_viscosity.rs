@@ -31,8 +31,6 @@ use super::speed::{MACH_LIMIT, above, number};
 use crate::contact_method::asked_for;
 use crate::estimate::Estimate;
 
-/// What it takes of the peak force, over v/c_s to the 3/5.
-const SMOOTHING: f64 = 0.6;
 /// What it takes of the restitution, over (v/c_s)^(3/5) (c_s/c_p)⁴.
 const LOSS: f64 = 0.04;
 
@@ -114,8 +112,8 @@ impl Effect for BulkViscosity {
         };
         let largest = materials.map(squared_ratio).fold(0.0, f64::max);
         let growth = Some(estimate.mach).filter(|mach| *mach <= LARGEST_MACH)?.powf(0.6);
-        let smoothing = if rings(scene, false) { SMOOTHING } else { 0.0 };
-        let changes = LeftOut::shares(estimate, 0.0, smoothing * growth);
+        // The peak force is a mean over which ringing goes.
+        let changes = LeftOut::shares(estimate, 0.0, 0.0);
         let loss = LeftOut::restitution(LOSS * growth * largest.powi(2));
         Some(LeftOut { restitution: loss.restitution, contact_time_s: None, ..changes })
     }

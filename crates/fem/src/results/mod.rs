@@ -1,6 +1,7 @@
 //! What is kept of a collision: names, order and units of a summary's keys, of a history's columns
 //! and of a snapshot's arrays.
 
+mod elastic_null;
 mod energy;
 #[cfg(feature = "files")]
 mod history;
@@ -9,6 +10,7 @@ mod snapshots;
 mod summarise;
 mod summary;
 
+pub use elastic_null::ElasticNull;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use history::{HISTORY_FILE, history_csv};

@@ -3,6 +3,7 @@
 use fem_collision::{Book, Collision, Rest};
 use fem_laws::HertzImpact;
 
+use super::elastic_null::elastic_null;
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
@@ -45,6 +46,8 @@ impl Summary {
         Self {
             uncertainty: UncertaintySummary::from(&uncertainty),
             collision: quantities,
+            peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
+            elastic_null: elastic_null(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
             energy: energy(collision, &mut numbers),

@@ -3,6 +3,7 @@
 use fem_case::CaseFile;
 use serde::Serialize;
 
+use super::elastic_null::ElasticNull;
 use super::energy::Energy;
 use crate::effects::{Doubt, LeftOut, Verdict};
 use crate::models::Considered;
@@ -19,6 +20,10 @@ pub struct Summary {
     /// What the collision is known by.
     #[serde(flatten)]
     pub collision: Quantities,
+    /// Largest contact force of a single step, in models that step.
+    pub peak_force_raw_n: Option<f64>,
+    /// Of a relaxing run, what its mesh and settings lose with relaxation off.
+    pub elastic_null: Option<ElasticNull>,
     /// Closed contacts, openings in between not counted.
     pub contact_episodes: u64,
     /// What Hertz' theory says of these quantities, with instantaneous moduli.

@@ -8,10 +8,11 @@ use serde_json::Value;
 use crate::results::energy_key;
 
 /// Before the accounts of energy.
-const FIRST: [&str; 13] = [
+const FIRST: [&str; 14] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
+    "peak_force_raw_n",
     "max_approach_m",
     "max_contact_radius_m",
     "peak_pressure_pa",

@@ -103,7 +103,8 @@ fn table() -> Vec<Row> {
             0.005,
         ),
         // The contact is larger than a tenth of the spheres: their compliance is no correction any more.
-        (scene(RUBBER, ["20 mm", "20 mm"], "0.5 m/s"), &[], "condensed = {}", "outside", 0.01),
+        // Vibrations take 1.0 % of the force; by where the edge lies between nodes it swings by 0.4 %.
+        (scene(RUBBER, ["20 mm", "20 mm"], "0.5 m/s"), &[], "condensed = {}", "outside", 0.015),
         (
             scene(RUBBER, ["20 mm", "20 mm"], "1 cm/s"),
             &["accuracy.tolerance='2 %'"],

@@ -98,11 +98,11 @@ fn a_contact_without_mass_does_not_ring_behind_fronts() {
     let spread = run(PENALTY, VISCOUS);
     let ringing = run(PENALTY, "effects.bulk_viscosity='off'");
     let ratio = |a: Option<f64>, b: Option<f64>| a.unwrap() / b.unwrap() - 1.0;
-    // 0.0 and 0.0 % measured, 6 and 10 % with springs that ring.
+    // 0.0 and 0.0 % measured; the largest force of a step is 6 % higher with springs that ring.
     let off = ratio(quiet.peak_force, spread.peak_force);
     assert!(off.abs() < 5e-3, "{off:e} {:?} {:?} {:?}", quiet.warnings, quiet.steps, spread.steps);
     assert!(ratio(quiet.peak_pressure, spread.peak_pressure).abs() < 1e-2);
-    assert!(ratio(ringing.peak_force, spread.peak_force) > 0.03);
+    assert!(ratio(ringing.peak_force_raw, spread.peak_force_raw) > 0.03);
     assert!(!quiet.energies.has(Account::BulkViscosity));
     assert!(quiet.restitution > spread.restitution);
 }

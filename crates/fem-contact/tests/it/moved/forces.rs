@@ -101,8 +101,9 @@ fn bodies_that_move_along_y_are_the_limit() {
     let mut check_both = |scene: &Scene, other: &ContactInterface| {
         // An edge that lies a piece away moves 1e-3 of the load.
         n_edges += u64::from(!check(scene, other, [4e-6, -5e-6], 2e-3));
-        // Rounding of the gaps, and what the arcs differ from parabolas.
-        n_whole += u64::from(check(scene, other, [150e-6, -50e-6], 1e-9));
+        // Pieces joined across nodes that lie 1e-5 apart: 6e-9; rounding and what the arcs differ from
+        // parabolas are less.
+        n_whole += u64::from(check(scene, other, [150e-6, -50e-6], 2e-8));
     };
     for sizes in SIZES {
         let meshes = glass_pair(sizes);

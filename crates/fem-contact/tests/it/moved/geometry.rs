@@ -38,21 +38,23 @@ fn a_stretched_surface_presses_on_its_moved_area() {
         let (total, f) = scene.forces(&u);
         assert!(!total.at_limit && (sum(&f[1], 1) / total.force - 1.0).abs() < 1e-13);
         let force = 0.5 * STIFFNESS / size * PI * depth.powi(2) / curvature;
+        // Elastic bodies of this pressure would end within half an element of where the overlap does.
         let radius = scene.interface.contact_radius([&u[0], &u[1]]);
-        let expected = [force, force * depth / 3.0, (depth / curvature).sqrt()];
-        let found = [total.force, total.energy, radius];
-        [0, 1, 2].map(|k: usize| (found[k] / expected[k] - 1.0).abs())
+        let expected = (depth / curvature).sqrt();
+        assert!((radius - expected).abs() < 0.5 * stretch * size, "{radius} {expected}");
+        let (expected, found) = ([force, force * depth / 3.0], [total.force, total.energy]);
+        [0, 1].map(|k: usize| (found[k] / expected[k] - 1.0).abs())
     });
     // Chords of the paraboloid lie above it by up to c (λh)²/4 = 5 % of δ at the coarsest, two thirds of
     // that on average, and F goes with twice, Π with three times the depth; second order.
-    let limits = [0.07, 0.11, 0.05];
+    let limits = [0.07, 0.11];
     for (k, limit) in limits.into_iter().enumerate() {
         let error = errors.map(|error| error[k]);
         assert!(error[0] < limit && error[2] < limit / 12.0, "{k}: {error:?}");
     }
 }
 
-/// Where all of the surface overlaps a wall by δ, the true pressure is kδ: on the axis, and at the nodes.
+/// Where all of the surface overlaps a wall by δ, the true pressure is kδ at all nodes.
 #[test]
 fn pressure_is_per_moved_area() {
     let (stretch, depth) = (1.3, 2e-4);
@@ -63,7 +65,6 @@ fn pressure_is_per_moved_area() {
     // The surface of 1 km rises by up to 1e-8 m between nodes, 5e-5 of δ; lengths differ by 2.5e-9.
     let close = |p: f64| (p / pressure - 1.0).abs() < 1e-4;
     let u = [&u[0][..], &u[1][..]];
-    assert!(close(scene.interface.centre_pressure(u)));
     for (k, (r, p)) in scene.interface.nodal_pressure(u).enumerate() {
         assert!((r - stretch * 0.01 * k as f64).abs() < 1e-8 && close(p), "{p} at {r}");
     }

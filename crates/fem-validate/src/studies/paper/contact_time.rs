@@ -2,8 +2,9 @@
 
 use fem::ting_impact;
 use fem_figure::{Axis, Chart, Curve};
+use serde::Deserialize;
 
-use super::{Speeds, exponent};
+use super::{Speeds, case_at, exponent};
 use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
@@ -16,9 +17,21 @@ struct Point {
     finite: f64,
 }
 
-/// Runs `[run.elastic]` at all speeds.
+/// Speeds of the finite elements, and of condensed ones with more elements.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    /// Approach speeds, m/s.
+    speeds: Vec<f64>,
+    elements_per_contact_radius: f64,
+    condensed_speeds: Vec<f64>,
+    condensed_elements_per_contact_radius: f64,
+}
+
+/// Runs `[run.elastic]` at all speeds, `[run.condensed]` at some.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
-    let speeds: Speeds = laboratory.parameters()?;
+    let Parameters { speeds, elements_per_contact_radius, .. } = laboratory.parameters()?;
+    let speeds = Speeds { speeds, elements_per_contact_radius };
     let mut points = Vec::new();
     for run in speeds.run_elastic(laboratory)? {
         let hertz = run.hertz;
@@ -31,6 +44,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         });
     }
     let mut findings = Findings::new();
+    measure_condensed(laboratory, &mut findings)?;
     for point in &points {
         let Point { speed, ours, hertz, finite } = point;
         findings.measure(format!("time.{speed}"), *ours);
@@ -42,6 +56,24 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     findings.measure("exponent", exponent(&times));
     draw(&points, &mut findings);
     Ok(findings)
+}
+
+/// Condensed bodies, whose contact time has no noise of its own.
+fn measure_condensed(laboratory: &Laboratory, findings: &mut Findings) -> Result<(), StudyError> {
+    let parameters: Parameters = laboratory.parameters()?;
+    let elements = parameters.condensed_elements_per_contact_radius;
+    let condensed = laboratory.case("condensed")?;
+    let cases =
+        parameters.condensed_speeds.iter().map(|speed| case_at(&condensed, *speed, elements));
+    let runs = laboratory.simulate_all(cases.collect::<Result<_, _>>()?)?;
+    for (speed, run) in parameters.condensed_speeds.iter().zip(&runs) {
+        let time = run.collision.contact_time.unwrap_or(f64::NAN);
+        findings.measure(
+            format!("condensed_over_hertz.{speed}"),
+            time / run.hertz.contact_time() - 1.0,
+        );
+    }
+    Ok(())
 }
 
 fn draw(points: &[Point], findings: &mut Findings) {

@@ -36,6 +36,7 @@ pub(super) fn of_impact(
         last_contact: impact.contact_time.map(|time| first_touch + time),
         contact_episodes: 1,
         peak_force: Some(impact.peak_force),
+        peak_force_raw: None,
         max_approach: Some(impact.max_approach),
         max_contact_radius: has_radius.then_some(impact.max_contact_radius),
         peak_pressure: impact.peak_pressure,
