@@ -30,6 +30,12 @@ pub fn may_be_off_by(uncertainty: &UncertaintySummary) -> String {
         true => "mesh and effects left out",
         false => "effects left out",
     };
+    let is_nothing = |(_, _, parts): &(&str, &str, &Parts)| {
+        parts.discretisation.is_none() && parts.model == Some(0.0)
+    };
+    if quantities.iter().all(is_nothing) {
+        return format!("may be off by  nothing that closed forms tell of ({by})");
+    }
     let size = |(name, unit, parts): &(&str, &str, &Parts)| {
         let told = [parts.discretisation, parts.model];
         let size = match told {
@@ -74,6 +80,16 @@ mod tests {
         let expected = "may be off by  restitution 1.9e-4, contact time 2.5 µs, peak force 0, approach ?, \
                         contact radius 2.5 µm, peak pressure 2.5 µPa (effects left out)";
         assert_eq!(line, expected);
+        let nothing = parts(None, Some(0.0));
+        let none = UncertaintySummary {
+            restitution: nothing,
+            contact_time_s: nothing,
+            peak_force_n: nothing,
+            max_approach_m: nothing,
+            max_contact_radius_m: nothing,
+            peak_pressure_pa: nothing,
+        };
+        assert!(may_be_off_by(&none).contains("nothing that closed forms tell of"));
         uncertainty.contact_time_s = parts(Some(2e-6), Some(2e-6));
         let line = may_be_off_by(&uncertainty);
         assert!(
