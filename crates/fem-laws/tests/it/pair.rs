@@ -1,6 +1,8 @@
 //! Effective radius, mass and modulus.
 
-use fem_laws::{LawError, Pair, Partner, restitution_of_mass_centres, sphere_mass};
+use fem_laws::{
+    LawError, Pair, Partner, compliance_shares, restitution_of_mass_centres, sphere_mass,
+};
 use fem_material::{ElasticModuli, Material};
 
 fn sphere(radius: f64, mass: f64, plane_strain_modulus: f64) -> Partner {
@@ -28,6 +30,18 @@ fn unlike_bodies_add_their_reciprocals() {
     assert_eq!(pair.effective_radius(), 0.75);
     assert_eq!(pair.effective_mass(), 2.0);
     assert_eq!(pair.contact_modulus(), 4.0);
+}
+
+/// A body's share is E*/E′; binary fractions again, but for 1/5.
+#[test]
+fn shares_of_the_compliance_are_moduli_over_each_other() {
+    let moduli = [20.0, 5.0];
+    let pair = Pair::new(sphere(1.0, 6.0, moduli[0]), sphere(3.0, 3.0, moduli[1])).unwrap();
+    let shares = compliance_shares(moduli.map(f64::recip));
+    for (share, modulus) in shares.into_iter().zip(moduli) {
+        assert!((share - pair.contact_modulus() / modulus).abs() < 1e-15, "{share}");
+    }
+    assert_eq!(compliance_shares([f64::INFINITY.recip(), 0.2]), [0.0, 1.0]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use serde_json::Value;
 const HOUSE: [(&str, &str, &[&str]); 15] = [
     (
         "fem-material",
-        "Isotropic linear viscoelastic materials: elastic moduli and Prony relaxation",
+        "Isotropic viscoelastic materials: elastic moduli, Prony relaxation, hyperelastic laws",
         &[],
     ),
     (
@@ -59,7 +59,7 @@ const HOUSE: [(&str, &str, &[&str]); 15] = [
     ),
     (
         "fem-explicit",
-        "Explicit dynamics of two small-strain viscoelastic bodies in contact",
+        "Explicit dynamics of two viscoelastic bodies in contact, at small or finite strain",
         &["fem-collision", "fem-contact", "fem-element", "fem-material", "fem-mesh"],
     ),
     (

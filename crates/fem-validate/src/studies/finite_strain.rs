@@ -2,7 +2,8 @@
 //! their finer meshes.
 //!
 //! Of each run all that the study `summary` measures, and of its [`Pulse`] `NAME.pulse_time` and
-//! `NAME.pulse_force`.
+//! `NAME.pulse_force`, and by how much the peak force that the program prints is above it,
+//! `NAME.printed_force`.
 //!
 //! For each pair of `against` what changes from the partner to the run: `NAME.time_change` (first to
 //! last contact), `NAME.width_change` (of `pulse_time`) and `NAME.force_change` as shares,
@@ -53,6 +54,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let measured = Measured::of(run);
         findings.measure(format!("{name}.pulse_time"), measured.pulse.time);
         findings.measure(format!("{name}.pulse_force"), measured.pulse.force);
+        let printed = run.peak_force() / measured.pulse.force - 1.0;
+        findings.measure(format!("{name}.printed_force"), printed);
         pulses.insert(name.clone(), measured);
     }
     let pulse_of = |name: &String| {
