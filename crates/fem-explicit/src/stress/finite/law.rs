@@ -105,7 +105,40 @@ impl<W> Relaxing<W> {
     }
 }
 
-impl Law for Relaxing<RelaxingNeoHooke> {
+/// The stress of a point of a law that relaxes.
+pub(super) trait PointLaw: Debug + Send + Sync + 'static {
+    /// As [`Law::first_piola`].
+    fn first_piola<L: Lanes<WIDE>>(
+        &self,
+        h: &AxisymmetricTensor<L>,
+        past: &[ViscousStrain<L>],
+    ) -> (AxisymmetricTensor<L>, L);
+}
+
+impl PointLaw for RelaxingNeoHooke {
+    #[inline(always)]
+    fn first_piola<L: Lanes<WIDE>>(
+        &self,
+        h: &AxisymmetricTensor<L>,
+        past: &[ViscousStrain<L>],
+    ) -> (AxisymmetricTensor<L>, L) {
+        self.first_piola(h, past)
+    }
+}
+
+/// Any law by its name.
+impl PointLaw for Viscoelastic {
+    #[inline(always)]
+    fn first_piola<L: Lanes<WIDE>>(
+        &self,
+        h: &AxisymmetricTensor<L>,
+        past: &[ViscousStrain<L>],
+    ) -> (AxisymmetricTensor<L>, L) {
+        self.first_piola_unchecked(h, past)
+    }
+}
+
+impl<W: PointLaw> Law for Relaxing<W> {
     fn shear(&self) -> f64 {
         self.shear
     }
@@ -125,29 +158,5 @@ impl Law for Relaxing<RelaxingNeoHooke> {
         past: &[ViscousStrain<L>],
     ) -> (AxisymmetricTensor<L>, L) {
         self.law.first_piola(h, past)
-    }
-}
-
-/// Any law by its name.
-impl Law for Relaxing<Viscoelastic> {
-    fn shear(&self) -> f64 {
-        self.shear
-    }
-
-    fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
-    fn equilibrium_weight(&self) -> f64 {
-        self.equilibrium_weight
-    }
-
-    #[inline(always)]
-    fn first_piola<L: Lanes<WIDE>>(
-        &self,
-        h: &AxisymmetricTensor<L>,
-        past: &[ViscousStrain<L>],
-    ) -> (AxisymmetricTensor<L>, L) {
-        self.law.first_piola_unchecked(h, past)
     }
 }

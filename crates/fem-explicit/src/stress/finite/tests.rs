@@ -8,6 +8,7 @@ use super::super::lanes::{Lanes, Plain, WIDE};
 use super::super::of_material;
 use super::block::Block;
 use super::kernel::{Conjugate, Strain};
+use super::law::ElasticLaw;
 use super::law::Law;
 use super::past::Past;
 use super::*;
