@@ -154,7 +154,7 @@ impl<L: Lanes<WIDE>> Strain<L> {
         past: &Past<L>,
     ) -> (Conjugate<L>, L) {
         let weights = law.weights();
-        let (p, volume_change) = law.first_piola(&self.h, &past.strains[..weights.len()]);
+        let (p, volume_change) = law.first_piola(&self.h, &past.metrics[..weights.len()]);
         let mut amplitudes = Amplitudes::new(own, law.equilibrium_weight());
         for (term, &weight) in weights.iter().enumerate() {
             amplitudes.add_term(weight, past.amplitudes[term]);

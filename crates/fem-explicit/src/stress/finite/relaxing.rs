@@ -9,8 +9,8 @@ use std::borrow::Cow;
 use std::fmt;
 
 use fem_material::finite::{
-    AxisymmetricTensor, Hyperelastic, Inverted, Shape, SymmetricTensor, Viscoelastic, ViscousStep,
-    ViscousStrain,
+    AxisymmetricTensor, Hyperelastic, InverseMetric, Inverted, Shape, SymmetricTensor,
+    Viscoelastic, ViscousStep, ViscousStrain,
 };
 use fem_material::{PronySeries, RelaxationStep};
 
@@ -20,15 +20,15 @@ use super::block::{Blocks, Slots};
 use super::bound::Metrics;
 use super::hourglass::{Amplitudes, Deformed};
 use super::kernel::{Strain, Volumes};
-use super::law::{Law, PointLaw, Relaxing};
+use super::law::{Law, Relaxing};
 use super::past::{self, Past};
 use super::{FiniteStrain, Response};
 use crate::pace;
 use crate::part::{Field, NodalField};
 
 /// A law that relaxes, and the same by its name.
-struct RelaxingStrain<W> {
-    law: Relaxing<W>,
+struct RelaxingStrain {
+    law: Relaxing,
     solid: Viscoelastic,
     relaxation_times: Vec<f64>,
     /// Of all steps that a run may take.
@@ -62,21 +62,12 @@ pub(super) fn relaxing_strain(
 ) -> Box<dyn Stress> {
     let solid = Viscoelastic::new(instantaneous, series);
     let shear = instantaneous.shear_modulus();
-    match solid.neo_hooke().cloned() {
-        Some(law) => {
-            let response = RelaxingStrain::new(Relaxing::of(law, shear, series), solid, series);
-            Box::new(FiniteStrain { blocks, metrics, response })
-        }
-        None => {
-            let law = Relaxing::of(solid.clone(), shear, series);
-            let response = RelaxingStrain::new(law, solid, series);
-            Box::new(FiniteStrain { blocks, metrics, response })
-        }
-    }
+    let law = Relaxing::of(&solid, shear, series);
+    Box::new(FiniteStrain { blocks, metrics, response: RelaxingStrain::new(law, solid, series) })
 }
 
-impl<W> RelaxingStrain<W> {
-    fn new(law: Relaxing<W>, solid: Viscoelastic, series: &PronySeries) -> Self {
+impl RelaxingStrain {
+    fn new(law: Relaxing, solid: Viscoelastic, series: &PronySeries) -> Self {
         let relaxation_times = series.terms().iter().map(|term| term.relaxation_time).collect();
         Self { law, solid, relaxation_times, steps: Vec::new() }
     }
@@ -86,16 +77,16 @@ impl<W> RelaxingStrain<W> {
     }
 }
 
-impl<W> fmt::Debug for RelaxingStrain<W> {
+impl fmt::Debug for RelaxingStrain {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "RelaxingStrain {{ {:?} }}", self.solid)
     }
 }
 
-impl<W: PointLaw> Response for RelaxingStrain<W> {
-    type Law = Relaxing<W>;
+impl Response for RelaxingStrain {
+    type Law = Relaxing;
 
-    fn law(&self) -> &Relaxing<W> {
+    fn law(&self) -> &Relaxing {
         &self.law
     }
 
@@ -170,7 +161,7 @@ impl<W: PointLaw> Response for RelaxingStrain<W> {
     }
 }
 
-impl<W: PointLaw> RelaxingStrain<W> {
+impl RelaxingStrain {
     /// What an element stores (J) and dissipates, W; no numbers of one that has collapsed.
     fn energies_of(
         &self,
@@ -243,10 +234,10 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
                 let before = (Shape::of_remembered(&whole), amplitude);
                 for term in 0..n_terms {
                     let (strain, amplitude) = past::load_term(of_elements, term, slots);
-                    let (strain, amplitude) =
+                    let (strain, metric, amplitude) =
                         step.advance_term(term, &before, &after, strain, amplitude);
                     past::store_term(of_elements, term, slots, &strain, amplitude);
-                    (past.strains[term], past.amplitudes[term]) = (strain, amplitude);
+                    (past.metrics[term], past.amplitudes[term]) = (metric, amplitude);
                 }
             } else {
                 past.load(n_terms, of_elements, slots);
@@ -265,7 +256,8 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
 }
 
 impl Step {
-    /// What a term remembers after a step between two shapes and amplitudes in the undeformed element.
+    /// What a term remembers after a step between two shapes and amplitudes in the undeformed element, and
+    /// what stress asks of it.
     #[inline(always)]
     fn advance_term<L: Lanes<WIDE>>(
         &self,
@@ -274,14 +266,14 @@ impl Step {
         (after, last): &(Shape<L>, (L, L)),
         mut strain: ViscousStrain<L>,
         flown: (L, L),
-    ) -> (ViscousStrain<L>, (L, L)) {
-        self.law.advance_term(term, before, after, &mut strain);
+    ) -> (ViscousStrain<L>, InverseMetric<L>, (L, L)) {
+        let metric = self.law.advance_term(term, before, after, &mut strain);
         let RelaxationStep { decay, gain } = self.amplitudes[term];
         let (decay, gain) = (L::splat(decay), L::splat(gain));
         let amplitude = (
             last.0 - (decay * (first.0 - flown.0) + gain * (last.0 - first.0)),
             last.1 - (decay * (first.1 - flown.1) + gain * (last.1 - first.1)),
         );
-        (strain, amplitude)
+        (strain, metric, amplitude)
     }
 }

@@ -168,7 +168,7 @@ fn a_rotation_turns_what_has_relaxed() {
     let series = series_of.relaxation().unwrap();
     for law in HyperelasticLaw::ALL {
         let solid = Hyperelastic::new(law, series_of.instantaneous());
-        let law = Relaxing::of(Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
+        let law = Relaxing::of(&Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
         let mut past = Past::none();
         let splat = Plain::<WIDE>::splat;
         let strain = |rr, yy, ry, volume| ViscousStrain {
@@ -177,8 +177,8 @@ fn a_rotation_turns_what_has_relaxed() {
             ry: splat(ry),
             volume_change: splat(volume),
         };
-        past.strains[0] = strain(-0.3, 0.4, 0.2, 0.1);
-        past.strains[1] = strain(-0.1, 0.1, -0.1, -0.1);
+        past.metrics[0] = strain(-0.3, 0.4, 0.2, 0.1).inverse_metric();
+        past.metrics[1] = strain(-0.1, 0.1, -0.1, -0.1).inverse_metric();
         past.amplitudes[0] = (splat(0.1), splat(0.2));
         past.amplitudes[1] = (splat(-0.1), splat(0.05));
         let at = |angle: f64| conjugate_with(&law, &past, turned(F, angle), turn(Q, angle));
@@ -248,7 +248,7 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
         let solid = Hyperelastic::new(law, material.instantaneous());
         let viscoelastic = Viscoelastic::new(&solid, series);
         let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
-        let law = Relaxing::of(viscoelastic, solid.shear_modulus(), series);
+        let law = Relaxing::of(&viscoelastic, solid.shear_modulus(), series);
         let advance = Advance { blocks: &blocks, law: &law, step: Some(&step), u: &u };
         let start = || (of_elements.clone(), vec![[0.0; 2]; u.len()]);
         let [mut plain, mut two, mut one] = [start(), start(), start()];
