@@ -50,9 +50,9 @@ impl Hencky {
         let mean = N::splat(self.bulk - 2.0 / 3.0 * self.shear) * (rr + yy + tt);
         let two_g = N::splat(2.0 * self.shear);
         SymmetricTensor {
-            rr: mean + two_g * rr,
-            yy: mean + two_g * yy,
-            tt: mean + two_g * tt,
+            rr: mean.plus_product(two_g, rr),
+            yy: mean.plus_product(two_g, yy),
+            tt: mean.plus_product(two_g, tt),
             ry: two_g * ry,
         }
     }
@@ -75,13 +75,13 @@ impl Hencky {
 fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N> {
     let SymmetricTensor { rr, yy, tt, ry } = *left;
     let (one, half) = (N::splat(1.0), N::splat(0.5));
-    let determinant = rr + yy + (rr * yy - ry * ry);
+    let determinant = (rr + yy).plus_product(rr, yy).minus_product(ry, ry);
     let factor = meridian_factor(one + half * (rr + yy), (one + determinant).sqrt());
     let common = N::splat(0.25) * ln_of_one_plus(determinant);
-    let own = factor * (half * (rr - yy));
+    let difference = half * (rr - yy);
     SymmetricTensor {
-        rr: common + own,
-        yy: common - own,
+        rr: common.plus_product(factor, difference),
+        yy: common.minus_product(factor, difference),
         tt: half * ln_of_one_plus(tt),
         ry: factor * ry,
     }

@@ -33,9 +33,9 @@ pub(super) fn ln_of_one_plus<N: Number>(d: N) -> N {
     let (power, inverse) = x.power_of_two();
     // What 1 + d lost of d.
     let lost = d - (x - one);
-    let change = (x * inverse - one) + lost * inverse;
+    let change = (x * inverse - one).plus_product(lost, inverse);
     let t = change / (two + change);
-    power * N::splat(LN_2) + (t + t + t * remainder(t * t))
+    (t + t).plus_product(t, remainder(t * t)).plus_product(power, N::splat(LN_2))
 }
 
 /// Largest t² of the series: that of a number of 2.
@@ -48,7 +48,7 @@ const SERIES_BOUND: f64 = 0.029_437_251_522_859_42;
 #[inline(always)]
 pub(super) fn artanh_over_root<N: Number>(square: N) -> N {
     let (one, two) = (N::splat(1.0), N::splat(2.0));
-    let series = one + N::splat(0.5) * remainder(square);
+    let series = one.plus_product(N::splat(0.5), remainder(square));
     if square.all_within(SERIES_BOUND) {
         return series;
     }
@@ -62,9 +62,11 @@ pub(super) fn artanh_over_root<N: Number>(square: N) -> N {
 fn remainder<N: Number>(z: N) -> N {
     let [c_1, c_2, c_3, c_4, c_5, c_6, c_7] = SERIES;
     let w = z * z;
-    let even = w * (N::splat(c_2) + w * (N::splat(c_4) + w * N::splat(c_6)));
-    let odd = N::splat(c_1) + w * (N::splat(c_3) + w * (N::splat(c_5) + w * N::splat(c_7)));
-    z * odd + even
+    let even = N::splat(c_4).plus_product(w, N::splat(c_6));
+    let even = w * N::splat(c_2).plus_product(w, even);
+    let odd = N::splat(c_5).plus_product(w, N::splat(c_7));
+    let odd = N::splat(c_1).plus_product(w, N::splat(c_3).plus_product(w, odd));
+    even.plus_product(z, odd)
 }
 
 #[cfg(test)]

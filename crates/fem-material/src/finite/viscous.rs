@@ -91,7 +91,7 @@ impl<N: Number> ViscousStrain<N> {
     /// Determinant of C̄_v in the meridian, less 1.
     #[inline(always)]
     fn plane(&self) -> N {
-        self.rr + self.yy + (self.rr * self.yy - self.ry * self.ry)
+        (self.rr + self.yy).plus_product(self.rr, self.yy).minus_product(self.ry, self.ry)
     }
 
     /// The inverse by that determinant and 1 over it.
@@ -138,7 +138,7 @@ impl<N: Number> Shape<N> {
     pub fn of(h: &AxisymmetricTensor<N>) -> Self {
         let volume_change = h.volume_change();
         let z = inverse_cube_root_change(volume_change);
-        Self { strain: h.right_strain().rescaled(z + z + z * z), volume_change }
+        Self { strain: h.right_strain().rescaled((z + z).plus_product(z, z)), volume_change }
     }
 
     /// As four numbers, which a body may remember until the next step.
@@ -226,9 +226,10 @@ impl ViscousStep {
         let mut inverse = (one / (one + plane), one);
         if self.volume_flows {
             let (decay, gain) = (N::splat(term.linear.decay), N::splat(term.linear.gain));
-            let elastic = decay * (before.volume_change - viscous.volume_change)
-                + gain * (after.volume_change - before.volume_change);
-            viscous.volume_change = after.volume_change - elastic;
+            viscous.volume_change = after
+                .volume_change
+                .minus_product(decay, before.volume_change - viscous.volume_change)
+                .minus_product(gain, after.volume_change - before.volume_change);
             inverse = inverses(one + plane, one + viscous.volume_change);
         }
         let old = viscous.inverse_over(plane, inverse.0);
@@ -236,10 +237,10 @@ impl ViscousStep {
         let ViscousStrain { rr, yy, ry, volume_change } = *viscous;
         // det C̄_v = 1.
         let shape = SymmetricTensor {
-            rr: yy + hoop + yy * hoop,
-            yy: rr + hoop + rr * hoop,
+            rr: (yy + hoop).plus_product(yy, hoop),
+            yy: (rr + hoop).plus_product(rr, hoop),
             tt: viscous.plane(),
-            ry: N::splat(0.0) - (ry + ry * hoop),
+            ry: (N::splat(0.0) - ry).minus_product(ry, hoop),
         };
         InverseMetric { shape, hoop, volume_change, inverse_volume: inverse.1 }
     }
@@ -261,29 +262,30 @@ impl TermStep {
         let excess = (mean.trace() + inverse.trace() + mean.dot(&inverse)) * N::splat(1.0 / 3.0);
         let speed = one + excess;
         let y = excess * N::splat(self.ratio);
-        let growth = one + y + half * y * y;
+        let half_y = half * y;
+        let growth = (one + y).plus_product(half_y, y);
         let (inverse_speed, r) = inverses(speed, growth);
         let linear_decay = N::splat(self.linear.decay);
         let decay = linear_decay * r;
-        let lost = linear_decay * excess * (one + half * y) * r;
-        let gain = (N::splat(self.linear.gain) + lost) * inverse_speed;
+        let lost = excess.plus_product(excess, half_y);
+        let gain = N::splat(self.linear.gain).plus_product(decay, lost) * inverse_speed;
 
         let old =
             SymmetricTensor { rr: viscous.rr, yy: viscous.yy, tt: viscous_tt, ry: viscous.ry };
         let old = old.rescaled(excess);
         let next = |old: N, before: N, after: N| {
-            after - (decay * (before - old) + gain * (after - before))
+            after.minus_product(decay, before - old).minus_product(gain, after - before)
         };
         let rr = next(old.rr, before.rr, after.rr);
         let yy = next(old.yy, before.yy, after.yy);
         let ry = next(old.ry, before.ry, after.ry);
         let tt = next(old.tt, before.tt, after.tt);
-        let plane = rr + yy + (rr * yy - ry * ry);
+        let plane = (rr + yy).plus_product(rr, yy).minus_product(ry, ry);
         // Of second order in the step.
-        let z = inverse_cube_root_change_near_one(plane + tt + plane * tt);
-        viscous.rr = rr + (z + z * rr);
-        viscous.yy = yy + (z + z * yy);
-        viscous.ry = ry + z * ry;
-        tt + (z + z * tt)
+        let z = inverse_cube_root_change_near_one((plane + tt).plus_product(plane, tt));
+        viscous.rr = rr + z.plus_product(z, rr);
+        viscous.yy = yy + z.plus_product(z, yy);
+        viscous.ry = ry.plus_product(z, ry);
+        tt + z.plus_product(z, tt)
     }
 }

@@ -1,7 +1,7 @@
 //! Stress and energy of a law on lanes.
 //!
-//! All laws run on all lanes at once. The default law has loops of its own; in those of the others the
-//! law is asked for block by block, which costs nothing that could be measured.
+//! All laws run on all lanes at once. The default law has loops of its own where it does not relax; in all
+//! others the law is asked for block by block, which costs nothing that could be measured.
 
 use std::fmt::Debug;
 

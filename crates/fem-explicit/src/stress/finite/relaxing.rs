@@ -271,8 +271,8 @@ impl Step {
         let RelaxationStep { decay, gain } = self.amplitudes[term];
         let (decay, gain) = (L::splat(decay), L::splat(gain));
         let amplitude = (
-            last.0 - (decay * (first.0 - flown.0) + gain * (last.0 - first.0)),
-            last.1 - (decay * (first.1 - flown.1) + gain * (last.1 - first.1)),
+            last.0.minus_product(decay, first.0 - flown.0).minus_product(gain, last.0 - first.0),
+            last.1.minus_product(decay, first.1 - flown.1).minus_product(gain, last.1 - first.1),
         );
         (strain, metric, amplitude)
     }

@@ -11,7 +11,7 @@
 //! C̄_v,k⁻¹, with the mean m_k = ½ tr(C C̄_v,k⁻¹) and the root s_k of the determinant in the meridian.
 
 use super::super::hencky::meridian_factor;
-use super::super::kinematics::Strain;
+use super::super::kinematics::{Strain, push_forward};
 use super::super::logarithm::ln_of_one_plus;
 use super::super::number::Number;
 use super::super::tensor::{AxisymmetricTensor, SymmetricTensor};
@@ -27,9 +27,9 @@ pub(super) fn kirchhoff<N: Number>(
 ) -> SymmetricTensor<N> {
     let (zero, half, one) = (N::splat(0.0), N::splat(0.5), N::splat(1.0));
     let (f_rr, f_yy) = (one + h.rr, one + h.yy);
-    let area = f_rr * f_yy - h.ry * h.yr;
+    let area = (f_rr * f_yy).minus_product(h.ry, h.yr);
     let right = h.right_strain();
-    let mean_of_whole = one + half * (right.rr + right.yy);
+    let mean_of_whole = one.plus_product(half, right.rr + right.yy);
     let ln_jacobian = ln_of_one_plus(volume_change);
 
     let (mut volumetric, mut hoop) = (ln_jacobian, ln_of_one_plus(h.tt));
@@ -38,32 +38,33 @@ pub(super) fn kirchhoff<N: Number>(
     for (weight, viscous) in branches.weights.iter().zip(past) {
         let weight = N::splat(*weight);
         let shape = &viscous.shape;
-        let off = (one + right.rr) * shape.rr + (one + right.yy) * shape.yy;
-        let mean = mean_of_whole + (half * off + right.ry * shape.ry);
+        let normal =
+            (shape.rr + shape.yy).plus_product(right.rr, shape.rr).plus_product(right.yy, shape.yy);
+        let mean = mean_of_whole.plus_product(half, normal).plus_product(right.ry, shape.ry);
         let root = area * (one + viscous.hoop).sqrt();
         let factor = weight * meridian_factor(mean, root);
         factors = factors + factor;
-        (rr, yy, ry) = (rr + factor * shape.rr, yy + factor * shape.yy, ry + factor * shape.ry);
-        hoop = hoop + weight * (half * ln_of_one_plus(shape.tt));
+        rr = rr.plus_product(factor, shape.rr);
+        yy = yy.plus_product(factor, shape.yy);
+        ry = ry.plus_product(factor, shape.ry);
+        hoop = hoop.plus_product(half * weight, ln_of_one_plus(shape.tt));
         if branches.volume_flows {
-            volumetric = volumetric - weight * ln_of_one_plus(viscous.volume_change);
+            volumetric = volumetric.minus_product(weight, ln_of_one_plus(viscous.volume_change));
         }
     }
     // Meridian deviator of the sum of factors times b_k.
-    let (row_rr, row_ry) = (f_rr * rr + h.ry * ry, f_rr * ry + h.ry * yy);
-    let (row_yr, row_yy) = (h.yr * rr + f_yy * ry, h.yr * ry + f_yy * yy);
-    let difference = (row_rr * f_rr + row_ry * h.ry) - (row_yr * h.yr + row_yy * f_yy);
-    let deviator = half * (factors * (left.rr - left.yy) + difference);
-    let off = factors * left.ry + (row_rr * h.yr + row_ry * f_yy);
+    let pushed = push_forward(&SymmetricTensor { rr, yy, tt: zero, ry }, h);
+    let deviator = half * (pushed.rr - pushed.yy).plus_product(factors, left.rr - left.yy);
+    let off = pushed.ry.plus_product(factors, left.ry);
 
     let two_g = N::splat(2.0 * branches.shear);
     let third = ln_jacobian * N::splat(1.0 / 3.0);
     let pull = N::splat(branches.bulk) * volumetric;
     let mean = half * (ln_jacobian - hoop) - third;
     SymmetricTensor {
-        rr: pull + two_g * (mean + deviator),
-        yy: pull + two_g * (mean - deviator),
-        tt: pull + two_g * (hoop - third),
+        rr: pull.plus_product(two_g, mean + deviator),
+        yy: pull.plus_product(two_g, mean - deviator),
+        tt: pull.plus_product(two_g, hoop - third),
         ry: two_g * off,
     }
 }

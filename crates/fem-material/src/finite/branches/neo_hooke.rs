@@ -31,11 +31,11 @@ pub(super) fn kirchhoff<N: Number>(
     }
     for (weight, viscous) in branches.weights.iter().zip(past) {
         let weight = N::splat(*weight);
-        flown = flown.plus(&viscous.shape.times(weight));
+        flown = flown.plus_multiple(weight, &viscous.shape);
         if branches.volume_flows {
             let inverse = viscous.inverse_volume;
             let change = (volume_change - viscous.volume_change) * inverse;
-            pull = pull + weight * (change * (jacobian * inverse));
+            pull = pull.plus_product(weight * change, jacobian * inverse);
         }
     }
     let left = left.plus(&push_forward(&flown, h));

@@ -26,23 +26,23 @@ pub(super) fn kirchhoff<N: Number>(
     let (mut rescaled, mut ln) = (zero, ln_of_one_plus(volume_change));
     for (weight, viscous) in branches.weights.iter().zip(past) {
         let weight = N::splat(*weight);
-        let mut shape = viscous.shape.times(weight);
+        let mut factor = weight;
         if branches.volume_flows {
             let z = inverse_cube_root_change(viscous.volume_change);
-            let change = z + z + z * z;
-            shape = shape.plus(&shape.times(change));
-            rescaled = rescaled + weight * change;
-            ln = ln - weight * ln_of_one_plus(viscous.volume_change);
+            let change = (z + z).plus_product(z, z);
+            factor = weight.plus_product(weight, change);
+            rescaled = rescaled.plus_product(weight, change);
+            ln = ln.minus_product(weight, ln_of_one_plus(viscous.volume_change));
         }
-        flown = flown.plus(&shape);
+        flown = flown.plus_multiple(factor, &viscous.shape);
     }
     let left = left.rescaled(rescaled).plus(&push_forward(&flown, h));
     let shear = N::splat(branches.shear);
     let mean = N::splat(branches.bulk - 2.0 / 3.0 * branches.shear) * ln;
     SymmetricTensor {
-        rr: mean + shear * left.rr,
-        yy: mean + shear * left.yy,
-        tt: mean + shear * left.tt,
+        rr: mean.plus_product(shear, left.rr),
+        yy: mean.plus_product(shear, left.yy),
+        tt: mean.plus_product(shear, left.tt),
         ry: shear * left.ry,
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn kirchhoff<N: Number>(
         let mut volume_change = strain.volume_change;
         if volume_flows {
             let z = inverse_cube_root_change(viscous.volume_change);
-            left = left.rescaled(z + z + z * z);
+            left = left.rescaled((z + z).plus_product(z, z));
             volume_change = (volume_change - viscous.volume_change) * viscous.inverse_volume;
         }
         let law = SaintVenantKirchhoff { bulk: weight * of_bulk, shear: weight * shear };

@@ -227,7 +227,7 @@ fn a_held_amplitude_relaxes_exactly() {
 fn lanes_of_every_kind_relax_to_the_same_bits() {
     use super::super::super::lanes::{Avx2, Avx512, Twice};
     use super::super::relaxing::{Advance, Advanced};
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     fn avx2<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
         advance.on::<Twice<Avx2>>(output);
     }
@@ -258,7 +258,7 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
         let all_bits = |(history, forces): &(Vec<Vec<_>>, Vec<_>)| {
             history.iter().chain([forces]).map(|field| bits(field)).collect::<Vec<_>>()
         };
-        if std::arch::is_x86_feature_detected!("avx2") {
+        if crate::stress::lanes::has_avx2() {
             let mut output = Advanced { of_elements: &mut two.0, forces: &mut two.1 };
             // SAFETY: the processor has been asked.
             unsafe { avx2(advance, &mut output) };
