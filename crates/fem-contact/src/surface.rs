@@ -92,23 +92,26 @@ impl Surface {
         Foot { nodes: [self.nodes[segment], self.nodes[segment + 1]], shape: [1.0 - share, share] }
     }
 
+    /// Sine and cosine of the arc's angle where it is r (m) from the axis.
+    fn angle(&self, r: f64) -> (f64, f64) {
+        let sine = self.curvature * r;
+        (sine, (1.0 - sine * sine).max(0.0).sqrt())
+    }
+
     /// Distance of the true arc from the plane through its pole, m.
     pub(crate) fn depth(&self, r: f64) -> f64 {
-        let slope = self.curvature * r;
-        slope * r / (1.0 + (1.0 - slope * slope).max(0.0).sqrt())
+        self.arc(r).0
     }
 
     /// The same depth, m, and its slope, which is the tangent of the arc's angle.
     pub(crate) fn arc(&self, r: f64) -> (f64, f64) {
-        let sine = self.curvature * r;
-        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let (sine, cosine) = self.angle(r);
         (sine * r / (1.0 + cosine), sine / cosine)
     }
 
     /// Slope of the true arc, dy/dr upward from the pole of an upper body, at most [`STEEPEST`].
     pub(crate) fn slope(&self, r: f64) -> f64 {
-        let sine = self.curvature * r;
-        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let (sine, cosine) = self.angle(r);
         // At the equator without division by zero.
         if sine < STEEPEST * cosine { sine / cosine } else { STEEPEST }
     }

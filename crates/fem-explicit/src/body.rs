@@ -30,7 +30,7 @@ pub struct Body {
     /// Inverse masses of (r, y); 0 for what cannot move.
     pub(crate) inverse_mass: Vec<[f64; 2]>,
     pub(crate) velocity: f64,
-    /// Of a body whose stiffness changes.
+    /// Of a body that deforms, where the stiffness of either changes.
     pub(crate) bound: Option<Arc<ChangingBound>>,
     mesh: Option<SphereMesh>,
     material: Option<Material>,
@@ -44,17 +44,21 @@ pub struct Body {
 
 impl Body {
     /// A body that moves, with the masses that a critical time step (s) asks for, at a velocity (m/s) and
-    /// a time step, s.
+    /// a time step, s, in a run whose time step follows the stiffness or does not.
     pub(crate) fn of_lumped(
         lumped: LumpedBody,
         velocity: f64,
         critical: f64,
         time_step: f64,
+        changes_stiffness: bool,
     ) -> Self {
         match lumped {
             LumpedBody::Meshed(meshed) => {
                 let (nodal_mass, added_mass) = meshed.bound.scale_mass(critical);
-                Self::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step)
+                let of = || Arc::new(ChangingBound::of(meshed.bound.clone(), &*meshed.stress));
+                let bound = changes_stiffness.then(of);
+                let body = Self::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step);
+                Self { bound, ..body }
             }
             LumpedBody::Rigid(sphere) => Self::rigid(sphere, velocity, time_step),
         }
@@ -107,7 +111,7 @@ impl Body {
         added_mass: f64,
         time_step: f64,
     ) -> Self {
-        let LumpedMesh { mesh, material, mut stress, node_forces, bound } = lumped;
+        let LumpedMesh { mesh, material, mut stress, node_forces, .. } = lumped;
         // What has no mass the step does not accelerate.
         let inverse = |m: &f64| if *m > 0.0 { [m.recip(); 2] } else { [0.0; 2] };
         let mut inverse_mass: Vec<_> = nodal_mass.iter().map(inverse).collect();
@@ -118,8 +122,6 @@ impl Body {
             inverse_mass[node as usize] = [0.0; 2];
         }
         stress.set_time_step(time_step);
-        let bound =
-            stress.changes_stiffness().then(|| Arc::new(ChangingBound::of(bound, &*stress)));
         let n_element_history = stress.n_element_history();
         let mut n_fields = n_element_history;
         let mut stress = Placed::behind(&mut n_fields, Arc::from(stress));
@@ -141,7 +143,7 @@ impl Body {
             nodal_mass,
             inverse_mass,
             velocity,
-            bound,
+            bound: None,
             mesh: Some(mesh),
             material: Some(material),
             mass,

@@ -67,7 +67,7 @@ fn take_body(digest: &mut Digest, body: &Body) {
     }
     digest.take_numbers(&body.nodal_mass);
     digest.take_text(body.material());
-    if let (Some(_), Some(stress)) = (&body.bound, &body.stress) {
+    if let Some(stress) = body.stress.as_ref().filter(|stress| stress.part.changes_stiffness()) {
         digest.take_text(&stress.part);
     }
     digest.take_text(&body.node_forces);

@@ -90,6 +90,14 @@ impl LumpedBody {
         }
     }
 
+    /// Whether its stiffness changes as it deforms.
+    pub fn changes_stiffness(&self) -> bool {
+        match self {
+            Self::Meshed(meshed) => meshed.stress.changes_stiffness(),
+            Self::Rigid(_) => false,
+        }
+    }
+
     /// Critical time step without mass scaling, s.
     pub fn critical_time_step(&self) -> f64 {
         self.bound().critical_time_step()

@@ -132,11 +132,13 @@ impl Model {
         }
         contact.set_time_step(time_step);
         contact.check()?;
+        let changes_stiffness = movable.iter().flatten().any(LumpedBody::changes_stiffness);
         let mut movable = movable.into_iter().zip(parts.held);
         let mut next = || movable.next().and_then(|(body, held)| Some((body?, held)));
         let bodies = approach.velocities().map(|velocity| match next() {
             Some((body, held)) => {
-                Body::of_lumped(body, velocity, critical, time_step).with_held(held)
+                Body::of_lumped(body, velocity, critical, time_step, changes_stiffness)
+                    .with_held(held)
             }
             None => Body::wall(velocity),
         });

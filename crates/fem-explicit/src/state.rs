@@ -66,13 +66,15 @@ impl State {
     /// The bodies at first touch, undeformed.
     pub fn at_first_touch(model: &Model) -> Self {
         let time = model.approach().first_touch();
+        let pace = Pace::of(model);
+        let time_step = pace.map_or(model.time_step(), |pace| pace.time_step(model));
         let n_history = model.contact().n_history();
         let bodies = model.bodies().each_ref().map(|body| {
             let mut state = BodyState::in_flight(body, n_history, time);
-            state.go_back_half_a_step(body, Clock { time, time_step: model.time_step() });
+            state.go_back_half_a_step(body, Clock { time, time_step });
             state
         });
-        Self { step: 0, time, pace: Pace::of(model), bodies }
+        Self { step: 0, time, pace, bodies }
     }
 
     /// Time step at t_n, s.

@@ -3,14 +3,41 @@
 use std::f64::consts::SQRT_2;
 
 use fem_collision::Stop;
+use fem_material::Material;
 
 use super::Model;
 use crate::pace::Outlook;
+use crate::part::Motion;
 use crate::state::{Scratch, State};
 use crate::step::{Collapsed, Fault};
 use crate::stress::Collapse;
 
 impl Model {
+    /// Largest rate (1/s) at which an element of a body whose stiffness changes is strained as first touch
+    /// changes the velocity of its pole, which both bodies share as waves do: by their impedances.
+    pub(crate) fn first_strain_rate(&self) -> f64 {
+        let yields = self.bodies.each_ref().map(|body| {
+            let of = |material: &Material| {
+                (material.density() * material.dilatational_wave_speed()).recip()
+            };
+            body.material().map_or(0.0, of)
+        });
+        let rate = |side: usize| {
+            let body = &self.bodies[side];
+            let (stress, pole) = (body.stress.as_ref()?, *body.mesh()?.surface().first()?);
+            let displacement = vec![[0.0; 2]; body.nodal_mass.len()];
+            let mut velocity = displacement.clone();
+            velocity[pole as usize][1] =
+                self.approach.speed() * yields[side] / (yields[0] + yields[1]);
+            let (time, time_step) = (self.approach.first_touch(), self.time_step);
+            let (displacement, velocity) = (&*displacement, &*velocity);
+            let nodal_mass = &*body.nodal_mass;
+            let motion = Motion { time, time_step, displacement, velocity, nodal_mass };
+            Some(stress.part.strain_rate(&motion))
+        };
+        [0, 1].into_iter().filter_map(rate).fold(0.0, f64::max)
+    }
+
     /// Critical time step of the deformed bodies, and how fast they are strained; what it is made of goes
     /// to `scratch`.
     pub(crate) fn outlook(&self, state: &State, scratch: &mut Scratch) -> Outlook {
@@ -29,6 +56,7 @@ impl Model {
         let (mut critical, mut node) = (f64::INFINITY, [0, 0]);
         for (side, body) in self.bodies.iter().enumerate() {
             let (stiffness, damping) = (&mut scratch.stiffness[side], &mut scratch.damping[side]);
+            // Of a body at small strain the contact alone.
             if let (Some(bound), Some(stress)) = (&body.bound, &body.stress) {
                 stiffness.fill(0.0);
                 let history = stress.of(&state.bodies[side].history);

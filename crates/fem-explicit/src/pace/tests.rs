@@ -7,9 +7,14 @@ use crate::model::Parts;
 use crate::test_support::{settings, unit_glass, unit_sphere};
 
 fn model(law: Option<HyperelasticLaw>) -> Model {
+    at_speed(law, 0.01)
+}
+
+/// At a speed of approach, where pressure waves have 1.1.
+fn at_speed(law: Option<HyperelasticLaw>, speed: f64) -> Model {
     let sphere = BodyInput::Sphere { mesh: unit_sphere(4.0, Side::Above), material: unit_glass() };
     let parts = Parts { finite_strain: [None, law], ..Parts::default() };
-    let approach = Approach::new([1.0, 0.0], 1e3).unwrap();
+    let approach = Approach::new([speed, 0.0], 1e3 * speed).unwrap();
     Model::with_parts([BodyInput::Wall, sphere], approach, &settings(), parts).unwrap()
 }
 
@@ -97,6 +102,35 @@ fn fast_changes_are_looked_at_sooner() {
     // 5 % of strain, at half a per cent a step.
     assert!((9..=10).contains(&pause(1.0, 0.005)));
     assert_eq!(pause(1.0, 1.0), 1);
+}
+
+/// No element is strained by more than so much in a step, however fast: then the shortest is what is left.
+#[test]
+fn a_step_strains_no_element_by_much() {
+    let model = model(Some(HyperelasticLaw::NeoHooke));
+    let pace = Pace::of(&model).unwrap();
+    for (rate, share) in [(0.0, 1.0), (0.9 * STRAIN_A_STEP, 1.0), (8.0 * STRAIN_A_STEP, 0.125)] {
+        let next = strained(&pace, &model, 10, 1.0, rate).unwrap();
+        // Rounding of the level's power.
+        assert!((share_of(&next, &model) / share - 1.0).abs() < 1e-9, "{rate}");
+    }
+    let next = strained(&pace, &model, 10, 1.0, 1e9).unwrap();
+    assert_eq!(next.level, MOST_LEVELS);
+    assert!(strained(&pace, &model, 10, 1.0, f64::INFINITY).is_some());
+}
+
+/// The first steps are short where first touch strains the pole fast: by its speed over its element's height,
+/// which is about a quarter, and less on the axis, of which there is little in the mean over the element.
+#[test]
+fn a_fast_approach_starts_with_short_steps() {
+    for (speed, is_short) in [(0.01, false), (0.1, false), (1.0, true), (10.0, true)] {
+        let model = at_speed(Some(HyperelasticLaw::NeoHooke), speed);
+        let pace = Pace::of(&model).unwrap();
+        assert_eq!(pace.level > 0, is_short, "{speed}");
+        let strain = speed / 0.25 * pace.time_step(&model);
+        assert!(strain < 2.5 * STRAIN_A_STEP, "{speed}: {strain}");
+        assert!(!is_short || strain > STRAIN_A_STEP, "{speed}: {strain}");
+    }
 }
 
 #[test]

@@ -137,6 +137,19 @@ fn the_glass_pair_shows_the_second_order_of_its_law() {
     assert!((-0.035..-0.01).contains(&approach), "{approach}");
 }
 
+/// Rubber that hits a wall at half of its wave speed and more, without viscosity: its fronts strain elements by
+/// several per cent in a critical step, within which leapfrog loses a part in a thousand of the energy at
+/// half of the wave speed, and all of it at 0.8: the step follows the strain.
+#[test]
+fn energy_balances_where_fronts_are_steep() {
+    for (nu, speed) in [(0.0, 25.0), (0.0, 45.0), (0.3, 50.0)] {
+        let ball = Ball { nu, speed, ..Ball::default() };
+        let run = ball.run();
+        let residual = run.residual_relative.unwrap();
+        assert!(residual < 1e-3, "{nu} {speed}: {residual:e} {:?}", run.ending);
+    }
+}
+
 /// Of every law, nearly incompressible, relaxing or not: the run ends, energy and momentum balance.
 #[test]
 fn a_rubber_ball_bounces_and_balances() {
@@ -220,11 +233,12 @@ fn the_time_step_follows_and_resumes() {
     assert_eq!(Run::resume(&other.model(), memory).err(), Some(ModelError::MemoryOfAnother));
 }
 
-/// A speed that no rubber bears is a stop that names body, element and time.
+/// A law that softens in compression, at a speed that it does not bear, is a stop that names body, element and
+/// time.
 #[test]
 fn an_element_that_collapses_stops_the_run() {
     let law = Some(HyperelasticLaw::SaintVenantKirchhoff);
-    let ball = Ball { speed: 100.0, law, ..Ball::default() };
+    let ball = Ball { nu: 0.3, speed: 10.0, law, ..Ball::default() };
     let run = ball.run();
     let Ending::Stopped(stop) = &run.ending else { panic!("{:?}", run.ending) };
     let Stop::ElementCollapsed { time, step, body, element, place, .. } = *stop else {

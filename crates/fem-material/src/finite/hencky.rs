@@ -5,16 +5,23 @@
 //! \tau = K \ln J\, 1 + 2G\, \mathrm{dev}\, h
 //! ```
 //!
-//! (Hencky 1928; Anand 1979, Journal of Applied Mechanics 46:78). The logarithm of the meridian
-//! block with the eigenvalues m ± ρ is ½ (ln(m + ρ) + ln(m − ρ)) 1 +
-//! (ln(m + ρ) − ln(m − ρ))(b − m 1)/2ρ: no eigenvector is needed.
+//! (Hencky 1928; Anand 1979, Journal of Applied Mechanics 46:78). The meridian block of b has the
+//! eigenvalues m ± ρ; with s = √(m² − ρ²) the root of their product it has the logarithm
+//!
+//! ```math
+//! \tfrac12 \ln b = \tfrac12 \ln s\; 1 + \frac{\mathrm{artanh}\,y}{y}\, \frac{b - m 1}{m + s}, \qquad
+//! y^2 = \frac{m - s}{m + s}
+//! ```
+//!
+//! since ½ ln((m + ρ)/(m − ρ)) = 2 artanh y: neither eigenvalue nor eigenvector is needed, and nothing is
+//! lost where they are equal.
 //!
 //! Limits: elliptic while all stretches lie in 0.2116 .. e^(1/3) = 1.3956 (Bruhns, Xiao & Meyers
 //! 2001, Proceedings of the Royal Society A 457:2207); in uniaxial strain the slope is zero at
 //! F = e.
 
 use super::kinematics::Strain;
-use super::logarithm::ln_of_one_plus;
+use super::logarithm::{artanh_over_root, ln_of_one_plus};
 use super::number::Number;
 use super::principal::Response;
 use super::tensor::SymmetricTensor;
@@ -43,9 +50,9 @@ impl Hencky {
         let mean = N::splat(self.bulk - 2.0 / 3.0 * self.shear) * (rr + yy + tt);
         let two_g = N::splat(2.0 * self.shear);
         SymmetricTensor {
-            rr: mean + two_g * rr,
-            yy: mean + two_g * yy,
-            tt: mean + two_g * tt,
+            rr: mean.plus_product(two_g, rr),
+            yy: mean.plus_product(two_g, yy),
+            tt: mean.plus_product(two_g, tt),
             ry: two_g * ry,
         }
     }
@@ -67,19 +74,23 @@ impl Hencky {
 #[inline(always)]
 fn logarithmic_strain<N: Number>(left: &SymmetricTensor<N>) -> SymmetricTensor<N> {
     let SymmetricTensor { rr, yy, tt, ry } = *left;
-    let (half, quarter) = (N::splat(0.5), N::splat(0.25));
-    let (half_difference, mean) = (half * (rr - yy), half * (rr + yy));
-    // Where both are zero so is the difference of the logarithms.
-    let square = half_difference * half_difference + ry * ry + N::splat(f64::MIN_POSITIVE);
-    let radius = square.sqrt();
-    let (first, second) = (ln_of_one_plus(mean + radius), ln_of_one_plus(mean - radius));
-    let common = quarter * (first + second);
-    let ratio = quarter * (first - second) / radius;
-    let own = ratio * half_difference;
+    let (one, half) = (N::splat(1.0), N::splat(0.5));
+    let determinant = (rr + yy).plus_product(rr, yy).minus_product(ry, ry);
+    let factor = meridian_factor(one + half * (rr + yy), (one + determinant).sqrt());
+    let common = N::splat(0.25) * ln_of_one_plus(determinant);
+    let difference = half * (rr - yy);
     SymmetricTensor {
-        rr: common + own,
-        yy: common - own,
+        rr: common.plus_product(factor, difference),
+        yy: common.minus_product(factor, difference),
         tt: half * ln_of_one_plus(tt),
-        ry: ratio * ry,
+        ry: factor * ry,
     }
+}
+
+/// What the deviator of ½ ln b in the meridian is of that of b, of the mean m of b's eigenvalues there
+/// and the root s of their product.
+#[inline(always)]
+pub(super) fn meridian_factor<N: Number>(mean: N, root: N) -> N {
+    let inverse = N::splat(1.0) / (mean + root);
+    artanh_over_root((mean - root) * inverse) * inverse
 }

@@ -28,13 +28,13 @@ pub(super) fn push_forward<N: Number>(
     let one = N::splat(1.0);
     let (f_rr, f_yy, f_tt) = (one + h.rr, one + h.yy, one + h.tt);
     // F A, row by row.
-    let (rr, ry) = (f_rr * a.rr + h.ry * a.ry, f_rr * a.ry + h.ry * a.yy);
-    let (yr, yy) = (h.yr * a.rr + f_yy * a.ry, h.yr * a.ry + f_yy * a.yy);
+    let (rr, ry) = ((f_rr * a.rr).plus_product(h.ry, a.ry), (f_rr * a.ry).plus_product(h.ry, a.yy));
+    let (yr, yy) = ((h.yr * a.rr).plus_product(f_yy, a.ry), (h.yr * a.ry).plus_product(f_yy, a.yy));
     SymmetricTensor {
-        rr: rr * f_rr + ry * h.ry,
-        yy: yr * h.yr + yy * f_yy,
+        rr: (rr * f_rr).plus_product(ry, h.ry),
+        yy: (yr * h.yr).plus_product(yy, f_yy),
         tt: f_tt * a.tt * f_tt,
-        ry: rr * h.yr + ry * f_yy,
+        ry: (rr * h.yr).plus_product(ry, f_yy),
     }
 }
 
@@ -50,12 +50,12 @@ pub(super) fn first_piola<N: Number>(
     let (f_rr, f_yy, f_tt) = (one + h.rr, one + h.yy, one + h.tt);
     // F^{-T} is the cofactors of F over J.
     let out = f_tt * inverse_jacobian;
-    let area = f_rr * f_yy - h.ry * h.yr;
+    let area = (f_rr * f_yy).minus_product(h.ry, h.yr);
     AxisymmetricTensor {
-        rr: (rr * f_yy - ry * h.ry) * out,
-        ry: (ry * f_rr - rr * h.yr) * out,
-        yr: (ry * f_yy - yy * h.ry) * out,
-        yy: (yy * f_rr - ry * h.yr) * out,
+        rr: (rr * f_yy).minus_product(ry, h.ry) * out,
+        ry: (ry * f_rr).minus_product(rr, h.yr) * out,
+        yr: (ry * f_yy).minus_product(yy, h.ry) * out,
+        yy: (yy * f_rr).minus_product(ry, h.yr) * out,
         tt: tt * (area * inverse_jacobian),
     }
 }

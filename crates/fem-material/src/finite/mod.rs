@@ -8,6 +8,7 @@
 //!
 //! with P the first Piola-Kirchhoff stress, τ Kirchhoff's, σ Cauchy's; tension is positive.
 
+mod branches;
 mod hencky;
 mod hyperelastic;
 mod kinematics;
@@ -16,19 +17,18 @@ mod neo_hooke;
 mod neo_hooke_ln;
 mod number;
 mod principal;
-mod relaxing_neo_hooke;
 mod saint_venant_kirchhoff;
 mod tensor;
 mod viscoelastic;
 mod viscous;
 
+pub use branches::Branches;
 pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};
 pub use neo_hooke::NeoHooke;
 pub use number::{
     Number, POWER_OFFSET, UNITS, UNITS_AND_OFFSET, inverse_cube_root, inverse_cube_root_estimate,
     power_of_two,
 };
-pub use relaxing_neo_hooke::RelaxingNeoHooke;
 pub use tensor::{AxisymmetricTensor, SymmetricTensor};
 pub use viscoelastic::Viscoelastic;
-pub use viscous::{Shape, ViscousStep, ViscousStrain};
+pub use viscous::{InverseMetric, Shape, ViscousStep, ViscousStrain};

@@ -67,11 +67,11 @@ impl<N: Number> NeoHooke<N> {
         unimodular: N,
     ) -> SymmetricTensor<N> {
         let scale = self.shear * unimodular;
-        let mean = pull - scale * (left.trace() * N::splat(1.0 / 3.0));
+        let mean = pull.minus_product(scale, left.trace() * N::splat(1.0 / 3.0));
         SymmetricTensor {
-            rr: mean + scale * left.rr,
-            yy: mean + scale * left.yy,
-            tt: mean + scale * left.tt,
+            rr: mean.plus_product(scale, left.rr),
+            yy: mean.plus_product(scale, left.yy),
+            tt: mean.plus_product(scale, left.tt),
             ry: scale * left.ry,
         }
     }

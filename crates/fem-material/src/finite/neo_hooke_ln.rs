@@ -42,9 +42,9 @@ impl NeoHookeLn {
         let shear = N::splat(self.shear);
         let mean = N::splat(self.lambda()) * ln_of_one_plus(strain.volume_change);
         SymmetricTensor {
-            rr: mean + shear * rr,
-            yy: mean + shear * yy,
-            tt: mean + shear * tt,
+            rr: mean.plus_product(shear, rr),
+            yy: mean.plus_product(shear, yy),
+            tt: mean.plus_product(shear, tt),
             ry: shear * ry,
         }
     }

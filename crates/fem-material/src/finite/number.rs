@@ -1,8 +1,10 @@
 //! What a law computes with: one number, or several side by side.
 //!
-//! A law that is written over [`Number`] runs on plain numbers and on the lanes of a vector unit,
-//! to the same bits: additions, multiplications, divisions, square roots and what is read from the bits
-//! of a number, which IEEE 754 fixes, and no function of a mathematical library, which differ.
+//! A law that is written over [`Number`] runs on plain numbers and on the lanes of vector units of any
+//! kind: additions, multiplications, both at once, divisions, square roots and what is read from the bits
+//! of a number, which IEEE 754 fixes, and no function of a mathematical library, which differ. All lanes
+//! give the same bits. They round a product and a sum once, a plain number twice, which has no
+//! instruction for it on every machine: the two agree to rounding.
 
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -12,6 +14,12 @@ pub trait Number:
 {
     /// The same number in all lanes.
     fn splat(value: f64) -> Self;
+
+    /// self + x y, of lanes rounded once.
+    fn plus_product(self, x: Self, y: Self) -> Self;
+
+    /// self − x y, of lanes rounded once.
+    fn minus_product(self, x: Self, y: Self) -> Self;
 
     /// [`inverse_cube_root_estimate`] of each lane.
     fn inverse_cube_root_estimate(self) -> Self;
@@ -33,6 +41,16 @@ impl Number for f64 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
         value
+    }
+
+    #[inline(always)]
+    fn plus_product(self, x: Self, y: Self) -> Self {
+        self + x * y
+    }
+
+    #[inline(always)]
+    fn minus_product(self, x: Self, y: Self) -> Self {
+        self - x * y
     }
 
     #[inline(always)]
@@ -59,6 +77,13 @@ impl Number for f64 {
     fn choose_within(self, bound: f64, inside: Self, outside: Self) -> Self {
         if self.abs() <= bound { inside } else { outside }
     }
+}
+
+/// 1/x and 1/y by one division, which costs as much as a dozen products.
+#[inline(always)]
+pub(super) fn inverses<N: Number>(x: N, y: N) -> (N, N) {
+    let both = N::splat(1.0) / (x * y);
+    (both * y, both * x)
 }
 
 /// What takes the bits of √½ to those of 1, so that a number's exponent changes at √½ and √2.
@@ -98,10 +123,11 @@ pub fn inverse_cube_root<N: Number>(x: N) -> N {
     let (c_1, c_2) = (N::splat(1.0 / 3.0), N::splat(2.0 / 9.0));
     let (c_3, c_4) = (N::splat(14.0 / 81.0), N::splat(35.0 / 243.0));
     let y = x.inverse_cube_root_estimate();
-    let e = one - x * y * (y * y);
-    let y = y + y * e * ((c_1 + e * c_2) + e * e * (c_3 + e * c_4));
-    let e = one - x * y * (y * y);
-    y + y * e * (c_1 + e * c_2)
+    let e = one.minus_product(x * y, y * y);
+    let series = c_1.plus_product(e, c_2).plus_product(e * e, c_3.plus_product(e, c_4));
+    let y = y.plus_product(y * e, series);
+    let e = one.minus_product(x * y, y * y);
+    y.plus_product(y * e, c_1.plus_product(e, c_2))
 }
 
 /// J^(−1/3) − 1 of J − 1, to its own last digit also where J is near 1: one more step of Newton's,
@@ -111,8 +137,9 @@ pub(super) fn inverse_cube_root_change<N: Number>(volume_change: N) -> N {
     let (one, three) = (N::splat(1.0), N::splat(3.0));
     let jacobian = one + volume_change;
     let z = inverse_cube_root(jacobian) - one;
-    let cube = z * (three + three * z + z * z);
-    z - (one + z) * (volume_change + jacobian * cube) * N::splat(1.0 / 3.0)
+    let cube = z * three.plus_product(three + z, z);
+    let error = volume_change.plus_product(jacobian, cube);
+    z.minus_product((one + z) * N::splat(1.0 / 3.0), error)
 }
 
 /// Where the series takes the place of the root: its first term left out is 8e-20 of the result.
@@ -126,8 +153,8 @@ pub(super) fn inverse_cube_root_change_near_one<N: Number>(d: N) -> N {
     let (c_3, c_4) = (N::splat(-14.0 / 81.0), N::splat(35.0 / 243.0));
     let (c_5, c_6) = (N::splat(-91.0 / 729.0), N::splat(728.0 / 6561.0));
     let square = d * d;
-    let tail = (c_3 + d * c_4) + square * (c_5 + d * c_6);
-    let series = d * ((c_1 + d * c_2) + square * tail);
+    let tail = c_3.plus_product(d, c_4).plus_product(square, c_5.plus_product(d, c_6));
+    let series = d * c_1.plus_product(d, c_2).plus_product(square, tail);
     if d.all_within(SERIES_BOUND) {
         return series;
     }

@@ -46,13 +46,13 @@ impl SaintVenantKirchhoff {
         let half = N::splat(0.5 * self.lambda()) * (rr + yy + tt);
         let shear = N::splat(self.shear);
         // b (λ/2 tr(b − 1) + G (b − 1)) = s + (b − 1) s of the bracket s.
-        let (s_rr, s_yy) = (half + shear * rr, half + shear * yy);
-        let (s_tt, s_ry) = (half + shear * tt, shear * ry);
+        let (s_rr, s_yy) = (half.plus_product(shear, rr), half.plus_product(shear, yy));
+        let (s_tt, s_ry) = (half.plus_product(shear, tt), shear * ry);
         SymmetricTensor {
-            rr: s_rr + (rr * s_rr + ry * s_ry),
-            yy: s_yy + (yy * s_yy + ry * s_ry),
-            tt: s_tt + tt * s_tt,
-            ry: s_ry + (rr * s_ry + ry * s_yy),
+            rr: s_rr.plus_product(rr, s_rr).plus_product(ry, s_ry),
+            yy: s_yy.plus_product(yy, s_yy).plus_product(ry, s_ry),
+            tt: s_tt.plus_product(tt, s_tt),
+            ry: s_ry.plus_product(rr, s_ry).plus_product(ry, s_yy),
         }
     }
 

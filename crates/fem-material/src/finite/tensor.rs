@@ -1,6 +1,6 @@
 //! Tensors of a body of revolution that does not twist.
 
-use std::ops::{Add, Mul, Sub};
+use super::number::Number;
 
 /// A tensor with four components in the meridian plane and one along the hoop: a displacement
 /// gradient, a deformation gradient, a first Piola-Kirchhoff stress.
@@ -34,13 +34,14 @@ pub struct SymmetricTensor<N = f64> {
     pub ry: N,
 }
 
-impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N>> AxisymmetricTensor<N> {
+impl<N: Number> AxisymmetricTensor<N> {
     /// det(1 + H) − 1 of a displacement gradient H: the relative change of volume, without the
     /// digits that det F − 1 would lose at small strain.
     #[inline(always)]
     pub fn volume_change(&self) -> N {
-        let area = self.rr + self.yy + (self.rr * self.yy - self.ry * self.yr);
-        area + self.tt + area * self.tt
+        let area =
+            (self.rr + self.yy).plus_product(self.rr, self.yy).minus_product(self.ry, self.yr);
+        (area + self.tt).plus_product(area, self.tt)
     }
 
     /// b − 1 = H + Hᵀ + H Hᵀ of a displacement gradient H, with b the left Cauchy-Green tensor.
@@ -48,10 +49,10 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N>> Axisymmetric
     pub fn left_strain(&self) -> SymmetricTensor<N> {
         let Self { rr, ry, yr, yy, tt } = *self;
         SymmetricTensor {
-            rr: (rr + rr) + (rr * rr + ry * ry),
-            yy: (yy + yy) + (yy * yy + yr * yr),
-            tt: (tt + tt) + tt * tt,
-            ry: (ry + yr) + (rr * yr + ry * yy),
+            rr: (rr + rr).plus_product(rr, rr).plus_product(ry, ry),
+            yy: (yy + yy).plus_product(yy, yy).plus_product(yr, yr),
+            tt: (tt + tt).plus_product(tt, tt),
+            ry: (ry + yr).plus_product(rr, yr).plus_product(ry, yy),
         }
     }
 
@@ -60,15 +61,15 @@ impl<N: Copy + Add<Output = N> + Sub<Output = N> + Mul<Output = N>> Axisymmetric
     pub fn right_strain(&self) -> SymmetricTensor<N> {
         let Self { rr, ry, yr, yy, tt } = *self;
         SymmetricTensor {
-            rr: (rr + rr) + (rr * rr + yr * yr),
-            yy: (yy + yy) + (yy * yy + ry * ry),
-            tt: (tt + tt) + tt * tt,
-            ry: (ry + yr) + (rr * ry + yr * yy),
+            rr: (rr + rr).plus_product(rr, rr).plus_product(yr, yr),
+            yy: (yy + yy).plus_product(yy, yy).plus_product(ry, ry),
+            tt: (tt + tt).plus_product(tt, tt),
+            ry: (ry + yr).plus_product(rr, ry).plus_product(yr, yy),
         }
     }
 }
 
-impl<N: Copy + Add<Output = N> + Mul<Output = N>> SymmetricTensor<N> {
+impl<N: Number> SymmetricTensor<N> {
     /// Each component times a factor.
     #[inline(always)]
     pub fn times(&self, factor: N) -> Self {
@@ -84,10 +85,21 @@ impl<N: Copy + Add<Output = N> + Mul<Output = N>> SymmetricTensor<N> {
     #[inline(always)]
     pub(super) fn rescaled(&self, w: N) -> Self {
         Self {
-            rr: self.rr + (w + w * self.rr),
-            yy: self.yy + (w + w * self.yy),
-            tt: self.tt + (w + w * self.tt),
-            ry: self.ry + w * self.ry,
+            rr: self.rr + w.plus_product(w, self.rr),
+            yy: self.yy + w.plus_product(w, self.yy),
+            tt: self.tt + w.plus_product(w, self.tt),
+            ry: self.ry.plus_product(w, self.ry),
+        }
+    }
+
+    /// The sum with a multiple of another.
+    #[inline(always)]
+    pub(super) fn plus_multiple(&self, factor: N, other: &Self) -> Self {
+        Self {
+            rr: self.rr.plus_product(factor, other.rr),
+            yy: self.yy.plus_product(factor, other.yy),
+            tt: self.tt.plus_product(factor, other.tt),
+            ry: self.ry.plus_product(factor, other.ry),
         }
     }
 
@@ -106,7 +118,10 @@ impl<N: Copy + Add<Output = N> + Mul<Output = N>> SymmetricTensor<N> {
     #[inline(always)]
     pub fn dot(&self, other: &Self) -> N {
         let shear = self.ry * other.ry;
-        self.rr * other.rr + self.yy * other.yy + self.tt * other.tt + (shear + shear)
+        (shear + shear)
+            .plus_product(self.rr, other.rr)
+            .plus_product(self.yy, other.yy)
+            .plus_product(self.tt, other.tt)
     }
 
     /// Sum of the normal components.

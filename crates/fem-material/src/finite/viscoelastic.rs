@@ -24,13 +24,12 @@
 //! strain relaxation in the long run is that of all branches flowing with constant times; the
 //! viscosity of rubber that depends on the stress is not in it.
 
-use super::hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted, upright};
-use super::kinematics::{Strain, first_piola, push_forward};
-use super::neo_hooke::NeoHooke;
-use super::number::{Number, inverse_cube_root, inverse_cube_root_change};
-use super::relaxing_neo_hooke::RelaxingNeoHooke;
+use super::branches::Branches;
+use super::hyperelastic::{Hyperelastic, Inverted, upright};
+use super::kinematics::{Strain, push_forward};
+use super::number::inverse_cube_root_change;
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
-use super::viscous::{ViscousStep, ViscousStrain};
+use super::viscous::{InverseMetric, ViscousStep, ViscousStrain};
 use crate::prony::{ActsOn, PronySeries};
 
 /// A hyperelastic solid that relaxes. Its history at a point is one [`ViscousStrain`] a term.
@@ -39,8 +38,8 @@ pub struct Viscoelastic {
     equilibrium: Hyperelastic,
     branches: Vec<Branch>,
     volume_flows: bool,
-    /// All branches in one, where the law allows it.
-    neo_hooke: Option<RelaxingNeoHooke>,
+    /// All in one.
+    together: Branches,
 }
 
 /// A Maxwell branch.
@@ -63,24 +62,25 @@ impl Viscoelastic {
             solid: instantaneous.scaled(of_bulk * term.weight, term.weight),
             relaxation_time: term.relaxation_time,
         });
-        let neo_hooke = (instantaneous.law() == HyperelasticLaw::NeoHooke).then(|| {
-            let moduli = NeoHooke {
-                bulk: instantaneous.bulk_modulus(),
-                shear: instantaneous.shear_modulus(),
-            };
-            RelaxingNeoHooke { moduli, equilibrium_weight, weights, volume_flows }
-        });
+        let together = Branches {
+            law: instantaneous.law(),
+            bulk: instantaneous.bulk_modulus(),
+            shear: instantaneous.shear_modulus(),
+            equilibrium_weight,
+            weights,
+            volume_flows,
+        };
         Self {
             equilibrium: instantaneous.scaled(lasting_bulk, equilibrium_weight),
             branches: branches.collect(),
             volume_flows,
-            neo_hooke,
+            together,
         }
     }
 
-    /// The same for lanes, of the default law.
-    pub fn neo_hooke(&self) -> Option<&RelaxingNeoHooke> {
-        self.neo_hooke.as_ref()
+    /// The stress of all branches, for lanes.
+    pub fn branches(&self) -> &Branches {
+        &self.together
     }
 
     /// How many entries the history of a point has.
@@ -122,24 +122,7 @@ impl Viscoelastic {
         history: &[ViscousStrain],
     ) -> Result<AxisymmetricTensor, Inverted> {
         upright(h)?;
-        if let Some(law) = &self.neo_hooke {
-            return Ok(law.first_piola(h, history).0);
-        }
-        Ok(self.first_piola_unchecked(h, history).0)
-    }
-
-    /// First Piola-Kirchhoff stress, Pa, and J − 1, on one number or several side by side; as of
-    /// [`Hyperelastic::first_piola_unchecked`], the caller has to look at J.
-    #[inline(always)]
-    pub fn first_piola_unchecked<N: Number>(
-        &self,
-        h: &AxisymmetricTensor<N>,
-        history: &[ViscousStrain<N>],
-    ) -> (AxisymmetricTensor<N>, N) {
-        let strain = Strain::of(h);
-        let y = inverse_cube_root(N::splat(1.0) + strain.volume_change);
-        let stress = self.kirchhoff(h, &strain, history);
-        (first_piola(&stress, h, y * y * y), strain.volume_change)
+        Ok(self.together.first_piola(h, inverse_metrics(history)).0)
     }
 
     /// Cauchy stress, Pa.
@@ -152,7 +135,8 @@ impl Viscoelastic {
         history: &[ViscousStrain],
     ) -> Result<SymmetricTensor, Inverted> {
         let strain = upright(h)?;
-        Ok(self.kirchhoff(h, &strain, history).times(1.0 / (1.0 + strain.volume_change)))
+        let stress = self.together.kirchhoff(h, &strain, inverse_metrics(history));
+        Ok(stress.times(1.0 / (1.0 + strain.volume_change)))
     }
 
     /// What is dissipated a second per undeformed volume D, W/m³.
@@ -209,28 +193,13 @@ impl Viscoelastic {
         Ok(largest_eigenvalue(self.tangent(h, history)?))
     }
 
-    #[inline(always)]
-    fn kirchhoff<N: Number>(
-        &self,
-        h: &AxisymmetricTensor<N>,
-        strain: &Strain<N>,
-        history: &[ViscousStrain<N>],
-    ) -> SymmetricTensor<N> {
-        let mut sum = self.equilibrium.kirchhoff(strain);
-        for (branch, viscous) in self.branches.iter().zip(history) {
-            sum = sum.plus(&branch.solid.kirchhoff(&self.elastic_strain(h, strain, viscous)));
-        }
-        sum
-    }
-
     /// b_e − 1 and J_e − 1 of the elastic part of a branch: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
-    #[inline(always)]
-    fn elastic_strain<N: Number>(
+    fn elastic_strain(
         &self,
-        h: &AxisymmetricTensor<N>,
-        strain: &Strain<N>,
-        viscous: &ViscousStrain<N>,
-    ) -> Strain<N> {
+        h: &AxisymmetricTensor,
+        strain: &Strain,
+        viscous: &ViscousStrain,
+    ) -> Strain {
         let (inverse, _) = viscous.inverse();
         let left = strain.left.plus(&push_forward(&inverse, h));
         if !self.volume_flows {
@@ -238,12 +207,17 @@ impl Viscoelastic {
         }
         let z = inverse_cube_root_change(viscous.volume_change);
         // 1/J_v = (1 + z)³.
-        let inverse_volume = (N::splat(1.0) + z) * (N::splat(1.0) + (z + z + z * z));
+        let inverse_volume = (1.0 + z) * (1.0 + (z + z + z * z));
         Strain {
             left: left.rescaled(z + z + z * z),
             volume_change: (strain.volume_change - viscous.volume_change) * inverse_volume,
         }
     }
+}
+
+/// Of one entry a term.
+fn inverse_metrics(history: &[ViscousStrain]) -> impl Iterator<Item = InverseMetric> {
+    history.iter().map(ViscousStrain::inverse_metric)
 }
 
 /// dev A : dev B.

@@ -29,7 +29,9 @@
 //! a constant rate, where s = 1. 0 ≤ a ≤ b ≤ 1 make C̄_v a mean of metrics: positive definite, hence
 //! stable, for any Δt/τ. For that e^{−y}, y = (s − 1)Δt/τ ≥ 0, may be 1/(1 + y + y²/2).
 
-use super::number::{Number, inverse_cube_root_change, inverse_cube_root_change_near_one};
+use super::number::{
+    Number, inverse_cube_root_change, inverse_cube_root_change_near_one, inverses,
+};
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use crate::relaxation_step::RelaxationStep;
 
@@ -46,13 +48,56 @@ pub struct ViscousStrain<N = f64> {
     pub volume_change: N,
 }
 
+/// C̄_v and J_v the other way round, as stress asks for them.
+#[derive(Debug, Clone, Copy)]
+pub struct InverseMetric<N = f64> {
+    /// C̄_v⁻¹ − 1.
+    pub(super) shape: SymmetricTensor<N>,
+    /// Hoop component of C̄_v − 1.
+    pub(super) hoop: N,
+    /// J_v − 1.
+    pub(super) volume_change: N,
+    /// 1/J_v.
+    pub(super) inverse_volume: N,
+}
+
+impl<N: Number> InverseMetric<N> {
+    /// Of a term that has never flown.
+    #[inline(always)]
+    pub fn none() -> Self {
+        let zero = N::splat(0.0);
+        let shape = SymmetricTensor { rr: zero, yy: zero, tt: zero, ry: zero };
+        Self { shape, hoop: zero, volume_change: zero, inverse_volume: N::splat(1.0) }
+    }
+}
+
 impl<N: Number> ViscousStrain<N> {
+    /// The metric and the volume the other way round.
+    #[inline(always)]
+    pub fn inverse_metric(&self) -> InverseMetric<N> {
+        let (one, plane) = (N::splat(1.0), self.plane());
+        let (inverse_plane, inverse_volume) = inverses(one + plane, one + self.volume_change);
+        let (shape, hoop) = self.inverse_over(plane, inverse_plane);
+        InverseMetric { shape, hoop, volume_change: self.volume_change, inverse_volume }
+    }
+
     /// C̄_v⁻¹ − 1, and the hoop component of C̄_v − 1.
     #[inline(always)]
     pub(super) fn inverse(&self) -> (SymmetricTensor<N>, N) {
+        let plane = self.plane();
+        self.inverse_over(plane, N::splat(1.0) / (N::splat(1.0) + plane))
+    }
+
+    /// Determinant of C̄_v in the meridian, less 1.
+    #[inline(always)]
+    fn plane(&self) -> N {
+        (self.rr + self.yy).plus_product(self.rr, self.yy).minus_product(self.ry, self.ry)
+    }
+
+    /// The inverse by that determinant and 1 over it.
+    #[inline(always)]
+    fn inverse_over(&self, plane: N, scale: N) -> (SymmetricTensor<N>, N) {
         let zero = N::splat(0.0);
-        let plane = self.rr + self.yy + (self.rr * self.yy - self.ry * self.ry);
-        let scale = N::splat(1.0) / (N::splat(1.0) + plane);
         let inverse = SymmetricTensor {
             rr: (self.yy - plane) * scale,
             yy: (self.rr - plane) * scale,
@@ -93,7 +138,7 @@ impl<N: Number> Shape<N> {
     pub fn of(h: &AxisymmetricTensor<N>) -> Self {
         let volume_change = h.volume_change();
         let z = inverse_cube_root_change(volume_change);
-        Self { strain: h.right_strain().rescaled(z + z + z * z), volume_change }
+        Self { strain: h.right_strain().rescaled((z + z).plus_product(z, z)), volume_change }
     }
 
     /// As four numbers, which a body may remember until the next step.
@@ -166,7 +211,7 @@ impl ViscousStep {
         }
     }
 
-    /// The same of one term.
+    /// The same of one term; what stress asks of it then.
     #[inline(always)]
     pub fn advance_term<N: Number>(
         &self,
@@ -174,56 +219,73 @@ impl ViscousStep {
         before: &Shape<N>,
         after: &Shape<N>,
         viscous: &mut ViscousStrain<N>,
-    ) {
+    ) -> InverseMetric<N> {
         let term = &self.terms[term];
-        term.advance_shape(&before.strain, &after.strain, viscous);
+        let one = N::splat(1.0);
+        let plane = viscous.plane();
+        let mut inverse = (one / (one + plane), one);
         if self.volume_flows {
             let (decay, gain) = (N::splat(term.linear.decay), N::splat(term.linear.gain));
-            let elastic = decay * (before.volume_change - viscous.volume_change)
-                + gain * (after.volume_change - before.volume_change);
-            viscous.volume_change = after.volume_change - elastic;
+            viscous.volume_change = after
+                .volume_change
+                .minus_product(decay, before.volume_change - viscous.volume_change)
+                .minus_product(gain, after.volume_change - before.volume_change);
+            inverse = inverses(one + plane, one + viscous.volume_change);
         }
+        let old = viscous.inverse_over(plane, inverse.0);
+        let hoop = term.advance_shape(&before.strain, &after.strain, old, viscous);
+        let ViscousStrain { rr, yy, ry, volume_change } = *viscous;
+        // det C̄_v = 1.
+        let shape = SymmetricTensor {
+            rr: (yy + hoop).plus_product(yy, hoop),
+            yy: (rr + hoop).plus_product(rr, hoop),
+            tt: viscous.plane(),
+            ry: (N::splat(0.0) - ry).minus_product(ry, hoop),
+        };
+        InverseMetric { shape, hoop, volume_change, inverse_volume: inverse.1 }
     }
 }
 
 impl TermStep {
+    /// From the inverse of C̄_v and its hoop; its hoop then.
     #[inline(always)]
     fn advance_shape<N: Number>(
         &self,
         before: &SymmetricTensor<N>,
         after: &SymmetricTensor<N>,
+        (inverse, viscous_tt): (SymmetricTensor<N>, N),
         viscous: &mut ViscousStrain<N>,
-    ) {
+    ) -> N {
         let (one, half) = (N::splat(1.0), N::splat(0.5));
-        let (inverse, viscous_tt) = viscous.inverse();
         // s − 1 of the mean of C̄ over the step: tr((1 + A)(1 + B))/3 − 1.
         let mean = before.plus(after).times(half);
         let excess = (mean.trace() + inverse.trace() + mean.dot(&inverse)) * N::splat(1.0 / 3.0);
         let speed = one + excess;
         let y = excess * N::splat(self.ratio);
-        let growth = one + y + half * y * y;
-        let both = one / (speed * growth);
-        let (r, inverse_speed) = (both * speed, both * growth);
+        let half_y = half * y;
+        let growth = (one + y).plus_product(half_y, y);
+        let (inverse_speed, r) = inverses(speed, growth);
         let linear_decay = N::splat(self.linear.decay);
         let decay = linear_decay * r;
-        let lost = linear_decay * excess * (one + half * y) * r;
-        let gain = (N::splat(self.linear.gain) + lost) * inverse_speed;
+        let lost = excess.plus_product(excess, half_y);
+        let gain = N::splat(self.linear.gain).plus_product(decay, lost) * inverse_speed;
 
         let old =
             SymmetricTensor { rr: viscous.rr, yy: viscous.yy, tt: viscous_tt, ry: viscous.ry };
         let old = old.rescaled(excess);
         let next = |old: N, before: N, after: N| {
-            after - (decay * (before - old) + gain * (after - before))
+            after.minus_product(decay, before - old).minus_product(gain, after - before)
         };
         let rr = next(old.rr, before.rr, after.rr);
         let yy = next(old.yy, before.yy, after.yy);
         let ry = next(old.ry, before.ry, after.ry);
         let tt = next(old.tt, before.tt, after.tt);
-        let plane = rr + yy + (rr * yy - ry * ry);
+        let plane = (rr + yy).plus_product(rr, yy).minus_product(ry, ry);
         // Of second order in the step.
-        let z = inverse_cube_root_change_near_one(plane + tt + plane * tt);
-        viscous.rr = rr + (z + z * rr);
-        viscous.yy = yy + (z + z * yy);
-        viscous.ry = ry + z * ry;
+        let z = inverse_cube_root_change_near_one((plane + tt).plus_product(plane, tt));
+        viscous.rr = rr + z.plus_product(z, rr);
+        viscous.yy = yy + z.plus_product(z, yy);
+        viscous.ry = ry.plus_product(z, ry);
+        tt + z.plus_product(z, tt)
     }
 }

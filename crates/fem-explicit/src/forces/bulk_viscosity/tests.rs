@@ -275,11 +275,11 @@ fn numbers_that_are_none_are_refused() {
 fn plain_and_avx2_lanes_give_the_same_bits() {
     use super::elements::subtract_forces;
     use crate::stress::lanes::{Avx2, Plain};
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     fn avx2(elements: &Elements, velocity: &Field, f: &mut Field) {
         subtract_forces::<Avx2>(elements, velocity, f);
     }
-    if !std::arch::is_x86_feature_detected!("avx2") {
+    if !crate::stress::lanes::has_avx2() {
         return;
     }
     let mesh = unit_sphere(4.0, Side::Below);

@@ -184,7 +184,7 @@ fn eigenvalues<L: Lanes<WIDE>, W: Law>(
         for i in 0..N_STRAINS {
             let slope = (after[i] - before[i]) * per_step;
             for j in own.clone() {
-                product[i][j] = product[i][j] + slope * L::load(&metric.q[k][j]);
+                product[i][j] = product[i][j].plus_product(slope, L::load(&metric.q[k][j]));
             }
         }
     }
@@ -233,7 +233,7 @@ fn square<L: Lanes<WIDE>>(x: &Square<L>) -> Square<L> {
     for i in 0..N_STRAINS {
         for k in 0..N_STRAINS {
             for j in 0..N_STRAINS {
-                squared[i][j] = squared[i][j] + x[i][k] * x[k][j];
+                squared[i][j] = squared[i][j].plus_product(x[i][k], x[k][j]);
             }
         }
     }
@@ -245,7 +245,7 @@ fn trace_of_square<L: Lanes<WIDE>>(x: &Square<L>) -> L {
     let mut sum = L::splat(0.0);
     for i in 0..N_STRAINS {
         for j in 0..N_STRAINS {
-            sum = sum + x[i][j] * x[j][i];
+            sum = sum.plus_product(x[i][j], x[j][i]);
         }
     }
     sum

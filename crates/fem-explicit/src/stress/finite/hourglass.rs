@@ -54,10 +54,17 @@ impl<N: Number> Amplitudes<N> {
     pub fn add_term(&mut self, weight: f64, flown: (N, N)) {
         let weight = N::splat(weight);
         let elastic = (self.own.0 - flown.0, self.own.1 - flown.1);
-        self.mean = (self.mean.0 - weight * flown.0, self.mean.1 - weight * flown.1);
-        let [rr, yy, ry] = square(weight, elastic);
+        self.mean = (
+            self.mean.0.minus_product(weight, flown.0),
+            self.mean.1.minus_product(weight, flown.1),
+        );
         let [sum_rr, sum_yy, sum_ry] = self.square;
-        self.square = [sum_rr + rr, sum_yy + yy, sum_ry + ry];
+        let (r, y) = (weight * elastic.0, weight * elastic.1);
+        self.square = [
+            sum_rr.plus_product(r, elastic.0),
+            sum_yy.plus_product(y, elastic.1),
+            sum_ry.plus_product(r, elastic.1),
+        ];
     }
 }
 
@@ -72,7 +79,7 @@ fn square<N: Number>(weight: N, x: (N, N)) -> [N; 3] {
 #[inline(always)]
 fn dot<N: Number>(a: [N; 3], b: [N; 3]) -> N {
     let off = a[2] * b[2];
-    a[0] * b[0] + a[1] * b[1] + (off + off)
+    (off + off).plus_product(a[0], b[0]).plus_product(a[1], b[1])
 }
 
 /// Elements: how they are deformed, and what an amplitude becomes in that.
@@ -102,12 +109,18 @@ impl<N: Number> Deformed<N> {
             yy: one + h.yy,
             tt: one + h.tt,
         };
-        let right =
-            [f.rr * f.rr + f.yr * f.yr, f.ry * f.ry + f.yy * f.yy, f.rr * f.ry + f.yr * f.yy];
-        let ninths = N::splat(5.0 / 9.0) * (right[0] + right[1] + f.tt * f.tt);
+        let right = [
+            (f.rr * f.rr).plus_product(f.yr, f.yr),
+            (f.ry * f.ry).plus_product(f.yy, f.yy),
+            (f.rr * f.ry).plus_product(f.yr, f.yy),
+        ];
+        let ninths = N::splat(5.0 / 9.0) * (right[0] + right[1]).plus_product(f.tt, f.tt);
         let [rr, yy, ry] = turned(measures, right);
-        let stiffness =
-            [rr + ninths * measures[0], yy + ninths * measures[1], ry + ninths * measures[2]];
+        let stiffness = [
+            rr.plus_product(ninths, measures[0]),
+            yy.plus_product(ninths, measures[1]),
+            ry.plus_product(ninths, measures[2]),
+        ];
         let y = inverse_cube_root(one + h.volume_change());
         let y_y = y * y;
         let inverse = y_y * y;
@@ -125,14 +138,14 @@ impl<N: Number> Deformed<N> {
     #[inline(always)]
     pub fn pull(&self, x: (N, N)) -> (N, N) {
         let Self { f, inverse_area: i, .. } = self;
-        (*i * (f.yy * x.0 - f.ry * x.1), *i * (f.rr * x.1 - f.yr * x.0))
+        (*i * (f.yy * x.0).minus_product(f.ry, x.1), *i * (f.rr * x.1).minus_product(f.yr, x.0))
     }
 
     /// F̄⁻ᵀ x.
     #[inline(always)]
     fn push(&self, x: (N, N)) -> (N, N) {
         let Self { f, inverse_area: i, .. } = self;
-        (*i * (f.yy * x.0 - f.yr * x.1), *i * (f.rr * x.1 - f.ry * x.0))
+        (*i * (f.yy * x.0).minus_product(f.yr, x.1), *i * (f.rr * x.1).minus_product(f.ry, x.0))
     }
 
     /// Energy of amplitudes (m), J.
@@ -154,8 +167,8 @@ impl<N: Number> Deformed<N> {
         let Amplitudes { own, mean, square } = amplitudes;
         let twice = self.scale + self.scale;
         let (d_r, d_y) = self.push((
-            twice * (stiffness[0] * mean.0 + stiffness[2] * mean.1),
-            twice * (stiffness[2] * mean.0 + stiffness[1] * mean.1),
+            twice * (stiffness[0] * mean.0).plus_product(stiffness[2], mean.1),
+            twice * (stiffness[2] * mean.0).plus_product(stiffness[1], mean.1),
         ));
         // Twice the derivative by C where q̂ stays.
         let hoop = N::splat(5.0 / 9.0) * dot(*measures, *square);
@@ -164,15 +177,27 @@ impl<N: Number> Deformed<N> {
         // And by F̄⁻ᵀ = cof F̄/J.
         let shape = N::splat(-2.0 / 3.0) * self.energy(amplitudes);
         let out = shape * self.inverse_area;
-        let area = f.rr * f.yy - f.ry * f.yr;
+        let area = (f.rr * f.yy).minus_product(f.ry, f.yr);
         HourglassForce {
             q: (d_r, d_y),
             stress: AxisymmetricTensor {
-                rr: (f.rr * b_rr + f.ry * b_ry) + (out * f.yy - d_r * own.0),
-                ry: (f.rr * b_ry + f.ry * b_yy) - (out * f.yr + d_r * own.1),
-                yr: (f.yr * b_rr + f.yy * b_ry) - (out * f.ry + d_y * own.0),
-                yy: (f.yr * b_ry + f.yy * b_yy) + (out * f.rr - d_y * own.1),
-                tt: f.tt * (twice * hoop) + shape * self.inverse * area,
+                rr: (out * f.yy)
+                    .plus_product(f.rr, b_rr)
+                    .plus_product(f.ry, b_ry)
+                    .minus_product(d_r, own.0),
+                ry: (f.rr * b_ry)
+                    .plus_product(f.ry, b_yy)
+                    .minus_product(out, f.yr)
+                    .minus_product(d_r, own.1),
+                yr: (f.yr * b_rr)
+                    .plus_product(f.yy, b_ry)
+                    .minus_product(out, f.ry)
+                    .minus_product(d_y, own.0),
+                yy: (out * f.rr)
+                    .plus_product(f.yr, b_ry)
+                    .plus_product(f.yy, b_yy)
+                    .minus_product(d_y, own.1),
+                tt: (f.tt * (twice * hoop)).plus_product(shape * self.inverse, area),
             },
         }
     }
@@ -185,8 +210,8 @@ fn turned<N: Number>(m: [N; 3], x: [N; 3]) -> [N; 3] {
     let (trace, four_thirds) = (m[0] + m[1], N::splat(4.0 / 3.0));
     let off = four_thirds * m[2] * x[2];
     [
-        (trace - four_thirds * m[0]) * x[0] - off,
-        (trace - four_thirds * m[1]) * x[1] - off,
-        third * trace * x[2] - two_thirds * m[2] * (x[0] + x[1]),
+        (trace.minus_product(four_thirds, m[0]) * x[0]) - off,
+        (trace.minus_product(four_thirds, m[1]) * x[1]) - off,
+        (third * trace * x[2]).minus_product(two_thirds * m[2], x[0] + x[1]),
     ]
 }

@@ -120,13 +120,16 @@ impl<L: Lanes<WIDE>> Strain<L> {
         let [t2, t3] = [L::load(&block.hoop[2]), L::load(&block.hoop[3])];
         Self {
             h: AxisymmetricTensor {
-                rr: a0 * dr0 + a1 * dr1 + a2 * dr2,
-                ry: b0 * dr0 + b1 * dr1 + b2 * dr2,
-                yr: a0 * dy0 + a1 * dy1 + a2 * dy2,
-                yy: b0 * dy0 + b1 * dy1 + b2 * dy2,
-                tt: (t0 * r0 + t1 * r1) + (t2 * r2 + t3 * r3),
+                rr: (a0 * dr0).plus_product(a1, dr1).plus_product(a2, dr2),
+                ry: (b0 * dr0).plus_product(b1, dr1).plus_product(b2, dr2),
+                yr: (a0 * dy0).plus_product(a1, dy1).plus_product(a2, dy2),
+                yy: (b0 * dy0).plus_product(b1, dy1).plus_product(b2, dy2),
+                tt: (t0 * r0).plus_product(t1, r1).plus_product(t2, r2).plus_product(t3, r3),
             },
-            q: (g0 * dr0 + g1 * dr1 + g2 * dr2, g0 * dy0 + g1 * dy1 + g2 * dy2),
+            q: (
+                (g0 * dr0).plus_product(g1, dr1).plus_product(g2, dr2),
+                (g0 * dy0).plus_product(g1, dy1).plus_product(g2, dy2),
+            ),
         }
     }
 
@@ -154,7 +157,7 @@ impl<L: Lanes<WIDE>> Strain<L> {
         past: &Past<L>,
     ) -> (Conjugate<L>, L) {
         let weights = law.weights();
-        let (p, volume_change) = law.first_piola(&self.h, &past.strains[..weights.len()]);
+        let (p, volume_change) = law.first_piola(&self.h, &past.metrics[..weights.len()]);
         let mut amplitudes = Amplitudes::new(own, law.equilibrium_weight());
         for (term, &weight) in weights.iter().enumerate() {
             amplitudes.add_term(weight, past.amplitudes[term]);
@@ -162,11 +165,11 @@ impl<L: Lanes<WIDE>> Strain<L> {
         let shape = deformed.force(&amplitudes);
         let volume = L::load(&block.volume);
         let stress = AxisymmetricTensor {
-            rr: volume * p.rr + shape.stress.rr,
-            ry: volume * p.ry + shape.stress.ry,
-            yr: volume * p.yr + shape.stress.yr,
-            yy: volume * p.yy + shape.stress.yy,
-            tt: volume * p.tt + shape.stress.tt,
+            rr: shape.stress.rr.plus_product(volume, p.rr),
+            ry: shape.stress.ry.plus_product(volume, p.ry),
+            yr: shape.stress.yr.plus_product(volume, p.yr),
+            yy: shape.stress.yy.plus_product(volume, p.yy),
+            tt: shape.stress.tt.plus_product(volume, p.tt),
         };
         (Conjugate { stress, q: shape.q }, volume_change)
     }
@@ -180,8 +183,8 @@ impl<L: Lanes<WIDE>> Conjugate<L> {
         let gamma = L::load(&block.hourglass[a]);
         let Self { stress, q } = self;
         (
-            g_r * stress.rr + g_y * stress.ry + gamma * q.0,
-            g_r * stress.yr + g_y * stress.yy + gamma * q.1,
+            (g_r * stress.rr).plus_product(g_y, stress.ry).plus_product(gamma, q.0),
+            (g_r * stress.yr).plus_product(g_y, stress.yy).plus_product(gamma, q.1),
         )
     }
 
@@ -197,10 +200,10 @@ impl<L: Lanes<WIDE>> Conjugate<L> {
         let tt = self.stress.tt;
         // SAFETY: the caller's promise.
         unsafe {
-            (r0 + L::load(&block.hoop[0]) * tt).scatter_subtract(y0, f, &block.corners[0]);
-            (r1 + L::load(&block.hoop[1]) * tt).scatter_subtract(y1, f, &block.corners[1]);
-            (r2 + L::load(&block.hoop[2]) * tt).scatter_subtract(y2, f, &block.corners[2]);
-            (r3 + L::load(&block.hoop[3]) * tt).scatter_subtract(y3, f, &block.corners[3]);
+            r0.plus_product(L::load(&block.hoop[0]), tt).scatter_subtract(y0, f, &block.corners[0]);
+            r1.plus_product(L::load(&block.hoop[1]), tt).scatter_subtract(y1, f, &block.corners[1]);
+            r2.plus_product(L::load(&block.hoop[2]), tt).scatter_subtract(y2, f, &block.corners[2]);
+            r3.plus_product(L::load(&block.hoop[3]), tt).scatter_subtract(y3, f, &block.corners[3]);
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Stress and energy of a law on lanes.
 //!
-//! All laws run on all lanes at once. The default law has loops of its own; in those of the others the
-//! law is asked for block by block, which costs nothing that could be measured.
+//! All laws run on all lanes at once. The default law has loops of its own where it does not relax; in all
+//! others the law is asked for block by block, which costs nothing that could be measured.
 
 use std::fmt::Debug;
 
 use fem_material::PronySeries;
 use fem_material::finite::{
-    AxisymmetricTensor, Hyperelastic, NeoHooke, RelaxingNeoHooke, Viscoelastic, ViscousStrain,
+    AxisymmetricTensor, Branches, Hyperelastic, InverseMetric, NeoHooke, Viscoelastic,
 };
 
 use super::super::lanes::{Lanes, WIDE};
@@ -33,7 +33,7 @@ pub(super) trait Law: Debug + Send + Sync + 'static {
     fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
-        past: &[ViscousStrain<L>],
+        past: &[InverseMetric<L>],
     ) -> (AxisymmetricTensor<L>, L);
 }
 
@@ -52,7 +52,7 @@ impl Law for NeoHooke {
     fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
-        _: &[ViscousStrain<L>],
+        _: &[InverseMetric<L>],
     ) -> (AxisymmetricTensor<L>, L) {
         NeoHooke { bulk: L::splat(self.bulk), shear: L::splat(self.shear) }.first_piola(h)
     }
@@ -75,7 +75,7 @@ impl Law for Hyperelastic {
     fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
-        _: &[ViscousStrain<L>],
+        _: &[InverseMetric<L>],
     ) -> (AxisymmetricTensor<L>, L) {
         self.first_piola_unchecked(h)
     }
@@ -88,24 +88,25 @@ impl ElasticLaw for Hyperelastic {
     }
 }
 
-/// A law that relaxes, W the law that computes its stress.
+/// A law that relaxes.
 #[derive(Debug, Clone)]
-pub(super) struct Relaxing<W> {
-    law: W,
+pub(super) struct Relaxing {
+    branches: Branches,
     shear: f64,
     weights: Vec<f64>,
     equilibrium_weight: f64,
 }
 
-impl<W> Relaxing<W> {
-    /// Of a law with an instantaneous shear modulus (Pa) and a series.
-    pub fn of(law: W, shear: f64, series: &PronySeries) -> Self {
+impl Relaxing {
+    /// Of a solid with an instantaneous shear modulus (Pa) and a series.
+    pub fn of(solid: &Viscoelastic, shear: f64, series: &PronySeries) -> Self {
         let weights = series.terms().iter().map(|term| term.weight).collect();
-        Self { law, shear, weights, equilibrium_weight: series.equilibrium_weight() }
+        let equilibrium_weight = series.equilibrium_weight();
+        Self { branches: solid.branches().clone(), shear, weights, equilibrium_weight }
     }
 }
 
-impl Law for Relaxing<RelaxingNeoHooke> {
+impl Law for Relaxing {
     fn shear(&self) -> f64 {
         self.shear
     }
@@ -122,32 +123,8 @@ impl Law for Relaxing<RelaxingNeoHooke> {
     fn first_piola<L: Lanes<WIDE>>(
         &self,
         h: &AxisymmetricTensor<L>,
-        past: &[ViscousStrain<L>],
+        past: &[InverseMetric<L>],
     ) -> (AxisymmetricTensor<L>, L) {
-        self.law.first_piola(h, past)
-    }
-}
-
-/// Any law by its name.
-impl Law for Relaxing<Viscoelastic> {
-    fn shear(&self) -> f64 {
-        self.shear
-    }
-
-    fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
-    fn equilibrium_weight(&self) -> f64 {
-        self.equilibrium_weight
-    }
-
-    #[inline(always)]
-    fn first_piola<L: Lanes<WIDE>>(
-        &self,
-        h: &AxisymmetricTensor<L>,
-        past: &[ViscousStrain<L>],
-    ) -> (AxisymmetricTensor<L>, L) {
-        self.law.first_piola_unchecked(h, past)
+        self.branches.first_piola(h, past.iter().copied())
     }
 }

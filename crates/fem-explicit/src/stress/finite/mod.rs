@@ -24,6 +24,7 @@
 
 mod block;
 mod bound;
+mod elastic;
 mod hourglass;
 mod kernel;
 mod law;
@@ -35,23 +36,64 @@ use std::fmt;
 use fem_collision::Account;
 use fem_element::QuadGeometry;
 use fem_material::Material;
-use fem_material::finite::{Hyperelastic, HyperelasticLaw, NeoHooke};
+use fem_material::finite::{
+    AxisymmetricTensor, Hyperelastic, HyperelasticLaw, Inverted, NeoHooke, SymmetricTensor,
+};
 use fem_mesh::SphereMesh;
 
 use super::port::{Collapse, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
-use block::Blocks;
+use block::{Blocks, Slots};
 use bound::Metrics;
+use elastic::Elastic;
 use kernel::Elements;
-use law::ElasticLaw;
+use law::Law;
 pub use past::MOST_FINITE_STRAIN_TERMS;
 
-/// The stress of a body at finite strain, elastic.
-struct FiniteStrain<W> {
+/// The stress of a body at finite strain: its elements, and how they answer to what deforms them.
+struct FiniteStrain<R> {
     blocks: Blocks,
     metrics: Metrics,
-    law: W,
-    solid: Hyperelastic,
+    response: R,
+}
+
+/// What elements that relax and elements that do not have each of their own.
+trait Response: fmt::Debug + Send + Sync + 'static {
+    /// The law of their stress.
+    type Law: Law;
+
+    fn law(&self) -> &Self::Law;
+
+    /// Number of fields of history of the elements, and behind them of the nodes.
+    fn n_history(&self) -> [usize; 2] {
+        [0, 0]
+    }
+
+    fn set_time_step(&mut self, _time_step: f64) {}
+
+    /// Subtracts the internal forces, N. Whether every element has a volume; if not, the forces mean
+    /// nothing.
+    fn subtract_forces(
+        &self,
+        blocks: &Blocks,
+        u: &Field,
+        history: &[NodalField],
+        forces: &mut Field,
+    ) -> bool;
+
+    /// Cauchy stress, Pa, of an element with a displacement gradient.
+    fn cauchy(
+        &self,
+        h: &AxisymmetricTensor,
+        element: (Slots, usize),
+        history: &[NodalField],
+    ) -> Result<SymmetricTensor, Inverted>;
+
+    /// Takes the history to a displacement at the end of a time step (s), or in no time.
+    fn advance(&self, _: &Blocks, _time_step: Option<f64>, _u: &Field, _: &mut [NodalField]) {}
+
+    /// What the elements store (J) and dissipate, W.
+    fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64);
 }
 
 /// The stress of a material that stores energy by a law, and relaxes by no more than [`MOST_FINITE_STRAIN_TERMS`].
@@ -71,44 +113,60 @@ pub(crate) fn finite_strain(
     }
     if law == HyperelasticLaw::NeoHooke {
         let law = NeoHooke { bulk, shear };
-        return Box::new(FiniteStrain { blocks, metrics, law, solid });
+        return Box::new(FiniteStrain { blocks, metrics, response: Elastic { law, solid } });
     }
-    Box::new(FiniteStrain { blocks, metrics, law: solid, solid })
+    Box::new(FiniteStrain { blocks, metrics, response: Elastic { law: solid, solid } })
 }
 
-impl<W: ElasticLaw> FiniteStrain<W> {
-    fn elements(&self) -> Elements<'_, W> {
-        Elements { blocks: &self.blocks, law: &self.law, history: &[] }
+impl<R: Response> FiniteStrain<R> {
+    fn add_bound(&self, u: &Field, history: &[NodalField], bound: &mut [f64]) {
+        let elements = Elements { blocks: &self.blocks, law: self.response.law(), history };
+        bound::add_stiffness(&elements, &self.metrics, u, bound);
     }
 }
 
-/// Its law and moduli; the mesh is known by other means.
-impl<W> fmt::Debug for FiniteStrain<W> {
+/// Its law, moduli and terms; the mesh is known by other means.
+impl<R: fmt::Debug> fmt::Debug for FiniteStrain<R> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "FiniteStrain {{ {:?} }}", self.solid)
+        self.response.fmt(formatter)
     }
 }
 
-impl<W: ElasticLaw> Part for FiniteStrain<W> {}
+impl<R: Response> Part for FiniteStrain<R> {
+    fn n_history(&self) -> usize {
+        self.response.n_history()[1]
+    }
 
-impl<W: ElasticLaw> Stress for FiniteStrain<W> {
+    fn set_time_step(&mut self, time_step: f64) {
+        self.response.set_time_step(time_step);
+    }
+}
+
+impl<R: Response> Stress for FiniteStrain<R> {
+    fn n_element_history(&self) -> usize {
+        self.response.n_history()[0]
+    }
+
     fn largest_eigenvalue(
         &self,
         geometry: &QuadGeometry,
         masses: &[f64; 4],
         on_axis: [bool; 4],
     ) -> f64 {
-        bound::at_rest(&self.law, geometry, masses, on_axis)
+        bound::at_rest(self.response.law(), geometry, masses, on_axis)
     }
 
     fn subtract_forces(
         &self,
         motion: &Motion<'_>,
-        _: &[NodalField],
+        history: &[NodalField],
         forces: &mut Field,
     ) -> Result<(), Collapse> {
-        let is_sound = self.elements().subtract_forces(motion.displacement, forces);
-        if is_sound { Ok(()) } else { Err(self.blocks.most_compressed(motion.displacement)) }
+        let u = motion.displacement;
+        match self.response.subtract_forces(&self.blocks, u, history, forces) {
+            true => Ok(()),
+            false => Err(self.blocks.most_compressed(u)),
+        }
     }
 
     fn changes_stiffness(&self) -> bool {
@@ -117,11 +175,11 @@ impl<W: ElasticLaw> Stress for FiniteStrain<W> {
 
     fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
         let still = vec![[0.0; 2]; bound.len()];
-        bound::add_stiffness(&self.elements(), &self.metrics, &still, bound);
+        self.add_bound(&still, &[], bound);
     }
 
-    fn add_stiffness_bound(&self, motion: &Motion<'_>, _: &[NodalField], bound: &mut [f64]) {
-        bound::add_stiffness(&self.elements(), &self.metrics, motion.displacement, bound);
+    fn add_stiffness_bound(&self, motion: &Motion<'_>, history: &[NodalField], bound: &mut [f64]) {
+        self.add_bound(motion.displacement, history, bound);
     }
 
     fn strain_rate(&self, motion: &Motion<'_>) -> f64 {
@@ -132,21 +190,30 @@ impl<W: ElasticLaw> Stress for FiniteStrain<W> {
         Some(self.blocks.most_compressed(displacement))
     }
 
-    fn update_cauchy_stress(&self, u: &Field, _: &[NodalField], stress: &mut Vec<[f64; 4]>) {
+    fn update_cauchy_stress(&self, u: &Field, history: &[NodalField], stress: &mut Vec<[f64; 4]>) {
         stress.clear();
         stress.extend((0..self.blocks.n_elements()).map(|element| {
             let h = self.blocks.gradient(element, u);
             // No run goes on behind a collapse.
-            let stress = self.solid.cauchy(&h).ok();
+            let stress = self.response.cauchy(&h, self.blocks.slot(element), history).ok();
             stress.map_or([f64::NAN; 4], |stress| [stress.rr, stress.yy, stress.tt, stress.ry])
         }));
     }
 
-    fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {
-        let stored = kernel::stored_energy(&self.blocks, &self.law, motion.displacement);
+    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
+        let (time_step, u) = (motion.time_step, motion.displacement);
+        self.response.advance(&self.blocks, Some(time_step), u, history);
+    }
+
+    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
+        self.response.advance(&self.blocks, None, displacement, history);
+    }
+
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
+        let (stored, power) = self.response.energies(&self.blocks, motion.displacement, history);
         accounts.energies.add(Account::Strain, stored);
         // A body that dissipates nothing has an account of it.
-        accounts.powers.add(Account::ViscousDissipation, 0.0);
+        accounts.powers.add(Account::ViscousDissipation, power);
     }
 }
 

@@ -11,7 +11,7 @@
 //!
 //! Elements stand in the order of their blocks ([`Slots`]), so that a loop reads and writes them in turn.
 
-use fem_material::finite::ViscousStrain;
+use fem_material::finite::{InverseMetric, ViscousStrain};
 
 use super::super::lanes::{Lanes, WIDE};
 use super::block::Slots;
@@ -30,7 +30,7 @@ pub(super) fn n_element_fields(n_terms: usize) -> usize {
 
 /// The past of lanes of elements, term by term.
 pub(super) struct Past<L> {
-    pub strains: [ViscousStrain<L>; MOST_FINITE_STRAIN_TERMS],
+    pub metrics: [InverseMetric<L>; MOST_FINITE_STRAIN_TERMS],
     pub amplitudes: [(L, L); MOST_FINITE_STRAIN_TERMS],
 }
 
@@ -39,9 +39,8 @@ impl<L: Lanes<WIDE>> Past<L> {
     #[inline(always)]
     pub fn none() -> Self {
         let zero = L::splat(0.0);
-        let strain = ViscousStrain { rr: zero, yy: zero, ry: zero, volume_change: zero };
         Self {
-            strains: [strain; MOST_FINITE_STRAIN_TERMS],
+            metrics: [InverseMetric::none(); MOST_FINITE_STRAIN_TERMS],
             amplitudes: [(zero, zero); MOST_FINITE_STRAIN_TERMS],
         }
     }
@@ -50,7 +49,8 @@ impl<L: Lanes<WIDE>> Past<L> {
     #[inline(always)]
     pub fn load(&mut self, n_terms: usize, history: &[NodalField], slots: Slots) {
         for term in 0..n_terms {
-            (self.strains[term], self.amplitudes[term]) = load_term(history, term, slots);
+            let (strain, amplitude) = load_term(history, term, slots);
+            (self.metrics[term], self.amplitudes[term]) = (strain.inverse_metric(), amplitude);
         }
     }
 }

@@ -8,28 +8,27 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use fem_collision::Account;
-use fem_element::QuadGeometry;
-
-use fem_material::finite::{Hyperelastic, Shape, Viscoelastic, ViscousStep, ViscousStrain};
+use fem_material::finite::{
+    AxisymmetricTensor, Hyperelastic, InverseMetric, Inverted, Shape, SymmetricTensor,
+    Viscoelastic, ViscousStep, ViscousStrain,
+};
 use fem_material::{PronySeries, RelaxationStep};
 
 use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
-use super::super::port::{Collapse, Stress};
-use super::block::Blocks;
-use super::bound::{self, Metrics};
+use super::super::port::Stress;
+use super::block::{Blocks, Slots};
+use super::bound::Metrics;
 use super::hourglass::{Amplitudes, Deformed};
-use super::kernel::{Elements, Strain, Volumes};
+use super::kernel::{Strain, Volumes};
 use super::law::{Law, Relaxing};
 use super::past::{self, Past};
+use super::{FiniteStrain, Response};
 use crate::pace;
-use crate::part::{Accounts, Field, Motion, NodalField, Part};
+use crate::part::{Field, NodalField};
 
-/// The stress of a body at finite strain that relaxes.
-struct RelaxingStrain<W> {
-    blocks: Blocks,
-    metrics: Metrics,
-    law: Relaxing<W>,
+/// A law that relaxes, and the same by its name.
+struct RelaxingStrain {
+    law: Relaxing,
     solid: Viscoelastic,
     relaxation_times: Vec<f64>,
     /// Of all steps that a run may take.
@@ -63,28 +62,14 @@ pub(super) fn relaxing_strain(
 ) -> Box<dyn Stress> {
     let solid = Viscoelastic::new(instantaneous, series);
     let shear = instantaneous.shear_modulus();
-    match solid.neo_hooke().cloned() {
-        Some(law) => {
-            let law = Relaxing::of(law, shear, series);
-            Box::new(RelaxingStrain::new(blocks, metrics, law, solid, series))
-        }
-        None => {
-            let law = Relaxing::of(solid.clone(), shear, series);
-            Box::new(RelaxingStrain::new(blocks, metrics, law, solid, series))
-        }
-    }
+    let law = Relaxing::of(&solid, shear, series);
+    Box::new(FiniteStrain { blocks, metrics, response: RelaxingStrain::new(law, solid, series) })
 }
 
-impl<W> RelaxingStrain<W> {
-    fn new(
-        blocks: Blocks,
-        metrics: Metrics,
-        law: Relaxing<W>,
-        solid: Viscoelastic,
-        series: &PronySeries,
-    ) -> Self {
+impl RelaxingStrain {
+    fn new(law: Relaxing, solid: Viscoelastic, series: &PronySeries) -> Self {
         let relaxation_times = series.terms().iter().map(|term| term.relaxation_time).collect();
-        Self { blocks, metrics, law, solid, relaxation_times, steps: Vec::new() }
+        Self { law, solid, relaxation_times, steps: Vec::new() }
     }
 
     fn step(&self, time_step: f64) -> Step {
@@ -92,148 +77,102 @@ impl<W> RelaxingStrain<W> {
     }
 }
 
-impl<W> RelaxingStrain<W>
-where
-    Relaxing<W>: Law,
-{
-    fn elements<'a>(&'a self, history: &'a [NodalField]) -> Elements<'a, Relaxing<W>> {
-        Elements { blocks: &self.blocks, law: &self.law, history }
-    }
-}
-
-/// Its law, moduli and terms; the mesh is known by other means.
-impl<W> fmt::Debug for RelaxingStrain<W> {
+impl fmt::Debug for RelaxingStrain {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "RelaxingStrain {{ {:?} }}", self.solid)
     }
 }
 
-impl<W: 'static> Part for RelaxingStrain<W>
-where
-    Relaxing<W>: Law,
-{
-    /// The internal forces.
-    fn n_history(&self) -> usize {
-        1
+impl Response for RelaxingStrain {
+    type Law = Relaxing;
+
+    fn law(&self) -> &Relaxing {
+        &self.law
+    }
+
+    /// Of the nodes the internal forces.
+    fn n_history(&self) -> [usize; 2] {
+        [past::n_element_fields(self.solid.n_terms()), 1]
     }
 
     fn set_time_step(&mut self, time_step: f64) {
         self.steps = pace::time_steps(time_step).map(|time_step| self.step(time_step)).collect();
     }
-}
-
-impl<W: 'static> Stress for RelaxingStrain<W>
-where
-    Relaxing<W>: Law,
-{
-    fn n_element_history(&self) -> usize {
-        past::n_element_fields(self.solid.n_terms())
-    }
-
-    fn largest_eigenvalue(
-        &self,
-        geometry: &QuadGeometry,
-        masses: &[f64; 4],
-        on_axis: [bool; 4],
-    ) -> f64 {
-        bound::at_rest(&self.law, geometry, masses, on_axis)
-    }
 
     fn subtract_forces(
         &self,
-        motion: &Motion<'_>,
+        _: &Blocks,
+        _: &Field,
         history: &[NodalField],
         forces: &mut Field,
-    ) -> Result<(), Collapse> {
+    ) -> bool {
         // Made by the last step; no numbers where an element has collapsed in it.
-        let own = &history[self.n_element_history()];
+        let [n_element_fields, _] = self.n_history();
+        let own = &history[n_element_fields];
         if own.first().is_some_and(|force| force[0].is_nan()) {
-            return Err(self.blocks.most_compressed(motion.displacement));
+            return false;
         }
         for (force, own) in forces.as_flattened_mut().iter_mut().zip(own.as_flattened()) {
             *force += own;
         }
-        Ok(())
-    }
-
-    fn changes_stiffness(&self) -> bool {
         true
     }
 
-    fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
-        let still = vec![[0.0; 2]; bound.len()];
-        bound::add_stiffness(&self.elements(&[]), &self.metrics, &still, bound);
-    }
-
-    fn add_stiffness_bound(&self, motion: &Motion<'_>, history: &[NodalField], bound: &mut [f64]) {
-        let elements = self.elements(history);
-        bound::add_stiffness(&elements, &self.metrics, motion.displacement, bound);
-    }
-
-    fn strain_rate(&self, motion: &Motion<'_>) -> f64 {
-        self.blocks.strain_rate(motion.displacement, motion.velocity)
-    }
-
-    fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {
-        Some(self.blocks.most_compressed(displacement))
-    }
-
-    fn update_cauchy_stress(&self, u: &Field, history: &[NodalField], stress: &mut Vec<[f64; 4]>) {
+    fn cauchy(
+        &self,
+        h: &AxisymmetricTensor,
+        element: (Slots, usize),
+        history: &[NodalField],
+    ) -> Result<SymmetricTensor, Inverted> {
         let n_terms = self.solid.n_terms();
-        stress.clear();
-        stress.extend((0..self.blocks.n_elements()).map(|element| {
-            let h = self.blocks.gradient(element, u);
-            let (strains, _) = past::of_element(history, n_terms, self.blocks.slot(element));
-            // No run goes on behind a collapse.
-            let stress = self.solid.cauchy(&h, &strains[..n_terms]).ok();
-            stress.map_or([f64::NAN; 4], |stress| [stress.rr, stress.yy, stress.tt, stress.ry])
-        }));
+        let (strains, _) = past::of_element(history, n_terms, element);
+        self.solid.cauchy(h, &strains[..n_terms])
     }
 
-    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
-        let same = |step: &&Step| step.time_step == motion.time_step;
-        let step = match self.steps.iter().find(same) {
-            Some(step) => Cow::Borrowed(step),
-            None => Cow::Owned(self.step(motion.time_step)),
+    fn advance(
+        &self,
+        blocks: &Blocks,
+        time_step: Option<f64>,
+        u: &Field,
+        history: &mut [NodalField],
+    ) {
+        let of = |time_step: f64| {
+            let same = |step: &&Step| step.time_step == time_step;
+            match self.steps.iter().find(same) {
+                Some(step) => Cow::Borrowed(step),
+                None => Cow::Owned(self.step(time_step)),
+            }
         };
-        self.update(Some(&step), motion.displacement, history);
-    }
-
-    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
-        self.update(None, displacement, history);
-    }
-
-    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
-        let u = motion.displacement;
-        let (mut stored, mut power) = (0.0, 0.0);
-        for element in 0..self.blocks.n_elements() {
-            let (energy, dissipated) = self.energies(element, u, history);
-            stored += energy;
-            power += dissipated;
-        }
-        accounts.energies.add(Account::Strain, stored);
-        accounts.powers.add(Account::ViscousDissipation, power);
-    }
-}
-
-impl<W> RelaxingStrain<W>
-where
-    Relaxing<W>: Law,
-{
-    /// Takes the history to a displacement, by a step or in no time.
-    fn update(&self, step: Option<&Step>, u: &Field, history: &mut [NodalField]) {
-        let Self { blocks, law, .. } = self;
-        let (of_elements, forces) =
-            history.split_at_mut(past::n_element_fields(self.solid.n_terms()));
+        let step = time_step.map(of);
+        let (law, step) = (&self.law, step.as_deref());
+        let (of_elements, forces) = history.split_at_mut(self.n_history()[0]);
         let Some(forces) = forces.first_mut() else { return };
         run_wide_lanes(Advance { blocks, law, step, u }, &mut Advanced { of_elements, forces });
     }
 
+    fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64) {
+        let (mut stored, mut power) = (0.0, 0.0);
+        for element in 0..blocks.n_elements() {
+            let (energy, dissipated) = self.energies_of(blocks, element, u, history);
+            stored += energy;
+            power += dissipated;
+        }
+        (stored, power)
+    }
+}
+
+impl RelaxingStrain {
     /// What an element stores (J) and dissipates, W; no numbers of one that has collapsed.
-    fn energies(&self, element: usize, u: &Field, history: &[NodalField]) -> (f64, f64) {
-        let Self { blocks, law, solid, relaxation_times, .. } = self;
+    fn energies_of(
+        &self,
+        blocks: &Blocks,
+        element: usize,
+        u: &Field,
+        history: &[NodalField],
+    ) -> (f64, f64) {
+        let Self { law, solid, relaxation_times, .. } = self;
         let n_terms = solid.n_terms();
-        let (strains, amplitudes) = past::of_element(history, n_terms, self.blocks.slot(element));
+        let (strains, amplitudes) = past::of_element(history, n_terms, blocks.slot(element));
         let (h, strains) = (blocks.gradient(element, u), &strains[..n_terms]);
         let (volume, measures, amplitude) = blocks.shape(element, u);
         let deformed = Deformed::of(&h, law.shear(), measures);
@@ -295,10 +234,10 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
                 let before = (Shape::of_remembered(&whole), amplitude);
                 for term in 0..n_terms {
                     let (strain, amplitude) = past::load_term(of_elements, term, slots);
-                    let (strain, amplitude) =
+                    let (strain, metric, amplitude) =
                         step.advance_term(term, &before, &after, strain, amplitude);
                     past::store_term(of_elements, term, slots, &strain, amplitude);
-                    (past.strains[term], past.amplitudes[term]) = (strain, amplitude);
+                    (past.metrics[term], past.amplitudes[term]) = (metric, amplitude);
                 }
             } else {
                 past.load(n_terms, of_elements, slots);
@@ -317,7 +256,8 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
 }
 
 impl Step {
-    /// What a term remembers after a step between two shapes and amplitudes in the undeformed element.
+    /// What a term remembers after a step between two shapes and amplitudes in the undeformed element, and
+    /// what stress asks of it.
     #[inline(always)]
     fn advance_term<L: Lanes<WIDE>>(
         &self,
@@ -326,14 +266,14 @@ impl Step {
         (after, last): &(Shape<L>, (L, L)),
         mut strain: ViscousStrain<L>,
         flown: (L, L),
-    ) -> (ViscousStrain<L>, (L, L)) {
-        self.law.advance_term(term, before, after, &mut strain);
+    ) -> (ViscousStrain<L>, InverseMetric<L>, (L, L)) {
+        let metric = self.law.advance_term(term, before, after, &mut strain);
         let RelaxationStep { decay, gain } = self.amplitudes[term];
         let (decay, gain) = (L::splat(decay), L::splat(gain));
         let amplitude = (
-            last.0 - (decay * (first.0 - flown.0) + gain * (last.0 - first.0)),
-            last.1 - (decay * (first.1 - flown.1) + gain * (last.1 - first.1)),
+            last.0.minus_product(decay, first.0 - flown.0).minus_product(gain, last.0 - first.0),
+            last.1.minus_product(decay, first.1 - flown.1).minus_product(gain, last.1 - first.1),
         );
-        (strain, amplitude)
+        (strain, metric, amplitude)
     }
 }

@@ -8,6 +8,7 @@ use super::super::lanes::{Lanes, Plain, WIDE};
 use super::super::of_material;
 use super::block::Block;
 use super::kernel::{Conjugate, Strain};
+use super::law::ElasticLaw;
 use super::law::Law;
 use super::past::Past;
 use super::*;
@@ -276,7 +277,7 @@ fn a_collapsed_element_is_named() {
 #[test]
 fn lanes_of_every_kind_give_the_same_bits() {
     use super::super::lanes::{Avx2, Avx512, Twice};
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     fn avx2(blocks: &Blocks, law: &impl ElasticLaw, u: &Field, f: &mut Field) -> f64 {
         Elements { blocks, law, history: &[] }.subtract::<Twice<Avx2>>(u, f);
         kernel::sum_energy::<Twice<Avx2>, _>(blocks, law, u)
@@ -297,7 +298,7 @@ fn lanes_of_every_kind_give_the_same_bits() {
         Elements { blocks: &blocks, law: &law, history: &[] }
             .subtract::<Plain<WIDE>>(&u, &mut plain);
         let energy = kernel::sum_energy::<Plain<WIDE>, _>(&blocks, &law, &u);
-        if std::arch::is_x86_feature_detected!("avx2") {
+        if crate::stress::lanes::has_avx2() {
             let mut f = none.clone();
             // SAFETY: the processor has been asked.
             let other = unsafe { avx2(&blocks, &law, &u, &mut f) };

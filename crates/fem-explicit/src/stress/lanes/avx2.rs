@@ -3,11 +3,11 @@
 use std::arch::x86_64::{
     __m128d, __m256d, _CMP_LE_OQ, _mm_loadu_pd, _mm_storeu_pd, _mm_sub_pd, _mm256_add_epi64,
     _mm256_add_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256, _mm256_castpd256_pd128,
-    _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_extractf128_pd, _mm256_loadu_pd,
-    _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_epu32, _mm256_mul_pd,
-    _mm256_or_si256, _mm256_set_m128d, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_slli_epi64,
-    _mm256_sqrt_pd, _mm256_srli_epi64, _mm256_storeu_pd, _mm256_sub_epi64, _mm256_sub_pd,
-    _mm256_unpackhi_pd, _mm256_unpacklo_pd,
+    _mm256_castsi256_pd, _mm256_cmp_pd, _mm256_div_pd, _mm256_extractf128_pd, _mm256_fmadd_pd,
+    _mm256_fnmadd_pd, _mm256_loadu_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd,
+    _mm256_mul_epu32, _mm256_mul_pd, _mm256_or_si256, _mm256_set_m128d, _mm256_set1_epi64x,
+    _mm256_set1_pd, _mm256_slli_epi64, _mm256_sqrt_pd, _mm256_srli_epi64, _mm256_storeu_pd,
+    _mm256_sub_epi64, _mm256_sub_pd, _mm256_unpackhi_pd, _mm256_unpacklo_pd,
 };
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -15,7 +15,7 @@ use super::{LANES, Lanes, Number};
 use fem_material::finite::{POWER_OFFSET, UNITS, UNITS_AND_OFFSET};
 
 /// Lanes as an AVX register. Values must be made and used only in functions
-/// that are compiled for AVX2 and called after the processor was asked.
+/// that are compiled for AVX2 and FMA and called after the processor was asked.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Avx2(__m256d);
 
@@ -75,6 +75,18 @@ impl Number for Avx2 {
     fn splat(value: f64) -> Self {
         // SAFETY: the type's contract.
         Self(unsafe { _mm256_set1_pd(value) })
+    }
+
+    #[inline(always)]
+    fn plus_product(self, x: Self, y: Self) -> Self {
+        // SAFETY: the type's contract.
+        Self(unsafe { _mm256_fmadd_pd(x.0, y.0, self.0) })
+    }
+
+    #[inline(always)]
+    fn minus_product(self, x: Self, y: Self) -> Self {
+        // SAFETY: the type's contract.
+        Self(unsafe { _mm256_fnmadd_pd(x.0, y.0, self.0) })
     }
 
     #[inline(always)]

@@ -4,11 +4,11 @@ use std::arch::x86_64::{
     __m128d, __m512d, _CMP_LE_OQ, _mm_loadu_pd, _mm_storeu_pd, _mm_sub_pd, _mm256_castpd256_pd128,
     _mm256_extractf128_pd, _mm256_set_m128d, _mm512_abs_pd, _mm512_add_epi64, _mm512_add_pd,
     _mm512_castpd_si512, _mm512_castpd256_pd512, _mm512_castpd512_pd256, _mm512_castsi512_pd,
-    _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_extractf64x4_pd, _mm512_insertf64x4, _mm512_loadu_pd,
-    _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_epu32, _mm512_mul_pd,
-    _mm512_or_si512, _mm512_set1_epi64, _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd,
-    _mm512_srli_epi64, _mm512_storeu_pd, _mm512_sub_epi64, _mm512_sub_pd, _mm512_unpackhi_pd,
-    _mm512_unpacklo_pd,
+    _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_extractf64x4_pd, _mm512_fmadd_pd, _mm512_fnmadd_pd,
+    _mm512_insertf64x4, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd,
+    _mm512_mul_epu32, _mm512_mul_pd, _mm512_or_si512, _mm512_set1_epi64, _mm512_set1_pd,
+    _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srli_epi64, _mm512_storeu_pd, _mm512_sub_epi64,
+    _mm512_sub_pd, _mm512_unpackhi_pd, _mm512_unpacklo_pd,
 };
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -45,6 +45,18 @@ impl Number for Avx512 {
     fn splat(value: f64) -> Self {
         // SAFETY: the type's contract.
         Self(unsafe { _mm512_set1_pd(value) })
+    }
+
+    #[inline(always)]
+    fn plus_product(self, x: Self, y: Self) -> Self {
+        // SAFETY: the type's contract.
+        Self(unsafe { _mm512_fmadd_pd(x.0, y.0, self.0) })
+    }
+
+    #[inline(always)]
+    fn minus_product(self, x: Self, y: Self) -> Self {
+        // SAFETY: the type's contract.
+        Self(unsafe { _mm512_fnmadd_pd(x.0, y.0, self.0) })
     }
 
     #[inline(always)]

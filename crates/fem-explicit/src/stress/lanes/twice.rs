@@ -35,6 +35,16 @@ impl<L: Number> Number for Twice<L> {
     }
 
     #[inline(always)]
+    fn plus_product(self, x: Self, y: Self) -> Self {
+        Self(self.0.plus_product(x.0, y.0), self.1.plus_product(x.1, y.1))
+    }
+
+    #[inline(always)]
+    fn minus_product(self, x: Self, y: Self) -> Self {
+        Self(self.0.minus_product(x.0, y.0), self.1.minus_product(x.1, y.1))
+    }
+
+    #[inline(always)]
     fn inverse_cube_root_estimate(self) -> Self {
         Self(self.0.inverse_cube_root_estimate(), self.1.inverse_cube_root_estimate())
     }

@@ -168,7 +168,7 @@ fn a_rotation_turns_what_has_relaxed() {
     let series = series_of.relaxation().unwrap();
     for law in HyperelasticLaw::ALL {
         let solid = Hyperelastic::new(law, series_of.instantaneous());
-        let law = Relaxing::of(Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
+        let law = Relaxing::of(&Viscoelastic::new(&solid, series), solid.shear_modulus(), series);
         let mut past = Past::none();
         let splat = Plain::<WIDE>::splat;
         let strain = |rr, yy, ry, volume| ViscousStrain {
@@ -177,8 +177,8 @@ fn a_rotation_turns_what_has_relaxed() {
             ry: splat(ry),
             volume_change: splat(volume),
         };
-        past.strains[0] = strain(-0.3, 0.4, 0.2, 0.1);
-        past.strains[1] = strain(-0.1, 0.1, -0.1, -0.1);
+        past.metrics[0] = strain(-0.3, 0.4, 0.2, 0.1).inverse_metric();
+        past.metrics[1] = strain(-0.1, 0.1, -0.1, -0.1).inverse_metric();
         past.amplitudes[0] = (splat(0.1), splat(0.2));
         past.amplitudes[1] = (splat(-0.1), splat(0.05));
         let at = |angle: f64| conjugate_with(&law, &past, turned(F, angle), turn(Q, angle));
@@ -227,7 +227,7 @@ fn a_held_amplitude_relaxes_exactly() {
 fn lanes_of_every_kind_relax_to_the_same_bits() {
     use super::super::super::lanes::{Avx2, Avx512, Twice};
     use super::super::relaxing::{Advance, Advanced};
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,fma")]
     fn avx2<'a>(advance: Advance<'a, impl Law>, output: &mut Advanced<'a>) {
         advance.on::<Twice<Avx2>>(output);
     }
@@ -248,7 +248,7 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
         let solid = Hyperelastic::new(law, material.instantaneous());
         let viscoelastic = Viscoelastic::new(&solid, series);
         let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
-        let law = Relaxing::of(viscoelastic, solid.shear_modulus(), series);
+        let law = Relaxing::of(&viscoelastic, solid.shear_modulus(), series);
         let advance = Advance { blocks: &blocks, law: &law, step: Some(&step), u: &u };
         let start = || (of_elements.clone(), vec![[0.0; 2]; u.len()]);
         let [mut plain, mut two, mut one] = [start(), start(), start()];
@@ -258,7 +258,7 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
         let all_bits = |(history, forces): &(Vec<Vec<_>>, Vec<_>)| {
             history.iter().chain([forces]).map(|field| bits(field)).collect::<Vec<_>>()
         };
-        if std::arch::is_x86_feature_detected!("avx2") {
+        if crate::stress::lanes::has_avx2() {
             let mut output = Advanced { of_elements: &mut two.0, forces: &mut two.1 };
             // SAFETY: the processor has been asked.
             unsafe { avx2(advance, &mut output) };
