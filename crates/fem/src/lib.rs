@@ -72,7 +72,6 @@ pub use results::Summary;
 pub use simulation::{Simulation, collide};
 pub use stress::BodyStress;
 pub use sweep::sweep;
-pub use uncertainty::Uncertainty;
 
 pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
 pub use fem_collision::{

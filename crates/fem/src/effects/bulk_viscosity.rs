@@ -22,7 +22,7 @@
 use fem_case::{Body, ContactMethod, EffectsTable, Scene, Switch};
 use fem_material::Material;
 
-use super::doubt::Doubt;
+use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
 use super::finite_strain::FiniteStrain;
 use super::left_out::LeftOut;
@@ -98,7 +98,7 @@ impl Effect for BulkViscosity {
     }
 
     /// It is the mesh's, not nature's.
-    fn doubt(&self, _: &Scene, _: &Estimate, _: bool) -> Doubt {
+    fn doubt(&self, _: &Scene, _: &Estimate, _: &Standing) -> Doubt {
         Doubt::NOTHING
     }
 

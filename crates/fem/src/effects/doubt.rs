@@ -33,6 +33,15 @@ pub struct Doubt {
     pub peak_pressure: Option<f64>,
 }
 
+/// How a run stands to an effect.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Standing {
+    /// Whether the run lacks it.
+    pub is_lacking: bool,
+    /// By how much the numbers change without it ([`Effect::left_out`](super::Effect::left_out)).
+    pub left_out: Option<LeftOut>,
+}
+
 impl Doubt {
     /// No doubt at all.
     pub const NOTHING: Self = Self {

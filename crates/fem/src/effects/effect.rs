@@ -4,7 +4,7 @@ use fem_case::{EffectsTable, Scene, Switch};
 use fem_collision::Collision;
 
 use super::answer::Answer;
-use super::doubt::Doubt;
+use super::doubt::{Doubt, Standing};
 use super::left_out::LeftOut;
 use super::need::Need;
 use super::transformed::Transformed;
@@ -47,15 +47,15 @@ pub trait Effect: Sync {
         None
     }
 
-    /// By how much nature may differ from a result because of it: where the model lacks it, because it is left
-    /// out; nothing of what only the computation needs.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, is_lacking: bool) -> Doubt {
-        if !is_lacking {
+    /// By how much nature may differ from a result because of it, as a model stands to it: where the model
+    /// lacks it, because it is left out; nothing of what only the computation needs.
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+        if !standing.is_lacking {
             return Doubt::NOTHING;
         }
         let is_called_for = || self.need(scene, estimate).is_some_and(|need| need.is_called_for);
-        match self.left_out(scene, estimate) {
-            Some(left_out) => Doubt::of(&left_out, estimate),
+        match &standing.left_out {
+            Some(left_out) => Doubt::of(left_out, estimate),
             None if is_called_for() => Doubt::default(),
             None => Doubt::NOTHING,
         }

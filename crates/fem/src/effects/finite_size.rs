@@ -3,7 +3,7 @@
 use fem_case::Scene;
 
 use super::answer::Answer;
-use super::doubt::Doubt;
+use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::percent;
@@ -71,12 +71,10 @@ impl Effect for FiniteSizeEffect {
     }
 
     /// Where it is a term it is its first order.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, is_lacking: bool) -> Doubt {
+    fn doubt(&self, _: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
         let second_order = SECOND_ORDER * estimate.strain.powi(2);
-        match is_lacking {
-            true => self
-                .left_out(scene, estimate)
-                .map_or_else(Doubt::default, |left_out| Doubt::of(&left_out, estimate)),
+        match standing.is_lacking {
+            true => Doubt::of(&standing.left_out.unwrap_or_default(), estimate),
             false => Doubt::of(&LeftOut::shares(estimate, second_order, second_order), estimate),
         }
     }

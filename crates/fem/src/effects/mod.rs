@@ -47,7 +47,7 @@ pub use answer::Answer;
 pub use bulk_viscosity::BulkViscosity;
 pub use contact_search::ContactSearch;
 pub use dashpot::DashpotEffect;
-pub use doubt::Doubt;
+pub use doubt::{Doubt, Standing};
 pub use effect::Effect;
 pub use finite_size::FiniteSizeEffect;
 pub(crate) use finite_size::SECOND_ORDER;

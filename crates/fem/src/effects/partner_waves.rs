@@ -10,7 +10,7 @@ use fem_laws::{Ting, radiated_share};
 use fem_material::Material;
 
 use super::answer::Answer;
-use super::doubt::Doubt;
+use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
@@ -208,9 +208,10 @@ impl Effect for PartnerWaves {
     }
 
     /// A term for them is off by a share of them; a mesh has them.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, is_lacking: bool) -> Doubt {
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+        let &Standing { is_lacking, left_out } = standing;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
-        let Some(left_out) = self.left_out(scene, estimate).filter(|_| !is_of_mesh) else {
+        let Some(left_out) = left_out.filter(|_| !is_of_mesh) else {
             return Doubt::NOTHING;
         };
         // Where closed forms tell the loss alone.

@@ -9,7 +9,7 @@
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
 use super::answer::Answer;
-use super::doubt::Doubt;
+use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::Need;
@@ -74,9 +74,8 @@ impl Effect for RigidPartner {
     }
 
     /// Nature has none: it is what taking a body as rigid changes.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, _: bool) -> Doubt {
-        let left_out = self.left_out(scene, estimate).unwrap_or_default();
-        Doubt::of(&left_out, estimate)
+    fn doubt(&self, _: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+        Doubt::of(&standing.left_out.unwrap_or_default(), estimate)
     }
 
     /// Of a body that is taken as rigid: what it gives way, relaxes and radiates.

@@ -18,6 +18,6 @@ pub use history::{HISTORY_FILE, history_csv};
 pub use snapshots::write_snapshots;
 pub use summarise::Spent;
 pub use summary::{
-    BodySummary, BounceSummary, CostSummary, PROGRAM, Parts, Quantities, RestSummary, SUMMARY_FILE,
-    Summary, UncertaintySummary,
+    BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Parts, Quantities,
+    RestSummary, SUMMARY_FILE, Summary, UncertaintySummary,
 };

@@ -42,7 +42,8 @@ impl Summary {
         let mut numbers = Numbers { warnings };
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         let quantities = quantities(collision, &mut numbers);
-        let uncertainty = simulation.uncertainty(collision).of_numbers(&quantities);
+        let effects = effects(simulation, collision);
+        let uncertainty = simulation.uncertainty(collision, &effects).of_numbers(&quantities);
         Self {
             uncertainty: UncertaintySummary::from(&uncertainty),
             collision: quantities,
@@ -68,7 +69,7 @@ impl Summary {
                 peak_memory_bytes: spent.peak_memory,
                 factor_bytes: collision.factor_bytes,
             },
-            effects: effects(simulation, collision),
+            effects,
             models_considered: Some(simulation.considered().to_vec())
                 .filter(|considered| !considered.is_empty()),
             complete: collision.is_complete(),

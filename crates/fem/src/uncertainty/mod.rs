@@ -10,13 +10,13 @@ mod discretisation;
 
 use fem_collision::Collision;
 
-use crate::effects::{Doubt, EFFECTS};
-use crate::results::Quantities;
+use crate::effects::{Doubt, EFFECTS, Standing};
+use crate::results::{EffectSummary, Quantities};
 use crate::simulation::Simulation;
 
 /// How far each quantity of a result may be off, in SI: untold where there is no number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Uncertainty {
+pub(crate) struct Uncertainty {
     /// From the truth of the model's own problem.
     pub discretisation: Doubt,
     /// Of that from nature.
@@ -24,22 +24,28 @@ pub struct Uncertainty {
 }
 
 impl Simulation {
-    /// How far the quantities of a collision may be off.
-    pub fn uncertainty(&self, collision: &Collision) -> Uncertainty {
+    /// How far the quantities of a collision may be off, of what was decided on the effects and by how much
+    /// its numbers change without each.
+    pub(crate) fn uncertainty(
+        &self,
+        collision: &Collision,
+        effects: &[EffectSummary],
+    ) -> Uncertainty {
         Uncertainty {
             discretisation: discretisation::of(self, collision),
-            model: self.model_doubt(collision),
+            model: self.model_doubt(collision, effects),
         }
     }
 
     /// What the effects that the collision lacks would change, all together.
-    fn model_doubt(&self, collision: &Collision) -> Doubt {
+    fn model_doubt(&self, collision: &Collision, effects: &[EffectSummary]) -> Doubt {
         let Some(estimate) = self.estimate(collision) else { return Doubt::default() };
         let scene = self.scene_of_model();
-        let verdicts = self.decisions(collision).verdicts;
-        verdicts.iter().fold(Doubt::NOTHING, |sum, verdict| {
+        effects.iter().fold(Doubt::NOTHING, |sum, EffectSummary { verdict, error_if_left_out }| {
+            let standing =
+                Standing { is_lacking: verdict.is_lacking, left_out: *error_if_left_out };
             let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name);
-            let doubt = effect.map(|effect| effect.doubt(&scene, &estimate, verdict.is_lacking));
+            let doubt = effect.map(|effect| effect.doubt(&scene, &estimate, &standing));
             sum.and(doubt.unwrap_or(Doubt::NOTHING))
         })
     }

@@ -18,15 +18,37 @@ pub(super) struct Departure {
     pub peak_pressure: f64,
 }
 
+/// How far a body is deformed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Deformation {
+    /// Of the contact radius over the effective radius the share that it has of the compliance.
+    pub strain: f64,
+    /// Contact radius over the radius of a sphere, or its strain if that is more.
+    pub flatness: f64,
+}
+
 impl Departure {
-    /// The most by which one law changes more or less than another up to that strain, as sizes: what changes
-    /// its sign on the way is not small again where it does. No law is small strain.
-    pub fn up_to(laws: [Option<HyperelasticLaw>; 2], poissons_ratio: f64, strain: f64) -> Self {
-        let strains = STRAINS.into_iter().filter(|one| *one < strain).chain([strain]);
-        strains.fold(Self::default(), |most, strain| {
-            let [one, other] = laws.map(|law| {
-                law.map_or(Self::default(), |law| Self::on_a_wall(law, poissons_ratio, strain))
-            });
+    /// Of an elastic body of a law and a Poisson's ratio: the first order goes with its strain, which is what
+    /// it gives way by, and all beyond with how flat it is.
+    pub fn of(law: HyperelasticLaw, poissons_ratio: f64, body: Deformation) -> Self {
+        let first_order = Self::on_a_wall(law, poissons_ratio, STRAINS[0]);
+        let less = (body.flatness - body.strain) / STRAINS[0];
+        Self::on_a_wall(law, poissons_ratio, body.flatness) + -less * first_order
+    }
+
+    /// The most by which one law changes more or less than another on the way to a deformation, as sizes: what
+    /// changes its sign on the way is not small again where it does. No law is small strain.
+    pub fn up_to(
+        laws: [Option<HyperelasticLaw>; 2],
+        poissons_ratio: f64,
+        body: Deformation,
+    ) -> Self {
+        let ratio = if body.flatness > 0.0 { body.strain / body.flatness } else { 0.0 };
+        let before = STRAINS.into_iter().filter(|flatness| *flatness < body.flatness);
+        before.chain([body.flatness]).fold(Self::default(), |most, flatness| {
+            let here = Deformation { strain: ratio * flatness, flatness };
+            let [one, other] = laws
+                .map(|law| law.map_or(Self::default(), |law| Self::of(law, poissons_ratio, here)));
             most.or(one + -1.0 * other)
         })
     }
@@ -44,7 +66,7 @@ impl Departure {
 
     /// Of an elastic sphere on a rigid wall, its contact radius a share of its radius as Hertz foretells it:
     /// linear between the collisions of [`CHANGES`], and proportional to the strain beyond them.
-    pub fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
+    fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
         let law = HyperelasticLaw::ALL.iter().position(|one| *one == law).unwrap_or(0);
         let (row, weight) = place(&POISSONS_RATIOS, poissons_ratio);
         let (k, share) = place(&STRAINS, strain);
@@ -149,17 +171,21 @@ mod tests {
         assert_eq!(place(&grid, f64::NAN).0, 0);
     }
 
+    fn like(strain: f64) -> Deformation {
+        Deformation { strain, flatness: strain }
+    }
+
     #[test]
     fn passes_through_what_was_computed() {
         let mut n_collapsed = 0;
         for (law, changes) in HyperelasticLaw::ALL.into_iter().zip(&CHANGES) {
             for (nu, row) in POISSONS_RATIOS.into_iter().zip(changes) {
                 for (strain, change) in STRAINS.into_iter().zip(row) {
-                    let found = Departure::on_a_wall(law, nu, strain);
+                    let found = Departure::of(law, nu, like(strain));
                     let Some(change) = change else {
                         // St Venant and Kirchhoff's sphere collapsed: it softens further.
                         n_collapsed += 1;
-                        let before = Departure::on_a_wall(law, nu, 0.7 * strain);
+                        let before = Departure::of(law, nu, like(0.7 * strain));
                         assert!(found.contact_time > before.contact_time, "{nu} {strain}");
                         continue;
                     };
@@ -178,10 +204,24 @@ mod tests {
         assert!(n_collapsed > 0);
     }
 
+    /// Half as strained as flat: half of the first order at once, and of what comes then nothing less.
+    #[test]
+    fn the_first_order_goes_with_the_strain() {
+        let of = |strain: f64, flatness: f64| {
+            Departure::of(HyperelasticLaw::NeoHooke, 0.45, Deformation { strain, flatness })
+        };
+        let [half, whole] = [of(0.005, 0.01), of(0.01, 0.01)];
+        assert!((half.contact_time - 0.5 * whole.contact_time).abs() < 1e-12);
+        let [half, whole] = [of(0.35, 0.7), of(0.7, 0.7)];
+        let first_order = 35.0 * of(0.01, 0.01).contact_time;
+        assert!((whole.contact_time - half.contact_time - first_order).abs() < 1e-12);
+        assert_eq!(half.restitution, whole.restitution);
+    }
+
     #[test]
     fn a_law_differs_from_itself_by_nothing() {
         for law in HyperelasticLaw::ALL {
-            assert_eq!(Departure::up_to([Some(law); 2], 0.3, 0.4), Departure::default());
+            assert_eq!(Departure::up_to([Some(law); 2], 0.3, like(0.4)), Departure::default());
         }
     }
 
@@ -191,7 +231,8 @@ mod tests {
         let accuracy = Accuracy::within(0.01);
         for law in HyperelasticLaw::ALL {
             for nu in [-0.5, 0.0, 0.1, 0.25, 0.33, 0.4, 0.45, 0.47, 0.49, 0.495] {
-                let of = |k: i32| Departure::up_to([Some(law), None], nu, 0.005 * f64::from(k));
+                let of =
+                    |k: i32| Departure::up_to([Some(law), None], nu, like(0.005 * f64::from(k)));
                 let shares = (0..200).map(|k| of(k).over(&accuracy));
                 assert!(shares.is_sorted(), "{law:?} {nu}");
             }
@@ -201,7 +242,7 @@ mod tests {
     #[test]
     fn grows_with_the_strain_from_nothing() {
         for law in HyperelasticLaw::ALL {
-            let [none, small] = [0.0, 1e-6].map(|strain| Departure::on_a_wall(law, 0.3, strain));
+            let [none, small] = [0.0, 1e-6].map(|strain| Departure::of(law, 0.3, like(strain)));
             assert_eq!(none.contact_time, 0.0);
             assert!(small.contact_time.abs() < 1e-6 && small.peak_force.abs() < 1e-6);
         }

@@ -2,12 +2,13 @@
 //! ([`HyperelasticLaw`]).
 //!
 //! Decided by what leaving it out would change ([`Departure`]), which depends on the law, on Poisson's
-//! ratio and on the strain of the body, its share of the contact radius over the effective radius; a sphere
-//! is strained at least as far as it is flat, a/R_b:
+//! ratio and on the strain of the body, its share of the contact radius over the effective radius. Beyond
+//! the first order, the slope k, it depends on how flat a sphere is, a/R_b, if that is more:
 //!
 //! ```math
-//! s_b = \max\Bigl(w_b \frac{a}{R^*}, \frac a{R_b}\Bigr), \qquad w_b = \frac{E^*}{E_b/(1-\nu_b^2)}, \qquad
-//! \frac{\Delta T}{T} = \sum_b w_b \left.\frac{\Delta T}{T}\right|_{\text{wall}}(s_b)
+//! s_b = w_b \frac{a}{R^*}, \qquad w_b = \frac{E^*}{E_b/(1-\nu_b^2)}, \qquad
+//! g_b = \max\Bigl(s_b, \frac a{R_b}\Bigr), \qquad
+//! \frac{\Delta T}{T} = \sum_b w_b \Bigl[\left.\frac{\Delta T}{T}\right|_{\text{wall}}(g_b) - k\,(g_b - s_b)\Bigr]
 //! ```
 //!
 //! so that half of a collision of like bodies is as strained as the whole. A body that hardly strains
@@ -28,9 +29,9 @@ use fem_explicit::MOST_FINITE_STRAIN_TERMS;
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
-use self::departure::Departure;
+use self::departure::{Deformation, Departure};
 use super::answer::Answer;
-use super::doubt::Doubt;
+use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
@@ -113,9 +114,7 @@ struct Strained<'a> {
     material: &'a Material,
     /// Of the compliance of the contact.
     share: f64,
-    /// Of the contact radius over the effective radius the share that it has of the compliance, or over
-    /// its own radius.
-    strain: f64,
+    deformation: Deformation,
     /// What its own strain changes of the collision, elastic and without waves.
     departure: Departure,
 }
@@ -129,11 +128,12 @@ impl<'a> Strained<'a> {
             let (body, share) = (&scene.bodies()[side], shares[side]);
             let material = body.material()?;
             let flatness = body.diameter().map_or(0.0, |diameter| 2.0 * radius / diameter);
-            let strain = flatness.max(share * estimate.strain);
+            let strain = share * estimate.strain;
+            let deformation = Deformation { strain, flatness: flatness.max(strain) };
             let nu = material.instantaneous().poissons_ratio();
             let laws = [Some(material.law()), None];
-            let departure = share * Departure::up_to(laws, nu, strain);
-            Some(Self { name: body.name(), material, share, strain, departure })
+            let departure = share * Departure::up_to(laws, nu, deformation);
+            Some(Self { name: body.name(), material, share, deformation, departure })
         })
     }
 
@@ -146,7 +146,7 @@ impl<'a> Strained<'a> {
     fn spread(&self) -> f64 {
         let nu = self.material.instantaneous().poissons_ratio();
         let times = self.possible_laws().into_iter();
-        let times = times.map(|law| Departure::on_a_wall(law, nu, self.strain).contact_time);
+        let times = times.map(|law| Departure::of(law, nu, self.deformation).contact_time);
         let (least, most) =
             times.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
         self.share * (most - least)
@@ -156,7 +156,7 @@ impl<'a> Strained<'a> {
     fn doubt(&self, computed: Option<HyperelasticLaw>) -> Departure {
         let nu = self.material.instantaneous().poissons_ratio();
         let laws = self.possible_laws().into_iter();
-        let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.strain));
+        let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.deformation));
         self.share * each.fold(Departure::default(), Departure::or)
     }
 
@@ -210,6 +210,10 @@ fn with_waves(scene: &Scene, estimate: &Estimate, change: Departure) -> Departur
 
 /// With what relaxation takes less or more.
 fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Departure {
+    let mut materials = scene.bodies().iter().filter_map(Body::material);
+    if !materials.any(|material| material.relaxation().is_some()) {
+        return change;
+    }
     let impact = Expected::of(scene, estimate.hertz.approach_speed(), false).ok();
     let loss = impact.map_or(0.0, |impact| 1.0 - impact.restitution);
     let own = (loss - PartnerWaves::loss(scene, estimate)).max(0.0);
@@ -298,11 +302,11 @@ impl Effect for FiniteStrain {
 
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
-    fn doubt(&self, scene: &Scene, estimate: &Estimate, is_lacking: bool) -> Doubt {
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
         if estimate.strain > LARGEST_STRAIN {
             return Doubt::default();
         }
-        let computed = if is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
+        let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
             both.iter().zip(computed).filter_map(|(body, law)| Some(body.as_ref()?.doubt(law)));
