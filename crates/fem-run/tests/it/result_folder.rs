@@ -3,13 +3,15 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 28] = [
+const KEYS: [&str; 30] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
     "max_approach_m",
     "max_contact_radius_m",
     "peak_pressure_pa",
+    "peak_force_raw_n",
+    "elastic_null",
     "contact_episodes",
     "hertz",
     "energy",

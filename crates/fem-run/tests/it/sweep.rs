@@ -71,7 +71,8 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     for (key, value) in alone.as_object().unwrap() {
         match key.as_str() {
             "cost" | "case" | "bodies" | "effects" | "files" | "program" | "version"
-            | "numerics" | "made_from" | "models_considered" | "uncertainty" => {}
+            | "numerics" | "made_from" | "models_considered" | "uncertainty"
+            | "elastic_null" => {}
             "bounces" | "rest" => assert!(value.is_null(), "{key} without gravity"),
             "warnings" => check(key.clone(), &value.as_array().unwrap().len().into()),
             "hertz" | "energy" => value
