@@ -27,7 +27,7 @@
 use super::branches::Branches;
 use super::hyperelastic::{Hyperelastic, Inverted, upright};
 use super::kinematics::{Strain, push_forward};
-use super::number::inverse_cube_root_change;
+use super::number::{Number, inverse_cube_root_change};
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
 use super::viscous::{InverseMetric, ViscousStep, ViscousStrain};
 use crate::prony::{ActsOn, PronySeries};
@@ -103,12 +103,8 @@ impl Viscoelastic {
         h: &AxisymmetricTensor,
         history: &[ViscousStrain],
     ) -> Result<f64, Inverted> {
-        let strain = upright(h)?;
-        let mut energy = self.equilibrium.energy_of(&strain);
-        for (branch, viscous) in self.branches.iter().zip(history) {
-            energy += branch.solid.energy_of(&self.elastic_strain(h, &strain, viscous));
-        }
-        Ok(energy)
+        upright(h)?;
+        Ok(self.energy_and_dissipation_rate(h, history).0)
     }
 
     /// First Piola-Kirchhoff stress, Pa.
@@ -148,18 +144,36 @@ impl Viscoelastic {
         h: &AxisymmetricTensor,
         history: &[ViscousStrain],
     ) -> Result<f64, Inverted> {
-        let strain = upright(h)?;
-        let rates = self.branches.iter().zip(history).map(|(branch, viscous)| {
+        upright(h)?;
+        Ok(self.energy_and_dissipation_rate(h, history).1)
+    }
+
+    /// What is stored (J/m³) and dissipated (W/m³), on one number or several side by side; it means
+    /// something where J − 1 > −1.
+    #[inline(always)]
+    pub fn energy_and_dissipation_rate<N: Number>(
+        &self,
+        h: &AxisymmetricTensor<N>,
+        history: &[ViscousStrain<N>],
+    ) -> (N, N) {
+        let strain = Strain::of(h);
+        let one = N::splat(1.0);
+        let (mut energy, mut rate) = (self.equilibrium.energy_of(&strain), N::splat(0.0));
+        for (branch, viscous) in self.branches.iter().zip(history) {
             let elastic = self.elastic_strain(h, &strain, viscous);
+            energy = energy + branch.solid.energy_of(&elastic);
             let stress = branch.solid.kirchhoff(&elastic);
             let z = inverse_cube_root_change(elastic.volume_change);
-            let unimodular = (1.0 + z) * (1.0 + z);
-            let shape = unimodular * deviatoric_dot(&stress, &elastic.left);
-            let volume =
-                if self.volume_flows { stress.trace() * elastic.volume_change } else { 0.0 };
-            (0.5 * shape + volume / 3.0) / branch.relaxation_time
-        });
-        Ok(rates.sum())
+            let unimodular = (one + z) * (one + z);
+            let mut dissipated =
+                N::splat(0.5) * (unimodular * deviatoric_dot(&stress, &elastic.left));
+            if self.volume_flows {
+                let volume = stress.trace() * elastic.volume_change;
+                dissipated = dissipated.plus_product(N::splat(1.0 / 3.0), volume);
+            }
+            rate = rate.plus_product(N::splat(branch.relaxation_time.recip()), dissipated);
+        }
+        (energy, rate)
     }
 
     /// A = ∂P/∂F at a fixed history, Pa, of the components rr, ry, yr, yy, tt: the answer to what is
@@ -194,22 +208,24 @@ impl Viscoelastic {
     }
 
     /// b_e − 1 and J_e − 1 of the elastic part of a branch: b_e = J_v^{−2/3} F C̄_v⁻¹ Fᵀ.
-    fn elastic_strain(
+    #[inline(always)]
+    fn elastic_strain<N: Number>(
         &self,
-        h: &AxisymmetricTensor,
-        strain: &Strain,
-        viscous: &ViscousStrain,
-    ) -> Strain {
+        h: &AxisymmetricTensor<N>,
+        strain: &Strain<N>,
+        viscous: &ViscousStrain<N>,
+    ) -> Strain<N> {
         let (inverse, _) = viscous.inverse();
         let left = strain.left.plus(&push_forward(&inverse, h));
         if !self.volume_flows {
             return Strain { left, volume_change: strain.volume_change };
         }
         let z = inverse_cube_root_change(viscous.volume_change);
+        let change = z + z + z * z;
         // 1/J_v = (1 + z)³.
-        let inverse_volume = (1.0 + z) * (1.0 + (z + z + z * z));
+        let inverse_volume = (N::splat(1.0) + z) * (N::splat(1.0) + change);
         Strain {
-            left: left.rescaled(z + z + z * z),
+            left: left.rescaled(change),
             volume_change: (strain.volume_change - viscous.volume_change) * inverse_volume,
         }
     }
@@ -221,8 +237,9 @@ fn inverse_metrics(history: &[ViscousStrain]) -> impl Iterator<Item = InverseMet
 }
 
 /// dev A : dev B.
-fn deviatoric_dot(a: &SymmetricTensor, b: &SymmetricTensor) -> f64 {
-    let mean = b.trace() / 3.0;
+#[inline(always)]
+fn deviatoric_dot<N: Number>(a: &SymmetricTensor<N>, b: &SymmetricTensor<N>) -> N {
+    let mean = b.trace() * N::splat(1.0 / 3.0);
     let deviator = SymmetricTensor { rr: b.rr - mean, yy: b.yy - mean, tt: b.tt - mean, ry: b.ry };
     a.dot(&deviator)
 }

@@ -174,20 +174,6 @@ impl Blocks {
         (self.slots(place), lane)
     }
 
-    /// Volume (m³) and measures (m) of an element, and the amplitude of its hourglass shape, m.
-    pub fn shape(&self, element: usize, u: &Field) -> (f64, [f64; 3], (f64, f64)) {
-        let (place, lane) = place(element, self.blocks.len());
-        let block = &self.blocks[place];
-        let at = |a: usize| u[block.corners[a][lane] as usize];
-        let (mut amplitude, last) = ((0.0, 0.0), at(3));
-        for a in 0..3 {
-            let gamma = block.hourglass[a][lane];
-            amplitude.0 += gamma * (at(a)[0] - last[0]);
-            amplitude.1 += gamma * (at(a)[1] - last[1]);
-        }
-        (block.volume[lane], [0, 1, 2].map(|k: usize| block.measures[k][lane]), amplitude)
-    }
-
     /// Mean displacement gradient of an element.
     pub fn gradient(&self, element: usize, u: &Field) -> AxisymmetricTensor {
         let (place, lane) = place(element, self.blocks.len());

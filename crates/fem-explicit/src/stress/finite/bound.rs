@@ -14,7 +14,7 @@
 use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
-use super::super::lanes::{LaneKernel, Lanes, Plain, WIDE, run_wide_lanes};
+use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use super::block::{Block, Numbers, place};
 use super::kernel::{Conjugate, Elements, Strain};
 use super::law::Law;
@@ -106,10 +106,28 @@ pub(super) fn at_rest<W: Law>(
 ) -> f64 {
     let mut metric = Metric::EMPTY;
     metric.put(0, geometry, masses, on_axis);
-    let block = Block::of_one(geometry);
-    // SAFETY: the block's corners are 0 to 3.
-    let strain = unsafe { Strain::<Plain<WIDE>>::gather(&block, &[[0.0; 2]; 4]) };
-    eigenvalues(&strain, &block, &metric, law, &Past::none())[0]
+    let mut eigenvalue = 0.0;
+    run_wide_lanes(AtRest { block: Block::of_one(geometry), metric, law }, &mut eigenvalue);
+    eigenvalue
+}
+
+/// One element, in the first lane.
+struct AtRest<'a, W> {
+    block: Block,
+    metric: Metric,
+    law: &'a W,
+}
+
+impl<W: Law> LaneKernel<WIDE> for AtRest<'_, W> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn on<L: Lanes<WIDE>>(self, eigenvalue: &mut f64) {
+        let Self { block, metric, law } = self;
+        // SAFETY: the block's corners are 0 to 3.
+        let strain = unsafe { Strain::<L>::gather(&block, &[[0.0; 2]; 4]) };
+        *eigenvalue = eigenvalues(&strain, &block, &metric, law, &Past::none())[0];
+    }
 }
 
 /// Adds the bounds λ_e m_e,i (N/m) of displaced elements at their nodes.

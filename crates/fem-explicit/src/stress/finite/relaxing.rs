@@ -18,10 +18,10 @@ use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
 use super::super::port::Stress;
 use super::block::{Blocks, Slots};
 use super::bound::Metrics;
-use super::hourglass::{Amplitudes, Deformed};
+use super::hourglass::Amplitudes;
 use super::kernel::{Strain, Volumes};
 use super::law::{Law, Relaxing};
-use super::past::{self, Past};
+use super::past::{self, MOST_FINITE_STRAIN_TERMS, Past};
 use super::{FiniteStrain, Response};
 use crate::pace;
 use crate::part::{Field, NodalField};
@@ -151,42 +151,58 @@ impl Response for RelaxingStrain {
     }
 
     fn energies(&self, blocks: &Blocks, u: &Field, history: &[NodalField]) -> (f64, f64) {
-        let (mut stored, mut power) = (0.0, 0.0);
-        for element in 0..blocks.n_elements() {
-            let (energy, dissipated) = self.energies_of(blocks, element, u, history);
-            stored += energy;
-            power += dissipated;
-        }
-        (stored, power)
+        let mut sums = (0.0, 0.0);
+        run_wide_lanes(Energies { blocks, strain: self, u, history }, &mut sums);
+        sums
     }
 }
 
-impl RelaxingStrain {
-    /// What an element stores (J) and dissipates, W; no numbers of one that has collapsed.
-    fn energies_of(
-        &self,
-        blocks: &Blocks,
-        element: usize,
-        u: &Field,
-        history: &[NodalField],
-    ) -> (f64, f64) {
-        let Self { law, solid, relaxation_times, .. } = self;
-        let n_terms = solid.n_terms();
-        let (strains, amplitudes) = past::of_element(history, n_terms, blocks.slot(element));
-        let (h, strains) = (blocks.gradient(element, u), &strains[..n_terms]);
-        let (volume, measures, amplitude) = blocks.shape(element, u);
-        let deformed = Deformed::of(&h, law.shear(), measures);
-        let own = deformed.pull(amplitude);
-        let mut all = Amplitudes::new(own, law.equilibrium_weight());
-        let mut power = volume * solid.dissipation_rate(&h, strains).unwrap_or(f64::NAN);
-        let weights = law.weights();
-        for ((&weight, time), flown) in weights.iter().zip(relaxation_times).zip(amplitudes) {
-            all.add_term(weight, flown);
-            let elastic = deformed.energy_of((own.0 - flown.0, own.1 - flown.1));
-            power += 2.0 * weight * elastic / time;
+/// What all elements store (J) and dissipate, W; no numbers where one has collapsed.
+struct Energies<'a> {
+    blocks: &'a Blocks,
+    strain: &'a RelaxingStrain,
+    u: &'a Field,
+    history: &'a [NodalField],
+}
+
+impl LaneKernel<WIDE> for Energies<'_> {
+    type Output = (f64, f64);
+
+    #[inline(always)]
+    fn on<L: Lanes<WIDE>>(self, sums: &mut (f64, f64)) {
+        let Self { blocks, strain: RelaxingStrain { law, solid, relaxation_times, .. }, .. } = self;
+        let (weights, n_terms) = (law.weights(), solid.n_terms());
+        assert!(past::is_sound(self.history, n_terms, blocks.n_elements()));
+        let zero = L::splat(0.0);
+        let none = ViscousStrain { rr: zero, yy: zero, ry: zero, volume_change: zero };
+        let mut strains = [none; MOST_FINITE_STRAIN_TERMS];
+        let (mut stored, mut power, mut volumes) = (zero, zero, Volumes::<L>::new());
+        for (place, block) in blocks.checked(&[self.u.len()]).iter().enumerate() {
+            let slots = blocks.slots(place);
+            // SAFETY: the field has been checked against the corner numbers.
+            let strain = unsafe { Strain::<L>::gather(block, self.u) };
+            volumes.observe(strain.h.volume_change(), strain.h.tt);
+            let deformed = strain.deformed(block, law);
+            let own = deformed.pull(strain.q);
+            let mut all = Amplitudes::new(own, law.equilibrium_weight());
+            for term in 0..n_terms {
+                let (strain, flown) = past::load_term(self.history, term, slots);
+                strains[term] = strain;
+                all.add_term(weights[term], flown);
+                let elastic = deformed.energy_of((own.0 - flown.0, own.1 - flown.1));
+                let rate = 2.0 * weights[term] / relaxation_times[term];
+                power = power.plus_product(L::splat(rate), elastic);
+            }
+            let (energy, rate) = solid.energy_and_dissipation_rate(&strain.h, &strains[..n_terms]);
+            let volume = L::load(&block.volume);
+            stored = (stored + deformed.energy(&all)).plus_product(volume, energy);
+            power = power.plus_product(volume, rate);
         }
-        let stored = volume * solid.energy(&h, strains).unwrap_or(f64::NAN);
-        (stored + deformed.energy(&all), power)
+        let (stored, power): ([f64; WIDE], [f64; WIDE]) = (stored.to_array(), power.to_array());
+        *sums = match volumes.are_sound() {
+            true => (stored.iter().sum(), power.iter().sum()),
+            false => (f64::NAN, f64::NAN),
+        };
     }
 }
 

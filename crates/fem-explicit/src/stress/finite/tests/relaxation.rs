@@ -3,6 +3,7 @@
 use fem_material::finite::{Viscoelastic, ViscousStrain};
 use fem_material::{ActsOn, RelaxationStep};
 
+use super::super::block::{load_three, place};
 use super::super::hourglass::Deformed;
 use super::super::law::{Law, Relaxing};
 use super::super::past::FIELDS_A_TERM;
@@ -209,8 +210,14 @@ fn a_held_amplitude_relaxes_exactly() {
         let decay = RelaxationStep::new(*time, hold).decay;
         for element in 0..mesh.quads().len() {
             let (slots, lane) = blocks.slot(element);
-            let (_, measures, amplitude) = blocks.shape(element, &u);
-            let own = Deformed::of(&blocks.gradient(element, &u), 1.0, measures).pull(amplitude);
+            let all = blocks.checked(&[u.len()]);
+            let block = &all[place(element, all.len()).0];
+            // SAFETY: the field has been checked.
+            let strain = unsafe { Strain::<Plain<WIDE>>::gather(block, &u) };
+            let unit = Plain::<WIDE>::splat(1.0);
+            let measures = load_three(&block.measures);
+            let own = Deformed::of(&strain.h, unit, measures).pull(strain.q);
+            let own = (own.0.to_array()[lane], own.1.to_array()[lane]);
             let flown = slots.pair(lane, &march.history[FIELDS_A_TERM * term + 2]);
             let before = slots.pair(lane, &at_once[FIELDS_A_TERM * term + 2]);
             let error = (own.0 - flown[0]) - decay * (own.0 - before[0]);
