@@ -15,6 +15,9 @@ use crate::stop::Stop;
 pub const STAY_TOGETHER: &str =
     "the bodies stay together: nothing drives them apart, and the contact has no end";
 
+/// Energy of a sound collision adds up to this share of the initial.
+pub const LARGEST_RESIDUAL: f64 = 1e-3;
+
 /// A collision as far as it got. `None`: the model knows it not, or it has no value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Collision {

@@ -52,7 +52,7 @@ pub use approach::{Approach, ApproachError};
 pub use body_input::BodyInput;
 pub use bounce::{Bounce, Rest, StaticContact};
 pub use cadence::Cadence;
-pub use collision::{BodyResult, Collision, STAY_TOGETHER};
+pub use collision::{BodyResult, Collision, LARGEST_RESIDUAL, STAY_TOGETHER};
 pub use ending::Ending;
 pub use far_radius::{far_radius_at_rest, far_radius_of_waves};
 pub use frame::Frame;

@@ -16,7 +16,7 @@
 //! and momentum are those of its nodes relative to V, and what holds its far boundary gives it momentum
 //! and, seen from there, no energy.
 
-use fem_collision::{Account, Losses, Row, Stop, worst};
+use fem_collision::{Account, LARGEST_RESIDUAL, Losses, Row, Stop, worst};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -170,6 +170,12 @@ impl Ledger {
         } else {
             Err(Stop::EnergyGrowth { time: row.time, step, ratio })
         }
+    }
+
+    /// Whether the energy of a row adds up.
+    pub fn adds_up(&self, row: &Row) -> bool {
+        let share = |residual: f64| residual.abs() / self.initial_relative;
+        row.residual.is_some_and(|residual| share(residual) <= LARGEST_RESIDUAL)
     }
 
     /// Whether it can be of a run of this model at this state.

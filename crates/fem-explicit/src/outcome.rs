@@ -1,13 +1,13 @@
 //! What a run leaves, as a collision.
 
-use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER};
+use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER, Stop};
 
 use crate::memory::Memory;
 use crate::model::Model;
 
 /// The collision of a run that ended like this.
 pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collision {
-    let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
+    let Memory { state, log, ledger, observed, history, recorder, sound, .. } = memory;
     let (is_complete, is_parted) =
         (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
     let bodies = model.bodies();
@@ -37,7 +37,12 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         }
     });
     let ends = log.first_contact.zip(log.last_contact);
-    let (snapshots, mut warnings) = recorder.finish();
+    let (mut snapshots, mut warnings) = recorder.finish();
+    let has_failed =
+        matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. }));
+    if has_failed {
+        snapshots.extend(sound.after(&snapshots));
+    }
     if is_complete && !is_parted {
         warnings.push(STAY_TOGETHER.to_string());
     }

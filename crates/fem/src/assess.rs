@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use fem_collision::Collision;
+use fem_collision::{Collision, LARGEST_RESIDUAL};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{EFFECTS, Effect};
@@ -13,8 +13,6 @@ use crate::simulation::Simulation;
 
 /// Overlap of the surfaces over the approach.
 const LARGEST_PENETRATION: f64 = 0.01;
-/// Energy that does not add up over the initial.
-const LARGEST_RESIDUAL: f64 = 1e-3;
 /// Scatter of the force over its peak.
 const LARGEST_NOISE: f64 = 0.005;
 /// Restitution above 1 that is no rounding.

@@ -17,7 +17,7 @@ use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output::{self, one_line};
-use crate::sweep::{Choice, Job, SweepFolder, collect, run_members};
+use crate::sweep::{Checking, Choice, Job, SweepFolder, collect, run_members};
 use crate::tables::table;
 
 /// Compute many members of a case: lists of values for some of its keys
@@ -84,7 +84,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let shard = arguments.shard.unwrap_or(Shard { first: 0, step: 1 });
     let own: Vec<&Member> = members.iter().skip(shard.first).step_by(shard.step).collect();
     let there = SweepFolder::at(&out);
-    let is_done = |member: &Member| there.has(&member.identity, sweep.keep);
+    let checking = Checking::new(own.len(), arguments.quiet);
+    let is_done = |member: &Member| {
+        checking.tick();
+        there.has(&member.identity, sweep.keep)
+    };
     let left = left_to_do(&sweep, own.iter().copied(), is_done)?;
     let folder = SweepFolder::claim(&out, &mark(&sweep, &members, arguments))?;
     if !arguments.quiet {

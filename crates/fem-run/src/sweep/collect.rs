@@ -8,6 +8,9 @@ use super::picture::picture;
 use super::picture_data::Choice;
 use crate::failure::Failure;
 
+/// Keys of a summary that no row needs.
+const UNREAD: [&str; 4] = ["case", "effects", "models_considered", "files"];
+
 /// Writes table and picture of what is there and returns the rows.
 ///
 /// Another process may finish a member after this one has looked, and write its table before this
@@ -48,7 +51,11 @@ pub fn collect(
 
 fn read(sweep: &Sweep, members: &[Member], folder: &SweepFolder) -> Vec<Row> {
     let row = |member: &Member| {
-        let summary = folder.summary(&member.identity)?;
+        let mut summary = folder.summary(&member.identity)?;
+        // What neither table nor picture nor report reads is most of a summary: a sweep may be large.
+        if let Some(keys) = summary.as_object_mut() {
+            keys.retain(|key, _| !UNREAD.contains(&key.as_str()));
+        }
         Some(Row::new(member, sweep.values(member.index), summary))
     };
     members.iter().filter_map(row).collect()

@@ -12,12 +12,14 @@
 //! bytes whatever the order.
 
 mod board;
+mod checking;
 mod collect;
 mod folder;
 mod picture;
 mod picture_data;
 mod runner;
 
+pub use checking::Checking;
 pub use collect::collect;
 pub use folder::SweepFolder;
 pub use picture_data::Choice;
