@@ -26,6 +26,7 @@ mod duration;
 pub mod effects;
 mod estimate;
 mod expected;
+mod flow;
 mod identity;
 mod large_partner;
 pub mod laws;

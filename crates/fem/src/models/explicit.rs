@@ -118,11 +118,8 @@ impl Explicit {
             speed_share: plan.speed_share,
             inputs: inputs(scene, &plan)?,
         };
-        let frame =
-            made.own_frame(&approach).map_err(|error| Refusal::new("body", error.to_string()))?;
-        let bodies = made
-            .bodies(frame.own(), plan.candidate_radius)
-            .map_err(|error| Refusal::new("body", error.to_string()))?;
+        let frame = made.own_frame(&approach).map_err(refused)?;
+        let bodies = made.bodies(frame.own(), plan.candidate_radius).map_err(refused)?;
         let cost = cost(scene, &bodies, &plan)?;
         let decisions =
             decide(scene, &plan.estimate, |effect| has(effect, scene, &plan.estimate, &bodies))?;
@@ -310,6 +307,18 @@ impl Course for ExplicitCourse {
 
     fn finish(self: Box<Self>) -> Collision {
         self.frame.collision(self.run.finish())
+    }
+}
+
+/// Bodies that cannot be made of a scene.
+fn refused(error: ModelError) -> Refusal {
+    let refusal = Refusal::new("body", error.to_string());
+    match error {
+        ModelError::NoStep { .. } => refusal.with_help(
+            "check material.NAME.youngs_modulus, material.NAME.density and body.N.sphere.diameter, and \
+             their units",
+        ),
+        _ => refusal,
     }
 }
 
