@@ -5,7 +5,7 @@
 //! integrals and means are those of these instants, the same for any number of rows that are kept.
 
 use fem_collision::{
-    Account, Aftermath, Cadence, Held, Row, Scatter, Side, Standstill, Want, worst,
+    Account, Aftermath, Cadence, Held, Moment, Row, Scatter, Side, Standstill, Want, worst,
 };
 use serde::{Deserialize, Serialize};
 
@@ -79,12 +79,12 @@ impl Observed {
         self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
     }
 
-    /// Takes the balance of an instant, and whether the contact is closed in it.
-    pub fn take(&mut self, row: Row, is_closed: bool) {
+    /// Takes the balance of an instant, its step, and whether the contact is closed in it.
+    pub fn take(&mut self, row: Row, step: u64, is_closed: bool) {
         self.cadence.count();
         self.max_contact_radius = worst(self.max_contact_radius, row.contact_radius.unwrap_or(0.0));
         self.peak_pressure = worst(self.peak_pressure, row.centre_pressure.unwrap_or(0.0));
-        self.scatter.observe(row.contact_force);
+        self.scatter.observe(row.contact_force, Moment { time: row.time, step });
         if let Some(aftermath) = &mut self.aftermath {
             aftermath.observe(is_closed, row.vibration);
         }

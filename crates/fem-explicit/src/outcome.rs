@@ -41,7 +41,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
     let has_failed =
         matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. }));
     if has_failed {
-        snapshots.extend(sound.after(&snapshots));
+        sound.put_among(&mut snapshots);
     }
     if is_complete && !is_parted {
         warnings.push(STAY_TOGETHER.to_string());
@@ -71,11 +71,13 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         max_contact_radius: Some(observed.max_contact_radius),
         peak_pressure: Some(observed.peak_pressure),
         force_scatter: observed.scatter.force(),
+        noisiest: observed.scatter.noisiest(),
         searched: Some(model.searched()),
         initial_energy: Some(ledger.initial),
         energies: observed.last.map_or(Book::EMPTY, |row| row.energies),
         residual: observed.last.and_then(|row| row.residual),
         residual_relative: Some(ledger.worst_residual),
+        residual_since: ledger.beyond,
         momentum_residual_relative: Some(ledger.worst_momentum),
         bodies,
         time_step: Some(model.time_step()),

@@ -193,9 +193,9 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     let mut stays_together = false;
     if is_landmark || observed.is_due(step) {
         let row = ledger.balance(model, state, scratch, &contact);
-        ledger.check(&row, step)?;
-        observed.take(row, is_closed);
-        if ledger.adds_up(&row) {
+        ledger.check(&row, step).map_err(|grown| model.stop_of(grown, state))?;
+        observed.take(row, step, is_closed);
+        if ledger.adds_up() {
             sound.observe(model, state, scratch, log.approach);
         }
         if let Some(history) = &mut history {
@@ -253,10 +253,10 @@ fn record_stop(model: &Model, memory: &mut Memory, scratch: &mut Scratch) {
         if observed.last.is_none_or(|row| row.time < state.time) {
             let row = ledger.balance(model, state, scratch, &contact);
             if ledger.check(&row, state.step).is_ok() {
-                observed.take(row, contact.n_closed > 0);
+                observed.take(row, state.step, contact.n_closed > 0);
             }
         }
-        if observed.last.is_some_and(|row| row.time == state.time && ledger.adds_up(&row)) {
+        if ledger.adds_up() && observed.last.is_some_and(|row| row.time == state.time) {
             sound.keep(model, state, scratch, log.approach);
         }
     }

@@ -46,10 +46,14 @@ impl LastSound {
         self.kept = None;
     }
 
-    /// The state that was kept last, if it is later than these snapshots.
-    pub fn after(self, snapshots: &[Snapshot]) -> Option<Snapshot> {
-        let is_later = |kept: &Snapshot| snapshots.last().is_none_or(|last| last.time < kept.time);
-        self.kept.filter(is_later)
+    /// Puts the state that was kept last among these snapshots, in the order of time, unless one of them is of
+    /// that instant.
+    pub fn put_among(self, snapshots: &mut Vec<Snapshot>) {
+        let Some(kept) = self.kept else { return };
+        let place = snapshots.partition_point(|snapshot| snapshot.time < kept.time);
+        if snapshots.get(place).is_none_or(|next| next.time > kept.time) {
+            snapshots.insert(place, kept);
+        }
     }
 
     /// Whether it can be of a run of this model at this state that is asked for this.

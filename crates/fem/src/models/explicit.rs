@@ -31,6 +31,7 @@ use crate::estimate::{Estimate, mach};
 use crate::memory::Memory;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::{Plan, candidate_radius};
+use crate::quieter::Quieter;
 use crate::refusal::Refusal;
 
 /// Growth of the searched region when the contact leaves it.
@@ -132,7 +133,7 @@ impl Explicit {
             unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
             cost,
             elements: Some(ElementSetup {
-                finer_steps: quieter(plan.contact_method),
+                quieter: Quieter::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
             }),
@@ -367,14 +368,6 @@ fn settings(plan: &Plan) -> Settings {
         candidate_radius: plan.candidate_radius,
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
-    }
-}
-
-/// What helps against a contact that rattles or gains energy.
-fn quieter(planned: fem_case::ContactMethod) -> &'static str {
-    match planned {
-        fem_case::ContactMethod::Massless => "lower time.step_factor",
-        _ => "write contact.method = \"massless\"",
     }
 }
 
