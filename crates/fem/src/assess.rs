@@ -57,7 +57,7 @@ fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
 /// What holds of every model.
 fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let remedy = match &simulation.setup().elements {
-        Some(elements) => elements.quieter.advice(scatter(collision).unwrap_or(0.0)),
+        Some(elements) => elements.quieter.advice_on_energy(),
         None => "use model condensed or fem".to_string(),
     };
     [incomplete(collision), energy_residual(collision, &remedy), restitution(collision)]

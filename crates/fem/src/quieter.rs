@@ -52,6 +52,18 @@ impl Quieter {
         }
     }
 
+    /// In words, of energy that does not add up. Of springs that are the usual ones or softer it is the steps
+    /// that lose it, with their square: at finite strain a factor of 0.4 leaves a fifth.
+    pub(crate) fn advice_on_energy(&self) -> String {
+        match *self {
+            Self::Softer { penalty_factor, .. } if penalty_factor <= USUAL => {
+                "lower time.step_factor".to_string()
+            }
+            Self::Softer { .. } => format!("write contact.penalty_factor = {USUAL}"),
+            _ => self.advice(0.0),
+        }
+    }
+
     /// In words, of a force that scatters by a share of its peak.
     pub(crate) fn advice(&self, scatter: f64) -> String {
         match *self {
@@ -68,5 +80,38 @@ impl Quieter {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Softer springs do not help against energy that steps lose, nor shorter steps against noise.
+    #[test]
+    fn noise_and_energy_have_remedies_of_their_own() {
+        let softer = |penalty_factor, slips| Quieter::Softer { penalty_factor, slips };
+        for (quieter, of_noise, of_energy) in [
+            (Quieter::MoreSteps, "raise model.condensed.steps", "raise model.condensed.steps"),
+            (Quieter::ShorterSteps, "lower time.step_factor", "lower time.step_factor"),
+            (
+                softer(10.0, false),
+                "write contact.penalty_factor = 1",
+                "write contact.penalty_factor = 1",
+            ),
+            (
+                softer(10.0, true),
+                "write contact.penalty_factor = 0.25",
+                "write contact.penalty_factor = 1",
+            ),
+            (softer(1.0, true), "write contact.penalty_factor = 0.25", "lower time.step_factor"),
+            (softer(0.25, false), "write time.mass_scaling = 0", "lower time.step_factor"),
+        ] {
+            assert_eq!(quieter.advice(0.07), of_noise, "{quieter:?}");
+            assert_eq!(quieter.advice_on_energy(), of_energy, "{quieter:?}");
+        }
+        // Surfaces that slip and ring little.
+        assert_eq!(softer(10.0, true).advice(0.01), "write contact.penalty_factor = 1");
+        assert_eq!(softer(10.0, true).advice(f64::NAN), "write contact.penalty_factor = 0.25");
     }
 }
