@@ -6,6 +6,7 @@ use crate::account::Book;
 use crate::approach::Approach;
 use crate::bounce::{Bounce, Rest};
 use crate::ending::Ending;
+use crate::moment::Moment;
 use crate::row::Row;
 use crate::searched::Searched;
 use crate::snapshot::{Label, Snapshot};
@@ -14,6 +15,9 @@ use crate::stop::Stop;
 /// What is said of a restitution of 0.
 pub const STAY_TOGETHER: &str =
     "the bodies stay together: nothing drives them apart, and the contact has no end";
+
+/// Energy of a sound collision adds up to this share of the initial.
+pub const LARGEST_RESIDUAL: f64 = 1e-3;
 
 /// A collision as far as it got. `None`: the model knows it not, or it has no value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,6 +49,8 @@ pub struct Collision {
     pub peak_pressure: Option<f64>,
     /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
     pub force_scatter: Option<f64>,
+    /// When it scatters most.
+    pub noisiest: Option<Moment>,
     /// Where contact was looked for in the end, of a model that does not look everywhere.
     pub searched: Option<Searched>,
     /// Kinetic energy at the start, walls and half-spaces not counted, J.
@@ -55,6 +61,8 @@ pub struct Collision {
     pub residual: Option<f64>,
     /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre.
     pub residual_relative: Option<f64>,
+    /// When that was first above [`LARGEST_RESIDUAL`], of a model that steps in time.
+    pub residual_since: Option<Moment>,
     /// Worst drift of momentum over Σ m|v| at the start, or of the momentum that the bodies have
     /// exchanged from the impulse of the contact force. `None` of one degree of freedom, from which
     /// both velocities follow because momentum is kept: that cannot fail.
@@ -120,11 +128,13 @@ impl Collision {
             max_contact_radius: None,
             peak_pressure: None,
             force_scatter: None,
+            noisiest: None,
             searched: None,
             initial_energy: None,
             energies: Book::EMPTY,
             residual: None,
             residual_relative: None,
+            residual_since: None,
             momentum_residual_relative: None,
             bodies: [BodyResult::default(); 2],
             time_step: None,

@@ -5,6 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::moment::Moment;
+
 /// Fewer forces than this tell nothing.
 const FEWEST: u64 = 100;
 
@@ -17,20 +19,31 @@ pub struct Scatter {
     n: u64,
     /// Σ of squared bends, N².
     sum: f64,
+    /// The largest of them, and when it was.
+    worst: Option<(f64, Moment)>,
 }
 
 impl Scatter {
     /// Takes the force (N) at an instant; those of zero do not count.
-    pub fn observe(&mut self, force: f64) {
+    pub fn observe(&mut self, force: f64, at: Moment) {
         // What is no number counts, and shows.
         if force <= 0.0 {
             return;
         }
         if let [Some(middle), Some(first)] = self.last {
-            self.sum += (middle - 0.5 * (first + force)).powi(2);
+            let bend = (middle - 0.5 * (first + force)).powi(2);
+            self.sum += bend;
+            if self.worst.is_none_or(|(worst, _)| bend > worst) {
+                self.worst = Some((bend, at));
+            }
         }
         self.last = [Some(force), self.last[0]];
         self.n = self.n.saturating_add(1);
+    }
+
+    /// When the force bent most.
+    pub fn noisiest(&self) -> Option<Moment> {
+        self.worst.map(|(_, at)| at)
     }
 
     /// The scatter so far, N; `None` of too few forces to tell.
@@ -48,8 +61,9 @@ mod tests {
         let mut scatter = Scatter::default();
         for k in 0..n {
             let smooth = (std::f64::consts::PI * k as f64 / n as f64).sin();
-            scatter.observe(0.0);
-            scatter.observe(smooth + if k % 2 == 0 { off } else { -off });
+            let at = Moment { time: 0.5 * k as f64, step: k as u64 };
+            scatter.observe(0.0, at);
+            scatter.observe(smooth + if k % 2 == 0 { off } else { -off }, at);
         }
         scatter.force()
     }
@@ -62,5 +76,16 @@ mod tests {
         assert!(scatter(1000, 0.0).unwrap() < 1e-5);
         assert_eq!(scatter(100, 1e-2), None);
         assert!(scatter(1000, f64::NAN).unwrap().is_nan());
+    }
+
+    #[test]
+    fn the_noisiest_moment_is_where_the_force_bends_most() {
+        let mut scatter = Scatter::default();
+        assert_eq!(scatter.noisiest(), None);
+        for (step, force) in [1.0, 1.1, 1.0, 4.0, 1.0, 1.2].into_iter().enumerate() {
+            scatter.observe(force, Moment { time: 2.0 * step as f64, step: step as u64 });
+        }
+        // As it is seen: with the force after the spike.
+        assert_eq!(scatter.noisiest(), Some(Moment { time: 8.0, step: 4 }));
     }
 }

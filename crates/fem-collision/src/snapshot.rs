@@ -13,10 +13,12 @@ pub enum Label {
     MidSeparation,
     /// The last step with a contact force.
     LastContact,
+    /// Of a run that failed: the last state that is kept whose energy added up.
+    LastSound,
 }
 
 impl Label {
-    /// All of them, in the order of time.
+    /// All that can be asked for, in the order of time.
     pub const ALL: [Self; 4] =
         [Self::MidCompression, Self::Maximum, Self::MidSeparation, Self::LastContact];
 
@@ -27,6 +29,7 @@ impl Label {
             Self::Maximum => "maximum",
             Self::MidSeparation => "mid-separation",
             Self::LastContact => "last-contact",
+            Self::LastSound => "last-sound",
         }
     }
 }

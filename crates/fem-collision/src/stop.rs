@@ -51,10 +51,14 @@ pub enum Stop {
         /// Contact radius over the smaller sphere's.
         ratio: f64,
     },
-    /// The energy is not finite or has grown.
+    /// The energy has grown.
     #[error(
-        "at {time:.4e} s (step {step}) the energy is {ratio:.4} times the initial: \
-         the time integration is unstable"
+        "at {time:.4e} s (step {step}) the energy is {ratio:.4} times the initial: the time integration \
+         is unstable; node {node} of the {} body is fastest, undeformed it lies at r = {:.4e} m, \
+         y = {:.4e} m",
+        side_of(*body),
+        place[0],
+        place[1]
     )]
     EnergyGrowth {
         /// Since the start of the case, s.
@@ -63,6 +67,32 @@ pub enum Stop {
         step: u64,
         /// Total energy over initial energy.
         ratio: f64,
+        /// 0 of the lower body, 1 of the upper.
+        body: usize,
+        /// Number of its node that moves fastest against it.
+        node: usize,
+        /// Where that lies before the collision (r, y), m.
+        place: [f64; 2],
+    },
+    /// The motion is no number any more.
+    #[error(
+        "at {time:.4e} s (step {step}) the motion of node {node} of the {} body is no number; undeformed \
+         it lies at r = {:.4e} m, y = {:.4e} m",
+        side_of(*body),
+        place[0],
+        place[1]
+    )]
+    NoNumber {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// 0 of the lower body, 1 of the upper.
+        body: usize,
+        /// Number of the node.
+        node: usize,
+        /// Where it lies before the collision (r, y), m.
+        place: [f64; 2],
     },
     /// Energy came from nowhere or went there.
     #[error("at {time:.4e} s the energy does not add up by {relative:.1e} of the initial")]
@@ -76,7 +106,7 @@ pub enum Stop {
     #[error(
         "at {time:.4e} s (step {step}) element {element} of the {} body is {}; undeformed it lies at \
          r = {:.4e} m, y = {:.4e} m",
-        if *body == 0 { "lower" } else { "upper" },
+        side_of(*body),
         fate(*volume_ratio),
         place[0],
         place[1]
@@ -160,10 +190,15 @@ pub enum Stop {
     OutOfRange(String),
 }
 
+/// Which body.
+fn side_of(body: usize) -> &'static str {
+    if body == 0 { "lower" } else { "upper" }
+}
+
 /// What no step is short enough for.
 fn place_at_fault(body: usize, of_contact: bool) -> String {
     let what = if of_contact { "the contact, on steep flanks, at" } else { "the material around" };
-    format!("{what} a node of the {} body", if body == 0 { "lower" } else { "upper" })
+    format!("{what} a node of the {} body", side_of(body))
 }
 
 /// What has become of an element with so much of its volume.
@@ -190,6 +225,7 @@ impl Stop {
             | Self::ContactBeyondCandidates { time, .. }
             | Self::SurfaceTurnsOver { time, .. }
             | Self::EnergyGrowth { time, .. }
+            | Self::NoNumber { time, .. }
             | Self::ElementCollapsed { time, .. }
             | Self::NoStepShortEnough { time, .. }
             | Self::EnergyImbalance { time, .. }

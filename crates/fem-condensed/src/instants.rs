@@ -70,6 +70,7 @@ pub(crate) fn choose(
                     Label::LastContact => {
                         (*ending != Ending::Together).then_some(Instant::at(last))
                     }
+                    Label::LastSound => None,
                 };
                 match found {
                     Some(instant) => chosen.push((instant, Some(*label))),

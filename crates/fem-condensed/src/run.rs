@@ -1,8 +1,9 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, Monitor, Progress,
-    Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill, Stop, Want, worst,
+    Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, LARGEST_RESIDUAL,
+    Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill,
+    Stop, Want, worst,
 };
 
 use crate::instants::Trace;
@@ -39,6 +40,7 @@ pub(crate) struct Run<'a> {
     radiated: Option<[f64; 2]>,
     impulse: f64,
     worst_residual: f64,
+    residual_since: Option<Moment>,
     /// What the momentum that was exchanged is off the impulse, N s.
     worst_momentum: f64,
     approach: Peak,
@@ -89,6 +91,7 @@ impl<'a> Run<'a> {
             radiated: None,
             impulse: 0.0,
             worst_residual: 0.0,
+            residual_since: None,
             worst_momentum: 0.0,
             approach: Peak::default(),
             force: Peak::default(),
@@ -195,7 +198,9 @@ impl<'a> Run<'a> {
         let (time, rate) = (motion.time(), motion.rate);
         self.approach.observe(motion.approach);
         self.force.observe(motion.force);
-        self.scatter.observe(motion.force);
+        let now =
+            Moment { time: self.frame.approach.first_touch() + time, step: motion.step as u64 };
+        self.scatter.observe(motion.force, now);
         if rate > 0.0 {
             self.turned = time;
         }
@@ -220,6 +225,9 @@ impl<'a> Run<'a> {
         let potential = self.frame.potential(motion.approach).unwrap_or(0.0);
         let residual = kinetic + stored + contact + lost + potential - self.initial_energy;
         self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
+        if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
+            self.residual_since = Some(now);
+        }
         let given = self.frame.weight() * time;
         let drift = self.frame.impulse(rate) + given - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
@@ -311,11 +319,13 @@ impl<'a> Run<'a> {
             max_contact_radius: Some(peaks.radius),
             peak_pressure: Some(peaks.pressure),
             force_scatter: self.scatter.force(),
+            noisiest: self.scatter.noisiest(),
             searched: Some(self.pair.searched()),
             initial_energy: Some(frame.kinetic(frame.speed())),
             energies: self.last.map_or(Book::EMPTY, |end| end.energies(frame)),
             residual: self.last.map(|end| end.residual),
             residual_relative: Some(self.worst_residual),
+            residual_since: self.residual_since,
             momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
             bodies,
             time_step: Some(motion.time_step),

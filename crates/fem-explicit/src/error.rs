@@ -23,6 +23,15 @@ pub enum ModelError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// The bodies are so stiff, light or small, or so soft, heavy or large, that none is a number.
+    #[error(
+        "explicit elements would need a time step of {time_step} s, which is none: a wave passes the \
+         smallest of them in a time beyond the range of numbers"
+    )]
+    NoStep {
+        /// What it would be, s.
+        time_step: f64,
+    },
     /// Surface nodes without mass need an inside that has it.
     #[error(
         "all corners of element {element} lie in the surface that can be in contact, which has no \

@@ -16,7 +16,7 @@
 //! and momentum are those of its nodes relative to V, and what holds its far boundary gives it momentum
 //! and, seen from there, no energy.
 
-use fem_collision::{Account, Losses, Row, Stop, worst};
+use fem_collision::{Account, LARGEST_RESIDUAL, Losses, Moment, Row, worst};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +37,8 @@ pub(crate) struct Ledger {
     pub initial_relative: f64,
     /// Worst imbalance of energy over `initial_relative`.
     pub worst_residual: f64,
+    /// When that was first above what a sound run has.
+    pub beyond: Option<Moment>,
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
@@ -49,6 +51,16 @@ pub(crate) struct Ledger {
     losses: Losses,
     /// Time of the last balance, s.
     last_time: f64,
+}
+
+/// A row whose energy is not finite or has grown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Grown {
+    /// Since the start of the case, s.
+    pub time: f64,
+    pub step: u64,
+    /// Total energy over initial energy.
+    pub ratio: f64,
 }
 
 /// Kinetic energies, momentum and centre of one body; of a half-space relative to what is far away.
@@ -84,6 +96,7 @@ impl Ledger {
             initial: sum(&kinetic_before),
             initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
+            beyond: None,
             worst_momentum: 0.0,
             given_momentum: moved.map(momentum_before).sum(),
             momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
@@ -150,6 +163,11 @@ impl Ledger {
             None => energies.residual(self.initial),
         };
         self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
+        // What is no number is above every limit.
+        let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
+        if self.beyond.is_none() && !is_sound {
+            self.beyond = Some(Moment { time: state.time, step: state.step });
+        }
         self.balance_momentum(model, lower.momentum + upper.momentum);
 
         let history = state.contact_history(model);
@@ -167,14 +185,19 @@ impl Ledger {
     }
 
     /// Refuses a row whose energy is not finite or has grown.
-    pub fn check(&self, row: &Row, step: u64) -> Result<(), Stop> {
+    pub fn check(&self, row: &Row, step: u64) -> Result<(), Grown> {
         let ratio =
             row.residual.map_or(f64::NAN, |residual| 1.0 + residual / self.initial_relative);
         if ratio.is_finite() && ratio <= ENERGY_LIMIT {
             Ok(())
         } else {
-            Err(Stop::EnergyGrowth { time: row.time, step, ratio })
+            Err(Grown { time: row.time, step, ratio })
         }
+    }
+
+    /// Whether the energy has added up so far.
+    pub fn adds_up(&self) -> bool {
+        self.beyond.is_none()
     }
 
     /// Whether it can be of a run of this model at this state.

@@ -73,6 +73,7 @@ mod part;
 mod recorder;
 mod run;
 mod snapshot;
+mod sound;
 mod state;
 mod step;
 mod stress;

@@ -9,6 +9,7 @@ use crate::ledger::Ledger;
 use crate::model::Model;
 use crate::observed::Observed;
 use crate::recorder::Recorder;
+use crate::sound::LastSound;
 use crate::state::State;
 
 /// The memory of a run between two steps. A run that is resumed from it goes on to the same bits.
@@ -21,6 +22,8 @@ pub struct Memory {
     /// Of a run that is asked for rows.
     pub(crate) history: Option<History>,
     pub(crate) recorder: Recorder,
+    /// Of a run that has not come to its end.
+    pub(crate) sound: LastSound,
     /// Of a run that has ended.
     pub(crate) ending: Option<Ending>,
     /// What closed forms expect.
@@ -48,6 +51,7 @@ impl Memory {
             history: (want.history_rows > 0)
                 .then(|| History::new(want.history_rows, expected_steps)),
             recorder: Recorder::new(&want.snapshots, model, expected),
+            sound: LastSound::of(want),
             ending: None,
             expected,
             want: want.clone(),
@@ -116,6 +120,7 @@ impl Memory {
             && self.history.is_some() == (self.want.history_rows > 0)
             && self.history.as_ref().is_none_or(history_fits)
             && self.recorder.fits(model, &self.want.snapshots)
+            && self.sound.fits(model, state, &self.want)
     }
 }
 

@@ -127,8 +127,7 @@ impl Model {
         });
         let time_step = settings.step_factor * critical;
         if !(time_step > 0.0 && time_step.is_finite()) {
-            let (name, allowed) = ("time step", "positive and finite, in s");
-            return Err(ModelError::Setting { name, value: time_step, allowed });
+            return Err(ModelError::NoStep { time_step });
         }
         contact.set_time_step(time_step);
         contact.check()?;

@@ -5,7 +5,7 @@
 //! integrals and means are those of these instants, the same for any number of rows that are kept.
 
 use fem_collision::{
-    Account, Aftermath, Cadence, Held, Pulse, Row, Scatter, Side, Standstill, Want,
+    Account, Aftermath, Cadence, Held, Moment, Pulse, Row, Scatter, Side, Standstill, Want,
 };
 use serde::{Deserialize, Serialize};
 
@@ -76,12 +76,13 @@ impl Observed {
         self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
     }
 
-    /// Takes the balance of an instant, the impulse of the contact so far (N s), and whether it is closed.
-    pub fn take(&mut self, row: Row, impulse: f64, is_closed: bool) {
+    /// Takes the balance of an instant, the impulse of the contact so far (N s), its step, and whether the
+    /// contact is closed in it.
+    pub fn take(&mut self, row: Row, impulse: f64, step: u64, is_closed: bool) {
         self.cadence.count();
         let (radius, pressure) = (row.contact_radius, row.centre_pressure);
         self.pulse.observe(row.time, impulse, radius.unwrap_or(0.0), pressure.unwrap_or(0.0));
-        self.scatter.observe(row.contact_force);
+        self.scatter.observe(row.contact_force, Moment { time: row.time, step });
         if let Some(aftermath) = &mut self.aftermath {
             aftermath.observe(is_closed, row.vibration);
         }

@@ -1,13 +1,13 @@
 //! What a run leaves, as a collision.
 
-use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER};
+use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER, Stop};
 
 use crate::memory::Memory;
 use crate::model::Model;
 
 /// The collision of a run that ended like this.
 pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collision {
-    let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
+    let Memory { state, log, ledger, observed, history, recorder, sound, .. } = memory;
     let (is_complete, is_parted) =
         (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
     let bodies = model.bodies();
@@ -38,7 +38,12 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
     });
     let ends = log.first_contact.zip(log.last_contact);
     let peaks = observed.pulse.peaks(log.peak_force);
-    let (snapshots, mut warnings) = recorder.finish();
+    let (mut snapshots, mut warnings) = recorder.finish();
+    let has_failed =
+        matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. }));
+    if has_failed {
+        sound.put_among(&mut snapshots);
+    }
     if is_complete && !is_parted {
         warnings.push(STAY_TOGETHER.to_string());
     }
@@ -68,11 +73,13 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         max_contact_radius: Some(peaks.radius),
         peak_pressure: Some(peaks.pressure),
         force_scatter: observed.scatter.force(),
+        noisiest: observed.scatter.noisiest(),
         searched: Some(model.searched()),
         initial_energy: Some(ledger.initial),
         energies: observed.last.map_or(Book::EMPTY, |row| row.energies),
         residual: observed.last.and_then(|row| row.residual),
         residual_relative: Some(ledger.worst_residual),
+        residual_since: ledger.beyond,
         momentum_residual_relative: Some(ledger.worst_momentum),
         bodies,
         time_step: Some(model.time_step()),

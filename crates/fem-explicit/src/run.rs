@@ -150,7 +150,7 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
             return;
         }
         memory.ending = match step(model, memory, scratch) {
-            Ok(ending) => ending,
+            Ok(ending) => ending.inspect(|_| memory.sound.forget()),
             Err(stop) => Some(Ending::Stopped(stop)),
         };
     }
@@ -160,7 +160,7 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 /// run has ended instead.
 fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
-    let Memory { state, log, ledger, observed, history, recorder, .. } = memory;
+    let Memory { state, log, ledger, observed, history, recorder, sound, .. } = memory;
     let stop = |fault: Fault, state: &State| model.stop(fault, state);
     let contact = update_forces(model, state, scratch)
         .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
@@ -193,8 +193,11 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     let mut stays_together = false;
     if is_landmark || observed.is_due(step) {
         let row = ledger.balance(model, state, scratch, &contact);
-        ledger.check(&row, step)?;
-        observed.take(row, ledger.impulse(), is_closed);
+        ledger.check(&row, step).map_err(|grown| model.stop_of(grown, state))?;
+        observed.take(row, ledger.impulse(), step, is_closed);
+        if ledger.adds_up() {
+            sound.observe(model, state, scratch, log.approach);
+        }
         if let Some(history) = &mut history {
             history.push(row, kind);
         }
@@ -242,15 +245,19 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
     Ok(None)
 }
 
-/// The state where the run stopped ends what is observed and the history, if it is sound.
+/// The state where the run stopped ends what is observed and the history, and is the last sound one, if it
+/// is sound.
 fn record_stop(model: &Model, memory: &mut Memory, scratch: &mut Scratch) {
-    let Memory { state, ledger, observed, history, .. } = memory;
-    if observed.last.is_none_or(|row| row.time < state.time)
-        && let Ok(contact) = update_forces(model, state, scratch)
-    {
-        let row = ledger.balance(model, state, scratch, &contact);
-        if ledger.check(&row, state.step).is_ok() {
-            observed.take(row, ledger.impulse(), contact.n_closed > 0);
+    let Memory { state, log, ledger, observed, history, sound, .. } = memory;
+    if let Ok(contact) = update_forces(model, state, scratch) {
+        if observed.last.is_none_or(|row| row.time < state.time) {
+            let row = ledger.balance(model, state, scratch, &contact);
+            if ledger.check(&row, state.step).is_ok() {
+                observed.take(row, ledger.impulse(), state.step, contact.n_closed > 0);
+            }
+        }
+        if ledger.adds_up() && observed.last.is_some_and(|row| row.time == state.time) {
+            sound.keep(model, state, scratch, log.approach);
         }
     }
     if let (Some(history), Some(row)) = (history, observed.last)

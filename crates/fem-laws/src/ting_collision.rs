@@ -17,8 +17,12 @@ const LOCAL_SHARE: f64 = 0.1;
 /// Restitution that is none; also of the energy that could still come back, its root.
 const STUCK: f64 = 1e-8;
 
-/// Restitution that may come out as none where waves leave.
+/// Restitution that may come out as none where nothing moves but rounding: beside waves that leave, or
+/// because a force of rounding times a large approach never gets below [`STUCK`].
 const RESTING: f64 = 1e-6;
+/// What rounding leaves of a force, over that of the materials unrelaxed: the terms of which it is the
+/// difference are as large.
+const OF_ROUNDING: f64 = 1e-13;
 
 /// A ball creeps under its weight if the force is within this share of that, and the energy of its motion
 /// below this share of what it has fallen since first touch.
@@ -133,11 +137,7 @@ impl<'a> Collision<'a> {
         loop {
             let solved = self.step(None, units)?;
             let grows = |theta: f64| solved.step.grows_at(self.contact, theta);
-            let turn = if grows(1.0) || self.rests_among_waves() {
-                1.0
-            } else {
-                last_where(0.0, 1.0, grows)
-            };
+            let turn = if grows(1.0) || self.rests() { 1.0 } else { last_where(0.0, 1.0, grows) };
             let pressure = self.interpolation.coefficients(&solved.pressure);
             self.peak_force = self.peak_force.max(peak(&solved.step.force, turn));
             self.peak_pressure = self.peak_pressure.max(peak(&pressure, turn));
@@ -146,10 +146,10 @@ impl<'a> Collision<'a> {
                 size.check(last.contact_radius * units.radius)?;
             }
             steps.push(solved.step);
-            if turn < 1.0 && !self.rests_among_waves() {
+            if turn < 1.0 && !self.rests() {
                 return Ok(Some(Record { steps, end: self.state.time }));
             }
-            if self.state.rate < STUCK && self.state.force * self.state.approach < STUCK * STUCK {
+            if self.rests_at(STUCK) {
                 return Ok(None);
             }
             let (gravity, State { rate, approach, force, .. }) =
@@ -161,11 +161,18 @@ impl<'a> Collision<'a> {
         }
     }
 
-    /// Whether nothing moves but the rounding of u̇, which is no turn: with waves only.
-    fn rests_among_waves(&self) -> bool {
-        self.contact.radiation.is_some()
-            && self.state.rate < STUCK
-            && self.state.force * self.state.approach < RESTING * RESTING
+    /// Whether nothing moves but the rounding of u̇, which is no turn.
+    fn rests(&self) -> bool {
+        self.rests_at(RESTING)
+    }
+
+    /// Whether what moves, and what the force could still give back, part the bodies with no more than a
+    /// restitution, or the force is of rounding.
+    fn rests_at(&self, restitution: f64) -> bool {
+        let State { rate, approach, force, .. } = self.state;
+        let is_small = force * approach < restitution * restitution
+            || force < OF_ROUNDING * approach * approach.sqrt();
+        rate < STUCK && is_small
     }
 
     /// Down to the end of contact, or until the weight turns the ball back.

@@ -28,6 +28,7 @@ mod fit;
 mod forecast;
 mod hidden_folder;
 mod interrupt;
+mod last_sound;
 mod law_arguments;
 mod law_failures;
 mod occupant;

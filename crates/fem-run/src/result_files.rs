@@ -13,6 +13,7 @@ use fem_case::Keep;
 use fem_collision::Collision;
 
 use crate::failure::Failure;
+use crate::last_sound::write_last_sound;
 use crate::stopwatch::Stopwatch;
 use crate::whole_file::write_whole;
 
@@ -123,12 +124,12 @@ fn write_fields(
     collision: &Collision,
     summary: &mut Summary,
 ) -> Result<(), String> {
-    let (files, left_out) =
-        write_snapshots(folder, stem, simulation, collision).map_err(|error| {
-            remove_snapshots(folder, stem, &summary.files);
-            format!("the snapshots cannot be written: {error}")
-        })?;
-    summary.files.extend(files);
+    let written = write_snapshots(folder, stem, simulation, collision)
+        .map_err(|error| format!("the snapshots cannot be written: {error}"))
+        .and_then(|files| Ok((files, write_last_sound(folder, stem, simulation, collision)?)));
+    let ((files, left_out), picture) =
+        written.inspect_err(|_| remove_snapshots(folder, stem, &summary.files))?;
+    summary.files.extend(files.into_iter().chain(picture));
     summary.warnings.extend(left_out);
     Ok(())
 }

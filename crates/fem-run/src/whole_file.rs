@@ -1,6 +1,6 @@
 //! Files that appear whole or not at all.
 
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
@@ -16,7 +16,21 @@ pub const SUFFIX: &str = ".tmp";
 /// # Errors
 /// The file system; nothing has changed then.
 pub fn write_whole(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
-    written(beside, bytes)?.persist(path)?;
+    write_streamed(path, beside, |file| file.write_all(bytes))
+}
+
+/// As [`write_whole`], of what `write` writes.
+///
+/// # Errors
+/// As [`write_whole`], and those of `write`.
+pub fn write_streamed(
+    path: &Path,
+    beside: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut file = BufWriter::new(empty(beside)?);
+    write(&mut file)?;
+    file.into_inner()?.persist(path)?;
     Ok(())
 }
 
@@ -25,13 +39,14 @@ pub fn write_whole(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// As [`write_whole`].
 pub fn write_lasting(path: &Path, beside: &Path, bytes: &[u8]) -> io::Result<()> {
-    let file = written(beside, bytes)?;
+    let mut file = empty(beside)?;
+    file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path)?;
     Ok(())
 }
 
-fn written(beside: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
+fn empty(beside: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(PREFIX).suffix(SUFFIX);
     #[cfg(unix)]
@@ -40,7 +55,5 @@ fn written(beside: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
         // As any new file: the umask applies.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(beside)?;
-    file.write_all(bytes)?;
-    Ok(file)
+    builder.tempfile_in(beside)
 }

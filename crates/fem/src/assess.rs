@@ -2,19 +2,21 @@
 
 use std::f64::consts::PI;
 
-use fem_collision::Collision;
+use fem_collision::{Collision, LARGEST_RESIDUAL};
 use fem_mesh::SphereMesh;
 
 use crate::effects::{EFFECTS, Effect};
 use crate::method::ElementSetup;
 use crate::plan::Plan;
+use crate::quieter::Quieter;
 use crate::resolution::longest_contact_edge;
 use crate::simulation::Simulation;
 
 /// Overlap of the surfaces over the approach.
 const LARGEST_PENETRATION: f64 = 0.01;
-/// Energy that does not add up over the initial.
-const LARGEST_RESIDUAL: f64 = 1e-3;
+/// So much stiffer springs are advised than would just do. Soft springs widen the contact, so that their
+/// overlap falls slower than they grow stiffer: with the power 0.6 to 0.9 of their factor, from 0.02 to 1.
+const ROOM_OF_ADVICE: f64 = 1.2;
 /// Scatter of the force over its peak.
 const LARGEST_NOISE: f64 = 0.005;
 /// Restitution above 1 that is no rounding.
@@ -55,10 +57,10 @@ fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
 /// What holds of every model.
 fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let remedy = match &simulation.setup().elements {
-        Some(elements) => elements.finer_steps,
-        None => "use model condensed or fem",
+        Some(elements) => elements.quieter.advice_on_energy(),
+        None => "use model condensed or fem".to_string(),
     };
-    [incomplete(collision), energy_residual(collision, remedy), restitution(collision)]
+    [incomplete(collision), energy_residual(collision, &remedy), restitution(collision)]
         .into_iter()
         .flatten()
         .collect()
@@ -75,10 +77,16 @@ fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
     let is_sound = residual <= LARGEST_RESIDUAL;
     (!is_sound).then(|| {
         format!(
-            "the energy does not add up by {residual:.1e} of the initial; above \
-             {LARGEST_RESIDUAL:e}, {remedy}"
+            "the energy does not add up by {residual:.1e} of the initial, above \
+             {LARGEST_RESIDUAL:e}{}; {remedy}",
+            collision.residual_since.map_or(String::new(), |since| format!(" since {since}"))
         )
     })
+}
+
+/// Of the contact force, over its peak.
+fn scatter(collision: &Collision) -> Option<f64> {
+    Some(collision.force_scatter? / collision.peak_force?)
 }
 
 fn restitution(collision: &Collision) -> Option<String> {
@@ -90,6 +98,13 @@ fn restitution(collision: &Collision) -> Option<String> {
     })
 }
 
+/// A positive number as it is advised: rounded up to two digits.
+fn two_digits(value: f64) -> f64 {
+    let step = 10.0_f64.powf(value.log10().floor() - 1.0);
+    // Printed and read, a decimal number is the nearest there is.
+    format!("{:.1e}", (value / step).ceil() * step).parse().unwrap_or(value)
+}
+
 /// A run of finite elements.
 struct Run<'a> {
     collision: &'a Collision,
@@ -97,17 +112,15 @@ struct Run<'a> {
     meshes: [Option<&'a SphereMesh>; 2],
     /// Whether springs keep the surfaces apart.
     has_springs: bool,
-    /// What makes the time step smaller.
-    finer_steps: &'static str,
+    quieter: Quieter,
 }
 
 impl<'a> Run<'a> {
     fn of(simulation: &'a Simulation, collision: &'a Collision) -> Option<Self> {
-        let ElementSetup { plan, has_springs, finer_steps } =
-            simulation.setup().elements.as_ref()?;
+        let ElementSetup { plan, has_springs, quieter } = simulation.setup().elements.as_ref()?;
         let meshes = simulation.model().meshes();
-        let (has_springs, finer_steps) = (*has_springs, *finer_steps);
-        Some(Self { collision, plan, meshes, has_springs, finer_steps })
+        let (has_springs, quieter) = (*has_springs, *quieter);
+        Some(Self { collision, plan, meshes, has_springs, quieter })
     }
 
     /// Whether the meshes can carry the contact as wide as it came.
@@ -121,14 +134,18 @@ impl<'a> Run<'a> {
     fn penetration(&self) -> Option<String> {
         let radius = self.collision.max_contact_radius.filter(|_| self.has_springs)?;
         let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
-        let stiffness = self.plan.contact_stiffness / longest_contact_edge(self.meshes, radius)?;
-        let share = mean_pressure / stiffness / self.collision.max_approach?;
-        (share > LARGEST_PENETRATION).then(|| {
+        let of_element = mean_pressure / self.plan.contact_stiffness;
+        let of_approach =
+            of_element * longest_contact_edge(self.meshes, radius)? / self.collision.max_approach?;
+        let excess = of_approach / LARGEST_PENETRATION;
+        (excess > 1.0).then(|| {
             format!(
-                "the surfaces overlap by about {:.1} % of the approach; above {} %, use a larger \
-                 contact.penalty_factor or {}",
-                100.0 * share,
+                "the surfaces overlap by about {:.1} % of the approach and {:.1} % of an element; above {} \
+                 % of the approach, write contact.penalty_factor = {}, or use {}",
+                100.0 * of_approach,
+                100.0 * of_element,
                 100.0 * LARGEST_PENETRATION,
+                two_digits(ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor),
                 match self.plan.makes_meshes {
                     true => "a smaller mesh.contact_element_size",
                     false => "meshes that are finer at the contact",
@@ -139,14 +156,14 @@ impl<'a> Run<'a> {
 
     /// Scatter of the contact force from instant to instant, over its peak.
     fn noise(&self) -> Option<String> {
-        let scatter = self.collision.force_scatter? / self.collision.peak_force?;
+        let scatter = scatter(self.collision)?;
         (scatter > LARGEST_NOISE).then(|| {
             format!(
-                "the contact force scatters by {:.1} % of its peak; above {} %, peaks are too \
-                 high: lower contact.penalty_factor or {}",
+                "the contact force scatters by {:.1} % of its peak{}; above {} %, peaks are too high: {}",
                 100.0 * scatter,
+                self.collision.noisiest.map_or(String::new(), |at| format!(", most about {at}")),
                 100.0 * LARGEST_NOISE,
-                self.finer_steps
+                self.quieter.advice(scatter)
             )
         })
     }

@@ -18,11 +18,14 @@ pub(crate) fn asked_for(scene: &Scene) -> ContactMethod {
 /// bulk viscosity pulls by velocities.
 pub(crate) fn contact_method(scene: &Scene) -> ContactMethod {
     match asked_for(scene) {
-        ContactMethod::Massless if scene.effects().bulk_viscosity == Some(Switch::On) => {
-            ContactMethod::Penalty
-        }
+        ContactMethod::Massless if !massless_is_possible(scene) => ContactMethod::Penalty,
         method => method,
     }
+}
+
+/// Whether the surface nodes of a scene can be without mass, at small strain.
+pub(crate) fn massless_is_possible(scene: &Scene) -> bool {
+    !SurfaceSlip::is_on(scene) && scene.effects().bulk_viscosity != Some(Switch::On)
 }
 
 /// What is said of a method that a case names and its scene does not allow.

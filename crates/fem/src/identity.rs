@@ -26,19 +26,19 @@ impl Identity {
     /// # Errors
     /// What the case's method refuses before it makes anything; a mesh file that cannot be read.
     pub fn of(case: &Case) -> Result<Self, CaseError> {
-        Ok(identified(case)?.0)
+        let (result, _) = identified(case)?;
+        Ok(Self { case: case_identity(case), result: name_of(result) })
     }
 }
 
-/// With the resolved case, which takes a while.
+/// Digest of the result of a case by this build, with the resolved case, which takes a while.
 ///
 /// # Errors
 /// As [`Identity::of`].
-pub(crate) fn identified(case: &Case) -> Result<(Identity, CaseFile), CaseError> {
+pub(crate) fn identified(case: &Case) -> Result<(u64, CaseFile), CaseError> {
     let meshes = mesh_files(case)?;
     let resolved = Simulation::resolve(case)?;
-    let result = of_result(NUMERICS, &resolved, &meshes);
-    Ok((Identity { case: case_identity(case), result }, resolved))
+    Ok((of_result(NUMERICS, &resolved, &meshes), resolved))
 }
 
 /// Digest of what a case asks to be computed: its keys and values, overrides in them, in SI, without
@@ -54,20 +54,29 @@ pub(crate) fn identity_of(file: &CaseFile) -> String {
 }
 
 /// Digest of a result: by which numerics, of which resolved case with which mesh files.
-fn of_result(numerics: &str, case: &CaseFile, meshes: &[Vec<u8>]) -> String {
+fn of_result(numerics: &str, case: &CaseFile, meshes: &[Vec<u8>]) -> u64 {
     let case = json(case);
     let meshes = meshes.iter().map(Vec::as_slice);
-    digest_of([numerics.as_bytes(), &case].into_iter().chain(meshes))
+    digest([numerics.as_bytes(), &case].into_iter().chain(meshes))
 }
 
 /// Sixteen digits of a list of texts.
 pub fn digest_of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> String {
+    name_of(digest(parts))
+}
+
+/// A digest as it is in names.
+pub(crate) fn name_of(digest: u64) -> String {
+    format!("{digest:0digits$x}", digits = 2 * BYTES)
+}
+
+fn digest<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> u64 {
     let mut digest = Sha256::new();
     for bytes in parts {
         digest.update((bytes.len() as u64).to_le_bytes());
         digest.update(bytes);
     }
-    digest.finalize().iter().take(BYTES).map(|byte| format!("{byte:02x}")).collect()
+    digest.finalize().iter().take(BYTES).fold(0, |number, byte| number << 8 | u64::from(*byte))
 }
 
 /// A valid case has only finite numbers and text: it always serializes.

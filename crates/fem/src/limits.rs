@@ -128,17 +128,18 @@ pub(crate) fn check_memory(
 pub(crate) fn check_updates(
     scene: &Scene,
     plan: &Plan,
-    steps: u64,
+    steps: f64,
     elements: u64,
-    element_updates: u64,
 ) -> Result<(), Refusal> {
-    if element_updates <= plan.max_element_updates {
+    let element_updates = steps * elements as f64;
+    // What is no number is above every limit.
+    if element_updates <= plan.max_element_updates as f64 {
         return Ok(());
     }
     let key = blamed(scene, "limits.element_updates", scene.limits().element_updates);
     let found = format!(
-        "the run would take {steps} steps of {elements} elements, {:.1e} element updates",
-        element_updates as f64
+        "the run would take {steps:.1e} steps of {elements} elements, {element_updates:.1e} element \
+         updates"
     );
     Err(Refusal::new(key, found).with_help(format!(
         "at most {:.1e} are allowed; use a larger mesh.contact_element_size or more \

@@ -16,6 +16,7 @@ use crate::estimate::Estimate;
 use crate::memory::Memory;
 use crate::pair_cache::PairCache;
 use crate::plan::Plan;
+use crate::quieter::Quieter;
 use crate::refusal::Refusal;
 
 /// A way to compute collisions.
@@ -138,8 +139,8 @@ pub struct ElementSetup {
     pub plan: Plan,
     /// Whether springs keep the surfaces apart.
     pub has_springs: bool,
-    /// What makes the time step smaller.
-    pub finer_steps: &'static str,
+    /// What makes the contact quieter.
+    pub quieter: Quieter,
 }
 
 /// What a run will take.

@@ -11,6 +11,7 @@ use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius
 
 use crate::contact_method::contact_method;
 use crate::estimate::Estimate;
+use crate::flow;
 use crate::refusal::Refusal;
 
 /// Elements across the contact radius: within 0.1 % in contact time, 0.3 % in
@@ -69,6 +70,8 @@ pub struct Plan {
     pub max_elements: u64,
     /// Elements times steps above which a run is refused.
     pub max_element_updates: u64,
+    /// Elastic contact times after which a run gives up.
+    pub give_up_after: f64,
     /// Memory above which a run is refused, bytes.
     pub max_memory: u64,
     /// Keys of the case that the plan does not read.
@@ -79,9 +82,10 @@ impl Plan {
     /// Decides on a scene.
     ///
     /// # Errors
-    /// A scene whose closed-form estimates are not finite.
+    /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
     pub fn of(scene: &Scene) -> Result<Self, Refusal> {
         let estimate = Estimate::checked(scene)?;
+        flow::check(scene, &estimate)?;
         // Elements are made no larger for a contact that is wider.
         let half_radius = 0.5 * estimate.smallest_radius;
         let contact_radius = radius_of_elements(&estimate).min(half_radius);
@@ -130,6 +134,7 @@ impl Plan {
             snapshots: request(scene.snapshots()),
             max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),
+            give_up_after: flow::give_up_after(scene, &estimate),
             max_memory: limits.memory.unwrap_or(MAX_MEMORY),
             warnings,
             estimate,
@@ -149,6 +154,7 @@ impl Plan {
         Want {
             snapshots: self.snapshots.clone(),
             most_element_updates: self.max_element_updates,
+            give_up_after: self.give_up_after,
             ..Want::history()
         }
     }

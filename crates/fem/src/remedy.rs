@@ -15,13 +15,13 @@ pub struct Remedy {
 pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
     let (cause, remedy) = match stop {
         Stop::Interrupted { .. } => return None,
-        Stop::EnergyGrowth { .. } => (
+        Stop::EnergyGrowth { .. } | Stop::NoNumber { .. } => (
             "the contact opens and closes faster than the time step resolves, an imported mesh has \
              elements that are far too distorted, or a material at finite strain gives way under its \
              load, as St Venant and Kirchhoff's does in compression",
-            "set time.step_factor = 0.5 and time.mass_scaling = 0; if it stays, lower \
-             contact.penalty_factor, name another material.NAME.hyperelastic, or send us the case: \
-             the step is meant to be stable",
+            "write contact.method = \"massless\" where it is another, or contact.penalty_factor = 1 where it is \
+             larger; if it stays, set time.step_factor = 0.5 and time.mass_scaling = 0, name another \
+             material.NAME.hyperelastic, or send us the case: the step is meant to be stable",
         ),
         Stop::ElementCollapsed { .. } => (
             "the impact is faster than this material can be compressed, or an element is far too \

@@ -6,9 +6,10 @@ use fem_collision::Stop;
 use fem_material::Material;
 
 use super::Model;
+use crate::ledger::Grown;
 use crate::pace::Outlook;
 use crate::part::Motion;
-use crate::state::{Scratch, State};
+use crate::state::{BodyState, Scratch, State};
 use crate::step::{Collapsed, Fault};
 use crate::stress::Collapse;
 
@@ -112,6 +113,36 @@ impl Model {
         most.unwrap_or(Collapsed { side: 0, collapse: none })
     }
 
+    /// Why a run ends whose energy has grown, with the node that is fastest in its body, or whose motion is
+    /// no number.
+    pub(crate) fn stop_of(&self, Grown { time, step, ratio }: Grown, state: &State) -> Stop {
+        let mut worst = (0, 0, -1.0);
+        for side in 0..2 {
+            let (body, BodyState { displacement, velocity, .. }) =
+                (&self.bodies[side], &state.bodies[side]);
+            let centre = body.centre(velocity);
+            for (node, (u, v)) in displacement.iter().zip(velocity).enumerate() {
+                let square = v[0] * v[0] + (v[1] - centre) * (v[1] - centre);
+                let is_lost = ![*u, *v].as_flattened().iter().all(|number| number.is_finite());
+                if is_lost {
+                    let place = self.place(side, node);
+                    return Stop::NoNumber { time, step, body: side, node, place };
+                }
+                if square > worst.2 {
+                    worst = (side, node, square);
+                }
+            }
+        }
+        let (body, node, _) = worst;
+        Stop::EnergyGrowth { time, step, ratio, body, node, place: self.place(body, node) }
+    }
+
+    /// Where a node lies before the collision (r, y), m; of a rigid body its only one.
+    fn place(&self, side: usize, node: usize) -> [f64; 2] {
+        let place = self.bodies[side].mesh().map(|mesh| mesh.nodes()[node]);
+        place.unwrap_or([0.0; 2])
+    }
+
     /// Why a run ends that cannot go on.
     pub(crate) fn stop(&self, fault: Fault, state: &State) -> Stop {
         let (time, step) = (state.time, state.step);
@@ -124,8 +155,7 @@ impl Model {
                 Stop::ElementCollapsed { time, step, body: side, element, place, volume_ratio }
             }
             Fault::TooStiff { side, node, is_of_contact } => {
-                let place = self.bodies[side].mesh().map(|mesh| mesh.nodes()[node]);
-                let place = place.unwrap_or([f64::NAN; 2]);
+                let place = self.place(side, node);
                 Stop::NoStepShortEnough { time, step, body: side, place, of_contact: is_of_contact }
             }
         }

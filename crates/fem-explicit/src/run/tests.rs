@@ -18,6 +18,8 @@ fn model() -> Model {
 
 const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 };
 
+const COUNT: SnapshotRequest = SnapshotRequest::Count(3);
+
 fn want(snapshots: SnapshotRequest) -> Want {
     Want {
         history_rows: 100,
@@ -42,7 +44,11 @@ fn disturbed(factor: f64) -> Collision {
 #[test]
 fn energy_out_of_nowhere_stops_the_run() {
     let run = disturbed(1.1);
-    let Some(&Stop::EnergyGrowth { ratio, time, .. }) = run.stop() else { panic!("{run:?}") };
+    let Some(&Stop::EnergyGrowth { ratio, time, body, place, .. }) = run.stop() else {
+        panic!("{run:?}")
+    };
+    // The body whose velocities were multiplied, at the contact.
+    assert!(body == 0 && place[0].hypot(place[1]) < 0.5, "{body} {place:?}");
     // 1.1² of the kinetic energy, in the frame of the mass centres twice as much.
     assert!(ratio > 1.05 && ratio < 1.5, "{ratio}");
     assert!(run.history.iter().all(|row| row.time < time));
@@ -50,11 +56,58 @@ fn energy_out_of_nowhere_stops_the_run() {
     assert_eq!(run.restitution, None);
 }
 
+/// A run that fails leaves the last state whose energy added up; one that is interrupted, or asked for no
+/// fields, leaves none.
+#[test]
+fn a_run_that_fails_leaves_its_last_sound_state() {
+    let model = model();
+    let labels = || want(SnapshotRequest::Labels(vec![Label::LastContact]));
+    for (want, is_kept) in [(labels(), true), (want(SnapshotRequest::none()), false)] {
+        let mut run = Run::new(&model, EXPECTED, &want);
+        assert_eq!(run.advance(128), None);
+        let disturbed_at = run.memory.state.time;
+        for v in run.memory.state.bodies[0].velocity.as_flattened_mut() {
+            *v = f64::NAN;
+        }
+        run.advance(u64::MAX);
+        let collision = run.finish();
+        assert!(matches!(collision.stop(), Some(Stop::NoNumber { body: 0, .. })));
+        assert_eq!(collision.snapshots.len(), usize::from(is_kept));
+        for snapshot in &collision.snapshots {
+            assert_eq!(snapshot.label, Some(Label::LastSound));
+            assert!(snapshot.time <= disturbed_at);
+            let mut fields = snapshot.bodies.iter().flat_map(|body| {
+                body.displacement.as_flattened().iter().chain(body.velocity.as_flattened())
+            });
+            assert!(fields.all(|value| value.is_finite()));
+        }
+    }
+    let mut run = Run::new(&model, EXPECTED, &labels());
+    run.advance(128);
+    assert!(run.finish().snapshots.is_empty());
+}
+
+/// Where the state of the stop is sound, it is that one; resumed on the way or not.
+#[test]
+fn a_sound_state_in_which_a_run_stops_is_the_last_one() {
+    let model = model();
+    let want = Want { most_element_updates: 200 * model.n_elements() as u64, ..want(COUNT) };
+    let mut run = Run::new(&model, EXPECTED, &want);
+    run.advance(128);
+    let mut resumed = Run::resume(&model, run.memory().clone()).unwrap();
+    let collisions = [&mut run, &mut resumed].map(|run| run.advance(u64::MAX).cloned());
+    let Some(Ending::Stopped(Stop::TooManyUpdates { time, .. })) = collisions[0] else { panic!() };
+    let collision = run.finish();
+    assert_eq!(collision.snapshot(Label::LastSound).map(|snapshot| snapshot.time), Some(time));
+    assert_eq!(collision, resumed.finish());
+}
+
 #[test]
 fn numbers_that_are_not_finite_stop_the_run() {
     for factor in [f64::NAN, f64::INFINITY] {
         let run = disturbed(factor);
-        assert!(matches!(run.stop(), Some(Stop::EnergyGrowth { .. })), "{:?}", run.ending);
+        assert!(matches!(run.stop(), Some(Stop::NoNumber { .. })), "{:?}", run.ending);
+        assert!(run.residual_since.is_some_and(|since| since.step >= 128));
         let is_sound = |row: &Row| row.residual.unwrap().is_finite();
         assert!(run.history.iter().all(is_sound), "a bad row is kept");
         assert!(!run.residual_relative.unwrap().is_finite());

@@ -1,23 +1,23 @@
 //! `fem-run sweep SWEEP.toml`: computes the members of a sweep, all or a shard of them.
 
-use std::collections::HashSet;
 use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::results::PROGRAM;
-use fem::sweep::{Member, Row, SWEEP_FILE, advice, identify, left_to_do};
-use fem_case::Sweep;
+use fem::sweep::{Checked, Member, Row, SWEEP_FILE, check};
 use fem_case::engineering::show;
-use serde_json::{Value, json};
+use fem_case::{CaseFile, Sweep};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output::{self, one_line};
-use crate::sweep::{Choice, Job, SweepFolder, collect, run_members};
+use crate::sweep::{
+    AxisNumbers, Checking, Choice, Collected, Collector, Job, Mark, SweepFolder, run_members,
+};
 use crate::tables::table;
 
 /// Compute many members of a case: lists of values for some of its keys
@@ -46,6 +46,9 @@ pub struct Arguments {
     /// the same files as the whole sweep.
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Check all members and say how many are to run; compute and write nothing
+    #[arg(long)]
+    dry_run: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     quiet: bool,
@@ -56,6 +59,12 @@ pub struct Arguments {
 struct Shard {
     first: usize,
     step: usize,
+}
+
+impl Shard {
+    fn has(&self, index: usize) -> bool {
+        index % self.step == self.first
+    }
 }
 
 impl FromStr for Shard {
@@ -70,73 +79,72 @@ impl FromStr for Shard {
     }
 }
 
-/// Rows that are shown on stdout; all are in the table.
-const MOST_ROWS: usize = 40;
-
 /// Computes a sweep.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let sweep = Sweep::load(&arguments.sweep, &arguments.set)?;
-    let members = identify(&sweep)?;
-    let choice = Choice::of(&sweep, &members)?;
-    let stem = stem_of(&arguments.sweep);
-    let out = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(stem));
+    let out = match &arguments.out {
+        Some(out) => out.clone(),
+        None => Path::new("runs").join(stem_of(&arguments.sweep)),
+    };
     let shard = arguments.shard.unwrap_or(Shard { first: 0, step: 1 });
-    let own: Vec<&Member> = members.iter().skip(shard.first).step_by(shard.step).collect();
+    let pool = pool(arguments.threads)?;
     let there = SweepFolder::at(&out);
-    let is_done = |member: &Member| there.has(&member.identity, sweep.keep);
-    let left = left_to_do(&sweep, own.iter().copied(), is_done)?;
-    let folder = SweepFolder::claim(&out, &mark(&sweep, &members, arguments))?;
-    if !arguments.quiet {
-        announce(arguments, members.len(), own.len(), left.len());
-        if let Some(advice) = advice(&sweep, &left)? {
-            let _ = writeln!(stderr(), "hint: {advice}");
+    let mut numbers = AxisNumbers::new(&sweep);
+    let mut checking = Checking::new(sweep.n_members(), arguments.quiet);
+    let is_done = |member: &Member| there.has(&member.identity(), sweep.keep);
+    let see = |member: &Member, case: &CaseFile| {
+        checking.tick();
+        numbers.see(&sweep, member.index, case);
+    };
+    let checked = pool.install(|| check(&sweep, |index| shard.has(index), is_done, see))?;
+    let Checked { members, left, advice } = &checked;
+    let choice = Choice::of(&sweep, &numbers)?;
+    let n_own = members.iter().filter(|member| shard.has(member.index)).count();
+    let tell = || {
+        if !arguments.quiet {
+            announce(arguments, members.len(), n_own, left.len(), *advice);
         }
+    };
+    if arguments.dry_run {
+        tell();
+        return Ok(());
     }
+    let mark = Mark { sweep: &sweep, members, set: &arguments.set };
+    let folder = SweepFolder::claim(&out, |file| mark.write(file))?;
+    tell();
 
     let job = Job {
         sweep: &sweep,
-        members: &members,
+        members,
         folder: &folder,
-        threads: arguments.threads,
+        pool: &pool,
         quiet: arguments.quiet,
         interrupt: interrupt.clone(),
     };
-    let ran = run_members(&job, &left);
-    let rows = collect(&sweep, &members, &folder, &choice)?;
+    let ran = run_members(&job, left);
+    let collector = Collector { sweep: &sweep, members, folder: &folder, choice: &choice };
+    let collected = collector.collect(|index| shard.has(index))?;
     ran?;
     if !arguments.quiet {
-        standard_output::print(&report(&sweep, &rows, members.len(), folder.path()))?;
+        standard_output::print(&report(&sweep, &collected, members.len(), folder.path()))?;
     }
-    conclude(&sweep, &rows, &own, interrupt.is_requested())
+    conclude(&collected, n_own, interrupt.is_requested())
 }
 
-/// `sweep.json`: which sweep the folder holds, and which member is where.
-fn mark(sweep: &Sweep, members: &[Member], arguments: &Arguments) -> String {
-    let lists = sweep.axes.iter().map(|axis| {
-        let values = axis.elements.iter().map(|element| element.text.as_str()).collect();
-        (axis.key.clone(), values)
-    });
-    let member = |member: &Member| {
-        let values = sweep.values(member.index).into_iter().map(Value::from);
-        let keys = sweep.axes.iter().map(|axis| axis.key.clone());
-        json!({ "member": member.identity, "values": Value::Object(keys.zip(values).collect()) })
-    };
-    let mark = json!({
-        "program": PROGRAM,
-        "version": env!("CARGO_PKG_VERSION"),
-        "case": sweep.base_path().display().to_string(),
-        "set": arguments.set,
-        "combine": sweep.combine.word(),
-        "keep": sweep.keep.word(),
-        "vary": Value::Object(lists.collect()),
-        "members": members.iter().map(member).collect::<Vec<_>>(),
-    });
-    format!("{mark:#}\n")
+fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build();
+    pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))
 }
 
 /// One line on stderr about what begins.
-fn announce(arguments: &Arguments, n_members: usize, n_own: usize, n_left: usize) {
+fn announce(
+    arguments: &Arguments,
+    n_members: usize,
+    n_own: usize,
+    n_left: usize,
+    advice: Option<&str>,
+) {
     let shard = if n_own == n_members { String::new() } else { format!(", {n_own} in this shard") };
     let name = one_line(&arguments.sweep.display().to_string());
     let _ = writeln!(
@@ -144,10 +152,13 @@ fn announce(arguments: &Arguments, n_members: usize, n_own: usize, n_left: usize
         "{name}: {n_members} members{shard}; {} done before, {n_left} to run",
         n_own - n_left
     );
+    if let Some(advice) = advice {
+        let _ = writeln!(stderr(), "hint: {advice}");
+    }
 }
 
 /// The main results of each member, and where the rest is.
-fn report(sweep: &Sweep, rows: &[Row], n_members: usize, folder: &Path) -> String {
+fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &Path) -> String {
     let keys = sweep.axes.iter().map(|axis| axis.key.as_str());
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
@@ -158,13 +169,14 @@ fn report(sweep: &Sweep, rows: &[Row], n_members: usize, folder: &Path) -> Strin
     };
     let mut alignment = vec![Left; sweep.axes.len()];
     alignment.extend([Right; 5]);
-    let shown = rows.iter().take(MOST_ROWS).map(row);
+    let shown = collected.shown.iter().map(row);
     let mut text = table(&alignment, std::iter::once(header).chain(shown));
-    if rows.len() > MOST_ROWS {
-        text += &format!("… and {} more\n", rows.len() - MOST_ROWS);
+    let (n_done, n_shown) = (collected.n_done, collected.shown.len());
+    if n_done > n_shown {
+        text += &format!("… and {} more\n", n_done - n_shown);
     }
-    if rows.len() < n_members {
-        text += &format!("\n{} of {n_members} members are done.\n", rows.len());
+    if n_done < n_members {
+        text += &format!("\n{n_done} of {n_members} members are done.\n");
     }
     text + &format!("\nResult: {}\n", one_line(&folder.join(SWEEP_FILE).display().to_string()))
 }
@@ -191,33 +203,22 @@ fn result_cells(row: &Row) -> [String; 5] {
 }
 
 /// Success, or which members failed, or how to go on.
-fn conclude(
-    sweep: &Sweep,
-    rows: &[Row],
-    own: &[&Member],
-    is_interrupted: bool,
-) -> Result<(), Failure> {
-    let own_indices: HashSet<usize> = own.iter().map(|member| member.index).collect();
-    let done: Vec<&Row> = rows.iter().filter(|row| own_indices.contains(&row.index)).collect();
-    if is_interrupted && done.len() < own.len() {
-        let message = format!("interrupted: {} of {} members are done", done.len(), own.len());
+fn conclude(collected: &Collected, n_own: usize, is_interrupted: bool) -> Result<(), Failure> {
+    let Collected { n_own_done, n_failed, failed, .. } = collected;
+    if is_interrupted && *n_own_done < n_own {
+        let message = format!("interrupted: {n_own_done} of {n_own} members are done");
         return Err(Failure::interrupted(message)
             .with_help("they are kept; the same command goes on with the others"));
     }
-    let failed = done.iter().filter(|row| !row.is_complete());
-    let lines: Vec<String> = failed
-        .map(|row| {
-            let reason = row.summary["stopped_because"].as_str().unwrap_or("unknown");
-            one_line(&format!("{}: {reason}", sweep.describe(row.index)))
-        })
-        .collect();
-    if lines.is_empty() {
+    if *n_failed == 0 {
         return Ok(());
     }
-    let message = format!("{} of {} members failed", lines.len(), own.len());
-    Err(Failure::failed(message).with_help(format!(
-        "{}\nthe others are done; run a failed one alone with --set for the cause and remedy, or \
-         change its value: the same command then computes what is new",
-        lines.join("\n")
+    let mut lines = failed.join("\n");
+    if failed.len() < *n_failed {
+        lines += &format!("\n… and {} more", n_failed - failed.len());
+    }
+    Err(Failure::failed(format!("{n_failed} of {n_own} members failed")).with_help(format!(
+        "{lines}\nthe others are done; run a failed one alone with --set for the cause and remedy, or \
+         change its value: the same command then computes what is new"
     )))
 }

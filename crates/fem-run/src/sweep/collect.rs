@@ -1,55 +1,143 @@
 //! From the members' folders to table and picture.
+//!
+//! Members are read one by one, twice: once for what the whole table and the picture have, once for the rows.
+//! What is kept of each is a bit, and of some what is drawn or shown.
 
-use fem::sweep::{Member, Row, SWEEP_FILE, sweep_csv};
+use std::io;
+
+use fem::sweep::{Columns, Member, Row, SWEEP_FILE, sweep_csv};
 use fem_case::Sweep;
 
 use super::folder::{PICTURE_FILE, SweepFolder};
 use super::picture::picture;
 use super::picture_data::Choice;
+use super::picture_points::PicturePoint;
 use crate::failure::Failure;
+use crate::standard_output::one_line;
 
-/// Writes table and picture of what is there and returns the rows.
-///
-/// Another process may finish a member after this one has looked, and write its table before this
-/// one does. Whoever looks again after writing and finds no more than it wrote is the last.
-///
-/// # Errors
-/// The file system.
-pub fn collect(
-    sweep: &Sweep,
-    members: &[Member],
-    folder: &SweepFolder,
-    choice: &Choice,
-) -> Result<Vec<Row>, Failure> {
-    let fault = |name: &str, error: &dyn std::fmt::Display| {
-        let message = format!("{} cannot be written: {error}", folder.path().join(name).display());
-        Failure::failed(message)
-            .with_help("the members that were computed are kept; the same command goes on")
-    };
-    let mut rows = read(sweep, members, folder);
-    loop {
-        let mut text = Vec::new();
-        let keys = sweep.axes.iter().map(|axis| axis.key.as_str());
-        sweep_csv(&mut text, keys, &rows).map_err(|error| fault(SWEEP_FILE, &error))?;
-        folder.write(SWEEP_FILE, &text).map_err(|error| fault(SWEEP_FILE, &error))?;
-        match picture(sweep, &rows, choice) {
+/// Rows that are shown; all are in the table.
+const MOST_SHOWN: usize = 40;
+/// Members that are named which failed.
+const MOST_NAMED: usize = 40;
+
+/// What the members of a sweep came to.
+#[derive(Clone, Debug, Default)]
+pub struct Collected {
+    /// How many are done.
+    pub n_done: usize,
+    /// How many of those that are this process's own.
+    pub n_own_done: usize,
+    /// The first rows.
+    pub shown: Vec<Row>,
+    /// How many of its own failed.
+    pub n_failed: usize,
+    /// The first of them, and why.
+    pub failed: Vec<String>,
+}
+
+/// What one look at all members found.
+struct Look {
+    collected: Collected,
+    is_there: Vec<bool>,
+    columns: Columns,
+    points: Vec<PicturePoint>,
+}
+
+/// A sweep and where its members' results are.
+pub struct Collector<'a> {
+    /// The sweep.
+    pub sweep: &'a Sweep,
+    /// All members.
+    pub members: &'a [Member],
+    /// Where their results are.
+    pub folder: &'a SweepFolder,
+    /// What is drawn.
+    pub choice: &'a Choice,
+}
+
+impl Collector<'_> {
+    /// Writes table and picture of what is there and returns what it is; `is_own` says which members are
+    /// this process's.
+    ///
+    /// Another process may finish a member after this one has looked, and write its table before this
+    /// one does. Whoever looks again after writing and finds no more than it wrote is the last.
+    ///
+    /// # Errors
+    /// The file system.
+    pub fn collect(&self, is_own: impl Fn(usize) -> bool) -> Result<Collected, Failure> {
+        loop {
+            let look = self.look(&is_own);
+            self.write(&look)?;
+            let is_new =
+                |member: &Member| !look.is_there[member.index] && self.row(member).is_some();
+            if !self.members.iter().any(is_new) {
+                return Ok(look.collected);
+            }
+        }
+    }
+
+    fn look(&self, is_own: &impl Fn(usize) -> bool) -> Look {
+        let mut look = Look {
+            collected: Collected::default(),
+            is_there: vec![false; self.members.len()],
+            columns: Columns::default(),
+            points: Vec::new(),
+        };
+        for member in self.members {
+            let Some(row) = self.row(member) else { continue };
+            look.is_there[member.index] = true;
+            look.columns.see(&row.summary);
+            look.points.extend(PicturePoint::of(&row, self.choice, self.members.len()));
+            look.collected.take(row, self.sweep, is_own(member.index));
+        }
+        look
+    }
+
+    fn write(&self, look: &Look) -> Result<(), Failure> {
+        let folder = self.folder;
+        let fault = |name: &str, error: &io::Error| {
+            let place = folder.path().join(name);
+            let message = format!("{} cannot be written: {error}", place.display());
+            Failure::failed(message)
+                .with_help("the members that were computed are kept; the same command goes on")
+        };
+        let keys = self.sweep.axes.iter().map(|axis| axis.key.as_str());
+        let there = self.members.iter().filter(|member| look.is_there[member.index]);
+        let rows = there.filter_map(|member| self.row(member));
+        folder
+            .write(SWEEP_FILE, |file| {
+                sweep_csv(file, keys, &look.columns.names(), rows).map_err(io::Error::from)
+            })
+            .map_err(|error| fault(SWEEP_FILE, &error))?;
+        match picture(self.sweep, &look.points, self.choice) {
             Some(svg) => folder
-                .write(PICTURE_FILE, svg.as_bytes())
+                .write(PICTURE_FILE, |file| file.write_all(svg.as_bytes()))
                 .map_err(|error| fault(PICTURE_FILE, &error))?,
             None => folder.remove(PICTURE_FILE),
         }
-        let found = read(sweep, members, folder);
-        if found.len() <= rows.len() {
-            return Ok(rows);
-        }
-        rows = found;
+        Ok(())
+    }
+
+    /// The row of a member that is done.
+    fn row(&self, member: &Member) -> Option<Row> {
+        let summary = self.folder.summary(&member.identity())?;
+        Some(Row::new(member, self.sweep.values(member.index), summary))
     }
 }
 
-fn read(sweep: &Sweep, members: &[Member], folder: &SweepFolder) -> Vec<Row> {
-    let row = |member: &Member| {
-        let summary = folder.summary(&member.identity)?;
-        Some(Row::new(member, sweep.values(member.index), summary))
-    };
-    members.iter().filter_map(row).collect()
+impl Collected {
+    fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
+        self.n_done += 1;
+        self.n_own_done += usize::from(is_own);
+        if is_own && !row.is_complete() {
+            self.n_failed += 1;
+            if self.failed.len() < MOST_NAMED {
+                let reason = row.summary["stopped_because"].as_str().unwrap_or("unknown");
+                self.failed.push(one_line(&format!("{}: {reason}", sweep.describe(row.index))));
+            }
+        }
+        if self.shown.len() < MOST_SHOWN {
+            self.shown.push(row);
+        }
+    }
 }

@@ -2,7 +2,7 @@
 //! table and picture. Several processes may write into it at the same time.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use fem::results::{HISTORY_FILE, PROGRAM, SUMMARY_FILE};
@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::hidden_folder::sweep_leftovers;
 use crate::occupant::missing_parents;
 use crate::standard_output::one_line;
-use crate::whole_file::{PREFIX, write_whole};
+use crate::whole_file::{PREFIX, write_streamed};
 
 /// What the sweep is: its keys and the members' values and folders.
 pub const MARK_FILE: &str = "sweep.json";
@@ -28,11 +28,14 @@ pub struct SweepFolder {
 }
 
 impl SweepFolder {
-    /// Takes a new or empty folder or that of an earlier sweep, and writes `mark` into it.
+    /// Takes a new or empty folder or that of an earlier sweep, and writes what `mark` writes into it.
     ///
     /// # Errors
     /// A place that cannot be written, or that holds something else.
-    pub fn claim(out: &Path, mark: &str) -> Result<Self, Failure> {
+    pub fn claim(
+        out: &Path,
+        mark: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<Self, Failure> {
         let named = one_line(&out.display().to_string());
         let refuse = |found: &str| {
             Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
@@ -73,9 +76,9 @@ impl SweepFolder {
     }
 
     /// The mark comes first: a folder without it is not taken for a sweep's.
-    fn prepare(&self, mark: &str) -> io::Result<()> {
+    fn prepare(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         fs::create_dir_all(&self.path)?;
-        self.write(MARK_FILE, mark.as_bytes())?;
+        self.write(MARK_FILE, mark)?;
         fs::create_dir_all(self.path.join(MEMBERS))
     }
 
@@ -107,8 +110,12 @@ impl SweepFolder {
     ///
     /// # Errors
     /// The file system.
-    pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
-        write_whole(&self.path.join(name), &self.path, bytes)
+    pub fn write(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        write_streamed(&self.path.join(name), &self.path, write)
     }
 
     /// Removes a file that is out of date, if it is there.

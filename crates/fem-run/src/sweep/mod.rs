@@ -11,14 +11,21 @@
 //! Table and picture are made from the members' folders alone, by whoever finishes one: the same
 //! bytes whatever the order.
 
+mod axis_numbers;
 mod board;
+mod checking;
 mod collect;
 mod folder;
+mod mark;
 mod picture;
 mod picture_data;
+mod picture_points;
 mod runner;
 
-pub use collect::collect;
+pub use axis_numbers::AxisNumbers;
+pub use checking::Checking;
+pub use collect::{Collected, Collector};
 pub use folder::SweepFolder;
+pub use mark::Mark;
 pub use picture_data::Choice;
 pub use runner::{Job, run_members};

@@ -1,11 +1,12 @@
 //! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside.
 
-use fem::sweep::{Row, column_unit, column_words};
+use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
 use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve as Line, GREY};
 
 use super::picture_data::{Choice, Curve, axis_unit, curves};
+use super::picture_points::PicturePoint;
 
 /// Hertz in the legend.
 const HERTZ: &str = "Hertz";
@@ -15,12 +16,12 @@ const LONGEST_LEGEND: usize = 14;
 const LOGARITHMIC_FROM: f64 = 10.0;
 
 /// The picture, or none if there is nothing to draw.
-pub fn picture(sweep: &Sweep, rows: &[Row], choice: &Choice) -> Option<String> {
+pub fn picture(sweep: &Sweep, points: &[PicturePoint], choice: &Choice) -> Option<String> {
     let x = choice.x.as_ref()?;
-    let panel = |column: &&'static str| {
-        chart(sweep, x.axis, column, &curves(sweep, rows, choice, x, column))
+    let panel = |(k, column): (usize, &&'static str)| {
+        chart(sweep, x.axis, column, &curves(sweep, points, choice, x, k))
     };
-    fem_figure::svg(&choice.y.iter().map(panel).collect::<Vec<_>>())
+    fem_figure::svg(&choice.y.iter().enumerate().map(panel).collect::<Vec<_>>())
 }
 
 fn chart(sweep: &Sweep, x: usize, column: &str, curves: &[Curve]) -> Chart {

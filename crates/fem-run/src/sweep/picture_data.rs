@@ -1,8 +1,10 @@
 //! What the picture of a sweep shows: which columns against which key, and the curves.
 
-use fem::sweep::{COLUMNS, Member, Row};
-use fem_case::{CaseError, CaseFile, Combine, Sweep, parse_quantity};
-use serde_json::Value;
+use fem::sweep::COLUMNS;
+use fem_case::{CaseError, Combine, Sweep, parse_quantity};
+
+use super::axis_numbers::AxisNumbers;
+use super::picture_points::PicturePoint;
 
 /// Panels unless the sweep file names others.
 const DEFAULT_COLUMNS: [&str; 4] =
@@ -50,16 +52,8 @@ pub struct Choice {
 pub struct Horizontal {
     /// Which.
     pub axis: usize,
-    /// Its value in each member, SI.
+    /// Its values, SI.
     pub values: Vec<f64>,
-}
-
-impl Horizontal {
-    /// The axis, if its values are numbers.
-    fn of(sweep: &Sweep, axis: usize, members: &[Member]) -> Option<Self> {
-        let values = members.iter().map(|member| number(sweep, axis, &member.case));
-        Some(Self { axis, values: values.collect::<Option<_>>()? })
-    }
 }
 
 impl Choice {
@@ -67,7 +61,7 @@ impl Choice {
     ///
     /// # Errors
     /// Keys that are not varied, a horizontal key whose values are not numbers, unknown columns.
-    pub fn of(sweep: &Sweep, members: &[Member]) -> Result<Self, CaseError> {
+    pub fn of(sweep: &Sweep, numbers: &AxisNumbers) -> Result<Self, CaseError> {
         let keys: Vec<&str> = sweep.axes.iter().map(|axis| axis.key.as_str()).collect();
         let find = |place: &str, key: &str| {
             keys.iter().position(|known| *known == key).ok_or_else(|| {
@@ -75,7 +69,7 @@ impl Choice {
                 error.with_help(format!("the varied keys are {}", keys.join(", ")))
             })
         };
-        let horizontal = |axis: usize| Horizontal::of(sweep, axis, members);
+        let horizontal = |axis: usize| Some(Horizontal { axis, values: numbers.of_axis(axis)? });
         let x = match &sweep.plot.x {
             Some(key) => {
                 let axis = find("plot.x", key)?;
@@ -128,30 +122,26 @@ pub struct Curve {
     pub hertz: Vec<(f64, f64)>,
 }
 
-/// One curve of `column` a series, complete members only. Curves come in the order of the sweep.
+/// One curve a series of the panel that `panel` counts. Curves come in the order of the sweep.
 pub fn curves(
     sweep: &Sweep,
-    rows: &[Row],
+    points: &[PicturePoint],
     choice: &Choice,
     x: &Horizontal,
-    column: &str,
+    panel: usize,
 ) -> Vec<Curve> {
-    let hertz_column = format!("hertz_{column}");
-    let has_hertz = COLUMNS.contains(&hertz_column);
     let mut curves: Vec<Curve> = Vec::new();
-    for row in rows.iter().filter(|row| row.is_complete()) {
-        let label = label(sweep, row.index, choice, x.axis);
+    for point in points {
+        let label = label(sweep, point.index, choice, x.axis);
         let known = curves.iter().position(|curve| curve.label == label);
         let place = known.unwrap_or_else(|| {
             curves.push(Curve { label, points: Vec::new(), hertz: Vec::new() });
             curves.len() - 1
         });
-        let x = x.values[row.index];
-        let y = |column: &str| row.value(column).as_f64();
-        curves[place].points.extend(y(column).map(|y| (x, y)));
-        if has_hertz {
-            curves[place].hertz.extend(y(&hertz_column).map(|y| (x, y)));
-        }
+        let x = x.values[sweep.choice(point.index)[x.axis]];
+        let [own, hertz] = point.values[panel];
+        curves[place].points.extend(own.map(|y| (x, y)));
+        curves[place].hertz.extend(hertz.map(|y| (x, y)));
     }
     for curve in &mut curves {
         curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -173,18 +163,6 @@ fn label(sweep: &Sweep, member: usize, choice: &Choice, x: usize) -> String {
         format!("{} {}", name.replace('_', " "), values[axis])
     });
     parts.collect::<Vec<_>>().join(", ")
-}
-
-/// The value of a varied key in a resolved case, SI.
-fn number(sweep: &Sweep, axis: usize, case: &CaseFile) -> Option<f64> {
-    let mut value = &serde_json::to_value(case).ok()?;
-    for part in sweep.axes[axis].parts() {
-        value = match value {
-            Value::Array(array) => array.get(part.parse::<usize>().ok()?)?,
-            table => table.get(part)?,
-        };
-    }
-    value.as_f64()
 }
 
 /// The SI unit of a varied key: that of its values, or that of the key if all are bare numbers.

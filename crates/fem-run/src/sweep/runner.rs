@@ -1,6 +1,5 @@
 //! Runs the members of a sweep and puts their results into its folder.
 
-use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -9,7 +8,7 @@ use fem::sweep::{Member, Observer, Ran, Runner};
 use fem::{CaseError, Shared};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
-use rayon::ThreadPoolBuilder;
+use rayon::ThreadPool;
 
 use super::board::{Board, MemberWatch};
 use super::folder::SweepFolder;
@@ -27,8 +26,8 @@ pub struct Job<'a> {
     pub members: &'a [Member],
     /// Where results go.
     pub folder: &'a SweepFolder,
-    /// Threads; as many as the machine has if none.
-    pub threads: Option<NonZeroUsize>,
+    /// Threads that they run on.
+    pub pool: &'a ThreadPool,
     /// Show no progress.
     pub quiet: bool,
     /// Whether the user wants the sweep to end.
@@ -39,18 +38,14 @@ pub struct Job<'a> {
 /// An interrupted member leaves nothing.
 ///
 /// # Errors
-/// A result that cannot be written, or no threads. The other members end early.
-pub fn run_members(job: &Job<'_>, left: &[&Member]) -> Result<(), Failure> {
-    let threads = job.threads.map_or(0, NonZeroUsize::get);
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-    let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
+/// A result that cannot be written. The other members end early.
+pub fn run_members(job: &Job<'_>, left: &[usize]) -> Result<(), Failure> {
     let board = Board::new(job.interrupt.clone(), left.len(), job.quiet);
     let keeper = Keeper { job, board: &board, first_failure: Mutex::new(None) };
     let shared = Shared::default();
     let runner = Runner::new(job.sweep, &shared);
     let runner = if job.sweep.keep == Keep::Summary { runner.without_fields() } else { runner };
-    let order: Vec<usize> = left.iter().map(|member| member.index).collect();
-    pool.install(|| runner.run(&order, &keeper, drop));
+    job.pool.install(|| runner.run_all(left, &keeper));
     board.finish();
     keeper.first_failure.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
@@ -70,7 +65,7 @@ impl<'a> Observer for Keeper<'a> {
             return false;
         }
         let Job { sweep, members, folder, .. } = self.job;
-        let is_done = folder.has(&members[index].identity, sweep.keep);
+        let is_done = folder.has(&members[index].identity(), sweep.keep);
         if is_done {
             self.board.finish_member(&format!("{}: done elsewhere", sweep.describe(index)));
         }
@@ -107,7 +102,7 @@ impl<'a> Observer for Keeper<'a> {
 impl Keeper<'_> {
     fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
         let Job { sweep, members, folder, .. } = self.job;
-        let stem = &members[index].identity;
+        let stem = &members[index].identity();
         let out = folder.member(stem);
         let place = ResultFolder::claim_swept(&out, &longest_name(stem), Replaces::Any)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;

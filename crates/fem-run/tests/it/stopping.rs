@@ -1,5 +1,7 @@
 //! Runs that do not end by themselves.
 
+use std::path::Path;
+
 use crate::common::{FAILS, Place};
 
 #[test]
@@ -23,6 +25,17 @@ fn a_run_that_fails_says_why_and_keeps_what_it_has() {
     assert!(warnings.contains("not complete"), "{warnings}");
     let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
     assert!(history.lines().count() > 3);
+    // The last sound state, in the collection and as a picture.
+    let files = summary["files"].as_array().unwrap();
+    for ending in ["_last-sound.vtu", "_last-sound.svg"] {
+        let of = |file: &&serde_json::Value| file.as_str().unwrap().ends_with(ending);
+        let name = files.iter().find(of).unwrap_or_else(|| panic!("{ending}: {files:?}"));
+        let text =
+            String::from_utf8(place.read(Path::new("runs/case").join(name.as_str().unwrap())));
+        assert!(!text.unwrap().contains("NaN"), "{ending}");
+    }
+    let collection = String::from_utf8(place.read("runs/case/case.pvd")).unwrap();
+    assert!(collection.contains("_last-sound.vtu"), "{collection}");
 }
 
 #[cfg(unix)]

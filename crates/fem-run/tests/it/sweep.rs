@@ -71,8 +71,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     for (key, value) in alone.as_object().unwrap() {
         match key.as_str() {
             "cost" | "case" | "bodies" | "effects" | "files" | "program" | "version"
-            | "numerics" | "made_from" | "models_considered" | "uncertainty"
-            | "elastic_null" => {}
+            | "numerics" | "made_from" | "models_considered" | "uncertainty" | "elastic_null" => {}
             "bounces" | "rest" => assert!(value.is_null(), "{key} without gravity"),
             "warnings" => check(key.clone(), &value.as_array().unwrap().len().into()),
             "hertz" | "energy" => value
@@ -94,6 +93,23 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     for expected in ["[m/s]", "contact time [µs]", "Hertz", "weight 0.5"] {
         assert!(svg.contains(expected), "{expected}");
     }
+}
+
+/// `--dry-run` says what is to run, of a sweep that has begun too, and writes nothing.
+#[test]
+fn a_dry_run_counts_and_writes_nothing() {
+    let place = place(SWEEP);
+    let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run"]);
+    assert!(ran.stderr.contains("6 members; 0 done before, 6 to run"), "{}", ran.stderr);
+    assert_eq!(place.list("."), ["case.toml", "sweep.toml"]);
+    place.succeed(&["sweep", "sweep.toml", "--shard", "1/3", "--quiet"]);
+    let table = place.read("runs/sweep/sweep.csv");
+    let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run"]);
+    assert!(ran.stderr.contains("6 members; 2 done before, 4 to run"), "{}", ran.stderr);
+    assert_eq!(place.read("runs/sweep/sweep.csv"), table);
+    // A member that is refused is refused here.
+    place.write("sweep.toml", "case = 'case.toml'\n[vary]\nbody.0.approach_speed = [0.3, -1.0]\n");
+    assert_eq!(place.run(&["sweep", "sweep.toml", "--dry-run"]).code, Some(2));
 }
 
 #[test]

@@ -30,9 +30,15 @@ fn stdout_carries_the_result_and_stderr_the_rest() {
 #[test]
 fn a_coarse_mesh_is_warned_of() {
     let place = Place::new();
-    place.succeed(&["case.toml", "--out", "out"]);
+    let ran = place.succeed(&["case.toml", "--out", "out"]);
+    // Before the run as of the contact that is expected, after it as of the one that came.
+    assert!(
+        ran.stderr.contains("warning: the mesh is too coarse under the contact"),
+        "{}",
+        ran.stderr
+    );
     let warnings = place.json("out/summary.json")["warnings"].to_string();
-    assert!(warnings.contains("the mesh is too coarse"), "{warnings}");
+    assert!(warnings.contains("whose radius spans 2.2 elements"), "{warnings}");
 }
 
 #[test]

@@ -183,7 +183,7 @@ fn compute(
     let explicit = levels(&[Setting::Explicit], &EXPLICIT)?;
     let judge = |settings: &[Setting], has_inertia: bool| {
         let (simulation, collision) = run(settings, TRIED)?;
-        let bars = UncertaintySummary::from(&simulation.uncertainty(&collision));
+        let bars = simulation.summary(&collision).uncertainty;
         let numbers = Headline::ALL.into_iter().filter_map(|headline| {
             let pick = |levels: &[(f64, Numbers)]| -> Vec<(f64, f64)> {
                 let level =

@@ -15,6 +15,7 @@ use crate::effects::{
     SECOND_ORDER, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
+use crate::flow::widest_contact;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
 
@@ -315,7 +316,7 @@ impl Candidate {
             return Some("has no fields to draw".to_string());
         }
         let size = self.is_first_order.then(|| scene.finite_size().ok()).flatten()?;
-        size.check(estimate.hertz.max_contact_radius()).err().map(|error| error.to_string())
+        size.check(widest_contact(scene, estimate)).err().map(|error| error.to_string())
     }
 }
 

@@ -31,6 +31,7 @@ use crate::estimate::{Estimate, mach};
 use crate::memory::Memory;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::plan::{Plan, candidate_radius};
+use crate::quieter::Quieter;
 use crate::refusal::Refusal;
 
 /// Growth of the searched region when the contact leaves it.
@@ -118,11 +119,8 @@ impl Explicit {
             speed_share: plan.speed_share,
             inputs: inputs(scene, &plan)?,
         };
-        let frame =
-            made.own_frame(&approach).map_err(|error| Refusal::new("body", error.to_string()))?;
-        let bodies = made
-            .bodies(frame.own(), plan.candidate_radius)
-            .map_err(|error| Refusal::new("body", error.to_string()))?;
+        let frame = made.own_frame(&approach).map_err(refused)?;
+        let bodies = made.bodies(frame.own(), plan.candidate_radius).map_err(refused)?;
         let cost = cost(scene, &bodies, &plan)?;
         let decisions =
             decide(scene, &plan.estimate, |effect| has(effect, scene, &plan.estimate, &bodies))?;
@@ -135,7 +133,7 @@ impl Explicit {
             unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
             cost,
             elements: Some(ElementSetup {
-                finer_steps: quieter(plan.contact_method),
+                quieter: Quieter::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
             }),
@@ -313,6 +311,18 @@ impl Course for ExplicitCourse {
     }
 }
 
+/// Bodies that cannot be made of a scene.
+fn refused(error: ModelError) -> Refusal {
+    let refusal = Refusal::new("body", error.to_string());
+    match error {
+        ModelError::NoStep { .. } => refusal.with_help(
+            "check material.NAME.youngs_modulus, material.NAME.density and body.N.sphere.diameter, and \
+             their units",
+        ),
+        _ => refusal,
+    }
+}
+
 /// What effects of the scene put into the step, beside stress and contact, of bodies that meet at this
 /// speed (m/s) in the whole scene.
 fn parts(
@@ -358,14 +368,6 @@ fn settings(plan: &Plan) -> Settings {
         candidate_radius: plan.candidate_radius,
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
-    }
-}
-
-/// What helps against a contact that rattles or gains energy.
-fn quieter(planned: fem_case::ContactMethod) -> &'static str {
-    match planned {
-        fem_case::ContactMethod::Massless => "lower time.step_factor",
-        _ => "write contact.method = \"massless\"",
     }
 }
 

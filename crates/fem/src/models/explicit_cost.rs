@@ -37,7 +37,7 @@ pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, R
     let memory = explicit_memory(scene, plan, elements, branches);
     check_elements(scene, plan, elements)?;
     check_memory(scene, plan, elements, memory)?;
-    check_updates(scene, plan, steps as u64, elements, element_updates)?;
+    check_updates(scene, plan, steps, elements)?;
     Ok(Cost::Steps {
         elements,
         nodes,

@@ -8,6 +8,7 @@ use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::effects::PartnerWaves;
 use crate::estimate::Estimate;
+use crate::flow;
 use crate::large_partner::radiating_impact;
 use crate::method::{Method, Model, Shared};
 use crate::quasi_static::ting_of;
@@ -98,6 +99,7 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
         return Err(Refusal::chose_another(scene, "ting"));
     };
     let estimate = Estimate::checked(scene)?;
+    flow::check(scene, &estimate)?;
     let ting = motion(scene, &estimate, true, finite_size, tolerance)?;
     let motion = Box::new(WithWaves { ting, scene: scene.clone(), finite_size, tolerance });
     let traits = Traits {
@@ -134,7 +136,7 @@ pub(super) fn motion(
     let refuse = |error: LawError| refused(scene, &error);
     let size = finite_size.then(|| scene.finite_size()).transpose().map_err(refuse)?;
     if let Some(size) = &size {
-        size.check(estimate.hertz.max_contact_radius()).map_err(|error| {
+        size.check(flow::widest_contact(scene, estimate)).map_err(|error| {
             Refusal::new(format!("{}.finite_size", scene.model().path()), error.to_string())
                 .with_help("write finite_size = false, or use model fem")
         })?;

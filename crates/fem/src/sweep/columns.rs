@@ -50,26 +50,41 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
 
 /// The columns of a table of these summaries, as JSON: all but those of energies that none of them
 /// knows of.
-pub fn columns<'s>(
-    summaries: impl IntoIterator<Item = &'s Value, IntoIter: Clone>,
-) -> Vec<&'static str> {
-    columns_shown(summaries.into_iter(), Account::shown)
+pub fn columns<'s>(summaries: impl IntoIterator<Item = &'s Value>) -> Vec<&'static str> {
+    let mut columns = Columns::default();
+    summaries.into_iter().for_each(|summary| columns.see(summary));
+    columns.names()
 }
 
-fn columns_shown<'s>(
-    summaries: impl Iterator<Item = &'s Value> + Clone,
-    shown: fn(Account) -> Shown,
-) -> Vec<&'static str> {
-    let is_absent = |account: Account| {
-        let key = energy_key(account);
-        shown(account) == Shown::WhereFilled
-            && summaries.clone().all(|summary| summary["energy"].get(&key).is_none())
-    };
-    let absent: Vec<String> = Account::all()
-        .filter(|account| is_absent(*account))
-        .map(|account| column_of(&energy_key(account)))
-        .collect();
-    COLUMNS.iter().filter(|column| !absent.contains(column)).map(String::as_str).collect()
+/// As [`columns`], of summaries that are seen one after the other.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    /// Keys of the energies that no summary has had so far, of those that are shown where there are any.
+    absent: Vec<String>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self::shown(Account::shown)
+    }
+}
+
+impl Columns {
+    fn shown(shown: fn(Account) -> Shown) -> Self {
+        let optional = Account::all().filter(|account| shown(*account) == Shown::WhereFilled);
+        Self { absent: optional.map(energy_key).collect() }
+    }
+
+    /// Takes the next summary, as JSON.
+    pub fn see(&mut self, summary: &Value) {
+        self.absent.retain(|key| summary["energy"].get(key).is_none());
+    }
+
+    /// The columns of a table of what was seen.
+    pub fn names(&self) -> Vec<&'static str> {
+        let absent: Vec<String> = self.absent.iter().map(|key| column_of(key)).collect();
+        COLUMNS.iter().filter(|column| !absent.contains(column)).map(String::as_str).collect()
+    }
 }
 
 /// The column of a key of the summary's energies.
@@ -126,7 +141,11 @@ mod tests {
     fn an_energy_that_no_row_knows_of_has_no_column() {
         let off = json!({ "energy": { "kinetic_j": 1.0 } });
         let on = json!({ "energy": { "kinetic_j": 1.0, "contact_j": 0.5 } });
-        let shown = |summaries: &[Value]| columns_shown(summaries.iter(), made_up);
+        let shown = |summaries: &[Value]| {
+            let mut columns = Columns::shown(made_up);
+            summaries.iter().for_each(|summary| columns.see(summary));
+            columns.names()
+        };
         let has = |summaries: &[Value]| shown(summaries).contains(&"energy_contact_j");
         let both = [off, on];
         assert!(!has(&[]) && !has(&both[..1]) && has(&both));

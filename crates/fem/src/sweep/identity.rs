@@ -2,18 +2,15 @@
 
 use fem_case::{Case, CaseError, CaseFile};
 
-use super::members::Members;
-use crate::identity::identified;
+use crate::identity::{identified, name_of};
 
-/// A member of a sweep, resolved.
-#[derive(Clone, Debug)]
+/// A member of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Member {
     /// Its place in the sweep.
     pub index: usize,
-    /// See [`Identity::result`](crate::Identity::result).
-    pub identity: String,
-    /// The resolved case.
-    pub case: CaseFile,
+    /// What it is known by, as a number.
+    pub(super) digest: u64,
 }
 
 impl Member {
@@ -22,16 +19,31 @@ impl Member {
     /// # Errors
     /// What the case's method refuses before it makes anything; a mesh file that cannot be read.
     pub fn of(index: usize, case: &Case) -> Result<Self, CaseError> {
-        let (identity, case) = identified(case)?;
-        Ok(Self { index, identity: identity.result, case })
+        Ok(Self::resolved(index, case)?.0)
+    }
+
+    /// With the resolved case.
+    ///
+    /// # Errors
+    /// As [`Member::of`].
+    pub(super) fn resolved(index: usize, case: &Case) -> Result<(Self, CaseFile), CaseError> {
+        let (digest, case) = identified(case)?;
+        Ok((Self { index, digest }, case))
+    }
+
+    /// See [`Identity::result`](crate::Identity::result).
+    pub fn identity(&self) -> String {
+        name_of(self.digest)
     }
 }
 
-/// All members, in order.
-///
-/// # Errors
-/// The first member that is no valid case.
-pub fn identify(members: &(impl Members + ?Sized)) -> Result<Vec<Member>, CaseError> {
-    let member = |index| members.build(index, |case| Member::of(index, &case));
-    (0..members.n_members()).map(member).collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sweep keeps one of each of a million members.
+    #[test]
+    fn a_member_is_two_numbers() {
+        assert_eq!(size_of::<Member>(), 16);
+    }
 }

@@ -1,17 +1,17 @@
 //! Sweeps: many cases that differ in a few keys, computed side by side.
 //!
 //! ```text
-//! Members ──────── Member ──── left_to_do ──── Runner ─────────────── Row
-//! a sweep file's,  identity,   dearest first   one, or many on all    a Summary's columns,
-//! Variations in    resolved                    threads; Observer      sweep.csv
-//! code             case                        looks on, ends them
+//! Members ──────── check ─────────── Runner ─────────────── Row
+//! a sweep file's,  a Member each,    one, or many on all    a Summary's columns,
+//! Variations in    who is left,      threads; Observer      sweep.csv
+//! code             dearest first     looks on, ends them
 //! ```
 //!
 //! [`sweep()`] is all of it for a case and values in code. A member is a place in a source of
-//! [`Members`] and the case that the source makes there; [`Runner::run_one`] runs one, for whoever
+//! [`Members`] and what is known of the case that the source makes there; [`Runner::run_one`] runs one, for whoever
 //! has workers of their own, and [`Runner::run`] runs many. Nothing here reads a clock or prints.
 
-mod advice;
+mod check;
 mod columns;
 mod identity;
 mod in_code;
@@ -24,13 +24,13 @@ mod runner;
 mod table;
 mod variations;
 
-pub use advice::advice;
-pub use columns::{COLUMNS, column_unit, column_words, columns};
-pub use identity::{Member, identify};
+pub use check::{Checked, check};
+pub use columns::{COLUMNS, Columns, column_unit, column_words, columns};
+pub use identity::Member;
 pub use in_code::sweep;
 pub use members::Members;
 pub use observer::{Observer, Ran};
-pub use order::{dearest_first, left_to_do};
+pub use order::dearest_first;
 pub use row::Row;
 pub use runner::Runner;
 #[cfg(feature = "files")]

@@ -27,7 +27,7 @@ impl Row {
         summary: Value,
     ) -> Self {
         let values = values.into_iter().map(|value| value.to_string()).collect();
-        Self { index: member.index, values, identity: member.identity.clone(), summary }
+        Self { index: member.index, values, identity: member.identity(), summary }
     }
 
     /// A row of a summary as it comes out of a run.

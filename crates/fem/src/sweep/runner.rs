@@ -55,18 +55,26 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         observer: &impl Observer,
         keep: impl Fn(Ran) -> T + Sync,
     ) -> Vec<(usize, Result<T, CaseError>)> {
-        let run = |&index: &usize| {
-            if !observer.admits(index) {
-                return None;
-            }
-            let mut watch = observer.begin(index);
-            let ran = self.run_one(index, &mut watch);
-            observer.end(index, watch, ran.as_ref());
-            Some((index, ran.map(&keep)))
-        };
+        let run = |&index: &usize| Some((index, self.observed(index, observer)?.map(&keep)));
         // A bridge hands members out one by one, in order.
         let mut kept: Vec<_> = order.iter().par_bridge().filter_map(run).collect();
         kept.sort_by_key(|(index, _)| *index);
         kept
+    }
+
+    /// As [`Runner::run`], of members that `observer` alone keeps.
+    pub fn run_all(&self, order: &[usize], observer: &impl Observer) {
+        let run = |&index: &usize| drop(self.observed(index, observer));
+        order.iter().par_bridge().for_each(run);
+    }
+
+    /// Runs a member that `observer` admits.
+    fn observed(&self, index: usize, observer: &impl Observer) -> Option<Result<Ran, CaseError>> {
+        observer.admits(index).then(|| {
+            let mut watch = observer.begin(index);
+            let ran = self.run_one(index, &mut watch);
+            observer.end(index, watch, ran.as_ref());
+            ran
+        })
     }
 }

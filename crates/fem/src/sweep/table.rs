@@ -4,24 +4,23 @@ use std::io::Write;
 
 use serde_json::Value;
 
-use super::columns::columns;
 use super::row::Row;
 
 /// The name of the file.
 pub const SWEEP_FILE: &str = "sweep.csv";
 
-/// Writes a table, a row a member; numbers are the shortest that read back as the same, a cell
-/// without a value is empty.
+/// Writes a table of these columns, a row a member; numbers are the shortest that read back as the same,
+/// a cell without a value is empty. A row is let go when it is written.
 ///
 /// # Errors
 /// `to` cannot be written to.
 pub fn sweep_csv<'k>(
     to: impl Write,
     keys: impl IntoIterator<Item = &'k str>,
-    rows: &[Row],
+    columns: &[&'k str],
+    rows: impl IntoIterator<Item = Row>,
 ) -> csv::Result<()> {
     let mut file = csv::Writer::from_writer(to);
-    let columns = columns(rows.iter().map(|row| &row.summary));
     file.write_record(keys.into_iter().chain(columns.iter().copied()).chain(["member"]))?;
     for row in rows {
         let cells = columns.iter().map(|column| cell(&row.value(column)));

@@ -16,6 +16,7 @@ mod finite_strain;
 mod folded_terms;
 mod front_door;
 mod gravity;
+mod guards;
 mod half_space;
 mod laws;
 mod left_out;

@@ -57,3 +57,14 @@ fn masses_that_are_no_numbers_are_refused() {
         }
     }
 }
+
+/// So does a stiffness whose waves pass an element in no time, and one whose run has more steps than any
+/// number of them.
+#[test]
+fn a_time_step_that_is_no_number_is_refused_with_what_to_check() {
+    let message =
+        refused("fem", &["material.glass.youngs_modulus=1e300", "material.glass.density=1e-6"]);
+    assert!(message.contains("explicit elements would need a time step of"), "{message}");
+    let message = refused("fem", &["material.glass.youngs_modulus=1e200"]);
+    assert!(message.contains("element updates") && !message.contains("18446744"), "{message}");
+}

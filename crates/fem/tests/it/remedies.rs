@@ -16,7 +16,8 @@ fn stops() -> Vec<Stop> {
         Stop::ContactBeyondCandidates { time, step, radius: 1e-3 },
         Stop::SurfaceTurnsOver { time, step, radius: 1e-3 },
         Stop::ContactTooLarge { ratio: 0.9 },
-        Stop::EnergyGrowth { time, step, ratio: 2.0 },
+        Stop::EnergyGrowth { time, step, ratio: 2.0, body: 0, node: 3, place: [1e-3; 2] },
+        Stop::NoNumber { time, step, body: 0, node: 3, place: [1e-3; 2] },
         Stop::ElementCollapsed {
             time,
             step,
@@ -45,6 +46,7 @@ fn stops() -> Vec<Stop> {
             | Stop::SurfaceTurnsOver { .. }
             | Stop::ContactTooLarge { .. }
             | Stop::EnergyGrowth { .. }
+            | Stop::NoNumber { .. }
             | Stop::ElementCollapsed { .. }
             | Stop::NoStepShortEnough { .. }
             | Stop::EnergyImbalance { .. }

@@ -8,8 +8,8 @@ use fem::schema::{
     ActsOn, BodyTable, CondensedTable, LimitsTable, MaterialTable, MeshTable, ModelTable, TermTable,
 };
 use fem::sweep::{
-    COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, advice, column_unit,
-    column_words, columns, dearest_first, identify, left_to_do, sweep_csv,
+    COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, check, column_unit,
+    column_words, columns, dearest_first, sweep_csv,
 };
 use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
 use fem_case::Sweep;
@@ -85,12 +85,14 @@ fn members_of_a_file_are_those_of_code() {
     let code = Variations::of(&case, SPEEDS, set_speed);
     let cases = SPEEDS.map(|speed| case.edited(|file| set_speed(file, speed)).unwrap());
 
-    let identities = |members: Vec<Member>| -> Vec<String> {
-        members.into_iter().map(|member| member.identity).collect()
-    };
-    let expected = identities(identify(&code).unwrap());
-    assert_eq!(identities(identify(&file).unwrap()), expected);
-    assert_eq!(identities(identify(&cases[..]).unwrap()), expected);
+    fn identities(members: &(impl Members + ?Sized)) -> Vec<String> {
+        let checked = check(members, |_| false, |_| false, |_, _| ()).unwrap();
+        assert!(checked.left.is_empty(), "none is this process's own");
+        checked.members.iter().map(Member::identity).collect()
+    }
+    let expected = identities(&code);
+    assert_eq!(identities(&file), expected);
+    assert_eq!(identities(&cases[..]), expected);
     assert_ne!(expected[0], expected[1]);
 
     fn histories(members: &(impl Members + ?Sized)) -> Vec<Vec<fem::Row>> {
@@ -109,7 +111,7 @@ fn members_of_a_file_are_those_of_code() {
 #[test]
 fn a_member_is_known_by_what_it_computes() {
     let case = pair(ModelTable::condensed());
-    let identity = |case: &Case| Member::of(0, case).unwrap().identity;
+    let identity = |case: &Case| Member::of(0, case).unwrap().identity();
     let edited = |change: fn(&mut CaseFile)| identity(&case.edited(change).unwrap());
     let own = identity(&case);
     assert_eq!(own.len(), 16);
@@ -136,17 +138,31 @@ fn the_dearest_are_left_to_do_first_each_once() {
         file.model = Some(model);
     });
     assert_eq!(dearest_first(&members), [2, 1, 0, 3]);
-    let own = identify(&members).unwrap();
-    assert_eq!(own[0].identity, own[3].identity);
-    let left = |is_done: fn(&Member) -> bool| -> Vec<usize> {
-        let left = left_to_do(&members, &own, is_done).unwrap();
-        left.into_iter().map(|member| member.index).collect()
-    };
-    assert_eq!(left(|_| false), [2, 1, 0]);
-    assert_eq!(left(|member| member.index == 2), [1, 0]);
+    let mut seen = Vec::new();
+    let mut see = |member: &Member, _: &CaseFile| seen.push(*member);
+    let all = check(&members, |_| true, |_| false, &mut see).unwrap();
+    assert_eq!(all.members, seen, "seen in order");
+    assert_eq!(seen.iter().map(|member| member.index).collect::<Vec<_>>(), [0, 1, 2, 3]);
+    assert_eq!(seen[0].identity(), seen[3].identity());
+    assert_eq!(all.left, [2, 1, 0]);
+    let rest = check(&members, |_| true, |member| member.index == 2, |_, _| ()).unwrap();
+    assert_eq!(rest.left, [1, 0]);
     // A shard.
-    let half = left_to_do(&members, own.iter().skip(1).step_by(2), |_| false).unwrap();
-    assert_eq!(half.into_iter().map(|member| member.index).collect::<Vec<_>>(), [1, 3]);
+    let half = check(&members, |index| index % 2 == 1, |_| false, |_, _| ()).unwrap();
+    assert_eq!((half.members.len(), half.left), (4, vec![1, 3]));
+}
+
+/// The first fault in the order of the sweep is told, however many members are looked at at once; those of
+/// others may be unable to run, but are cases.
+#[test]
+fn the_first_fault_of_many_members_is_told() {
+    let case = pair(ModelTable::ting());
+    let speeds = (0..300).map(|k| if k == 70 || k == 200 { -f64::from(k) } else { 0.1 });
+    let members = Variations::of(&case, speeds, set_speed);
+    for is_own in [true, false] {
+        let error = check(&members, |_| is_own, |_| false, |_, _| ()).unwrap_err();
+        assert!(error.message().contains("-70"), "{}", error.message());
+    }
 }
 
 #[test]
@@ -155,9 +171,11 @@ fn condensed_members_with_meshes_of_their_own_are_told_of() {
     let open = condensed.edited(|file| file.mesh = None).unwrap();
     for (case, is_told) in [(&condensed, false), (&open, true)] {
         let members = Variations::of(case, SPEEDS, set_speed);
-        let own = identify(&members).unwrap();
-        let left: Vec<&Member> = own.iter().collect();
-        assert_eq!(advice(&members, &left).unwrap().is_some(), is_told);
+        let checked = check(&members, |_| true, |_| false, |_, _| ()).unwrap();
+        assert_eq!(checked.advice.is_some(), is_told);
+        // Not of members that are done.
+        let done = check(&members, |_| true, |_| true, |_, _| ()).unwrap();
+        assert_eq!(done.advice, None);
     }
 }
 
@@ -267,19 +285,19 @@ fn rows_are_summaries() {
     assert_eq!(row.value("warnings").as_u64(), Some(summary.warnings.len() as u64));
     assert!(row.value("element_updates").is_null());
 
+    let shown = columns(&[serde_json::to_value(&summary).unwrap()]);
     let mut table = Vec::new();
-    sweep_csv(&mut table, ["speed"], &[row]).unwrap();
+    sweep_csv(&mut table, ["speed"], &shown, [row]).unwrap();
     let mut reader = csv::Reader::from_reader(table.as_slice());
     let header: Vec<String> = reader.headers().unwrap().iter().map(str::to_string).collect();
     assert_eq!(header[0], "speed");
-    let shown = columns(&[serde_json::to_value(&summary).unwrap()]);
     assert!(shown.len() < COLUMNS.len(), "no effect is on that has an account of its own");
     assert_eq!(header[1..=shown.len()], *shown);
     assert_eq!(header[shown.len() + 1..], ["member"]);
     let record = reader.records().next().unwrap().unwrap();
     assert_eq!(record[0], *"0.1");
     assert_eq!(record[1].parse().ok(), summary.collision.restitution);
-    assert_eq!(record[record.len() - 1], member.identity);
+    assert_eq!(record[record.len() - 1], member.identity());
 }
 
 #[test]

@@ -8,6 +8,10 @@ use fem_collision::STAY_TOGETHER;
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
 fn simulation(model: &str, acts_on: &str, weight: f64, time: &str) -> Simulation {
+    Simulation::new(case(model, acts_on, weight, time)).unwrap()
+}
+
+fn case(model: &str, acts_on: &str, weight: f64, time: &str) -> Case {
     let overrides = [
         format!("model.{model}={{}}"),
         "mesh.contact_element_size='0.2 mm'".to_string(),
@@ -17,8 +21,7 @@ fn simulation(model: &str, acts_on: &str, weight: f64, time: &str) -> Simulation
              relaxation_time='{time}'}}]}}"
         ),
     ];
-    let case = Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap();
-    Simulation::new(case).unwrap()
+    Case::parse("glass.toml", GLASS, Path::new("."), &overrides).unwrap()
 }
 
 #[test]
@@ -49,6 +52,45 @@ fn a_collision_without_an_end_is_complete() {
             }
         }
     }
+}
+
+/// The faster bodies relax the later they come to rest, whichever model computes them: here in up to three
+/// hundred elastic contact times. Where they would flow into each other all models refuse alike.
+#[test]
+fn bodies_that_flow_have_one_answer() {
+    for (acts_on, times) in
+        [("all", ["1 us", "0.2 us", "0.05 us"]), ("shear", ["3 us", "1 us", "0.2 us"])]
+    {
+        for time in times {
+            for model in ["ting", "condensed", "auto"] {
+                let simulation = simulation(model, acts_on, 1.0, time);
+                let collision = simulation.run(&mut ());
+                assert_eq!(collision.ending, Ending::Together, "{model} {acts_on} {time}");
+                assert_eq!(collision.restitution, Some(0.0), "{model} {acts_on} {time}");
+            }
+        }
+    }
+    for time in ["1 ns", "0.1 ns", "1e-6 ns"] {
+        let refused = ["ting", "condensed", "fem", "auto"].map(|model| {
+            let error = Simulation::new(case(model, "all", 1.0, time)).err();
+            error.unwrap_or_else(|| panic!("{model} {time}")).to_string()
+        });
+        assert!(refused[0].contains("flow into each other"), "{}", refused[0]);
+        assert!(refused.iter().all(|one| *one == refused[0]), "{refused:?}");
+    }
+    // Something that lasts makes soft bodies of them.
+    let soft = simulation("ting", "all", 0.9999, "1 ns").run(&mut ());
+    assert!(soft.restitution.unwrap() > 0.5, "{:?}", soft.restitution);
+}
+
+/// A run gives up when it has gone on far longer than is foretold of it.
+#[test]
+fn runs_wait_for_what_is_foretold() {
+    let elastic = simulation("condensed", "all", 1e-3, "1 ms");
+    assert_eq!(elastic.want().give_up_after, Want::GIVE_UP_AFTER);
+    let times = ["0.2 us", "0.05 us"].map(|time| simulation("condensed", "all", 1.0, time));
+    let [early, late] = times.each_ref().map(|simulation| simulation.want().give_up_after);
+    assert!(early > Want::GIVE_UP_AFTER && late > early, "{early} {late}");
 }
 
 /// The limit of a case is kept while the run goes, whatever was expected of it.

@@ -24,6 +24,7 @@ use crate::estimate::Estimate;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::pair_cache::PairKey;
 use crate::plan::Plan;
+use crate::quieter::Quieter;
 use crate::refusal::Refusal;
 
 /// Growth of the condensed region where the contact needs a larger one.
@@ -131,7 +132,7 @@ impl Condensed {
             cost: cost_of(&pair, options.steps),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
-                finer_steps: "raise model.condensed.steps",
+                quieter: Quieter::MoreSteps,
                 plan,
             }),
         };

@@ -41,11 +41,13 @@ pub(super) fn of_impact(
         max_contact_radius: has_radius.then_some(impact.max_contact_radius),
         peak_pressure: impact.peak_pressure,
         force_scatter: None,
+        noisiest: None,
         searched: None,
         initial_energy: Some(frame.kinetic(frame.speed())),
         energies: end.map_or(Book::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
         residual_relative: Some(instants().map(residual).fold(0.0, worst) / frame.initial()),
+        residual_since: None,
         momentum_residual_relative: None,
         bodies: [0, 1].map(|side: usize| BodyResult {
             mass: frame.masses[side],

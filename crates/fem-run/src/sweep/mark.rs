@@ -1,0 +1,88 @@
+//! `sweep.json`: which sweep a folder holds, and which member is where, written member by member.
+
+use std::io::{self, Write};
+
+use fem::results::PROGRAM;
+use fem::sweep::Member;
+use fem_case::Sweep;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// What is written.
+pub struct Mark<'a> {
+    /// The sweep.
+    pub sweep: &'a Sweep,
+    /// All members.
+    pub members: &'a [Member],
+    /// Overrides of the base case.
+    pub set: &'a [String],
+}
+
+impl Mark<'_> {
+    /// Writes it.
+    ///
+    /// # Errors
+    /// `to` cannot be written to.
+    pub fn write(&self, to: &mut dyn Write) -> io::Result<()> {
+        serde_json::to_writer_pretty(&mut *to, self)?;
+        to.write_all(b"\n")
+    }
+}
+
+impl Serialize for Mark<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { sweep, members, set } = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("program", PROGRAM)?;
+        map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
+        map.serialize_entry("case", &sweep.base_path().display().to_string())?;
+        map.serialize_entry("set", set)?;
+        map.serialize_entry("combine", sweep.combine.word())?;
+        map.serialize_entry("keep", sweep.keep.word())?;
+        map.serialize_entry("vary", &Lists(sweep))?;
+        map.serialize_entry("members", &List(sweep, members))?;
+        map.end()
+    }
+}
+
+/// The values of each key.
+struct Lists<'a>(&'a Sweep);
+
+impl Serialize for Lists<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.axes.iter().map(|axis| {
+            let values = axis.elements.iter().map(|element| element.text.as_str());
+            (&axis.key, values.collect::<Vec<_>>())
+        }))
+    }
+}
+
+/// The members.
+struct List<'a>(&'a Sweep, &'a [Member]);
+
+impl Serialize for List<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.1.iter().map(|member| Entry(self.0, member)))
+    }
+}
+
+/// A member: its identity and its values.
+struct Entry<'a>(&'a Sweep, &'a Member);
+
+impl Serialize for Entry<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(2))?;
+        map.serialize_entry("member", &self.1.identity())?;
+        map.serialize_entry("values", &Values(self.0, self.1.index))?;
+        map.end()
+    }
+}
+
+/// The values of a member.
+struct Values<'a>(&'a Sweep, usize);
+
+impl Serialize for Values<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let keys = self.0.axes.iter().map(|axis| &axis.key);
+        serializer.collect_map(keys.zip(self.0.values(self.1)))
+    }
+}

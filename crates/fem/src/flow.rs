@@ -1,0 +1,81 @@
+//! How far bodies come together that relax to little or nothing, before any model computes it.
+//!
+//! A body that flows is stopped by its viscosity alone, in a time and by a contact that elastic closed forms
+//! know nothing of: with βT = 10⁴ the contact grows to fourteen times that of the elastic bodies, in a
+//! thousand of their contact times. Ting's impact on half-spaces tells both within some per cent.
+//! Where the contact would be as wide as a sphere nearly, no model of small strain says anything, and none
+//! is asked: all models refuse alike.
+
+use fem_case::Scene;
+use fem_collision::Want;
+use fem_laws::Impact;
+
+use crate::approach::approach_of;
+use crate::duration::expected_duration;
+use crate::estimate::Estimate;
+use crate::quasi_static::ting_of;
+use crate::refusal::Refusal;
+
+/// Accuracy of the impact that tells.
+const TOLERANCE: f64 = 1e-3;
+/// Bodies that keep more than the rest of their moduli over the contact are stopped by them.
+const RELAXED: f64 = 0.5;
+/// Contact radius over that of the smallest sphere beyond which spheres that flow are no spheres.
+const WIDEST: f64 = 0.3;
+/// Contacts that relaxation has widened by less are as wide by the speed.
+const WIDENED: f64 = 3.0;
+/// Runs give up after so many times what is foretold.
+const PATIENCE: f64 = 3.0;
+
+/// The largest contact radius, m: Hertz' of the instantaneous moduli, or what relaxation makes of it.
+pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
+    let elastic = estimate.hertz.max_contact_radius();
+    impact(scene, estimate).map_or(elastic, |impact| impact.max_contact_radius.max(elastic))
+}
+
+/// Refuses bodies that flow into each other: nothing parts them again.
+///
+/// # Errors
+/// Blames the materials.
+pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Refusal> {
+    let Some(impact) = impact(scene, estimate) else { return Ok(()) };
+    let radius = impact.max_contact_radius;
+    let share = radius / estimate.smallest_radius;
+    let is_widened = radius > WIDENED * estimate.hertz.max_contact_radius();
+    if impact.contact_time.is_some() || share <= WIDEST || !is_widened {
+        return Ok(());
+    }
+    let found = format!(
+        "the bodies relax so fast that they flow into each other: the contact would grow to {share:.2} of the \
+         smallest radius, {:.0} times as wide as that of elastic bodies",
+        radius / estimate.hertz.max_contact_radius()
+    );
+    Err(Refusal::new("material", found).with_help(format!(
+        "at most {WIDEST} are allowed; check the relaxation times, decay rates and weights of \
+         material.NAME.relaxation and their units: weights whose sum is below 1 leave a lasting stiffness"
+    )))
+}
+
+/// So many times the elastic contact time a run of finite elements goes on before it gives up.
+pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
+    if !relaxes(scene, estimate) {
+        return Want::GIVE_UP_AFTER;
+    }
+    let duration = approach_of(scene).map(|met| expected_duration(scene, estimate, &met));
+    let contact_times = duration.unwrap_or(0.0) / estimate.hertz.contact_time();
+    Want::GIVE_UP_AFTER.max(PATIENCE * contact_times)
+}
+
+/// Whether relaxation decides how far the bodies come; beside gravity, that does.
+fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
+    estimate.relaxed > RELAXED && scene.gravity().is_none()
+}
+
+/// Ting's impact on half-spaces of bodies that relax; none of a scene that is beyond it.
+fn impact(scene: &Scene, estimate: &Estimate) -> Option<Impact> {
+    if !relaxes(scene, estimate) {
+        return None;
+    }
+    let ting = ting_of(scene, estimate.hertz.pair(), true, None).ok()?;
+    ting.with_tolerance(TOLERANCE).ok()?.impact(estimate.hertz.approach_speed()).ok()
+}

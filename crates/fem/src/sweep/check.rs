@@ -1,0 +1,113 @@
+//! Looks at every member before the first one runs: what it is known by, whether it could run, what is
+//! left to do and in which order.
+//!
+//! A member is made, looked at and let go, some at a time on all threads: what is kept of a sweep is two
+//! numbers a member.
+
+use std::cmp::Reverse;
+use std::collections::HashSet;
+
+use fem_case::schema::MeshTable;
+use fem_case::{Case, CaseError, CaseFile};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+use super::identity::Member;
+use super::members::Members;
+use crate::simulation::Simulation;
+
+/// Members that are made at the same time.
+const AT_ONCE: usize = 64;
+
+/// What is known of the members of a sweep before the first one runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checked {
+    /// All of them, in order.
+    pub members: Vec<Member>,
+    /// Places of those that are to run, each identity once, the dearest first: so that none of them is left
+    /// alone at the end.
+    pub left: Vec<usize>,
+    /// What would make it cheaper.
+    pub advice: Option<&'static str>,
+}
+
+/// A member that was made.
+struct Seen {
+    member: Member,
+    case: CaseFile,
+    /// Of one that is left to do.
+    price: Option<u64>,
+}
+
+/// Checks all members. To run are those that `is_own` and not `is_done`; `see` is told of each member in
+/// order.
+///
+/// # Errors
+/// The first member that is no valid case, or that is refused before its model is made.
+pub fn check(
+    members: &(impl Members + ?Sized),
+    is_own: impl Fn(usize) -> bool + Sync,
+    is_done: impl Fn(&Member) -> bool + Sync,
+    mut see: impl FnMut(&Member, &CaseFile),
+) -> Result<Checked, CaseError> {
+    let look = |index: usize, case: &Case| {
+        let (member, resolved) = Member::resolved(index, case)?;
+        let is_left = is_own(index) && !is_done(&member);
+        let price = is_left.then(|| Simulation::price(case)).transpose()?;
+        Ok(Seen { member, case: resolved, price })
+    };
+    let n = members.n_members();
+    let mut checked = Checked { members: Vec::with_capacity(n), ..Checked::default() };
+    let (mut known, mut prices, mut meshes) = (HashSet::new(), Vec::new(), Meshes::default());
+    for first in (0..n).step_by(AT_ONCE) {
+        let some = (first..n.min(first + AT_ONCE)).into_par_iter();
+        let made = some.map(|index| members.build(index, |case| look(index, &case)));
+        let made: Vec<Result<Seen, CaseError>> = made.collect();
+        for seen in made {
+            let Seen { member, case, price } = seen?;
+            see(&member, &case);
+            checked.members.push(member);
+            if let Some(price) = price
+                && known.insert(member.digest)
+            {
+                prices.push((Reverse(price), member.index));
+                meshes.see(member.index, &case);
+            }
+        }
+    }
+    prices.sort_unstable();
+    checked.left = prices.into_iter().map(|(_, index)| index).collect();
+    checked.advice = meshes.advice(members)?;
+    Ok(checked)
+}
+
+/// Whether condensed members have meshes of their own: one that a case leaves open goes by the contact that
+/// is expected, another one for each speed.
+#[derive(Default)]
+struct Meshes {
+    first: Option<Option<MeshTable>>,
+    /// The first member with another mesh.
+    other: Option<usize>,
+}
+
+impl Meshes {
+    fn see(&mut self, index: usize, case: &CaseFile) {
+        let is_condensed = case.model.as_ref().is_some_and(|model| model.condensed.is_some());
+        if !is_condensed || self.other.is_some() {
+            return;
+        }
+        if *self.first.get_or_insert_with(|| case.mesh.clone()) != case.mesh {
+            self.other = Some(index);
+        }
+    }
+
+    fn advice(&self, members: &(impl Members + ?Sized)) -> Result<Option<&'static str>, CaseError> {
+        let Some(other) = self.other else { return Ok(None) };
+        let case = members.case(other)?;
+        let mesh = case.scene().mesh();
+        let is_open = mesh.contact_element_size.is_none() || mesh.refined_radius.is_none();
+        Ok(is_open.then_some(
+            "members have meshes of their own; give mesh.contact_element_size and \
+             mesh.refined_radius, and those of equal bodies share one factor",
+        ))
+    }
+}
