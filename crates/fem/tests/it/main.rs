@@ -1,5 +1,6 @@
 //! The library from outside, in one program: linked once, its tests run side by side.
 
+mod any_scene;
 mod approaches;
 mod auto;
 mod bouncing_courses;
