@@ -22,7 +22,7 @@ static ALLOCATOR: bounds::Counting = bounds::Counting;
 
 /// Of the whole process, beyond what the targets hold, bytes.
 const MEMORY: i64 = 1_500_000_000;
-const LONGEST: Duration = Duration::from_secs(60);
+const LONGEST: Duration = Duration::from_secs(120);
 /// Findings that are shown of each target.
 const SHOWN: usize = 20;
 

@@ -45,6 +45,7 @@ mod remedy;
 mod resolution;
 pub mod results;
 mod simulation;
+mod soft_springs;
 mod stress;
 pub mod sweep;
 

@@ -97,7 +97,7 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     if !is_cheap {
         return Ok(Taken::Accepted);
     }
-    let mut patience = Patience(50);
+    let mut patience = Patience(2);
     let collision = simulation.run(&mut patience);
     for warning in simulation.warnings(&collision) {
         refused(&warning)?;
