@@ -190,7 +190,8 @@ impl Ting {
         };
         let Some(damping) = self.radiation_damping else { return run(&contact) };
         let (value, limit) = (share_of_damping(&hertz, damping), Self::MAX_RADIATED_SHARE);
-        if value > limit && !self.has_coarse_waves {
+        // A share that is no number is none that is small.
+        if !(value <= limit || self.has_coarse_waves) {
             let quantity = "radiated energy / energy of approach";
             return Err(LawError::OutsideValidity { quantity, value, limit });
         }

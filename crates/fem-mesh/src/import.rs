@@ -1,6 +1,6 @@
 //! A sphere's mesh from foreign nodes and quads.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::error::MeshError;
 use crate::quality::Quality;
@@ -31,6 +31,11 @@ impl SphereMesh {
         }
         check_indices(&nodes, &quads)?;
         orient(&nodes, &mut quads);
+        if let Some([first, second]) = at_one_place(&nodes) {
+            return Err(MeshError::Import(format!(
+                "nodes {first} and {second} are at one place; elements that touch have their nodes in common"
+            )));
+        }
         let boundary = boundary_loop(nodes.len(), &quads)?;
         let tolerance = POSITION_TOLERANCE * radius;
         let centre = centre_of(&nodes, &boundary, radius, tolerance)?;
@@ -92,7 +97,9 @@ fn boundary_loop(n_nodes: usize, quads: &[[u32; 4]]) -> Result<Vec<u32>, MeshErr
             *edges.entry((quad[a], quad[(a + 1) % 4])).or_default() += 1;
         }
     }
-    if let Some((&(a, b), _)) = edges.iter().find(|(_, count)| **count > 1) {
+    // The first, whatever the order of the map.
+    let twice = edges.iter().filter(|(_, count)| **count > 1).map(|(edge, _)| edge).min();
+    if let Some((a, b)) = twice {
         return Err(MeshError::Import(format!(
             "the edge between nodes {a} and {b} has two elements on the same side"
         )));
@@ -120,10 +127,26 @@ fn boundary_loop(n_nodes: usize, quads: &[[u32; 4]]) -> Result<Vec<u32>, MeshErr
         }
     }
     if nodes.len() == n_edges && node == start && n_edges > 0 {
-        Ok(nodes)
-    } else {
-        Err(MeshError::Import("the boundary is not one closed curve".into()))
+        return Ok(nodes);
     }
+    let on_it: HashSet<u32> = nodes.into_iter().collect();
+    let other = (0..n_nodes as u32).find(|k| next[*k as usize] != u32::MAX && !on_it.contains(k));
+    Err(MeshError::Import(match other {
+        Some(other) => format!(
+            "the boundary is not one closed curve: node {other} is on another than node {start}"
+        ),
+        None => "the boundary is not one closed curve".into(),
+    }))
+}
+
+/// Two nodes at the same place, to the bit.
+fn at_one_place(nodes: &[[f64; 2]]) -> Option<[usize; 2]> {
+    let mut known = HashMap::new();
+    nodes.iter().enumerate().find_map(|(k, &[r, y])| {
+        // −0 is 0.
+        let place = [r + 0.0, y + 0.0].map(f64::to_bits);
+        known.insert(place, k).map(|first| [first, k])
+    })
 }
 
 /// The centre's y, found from the extent of the boundary.

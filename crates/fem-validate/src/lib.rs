@@ -9,7 +9,7 @@
 //! A [`Claim`] is data: the cases, and for each quantity a reference with its source and a
 //! tolerance with its reason. How quantities are measured is code: the claim names one of the
 //! [`studies`](study_names). A [`Laboratory`] runs cases on all cores, each once.
-//! [`evaluate`] makes a [`ClaimResult`] of a claim; [`page`] and [`markdown`] show many.
+//! [`evaluate`] makes a [`ClaimResult`] of a claim; [`page`], [`markdown`] and [`hard_scenes`] show many.
 
 mod check;
 mod claim;
@@ -35,7 +35,7 @@ pub use error::{ClaimError, StudyError};
 pub use evaluate::{ClaimResult, evaluate};
 pub use findings::{Figure, Findings, Table};
 pub use laboratory::{Laboratory, Observer};
-pub use markdown::{markdown, pictures};
+pub use markdown::{hard_scenes, has_hard_scenes, markdown, pictures};
 pub use page::page;
 pub use price::Price;
 pub use pulse::Pulse;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::claim::Section;
+use crate::claim::{Claim, Section};
 use crate::evaluate::ClaimResult;
 use crate::findings::Figure;
 
@@ -19,7 +19,7 @@ fn pictures_of(result: &ClaimResult) -> impl Iterator<Item = (String, &Figure)> 
     result.findings.figures.iter().map(move |figure| (name(figure), figure))
 }
 
-/// A Markdown page: a table a section, a row a check, the hard scenes, and the figures. It says nothing that changes from run to
+/// A Markdown page: a table a section, a row a check, and the figures. It says nothing that changes from run to
 /// run on the same program: no times, no machine.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
@@ -47,7 +47,6 @@ pub fn markdown(results: &[ClaimResult]) -> String {
             rows(&mut text, result);
         }
     }
-    hard_scenes(&mut text, results);
     for (heading, is_paper) in [("The paper's figures", true), ("Other figures", false)] {
         let of = |result: &&ClaimResult| (result.claim.section == Section::Paper) == is_paper;
         let mut figures = results.iter().filter(of).flat_map(pictures_of).peekable();
@@ -63,13 +62,27 @@ pub fn markdown(results: &[ClaimResult]) -> String {
     text
 }
 
-/// Every hard scene with every model, an axis a table.
-fn hard_scenes(text: &mut String, results: &[ClaimResult]) {
-    let hard = results.iter().filter(|result| result.claim.study == HARD);
-    let mut tables = hard.flat_map(|result| &result.findings.tables).peekable();
-    if tables.peek().is_some() {
-        *text += "\n## Hard scenes\n";
-    }
+/// Whether the page on hard scenes shows a claim.
+pub fn has_hard_scenes(claim: &Claim) -> bool {
+    claim.study == HARD
+}
+
+/// A Markdown page of every hard scene with every model, an axis a table.
+pub fn hard_scenes(results: &[ClaimResult]) -> String {
+    let hard = results.iter().filter(|result| has_hard_scenes(&result.claim));
+    let tables = hard.flat_map(|result| &result.findings.tables);
+    let mut text = String::from(
+        "<!-- Written by `fem-run validate hard --scenes docs/hard-cases.md`; not by hand. -->\n\
+         # Hard scenes\n\n\
+         From one extreme to the other of every axis, with every model: the right answer, or why there is \
+         none. What each scene is made of, is held against and has to say stands in \
+         [validation/hard](../validation/hard/claim.toml); the claim holds all of it.\n\n\
+         *Δe*, *ΔT/T* and *ΔF/F* are what a run is off its reference, where it has one. *Growth* is the most that \
+         the bodies hold at any instant above what they had and were given, over what they had; *momentum* its \
+         largest drift over what went in; *cost* element updates over those that were announced. Of a ball that \
+         bounces e is the product of all. *Warns* is what a user is told beside the result, *refused* what \
+         in place of one; both are cut short here.\n",
+    );
     for table in tables {
         let rule = vec!["---"; table.header.len()].join("|");
         let header = table.header.join(" | ");
@@ -79,6 +92,7 @@ fn hard_scenes(text: &mut String, results: &[ClaimResult]) {
             let _ = writeln!(text, "| {} |", cells.join(" | "));
         }
     }
+    text
 }
 
 fn rows(text: &mut String, result: &ClaimResult) {

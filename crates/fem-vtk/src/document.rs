@@ -25,7 +25,15 @@ impl Fault {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Self {
-        Self { place: place.into(), found: found.into(), allowed: allowed.into() }
+        Self { place: tame(place.into()), found: tame(found.into()), allowed: allowed.into() }
+    }
+}
+
+/// A file may hold anything; a terminal must not obey it.
+pub(crate) fn tame(text: String) -> String {
+    match text.contains(char::is_control) {
+        true => text.replace(char::is_control, "\u{fffd}"),
+        false => text,
     }
 }
 

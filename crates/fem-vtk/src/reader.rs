@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::decode::{decode, place};
-use crate::document::{ArrayEntry, Document, Fault};
+use crate::document::{ArrayEntry, Document, Fault, tame};
 use crate::error::Error;
 use crate::grid::VTK_QUAD;
 use crate::section::Section;
@@ -270,7 +270,7 @@ impl VtuFile {
                     path: self.path.clone(),
                     section: section.name(),
                     name: name.to_owned(),
-                    available,
+                    available: tame(available),
                 }
             },
         )

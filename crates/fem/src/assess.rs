@@ -123,10 +123,12 @@ impl<'a> Run<'a> {
         Some(Self { collision, plan, meshes, has_springs, quieter })
     }
 
-    /// Whether the meshes can carry the contact as wide as it came.
+    /// Whether the meshes can carry the contact as wide as it came. One of the poles alone has no width; it is
+    /// as wide as was expected.
     fn meshes(&self, simulation: &Simulation) -> Option<String> {
         let radius = self.collision.max_contact_radius.filter(|_| self.collision.is_complete())?;
-        simulation.resolution_warning(radius)
+        let expected = simulation.setup().estimate.contact_radius;
+        simulation.resolution_warning(if radius > 0.0 { radius } else { expected })
     }
 
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty

@@ -47,6 +47,7 @@ mod remedy;
 mod resolution;
 pub mod results;
 mod simulation;
+mod soft_springs;
 mod stress;
 pub mod sweep;
 mod uncertainty;

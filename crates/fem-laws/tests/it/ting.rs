@@ -1,7 +1,9 @@
 //! Viscoelastic impact: published references, an independent integration, limits, robustness.
 
 use crate::direct::{Direct, direct};
-use fem_laws::{HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, Ting};
+use fem_laws::{
+    Face, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, SurfaceSlip, Ting,
+};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
 fn glass(acts_on: ActsOn, terms: &[(f64, f64)]) -> Material {
@@ -213,5 +215,20 @@ fn impossible_data_are_refused() {
     for value in [0.0, -1.0, f64::INFINITY] {
         let refused = LawError::NotPositive { quantity: "approach_speed", value };
         assert_eq!(ting(&material).impact(value), Err(refused));
+    }
+}
+
+/// A step that shrinks to none ends at once, and not after all the steps that a collision may take: where
+/// surfaces slip by more than the contact has, nothing is solved.
+#[test]
+fn a_step_that_gets_nowhere_is_the_last() {
+    let glass = glass(ActsOn::Shear, &[(0.15, 2708.0)]);
+    let face = |material| Face::new(1.0 / 7.95e-3, material);
+    let ting = ting(&glass).with_surface_slip(SurfaceSlip::new([face(Some(&glass)), face(None)]));
+    for speed in [1e12, 1e15, 1e18] {
+        match ting.impact(speed) {
+            Err(LawError::NotFinished { n_steps, .. }) => assert!(n_steps < 2_000, "{n_steps}"),
+            other => panic!("{speed}: {other:?}"),
+        }
     }
 }

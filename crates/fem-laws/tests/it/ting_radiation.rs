@@ -76,6 +76,17 @@ fn coarse_waves_are_good_enough_for_a_forecast() {
     }
 }
 
+/// A share that overflows is none that is small.
+#[test]
+fn a_share_that_is_no_number_is_beyond_the_limit() {
+    let material = elastic();
+    let waves = on_block(&material, &material).1.with_radiation([&material]).unwrap();
+    for speed in [1e100, 1e150, 1e200] {
+        let found = waves.impact(speed);
+        assert!(matches!(found, Err(LawError::OutsideValidity { .. })), "{speed}: {found:?}");
+    }
+}
+
 /// Explicit finite elements of a ball of 10 mm on spheres so large that no wave comes back within the
 /// contact (T c_s/D = 0.3 to 0.9).
 #[test]

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem_validate::{
-    Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, load_claims, markdown, pictures,
+    Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, hard_scenes, has_hard_scenes,
+    load_claims, markdown, pictures,
 };
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
@@ -40,6 +41,9 @@ pub struct Arguments {
     /// beside it; for all claims only
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
+    /// Also write the hard scenes as Markdown; with the claim that has them
+    #[arg(long, value_name = "FILE")]
+    scenes: Option<PathBuf>,
     /// Threads to use [default: one a processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     threads: Option<NonZeroUsize>,
@@ -64,6 +68,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.table.is_some() && !arguments.names.is_empty() {
         return Err(Failure::bad_input("--table is for all claims: leave the names out"));
     }
+    if arguments.scenes.is_some() && !claims.iter().any(has_hard_scenes) {
+        return Err(Failure::bad_input("--scenes: no claim that is named has hard scenes")
+            .with_help("name the claim: fem-run validate hard --scenes FILE"));
+    }
     let replaces = Replaces::only(MADE_FROM, arguments.force);
     let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp", replaces)?;
     let interrupt = Interrupt::listen();
@@ -73,6 +81,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let place = folder.publish(true)?;
     if let Some(path) = arguments.table.as_ref().filter(|_| is_complete) {
         write_table(path, &results)?;
+    }
+    if let Some(path) = arguments.scenes.as_ref().filter(|_| is_complete) {
+        write_text(path, &hard_scenes(&results))?;
     }
     if !arguments.quiet {
         standard_output::print(&report(&results, &place))?;
@@ -120,16 +131,17 @@ fn run(
 
 /// The Markdown table, and its pictures beside it.
 fn write_table(path: &Path, results: &[ClaimResult]) -> Result<(), Failure> {
-    let write = |path: &Path, text: &str| {
-        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-        made.and_then(|()| fs::write(path, text))
-            .map_err(|error| Failure::failed(format!("{}: {error}", path.display())))
-    };
-    write(path, &markdown(results))?;
+    write_text(path, &markdown(results))?;
     for (name, figure) in pictures(results) {
-        write(&path.with_file_name(name), &figure.svg)?;
+        write_text(&path.with_file_name(name), &figure.svg)?;
     }
     Ok(())
+}
+
+fn write_text(path: &Path, text: &str) -> Result<(), Failure> {
+    let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+    made.and_then(|()| fs::write(path, text))
+        .map_err(|error| Failure::failed(format!("{}: {error}", path.display())))
 }
 
 fn listing(claims: &[Claim]) -> String {

@@ -6,8 +6,10 @@ use std::fs;
 use crate::pages::{Page, root};
 
 /// Folders at the top that a path may begin with; any other path begins in `crates/`.
-const TOP: [&str; 7] =
-    ["crates/", ".ci/", "cases/", "docs/", "meshes/", "validation/", "clippy.toml"];
+const TOP: [&str; 8] =
+    ["crates/", ".ci/", "cases/", "docs/", "fuzz/", "meshes/", "validation/", "clippy.toml"];
+/// A crate that is not in `crates/`, and where it is.
+const APART: (&str, &str) = ("fem-fuzz", "fuzz");
 /// What a path stands for that is no file of the repository.
 const PLACEHOLDERS: [&str; 5] = ["NAME", "CASE", "<", "*", "…"];
 /// What defines an item.
@@ -37,8 +39,11 @@ impl<'a> Pointer<'a> {
 
     fn fault(&self) -> Option<String> {
         let is_top = TOP.iter().any(|folder| self.path.starts_with(folder));
-        let place =
-            if is_top { root().join(self.path) } else { root().join("crates").join(self.path) };
+        let place = match (is_top, self.path == APART.0) {
+            (true, _) => root().join(self.path),
+            (_, true) => root().join(APART.1),
+            _ => root().join("crates").join(self.path),
+        };
         if !place.exists() {
             return Some(format!("there is no {}", self.path));
         }

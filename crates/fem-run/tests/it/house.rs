@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Every crate, what it is (the `description` of its manifest), and the crates that it stands on.
 /// A crate comes after those that it stands on.
-const HOUSE: [(&str, &str, &[&str]); 15] = [
+const HOUSE: [(&str, &str, &[&str]); 16] = [
     (
         "fem-material",
         "Isotropic viscoelastic materials: elastic moduli, Prony relaxation, hyperelastic laws",
@@ -108,6 +108,11 @@ const HOUSE: [(&str, &str, &[&str]); 15] = [
             "fem-validate",
             "fem-vtk",
         ],
+    ),
+    (
+        "fem-fuzz",
+        "Hostile inputs for everything that reads: cases, meshes, tables, restart files, sweeps, the command",
+        &["fem", "fem-case", "fem-mesh", "fem-vtk"],
     ),
 ];
 

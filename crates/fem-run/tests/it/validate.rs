@@ -117,6 +117,7 @@ fn bad_claims_are_refused_before_anything_runs() {
         (&["validate", "yours"][..], "there is no claim `yours`; the claims are mine"),
         (&["validate", "--claims", "nowhere"], "nowhere"),
         (&["validate", "mine", "--table", "t.md"], "--table"),
+        (&["validate", "mine", "--scenes", "t.md"], "no claim that is named has hard scenes"),
     ] {
         let ran = place.run(arguments);
         assert_eq!(ran.code, Some(2), "{}", ran.stderr);

@@ -206,3 +206,20 @@ fn broken_base64_and_offsets() {
     refuse(&close("_12345678").replace("</VTKFile>", ""), "truncated");
     refuse(&close("_12345678").replace("</AppendedData>", ""), "truncated");
 }
+
+/// What a message quotes of a file a terminal does not obey.
+#[test]
+fn control_characters_are_not_quoted() {
+    let strange = ["\u{1b}[2J", "\u{7f}", "\u{9b}31m"];
+    let sound = ascii(POINTS, "0 1 2 3", "4", "9");
+    for word in
+        ["VTKFile type", "/DataArray", "\"offsets\"", "Float64", "NumberOfCells=\"1", "0 1 2 3"]
+    {
+        for strange in strange {
+            let said = message(&sound.replacen(word, &format!("{strange}{word}"), 1));
+            assert!(!said.contains(char::is_control), "{said:?}");
+        }
+    }
+    let said = message(&sound.replacen("\"offsets\"", "\"off\u{1b}sets\"", 1));
+    assert!(said.contains("it has: connectivity, off\u{fffd}sets, types"), "{said:?}");
+}

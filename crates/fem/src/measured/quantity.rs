@@ -101,6 +101,10 @@ pub fn parse_measured(kind: Kind, text: &str) -> Result<Measured, NotMeasured> {
     if uncertainty < 0.0 {
         return Err(NotMeasured::NegativeUncertainty);
     }
+    // Of a share; a quantity is never one.
+    if !uncertainty.is_finite() {
+        return Err(wrong(kind, text));
+    }
     Ok(Measured { value, uncertainty })
 }
 
@@ -160,6 +164,8 @@ mod tests {
             (Kind::Length, "20 cm ± -1 mm"),
             (Kind::Length, ""),
             (Kind::Mass, "3 %"),
+            (Kind::Mass, "2 kg ± nan %"),
+            (Kind::Mass, "1e300 kg ± 1e300 %"),
             (Kind::Angle, "30"),
             (Kind::Angle, "30 cm"),
             (Kind::Angle, "30 cm deg"),

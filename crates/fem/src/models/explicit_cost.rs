@@ -11,6 +11,7 @@ use crate::limits::{check_elements, check_memory, check_updates, explicit_memory
 use crate::method::Cost;
 use crate::plan::Plan;
 use crate::refusal::Refusal;
+use crate::soft_springs::lengthening;
 
 /// Seconds of an update of an element on one core of 3 GHz, as docs/effects.md has them: at small
 /// strain, ...
@@ -31,7 +32,7 @@ pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, R
     let branches: u64 = (model.bodies().iter().zip(scene.bodies()))
         .map(|(body, named)| body.n_elements() as u64 * n_branches(named))
         .sum();
-    let duration = expected_duration(scene, &plan.estimate, model.approach());
+    let duration = expected_duration(scene, &plan.estimate, model.approach()) * lengthening(plan);
     let steps = (duration / model.time_step()).ceil();
     let element_updates = (steps * elements as f64) as u64;
     let memory = explicit_memory(scene, plan, elements, branches);

@@ -1,6 +1,7 @@
 //! The library from outside, in one program: linked once, its tests run side by side.
 
 mod accuracy;
+mod any_scene;
 mod approaches;
 mod auto;
 mod bouncing_courses;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use super::imported::Imported;
 use crate::error::StudyError;
 
 /// Scenes from one extreme to the other.
@@ -32,6 +33,9 @@ pub(super) struct Scene {
     /// Overrides, after those of the axis.
     #[serde(default)]
     pub set: Vec<String>,
+    /// Mesh files of its bodies.
+    #[serde(default)]
+    pub imported: Vec<Imported>,
     /// What its numbers are held against.
     pub against: Option<Against>,
     /// By the model's table: `ting = {}`, `condensed = { vibration_modes = 12 }`.
@@ -63,6 +67,8 @@ pub(super) struct Expected {
     /// What its warnings contain.
     #[serde(default)]
     pub says: Vec<String>,
+    /// Energy (of what the bodies had) that it may gain, and then has to say so; else none may.
+    pub gains: Option<f64>,
     /// What the message contains with which it is refused or stopped.
     pub refuses: Option<String>,
     /// Whether it takes milliseconds.

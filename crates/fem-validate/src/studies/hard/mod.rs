@@ -2,16 +2,23 @@
 //! takes the scene.
 //!
 //! An axis is a file beside the claim, [`Axis`]. Of every run the invariants are measured, over all runs
-//! as `growth`, `momentum`, `excess` and `no_number` ([`Trial`]). `AXIS.difference` is the worst of
+//! as `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy has to
+//! say so. `endurance.flight` and `endurance.vibration` are of one body ([`endurance`]). `AXIS.difference` is the worst of
 //! what a run is off its reference, over the tolerance that its scene states; `AXIS.unexpected` counts
 //! the runs that ended otherwise than the scene says, or did not say what it asks for.
 
 mod axis;
+mod endurance;
+mod imported;
 mod random;
 mod reference;
 pub(in crate::studies) mod scenes;
+mod seen;
 mod trial;
 
+use std::path::Path;
+
+use fem_case::CaseError;
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -22,7 +29,9 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 use axis::{Axis, Expected, Scene};
+use endurance::endure;
 use reference::Reference;
+use seen::Now;
 use trial::{Outcome, Trial};
 
 #[derive(Deserialize)]
@@ -42,6 +51,9 @@ struct Entry<'a> {
     model: &'a str,
     expected: &'a Expected,
 }
+
+/// Steps of a body that flies and rings.
+const ENDURANCE: usize = 1_000_000;
 
 /// What came of an entry, and of what it is held against.
 struct Tried {
@@ -64,31 +76,70 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         })
         .filter(|entry| !parameters.quick || entry.expected.quick)
         .collect();
-    let tried = entries.par_iter().map(|entry| entry.run(laboratory, &axes[entry.axis]));
+    let folder = tempfile::tempdir().map_err(|error| StudyError::parameters(error.to_string()))?;
+    let tried =
+        entries.par_iter().map(|entry| entry.run(laboratory, &axes[entry.axis], folder.path()));
     let tried = tried.collect::<Result<Vec<_>, _>>()?;
     let mut findings = Findings::new();
+    let n_steps = if parameters.quick { ENDURANCE / 100 } else { ENDURANCE };
+    let [flight, vibration] = laboratory.work(|| endure(n_steps))?;
+    findings.measure("endurance.flight", flight);
+    findings.measure("endurance.vibration", vibration);
     findings.measure("runs", tried.len() as f64);
+    let now = entries.iter().zip(&tried).map(|(entry, tried)| {
+        let axis = parameters.axes[entry.axis].clone();
+        let row = entry.row(tried, folder.path());
+        Now {
+            key: [axis, entry.scene.name.clone(), entry.model.to_string()],
+            restitution: row[3].clone(),
+            outcome: row[9].clone(),
+        }
+    });
+    let now: Vec<Now> = now.collect();
+    seen::tabulate(&laboratory.claim().folder, &now, parameters.quick, &mut findings)?;
     for (name, (axis, file)) in parameters.axes.iter().zip(axes.iter().enumerate()) {
         let own = || entries.iter().zip(&tried).filter(|(entry, _)| entry.axis == axis);
         findings.measure(format!("{name}.unexpected"), 0.0);
         findings.measure(format!("{name}.difference"), 0.0);
         for (entry, tried) in own() {
-            entry.measure(tried, name, &mut findings);
+            entry.measure(tried, name, &mut findings)?;
         }
-        let rows = own().map(|(entry, tried)| entry.row(tried));
+        let rows = own().map(|(entry, tried)| entry.row(tried, folder.path()));
         findings.tabulate(file.hard.clone(), HEADER, rows);
     }
     Ok(findings)
 }
 
-const HEADER: [&str; 9] =
-    ["scene", "what is hard", "model", "e", "Δe", "ΔT/T", "ΔF/F", "growth, momentum", "outcome"];
+const HEADER: [&str; 10] = [
+    "scene",
+    "what is hard",
+    "model",
+    "e",
+    "Δe",
+    "ΔT/T",
+    "ΔF/F",
+    "growth, momentum",
+    "cost / announced",
+    "outcome",
+];
 
 impl Entry<'_> {
-    fn run(&self, laboratory: &Laboratory, axis: &Axis) -> Result<Tried, StudyError> {
+    fn run(
+        &self,
+        laboratory: &Laboratory,
+        axis: &Axis,
+        folder: &Path,
+    ) -> Result<Tried, StudyError> {
         let case = |scene: &Scene, model: &str| {
             let mut set = axis.set.clone();
             set.extend(scene.set.iter().cloned());
+            for (k, imported) in scene.imported.iter().enumerate() {
+                // A file of its own for each run: others are read meanwhile.
+                let run = [&self.scene.name, self.model, &scene.name, model].map(str::as_bytes);
+                let name = format!("{}_{k}", &fem::digest_of(run)[..16]);
+                let written = imported.write(folder, &name);
+                set.push(written.map_err(|error| CaseError::new(name, error.to_string()))?);
+            }
             set.push(format!("model={{{model}}}"));
             laboratory.claim().load_case(&RunFile { case: axis.case.clone(), set })
         };
@@ -119,7 +170,17 @@ impl Entry<'_> {
         }))
     }
 
-    fn measure(&self, tried: &Tried, axis: &str, findings: &mut Findings) {
+    fn measure(
+        &self,
+        tried: &Tried,
+        axis: &str,
+        findings: &mut Findings,
+    ) -> Result<(), StudyError> {
+        if self.expected.gains.is_some() && self.expected.says.is_empty() {
+            let silent = format!("`{}` may gain energy and need not say so", self.scene.name);
+            return Err(StudyError::parameters(silent));
+        }
+
         if !self.is_as_expected(tried) {
             *findings.quantities.entry(format!("{axis}.unexpected")).or_default() += 1.0;
         }
@@ -127,16 +188,22 @@ impl Entry<'_> {
             findings.measure_worst(&format!("{axis}.difference"), share);
         }
         let trial = &tried.trial;
+        if let (Some(most), Some(growth)) = (self.expected.gains, trial.growth()) {
+            findings.measure_worst(&format!("{axis}.difference"), growth / most);
+        }
+        let gains = self.expected.gains.is_some();
         for (quantity, value) in [
-            ("growth", trial.growth()),
+            ("growth", trial.growth().filter(|_| !gains)),
             ("momentum", trial.momentum()),
-            ("excess", trial.excess()),
+            ("excess", trial.excess().filter(|_| !gains)),
             ("no_number", trial.no_number()),
+            ("cost", trial.cost().map(|share| share.max(share.recip()))),
         ] {
             if let Some(value) = value {
                 findings.measure_worst(quantity, value);
             }
         }
+        Ok(())
     }
 
     /// Whether the run ended as the scene says, and said what it should.
@@ -152,7 +219,7 @@ impl Entry<'_> {
         }
     }
 
-    fn row(&self, tried: &Tried) -> [String; 9] {
+    fn row(&self, tried: &Tried, folder: &Path) -> [String; 10] {
         let trial = &tried.trial;
         let number =
             |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.1e}"));
@@ -169,7 +236,8 @@ impl Entry<'_> {
             time,
             force,
             invariants,
-            format!("{verdict}{}", trial.words()),
+            trial.cost().map_or(String::new(), |share| format!("{share:.2}")),
+            format!("{verdict}{}", trial.words(folder)),
         ]
     }
 }

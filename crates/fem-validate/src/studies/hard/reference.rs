@@ -29,7 +29,13 @@ impl Reference {
     ) -> Result<Self, StudyError> {
         let run = |scene: &Scene, model: &str| {
             let trial = Trial::of(laboratory, case(scene, model))?;
-            let none = || format!("no reference for `{}`: {}", scene.name, trial.words());
+            let none = || {
+                format!(
+                    "no reference for `{}`: {}",
+                    scene.name,
+                    trial.words(laboratory.claim().folder.as_path())
+                )
+            };
             trial.numbers().map(Self).ok_or_else(|| StudyError::parameters(none()))
         };
         match against {

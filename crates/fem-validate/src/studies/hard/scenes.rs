@@ -25,6 +25,15 @@ impl Random {
         from + (to - from) * self.next()
     }
 
+    /// The numbers below `n`, shuffled (Fisher & Yates).
+    pub fn order(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        for k in (1..n).rev() {
+            order.swap(k, (self.next() * (k + 1) as f64) as usize);
+        }
+        order
+    }
+
     /// Ten to the power of what lies between.
     fn decades(&mut self, from: f64, to: f64) -> f64 {
         10f64.powf(self.within(from, to))

@@ -1,6 +1,8 @@
 //! What came of a hard scene with a model, and the invariants of a collision.
 
-use fem::Simulation;
+use std::path::{MAIN_SEPARATOR, Path};
+
+use fem::{Cost, Simulation};
 use fem_case::{Case, CaseError};
 use fem_collision::{Collision, Row, Side};
 use fem_laws::HertzImpact;
@@ -11,6 +13,8 @@ use crate::laboratory::Laboratory;
 /// A run, or why there is none.
 pub(super) struct Trial {
     pub outcome: Outcome,
+    /// Element updates that were announced, those of explicit elements.
+    announced: Option<u64>,
 }
 
 /// How a run ended.
@@ -21,7 +25,7 @@ pub(super) enum Outcome {
     Refused(String),
 }
 
-/// Restitution; contact time and peak force over Hertz'.
+/// Restitution, of a ball that bounces the product of all; contact time and peak force over Hertz'.
 pub(super) type Numbers = [Option<f64>; 3];
 
 impl Trial {
@@ -31,15 +35,19 @@ impl Trial {
     /// An interrupt.
     pub fn of(laboratory: &Laboratory, case: Result<Case, CaseError>) -> Result<Self, StudyError> {
         let outcome = laboratory.work(|| {
-            let outcome =
-                case.and_then(run).unwrap_or_else(|error| Outcome::Refused(error.to_string()));
-            let updates = match &outcome {
-                Outcome::Ran { collision, .. } => collision.element_updates.unwrap_or(0),
-                Outcome::Refused(_) => 0,
-            };
-            Ok((outcome, updates))
+            let refused = |error: CaseError| (Outcome::Refused(error.to_string()), None);
+            let (outcome, announced) = case.and_then(run).unwrap_or_else(refused);
+            let trial = Self { outcome, announced };
+            let updates = trial.collision().and_then(|collision| collision.element_updates);
+            Ok((trial, updates.unwrap_or(0)))
         })?;
-        Ok(Self { outcome })
+        Ok(outcome)
+    }
+
+    /// Element updates over those that were announced, of a run that ended by itself.
+    pub fn cost(&self) -> Option<f64> {
+        let collision = self.collision().filter(|collision| collision.bounces.is_empty())?;
+        Some(collision.element_updates? as f64 / self.announced? as f64)
     }
 
     fn collision(&self) -> Option<&Collision> {
@@ -53,14 +61,17 @@ impl Trial {
     pub fn numbers(&self) -> Option<Numbers> {
         let Outcome::Ran { collision, hertz, .. } = &self.outcome else { return None };
         Some([
-            collision.restitution,
+            self.restitution(),
             collision.contact_time.map(|time| time / hertz.contact_time()),
             collision.peak_force.map(|force| force / hertz.peak_force()),
         ])
     }
 
     pub fn restitution(&self) -> Option<f64> {
-        self.collision()?.restitution
+        let collision = self.collision()?;
+        let bounces =
+            collision.bounces.iter().map(|bounce| bounce.restitution).reduce(|a, b| a * b);
+        bounces.or(collision.restitution)
     }
 
     /// By how much the energy that the bodies hold is above what they had and were given, at any row,
@@ -105,8 +116,10 @@ impl Trial {
         Some(all.filter(|value| !value.is_finite()).count() as f64)
     }
 
-    /// How what the user is told begins.
-    pub fn words(&self) -> String {
+    /// How what the user is told begins; mesh files are in the folder.
+    pub fn words(&self, folder: &Path) -> String {
+        let folder = format!("{}{MAIN_SEPARATOR}", folder.display());
+        let beginning = |text: &str| beginning(&text.replace(&folder, ""));
         match &self.outcome {
             Outcome::Ran { warnings, .. } if warnings.is_empty() => "no warnings".to_string(),
             Outcome::Ran { warnings, .. } => {
@@ -145,14 +158,18 @@ fn largest(so_far: f64, value: f64) -> f64 {
 }
 
 /// Nothing is drawn: instants that did not occur are no warning here.
-fn run(case: Case) -> Result<Outcome, CaseError> {
+fn run(case: Case) -> Result<(Outcome, Option<u64>), CaseError> {
     let mut simulation = Simulation::new(case)?;
     simulation.skip_snapshots();
+    let announced = match simulation.setup().cost {
+        Cost::Steps { element_updates, .. } => Some(element_updates),
+        _ => None,
+    };
     let collision = simulation.run(&mut ());
     if let Some(stop) = collision.stop() {
-        return Ok(Outcome::Refused(stop.to_string()));
+        return Ok((Outcome::Refused(stop.to_string()), announced));
     }
     let warnings = simulation.warnings(&collision);
     let hertz = simulation.setup().estimate.hertz;
-    Ok(Outcome::Ran { collision: Box::new(collision), warnings, hertz })
+    Ok((Outcome::Ran { collision: Box::new(collision), warnings, hertz }, announced))
 }

@@ -244,7 +244,9 @@ impl Condensed {
     /// The bodies condensed further out than a pair: as far as it takes for more points, which in a mesh
     /// that is coarse there lie far out.
     fn larger(&self, pair: &CondensedPair) -> Result<Arc<CondensedPair>, CondensedError> {
-        let mut radius = CANDIDATE_GROWTH * pair.candidate_radius();
+        // Where the pole is the only point, the last one lies at 0.
+        let reached = Some(pair.candidate_radius()).filter(|radius| *radius > 0.0);
+        let mut radius = CANDIDATE_GROWTH * reached.unwrap_or(pair.settings().candidate_radius);
         loop {
             match self.other(radius, |settings| pair.enlarge(settings.candidate_radius)) {
                 Err(CondensedError::Stopped(Stop::ContactTooLarge { .. }))
