@@ -33,6 +33,8 @@ const SETTLED: f64 = 1e-3;
 /// a step's error does its fifth power. Tens are usual; the most viscous and the most radiating contacts of the tests take more
 /// than 2000. Each step looks back on all before.
 const MAX_STEPS: f64 = 5_000.0;
+/// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest contact.
+const FEWEST_STEPS: f64 = 2_000.0;
 
 /// Index of the Gauss point at θ = 1/2.
 const MIDDLE: usize = N / 2;
@@ -99,7 +101,8 @@ impl<'a> Collision<'a> {
             finite_size,
             interpolation: Interpolation::new(),
             local_tolerance: LOCAL_SHARE * tolerance,
-            max_steps: (MAX_STEPS * (Ting::DEFAULT_TOLERANCE / tolerance).powf(0.2)) as usize,
+            max_steps: (MAX_STEPS * (Ting::DEFAULT_TOLERANCE / tolerance).powf(0.2))
+                .max(FEWEST_STEPS) as usize,
             state: State { time: 0.0, approach: 0.0, rate, force: 0.0, slow_force: 0.0, memory },
             // δ^(3/2) is not smooth at first touch: begin far below all time scales.
             length: 1e-5 / fastest,

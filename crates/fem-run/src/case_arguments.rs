@@ -22,8 +22,13 @@ pub struct CaseArguments {
     /// the file leaves out.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// How far restitution, contact time and force may be off: 0.01, '1 %'; accuracy.tolerance of the
-    /// case
+}
+
+/// How far results may be off, of commands that compute a case.
+#[derive(Args, Debug)]
+pub struct ToleranceArguments {
+    /// How far restitution, contact time and force may be off, 0.01 or '1 %': accuracy.tolerance of
+    /// the case
     #[arg(long, value_name = "SHARE", value_parser = tolerance)]
     tolerance: Option<String>,
 }
@@ -43,11 +48,22 @@ impl CaseArguments {
     /// # Errors
     /// The first thing that is wrong with it.
     pub fn load(&self) -> Result<Case, CaseError> {
-        let overrides = [&self.set[..], self.tolerance.as_slice()].concat();
+        self.overridden(&self.set)
+    }
+
+    /// The same with a tolerance of its own.
+    ///
+    /// # Errors
+    /// As [`CaseArguments::load`].
+    pub fn load_within(&self, within: &ToleranceArguments) -> Result<Case, CaseError> {
+        self.overridden(&[&self.set[..], within.tolerance.as_slice()].concat())
+    }
+
+    fn overridden(&self, overrides: &[String]) -> Result<Case, CaseError> {
         if self.case.as_os_str() == STDIN {
-            return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), &overrides);
+            return Case::read(std::io::stdin().lock(), &self.name(), Path::new("."), overrides);
         }
-        Case::load(&self.case, &overrides)
+        Case::load(&self.case, overrides)
     }
 
     /// What messages call it.

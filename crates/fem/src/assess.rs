@@ -135,6 +135,8 @@ impl<'a> Run<'a> {
     /// stiffness per area.
     fn penetration(&self) -> Option<String> {
         let radius = self.collision.max_contact_radius.filter(|_| self.has_springs)?;
+        // A contact of the poles alone has no pressure; that meshes cannot carry it is said.
+        let radius = Some(radius).filter(|radius| *radius > 0.0)?;
         let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
         let of_element = mean_pressure / self.plan.contact_stiffness;
         let of_approach =

@@ -8,7 +8,7 @@
 
 use fem_case::Scene;
 use fem_collision::Want;
-use fem_laws::Impact;
+use fem_laws::{Impact, LawError};
 
 use crate::approach::approach_of;
 use crate::duration::expected_duration;
@@ -30,7 +30,8 @@ const PATIENCE: f64 = 3.0;
 /// The largest contact radius, m: Hertz' of the instantaneous moduli, or what relaxation makes of it.
 pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
     let elastic = estimate.hertz.max_contact_radius();
-    impact(scene, estimate).map_or(elastic, |impact| impact.max_contact_radius.max(elastic))
+    let impact = impact(scene, estimate).and_then(Result::ok);
+    impact.map_or(elastic, |impact| impact.max_contact_radius.max(elastic))
 }
 
 /// Refuses bodies that flow into each other: nothing parts them again.
@@ -38,22 +39,38 @@ pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
 /// # Errors
 /// Blames the materials.
 pub(crate) fn check(scene: &Scene, estimate: &Estimate) -> Result<(), Refusal> {
-    let Some(impact) = impact(scene, estimate) else { return Ok(()) };
+    let impact = match impact(scene, estimate) {
+        Some(Ok(impact)) => impact,
+        Some(Err(LawError::NotFinished { .. })) if flows(scene, estimate) => {
+            return Err(refused("the contact would grow beyond all bounds".to_string()));
+        }
+        _ => return Ok(()),
+    };
     let radius = impact.max_contact_radius;
     let share = radius / estimate.smallest_radius;
     let is_widened = radius > WIDENED * estimate.hertz.max_contact_radius();
     if impact.contact_time.is_some() || share <= WIDEST || !is_widened {
         return Ok(());
     }
-    let found = format!(
-        "the bodies relax so fast that they flow into each other: the contact would grow to {share:.2} of the \
-         smallest radius, {:.0} times as wide as that of elastic bodies",
+    Err(refused(format!(
+        "the contact would grow to {share:.2} of the smallest radius, {:.0} times as wide as that of elastic \
+         bodies",
         radius / estimate.hertz.max_contact_radius()
-    );
-    Err(Refusal::new("material", found).with_help(format!(
+    )))
+}
+
+fn refused(how: String) -> Refusal {
+    let found = format!("the bodies relax so fast that they flow into each other: {how}");
+    Refusal::new("material", found).with_help(format!(
         "at most {WIDEST} are allowed; check the relaxation times, decay rates and weights of \
          material.NAME.relaxation and their units: weights whose sum is below 1 leave a lasting stiffness"
-    )))
+    ))
+}
+
+/// Whether nothing of the bodies' stiffness lasts.
+fn flows(scene: &Scene, estimate: &Estimate) -> bool {
+    let ting = ting_of(scene, estimate.hertz.pair(), true, None);
+    ting.is_ok_and(|ting| ting.equilibrium_weight() <= 0.0)
 }
 
 /// So many times the elastic contact time a run of finite elements goes on before it gives up.
@@ -72,10 +89,10 @@ fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
 }
 
 /// Ting's impact on half-spaces of bodies that relax; none of a scene that is beyond it.
-fn impact(scene: &Scene, estimate: &Estimate) -> Option<Impact> {
+fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Impact, LawError>> {
     if !relaxes(scene, estimate) {
         return None;
     }
     let ting = ting_of(scene, estimate.hertz.pair(), true, None).ok()?;
-    ting.with_tolerance(TOLERANCE).ok()?.impact(estimate.hertz.approach_speed()).ok()
+    Some(ting.with_tolerance(TOLERANCE).ok()?.impact(estimate.hertz.approach_speed()))
 }

@@ -8,7 +8,7 @@ use fem_case::engineering::show;
 use indicatif::HumanCount;
 
 use crate::accuracy::{Climb, Findings, climb, json, markdown, picture, report, write_csv};
-use crate::case_arguments::CaseArguments;
+use crate::case_arguments::{CaseArguments, ToleranceArguments};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output::OutputArguments;
@@ -24,6 +24,8 @@ use crate::standard_output::{self, one_line};
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
+    #[command(flatten)]
+    within: ToleranceArguments,
     /// Seconds after which nothing more is begun, and what runs is given up
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     budget: f64,
@@ -39,7 +41,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// Computes the ladder of a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_within(&arguments.within)?;
     let ladder = Ladder::of(&case)?;
     let identity = Identity::of(&case)?;
     let stem = arguments.input.stem();

@@ -8,7 +8,7 @@ use fem_case::EffectsTable;
 use fem_case::engineering::show;
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::case_arguments::CaseArguments;
+use crate::case_arguments::{CaseArguments, ToleranceArguments};
 use crate::failure::Failure;
 use crate::forecast::seconds;
 use crate::report;
@@ -22,6 +22,8 @@ use crate::tables::{mesh_table, pairs, table};
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
+    #[command(flatten)]
+    within: ToleranceArguments,
     /// Print nothing but errors
     #[arg(long, short)]
     quiet: bool,
@@ -29,7 +31,7 @@ pub struct Arguments {
 
 /// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_within(&arguments.within)?;
     let begin = Instant::now();
     let simulation = Simulation::new(case)?;
     let setup = begin.elapsed().as_secs_f64();

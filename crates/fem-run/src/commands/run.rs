@@ -12,7 +12,7 @@ use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::case_arguments::CaseArguments;
+use crate::case_arguments::{CaseArguments, ToleranceArguments};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::place::ResultPlace;
@@ -40,6 +40,9 @@ pub struct Options {
     /// Most threads to use; a single run uses one, which is the fastest
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     threads: Option<NonZeroUsize>,
+    /// How far results may be off
+    #[command(flatten)]
+    within: ToleranceArguments,
     /// How the run is kept, to go on with it
     #[command(flatten)]
     restart: RestartArguments,
@@ -54,7 +57,7 @@ pub struct Options {
 /// Runs a case.
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
-    let simulation = Simulation::new(input.load()?)?;
+    let simulation = Simulation::new(input.load_within(&options.within)?)?;
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
     let replaces = Replaces::only(&identity.case, options.force);

@@ -38,7 +38,7 @@ fn a_coarse_mesh_is_warned_of() {
         ran.stderr
     );
     let warnings = place.json("out/summary.json")["warnings"].to_string();
-    assert!(warnings.contains("whose radius spans 2.2 elements"), "{warnings}");
+    assert!(warnings.contains("whose radius spans 2.6 elements"), "{warnings}");
 }
 
 #[test]

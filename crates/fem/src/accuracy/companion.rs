@@ -39,7 +39,7 @@ const COARSER: [f64; 2] = [1.5, 2.0];
 const MARGIN: [f64; 6] = [1.6; 6];
 /// ... of condensed bodies by coarser ones, whose contact time and force converge faster than is counted
 /// with, ...
-const MARGIN_OF_CONDENSED: [f64; 6] = [2.0, 1.0, 1.0, 2.0, 2.2, 3.0];
+const MARGIN_OF_CONDENSED: [f64; 6] = [1.2, 1.0, 0.6, 1.3, 2.2, 2.2];
 /// ... and of explicit elements by coarser ones.
 const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
@@ -47,6 +47,8 @@ const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 const SCATTER: [f64; 6] = [2e-5, 1e-4, 4e-4, 5e-5, 1e-3, 1e-3];
 /// The same of condensed bodies: steps, and the place of the contact's edge.
 const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 1e-3, 1.5e-4, 3e-3, 4e-3];
+/// With fewer elements across the contact errors are told larger by the square of what is missing.
+const FEW: f64 = 4.5;
 /// Relative change for each share of mass that is added.
 const OF_ADDED_MASS: [f64; 6] = [0.05, 0.3, 0.8, 0.3, 0.1, 0.3];
 
@@ -76,9 +78,13 @@ pub(crate) fn discretisation_errors(
     };
     let scatter = if is_explicit { SCATTER } else { CONDENSED_SCATTER };
     let added = added_share(collision);
+    let size = elements.plan.contact_element_size;
+    let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
+    let coarse = (FEW / across).max(1.0).powi(2);
     let mut sums = [None; 6];
     for (k, headline) in Headline::ALL.into_iter().enumerate() {
-        let share = |error: f64| margin[k] * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
+        let share =
+            |error: f64| coarse * margin[k] * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
         let both = errors[k].zip(values[k]);
         sums[k] = both.map(|(error, value)| share(error) * headline.scale(value));
     }

@@ -124,7 +124,9 @@ mod tests {
     const BALL: &str =
         "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
         body = [{ name = 'ball', sphere.diameter = 0.02, material = 'ice', approach_speed = 0.1 },
-                { name = 'floor', wall = {} }]";
+                { name = 'floor', wall = {} }]
+        [model.law]
+        hertz = {}";
 
     /// What a rung does and what it tells the user to write are the same.
     #[test]

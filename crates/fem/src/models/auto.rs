@@ -15,6 +15,7 @@ use crate::effects::{
     SECOND_ORDER, Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
+use crate::flow;
 use crate::flow::widest_contact;
 use crate::method::{Method, Model, Shared};
 use crate::refusal::Refusal;
@@ -81,12 +82,13 @@ impl Chosen {
     /// Chooses, where the case leaves it open.
     ///
     /// # Errors
-    /// A scene whose closed-form estimates are not finite.
+    /// A scene whose closed-form estimates are not finite, or whose bodies flow into each other.
     pub fn of(scene: &Scene) -> Result<Self, Refusal> {
         if *scene.model() != ModelChoice::Auto {
             return Ok(Self { scene: scene.clone(), considered: Vec::new(), warning: None });
         }
         let estimate = Estimate::checked(scene)?;
+        flow::check(scene, &estimate)?;
         let judged = CANDIDATES.map(|candidate| candidate.judge(scene, &estimate));
         let serves = judged.iter().position(|judged| judged.unfit.is_none());
         let best = serves.unwrap_or_else(|| closest(&judged));

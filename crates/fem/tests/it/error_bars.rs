@@ -76,8 +76,8 @@ fn theory_is_within_the_bars_of_every_mesh() {
                         error < bar + OF_THEORY,
                         "{model} {size} {headline:?} {error:e} {bar:e}"
                     );
-                    // Four elements across are known to be within 3 %, eight within 1 %.
-                    assert!(bar < 0.12 / elements, "{model} {size} {headline:?} {bar:e}");
+                    // Four elements across are known to be within 4 %, eight within 2 %.
+                    assert!(bar < 0.16 / elements, "{model} {size} {headline:?} {bar:e}");
                 }
             }
         }

@@ -125,7 +125,8 @@ fn an_unnamed_law_is_a_doubt() {
     assert!((0.003..0.005).contains(&share(&unnamed, 2)), "{}", share(&unnamed, 2));
     let small = summary(GLASS, &[&SMALL[..], &[NO_SNAPSHOTS]].concat());
     assert!(model(&small)[1] > model(&unnamed)[1]);
-    assert!(parts(&small.uncertainty).iter().all(|parts| parts.discretisation.is_none()));
+    // The mesh and its contact are in the other part.
+    assert!(parts(&small.uncertainty).iter().all(|parts| parts.discretisation > Some(0.0)));
 }
 
 /// Sums, not roots of squares: what a cheaper model lacks beside what another one lacks.
@@ -144,7 +145,7 @@ fn what_is_left_out_adds_up() {
 /// Bodies that stay together have no contact time, and nothing is said of what is not told.
 #[test]
 fn what_is_no_number_has_no_doubt() {
-    let stuck = "material.glass.relaxation.terms.0.decay_rate='1e9 1/s'";
+    let stuck = "material.glass.relaxation.terms.0.decay_rate='3e6 1/s'";
     let summary = summary(GLASS, &[TING, stuck, NO_SNAPSHOTS]);
     assert_eq!(summary.collision.contact_time_s, None);
     assert_eq!(summary.uncertainty.contact_time_s.model, None);
