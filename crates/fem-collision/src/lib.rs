@@ -15,6 +15,7 @@
 //! * [`Frame`] leads from the relative motion of two bodies to each of them.
 //! * [`far_radius_of_waves`] and [`far_radius_at_rest`] say how far the mesh of a half-space has to
 //!   reach.
+//! * [`Headline`] names the numbers that a collision is known by.
 //! * [`Standstill`] tells bodies that stay together from those that are slow to part.
 //! * [`StressField`] is the stress recovered from a body's fields, [`StressRecovery`] the same for
 //!   many fields of one mesh.
@@ -31,6 +32,7 @@ mod collision;
 mod ending;
 mod far_radius;
 mod frame;
+mod headline;
 mod history;
 mod instants;
 mod losses;
@@ -58,6 +60,7 @@ pub use collision::{BodyResult, Collision, LARGEST_RESIDUAL, STAY_TOGETHER};
 pub use ending::Ending;
 pub use far_radius::{far_radius_at_rest, far_radius_of_waves};
 pub use frame::Frame;
+pub use headline::Headline;
 pub use history::{History, RowKind};
 pub use instants::{did_not_occur, evenly, fewer_than_asked};
 pub use losses::Losses;

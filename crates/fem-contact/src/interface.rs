@@ -20,6 +20,28 @@ pub struct ContactPoint {
     pub feet: [Foot; 2],
 }
 
+impl ContactPoint {
+    /// At a radius (m) of both surfaces, with its area, m²; stiffness (Pa) and gap (m) as of
+    /// [`ContactInterface::new`].
+    pub(crate) fn between(
+        surfaces: &[Surface; 2],
+        radius: f64,
+        area: f64,
+        stiffness: f64,
+        gap: f64,
+    ) -> Self {
+        let located = surfaces.each_ref().map(|surface| surface.locate(radius));
+        let length = mean_length(surfaces, located.map(|(segment, _)| segment));
+        Self {
+            radius,
+            area,
+            initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
+            stiffness: stiffness / length,
+            feet: std::array::from_fn(|side| surfaces[side].foot(located[side])),
+        }
+    }
+}
+
 /// All points at which two bodies can touch, from the axis outward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactInterface {
@@ -68,15 +90,8 @@ impl ContactInterface {
             let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
             for offset in [-half / 3f64.sqrt(), half / 3f64.sqrt()] {
                 let radius = middle + offset;
-                let located = surfaces.each_ref().map(|surface| surface.locate(radius));
-                let length = mean_length(&surfaces, located.map(|(segment, _)| segment));
-                points.push(ContactPoint {
-                    radius,
-                    area: 2.0 * PI * radius * half,
-                    initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
-                    stiffness: stiffness / length,
-                    feet: std::array::from_fn(|side| surfaces[side].foot(located[side])),
-                });
+                let area = 2.0 * PI * radius * half;
+                points.push(ContactPoint::between(&surfaces, radius, area, stiffness, gap));
             }
         }
         let candidate_radius = cuts[cuts.len() - 1];

@@ -9,7 +9,7 @@
 use fem_mesh::segment_measures;
 
 use crate::error::ContactError;
-use crate::interface::{ContactInterface, ContactPoint, check_springs, mean_length, springs};
+use crate::interface::{ContactInterface, ContactPoint, check_springs, springs};
 use crate::surface::Surface;
 
 impl ContactInterface {
@@ -35,17 +35,7 @@ impl ContactInterface {
                 let n = own.radii.partition_point(|&r| r <= limit * (1.0 + 1e-12));
                 (0..n).map(|k| (own.radii[k], share * hat_area(&own.radii, k)))
             })
-            .map(|(radius, area)| {
-                let located = surfaces.each_ref().map(|surface| surface.locate(radius));
-                let length = mean_length(&surfaces, located.map(|(segment, _)| segment));
-                ContactPoint {
-                    radius,
-                    area,
-                    initial_gap: gap + surfaces[0].depth(radius) + surfaces[1].depth(radius),
-                    stiffness: stiffness / length,
-                    feet: std::array::from_fn(|side| surfaces[side].foot(located[side])),
-                }
-            })
+            .map(|(radius, area)| ContactPoint::between(&surfaces, radius, area, stiffness, gap))
             .collect();
         points.sort_by(|a, b| a.radius.total_cmp(&b.radius));
         let candidate_radius = points.last().map_or(limit, |point| point.radius);

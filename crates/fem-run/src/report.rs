@@ -8,7 +8,7 @@ use fem::Considered;
 use fem::effects::{LeftOut, Verdict};
 use fem::results::{BodySummary, Quantities, Summary};
 use fem_case::engineering::{Unit, show};
-use fem_collision::{Shown, Side};
+use fem_collision::{Headline, Shown, Side};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::bounces::bounces;
@@ -71,11 +71,11 @@ fn quantities(ours: &Quantities, hertz: &Quantities) -> String {
         let ratio = ours.zip(hertz).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         rows.push([name.into(), number(ours), number(hertz), ratio]);
     };
-    row("contact time", "s", ours.contact_time_s, hertz.contact_time_s);
-    row("peak force", "N", ours.peak_force_n, hertz.peak_force_n);
-    row("largest approach", "m", ours.max_approach_m, hertz.max_approach_m);
-    row("largest contact radius", "m", ours.max_contact_radius_m, hertz.max_contact_radius_m);
-    row("peak pressure", "Pa", ours.peak_pressure_pa, hertz.peak_pressure_pa);
+    // The restitution, the first of them, has no unit and stands above.
+    for headline in Headline::ALL.into_iter().skip(1) {
+        let (name, unit) = (headline.name(), headline.unit());
+        row(name, unit, ours.number(headline), hertz.number(headline));
+    }
     let restitution = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.4}"));
     let first = [
         "restitution".to_string(),

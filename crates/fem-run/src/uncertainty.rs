@@ -1,7 +1,8 @@
 //! By how much a result may be off, on one line.
 
-use fem::results::{Parts, UncertaintySummary};
+use fem::results::UncertaintySummary;
 use fem_case::engineering::Unit;
+use fem_collision::Headline;
 
 /// Shown for what nothing tells.
 const UNTOLD: &str = "?";
@@ -9,31 +10,17 @@ const UNTOLD: &str = "?";
 /// "may be off by  restitution 1.9e-4, contact time 0.28 µs, …": of each quantity both parts together, more
 /// than one where nothing tells the other.
 pub fn may_be_off_by(uncertainty: &UncertaintySummary) -> String {
-    let UncertaintySummary {
-        restitution,
-        contact_time_s,
-        peak_force_n,
-        max_approach_m,
-        max_contact_radius_m,
-        peak_pressure_pa,
-    } = uncertainty;
-    let quantities = [
-        ("restitution", "", restitution),
-        ("contact time", "s", contact_time_s),
-        ("peak force", "N", peak_force_n),
-        ("approach", "m", max_approach_m),
-        ("contact radius", "m", max_contact_radius_m),
-        ("peak pressure", "Pa", peak_pressure_pa),
-    ];
-    let size = |(name, unit, parts): &(&str, &str, &Parts)| {
+    let size = |headline: Headline| {
+        let unit = headline.unit();
+        let parts = uncertainty.parts(headline);
         let size = match (parts.discretisation, parts.model) {
             (None, None) => UNTOLD.to_string(),
             (Some(discretisation), Some(model)) => sized(discretisation + model, unit),
             (Some(one), None) | (None, Some(one)) => format!("> {}", sized(one, unit)),
         };
-        format!("{name} {size}")
+        format!("{} {size}", headline.name().trim_start_matches("largest "))
     };
-    let sizes: Vec<String> = quantities.iter().map(size).collect();
+    let sizes = Headline::ALL.map(size);
     format!("may be off by  {} (mesh and effects left out)", sizes.join(", "))
 }
 
@@ -48,6 +35,8 @@ fn sized(size: f64, unit: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use fem::results::Parts;
+
     use super::*;
 
     fn parts(discretisation: Option<f64>, model: Option<f64>) -> Parts {
@@ -56,15 +45,14 @@ mod tests {
 
     #[test]
     fn a_line_adds_what_is_told() {
-        let both = parts(Some(2e-6), Some(2e-6));
-        let uncertainty = UncertaintySummary {
-            restitution: parts(Some(0.0), Some(1.9e-4)),
-            contact_time_s: both,
-            peak_force_n: parts(Some(0.0), Some(0.0)),
-            max_approach_m: parts(None, None),
-            max_contact_radius_m: parts(None, Some(2.5e-6)),
-            peak_pressure_pa: parts(Some(2.5e-6), None),
-        };
+        let uncertainty = UncertaintySummary::by(|headline| match headline {
+            Headline::Restitution => parts(Some(0.0), Some(1.9e-4)),
+            Headline::ContactTime => parts(Some(2e-6), Some(2e-6)),
+            Headline::PeakForce => parts(Some(0.0), Some(0.0)),
+            Headline::MaxApproach => parts(None, None),
+            Headline::MaxContactRadius => parts(None, Some(2.5e-6)),
+            Headline::PeakPressure => parts(Some(2.5e-6), None),
+        });
         assert_eq!(
             may_be_off_by(&uncertainty),
             "may be off by  restitution 1.9e-4, contact time 4.0 µs, peak force 0, approach ?, \

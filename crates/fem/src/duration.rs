@@ -6,14 +6,11 @@
 
 use fem_case::Scene;
 use fem_collision::{Approach, FLIGHT_AFTER, Held, Standstill};
-use fem_laws::{Impact, LawError};
+use fem_laws::Impact;
 
 use crate::approach::frame_of;
 use crate::estimate::Estimate;
-use crate::quasi_static::ting_of;
-
-/// Accuracy of the impact that tells.
-const TOLERANCE: f64 = 1e-3;
+use crate::quasi_static::foretold_impact;
 
 /// Time (s) from first touch to the end of a run of a scene of whose approach closed forms say this.
 pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &Approach) -> f64 {
@@ -21,21 +18,12 @@ pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &A
     if estimate.relaxed == 0.0 {
         return by_estimate;
     }
-    let impact = ting_impact(scene, estimate, approach);
+    let impact = foretold_impact(scene, estimate, approach.speed());
     let told = impact.ok().and_then(|impact| match impact.contact_time {
         Some(contact_time) => Some((1.0 + FLIGHT_AFTER) * contact_time),
         None => standstill(scene, estimate, approach, &impact),
     });
     told.filter(|time| *time > 0.0 && time.is_finite()).unwrap_or(by_estimate)
-}
-
-fn ting_impact(
-    scene: &Scene,
-    estimate: &Estimate,
-    approach: &Approach,
-) -> Result<Impact, LawError> {
-    let ting = ting_of(scene, estimate.hertz.pair(), true, None)?;
-    ting.with_tolerance(TOLERANCE)?.impact(approach.speed())
 }
 
 /// When an impact without an end comes to rest, s.

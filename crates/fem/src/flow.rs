@@ -13,11 +13,9 @@ use fem_laws::{Impact, LawError};
 use crate::approach::approach_of;
 use crate::duration::expected_duration;
 use crate::estimate::Estimate;
-use crate::quasi_static::ting_of;
+use crate::quasi_static::{foretold_impact, ting_of};
 use crate::refusal::Refusal;
 
-/// Accuracy of the impact that tells.
-const TOLERANCE: f64 = 1e-3;
 /// Bodies that keep more than the rest of their moduli over the contact are stopped by them.
 const RELAXED: f64 = 0.5;
 /// Contact radius over that of the smallest sphere beyond which spheres that flow are no spheres.
@@ -88,11 +86,8 @@ fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
     estimate.relaxed > RELAXED && scene.gravity().is_none()
 }
 
-/// Ting's impact on half-spaces of bodies that relax; none of a scene that is beyond it.
+/// Ting's impact of bodies that relax; none of others.
 fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Impact, LawError>> {
-    if !relaxes(scene, estimate) {
-        return None;
-    }
-    let ting = ting_of(scene, estimate.hertz.pair(), true, None).ok()?;
-    Some(ting.with_tolerance(TOLERANCE).ok()?.impact(estimate.hertz.approach_speed()))
+    let speed = estimate.hertz.approach_speed();
+    relaxes(scene, estimate).then(|| foretold_impact(scene, estimate, speed))
 }

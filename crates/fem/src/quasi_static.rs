@@ -5,6 +5,7 @@ use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
 
 use crate::effects::SurfaceSlip;
+use crate::estimate::Estimate;
 
 /// Ting's impact of a scene, on half-spaces or with the compliance of finite spheres in series,
 /// however large the contact.
@@ -14,6 +15,23 @@ use crate::effects::SurfaceSlip;
 pub fn ting_impact(scene: &Scene, pair: &Pair, finite_size: bool) -> Result<Impact, LawError> {
     let size = finite_size.then(|| scene.finite_size()).transpose()?;
     ting_of(scene, pair, true, size)?.impact(scene.approach_speed())
+}
+
+/// Accuracy of an impact that only foretells.
+const FORECAST: f64 = 1e-3;
+
+/// Ting's impact of a scene on half-spaces at a speed (m/s), to foretell how far bodies come and how long they
+/// take.
+///
+/// # Errors
+/// Numbers that the law refuses.
+pub(crate) fn foretold_impact(
+    scene: &Scene,
+    estimate: &Estimate,
+    speed: f64,
+) -> Result<Impact, LawError> {
+    let ting = ting_of(scene, estimate.hertz.pair(), true, None)?;
+    ting.with_tolerance(FORECAST)?.impact(speed)
 }
 
 /// Ting's model of a scene and its pair, of surfaces that slip on each other where the scene has that on;

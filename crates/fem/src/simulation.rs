@@ -9,7 +9,7 @@ use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
 use crate::course::{Course, begun};
-use crate::effects::{Decisions, EFFECTS, Effect, FiniteStrain, LeftOut, Verdict, decide};
+use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
 use crate::identity::identity_of;
 use crate::memory::Memory;
@@ -278,12 +278,6 @@ impl Simulation {
             Some(chosen) => Cow::Owned(scene.clone().with_model(chosen.scene.model().clone())),
             None => Cow::Borrowed(scene),
         }
-    }
-
-    /// Whether a collision of the case's bodies was computed with large strains.
-    pub(crate) fn is_at_finite_strain(&self, collision: &Collision) -> bool {
-        let verdicts = self.decisions(collision).verdicts;
-        verdicts.iter().any(|verdict| verdict.name == FiniteStrain::NAME && verdict.active)
     }
 
     /// Which effects were on in a collision of the case's bodies, and why; and what was to be known

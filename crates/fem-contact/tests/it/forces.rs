@@ -2,7 +2,10 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{STIFFNESS, flat, forces, glass_pair, interface, noise, ragged, rigid, sphere};
+use crate::common::{
+    STIFFNESS, assert_balance, assert_gradient, flat, forces, glass_pair, interface, noise, ragged,
+    rigid, sphere,
+};
 use fem_contact::{ContactError, ContactInterface, Surface};
 use fem_mesh::{Side, SphereMesh, segment_measures};
 
@@ -102,10 +105,7 @@ fn forces_balance_for_any_displacement() {
         let interface = interface(&meshes, 0.4e-3);
         let (total, f) = forces(&interface, &ragged(&meshes, 20e-6));
         assert!(total.n_closed > 10 && total.n_closed < interface.n_points());
-        let [lower, upper] = f.each_ref().map(|f| f.iter().map(|f| f[1]).sum::<f64>());
-        // Rounding of some hundred terms.
-        assert!((lower + total.force).abs() < 1e-13 * total.force, "{lower} {total:?}");
-        assert!((upper - total.force).abs() < 1e-13 * total.force, "{upper} {total:?}");
+        assert_balance(&total, &f);
         assert!(f.iter().flatten().all(|f| f[0] == 0.0), "the contact is frictionless");
     }
 }
@@ -116,23 +116,7 @@ fn force_is_minus_the_gradient_of_the_energy() {
     for sizes in [[30e-6, 37e-6], [15e-6, 300e-6]] {
         let meshes = glass_pair(sizes);
         let interface = interface(&meshes, 0.4e-3);
-        let u = ragged(&meshes, 20e-6);
-        let (total, f) = forces(&interface, &u);
-        let step = 1e-10;
-        for side in 0..2 {
-            for node in interface.candidate_nodes(side) {
-                let energy = |change: f64| {
-                    let mut moved = u.clone();
-                    moved[side][node as usize][1] += change;
-                    forces(&interface, &moved).0.energy
-                };
-                let slope = (energy(step) - energy(-step)) / (2.0 * step);
-                let error = (f[side][node as usize][1] + slope).abs();
-                // The energy is quadratic, so the difference is exact but for rounding,
-                // 1e-15 · energy / step.
-                assert!(error < 1e-14 * total.energy / step, "{error:e} {:?}", total);
-            }
-        }
+        assert_gradient(&interface, &ragged(&meshes, 20e-6));
     }
 }
 

@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{STIFFNESS, flat, forces, glass_pair, ragged, rigid};
+use crate::common::{
+    STIFFNESS, assert_balance, assert_gradient, flat, forces, glass_pair, ragged, rigid,
+};
 use fem_contact::{ContactError, ContactInterface, Surface};
 use fem_mesh::{Side, SphereMesh};
 
@@ -70,22 +72,6 @@ fn forces_balance_and_derive_from_the_energy() {
     let u = ragged(&meshes, 20e-6);
     let (total, f) = forces(&interface, &u);
     assert!(total.n_closed > 5 && total.n_closed < interface.n_points());
-    let [lower, upper] = f.each_ref().map(|f| f.iter().map(|f| f[1]).sum::<f64>());
-    // Rounding of some hundred terms.
-    assert!((lower + total.force).abs() < 1e-13 * total.force);
-    assert!((upper - total.force).abs() < 1e-13 * total.force);
-    let step = 1e-10;
-    for side in 0..2 {
-        for node in interface.candidate_nodes(side) {
-            let energy = |change: f64| {
-                let mut moved = u.clone();
-                moved[side][node as usize][1] += change;
-                forces(&interface, &moved).0.energy
-            };
-            let slope = (energy(step) - energy(-step)) / (2.0 * step);
-            // Quadratic: the difference is exact but for rounding, 1e-15 · energy / step.
-            let error = (f[side][node as usize][1] + slope).abs();
-            assert!(error < 1e-14 * total.energy / step, "{error:e}");
-        }
-    }
+    assert_balance(&total, &f);
+    assert_gradient(&interface, &u);
 }

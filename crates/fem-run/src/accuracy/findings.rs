@@ -1,7 +1,8 @@
 //! What a study of accuracy found, for programs: `accuracy.csv` and `accuracy.json`.
 
-use fem::accuracy::{Headline, Judged, Ladder, Measurement, Rung, Study};
+use fem::accuracy::{Judged, Ladder, Measurement, Rung, Study};
 use fem_case::{Accuracy, CaseFile};
+use fem_collision::Headline;
 use serde_json::{Value, json as object};
 
 use crate::failure::Failure;

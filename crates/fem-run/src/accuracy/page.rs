@@ -3,8 +3,9 @@
 use std::fmt::Write;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::accuracy::{ErrorPart, Headline, Series};
+use fem::accuracy::{ErrorPart, Series};
 use fem_case::engineering::show;
+use fem_collision::Headline;
 use indicatif::HumanCount;
 
 use super::findings::{Findings, Line};
@@ -233,8 +234,7 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
 /// The case as written; where it leaves everything to the plan, that is the plan's.
 fn as_written<'a>(findings: &'a Findings<'_>) -> Option<Line<'a>> {
     let of = |series| findings.lines().filter(move |line| line.rung.series == series);
-    let planned = |line: &Line<'_>| {
-        line.rung.elements_across.is_some_and(|across| (across - 8.0).abs() < 0.01)
-    };
-    of(Series::AsWritten).next().or_else(|| of(Series::Explicit).find(planned))
+    of(Series::AsWritten)
+        .next()
+        .or_else(|| of(Series::Explicit).find(|line| line.rung.has_planned_elements()))
 }

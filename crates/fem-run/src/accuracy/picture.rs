@@ -1,6 +1,7 @@
 //! `accuracy.svg`: errors over seconds, both logarithmic, and the rungs that none beats.
 
-use fem::accuracy::{Headline, Series};
+use fem::accuracy::Series;
+use fem_collision::Headline;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
 use super::findings::{Findings, Line};

@@ -9,9 +9,9 @@
 use std::collections::hash_map::RandomState;
 use std::hash::{BuildHasher, Hasher};
 
-use fem::accuracy::{Headline, Limit, Setting};
-use fem::results::{Parts, UncertaintySummary};
+use fem::accuracy::{Limit, Setting};
 use fem_case::{Case, CaseError};
+use fem_collision::Headline;
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -195,7 +195,7 @@ fn compute(
                 if has_inertia { (&springs[..], &explicit[..]) } else { (none, none) };
             let limit = Limit::of(&pick(&bodies), &pick(springs), &pick(explicit))?;
             let value = headline.of(&collision)?;
-            let bar = parts(&bars, headline).discretisation?;
+            let bar = bars.parts(headline).discretisation?;
             let scale = headline.scale(limit.value);
             Some((headline, (value - limit.value) / scale, bar / scale, limit.uncertainty / scale))
         });
@@ -204,17 +204,6 @@ fn compute(
     let judged = [judge(&[Setting::Explicit], true)?, judge(&[condensed(false)], false)?];
     // A contact without an end has neither time nor bars.
     Ok(judged.iter().all(|numbers| numbers.len() == Headline::ALL.len()).then_some(judged))
-}
-
-fn parts(bars: &UncertaintySummary, headline: Headline) -> Parts {
-    match headline {
-        Headline::Restitution => bars.restitution,
-        Headline::ContactTime => bars.contact_time_s,
-        Headline::PeakForce => bars.peak_force_n,
-        Headline::MaxApproach => bars.max_approach_m,
-        Headline::MaxContactRadius => bars.max_contact_radius_m,
-        Headline::PeakPressure => bars.peak_pressure_pa,
-    }
 }
 
 impl Trial {

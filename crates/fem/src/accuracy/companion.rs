@@ -22,11 +22,11 @@
 //! scatter are measured on random scenes of all kinds (`validation/error_bars`).
 
 use fem_case::schema::ContactMethod;
-use fem_collision::{Collision, Want};
+use fem_collision::{Collision, Headline, Want};
 
-use super::headline::Headline;
 use super::ladder::first_contact;
 use super::setting::Setting;
+use crate::effects::Doubt;
 use crate::plan::Plan;
 use crate::simulation::Simulation;
 
@@ -52,22 +52,23 @@ const FEW: f64 = 4.5;
 /// Relative change for each share of mass that is added.
 const OF_ADDED_MASS: [f64; 6] = [0.05, 0.3, 0.8, 0.3, 0.1, 0.3];
 
-/// Errors of the numbers of a collision of bodies with elements, SI, in the order of [`Headline::ALL`].
+/// Errors of the numbers of a collision of bodies with elements, computed with large strains or without.
 /// None of what has no number, of a collision that did not end by itself, nor of a mesh that was read from
 /// a file: it has no companions.
 pub(crate) fn discretisation_errors(
     simulation: &Simulation,
     collision: &Collision,
-) -> [Option<f64>; 6] {
+    is_at_finite_strain: bool,
+) -> Doubt {
     let values = Headline::ALL.map(|headline| headline.of(collision));
-    let Some(elements) = simulation.setup().elements.as_ref() else { return [None; 6] };
+    let Some(elements) = simulation.setup().elements.as_ref() else { return Doubt::default() };
     if !(collision.is_complete() && elements.plan.makes_meshes) {
-        return [None; 6];
+        return Doubt::default();
     }
     let companions = Companions { simulation, collision, plan: &elements.plan };
     let is_explicit = collision.element_updates.is_some();
     // Condensed bodies know no large strains, nor what keeps such surfaces apart.
-    let condensed = match is_explicit && !simulation.is_at_finite_strain(collision) {
+    let condensed = match is_explicit && !is_at_finite_strain {
         true => companions.of_condensed(),
         false => None,
     };
@@ -81,14 +82,13 @@ pub(crate) fn discretisation_errors(
     let size = elements.plan.contact_element_size;
     let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
     let coarse = (FEW / across).max(1.0).powi(2);
-    let mut sums = [None; 6];
-    for (k, headline) in Headline::ALL.into_iter().enumerate() {
+    Doubt::by(|headline| {
+        let k = headline as usize;
         let share =
             |error: f64| coarse * margin[k] * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
         let both = errors[k].zip(values[k]);
-        sums[k] = both.map(|(error, value)| share(error) * headline.scale(value));
-    }
-    sums
+        both.map(|(error, value)| share(error) * headline.scale(value))
+    })
 }
 
 /// The largest share of mass that is added to a body.
@@ -117,14 +117,11 @@ impl Companions<'_> {
         };
         let same = condensed(true, size)?;
         let (coarse, fine) = (condensed(false, size)?, condensed(false, 0.5 * size)?);
-        let mut errors = [None; 6];
-        for (k, headline) in Headline::ALL.into_iter().enumerate() {
-            errors[k] = same[k].zip(coarse[k]).zip(fine[k]).map(|((same, coarse), fine)| {
-                let limit = fine + remaining(2.0) * (fine - coarse);
-                (same - limit) / headline.scale(limit)
-            });
-        }
-        Some(errors)
+        Some(Headline::ALL.map(|headline| {
+            let k = headline as usize;
+            let limit = fine[k]? + remaining(2.0) * (fine[k]? - coarse[k]?);
+            Some((same[k]? - limit) / headline.scale(limit))
+        }))
     }
 
     /// The same from the model itself with longer elements.
@@ -168,7 +165,7 @@ impl Companions<'_> {
         });
         let shared = self.simulation.shared().of_companions();
         let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
-        let want = Want { history_rows: 0, ..Want::history() };
+        let want = Want::quantities();
         let collision = companion.model().collide(&self.collision.approach, &want, &mut ());
         let values = Headline::ALL.map(|headline| headline.of(&collision));
         collision.is_complete().then_some(values)

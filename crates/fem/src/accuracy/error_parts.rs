@@ -1,6 +1,6 @@
 //! Where the error of explicit elements with eight of them across the contact comes from.
 
-use super::headline::Headline;
+use fem_collision::Headline;
 
 /// What an error comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,13 +53,10 @@ impl ErrorPart {
         limits: [Option<f64>; 6],
         factor: f64,
     ) -> Self {
-        let mut errors = [None; 6];
-        for (k, headline) in Headline::ALL.into_iter().enumerate() {
-            errors[k] = values[k]
-                .zip(others[k])
-                .zip(limits[k])
-                .map(|((value, other), limit)| factor * (value - other) / headline.scale(limit));
-        }
+        let errors = Headline::ALL.map(|headline| {
+            let k = headline as usize;
+            Some(factor * (values[k]? - others[k]?) / headline.scale(limits[k]?))
+        });
         Self { source, errors }
     }
 }

@@ -1,9 +1,8 @@
 //! What a rung gives.
 
 use fem_case::CaseError;
-use fem_collision::{Label, Monitor, SnapshotRequest, Want};
+use fem_collision::{Headline, Label, Monitor, SnapshotRequest, Want};
 
-use super::headline::Headline;
 use super::rung::Rung;
 use super::stress_places::StressPlaces;
 use crate::method::{Cost, Shared};

@@ -7,7 +7,6 @@
 
 mod companion;
 mod error_parts;
-mod headline;
 mod ladder;
 mod limit;
 mod measurement;
@@ -19,7 +18,6 @@ mod study;
 
 pub(crate) use companion::discretisation_errors;
 pub use error_parts::{ErrorPart, ErrorSource};
-pub use headline::Headline;
 pub use ladder::Ladder;
 pub use limit::Limit;
 pub use measurement::Measurement;

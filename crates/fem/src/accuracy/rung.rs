@@ -2,6 +2,7 @@
 
 use fem_case::{Case, CaseError, ModelChoice};
 
+use super::ladder::COMMON;
 use super::setting::Setting;
 use crate::simulation::Simulation;
 
@@ -157,6 +158,13 @@ impl Rung {
     /// Whether explicit elements compute it.
     pub fn is_explicit(&self) -> bool {
         *self.case.scene().model() == ModelChoice::Fem
+    }
+
+    /// Whether its elements are as long as the plan has them, of a mesh of this program.
+    pub fn has_planned_elements(&self) -> bool {
+        /// Sizes of elements are rounded by less.
+        const ALIKE: f64 = 1e-3;
+        self.elements_across.is_some_and(|across| (across / COMMON - 1.0).abs() < ALIKE)
     }
 
     /// Whether it divides bodies into elements.

@@ -1,10 +1,10 @@
 //! The rungs of a ladder, judged together.
 
 use fem_case::Accuracy;
+use fem_collision::Headline;
 
 use super::error_parts::{ErrorPart, ErrorSource};
-use super::headline::Headline;
-use super::ladder::{COMMON, Ladder};
+use super::ladder::Ladder;
 use super::limit::Limit;
 use super::measurement::Measurement;
 use super::power_law::PowerLaw;
@@ -13,8 +13,6 @@ use super::stress_places::relative_difference;
 
 /// Fewer elements across the contact tell nothing of an order or a limit.
 const FEWEST_ACROSS: f64 = 4.5;
-/// Sizes of elements are rounded by less.
-const ALIKE: f64 = 1e-3;
 /// Second order in a step that was halved, first order in a compliance that was quartered: what of the
 /// difference is the error of the coarser.
 const QUARTERED: f64 = 4.0 / 3.0;
@@ -188,9 +186,20 @@ fn in_tolerances(
     let shares = Headline::ALL.into_iter().filter_map(|headline| {
         let (error, limit) = (errors[headline as usize]?, limits[headline as usize]?);
         let uncertain = limit.uncertainty / headline.scale(limit.value);
-        Some((error.abs() + uncertain) / headline.tolerance(accuracy)?)
+        Some((error.abs() + uncertain) / tolerance(headline, accuracy)?)
     });
     Some(shares.fold(0.0, f64::max))
+}
+
+/// The error that a case allows; none of what it says nothing about.
+fn tolerance(headline: Headline, accuracy: &Accuracy) -> Option<f64> {
+    match headline {
+        Headline::Restitution => Some(accuracy.restitution),
+        Headline::ContactTime => Some(accuracy.contact_time),
+        Headline::PeakForce => Some(accuracy.peak_force),
+        Headline::PeakPressure => Some(accuracy.peak_pressure),
+        Headline::MaxApproach | Headline::MaxContactRadius => None,
+    }
 }
 
 /// Makes each error at least that of any finer rung of the same series.
@@ -227,9 +236,8 @@ fn mark_frontier(ran: &[Run<'_>], judged: &mut [Option<Judged>]) {
 
 /// Where errors come from, as far as the rungs that tell it have run.
 fn parts(ran: &[Run<'_>], limits: &[Option<Limit>; 6]) -> Vec<ErrorPart> {
-    let is_common = |run: &&Run<'_>| {
-        run.rung.elements_across.is_none_or(|across| (across / COMMON - 1.0).abs() < ALIKE)
-    };
+    let is_common =
+        |run: &&Run<'_>| run.rung.elements_across.is_none() || run.rung.has_planned_elements();
     let of = |series, value: Option<f64>| {
         let of_series = ran.iter().filter(|run| run.rung.series == series).filter(is_common);
         let mut same = of_series.filter(|run| value.is_none_or(|_| run.rung.value == value));

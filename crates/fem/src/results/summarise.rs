@@ -1,13 +1,13 @@
 //! From a collision to its summary.
 
-use fem_collision::{Book, Collision, Rest};
+use fem_collision::{Book, Collision, Headline, Rest};
 use fem_laws::HertzImpact;
 
 use super::elastic_null::elastic_null;
 use super::energy::{Accounts, Energy, energy_key};
 use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
-    Summary, UncertaintySummary,
+    Summary,
 };
 use crate::effects::Verdict;
 use crate::estimate::Estimate;
@@ -43,9 +43,8 @@ impl Summary {
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision);
-        let uncertainty = simulation.uncertainty(collision, &effects).of_numbers(&quantities);
         Self {
-            uncertainty: UncertaintySummary::from(&uncertainty),
+            uncertainty: simulation.uncertainty(collision, &quantities, &effects),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
             elastic_null: elastic_null(simulation, collision),
@@ -121,30 +120,25 @@ impl Numbers {
 }
 
 fn quantities(collision: &Collision, numbers: &mut Numbers) -> Quantities {
-    let mut number = |key: &str, value: Option<f64>| numbers.finite_if_any(key, value);
-    Quantities {
-        restitution: number("restitution", collision.restitution),
-        contact_time_s: number("contact_time_s", collision.contact_time),
-        peak_force_n: number("peak_force_n", collision.peak_force),
-        max_approach_m: number("max_approach_m", collision.max_approach),
-        max_contact_radius_m: number("max_contact_radius_m", collision.max_contact_radius),
-        peak_pressure_pa: number("peak_pressure_pa", collision.peak_pressure),
-    }
+    Quantities::by(|headline| numbers.finite_if_any(headline.key(), headline.of(collision)))
 }
 
 /// Hertz with instantaneous moduli; nothing where closed forms have no finite numbers.
 fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
-    let hertz = estimate.map(|estimate| estimate.hertz);
-    let mut number = |key: &str, value: fn(&HertzImpact) -> f64| {
-        numbers.finite_if_any(&format!("hertz.{key}"), hertz.as_ref().map(value))
-    };
-    Quantities {
-        restitution: number("restitution", HertzImpact::restitution),
-        contact_time_s: number("contact_time_s", HertzImpact::contact_time),
-        peak_force_n: number("peak_force_n", HertzImpact::peak_force),
-        max_approach_m: number("max_approach_m", HertzImpact::max_approach),
-        max_contact_radius_m: number("max_contact_radius_m", HertzImpact::max_contact_radius),
-        peak_pressure_pa: number("peak_pressure_pa", HertzImpact::peak_pressure),
+    Quantities::by(|headline| {
+        let number = estimate.as_ref().map(|estimate| of_hertz(headline, &estimate.hertz));
+        numbers.finite_if_any(&format!("hertz.{}", headline.key()), number)
+    })
+}
+
+fn of_hertz(headline: Headline, hertz: &HertzImpact) -> f64 {
+    match headline {
+        Headline::Restitution => hertz.restitution(),
+        Headline::ContactTime => hertz.contact_time(),
+        Headline::PeakForce => hertz.peak_force(),
+        Headline::MaxApproach => hertz.max_approach(),
+        Headline::MaxContactRadius => hertz.max_contact_radius(),
+        Headline::PeakPressure => hertz.peak_pressure(),
     }
 }
 

@@ -1,13 +1,13 @@
 //! `summary.json`: names, order and units of its keys.
 
 use fem_case::CaseFile;
-use serde::Serialize;
+use fem_collision::Headline;
+use serde::{Serialize, Serializer};
 
 use super::elastic_null::ElasticNull;
 use super::energy::Energy;
-use crate::effects::{Doubt, LeftOut, Verdict};
+use crate::effects::{LeftOut, Verdict};
 use crate::models::Considered;
-use crate::uncertainty::Uncertainty;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
@@ -99,21 +99,60 @@ pub struct Quantities {
     pub peak_pressure_pa: Option<f64>,
 }
 
-/// How far each quantity may be off; sizes in its own unit.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub struct UncertaintySummary {
-    /// Of the restitution.
-    pub restitution: Parts,
-    /// Of the contact time, s.
-    pub contact_time_s: Parts,
-    /// Of the peak force, N.
-    pub peak_force_n: Parts,
-    /// Of the largest approach, m.
-    pub max_approach_m: Parts,
-    /// Of the largest contact radius, m.
-    pub max_contact_radius_m: Parts,
-    /// Of the peak pressure, Pa.
-    pub peak_pressure_pa: Parts,
+impl Quantities {
+    /// Each as `number` has it.
+    pub fn by(number: impl FnMut(Headline) -> Option<f64>) -> Self {
+        let [
+            restitution,
+            contact_time_s,
+            peak_force_n,
+            max_approach_m,
+            max_contact_radius_m,
+            peak_pressure_pa,
+        ] = Headline::ALL.map(number);
+        Self {
+            restitution,
+            contact_time_s,
+            peak_force_n,
+            max_approach_m,
+            max_contact_radius_m,
+            peak_pressure_pa,
+        }
+    }
+
+    /// One of them.
+    pub fn number(&self, headline: Headline) -> Option<f64> {
+        match headline {
+            Headline::Restitution => self.restitution,
+            Headline::ContactTime => self.contact_time_s,
+            Headline::PeakForce => self.peak_force_n,
+            Headline::MaxApproach => self.max_approach_m,
+            Headline::MaxContactRadius => self.max_contact_radius_m,
+            Headline::PeakPressure => self.peak_pressure_pa,
+        }
+    }
+}
+
+/// How far each quantity may be off, written by its key; sizes in its own unit.
+#[derive(Clone, Copy, Debug)]
+pub struct UncertaintySummary([Parts; 6]);
+
+impl UncertaintySummary {
+    /// Of each quantity what `parts` says.
+    pub fn by(parts: impl FnMut(Headline) -> Parts) -> Self {
+        Self(Headline::ALL.map(parts))
+    }
+
+    /// Of one quantity.
+    pub fn parts(&self, headline: Headline) -> Parts {
+        self.0[headline as usize]
+    }
+}
+
+impl Serialize for UncertaintySummary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(Headline::ALL.map(|headline| (headline.key(), self.parts(headline))))
+    }
 }
 
 /// The two parts of how far a quantity may be off.
@@ -123,23 +162,6 @@ pub struct Parts {
     pub discretisation: Option<f64>,
     /// Nature is expected within it and the first part together.
     pub model: Option<f64>,
-}
-
-impl From<&Uncertainty> for UncertaintySummary {
-    fn from(uncertainty: &Uncertainty) -> Self {
-        let parts = |doubt: fn(&Doubt) -> Option<f64>| Parts {
-            discretisation: doubt(&uncertainty.discretisation),
-            model: doubt(&uncertainty.model),
-        };
-        Self {
-            restitution: parts(|doubt| doubt.restitution),
-            contact_time_s: parts(|doubt| doubt.contact_time),
-            peak_force_n: parts(|doubt| doubt.peak_force),
-            max_approach_m: parts(|doubt| doubt.max_approach),
-            max_contact_radius_m: parts(|doubt| doubt.max_contact_radius),
-            peak_pressure_pa: parts(|doubt| doubt.peak_pressure),
-        }
-    }
 }
 
 /// One contact of a ball that bounces.

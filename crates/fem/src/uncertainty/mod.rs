@@ -11,30 +11,24 @@ mod discretisation;
 use fem_collision::Collision;
 
 use crate::effects::{Doubt, EFFECTS, Standing};
-use crate::results::{EffectSummary, Quantities};
+use crate::results::{EffectSummary, Parts, Quantities, UncertaintySummary};
 use crate::simulation::Simulation;
 
-/// How far each quantity of a result may be off, in SI: untold where there is no number.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Uncertainty {
-    /// From the truth of the model's own problem.
-    pub discretisation: Doubt,
-    /// Of that from nature.
-    pub model: Doubt,
-}
-
 impl Simulation {
-    /// How far the quantities of a collision may be off, of what was decided on the effects and by how much
-    /// its numbers change without each.
+    /// How far the quantities of a collision may be off that it has, of what was decided on the effects and by
+    /// how much its numbers change without each; in SI, untold where there is no number.
     pub(crate) fn uncertainty(
         &self,
         collision: &Collision,
+        numbers: &Quantities,
         effects: &[EffectSummary],
-    ) -> Uncertainty {
-        Uncertainty {
-            discretisation: discretisation::of(self, collision),
-            model: self.model_doubt(collision, effects),
-        }
+    ) -> UncertaintySummary {
+        let discretisation = discretisation::of(self, collision, effects);
+        let model = self.model_doubt(collision, effects);
+        UncertaintySummary::by(|headline| {
+            let of = |doubt: &Doubt| numbers.number(headline).and(doubt.size(headline));
+            Parts { discretisation: of(&discretisation), model: of(&model) }
+        })
     }
 
     /// What the effects that the collision lacks would change, all together.
@@ -48,20 +42,5 @@ impl Simulation {
             let doubt = effect.map(|effect| effect.doubt(&scene, &estimate, &standing));
             sum.and(doubt.unwrap_or(Doubt::NOTHING))
         })
-    }
-}
-
-impl Uncertainty {
-    /// Of the quantities that a collision has.
-    pub(crate) fn of_numbers(self, numbers: &Quantities) -> Self {
-        let [discretisation, model] = [self.discretisation, self.model].map(|doubt| Doubt {
-            restitution: numbers.restitution.and(doubt.restitution),
-            contact_time: numbers.contact_time_s.and(doubt.contact_time),
-            peak_force: numbers.peak_force_n.and(doubt.peak_force),
-            max_approach: numbers.max_approach_m.and(doubt.max_approach),
-            max_contact_radius: numbers.max_contact_radius_m.and(doubt.max_contact_radius),
-            peak_pressure: numbers.peak_pressure_pa.and(doubt.peak_pressure),
-        });
-        Self { discretisation, model }
     }
 }

@@ -1,7 +1,8 @@
 //! What accuracy costs: the ladder of a scene and what is made of it.
 
-use fem::accuracy::{ErrorSource, Headline, Ladder, Measurement, Series, Study};
+use fem::accuracy::{ErrorSource, Ladder, Measurement, Series, Study};
 use fem::{Case, Shared};
+use fem_collision::Headline;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
     body = [{ name = 'ball', sphere.diameter = '2 cm', material = 'ice', approach_speed = 0.2 },

@@ -1,8 +1,7 @@
 //! What results may be off by from the limit of their model, against theory.
 
-use fem::accuracy::Headline;
 use fem::results::{Parts, Summary};
-use fem::{Case, Estimate, Simulation};
+use fem::{Case, Estimate, Headline, Simulation};
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
     body = [{ name = 'ball', sphere.diameter = '2 cm', material = 'ice', approach_speed = 0.2 },
@@ -30,18 +29,7 @@ fn relaxing() -> String {
 }
 
 fn told(summary: &Summary, headline: Headline) -> (f64, Parts) {
-    let (numbers, uncertainty) = (&summary.collision, &summary.uncertainty);
-    let (value, parts) = match headline {
-        Headline::Restitution => (numbers.restitution, uncertainty.restitution),
-        Headline::ContactTime => (numbers.contact_time_s, uncertainty.contact_time_s),
-        Headline::PeakForce => (numbers.peak_force_n, uncertainty.peak_force_n),
-        Headline::MaxApproach => (numbers.max_approach_m, uncertainty.max_approach_m),
-        Headline::MaxContactRadius => {
-            (numbers.max_contact_radius_m, uncertainty.max_contact_radius_m)
-        }
-        Headline::PeakPressure => (numbers.peak_pressure_pa, uncertainty.peak_pressure_pa),
-    };
-    (value.unwrap(), parts)
+    (summary.collision.number(headline).unwrap(), summary.uncertainty.parts(headline))
 }
 
 /// Half-spaces with the finite size of the spheres: how far they are from spheres themselves, relative;

@@ -52,6 +52,34 @@ pub fn forces(interface: &ContactInterface, u: &[Field; 2]) -> (ContactForces, [
     (total, f)
 }
 
+/// Asserts that forces of a configuration balance.
+pub fn assert_balance(total: &ContactForces, f: &[Field; 2]) {
+    let [lower, upper] = f.each_ref().map(|f| f.iter().map(|f| f[1]).sum::<f64>());
+    // Rounding of some hundred terms.
+    assert!((lower + total.force).abs() < 1e-13 * total.force, "{lower} {total:?}");
+    assert!((upper - total.force).abs() < 1e-13 * total.force, "{upper} {total:?}");
+}
+
+/// Asserts that the force on every node is −∂energy/∂displacement.
+pub fn assert_gradient(interface: &ContactInterface, u: &[Field; 2]) {
+    let (total, f) = forces(interface, u);
+    let step = 1e-10;
+    for side in 0..2 {
+        for node in interface.candidate_nodes(side) {
+            let energy = |change: f64| {
+                let mut moved = u.clone();
+                moved[side][node as usize][1] += change;
+                forces(interface, &moved).0.energy
+            };
+            let slope = (energy(step) - energy(-step)) / (2.0 * step);
+            let error = (f[side][node as usize][1] + slope).abs();
+            // The energy is quadratic, so the difference is exact but for rounding,
+            // 1e-15 · energy / step.
+            assert!(error < 1e-14 * total.energy / step, "{error:e} {total:?}");
+        }
+    }
+}
+
 /// Displacements without pattern that close the contact of the glass pair in places.
 pub fn ragged(meshes: &[SphereMesh; 2], depth: f64) -> [Field; 2] {
     [0, 1].map(|side: usize| {

@@ -4,7 +4,7 @@ use std::path::{MAIN_SEPARATOR, Path};
 
 use fem::{Cost, Simulation};
 use fem_case::{Case, CaseError};
-use fem_collision::{Collision, Row, Side};
+use fem_collision::{Collision, Headline, Row, Side};
 use fem_laws::HertzImpact;
 
 use crate::error::StudyError;
@@ -99,20 +99,13 @@ impl Trial {
     /// How many numbers are none.
     pub fn no_number(&self) -> Option<f64> {
         let collision = self.collision()?;
-        let results = [
-            collision.restitution,
-            collision.contact_time,
-            collision.peak_force,
-            collision.max_approach,
-            collision.max_contact_radius,
-            collision.peak_pressure,
-            collision.residual_relative,
-        ];
+        let results = Headline::ALL.map(|headline| headline.of(collision));
+        let results = results.into_iter().chain([collision.residual_relative]);
         let of_row = |row: &Row| {
             let [lower, upper] = row.velocity;
             [row.time, row.contact_force, row.approach, lower, upper]
         };
-        let all = results.into_iter().flatten().chain(collision.history.iter().flat_map(of_row));
+        let all = results.flatten().chain(collision.history.iter().flat_map(of_row));
         Some(all.filter(|value| !value.is_finite()).count() as f64)
     }
 

@@ -24,7 +24,7 @@ mod departure;
 mod measured;
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
-use fem_collision::Collision;
+use fem_collision::{Collision, Headline};
 use fem_explicit::MOST_FINITE_STRAIN_TERMS;
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
@@ -315,16 +315,13 @@ impl Effect for FiniteStrain {
             with_relaxation(scene, estimate, change);
         let shares = LeftOut::shares(estimate, contact_time, peak_force);
         let hertz = &estimate.hertz;
-        Doubt {
-            restitution: Some(restitution),
-            // F = πa² times the mean pressure.
-            max_contact_radius: Some(
-                0.5 * (peak_force + peak_pressure) * hertz.max_contact_radius(),
-            ),
-            peak_pressure: Some(peak_pressure * hertz.peak_pressure()),
-            ..Doubt::of(&shares, estimate)
-        }
-        .checked()
+        // F = πa² times the mean pressure.
+        let radius = 0.5 * (peak_force + peak_pressure) * hertz.max_contact_radius();
+        Doubt::of(&shares, estimate)
+            .with(Headline::Restitution, restitution)
+            .with(Headline::MaxContactRadius, radius)
+            .with(Headline::PeakPressure, peak_pressure * hertz.peak_pressure())
+            .checked()
     }
 
     /// The estimate warns of what it expects; this is what came.

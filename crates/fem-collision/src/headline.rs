@@ -1,7 +1,6 @@
 //! The numbers that a collision is known by.
 
-use fem_case::Accuracy;
-use fem_collision::Collision;
+use crate::collision::Collision;
 
 /// A number that a collision is known by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -84,18 +83,6 @@ impl Headline {
         match self {
             Self::Restitution => 1.0,
             _ => limit.abs(),
-        }
-    }
-
-    /// The error that a case allows it, told as [`Headline::scale`] has it; none of what a case says
-    /// nothing about.
-    pub fn tolerance(self, accuracy: &Accuracy) -> Option<f64> {
-        match self {
-            Self::Restitution => Some(accuracy.restitution),
-            Self::ContactTime => Some(accuracy.contact_time),
-            Self::PeakForce => Some(accuracy.peak_force),
-            Self::PeakPressure => Some(accuracy.peak_pressure),
-            Self::MaxApproach | Self::MaxContactRadius => None,
         }
     }
 }
