@@ -61,6 +61,7 @@ impl Document {
                  string in quotes, \"22.2 mm\"",
                 )
         })?;
+        overrides::expand_choices(tree.get_mut());
         for (index, text) in overrides.iter().enumerate() {
             let previous = &document.sources[index];
             document.sources.push(Source {

@@ -70,6 +70,7 @@ pub mod library;
 mod material_tables;
 mod model;
 mod model_tables;
+mod oddities;
 mod overrides;
 mod positions;
 mod quantity;
