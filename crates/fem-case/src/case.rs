@@ -10,6 +10,7 @@ use crate::body::Shape;
 use crate::document::{Document, Insertions};
 use crate::error::CaseError;
 use crate::explain::{explain, listed};
+use crate::library;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::schema::{CaseFile, is_list};
@@ -105,7 +106,8 @@ impl Case {
     /// );
     /// # Ok::<(), fem_case::CaseError>(())
     /// ```
-    pub fn of(file: CaseFile) -> Result<Case, CaseError> {
+    pub fn of(mut file: CaseFile) -> Result<Case, CaseError> {
+        library::fill(&mut file);
         let document = Document::of_code(&file.tree()?);
         let names: Vec<&str> = file.body.iter().map(|body| body.name.as_str()).collect();
         let defaults = Defaults { title: listed(&names), folder: absolute(Path::new(".")) };
@@ -143,6 +145,7 @@ impl Case {
     pub fn edited(&self, change: impl FnOnce(&mut CaseFile)) -> Result<Case, CaseError> {
         let mut file = self.file.clone();
         change(&mut file);
+        library::fill(&mut file);
         let document = self.document.edited(&self.file.tree()?, &file.tree()?);
         Case::validated(document, file, self.defaults.clone())
     }

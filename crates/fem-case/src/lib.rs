@@ -13,6 +13,8 @@
 //! it collides is for crates above. Text and code ([`Case::of`], [`Case::edited`]) are validated by
 //! the same path.
 //!
+//! A body's `material = "lib:NAME"` is one of [`library`].
+//!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
 //! is allowed. [`Case::load`] does all of it; [`Case::of`] takes a [`CaseFile`] made in code and
 //! [`Case::edited`] changes a case, where the key stands in place of file and line:
@@ -62,6 +64,7 @@ mod gravity;
 mod gravity_tables;
 mod key_path;
 mod keyword;
+pub mod library;
 mod material_tables;
 mod model;
 mod model_tables;

@@ -9,6 +9,7 @@ use crate::body::{Body, Shape};
 use crate::error::CaseError;
 use crate::explain::{listed, near};
 use crate::key_path::{is_bare, join, quote_key};
+use crate::library;
 use crate::schema::{BodyTable, CaseFile, SphereTable};
 
 impl Check<'_> {
@@ -187,6 +188,15 @@ impl Check<'_> {
         };
         materials.get(name.as_str()).cloned().ok_or_else(|| {
             let error = self.error(&join(path, "material"), format!("no material \"{name}\""));
+            if library::is_of_library(name) {
+                let bare = name.trim_start_matches(library::PREFIX);
+                let near = library::nearest_to(bare);
+                let near =
+                    near.map_or(String::new(), |near| format!("did you mean `lib:{near}`? "));
+                let names = library::names();
+                let help = format!("the library has {}", names.join(", "));
+                return error.with_help(format!("{near}{help}"));
+            }
             error.with_help(format!("{}{known}", near(name, &names)))
         })
     }

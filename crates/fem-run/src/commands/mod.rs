@@ -8,6 +8,7 @@ pub mod cradle;
 pub mod export;
 pub mod fit;
 pub mod invert;
+pub mod materials;
 pub mod mesh;
 pub mod run;
 pub mod sweep;
@@ -22,6 +23,7 @@ use crate::failure::Failure;
 pub enum Command {
     Check(check::Arguments),
     Mesh(mesh::Arguments),
+    Materials(materials::Arguments),
     Sweep(sweep::Arguments),
     Accuracy(accuracy::Arguments),
     Validate(validate::Arguments),
@@ -39,6 +41,7 @@ impl Command {
         match self {
             Self::Check(arguments) => check::execute(&arguments),
             Self::Mesh(arguments) => mesh::execute(&arguments),
+            Self::Materials(arguments) => materials::execute(&arguments),
             Self::Sweep(arguments) => sweep::execute(&arguments),
             Self::Accuracy(arguments) => accuracy::execute(&arguments),
             Self::Validate(arguments) => validate::execute(&arguments),

@@ -5,6 +5,7 @@ mod bad_input;
 mod bounces;
 mod calibrate;
 mod common;
+mod first_minutes;
 mod fit;
 mod full_disk;
 mod house;
