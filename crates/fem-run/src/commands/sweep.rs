@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::sweep::{Checked, Member, Row, SWEEP_FILE, check};
+use fem::sweep::{Checked, KeyNumbers, Member, Row, SWEEP_FILE, check};
 use fem_case::engineering::show;
 use fem_case::{CaseFile, Sweep};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output::{self, one_line};
 use crate::sweep::{
-    AxisNumbers, Checking, Choice, Collected, Collector, Job, Mark, SweepFolder, run_members,
+    Checking, Choice, Collected, Collector, Job, Mark, SweepFolder, duration, run_members,
 };
 use crate::tables::table;
 
@@ -90,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let shard = arguments.shard.unwrap_or(Shard { first: 0, step: 1 });
     let pool = pool(arguments.threads)?;
     let there = SweepFolder::at(&out);
-    let mut numbers = AxisNumbers::new(&sweep);
+    let mut numbers = KeyNumbers::new(&sweep);
     let mut checking = Checking::new(sweep.n_members(), arguments.quiet);
     let is_done = |member: &Member| there.has(&member.identity(), sweep.keep);
     let see = |member: &Member, case: &CaseFile| {
@@ -98,12 +98,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         numbers.see(&sweep, member.index, case);
     };
     let checked = pool.install(|| check(&sweep, |index| shard.has(index), is_done, see))?;
-    let Checked { members, left, advice } = &checked;
+    let Checked { members, left, .. } = &checked;
     let choice = Choice::of(&sweep, &numbers)?;
     let n_own = members.iter().filter(|member| shard.has(member.index)).count();
     let tell = || {
         if !arguments.quiet {
-            announce(arguments, members.len(), n_own, left.len(), *advice);
+            announce(arguments, &checked, n_own, pool.current_num_threads());
         }
     };
     if arguments.dry_run {
@@ -123,7 +123,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         interrupt: interrupt.clone(),
     };
     let ran = run_members(&job, left);
-    let collector = Collector { sweep: &sweep, members, folder: &folder, choice: &choice };
+    let collector =
+        Collector { sweep: &sweep, members, folder: &folder, numbers: &numbers, choice: &choice };
     let collected = collector.collect(|index| shard.has(index))?;
     ran?;
     if !arguments.quiet {
@@ -137,29 +138,31 @@ fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
     pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))
 }
 
-/// One line on stderr about what begins.
-fn announce(
-    arguments: &Arguments,
-    n_members: usize,
-    n_own: usize,
-    n_left: usize,
-    advice: Option<&str>,
-) {
+/// One line on stderr about what begins and what it takes.
+fn announce(arguments: &Arguments, checked: &Checked, n_own: usize, n_threads: usize) {
+    let (n_members, n_left) = (checked.members.len(), checked.left.len());
     let shard = if n_own == n_members { String::new() } else { format!(", {n_own} in this shard") };
     let name = one_line(&arguments.sweep.display().to_string());
+    let time = match n_left {
+        0 => String::new(),
+        _ => format!(
+            ", some {} on {n_threads} threads",
+            duration(checked.seconds / n_threads as f64)
+        ),
+    };
     let _ = writeln!(
         stderr(),
-        "{name}: {n_members} members{shard}; {} done before, {n_left} to run",
+        "{name}: {n_members} members{shard}; {} done before, {n_left} to run{time}",
         n_own - n_left
     );
-    if let Some(advice) = advice {
+    if let Some(advice) = checked.advice {
         let _ = writeln!(stderr(), "hint: {advice}");
     }
 }
 
 /// The main results of each member, and where the rest is.
 fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &Path) -> String {
-    let keys = sweep.axes.iter().map(|axis| axis.key.as_str());
+    let keys = sweep.keys().map(|swept| swept.key.as_str());
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
@@ -167,7 +170,7 @@ fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &Path)
         cells.extend(result_cells(row));
         cells
     };
-    let mut alignment = vec![Left; sweep.axes.len()];
+    let mut alignment = vec![Left; sweep.keys().count()];
     alignment.extend([Right; 5]);
     let shown = collected.shown.iter().map(row);
     let mut text = table(&alignment, std::iter::once(header).chain(shown));

@@ -11,10 +11,10 @@
 //! Table and picture are made from the members' folders alone, by whoever finishes one: the same
 //! bytes whatever the order.
 
-mod axis_numbers;
 mod board;
 mod checking;
 mod collect;
+mod duration;
 mod folder;
 mod mark;
 mod picture;
@@ -22,9 +22,9 @@ mod picture_data;
 mod picture_points;
 mod runner;
 
-pub use axis_numbers::AxisNumbers;
 pub use checking::Checking;
 pub use collect::{Collected, Collector};
+pub use duration::duration;
 pub use folder::SweepFolder;
 pub use mark::Mark;
 pub use picture_data::Choice;

@@ -11,6 +11,7 @@ use fem_case::schema::MeshTable;
 use fem_case::{Case, CaseError, CaseFile};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use super::expense::seconds;
 use super::identity::Member;
 use super::members::Members;
 use crate::simulation::Simulation;
@@ -26,6 +27,8 @@ pub struct Checked {
     /// Places of those that are to run, each identity once, the dearest first: so that none of them is left
     /// alone at the end.
     pub left: Vec<usize>,
+    /// What those take on one core of 3 GHz, s; an order of magnitude.
+    pub seconds: f64,
     /// What would make it cheaper.
     pub advice: Option<&'static str>,
 }
@@ -70,6 +73,7 @@ pub fn check(
                 && known.insert(member.digest)
             {
                 prices.push((Reverse(price), member.index));
+                checked.seconds += seconds(&case, price);
                 meshes.see(member.index, &case);
             }
         }
