@@ -62,6 +62,8 @@ mod error;
 mod explain;
 mod gravity;
 mod gravity_tables;
+#[cfg(feature = "schema")]
+pub mod json_schema;
 mod key_path;
 mod keyword;
 pub mod library;

@@ -11,6 +11,7 @@ use crate::quantity::{Kind, QuantityKind};
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
 pub struct ModelTable {
     /// Explicit finite elements.
@@ -104,6 +105,7 @@ impl From<LawTable> for ModelTable {
 
 /// `condensed = { … }`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { vibration_modes = 12 }")]
 pub struct CondensedTable {
     /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
@@ -119,6 +121,7 @@ pub struct CondensedTable {
 
 /// `ting = { … }`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
 pub struct TingTable {
     /// Whether the spheres' finite size adds to the approach.
@@ -131,6 +134,7 @@ pub struct TingTable {
 
 /// `hertz = { … }`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
 pub struct HertzTable {
     /// Whether the spheres' finite size adds to the approach.
@@ -177,6 +181,7 @@ macro_rules! law_tables {
         $(
             $(#[$doc])*
             #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+            #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
             #[serde(deny_unknown_fields, expecting = $example)]
             pub struct $table {
                 $(
@@ -201,6 +206,7 @@ macro_rules! law_tables {
 
         /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand beside it.
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         #[serde(
             deny_unknown_fields,
             expecting = "a table such as { kuwabara_kono = { a = \"1e-6 s\" } }"
