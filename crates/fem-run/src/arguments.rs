@@ -54,10 +54,11 @@ pub fn parse() -> Arguments {
         Ok(arguments) => return arguments,
         Err(error) => error,
     };
-    if error.kind() != ErrorKind::ArgumentConflict {
+    // clap's own message takes the second of two cases for a command.
+    let is_of_commands = error.to_string().contains("the subcommand");
+    if error.kind() != ErrorKind::ArgumentConflict || !is_of_commands {
         error.exit()
     }
-    // clap's own message takes the second of two cases for a command.
     let mut command = Arguments::command();
     let names = names_of(&command);
     let word = std::env::args().nth(1).unwrap_or_default();

@@ -136,7 +136,8 @@ impl Collector<'_> {
 }
 
 impl Collected {
-    fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
+    /// Takes the row of a member that is done.
+    pub fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
         self.n_done += 1;
         self.n_own_done += usize::from(is_own);
         if is_own && !row.is_complete() {

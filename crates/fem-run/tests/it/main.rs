@@ -15,6 +15,8 @@ mod repeatability;
 mod replacing;
 mod restart;
 mod result_folder;
+#[cfg(unix)]
+mod slurm;
 mod stopping;
 mod streams;
 mod sweep;

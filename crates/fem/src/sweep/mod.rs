@@ -26,7 +26,7 @@ mod runner;
 mod table;
 mod variations;
 
-pub use check::{Checked, check};
+pub use check::{Checked, check, check_some};
 pub use columns::{COLUMNS, Columns, column_unit, column_words, columns, key_column};
 pub use identity::Member;
 pub use in_code::sweep;
