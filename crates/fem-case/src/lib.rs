@@ -60,6 +60,7 @@ mod empty_table;
 pub mod engineering;
 mod error;
 mod explain;
+mod faults;
 mod gravity;
 mod gravity_tables;
 #[cfg(feature = "schema")]
