@@ -67,6 +67,7 @@ mod model;
 mod model_tables;
 mod overrides;
 mod positions;
+mod probe_table;
 mod quantity;
 mod scene;
 pub mod schema;
@@ -88,7 +89,7 @@ pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use scene::{Accuracy, Limits, MeshSettings, Scene, Snapshots};
+pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element};

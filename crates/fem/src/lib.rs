@@ -40,6 +40,7 @@ mod models;
 mod numerics;
 mod pair_cache;
 mod plan;
+mod probes;
 mod quasi_static;
 mod quieter;
 mod refusal;
