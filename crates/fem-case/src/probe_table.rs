@@ -6,6 +6,7 @@ use crate::quantity::{Length, Quantity};
 
 /// `[[output.probe]]`: a place of a body of which is told what happens there over time.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [[output.probe]]")]
 pub struct ProbeTable {
     /// The name of a body.
