@@ -20,7 +20,7 @@
 
 use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::read_out::{self, Barrier};
+use crate::pressure::coarser;
 use crate::surface::Foot;
 
 /// Displacement (u_r, u_y) of a node, m.
@@ -178,7 +178,7 @@ impl SlippingInterface {
 
     /// As [`ContactInterface::contact_radius`].
     pub fn contact_radius(&self, u: [&[Displacement]; 2]) -> f64 {
-        read_out::contact_radius(self.nodal_pressure(u), Barrier::Springs)
+        self.interface.radius_of(self.signed_pressure(u))
     }
 
     /// As [`ContactInterface::nodal_pressure`].
@@ -186,13 +186,13 @@ impl SlippingInterface {
         &'a self,
         u: [&'a [Displacement]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        self.interface.at_nodes(self.signed_pressure(u))
+        let side = coarser(&self.interface.surfaces, self.interface.candidate_radius);
+        self.interface.at_nodes(side, self.signed_pressure(u))
     }
 
     /// As [`ContactInterface::centre_pressure`].
     pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
-        let radius = self.contact_radius(u);
-        read_out::centre_pressure(self.nodal_pressure(u), radius, Barrier::Springs)
+        self.interface.centre_pressure_of(self.signed_pressure(u))
     }
 
     fn signed_pressure<'a>(

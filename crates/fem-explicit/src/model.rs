@@ -142,7 +142,7 @@ impl Model {
             None => Body::wall(velocity),
         });
         Ok(Self {
-            inverse_mass: bodies.iter().map(Body::inverse_total_mass).sum(),
+            inverse_mass: bodies.iter().map(Body::inverse_mass_of_centre).sum(),
             bodies,
             contact_advances: contact.n_history() > 0
                 || (0..2).any(|side| !contact.massless_nodes(side).is_empty()),
@@ -223,7 +223,7 @@ impl Model {
 
     /// The frame of the common mass centre, mass scaling included.
     pub(crate) fn frame(&self) -> Frame {
-        let mass = |body: &Body| (body.is_free() && !body.held).then(|| body.total_mass());
+        let mass = |body: &Body| (body.is_free() && !body.held).then(|| body.mass());
         let masses = self.bodies.each_ref().map(mass);
         Frame {
             approach: self.approach,

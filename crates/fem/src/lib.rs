@@ -26,6 +26,7 @@ mod duration;
 pub mod effects;
 mod estimate;
 mod expected;
+mod fineness;
 mod flow;
 mod identity;
 mod large_partner;
@@ -48,6 +49,7 @@ mod resolution;
 pub mod results;
 mod simulation;
 mod soft_springs;
+mod stagger;
 mod stress;
 pub mod sweep;
 mod uncertainty;
@@ -77,7 +79,9 @@ pub use simulation::{Simulation, collide};
 pub use stress::BodyStress;
 pub use sweep::sweep;
 
-pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
+pub use fem_case::{
+    Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,
+};
 pub use fem_collision::{
     Account, Approach, ApproachError, BodyFields, BodyResult, Book, Bounce, Collision, Ending,
     Expectation, Headline, Label, Monitor, Phase, Progress, Rest, Row, Searched, Shown, Side,

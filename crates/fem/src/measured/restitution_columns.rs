@@ -118,8 +118,14 @@ impl Columns {
 fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError> {
     for (column, header) in table.header().iter().enumerate() {
         let is_same = |row: usize| table.text(row, column) == table.text(0, column);
+        // A sweep has its keys twice, as written and in SI.
+        let is_twin = |other: &String| {
+            let ending = header.strip_prefix(other.as_str());
+            other.contains('.') && ending.is_some_and(|ending| ending.starts_with('_'))
+        };
         if header.contains('.')
             && !may_vary.contains(&column)
+            && !table.header().iter().any(is_twin)
             && let Some(row) = (1..table.n_rows()).find(|row| !is_same(*row))
         {
             let error = table.fault(row, format!("the sweep varies {header}, too"));
