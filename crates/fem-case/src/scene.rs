@@ -144,6 +144,7 @@ impl Scene {
         scene.mesh.contact_element_size = None;
         scene.mesh.refined_radius = None;
         scene.mesh.far_radius = None;
+        scene.mesh.staggered = None;
         Some(scene)
     }
 
@@ -254,6 +255,8 @@ pub struct MeshSettings {
     pub growth: Option<f64>,
     /// Distance of the far boundary of a half-space, m, > 0.
     pub far_radius: Option<f64>,
+    /// Whether the nodes of one body lie between those of the other at the edge of the contact.
+    pub staggered: Option<bool>,
 }
 
 /// The instants at which fields are written.

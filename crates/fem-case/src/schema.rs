@@ -128,6 +128,10 @@ pub struct MeshTable {
     /// Distance of the far boundary of a half-space, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub far_radius: Option<Quantity<Length>>,
+    /// Whether elements of one body are a little larger and those of the other a little smaller, so that at
+    /// the edge of the contact their nodes lie between each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub staggered: Option<bool>,
 }
 
 /// `[contact]`: how springs keep the surfaces apart, and how stiff they are.

@@ -101,9 +101,9 @@ pub struct BodyResult {
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// Mass without what scaling adds, kg; a wall or a half-space has none.
+    /// Mass, kg; a wall or a half-space has none.
     pub mass: Option<f64>,
-    /// Added by mass scaling, kg.
+    /// Added to light nodes by mass scaling, from others of the body, kg.
     pub added_mass: Option<f64>,
     /// Velocity of the mass centre along +y, m/s; of a half-space far away.
     pub velocity_after: Option<f64>,

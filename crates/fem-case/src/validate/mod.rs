@@ -76,6 +76,7 @@ pub(crate) fn validate(
             )?,
             growth: check.optional("mesh.growth", mesh.growth.as_ref(), ABOVE_ONE)?,
             far_radius: check.optional("mesh.far_radius", mesh.far_radius.as_ref(), POSITIVE)?,
+            staggered: mesh.staggered,
         },
         contact_method: contact.method,
         penalty_factor: check.optional(

@@ -148,9 +148,7 @@ impl Whole {
     fn collision(&self, half: Collision) -> Collision {
         let body = half.bodies[0];
         // Of both bodies in the frame in which the half was computed, 2 m V²/2.
-        let of_centre = (body.mass.unwrap_or(0.0) + body.added_mass.unwrap_or(0.0))
-            * self.velocity
-            * self.velocity;
+        let of_centre = body.mass.unwrap_or(0.0) * self.velocity * self.velocity;
         let after = |side: usize| BodyResult {
             velocity_after: body.velocity_after.map(|v| self.velocities(v)[side]),
             ..body

@@ -68,7 +68,7 @@ impl OwnFrame {
         if self.met == self.own {
             return own;
         }
-        let masses = own.bodies.map(|body| Some(body.mass? + body.added_mass.unwrap_or(0.0)));
+        let masses = own.bodies.map(|body| body.mass);
         let later = |time: f64| self.delay() + time;
         let scale = |approach: &Approach| momentum_scale(approach, masses);
         let initial =

@@ -167,6 +167,7 @@ impl Random {
                 refined_radius: random.maybe(|random| random.quantity(&[3e-4])),
                 growth: random.maybe(|random| random.quantity(&[1.1])),
                 far_radius: random.maybe(|random| random.quantity(&[0.1])),
+                staggered: random.maybe(|_| true),
             }),
             contact: self.maybe(|random| ContactTable {
                 method: random.maybe(|random| {

@@ -47,8 +47,8 @@ use course::BouncingCourse;
 
 /// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
 const LARGEST_DENT: f64 = 0.5;
-/// Elements across the expected contact radius below which a mesh is made anew; the plan's has eight.
-const FEWEST_ELEMENTS: f64 = 6.0;
+/// Expected contact radius over the one for which a mesh was made below which it is made anew.
+const SMALLEST_SHARE: f64 = 0.75;
 /// Rows of all contacts after the first one together are at most so many times those of the first.
 const ROWS_OF_ALL: usize = 10;
 /// Rows of a contact that show its course.
@@ -122,7 +122,7 @@ impl Ball {
         }
         let estimate = Estimate::at(&self.scene, speed)
             .map_err(|error| Stop::OutOfRange(error.to_string()))?;
-        if estimate.contact_radius >= FEWEST_ELEMENTS * elements.plan.contact_element_size {
+        if estimate.contact_radius >= SMALLEST_SHARE * elements.plan.estimate.contact_radius {
             return Ok(None);
         }
         self.made_at(speed).map(Some)
