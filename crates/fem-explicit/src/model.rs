@@ -167,8 +167,8 @@ impl Model {
     /// The springs of their contact, where it has any and its surfaces do not slip.
     pub fn interface(&self) -> Option<&ContactInterface> {
         let contact = self.contact() as &dyn Any;
-        let massless = || contact.downcast_ref().map(Massless::interface);
-        contact.downcast_ref().or_else(massless)
+        let massless = contact.downcast_ref::<Massless>().filter(|massless| !massless.slips());
+        contact.downcast_ref().or_else(|| massless.map(Massless::interface))
     }
 
     /// Radius out to which contact is looked for, m.
@@ -266,6 +266,9 @@ fn springs(
         None => interface,
     };
     Ok(match method {
+        ContactMethod::Massless if surface_slip => {
+            Box::new(Massless::slipping(inputs, SlippingInterface::new(interface))?)
+        }
         _ if surface_slip => Box::new(SlippingInterface::new(interface)),
         ContactMethod::Massless => Box::new(Massless::new(inputs, interface)?),
         ContactMethod::Penalty | ContactMethod::NodeToSurface => Box::new(interface),

@@ -18,9 +18,9 @@ const DASHES: &str = "8 4";
 /// An axis: what it shows, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    label: String,
-    is_logarithmic: bool,
-    range: Option<(f64, f64)>,
+    pub(crate) label: String,
+    pub(crate) is_logarithmic: bool,
+    pub(crate) range: Option<(f64, f64)>,
 }
 
 impl Axis {
@@ -41,7 +41,7 @@ impl Axis {
         self
     }
 
-    fn shows(&self, value: f64) -> bool {
+    pub(crate) fn shows(&self, value: f64) -> bool {
         let inside = self.range.is_none_or(|(from, to)| (from..=to).contains(&value));
         value.is_finite() && inside && (!self.is_logarithmic || value > 0.0)
     }
@@ -75,11 +75,11 @@ pub enum Mark {
 /// Points (x, y) with a name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    label: String,
-    points: Vec<(f64, f64)>,
-    mark: Mark,
+    pub(crate) label: String,
+    pub(crate) points: Vec<(f64, f64)>,
+    pub(crate) mark: Mark,
     colour: Option<&'static str>,
-    errors: Vec<f64>,
+    pub(crate) errors: Vec<f64>,
 }
 
 impl Curve {
@@ -128,20 +128,20 @@ impl Curve {
 
 /// An area between two curves.
 #[derive(Debug, Clone, PartialEq)]
-struct Band {
-    label: String,
+pub(crate) struct Band {
+    pub(crate) label: String,
     /// (x, one end, the other).
-    points: Vec<(f64, f64, f64)>,
-    colour: &'static str,
+    pub(crate) points: Vec<(f64, f64, f64)>,
+    pub(crate) colour: &'static str,
 }
 
 /// A panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    x: Axis,
-    y: Axis,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
     title: Option<String>,
-    bands: Vec<Band>,
+    pub(crate) bands: Vec<Band>,
     curves: Vec<Curve>,
 }
 
@@ -180,7 +180,7 @@ impl Chart {
     }
 
     /// Curves with their visible points and colours.
-    fn drawn(&self) -> impl Iterator<Item = (&Curve, Vec<(f64, f64)>, &'static str)> {
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = (&Curve, Vec<(f64, f64)>, &'static str)> {
         self.curves.iter().enumerate().map(|(k, curve)| {
             let visible = |(x, y): &&(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
             let points = curve.points.iter().filter(visible).copied().collect();

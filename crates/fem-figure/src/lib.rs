@@ -2,7 +2,8 @@
 //!
 //! A [`Chart`] is drawn by [`kuva`]; what is said here is the house style: colours that
 //! colour-blind eyes tell apart, short tick labels, room around the data of logarithmic axes.
-//! Fields on a section are drawn by [`contour`].
+//! Fields on a section are drawn by [`contour`]. [`panel`] draws one chart small and itself, for pages
+//! that restyle it.
 //!
 //! ```
 //! use fem_figure::{Axis, Chart, Curve};
@@ -16,8 +17,13 @@
 mod chart;
 pub mod contour;
 mod grid;
+mod panel;
+mod scale;
+mod simplify;
 mod style;
+mod ticks;
 
 pub use chart::{Axis, Chart, Curve, Mark};
 pub use grid::svg;
+pub use panel::panel;
 pub use style::{COLOURS, GREY, tick};

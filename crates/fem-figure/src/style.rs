@@ -1,4 +1,6 @@
-//! Colours and numbers.
+//! Colours, numbers and words.
+
+use std::fmt::Write;
 
 /// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), used in turn.
 pub const COLOURS: [&str; 7] =
@@ -17,12 +19,42 @@ pub fn tick(value: f64) -> String {
     }
 }
 
+/// Text and lines.
+pub(crate) const INK: &str = "#1c2126";
+/// Text and lines of less weight, and lines behind the data.
+pub(crate) const DIM: &str = "#5a626b";
+pub(crate) const GRID: &str = "#dfe3e8";
 /// Fonts of what is drawn here.
 pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
 
 /// Text that is safe in SVG.
-pub(crate) fn escaped(text: &str) -> String {
+fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// With a true minus sign.
+pub(crate) fn number(value: f64) -> String {
+    tick(value).replace('-', "\u{2212}")
+}
+
+/// Text for SVG; letters after `_` are set below the line.
+pub(crate) fn words(text: &str) -> String {
+    let mut parts = text.split('_');
+    let mut words = escaped(parts.next().unwrap_or_default());
+    for part in parts {
+        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
+        let (below, rest) = part.split_at(end);
+        // A first space in a span is dropped; an empty span would not bring the line back up.
+        let (gap, rest) = rest.strip_prefix(' ').map_or((0, rest), |rest| (4, rest));
+        let rest = if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) };
+        let _ = write!(
+            words,
+            "<tspan dy=\"3.5\" font-size=\"0.75em\">{}</tspan><tspan dx=\"{gap}\" \
+             dy=\"-3.5\">{rest}</tspan>",
+            escaped(below)
+        );
+    }
+    words
 }
 
 #[cfg(test)]

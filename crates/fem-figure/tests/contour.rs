@@ -125,3 +125,52 @@ fn the_picture_has_bands_numbers_and_outlines() {
         assert!(svg.contains(expected), "{expected}");
     }
 }
+
+/// What touches the axis is one polygon with its image, a hole stays one, and what does not is two.
+#[test]
+fn a_half_region_and_its_image_have_no_seam() {
+    let half = square(16, |[x, y]| x.hypot(y - 0.5));
+    let disc = Region::at_most(&half, 0.3).mirrored();
+    assert_eq!(disc.loops.len(), 1);
+    assert!((disc.area() - 2.0 * Region::at_most(&half, 0.3).area()).abs() < ROUNDING);
+    let around = Region::at_least(&half, 0.3);
+    let ring = around.mirrored();
+    assert_eq!((around.loops.len(), ring.loops.len()), (1, 2));
+    assert!((ring.area() - 2.0 * around.area()).abs() < ROUNDING);
+    let aside = Region::at_least(&half, 0.9);
+    assert_eq!(aside.mirrored().loops.len(), 2 * aside.loops.len());
+    // The same as the region of the section with its image.
+    let whole = Region::at_most(&half.mirrored(), 0.3);
+    assert!((disc.area() - whole.area()).abs() < ROUNDING);
+}
+
+/// A frame shows what the picture of all panels shows, from half of the section.
+#[test]
+fn frames_have_classes_for_a_page_to_restyle() {
+    let half = square(8, |[x, y]| 0.3 * y - x * y);
+    let panel = |title: &str| Panel { title: title.into(), sections: vec![half.clone()] };
+    let contour = Contour {
+        quantity: "σ_yy [GPa]".into(),
+        x_label: "r [mm]".into(),
+        y_label: "y [mm]".into(),
+        window: Window { x: (-1.0, 1.0), y: (0.0, 1.0) },
+        levels: Levels::about_zero(-0.7, 0.3, 5),
+        panels: vec![panel("one"), panel("two")],
+    };
+    let frames = contour.frames();
+    assert_eq!(frames.len(), 2);
+    assert!(frames[0].contains("<title>one</title>") && frames[1].contains("<title>two</title>"));
+    for frame in &frames {
+        for class in ["b0", "n1", "n3", "p1"] {
+            assert!(frame.contains(&format!("class=\"{class}\" fill=\"#")), "{class}");
+        }
+        // Nothing that two pictures of a page could both be called.
+        assert!(!frame.contains(" id=") && frame.matches("<svg").count() == 2);
+    }
+    let (bar, rules) = (contour.bar(), contour.dark_rules());
+    let n_bands = contour.levels.edges().len() - 1;
+    assert_eq!(
+        (bar.matches("<rect").count(), rules.matches("{fill:#").count()),
+        (n_bands, n_bands)
+    );
+}

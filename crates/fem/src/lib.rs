@@ -41,6 +41,7 @@ mod models;
 mod numerics;
 mod pair_cache;
 mod plan;
+mod probes;
 mod quasi_static;
 mod quieter;
 mod refusal;
@@ -79,7 +80,9 @@ pub use simulation::{Simulation, collide};
 pub use stress::BodyStress;
 pub use sweep::sweep;
 
-pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
+pub use fem_case::{
+    Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,
+};
 pub use fem_collision::{
     Account, Approach, ApproachError, BodyFields, BodyResult, Book, Bounce, Collision, Ending,
     Expectation, Headline, Label, Monitor, Phase, Progress, Rest, Row, Searched, Shown, Side,

@@ -13,11 +13,25 @@ const ABOVE: (f64, f64) = (85.0, 25.0);
 /// As colourful as the middle of a side gets.
 const CHROMA: f64 = 0.17;
 
+/// The same on a dark ground.
+const NIGHT: (f64, f64) = (0.27, 0.93);
+
 /// `#rrggbb` at a position from −1 (the lowest of all) by 0 (neutral) to 1.
 pub fn band_colour(position: f64) -> String {
+    colour(position, (LIGHT, DARK))
+}
+
+/// The same for a dark ground: dark where the field is near zero, lighter on both sides of it.
+pub(crate) fn dark_band_colour(position: f64) -> String {
+    colour(position, NIGHT)
+}
+
+fn colour(position: f64, (neutral, last): (f64, f64)) -> String {
     let t = position.abs().min(1.0);
     let (near, far) = if position < 0.0 { BELOW } else { ABOVE };
-    let lightness = LIGHT + (DARK - LIGHT) * t;
+    // The lighter of two hues is nearer to cyan and yellow on any ground.
+    let (near, far) = if neutral > last { (near, far) } else { (far, near) };
+    let lightness = neutral + (last - neutral) * t;
     let hue = (near + (far - near) * t).to_radians();
     let mut chroma = CHROMA * (1.0 - (1.0 - t).powi(2)).sqrt();
     // Less colourful until the screen can show it.

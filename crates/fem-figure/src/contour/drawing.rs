@@ -5,10 +5,10 @@ use std::fmt::Write;
 use super::colours::band_colour;
 use super::levels::Levels;
 use super::paths;
-use super::region::Region;
+use super::region::{Cells, Region};
 use super::section::Section;
 use super::window::{PANEL_WIDTH, Window};
-use crate::style::{FONT, escaped, tick};
+use crate::style::{FONT, INK, number, words};
 
 const LEFT: f64 = 62.0;
 const TOP: f64 = 34.0;
@@ -18,7 +18,6 @@ const LEGEND_WIDTH: f64 = 112.0;
 const SWATCH_WIDTH: f64 = 22.0;
 /// Intervals between ticks, about.
 const N_TICKS: usize = 7;
-const INK: &str = "#1c2126";
 
 /// What is drawn in one window.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,28 +98,11 @@ impl Contour {
 
     /// From the neutral band outward, each region over the one before.
     fn draw_bands(&self, svg: &mut String, section: &Section) {
-        let (edges, neutral) = (self.levels.edges(), self.levels.neutral());
-        let mut draw = |band: usize, region: Region| {
-            if !region.loops.is_empty() {
-                let data = paths::of_region(&region, &self.window);
-                let _ = writeln!(svg, "<path fill=\"{}\" d=\"{data}\"/>", self.colour(band));
-            }
-        };
-        draw(neutral, Region::whole(section));
-        for band in (0..neutral).rev() {
-            draw(band, Region::at_most(section, edges[band + 1]));
-        }
-        for band in neutral + 1..edges.len() - 1 {
-            draw(band, Region::at_least(section, edges[band]));
-        }
-    }
-
-    /// Of a band, by its distance from the neutral one.
-    fn colour(&self, band: usize) -> String {
-        let neutral = self.levels.neutral() as f64;
-        let n_bands = self.levels.edges().len() as f64 - 1.0;
-        let largest = neutral.max(n_bands - 1.0 - neutral).max(1.0);
-        band_colour((band as f64 - neutral) / largest)
+        bands(&self.levels, section, |band, region| {
+            let data = paths::of_region(&region, &self.window);
+            let colour = band_colour(self.levels.position(band));
+            let _ = writeln!(svg, "<path fill=\"{colour}\" d=\"{data}\"/>");
+        });
     }
 
     fn draw_axes(&self, svg: &mut String, height: f64) {
@@ -128,29 +110,21 @@ impl Contour {
             svg,
             "<rect width=\"{PANEL_WIDTH}\" height=\"{height:.1}\" fill=\"none\" stroke=\"{INK}\"/>"
         );
-        let ticks = |(from, to): (f64, f64)| {
-            let step = Levels::about_zero(0.0, to - from, N_TICKS).step();
-            let (first, last) = ((from / step).ceil() as i64, (to / step).floor() as i64);
-            (first..=last).map(move |k| k as f64 * step)
-        };
-        for value in ticks(self.window.x) {
-            let [x, _] = self.window.place([value, 0.0]);
+        let [across, up] = self.window.ticks(N_TICKS);
+        for (x, number) in across {
             let _ = writeln!(
                 svg,
                 "<path d=\"M{x:.1} {height:.1}v5\" stroke=\"{INK}\"/><text x=\"{x:.1}\" \
-                 y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                height + 19.0,
-                number(value)
+                 y=\"{:.1}\" text-anchor=\"middle\">{number}</text>",
+                height + 19.0
             );
         }
-        for value in ticks(self.window.y) {
-            let [_, y] = self.window.place([0.0, value]);
+        for (y, number) in up {
             let _ = writeln!(
                 svg,
                 "<path d=\"M0 {y:.1}h-5\" stroke=\"{INK}\"/><text x=\"-9\" y=\"{:.1}\" \
-                 text-anchor=\"end\">{}</text>",
-                y + 4.5,
-                number(value)
+                 text-anchor=\"end\">{number}</text>",
+                y + 4.5
             );
         }
         let _ = writeln!(
@@ -181,7 +155,7 @@ impl Contour {
                 svg,
                 "<rect y=\"{y:.1}\" width=\"{SWATCH_WIDTH}\" height=\"{size:.1}\" fill=\"{}\" \
                  stroke=\"{INK}\" stroke-width=\"0.5\"/>",
-                self.colour(band)
+                band_colour(self.levels.position(band))
             );
         }
         for (k, edge) in edges.iter().enumerate() {
@@ -197,27 +171,20 @@ impl Contour {
     }
 }
 
-/// With a true minus sign.
-fn number(value: f64) -> String {
-    tick(value).replace('-', "\u{2212}")
-}
-
-/// Text for SVG; letters after `_` are set below the line.
-fn words(text: &str) -> String {
-    let mut parts = text.split('_');
-    let mut words = escaped(parts.next().unwrap_or_default());
-    for part in parts {
-        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
-        let (below, rest) = part.split_at(end);
-        // A first space in a span is dropped; an empty span would not bring the line back up.
-        let (gap, rest) = rest.strip_prefix(' ').map_or((0, rest), |rest| (4, rest));
-        let rest = if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) };
-        let _ = write!(
-            words,
-            "<tspan dy=\"3.5\" font-size=\"75%\">{}</tspan><tspan dx=\"{gap}\" \
-             dy=\"-3.5\">{rest}</tspan>",
-            escaped(below)
-        );
+/// The regions of all bands that there are, from the neutral one outward, each to be drawn over those before.
+pub(crate) fn bands(levels: &Levels, section: &Section, mut draw: impl FnMut(usize, Region)) {
+    let (edges, neutral) = (levels.edges(), levels.neutral());
+    let cells = Cells::of(section);
+    let mut draw = |band: usize, region: Region| {
+        if !region.loops.is_empty() {
+            draw(band, region);
+        }
+    };
+    draw(neutral, cells.at_most(f64::INFINITY));
+    for band in (0..neutral).rev() {
+        draw(band, cells.at_most(edges[band + 1]));
     }
-    words
+    for band in neutral + 1..edges.len() - 1 {
+        draw(band, cells.at_least(edges[band]));
+    }
 }

@@ -34,6 +34,15 @@ impl Levels {
         self.step
     }
 
+    /// Of a band its place from −1 (the lowest) by 0 (neutral) to 1, for
+    /// [`band_colour`](super::band_colour).
+    pub(crate) fn position(&self, band: usize) -> f64 {
+        let neutral = self.neutral() as f64;
+        let n_bands = self.edges.len() as f64 - 1.0;
+        let largest = neutral.max(n_bands - 1.0 - neutral).max(1.0);
+        (band as f64 - neutral) / largest
+    }
+
     /// Index of the band around zero.
     pub(crate) fn neutral(&self) -> usize {
         self.edges.partition_point(|edge| *edge < 0.0) - 1

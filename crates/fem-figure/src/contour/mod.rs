@@ -7,9 +7,13 @@
 //! The region on the far side of a level from zero is drawn over that of the level before, so that no
 //! seams show between bands; edges that two triangles share are left out, so that a region
 //! is one path of its outline.
+//!
+//! [`Contour::svg`] is one picture of all panels, [`Contour::frames`] a picture a panel for pages that show
+//! one after the other.
 
 mod colours;
 mod drawing;
+mod frames;
 mod levels;
 mod paths;
 mod region;

@@ -24,12 +24,12 @@ impl Region {
 
     /// Where the field is at most `level`.
     pub fn at_most(section: &Section, level: f64) -> Self {
-        Self::clipped(section, level, 1.0)
+        Cells::of(section).at_most(level)
     }
 
     /// Where the field is at least `level`.
     pub fn at_least(section: &Section, level: f64) -> Self {
-        Self::clipped(section, -level, -1.0)
+        Cells::of(section).at_least(level)
     }
 
     /// Signed area: positive if the section's quads run counter-clockwise.
@@ -42,25 +42,101 @@ impl Region {
         0.5 * sides.sum::<f64>()
     }
 
+    /// Of a half section with its mirror image in the vertical axis, without a seam there.
+    pub fn mirrored(&self) -> Self {
+        Self { loops: self.loops.iter().flat_map(|polygon| mirrored(polygon)).collect() }
+    }
+}
+
+/// What a polygon and its image make: where it leaves the axis and comes back to it, one polygon.
+fn mirrored(polygon: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let image = |chain: &[[f64; 2]]| -> Vec<[f64; 2]> {
+        chain.iter().rev().map(|[x, y]| [-x, *y]).collect()
+    };
+    let Some(start) = polygon.iter().position(|[x, _]| *x == 0.0) else {
+        return vec![polygon.to_vec(), image(polygon)];
+    };
+    let mut whole = Vec::new();
+    let mut chain: Vec<[f64; 2]> = Vec::new();
+    let round = polygon.iter().cycle().skip(start).take(polygon.len() + 1);
+    for &point in round {
+        chain.push(point);
+        if point[0] == 0.0 {
+            // Along the axis there is nothing between a point and the next.
+            if chain.len() > 2 {
+                let back = image(&chain[1..chain.len() - 1]);
+                chain.extend(back);
+                whole.push(std::mem::take(&mut chain));
+            }
+            chain.clear();
+            chain.push(point);
+        }
+    }
+    whole
+}
+
+/// The quads of a section that have values, and which lies beyond each of their sides.
+pub(crate) struct Cells {
+    cells: Vec<[Corner; 4]>,
+    beyond: Vec<[Option<u32>; 4]>,
+}
+
+impl Cells {
+    pub fn of(section: &Section) -> Self {
+        let is_finite =
+            |quad: &&[u32; 4]| quad.iter().all(|point| section.values[*point as usize].is_finite());
+        let quads: Vec<[u32; 4]> = section.quads.iter().filter(is_finite).copied().collect();
+        let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| [quad[k], quad[(k + 1) % 4]]);
+        let mut owner: HashMap<[u32; 2], u32> = HashMap::with_capacity(4 * quads.len());
+        for (cell, quad) in quads.iter().enumerate() {
+            owner.extend(sides(quad).map(|side| (side, cell as u32)));
+        }
+        let beyond = |quad: &[u32; 4]| sides(quad).map(|[a, b]| owner.get(&[b, a]).copied());
+        let corners = |quad: &[u32; 4]| {
+            quad.map(|point| (section.points[point as usize], section.values[point as usize]))
+        };
+        Self {
+            cells: quads.iter().map(corners).collect(),
+            beyond: quads.iter().map(beyond).collect(),
+        }
+    }
+
+    /// Where the field is at most `level`.
+    pub fn at_most(&self, level: f64) -> Region {
+        self.clipped(level, 1.0)
+    }
+
+    /// Where the field is at least `level`.
+    pub fn at_least(&self, level: f64) -> Region {
+        self.clipped(-level, -1.0)
+    }
+
     /// Where `sign` times the field is at most `level`.
-    fn clipped(section: &Section, level: f64, sign: f64) -> Self {
+    fn clipped(&self, level: f64, sign: f64) -> Region {
+        let is_within =
+            |cell: &[Corner; 4]| cell.iter().filter(|(_, value)| sign * value <= level).count();
+        let within: Vec<usize> = self.cells.iter().map(is_within).collect();
         let mut edges = Edges::default();
-        for cell in section.cells() {
-            let cell = cell.map(|(place, value)| (place, sign * value));
-            let n_inside = cell.iter().filter(|(_, value)| *value <= level).count();
-            if n_inside == 4 {
-                edges.add_polygon(&cell.map(|(place, _)| place));
+        for ((cell, beyond), &n_within) in self.cells.iter().zip(&self.beyond).zip(&within) {
+            if n_within == 4 {
+                // A side that two whole quads share is no edge.
+                for k in 0..4 {
+                    if beyond[k].is_none_or(|other| within[other as usize] < 4) {
+                        edges.add_side(&cell[k].0, &cell[(k + 1) % 4].0);
+                    }
+                }
                 continue;
             }
+            let cell = cell.map(|(place, value)| (place, sign * value));
             let centre = centre(&cell);
-            if n_inside == 0 && centre.1 > level {
+            if n_within == 0 && centre.1 > level {
                 continue;
             }
             for k in 0..4 {
                 edges.add_polygon(&clip([cell[k], cell[(k + 1) % 4], centre], level));
             }
         }
-        Self { loops: edges.into_loops() }
+        Region { loops: edges.into_loops() }
     }
 }
 
@@ -98,14 +174,16 @@ struct Edges(HashMap<(Place, Place), u32>);
 
 impl Edges {
     fn add_polygon(&mut self, polygon: &[[f64; 2]]) {
+        let next = polygon.iter().cycle().skip(1);
+        polygon.iter().zip(next).for_each(|(from, to)| self.add_side(from, to));
+    }
+
+    fn add_side(&mut self, from: &[f64; 2], to: &[f64; 2]) {
         // Adding 0 makes one of the two zeros.
         let place = |point: &[f64; 2]| point.map(|x| (x + 0.0).to_bits());
-        let next = polygon.iter().cycle().skip(1);
-        for (from, to) in polygon.iter().zip(next) {
-            let (from, to) = (place(from), place(to));
-            if from != to {
-                self.add(from, to);
-            }
+        let (from, to) = (place(from), place(to));
+        if from != to {
+            self.add(from, to);
         }
     }
 

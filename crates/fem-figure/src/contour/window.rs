@@ -1,5 +1,8 @@
 //! What of a plane is seen, and where it lies in a panel.
 
+use crate::style::number;
+use crate::ticks::ticks;
+
 /// Pixels from the left to the right edge of a window.
 pub(crate) const PANEL_WIDTH: f64 = 400.0;
 
@@ -26,6 +29,13 @@ impl Window {
     /// In pixels from the upper left corner.
     pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.scale() * (x - self.x.0), self.scale() * (self.y.1 - y)]
+    }
+
+    /// Places of an axis that have a number, and the number.
+    pub(crate) fn ticks(&self, n: usize) -> [Vec<(f64, String)>; 2] {
+        let x = ticks(self.x, n).into_iter().map(|x| (self.place([x, 0.0])[0], number(x)));
+        let y = ticks(self.y, n).into_iter().map(|y| (self.place([0.0, y])[1], number(y)));
+        [x.collect(), y.collect()]
     }
 
     /// Within half a window's width of it.

@@ -24,7 +24,7 @@ pub struct Arguments {
     input: CaseArguments,
     #[command(flatten)]
     within: ToleranceArguments,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }
@@ -40,6 +40,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
     if arguments.quiet {
+        standard_output::warn(simulation.warnings_before());
         return Ok(());
     }
     let case = arguments.input.name();

@@ -5,7 +5,7 @@ use fem_case::Sweep;
 use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve as Line, GREY};
 
-use super::picture_data::{Choice, Curve, axis_unit, curves};
+use super::picture_data::{Choice, Curve, Horizontal, curves};
 use super::picture_points::PicturePoint;
 
 /// Hertz in the legend.
@@ -19,20 +19,20 @@ const LOGARITHMIC_FROM: f64 = 10.0;
 pub fn picture(sweep: &Sweep, points: &[PicturePoint], choice: &Choice) -> Option<String> {
     let x = choice.x.as_ref()?;
     let panel = |(k, column): (usize, &&'static str)| {
-        chart(sweep, x.axis, column, &curves(sweep, points, choice, x, k))
+        chart(sweep, x, column, &curves(sweep, points, choice, x, k))
     };
     fem_figure::svg(&choice.y.iter().enumerate().map(panel).collect::<Vec<_>>())
 }
 
-fn chart(sweep: &Sweep, x: usize, column: &str, curves: &[Curve]) -> Chart {
+fn chart(sweep: &Sweep, x: &Horizontal, column: &str, curves: &[Curve]) -> Chart {
     let all = || curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.hertz));
-    let horizontal = Scale::of(all().map(|point| point.0), axis_unit(sweep, x));
+    let horizontal = Scale::of(all().map(|point| point.0), x.unit);
     let vertical = Scale::of(all().map(|point| point.1), Some(column_unit(column)));
     let scaled = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
         points.iter().map(|(x, y)| (horizontal.scaled(*x), vertical.scaled(*y))).collect()
     };
-    let mut chart =
-        Chart::new(horizontal.axis(&sweep.axes[x].key), vertical.axis(&column_words(column)));
+    let name = sweep.keys().nth(x.key).map_or("", |swept| &swept.key);
+    let mut chart = Chart::new(horizontal.axis(name), vertical.axis(&column_words(column)));
     for (k, curve) in curves.iter().enumerate() {
         let label = match curves.len() {
             1 => "computed",

@@ -1,0 +1,159 @@
+//! Panels one by one, for a page that shows them in turn and restyles them by classes.
+//!
+//! A frame's sections are half sections, r ≥ 0: their mirror images are drawn with them. Bands have the
+//! classes `.b0` (neutral), `.n1`, `.n2` … below and `.p1`, `.p2` … above zero; text and lines those of
+//! [`panel`](crate::panel).
+
+use std::fmt::Write;
+
+use super::colours::{band_colour, dark_band_colour};
+use super::drawing::{Contour, Panel, bands};
+use super::levels::Levels;
+use super::paths;
+use super::window::{PANEL_WIDTH, Window};
+use crate::style::{DIM, FONT, INK, number, words};
+
+const LEFT: f64 = 50.0;
+const RIGHT: f64 = 10.0;
+const TOP: f64 = 8.0;
+const BOTTOM: f64 = 40.0;
+const FONT_SIZE: f64 = 12.5;
+/// Most intervals between ticks.
+const N_TICKS: usize = 9;
+const BAR_HEIGHT: f64 = 12.0;
+/// Numbers at the edges of bands that a bar has room for.
+const MOST_NUMBERS: usize = 9;
+
+impl Contour {
+    /// Each panel of half sections as a picture of its own.
+    pub fn frames(&self) -> Vec<String> {
+        self.panels.iter().map(|panel| self.frame(panel)).collect()
+    }
+
+    fn frame(&self, panel: &Panel) -> String {
+        let height = self.window.height();
+        let (width, whole) = (LEFT + PANEL_WIDTH + RIGHT, TOP + height + BOTTOM);
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {whole:.1}\" \
+             width=\"{width}\" height=\"{whole:.1}\" font-family=\"{FONT}\" \
+             font-size=\"{FONT_SIZE}\" role=\"img\">\n<title>{}</title>\n<svg x=\"{LEFT}\" \
+             y=\"{TOP}\" width=\"{PANEL_WIDTH}\" height=\"{height:.1}\" overflow=\"hidden\">\n",
+            words(&panel.title)
+        );
+        let Window { x, y } = self.window;
+        for section in &panel.sections {
+            bands(&self.levels, &section.within(x, y), |band, region| {
+                let data = paths::of_region(&region.mirrored(), &self.window);
+                let _ = writeln!(svg, "<path {} d=\"{data}\"/>", fill(&self.levels, band));
+            });
+        }
+        for section in &panel.sections {
+            let half = section.outline.iter().map(|point| section.points[*point as usize]);
+            let image = half.clone().rev().map(|[r, y]| [-r, y]);
+            let _ = writeln!(
+                svg,
+                "<path class=\"ink stroke\" stroke=\"{INK}\" stroke-width=\"1.1\" fill=\"none\" \
+                 d=\"{}\"/>",
+                paths::of_line(image.chain(half), &self.window)
+            );
+        }
+        svg += "</svg>\n";
+        self.draw_frame_axes(&mut svg, height);
+        svg += "</svg>\n";
+        svg
+    }
+
+    fn draw_frame_axes(&self, svg: &mut String, height: f64) {
+        let _ = writeln!(
+            svg,
+            "<g transform=\"translate({LEFT} {TOP})\" fill=\"{DIM}\" class=\"dim\">\n<rect \
+             class=\"dim stroke\" width=\"{PANEL_WIDTH}\" height=\"{height:.1}\" fill=\"none\" \
+             stroke=\"{DIM}\"/>"
+        );
+        let [across, up] = self.window.ticks(N_TICKS);
+        for (x, number) in across {
+            let (end, base) = (height + 4.0, height + 18.0);
+            let _ = writeln!(
+                svg,
+                "<path class=\"dim stroke\" stroke=\"{DIM}\" d=\"M{x:.1} {height:.1}V{end:.1}\"/>\
+                 <text x=\"{x:.1}\" y=\"{base:.1}\" text-anchor=\"middle\">{number}</text>"
+            );
+        }
+        for (y, number) in up {
+            let base = y + 4.3;
+            let _ = writeln!(
+                svg,
+                "<path class=\"dim stroke\" stroke=\"{DIM}\" d=\"M0 {y:.1}h-4\"/><text x=\"-8\" \
+                 y=\"{base:.1}\" text-anchor=\"end\">{number}</text>"
+            );
+        }
+        let (x, y) = (words(&self.x_label), words(&self.y_label));
+        let _ = writeln!(
+            svg,
+            "<text x=\"{PANEL_WIDTH}\" y=\"{:.1}\" text-anchor=\"end\">{x}</text><text \
+             transform=\"translate(-38 {:.1}) rotate(-90)\" text-anchor=\"middle\">{y}</text>\n</g>",
+            height + 34.0,
+            0.5 * height
+        );
+    }
+
+    /// The colours of all frames and their numbers, as a bar.
+    pub fn bar(&self) -> String {
+        let edges = self.levels.edges();
+        let n_bands = edges.len() - 1;
+        let (width, size) = (LEFT + PANEL_WIDTH + RIGHT, PANEL_WIDTH / n_bands as f64);
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} 56\" \
+             width=\"{width}\" height=\"56\" font-family=\"{FONT}\" font-size=\"{FONT_SIZE}\">\n\
+             <text class=\"ink\" fill=\"{INK}\" x=\"{LEFT}\" y=\"14\" \
+             font-weight=\"600\">{}</text>\n",
+            words(&self.quantity)
+        );
+        for band in 0..n_bands {
+            let x = LEFT + band as f64 * size;
+            let _ = writeln!(
+                svg,
+                "<rect {} x=\"{x:.2}\" y=\"22\" width=\"{size:.2}\" height=\"{BAR_HEIGHT}\"/>",
+                fill(&self.levels, band)
+            );
+        }
+        let stride = edges.len().div_ceil(MOST_NUMBERS);
+        // Counted from zero, which is between the edges of the neutral band.
+        let first = self.levels.neutral() % stride;
+        for (k, edge) in edges.iter().enumerate().skip(first).step_by(stride) {
+            let x = LEFT + k as f64 * size;
+            let _ = writeln!(
+                svg,
+                "<text class=\"dim\" fill=\"{DIM}\" x=\"{x:.1}\" y=\"50\" \
+                 text-anchor=\"middle\">{}</text>",
+                number(*edge)
+            );
+        }
+        svg += "</svg>\n";
+        svg
+    }
+
+    /// Rules for pages with a dark ground, on which what is far from zero is light.
+    pub fn dark_rules(&self) -> String {
+        let n_bands = self.levels.edges().len() - 1;
+        let rule = |band: usize| {
+            let colour = dark_band_colour(self.levels.position(band));
+            format!(".{}{{fill:{colour}}}", class(&self.levels, band))
+        };
+        (0..n_bands).map(rule).collect()
+    }
+}
+
+fn class(levels: &Levels, band: usize) -> String {
+    let neutral = levels.neutral();
+    match band.cmp(&neutral) {
+        std::cmp::Ordering::Less => format!("n{}", neutral - band),
+        std::cmp::Ordering::Equal => "b0".to_string(),
+        std::cmp::Ordering::Greater => format!("p{}", band - neutral),
+    }
+}
+
+fn fill(levels: &Levels, band: usize) -> String {
+    let colour = band_colour(levels.position(band));
+    format!("class=\"{}\" fill=\"{colour}\"", class(levels, band))
+}

@@ -1,0 +1,95 @@
+//! From values to places along an axis.
+
+use crate::chart::Axis;
+use crate::ticks::ticks;
+
+/// Free space above the data of an axis that begins at zero.
+const HEADROOM: f64 = 0.05;
+/// Fewer decades than this have ticks between them.
+const FEW_DECADES: f64 = 2.5;
+
+/// What an axis shows.
+pub(crate) struct Scale {
+    from: f64,
+    to: f64,
+    is_logarithmic: bool,
+}
+
+impl Scale {
+    /// The range that the axis is given, or that of the data with zero in it where it `stands`, upward, on
+    /// zero; `None` if nothing has a place.
+    pub fn of(axis: &Axis, values: impl Iterator<Item = f64>, stands: bool) -> Option<Self> {
+        let is_logarithmic = axis.is_logarithmic;
+        let (mut from, mut to) = axis.range.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+        if axis.range.is_none() {
+            for value in values.filter(|value| axis.shows(*value)) {
+                (from, to) = (from.min(value), to.max(value));
+            }
+            if from > to {
+                return None;
+            }
+            if is_logarithmic {
+                (from, to) = (from / 1.2, to * 1.2);
+            } else if stands {
+                (from, to) = (from.min(0.0), to.max(0.0));
+                let room = HEADROOM * (to - from);
+                from -= if from < 0.0 { room } else { 0.0 };
+                to += if to > 0.0 { room } else { 0.0 };
+            }
+        }
+        if from == to {
+            (from, to) = (from - 1.0, to + 1.0);
+        }
+        let is_sound = from < to && (to - from).is_finite() && (!is_logarithmic || from > 0.0);
+        is_sound.then_some(Self { from, to, is_logarithmic })
+    }
+
+    /// 0 at the beginning of the axis, 1 at its end.
+    pub fn share(&self, value: f64) -> f64 {
+        match self.is_logarithmic {
+            true => (value / self.from).ln() / (self.to / self.from).ln(),
+            false => (value - self.from) / (self.to - self.from),
+        }
+    }
+
+    /// A value, or the end of the axis that it is beyond.
+    pub fn held(&self, value: f64) -> f64 {
+        value.clamp(self.from, self.to)
+    }
+
+    /// Values with a number, about so many on a linear axis.
+    pub fn ticks(&self, n: usize) -> Vec<f64> {
+        if !self.is_logarithmic {
+            return ticks((self.from, self.to), n);
+        }
+        let decades = (self.to / self.from).log10();
+        let digits: &[f64] = if decades < FEW_DECADES { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let (first, last) = (self.from.log10().floor() as i32, self.to.log10().ceil() as i32);
+        let stride = ((decades / n as f64).ceil() as usize).max(1);
+        let powers = (first..=last).step_by(stride);
+        let all = powers.flat_map(|power| digits.iter().map(move |d| d * 10f64.powi(power)));
+        all.filter(|value| (self.from..=self.to).contains(value)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_that_stands_has_zero_in_it_and_room_above() {
+        let scale = Scale::of(&Axis::new("F"), [2.0, 100.0].into_iter(), true).unwrap();
+        assert_eq!((scale.share(0.0), scale.share(105.0)), (0.0, 1.0));
+        let free = Scale::of(&Axis::new("t"), [2.0, 100.0].into_iter(), false).unwrap();
+        assert_eq!((free.share(2.0), free.share(100.0)), (0.0, 1.0));
+        assert!(Scale::of(&Axis::new("t"), [f64::NAN].into_iter(), true).is_none());
+    }
+
+    #[test]
+    fn decades_are_equally_long() {
+        let axis = Axis::new("h").logarithmic().from_to(0.01, 1.0);
+        let scale = Scale::of(&axis, std::iter::empty(), false).unwrap();
+        assert!((scale.share(0.1) - 0.5).abs() < 1e-15);
+        assert_eq!(scale.ticks(5).len(), 7);
+    }
+}

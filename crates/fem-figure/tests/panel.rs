@@ -1,0 +1,66 @@
+//! What a chart of a page shows, and what it leaves to the page.
+
+use fem_figure::{Axis, Chart, Curve, GREY, panel};
+
+/// A half sine of a thousand points.
+fn pulse(amplitude: f64) -> Vec<(f64, f64)> {
+    let at = |k: u32| {
+        (f64::from(k) / 16.0, amplitude * (std::f64::consts::PI * f64::from(k) / 1000.0).sin())
+    };
+    (0..=1000).map(at).collect()
+}
+
+fn force() -> Chart {
+    Chart::new(Axis::new("time t [µs]"), Axis::new("force F [N]"))
+        .with(Curve::line("this run", pulse(98.0)))
+        .with(Curve::dashed("Hertz", pulse(102.0)).coloured(GREY))
+        .with(Curve::points("", vec![(31.25, 98.0)]).like_curve(0))
+}
+
+#[test]
+fn a_panel_is_small_and_names_its_curves() {
+    let svg = panel(&force()).unwrap();
+    assert_eq!(svg, panel(&force()).unwrap());
+    // A thousand points of a smooth curve are some dozens of a picture.
+    assert!(svg.len() < 6000, "{}", svg.len());
+    for expected in [">this run<", ">Hertz<", ">force F [N]<", ">time t [µs]<", ">100<"] {
+        assert!(svg.contains(expected), "{expected}");
+    }
+    assert_eq!(svg.matches("<circle").count(), 1);
+    for class in ["c0 stroke", "c0 fill", "grey stroke", "ink", "dim", "grid"] {
+        assert!(svg.contains(&format!("class=\"{class}\"")), "{class}");
+    }
+}
+
+/// The peak of 98 N is drawn where the axis has 98: between the lines of 80 and 100.
+#[test]
+fn a_curve_lies_where_its_axis_says() {
+    let svg = panel(&force()).unwrap();
+    let line = |number: &str| {
+        let end = svg.find(&format!(">{number}</text>")).unwrap();
+        let from = svg[..end].rfind("<path class=\"grid\"").unwrap();
+        let data = &svg[from..end];
+        let data = &data[data.find("d=\"M").unwrap() + 4..];
+        data.split([' ', 'H']).nth(1).unwrap().parse::<f64>().unwrap()
+    };
+    let dot = svg.split("cy=\"").nth(1).unwrap().split('"').next().unwrap().parse::<f64>().unwrap();
+    let expected = line("80") + (line("100") - line("80")) * 0.9;
+    // Places are written to a tenth of a pixel.
+    assert!((dot - expected).abs() < 0.2, "{dot} {expected}");
+}
+
+#[test]
+fn nothing_to_draw_is_no_picture() {
+    let empty = Chart::new(Axis::new("t"), Axis::new("F"));
+    assert_eq!(panel(&empty), None);
+    let nan = empty.with(Curve::line("a", vec![(0.0, f64::NAN)]));
+    assert_eq!(panel(&nan), None);
+}
+
+#[test]
+fn names_are_text_and_nothing_else() {
+    let chart = Chart::new(Axis::new("t"), Axis::new("F"));
+    let chart = chart.with(Curve::line("<script>&", vec![(0.0, 1.0), (1.0, 2.0)]));
+    let svg = panel(&chart).unwrap();
+    assert!(svg.contains("&lt;script&gt;&amp;") && !svg.contains("<script"));
+}
