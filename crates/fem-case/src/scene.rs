@@ -21,6 +21,7 @@ pub struct Scene {
     pub(crate) step_factor: Option<f64>,
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
+    pub(crate) wants_report: bool,
     pub(crate) model: ModelChoice,
     pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
@@ -77,6 +78,11 @@ impl Scene {
     /// Which instants are drawn.
     pub fn snapshots(&self) -> Option<&Snapshots> {
         self.snapshots.as_ref()
+    }
+
+    /// Whether a run writes its page.
+    pub fn wants_report(&self) -> bool {
+        self.wants_report
     }
 
     /// Which model computes the collision.

@@ -169,6 +169,9 @@ pub struct OutputTable {
     /// The instants at which fields are written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots: Option<SnapshotsValue>,
+    /// Whether a run writes its page, `report.html`; it does unless told otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub report: Option<bool>,
 }
 
 /// `snapshots`: a count, or a list of labels or of times.

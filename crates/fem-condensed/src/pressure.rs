@@ -17,14 +17,18 @@ impl CondensedPair {
         if contact.n_closed == 0 {
             return (0.0, 0.0);
         }
-        let barrier = if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs };
         let nodes = self.nodal_pressure(forces);
-        let radius = contact_radius(nodes.clone(), barrier);
-        let pressure = centre_pressure(nodes, radius, barrier);
+        let radius = contact_radius(nodes.clone(), self.barrier());
+        let pressure = centre_pressure(nodes, radius, self.barrier());
         match &self.settings().slip {
             None => (radius, pressure),
             Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
         }
+    }
+
+    /// What keeps the surfaces apart.
+    pub(crate) fn barrier(&self) -> Barrier {
+        if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs }
     }
 
     /// Pressure at the nodes of a deformable side from the axis outward, (r in m, p in Pa): nodal

@@ -90,6 +90,7 @@ pub(crate) fn validate(
             MASS_SCALING,
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
+        wants_report: file.output.as_ref().and_then(|output| output.report).unwrap_or(true),
         model: check.model(file.model.as_ref())?,
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),

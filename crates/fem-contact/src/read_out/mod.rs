@@ -17,7 +17,7 @@ mod edge;
 use std::f64::consts::PI;
 use std::iter::from_fn;
 
-pub use axis::centre_pressure;
+pub use axis::{centre_pressure, pressure_profile};
 pub use edge::contact_radius;
 
 /// What keeps the surfaces apart.

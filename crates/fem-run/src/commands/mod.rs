@@ -9,6 +9,8 @@ pub mod export;
 pub mod fit;
 pub mod invert;
 pub mod mesh;
+pub mod plot;
+pub mod report;
 pub mod run;
 pub mod sweep;
 pub mod validate;
@@ -30,6 +32,8 @@ pub enum Command {
     Invert(invert::Arguments),
     Export(export::Arguments),
     Cradle(cradle::Arguments),
+    Report(report::Arguments),
+    Plot(plot::Arguments),
     Completions(completions::Arguments),
 }
 
@@ -47,6 +51,8 @@ impl Command {
             Self::Invert(arguments) => invert::execute(&arguments),
             Self::Export(arguments) => export::execute(&arguments),
             Self::Cradle(arguments) => cradle::execute(&arguments),
+            Self::Report(arguments) => report::execute(&arguments),
+            Self::Plot(arguments) => plot::execute(&arguments),
             Self::Completions(arguments) => completions::execute(&arguments, whole()),
         }
     }

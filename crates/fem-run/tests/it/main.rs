@@ -12,6 +12,7 @@ mod leftovers;
 mod models;
 mod repeatability;
 mod replacing;
+mod report;
 mod restart;
 mod result_folder;
 mod stopping;

@@ -183,7 +183,10 @@ impl Random {
                 step_factor: random.maybe(|random| random.quantity(&[0.9])),
                 mass_scaling: random.maybe(|random| random.quantity(&[2e-4])),
             }),
-            output: self.maybe(|random| OutputTable { snapshots: random.maybe(Self::snapshots) }),
+            output: self.maybe(|random| OutputTable {
+                snapshots: random.maybe(Self::snapshots),
+                report: random.maybe(|random| random.below(2) == 0),
+            }),
             model: self.maybe(Self::model),
             accuracy: self.maybe(|random| AccuracyTable {
                 tolerance: random.maybe(|random| match random.below(2) {

@@ -25,7 +25,7 @@ mod skyline;
 use std::any::Any;
 
 use fem_collision::{BodyInput, Searched};
-use fem_contact::{ContactForces, ContactInterface};
+use fem_contact::{ContactForces, ContactInterface, Profile};
 
 use super::Contact;
 use crate::error::ModelError;
@@ -262,5 +262,9 @@ impl Contact for Massless {
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
         self.interface.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
+        self.interface.profile(motions.each_ref().map(|motion| motion.displacement))
     }
 }
