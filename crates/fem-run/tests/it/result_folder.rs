@@ -112,7 +112,9 @@ fn the_folder_holds_what_the_contract_says() {
         "case_1_maximum.vtu",
         "case_2_mid-separation.vtu",
         "case_3_last-contact.vtu",
+        "contact.csv",
         "history.csv",
+        "report.html",
         "summary.json",
     ];
     assert_eq!(place.list("runs/case"), files);
@@ -234,12 +236,14 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
     place.write("other.toml", crate::common::CASE);
     place.succeed(&["other.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
     let files = [
+        "contact.csv",
         "history.csv",
         "notes.txt",
         "other.pvd",
         "other.vtu.series",
         "other_0_maximum.vtu",
         "plots",
+        "report.html",
         "summary.json",
     ];
     assert_eq!(place.list("out"), files);
