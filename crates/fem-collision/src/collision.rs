@@ -90,6 +90,9 @@ pub struct Collision {
     pub history: Vec<Row>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
+    /// What the probes that were asked for saw, in the order of time: fields of one entry a probe
+    /// ([`Probes::reduce`](crate::Probes::reduce)).
+    pub probes: Vec<Snapshot>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -147,6 +150,7 @@ impl Collision {
             rest: None,
             history: Vec::new(),
             snapshots: Vec::new(),
+            probes: Vec::new(),
             warnings: Vec::new(),
         }
     }

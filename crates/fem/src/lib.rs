@@ -41,6 +41,7 @@ mod models;
 mod numerics;
 mod pair_cache;
 mod plan;
+mod probes;
 mod quasi_static;
 mod quieter;
 mod refusal;

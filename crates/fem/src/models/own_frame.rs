@@ -99,6 +99,7 @@ impl OwnFrame {
             }),
             history: own.history.into_iter().map(|row| self.row(row, masses)).collect(),
             snapshots: own.snapshots.into_iter().map(|snapshot| self.snapshot(snapshot)).collect(),
+            probes: own.probes.into_iter().map(|snapshot| self.snapshot(snapshot)).collect(),
             ..own
         }
     }

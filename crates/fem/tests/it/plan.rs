@@ -82,11 +82,11 @@ fn what_is_too_dear_is_refused_with_the_estimate() {
     }
     let error = refusal(&["limits.elements=1000", FINE]);
     assert_eq!(error.source_name(), "--set limits.elements=…");
-    assert!(error.message().contains("2656 elements"), "{error}");
+    assert!(error.message().contains("2878 elements"), "{error}");
     assert!(error.help().unwrap().contains("limits.elements"), "{error}");
     let error = refusal(&["limits.memory='1 MB'", FINE]);
     assert_eq!(error.source_name(), "--set limits.memory=…");
-    assert!(error.message().contains("4.2 MB of memory"), "{error}");
+    assert!(error.message().contains("5.0 MB of memory"), "{error}");
     let error = refusal(&["output.snapshots=100000"]);
     assert_eq!(error.source_name(), "--set output.snapshots=…");
     assert!(error.help().unwrap().contains("fewer output.snapshots"), "{error}");

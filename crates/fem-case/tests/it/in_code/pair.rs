@@ -88,7 +88,10 @@ pub fn made() -> CaseFile {
         }),
         contact: Some(ContactTable { penalty_factor: Some(1.0.into()), ..Default::default() }),
         time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),
-        output: Some(OutputTable { snapshots: Some(SnapshotsValue::List(labels)) }),
+        output: Some(OutputTable {
+            snapshots: Some(SnapshotsValue::List(labels)),
+            probe: Vec::new(),
+        }),
         effects: Some(EffectsTable { bulk_viscosity: Some(Switch::Off), ..Default::default() }),
         limits: Some(LimitsTable {
             elements: Some(200_000.into()),

@@ -211,6 +211,7 @@ fn later_want(want: &Want, n_contacts: usize, element_updates: u64) -> Want {
     Want {
         history_rows: share.min(want.history_rows).max(FEWEST_ROWS),
         snapshots: SnapshotRequest::none(),
+        probes: Vec::new(),
         most_element_updates: want.most_element_updates.saturating_sub(element_updates),
         ..want.clone()
     }
@@ -224,5 +225,6 @@ fn fallen(collision: Collision, time: f64, height: f64) -> Collision {
         snapshot
     };
     let snapshots = collision.snapshots.into_iter().map(lowered).collect();
-    Collision { snapshots, ..collision }
+    let probes = collision.probes.into_iter().map(lowered).collect();
+    Collision { snapshots, probes, ..collision }
 }
