@@ -38,6 +38,8 @@ pub struct Failure {
     /// The whole as plain text.
     plain: String,
     place: Option<Box<Place>>,
+    /// The fault of a case that it is.
+    case: Option<Box<CaseError>>,
 }
 
 /// A stretch of a case file or of an override.
@@ -65,7 +67,7 @@ impl Failure {
     }
 
     fn new(status: Status, message: String) -> Self {
-        Self { status, plain: message.clone(), message, help: None, place: None }
+        Self { status, plain: message.clone(), message, help: None, place: None, case: None }
     }
 
     /// Adds what to do.
@@ -74,6 +76,21 @@ impl Failure {
         self.plain += &format!("\n  help: {}", help.replace('\n', "\n        "));
         self.help = Some(help);
         self
+    }
+
+    /// All of it as plain text, as a pipe gets it behind `error: `.
+    pub fn text(&self) -> &str {
+        &self.plain
+    }
+
+    /// What to do about it.
+    pub fn advice(&self) -> Option<&str> {
+        self.help.as_deref()
+    }
+
+    /// The fault of a case that it is, with file, position and key.
+    pub fn case_error(&self) -> Option<&CaseError> {
+        self.case.as_deref()
     }
 
     /// The exit status.
@@ -109,6 +126,7 @@ impl From<CaseError> for Failure {
             help: error.help().map(tame),
             plain,
             place,
+            case: Some(Box::new(error)),
         }
     }
 }

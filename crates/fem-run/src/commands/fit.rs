@@ -4,14 +4,17 @@ use std::path::PathBuf;
 
 use fem::case_identity;
 use fem::laws::{ChosenLaw, LawFit, family_of, parse_value};
-use fem::measured::Restitutions;
+use fem::measured::{Restitutions, Table};
+use fem_case::Case;
 use fem_fit::{Free, Problem};
 use fem_laws::Family;
+use serde_json::Value;
 
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::read_table;
 use crate::failure::Failure;
 use crate::fit::{fit_picture, fit_text, histories_picture};
+use crate::jobs::value_of;
 use crate::law_arguments::{
     LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
 };
@@ -64,17 +67,32 @@ pub struct Arguments {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
-    let table = read_table(&arguments.data)?;
+    let (case, table) = (arguments.input.load()?, read_table(&arguments.data)?);
+    fitted(arguments, &case, &table, |fitted, law| write(arguments, &case, fitted, law))
+}
+
+/// Fits to a table in place of the file that the arguments name, and gives the numbers.
+pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
+    let name = arguments.input.name();
+    fitted(arguments, case, table, |fitted, _| value_of(&fitted.numbers(&name)))
+}
+
+/// What `then` makes of the fit.
+fn fitted<T>(
+    arguments: &Arguments,
+    case: &Case,
+    table: &Table,
+    then: impl FnOnce(&LawFit<'_>, &ChosenLaw) -> Result<T, Failure>,
+) -> Result<T, Failure> {
     let data = match arguments.contact_time {
-        true => Restitutions::read_with_contact_times(&table, case.scene())?,
-        false => Restitutions::read(&table, case.scene())?,
+        true => Restitutions::read_with_contact_times(table, case.scene())?,
+        false => Restitutions::read(table, case.scene())?,
     };
     let family = arguments.law.or_else(|| family_of(case.scene())).ok_or_else(|| {
         Failure::bad_input("--law is missing, and the case's [model] names no law")
             .with_help("name one, such as --law bordbar_hyppanen; docs/fits.md lists them")
     })?;
-    let law = arguments.values.choose(&case, family)?;
+    let law = arguments.values.choose(case, family)?;
     let problem = problem(arguments, &law, &data)?;
     let profiled = profiled(arguments, &problem)?.copied();
     let mut fitted = LawFit::of(&data, problem, arguments.confidence)?;
@@ -84,12 +102,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for family in &arguments.compare {
         fitted = fitted.compared_with(*family)?;
     }
+    then(&fitted, &law)
+}
 
-    let inputs = [case_identity(&case), arguments.data.display().to_string()];
+fn write(
+    arguments: &Arguments,
+    case: &Case,
+    fitted: &LawFit<'_>,
+    law: &ChosenLaw,
+) -> Result<(), Failure> {
+    let inputs = [case_identity(case), arguments.data.display().to_string()];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
-    output.write("fit.svg", fit_picture(&fitted))?;
+    output.write("fit.svg", fit_picture(fitted))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
@@ -97,7 +123,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.output.quiet {
         return Ok(());
     }
-    standard_output::print(&format!("{}\nResult: {place}\n", fit_text(&fitted)))
+    standard_output::print(&format!("{}\nResult: {place}\n", fit_text(fitted)))
 }
 
 /// The problem with all that options and case say.
