@@ -48,6 +48,7 @@ def faults(command, cases):
         broken(lambda case: case.update(output={"snapshots": ["middle"]})),
         broken(lambda case: case.update(contact={"method": "sticky"})),
         broken(lambda case: case.update(model={"law": {"tsuji": {"k": 1}}})),
+        broken(lambda case: case.update(model="tinge")),
         broken(lambda case: case.update(effects={"gravity": "on"})),
         broken(lambda case: case.update(accuracy={"tolerance": {"force": 0.1}})),
     ]
@@ -65,6 +66,9 @@ def main(command):
             printed = subprocess.check_output([command, "check", str(path)], text=True)
             cases.validate(tomllib.loads(printed))
     assert n["case"] > 10 and n["sweep"] > 1, n
+    good = tomllib.loads((ROOT / "cases/glass_0.5ms.toml").read_text())
+    for model in ("ting", {"law": "hertz"}, {"condensed": {"steps": 400}}):
+        cases.validate(good | {"model": model})
     for case in faults(command, cases):
         assert not cases.is_valid(case), f"the schema takes {case}"
         # JSON is no TOML, but this program's cases as code are: let Python write what it refuses.

@@ -13,12 +13,22 @@ use serde_json::{Value, json};
 
 use crate::accuracy_table::{ToleranceTable, ToleranceValue};
 use crate::quantity::{Kind, Number, Quantity, QuantityKind, Time};
-use crate::schema::{CaseFile, SnapshotLabel, SnapshotsValue};
+use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
 use crate::sweep_file::SweepFile;
 
 /// Of a case file.
 pub fn of_cases() -> Value {
-    schema_of::<CaseFile>("A case of fem-run")
+    let mut schema = schema_of::<CaseFile>("A case of fem-run");
+    or_name(&mut schema, "/properties/model", ModelTable::NAMES);
+    or_name(&mut schema, "/definitions/ModelTable/properties/law", LawTable::NAMES);
+    schema
+}
+
+/// In place of the table a name will do.
+fn or_name(schema: &mut Value, pointer: &str, names: &[&str]) {
+    if let Some(place) = schema.pointer_mut(pointer) {
+        *place = json!({ "anyOf": [{ "enum": names }, place.take()] });
+    }
 }
 
 /// Of a sweep file.

@@ -48,6 +48,9 @@ pub struct ModelTable {
 /// # assert_eq!(law.law.unwrap().given(), ["kuwabara_kono"]);
 /// ```
 impl ModelTable {
+    /// The names of models that need no key.
+    pub const NAMES: &'static [&'static str] = &["fem", "condensed", "ting", "hertz", "auto"];
+
     /// Explicit finite elements.
     pub fn fem() -> Self {
         Self { fem: Some(EmptyTable {}), ..Self::default() }
@@ -361,6 +364,15 @@ pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool
     match table {
         ["model"] => key != other,
         ["model", "law"] => key != other && is_law(key) && is_law(other),
+        _ => false,
+    }
+}
+
+/// Whether a name stands for the table of this name, with its defaults, at this path.
+pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
+    match path {
+        ["model"] => ModelTable::NAMES.contains(&name),
+        ["model", "law"] => LawTable::NAMES.contains(&name),
         _ => false,
     }
 }

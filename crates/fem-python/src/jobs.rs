@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use fem::measured::Table;
+use fem::measured::{Table, decode};
 use fem_case::library;
 use fem_command::{Failure, Given};
 use pyo3::exceptions::PyRuntimeError;
@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 use crate::case::Case;
 use crate::failure::Raise;
 
-/// A table: its name and its text, CSV.
-type Data = Option<(String, String)>;
+/// A table: its name and the bytes of its text, CSV.
+type Data = Option<(String, Vec<u8>)>;
 
 /// Does a job without Python's lock and gives its numbers as JSON.
 fn done(
@@ -24,7 +24,7 @@ fn done(
     job: fn(&Given, &[String]) -> Result<Value, Failure>,
 ) -> PyResult<String> {
     let work = || -> Result<Value, Failure> {
-        let table = data.map(|(name, text)| Table::parse(&name, &text)).transpose()?;
+        let table = data.map(|(name, bytes)| Table::parse(&name, &decode(&bytes))).transpose()?;
         job(&Given { table, ..given }, &options)
     };
     let numbers = py.detach(work).or_raise(py)?;

@@ -40,6 +40,8 @@ pub struct Failure {
     place: Option<Box<Place>>,
     /// The fault of a case that it is.
     case: Option<Box<CaseError>>,
+    /// What else is wrong with the same input.
+    others: Vec<Failure>,
 }
 
 /// A stretch of a case file or of an override.
@@ -67,7 +69,15 @@ impl Failure {
     }
 
     fn new(status: Status, message: String) -> Self {
-        Self { status, plain: message.clone(), message, help: None, place: None, case: None }
+        Self {
+            status,
+            plain: message.clone(),
+            message,
+            help: None,
+            place: None,
+            case: None,
+            others: Vec::new(),
+        }
     }
 
     /// Adds what to do.
@@ -79,8 +89,9 @@ impl Failure {
     }
 
     /// All of it as plain text, as a pipe gets it behind `error: `.
-    pub fn text(&self) -> &str {
-        &self.plain
+    pub fn text(&self) -> String {
+        let others = self.others.iter().map(|other| format!("\nerror: {}", other.text()));
+        self.plain.clone() + &others.collect::<String>()
     }
 
     /// What to do about it.
@@ -107,11 +118,13 @@ impl Failure {
         } else {
             writeln!(stderr, "error: {}", self.plain)
         };
+        self.others.iter().for_each(Self::print);
     }
 }
 
 impl From<CaseError> for Failure {
-    fn from(error: CaseError) -> Self {
+    fn from(mut error: CaseError) -> Self {
+        let others = error.take_others().into_iter().map(Self::from).collect();
         let place = Place::of(&error).map(Box::new);
         let (message, plain) = (error.message(), error.to_string());
         let message = if place.is_some() {
@@ -127,6 +140,7 @@ impl From<CaseError> for Failure {
             plain,
             place,
             case: Some(Box::new(error)),
+            others,
         }
     }
 }

@@ -1,7 +1,7 @@
 """Contact laws, materials and experiments: what the commands of these names compute, without their files.
 
 Keyword arguments are the options of the command, ``contact_time=True`` for ``--contact-time``, lists for what
-may be repeated or listed. Data are a CSV file's path, a :class:`fem_run.Table`, a data frame, or a dict of
+may be repeated or listed, ``columns={"speed": "v"}`` for what columns are called. Data are a CSV file's path, a :class:`fem_run.Table`, a data frame, or a dict of
 columns, named as docs/fits.md says: ``speed_m_s``, ``restitution``.
 """
 
@@ -104,16 +104,16 @@ def _text(value: Any) -> str:
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
-def _data(data: Any) -> tuple[str, str] | None:
-    """Name and text of data."""
+def _data(data: Any) -> tuple[str, bytes] | None:
+    """Name and bytes of data."""
     if data is None:
         return None
     if isinstance(data, (str, os.PathLike)):
-        with open(data, encoding="utf-8") as file:
+        with open(data, "rb") as file:
             return os.fspath(data), file.read()
     if isinstance(data, Table):
-        return "<table>", data.to_csv()
+        return "<table>", data.to_csv().encode()
     if hasattr(data, "to_dict") and hasattr(data, "columns"):
         data = {name: data[name].to_numpy() for name in data.columns}
     columns = {str(name): _array(list(values)) for name, values in data.items()}
-    return "<data>", Table(columns, []).to_csv()
+    return "<data>", Table(columns, []).to_csv().encode()

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ._errors import Error
 
 _Report = Callable[[float], object] | None
-_Data = tuple[str, str] | None
+_Data = tuple[str, bytes] | None
 
 class Case:
     @staticmethod

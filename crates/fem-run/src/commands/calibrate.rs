@@ -12,7 +12,7 @@ use serde_json::Value;
 
 use crate::calibrate::{calibration_picture, calibration_text};
 use crate::case_arguments::{CaseArguments, stem_of};
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::jobs::value_of;
 use crate::law_arguments::parse_confidence;
@@ -35,6 +35,8 @@ pub struct Arguments {
     /// do.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Terms of the series
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=12))]
     terms: u8,
@@ -87,9 +89,11 @@ const OPTIONS: SettingNames = SettingNames {
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
-    let (found, warnings) = found(arguments, &case, &read_table(&arguments.data)?)?;
+    let table = arguments.columns.read(&arguments.data)?;
+    let (found, warnings) = found(arguments, &case, &table)?;
     let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;
-    let inputs = [case_identity(&case), arguments.data.display().to_string()];
+    let columns = arguments.columns.text();
+    let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", &inputs)?;
     output.write("relaxation.toml", found.relaxation_toml())?;
@@ -107,7 +111,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// Calibrates to a table in place of the file that the arguments name, and gives the numbers, with the table to
 /// paste into the case.
 pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
-    let (found, warnings) = found(arguments, case, table)?;
+    let table = arguments.columns.name_columns(table.clone())?;
+    let (found, warnings) = found(arguments, case, &table)?;
     let mut numbers = value_of(&found.numbers(&arguments.input.name(), warnings))?;
     numbers["relaxation_toml"] = found.relaxation_toml().into();
     Ok(numbers)

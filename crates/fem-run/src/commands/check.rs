@@ -25,7 +25,7 @@ pub struct Arguments {
     input: CaseArguments,
     #[command(flatten)]
     within: ToleranceArguments,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }
@@ -33,8 +33,12 @@ pub struct Arguments {
 /// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_within(&arguments.within)?;
-    let text = text(case, &arguments.input.name())?;
-    if arguments.quiet { Ok(()) } else { standard_output::print(&text) }
+    let (simulation, text) = checked(case, &arguments.input.name())?;
+    if arguments.quiet {
+        standard_output::warn(simulation.warnings_before());
+        return Ok(());
+    }
+    standard_output::print(&text)
 }
 
 /// The resolved case as TOML, with comments on what to expect of a run.
@@ -42,6 +46,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// # Errors
 /// What the case's model refuses.
 pub fn text(case: Case, name: &str) -> Result<String, Failure> {
+    Ok(checked(case, name)?.1)
+}
+
+fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let begin = Instant::now();
     let simulation = Simulation::new(case)?;
     let setup = begin.elapsed().as_secs_f64();
@@ -52,7 +60,8 @@ pub fn text(case: Case, name: &str) -> Result<String, Failure> {
     let heading = format!("{name} is sound. What to expect of a run:");
     let expectation =
         format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, setup));
-    Ok(format!("{}\n{resolved}", as_comment(&expectation)))
+    let text = format!("{}\n{resolved}", as_comment(&expectation));
+    Ok((simulation, text))
 }
 
 /// What to expect of a run, whose bodies took so long to make, s.
@@ -70,7 +79,8 @@ fn expect(simulation: &Simulation, making: f64) -> String {
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
-            format!("Mesh\n{meshes}\nCost{}\n{costs}", of_contacts(simulation))
+            let chosen = by_tolerance(simulation);
+            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
@@ -118,6 +128,33 @@ fn unforced(simulation: &Simulation) -> String {
         }
         _ => String::new(),
     }
+}
+
+/// The keys that the case leaves to its tolerance, and what they became; nothing where it gives all.
+fn by_tolerance(simulation: &Simulation) -> String {
+    let Some(elements) = &simulation.setup().elements else { return String::new() };
+    let plan = &elements.plan;
+    let open = |key: &str| !simulation.case().gives(key);
+    let mut rows = Vec::new();
+    if plan.makes_meshes && open("mesh.contact_element_size") {
+        let across =
+            simulation.setup().estimate.hertz.max_contact_radius() / plan.contact_element_size;
+        let staggered = if plan.finer_body.is_some() { ", staggered" } else { "" };
+        let size = show(plan.contact_element_size, "m");
+        let text = format!("{size}, {across:.2} elements across the contact{staggered}");
+        rows.push(["mesh.contact_element_size".to_string(), text]);
+    }
+    let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
+    if has_steps && open("time.mass_scaling") {
+        let text = format!("{:.2} % of a body's mass", 100.0 * plan.mass_scaling);
+        rows.push(["time.mass_scaling".to_string(), text]);
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let tolerance = 100.0 * simulation.case().scene().accuracy().peak_force;
+    let table = table(&[Left, Left], rows);
+    format!("\nChosen for accuracy.tolerance, {tolerance} % of the peak force\n{table}")
 }
 
 /// Of which contact the cost is, where there are several.

@@ -15,7 +15,7 @@ use fem_laws::Family;
 use serde_json::Value;
 
 use crate::case_arguments::CaseArguments;
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::jobs::value_of;
 use crate::law_arguments::parse_speed;
@@ -34,6 +34,8 @@ pub struct Arguments {
     /// Restitutions, and contact times if it has them: a CSV file, such as a sweep's sweep.csv
     #[arg(long, value_name = "FILE", conflicts_with = "speeds")]
     data: Option<PathBuf>,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Speeds that are computed, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
     #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
     speeds: Option<(f64, f64)>,
@@ -47,7 +49,7 @@ pub struct Arguments {
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
-    let table = arguments.data.as_deref().map(read_table).transpose()?;
+    let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", &[&case_identity(&case)])?;
@@ -79,7 +81,8 @@ pub fn numbers(
     case: &Case,
     table: Option<&Table>,
 ) -> Result<Value, Failure> {
-    let (fitted, snippets) = fitted(arguments, case, table)?;
+    let table = table.cloned().map(|table| arguments.columns.name_columns(table)).transpose()?;
+    let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
     let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
     let texts =
         snippets.iter().map(|snippet| (snippet.name.to_string(), snippet.text.clone().into()));

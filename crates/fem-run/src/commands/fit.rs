@@ -11,7 +11,7 @@ use fem_laws::Family;
 use serde_json::Value;
 
 use crate::case_arguments::{CaseArguments, stem_of};
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::fit::{fit_picture, fit_text, histories_picture};
 use crate::jobs::value_of;
@@ -34,6 +34,8 @@ pub struct Arguments {
     /// A column restitution_uncertainty weighs them. The sweep.csv of a sweep over speeds will do.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// The law, such as bordbar_hyppanen or ting [default: that of the case's model]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<Family>,
@@ -67,14 +69,16 @@ pub struct Arguments {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let (case, table) = (arguments.input.load()?, read_table(&arguments.data)?);
+    let case = arguments.input.load()?;
+    let table = arguments.columns.read(&arguments.data)?;
     fitted(arguments, &case, &table, |fitted, law| write(arguments, &case, fitted, law))
 }
 
 /// Fits to a table in place of the file that the arguments name, and gives the numbers.
 pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
+    let table = arguments.columns.name_columns(table.clone())?;
     let name = arguments.input.name();
-    fitted(arguments, case, table, |fitted, _| value_of(&fitted.numbers(&name)))
+    fitted(arguments, case, &table, |fitted, _| value_of(&fitted.numbers(&name)))
 }
 
 /// What `then` makes of the fit.
@@ -111,7 +115,8 @@ fn write(
     fitted: &LawFit<'_>,
     law: &ChosenLaw,
 ) -> Result<(), Failure> {
-    let inputs = [case_identity(case), arguments.data.display().to_string()];
+    let columns = arguments.columns.text();
+    let inputs = [case_identity(case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
