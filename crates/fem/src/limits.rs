@@ -174,6 +174,7 @@ mod tests {
             "effects.bulk_viscosity='off'".to_string(),
             "effects.viscoelasticity='on'".to_string(),
             "output.snapshots=[]".to_string(),
+            "mesh.contact_element_size='0.8 mm'".to_string(),
             format!("material.rubber.relaxation.terms=[{}]", vec![term; terms].join(",")),
         ];
         let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();

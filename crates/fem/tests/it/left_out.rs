@@ -40,7 +40,7 @@ fn agree(foretold: Option<f64>, with: Option<f64>, without: Option<f64>, small: 
 fn is_as_foretold(text: &str, set: &[&str], effect: &str) {
     // A tolerance decides whether large strains are computed, and they on the mesh.
     let size =
-        simulation(text, set).setup().elements.as_ref().map(|e| 0.5 * e.plan.contact_element_size);
+        simulation(text, set).setup().elements.as_ref().map(|e| 0.75 * e.plan.contact_element_size);
     let size = size.map(|size| format!("mesh.contact_element_size={size:e}")).unwrap_or_default();
     let fine = match effect {
         "finite strain" => vec![size.as_str(), "time.mass_scaling=2e-4"],

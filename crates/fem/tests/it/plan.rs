@@ -82,11 +82,11 @@ fn what_is_too_dear_is_refused_with_the_estimate() {
     }
     let error = refusal(&["limits.elements=1000", FINE]);
     assert_eq!(error.source_name(), "--set limits.elements=…");
-    assert!(error.message().contains("2656 elements"), "{error}");
+    assert!(error.message().contains("2878 elements"), "{error}");
     assert!(error.help().unwrap().contains("limits.elements"), "{error}");
     let error = refusal(&["limits.memory='1 MB'", FINE]);
     assert_eq!(error.source_name(), "--set limits.memory=…");
-    assert!(error.message().contains("4.2 MB of memory"), "{error}");
+    assert!(error.message().contains("5.0 MB of memory"), "{error}");
     let error = refusal(&["output.snapshots=100000"]);
     assert_eq!(error.source_name(), "--set output.snapshots=…");
     assert!(error.help().unwrap().contains("fewer output.snapshots"), "{error}");
@@ -164,7 +164,7 @@ fn the_case_reference_is_true() {
     let reference = include_str!("../../../../docs/cases.md");
     let examples: Vec<&str> =
         reference.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
-    assert_eq!(examples.len(), 5);
+    assert_eq!(examples.len(), 6);
     for example in examples {
         let case = Case::parse("cases.md", example, Path::new("."), &[]);
         let case = case.unwrap_or_else(|error| panic!("{error}"));
