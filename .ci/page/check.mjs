@@ -166,6 +166,24 @@ check('a slow model shows how far it is, and can be ended', async () => {
   await page.context().close();
 });
 
+check('what is too large is refused, and a worker that does not hear is replaced', async () => {
+  const { page, complaints } = await open(browser, address);
+  await settled(page);
+  const glass = readFileSync(join(cases, 'glass_0.5ms.toml'), 'utf8');
+  const fine = (size, limits) => `${glass}\n[mesh]\ncontact_element_size = "${size} um"\n${limits}\n[model]\ncondensed = {}\n`;
+  await paste(page, fine(1.2, ''));
+  await page.locator('#paste-fault').waitFor();
+  assert.match(await page.locator('#paste-fault').innerText(), /limits.memory/);
+  await paste(page, fine(0.8, '[limits]\nelements = 1e8\nmemory = 1e12'));
+  await page.locator('#progress').waitFor();
+  await page.click('#cancel');
+  await page.waitForFunction(() => /^Ended/.test(document.getElementById('status').textContent), null, { timeout: 30_000 });
+  const again = await ran(page, () => page.click('#reset'));
+  assert.ok(again.summary.complete);
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
 check('a link and a command carry the case', async () => {
   const { page } = await open(browser, `${address}#speed=1.25&partner.shape=wall&striker.material=steel`);
   const own = await settled(page);

@@ -62,6 +62,16 @@ fn faults_say_where_and_what_is_allowed() {
     assert!(!fault("title = [").text.is_empty());
 }
 
+/// A browser has less memory than the plan allows; who knows better says so in the case.
+#[test]
+fn what_a_browser_has_no_memory_for_is_refused() {
+    let fine = GLASS.to_string() + "[mesh]\ncontact_element_size = \"1.2 um\"\n" + CONDENSED;
+    let fault = fault(&fine);
+    assert!(fault.text.contains("limits.memory"), "{}", fault.text);
+    let own = GLASS.to_string() + "[limits]\nmemory = \"10 kB\"\n" + CONDENSED;
+    assert!(Session::default().begin(&own, ASK).is_err());
+}
+
 /// A run that the reader ends is told as far as it got; nothing runs after it.
 #[test]
 fn a_run_can_be_ended_before_it_is_over() {
