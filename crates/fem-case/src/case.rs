@@ -5,11 +5,14 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use toml::Spanned;
+use toml::de::DeTable;
 
 use crate::body::Shape;
 use crate::document::{Document, Insertions};
 use crate::error::CaseError;
 use crate::explain::{explain, listed};
+use crate::faults::{self, Repair};
 use crate::library;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
@@ -40,13 +43,13 @@ impl Case {
     /// Reads a case file and applies overrides (`KEY=VALUE`), left to right.
     ///
     /// # Errors
-    /// The first thing that is wrong with file, overrides or the case that they make.
+    /// What is wrong with file, overrides or the case that they make, all of it: [`CaseError::others`].
     pub fn load(path: &Path, overrides: &[String]) -> Result<Case, CaseError> {
         let name = path.display().to_string();
         let text = read(path, &name)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
-        Case::build(&name, &stem, &text, folder, overrides, None)
+        Case::built(&name, &stem, &text, folder, overrides)
     }
 
     /// As [`Case::load`], from a text; `name` stands for the file in messages and as the title,
@@ -62,7 +65,7 @@ impl Case {
     ) -> Result<Case, CaseError> {
         let stem = Path::new(name).file_stem();
         let stem = stem.map_or(name.to_string(), |stem| stem.to_string_lossy().to_string());
-        Case::build(name, &stem, text, folder, overrides, None)
+        Case::built(name, &stem, text, folder, overrides)
     }
 
     /// As [`Case::parse`], of a text that comes from elsewhere, such as the standard input.
@@ -150,15 +153,42 @@ impl Case {
         Case::validated(document, file, self.defaults.clone())
     }
 
+    /// The case of a text, or all of its faults.
+    fn built(
+        name: &str,
+        stem: &str,
+        text: &str,
+        folder: &Path,
+        overrides: &[String],
+    ) -> Result<Case, CaseError> {
+        let read = |repairs: &[Repair]| {
+            let document = Document::parse(name, text, overrides, None, repairs)?;
+            Case::of_document(document, stem, folder)
+        };
+        read(&[]).map_err(|first| faults::all(first, |repairs| read(repairs).err()))
+    }
+
+    /// The case of a text with insertions, or its first fault.
     pub(crate) fn build(
         name: &str,
         stem: &str,
         text: &str,
         folder: &Path,
         overrides: &[String],
-        insertions: Option<Insertions<'_, '_>>,
+        insertions: Insertions<'_, '_>,
     ) -> Result<Case, CaseError> {
-        let (document, tree) = Document::parse(name, text, overrides, insertions)?;
+        Case::of_document(
+            Document::parse(name, text, overrides, Some(insertions), &[])?,
+            stem,
+            folder,
+        )
+    }
+
+    fn of_document(
+        (document, tree): (Document, Spanned<DeTable<'_>>),
+        stem: &str,
+        folder: &Path,
+    ) -> Result<Case, CaseError> {
         let file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {

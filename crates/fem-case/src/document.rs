@@ -11,6 +11,7 @@ use toml::de::DeTable;
 use toml::{Spanned, Table};
 
 use crate::error::CaseError;
+use crate::faults::Repair;
 use crate::library;
 use crate::overrides::{self, Assignment};
 use crate::positions::{Position, Positions};
@@ -42,7 +43,8 @@ pub(crate) struct Document {
 
 impl Document {
     /// Parses `text`, applies the overrides, left to right, and then the insertions; under all of it
-    /// lie the materials of the library that bodies name.
+    /// lie the materials of the library that bodies name. Repairs are for a reader that looks for
+    /// more faults.
     ///
     /// Returns the document and the merged tree as a deserializer.
     pub(crate) fn parse<'t>(
@@ -50,6 +52,7 @@ impl Document {
         text: &'t str,
         overrides: &'t [String],
         insertions: Option<Insertions<'_, 't>>,
+        repairs: &'t [Repair],
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
         let file = Source { name: name.to_string(), text: text.to_string(), start: 0, turn: 0 };
         let mut document = Document { sources: vec![file], positions: Positions::default() };
@@ -88,6 +91,9 @@ impl Document {
                     document.error_on(fault.span, fault.message).with_help(fault.help)
                 })?;
             }
+        }
+        for Repair { path, value } in repairs {
+            overrides::mend(tree.get_mut(), path, value.as_deref());
         }
         let start = document.sources.last().map_or(0, |last| last.start + last.text.len() + 1);
         if library::underlay(tree.get_mut(), start) {

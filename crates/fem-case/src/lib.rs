@@ -60,6 +60,7 @@ mod empty_table;
 pub mod engineering;
 mod error;
 mod explain;
+mod faults;
 mod gravity;
 mod gravity_tables;
 #[cfg(feature = "schema")]
@@ -74,6 +75,7 @@ mod number_at;
 mod oddities;
 mod overrides;
 mod positions;
+mod probe_table;
 mod quantity;
 mod scene;
 pub mod schema;
@@ -96,7 +98,7 @@ pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use scene::{Accuracy, Limits, MeshSettings, Scene, Snapshots};
+pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element, SweptKey};

@@ -191,6 +191,40 @@ pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> R
     Ok(())
 }
 
+/// Gives the key at a path another value, or takes it out; nothing where the path leads nowhere. The
+/// value stands where the old one stood, or the nearest one around it.
+pub(crate) fn mend<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'t str>) {
+    let Some((last, parents)) = path.split_last() else { return };
+    let mut place = Place::Table(root);
+    let mut span = 0..0;
+    for part in parents {
+        let part = Spanned::new(span.clone(), part.clone());
+        let Ok(Child::Value(child)) = place.child(&part) else { return };
+        span = child.span();
+        let Ok(inner) = Place::of(child, &part) else { return };
+        place = inner;
+    }
+    let new = value.and_then(|text| DeValue::parse(text).ok());
+    let moved = |new: Spanned<DeValue<'t>>, span: Range<usize>| {
+        Spanned::new(span.clone(), shift(new, span.start).into_inner())
+    };
+    match (place, new) {
+        (Place::Table(table), new) => {
+            let span = table.remove(last.as_str()).map_or(span, |old| old.span());
+            if let Some(new) = new {
+                let key = Spanned::new(span.clone(), Cow::Owned(last.clone()));
+                table.insert(key, moved(new, span));
+            }
+        }
+        (Place::Array(array), Some(new)) => {
+            if let Some(old) = last.parse().ok().and_then(|index: usize| array.get_mut(index)) {
+                *old = moved(new, old.span());
+            }
+        }
+        (Place::Array(_), None) => {}
+    }
+}
+
 /// Names of a model and a law of a file as their tables.
 pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
     let Some(model) = root.get_mut("model") else { return };

@@ -16,6 +16,7 @@ pub use crate::empty_table::EmptyTable;
 pub use crate::gravity_tables::*;
 pub use crate::material_tables::*;
 pub use crate::model_tables::*;
+pub use crate::probe_table::ProbeTable;
 
 /// A whole case file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -128,6 +129,10 @@ pub struct MeshTable {
     /// Distance of the far boundary of a half-space, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub far_radius: Option<Quantity<Length>>,
+    /// Whether elements of one body are a little larger and those of the other a little smaller, so that at
+    /// the edge of the contact their nodes lie between each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub staggered: Option<bool>,
 }
 
 /// `[contact]`: how springs keep the surfaces apart, and how stiff they are.
@@ -177,6 +182,9 @@ pub struct OutputTable {
     /// The instants at which fields are written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots: Option<SnapshotsValue>,
+    /// `[[output.probe]]`: places of which is told what happens there over time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probe: Vec<ProbeTable>,
 }
 
 /// `snapshots`: a count, or a list of labels or of times.
@@ -345,5 +353,5 @@ pub struct LimitsTable {
 /// reads `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
     let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
-    is_terms || path == "body" || path == "output.snapshots"
+    is_terms || matches!(path, "body" | "output.snapshots" | "output.probe")
 }

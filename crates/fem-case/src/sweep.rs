@@ -61,7 +61,7 @@ impl Sweep {
             }
             _ => error,
         })?;
-        let (document, tree) = Document::parse(&name, &text, &[], None)?;
+        let (document, tree) = Document::parse(&name, &text, &[], None, &[])?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let axes = read_axes(&document, &text, folder, tree.get_ref());
         let file = SweepFile::deserialize(toml::de::Deserializer::from(tree))
@@ -183,7 +183,7 @@ impl Sweep {
         let Base { path, name, text, overrides } = &self.base;
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
         let folder = path.parent().unwrap_or(Path::new(""));
-        Case::build(name, &stem, text, folder, overrides, Some(insertions))
+        Case::build(name, &stem, text, folder, overrides, insertions)
     }
 
     /// The error of a member that points into the base case, pointed at an element.

@@ -49,7 +49,7 @@ pub(crate) fn words(text: &str) -> String {
         let rest = if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) };
         let _ = write!(
             words,
-            "<tspan dy=\"3.5\" font-size=\"75%\">{}</tspan><tspan dx=\"{gap}\" \
+            "<tspan dy=\"3.5\" font-size=\"0.75em\">{}</tspan><tspan dx=\"{gap}\" \
              dy=\"-3.5\">{rest}</tspan>",
             escaped(below)
         );

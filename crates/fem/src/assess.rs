@@ -168,7 +168,7 @@ impl<'a> Run<'a> {
                 100.0 * scatter,
                 self.collision.noisiest.map_or(String::new(), |at| format!(", most about {at}")),
                 100.0 * LARGEST_NOISE,
-                self.quieter.advice(scatter)
+                self.quieter.advice()
             )
         })
     }

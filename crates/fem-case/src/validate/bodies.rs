@@ -176,7 +176,8 @@ impl Check<'_> {
         table: &BodyTable,
         materials: &BTreeMap<&str, Material>,
     ) -> Result<Material, CaseError> {
-        let names: Vec<_> = materials.keys().copied().collect();
+        let is_own = |name: &&str| !library::is_of_library(name);
+        let names: Vec<_> = materials.keys().copied().filter(is_own).collect();
         let known = match names.as_slice() {
             [] => "the case has no [material.NAME] table".to_string(),
             names => format!("the case has {}", listed(names)),

@@ -2,14 +2,18 @@
 
 use super::MovedInterface;
 use super::pieces::GAUSS;
-use crate::pressure::coarser;
-use crate::read_out::{Barrier, centre_pressure, contact_radius};
+use crate::pressure::{coarser, staggered_lengths};
+use crate::read_out::{Barrier, centre_pressure, contact_radius, staggered_radius};
 
 impl MovedInterface {
     /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact: see
     /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        contact_radius(self.nodal_pressure(u), Barrier::Springs)
+        let at = |side: usize| contact_radius(self.at_nodes(side, u), Barrier::Springs);
+        match staggered_lengths(&self.surfaces) {
+            Some(lengths) => staggered_radius([at(0), at(1)], lengths),
+            None => at(coarser(&self.surfaces, self.candidate_radius)),
+        }
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis outward: where the node is now
@@ -19,7 +23,15 @@ impl MovedInterface {
         &'a self,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        let side = coarser(&self.surfaces, self.candidate_radius);
+        self.at_nodes(coarser(&self.surfaces, self.candidate_radius), u)
+    }
+
+    /// The same of one side, 0 the lower one.
+    fn at_nodes<'a>(
+        &'a self,
+        side: usize,
+        u: [&'a [[f64; 2]]; 2],
+    ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
         let surface = &self.surfaces[side];
         let pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize]));
         let points = pieces.flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))));
@@ -48,6 +60,11 @@ impl MovedInterface {
     /// True contact pressure on the axis, Pa; 0 without contact there: see
     /// [`centre_pressure`](crate::centre_pressure), of the nodes where they are now.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs)
+        let radius = self.contact_radius(u);
+        let at = |side: usize| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs);
+        match staggered_lengths(&self.surfaces) {
+            Some(_) => 0.5 * (at(0) + at(1)),
+            None => at(coarser(&self.surfaces, self.candidate_radius)),
+        }
     }
 }

@@ -9,7 +9,7 @@ use super::table::Table;
 
 const SPEEDS: [&str; 6] =
     ["speed", "approach_speed", "impact_speed", "relative_speed", "velocity", "v"];
-const RESTITUTIONS: [&str; 3] = ["restitution", "coefficient_of_restitution", "e"];
+const RESTITUTIONS: [&str; 4] = ["restitution", "coefficient_of_restitution", "cor", "e"];
 const UNCERTAINTIES: [&str; 5] =
     ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
 pub(super) const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
@@ -76,10 +76,12 @@ impl Columns {
         required.chain(optional.into_iter().flatten()).collect()
     }
 
-    /// A sweep has rows of members that failed.
+    /// A sweep has rows of members that failed, a measurement rows without a speed or a restitution.
     pub fn has_result(&self, table: &Table, row: usize) -> bool {
-        let Some(complete) = self.complete else { return true };
-        table.text(row, complete) != "false" && !table.text(row, self.restitution).is_empty()
+        let is_complete = |complete: usize| table.text(row, complete) != "false";
+        self.complete.is_none_or(is_complete)
+            && !table.is_missing(row, self.restitution)
+            && !self.speeds.iter().any(|speed| table.is_missing(row, *speed))
     }
 
     pub fn point(&self, table: &Table, row: usize) -> Result<Point, DataError> {
@@ -158,7 +160,7 @@ fn positive(
     column: usize,
     dimension: [i32; 3],
 ) -> Result<Option<f64>, DataError> {
-    if table.text(row, column).is_empty() {
+    if table.is_missing(row, column) {
         return Ok(None);
     }
     let value = table.number(row, column, dimension)?;
