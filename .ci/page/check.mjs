@@ -124,11 +124,12 @@ check('what is wrong is said at its place, and the numbers stand back', async ()
   const { page, complaints } = await open(browser, address);
   await settled(page);
   const glass = readFileSync(join(cases, 'glass_0.5ms.toml'), 'utf8');
-  await paste(page, glass.replace('"22.2 mm"', '"-22.2 mm"'));
+  await paste(page, glass.replace('"22.2 mm"', '"-22.2 mm"').replace('0.244', '0.9'));
   await page.locator('#paste-fault').waitFor();
   const negative = await page.locator('#paste-fault').innerText();
   assert.match(negative, /Line 20, column 23/);
   assert.match(negative, /greater than 0/);
+  assert.match(negative, /poissons_ratio/);
   await shot(page, 'fault');
   await paste(page, `${glass}\n[[body]]\nname = "third"\nsphere = { diameter = "1 cm" }\nmaterial = "glass"\n`);
   await page.waitForFunction(() => /3/.test(document.querySelector('#paste-fault strong')?.textContent));

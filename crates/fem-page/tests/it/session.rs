@@ -57,6 +57,11 @@ fn faults_say_where_and_what_is_allowed() {
     let three = fault(&(GLASS.to_string() + third));
     assert!(three.text.contains("body") && three.message.contains('3'), "{}", three.text);
 
+    let both = GLASS.replace("22.2 mm\" }", "-1 mm\" }").replace("0.244", "0.9");
+    let both = fault(&both);
+    assert_eq!(both.others.len(), 1, "{both:?}");
+    assert!(!both.text.contains(&both.others[0].message));
+
     let mesh = fault(include_str!("../../../../cases/glass_0.5ms_14um.toml"));
     assert_eq!(mesh.key.as_deref(), Some("body.0.sphere.mesh"));
     assert!(!fault("title = [").text.is_empty());
