@@ -185,6 +185,9 @@ pub struct OutputTable {
     /// `[[output.probe]]`: places of which is told what happens there over time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probe: Vec<ProbeTable>,
+    /// Whether a run writes its page, `report.html`; it does unless told otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub report: Option<bool>,
 }
 
 /// `snapshots`: a count, or a list of labels or of times.
