@@ -39,7 +39,7 @@ const COARSER: [f64; 2] = [1.5, 2.0];
 const MARGIN: [f64; 6] = [1.6; 6];
 /// ... of condensed bodies by coarser ones, whose contact time and force converge faster than is counted
 /// with, ...
-const MARGIN_OF_CONDENSED: [f64; 6] = [1.5, 1.0, 0.65, 1.95, 1.0, 1.1];
+const MARGIN_OF_CONDENSED: [f64; 6] = [1.6, 1.0, 0.5, 1.2, 0.7, 0.8];
 /// ... and of explicit elements by coarser ones.
 const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
@@ -50,7 +50,7 @@ const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 1e-3, 1.5e-4, 3e-3, 4e-3];
 /// What both grow by where elements are few, times the square of h/a: where the edge of the contact lies between
 /// nodes shows in radius and pressure.
 const OF_FEW: [f64; 6] = [1.6e-3, 0.0, 0.0, 0.013, 0.05, 0.056];
-const OF_FEW_CONDENSED: [f64; 6] = [0.0, 0.0, 0.0, 0.0, 0.15, 0.0];
+const OF_FEW_CONDENSED: [f64; 6] = [0.0, 0.0, 0.04, 0.0, 0.1, 0.0];
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
 const FEW: f64 = 4.5;
 /// Relative change for each share of mass that is moved.
