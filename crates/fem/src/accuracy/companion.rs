@@ -39,7 +39,7 @@ const COARSER: [f64; 2] = [1.5, 2.0];
 const MARGIN: [f64; 6] = [1.6; 6];
 /// ... of condensed bodies by coarser ones, whose contact time and force converge faster than is counted
 /// with, ...
-const MARGIN_OF_CONDENSED: [f64; 6] = [1.2, 1.0, 0.6, 1.3, 2.2, 2.2];
+const MARGIN_OF_CONDENSED: [f64; 6] = [1.6, 1.0, 0.5, 1.2, 0.7, 0.8];
 /// ... and of explicit elements by coarser ones.
 const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
@@ -47,9 +47,13 @@ const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 const SCATTER: [f64; 6] = [2e-5, 1e-4, 4e-4, 5e-5, 1e-3, 1e-3];
 /// The same of condensed bodies: steps, and the place of the contact's edge.
 const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 1e-3, 1.5e-4, 3e-3, 4e-3];
+/// What both grow by where elements are few, times the square of h/a: where the edge of the contact lies between
+/// nodes shows in radius and pressure.
+const OF_FEW: [f64; 6] = [1.6e-3, 0.0, 0.0, 0.013, 0.05, 0.056];
+const OF_FEW_CONDENSED: [f64; 6] = [0.0, 0.0, 0.04, 0.0, 0.1, 0.0];
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
 const FEW: f64 = 4.5;
-/// Relative change for each share of mass that is added.
+/// Relative change for each share of mass that is moved.
 const OF_ADDED_MASS: [f64; 6] = [0.05, 0.3, 0.8, 0.3, 0.1, 0.3];
 
 /// Errors of the numbers of a collision of bodies with elements, computed with large strains or without.
@@ -77,15 +81,19 @@ pub(crate) fn discretisation_errors(
         None if is_explicit => (companions.of_coarser(values), MARGIN_OF_STRAINED),
         None => (companions.of_coarser(values), MARGIN_OF_CONDENSED),
     };
-    let scatter = if is_explicit { SCATTER } else { CONDENSED_SCATTER };
+    let (scatter, of_few) = match is_explicit {
+        true => (SCATTER, OF_FEW),
+        false => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
+    };
     let added = added_share(collision);
     let size = elements.plan.contact_element_size;
     let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
     let coarse = (FEW / across).max(1.0).powi(2);
     Doubt::by(|headline| {
         let k = headline as usize;
+        let scatter = scatter[k] + of_few[k] / (across * across);
         let share =
-            |error: f64| coarse * margin[k] * error.abs() + scatter[k] + added * OF_ADDED_MASS[k];
+            |error: f64| coarse * margin[k] * error.abs() + scatter + added * OF_ADDED_MASS[k];
         let both = errors[k].zip(values[k]);
         both.map(|(error, value)| share(error) * headline.scale(value))
     })
