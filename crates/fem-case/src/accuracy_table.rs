@@ -7,6 +7,7 @@ use crate::quantity::{Number, Quantity, QuantityKind};
 
 /// `[accuracy]`: how far results may be off.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [accuracy]")]
 pub struct AccuracyTable {
     /// One for all, or one each.
@@ -26,6 +27,7 @@ pub enum ToleranceValue {
 
 /// `tolerance = { … }`: what is left out keeps its default.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a share such as \"1 %\", or a table of shares")]
 pub struct ToleranceTable {
     /// Of the restitution, absolute.

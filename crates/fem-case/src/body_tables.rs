@@ -7,6 +7,7 @@ use crate::quantity::{Length, Quantity, Speed};
 
 /// `[[body]]`: a name, exactly one shape, and for all but a wall a material.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [[body]]")]
 pub struct BodyTable {
     /// Letters, digits, `_` and `-`; unique.
@@ -88,6 +89,7 @@ impl BodyTable {
 
 /// `sphere = { … }`.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { diameter = \"22.2 mm\" }")]
 pub struct SphereTable {
     /// Diameter, > 0.

@@ -5,11 +5,15 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use toml::Spanned;
+use toml::de::DeTable;
 
 use crate::body::Shape;
 use crate::document::{Document, Insertions};
 use crate::error::CaseError;
 use crate::explain::{explain, listed};
+use crate::faults::{self, Repair};
+use crate::library;
 use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::schema::{CaseFile, is_list};
@@ -39,13 +43,13 @@ impl Case {
     /// Reads a case file and applies overrides (`KEY=VALUE`), left to right.
     ///
     /// # Errors
-    /// The first thing that is wrong with file, overrides or the case that they make.
+    /// What is wrong with file, overrides or the case that they make, all of it: [`CaseError::others`].
     pub fn load(path: &Path, overrides: &[String]) -> Result<Case, CaseError> {
         let name = path.display().to_string();
         let text = read(path, &name)?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
-        Case::build(&name, &stem, &text, folder, overrides, None)
+        Case::built(&name, &stem, &text, folder, overrides)
     }
 
     /// As [`Case::load`], from a text; `name` stands for the file in messages and as the title,
@@ -61,7 +65,7 @@ impl Case {
     ) -> Result<Case, CaseError> {
         let stem = Path::new(name).file_stem();
         let stem = stem.map_or(name.to_string(), |stem| stem.to_string_lossy().to_string());
-        Case::build(name, &stem, text, folder, overrides, None)
+        Case::built(name, &stem, text, folder, overrides)
     }
 
     /// As [`Case::parse`], of a text that comes from elsewhere, such as the standard input.
@@ -105,7 +109,8 @@ impl Case {
     /// );
     /// # Ok::<(), fem_case::CaseError>(())
     /// ```
-    pub fn of(file: CaseFile) -> Result<Case, CaseError> {
+    pub fn of(mut file: CaseFile) -> Result<Case, CaseError> {
+        library::fill(&mut file);
         let document = Document::of_code(&file.tree()?);
         let names: Vec<&str> = file.body.iter().map(|body| body.name.as_str()).collect();
         let defaults = Defaults { title: listed(&names), folder: absolute(Path::new(".")) };
@@ -143,19 +148,47 @@ impl Case {
     pub fn edited(&self, change: impl FnOnce(&mut CaseFile)) -> Result<Case, CaseError> {
         let mut file = self.file.clone();
         change(&mut file);
+        library::fill(&mut file);
         let document = self.document.edited(&self.file.tree()?, &file.tree()?);
         Case::validated(document, file, self.defaults.clone())
     }
 
+    /// The case of a text, or all of its faults.
+    fn built(
+        name: &str,
+        stem: &str,
+        text: &str,
+        folder: &Path,
+        overrides: &[String],
+    ) -> Result<Case, CaseError> {
+        let read = |repairs: &[Repair]| {
+            let document = Document::parse(name, text, overrides, None, repairs)?;
+            Case::of_document(document, stem, folder)
+        };
+        read(&[]).map_err(|first| faults::all(first, |repairs| read(repairs).err()))
+    }
+
+    /// The case of a text with insertions, or its first fault.
     pub(crate) fn build(
         name: &str,
         stem: &str,
         text: &str,
         folder: &Path,
         overrides: &[String],
-        insertions: Option<Insertions<'_, '_>>,
+        insertions: Insertions<'_, '_>,
     ) -> Result<Case, CaseError> {
-        let (document, tree) = Document::parse(name, text, overrides, insertions)?;
+        Case::of_document(
+            Document::parse(name, text, overrides, Some(insertions), &[])?,
+            stem,
+            folder,
+        )
+    }
+
+    fn of_document(
+        (document, tree): (Document, Spanned<DeTable<'_>>),
+        stem: &str,
+        folder: &Path,
+    ) -> Result<Case, CaseError> {
         let file = CaseFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         if let Some(path) = document.arrays().iter().find(|path| !is_list(path)) {

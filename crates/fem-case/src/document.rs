@@ -11,6 +11,8 @@ use toml::de::DeTable;
 use toml::{Spanned, Table};
 
 use crate::error::CaseError;
+use crate::faults::Repair;
+use crate::library;
 use crate::overrides::{self, Assignment};
 use crate::positions::{Position, Positions};
 use crate::toml_text::first_line;
@@ -21,6 +23,8 @@ struct Source {
     name: String,
     text: String,
     start: usize,
+    /// When it was given: the file 0, then what overrides it.
+    turn: usize,
 }
 
 /// Values of another file that go into the tree; their spans count from its beginning.
@@ -38,7 +42,9 @@ pub(crate) struct Document {
 }
 
 impl Document {
-    /// Parses `text`, applies the overrides, left to right, and then the insertions.
+    /// Parses `text`, applies the overrides, left to right, and then the insertions; under all of it
+    /// lie the materials of the library that bodies name. Repairs are for a reader that looks for
+    /// more faults.
     ///
     /// Returns the document and the merged tree as a deserializer.
     pub(crate) fn parse<'t>(
@@ -46,8 +52,9 @@ impl Document {
         text: &'t str,
         overrides: &'t [String],
         insertions: Option<Insertions<'_, 't>>,
+        repairs: &'t [Repair],
     ) -> Result<(Document, Spanned<DeTable<'t>>), CaseError> {
-        let file = Source { name: name.to_string(), text: text.to_string(), start: 0 };
+        let file = Source { name: name.to_string(), text: text.to_string(), start: 0, turn: 0 };
         let mut document = Document { sources: vec![file], positions: Positions::default() };
         let mut tree = DeTable::parse(text).map_err(|error| {
             document
@@ -57,12 +64,14 @@ impl Document {
                  string in quotes, \"22.2 mm\"",
                 )
         })?;
+        overrides::expand_choices(tree.get_mut());
         for (index, text) in overrides.iter().enumerate() {
             let previous = &document.sources[index];
             document.sources.push(Source {
                 name: format!("--set {}=…", overrides::key_text(text)),
                 text: text.clone(),
                 start: previous.start + previous.text.len() + 1,
+                turn: index + 1,
             });
             let start = document.sources[index + 1].start;
             let fail = |fault: overrides::Fault| {
@@ -74,13 +83,22 @@ impl Document {
         if let Some(Insertions { name, text, assignments }) = insertions {
             let previous = &document.sources[overrides.len()];
             let start = previous.start + previous.text.len() + 1;
-            let source = Source { name: name.to_string(), text: text.to_string(), start };
+            let (name, turn) = (name.to_string(), overrides.len() + 1);
+            let source = Source { name, text: text.to_string(), start, turn };
             document.sources.push(source);
             for assignment in assignments {
                 overrides::apply(tree.get_mut(), assignment.shifted(start)).map_err(|fault| {
                     document.error_on(fault.span, fault.message).with_help(fault.help)
                 })?;
             }
+        }
+        for Repair { path, value } in repairs {
+            overrides::mend(tree.get_mut(), path, value.as_deref());
+        }
+        let start = document.sources.last().map_or(0, |last| last.start + last.text.len() + 1);
+        if library::underlay(tree.get_mut(), start) {
+            let (name, text) = ("materials library".to_string(), library::TEXT.to_string());
+            document.sources.push(Source { name, text, start, turn: 0 });
         }
         document.positions = Positions::of_text(tree.get_ref());
         Ok((document, tree))
@@ -111,7 +129,7 @@ impl Document {
     /// last edit or else the last override among them gave, or else `default`.
     pub(crate) fn blamed<'p>(&self, default: &'p str, others: &[&'p str]) -> &'p str {
         let turn_of = |path: &str| match self.positions.get(path) {
-            Some(Position::Text { value, .. }) => self.source_at(value.start),
+            Some(Position::Text { value, .. }) => self.sources[self.source_at(value.start)].turn,
             Some(Position::Code { edit }) => self.sources.len() + edit,
             None => 0,
         };

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::key_path::join;
+
 /// Something wrong with a case file, with an override of it, or with a case made in code.
 ///
 /// It displays as a block of plain text: position and message, the line with the culprit
@@ -16,6 +18,15 @@ pub struct CaseError {
     help: Option<String>,
     key: Option<String>,
     place: Option<Box<Place>>,
+    more: Box<More>,
+}
+
+/// What is seldom asked for; apart, so that errors stay small.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct More {
+    /// A key that is missing in the table that the error is about.
+    missing: Option<String>,
+    others: Vec<CaseError>,
 }
 
 /// A stretch of a source text.
@@ -35,6 +46,7 @@ impl CaseError {
             help: None,
             key: None,
             place: None,
+            more: Box::default(),
         }
     }
 
@@ -48,6 +60,27 @@ impl CaseError {
     pub(crate) fn about(mut self, key: &str) -> Self {
         self.key = Some(key.to_string());
         self
+    }
+
+    /// Says which key is missing in the table that it is about.
+    pub(crate) fn lacking(mut self, key: &str) -> Self {
+        self.more.missing = Some(key.to_string());
+        self
+    }
+
+    /// Adds the faults that a case has beside this one.
+    pub(crate) fn with_others(mut self, others: Vec<CaseError>) -> Self {
+        self.more.others = others;
+        self
+    }
+
+    /// The key that wants another value: the one that it is about, or that is missing there.
+    pub(crate) fn wanted(&self) -> Option<String> {
+        match (&self.key, &self.more.missing) {
+            (Some(table), Some(missing)) => Some(join(table, missing)),
+            (None, Some(missing)) => Some(missing.clone()),
+            (key, None) => key.clone(),
+        }
     }
 
     /// Points at the bytes `span` of `text`; a span that does not fit is trimmed.
@@ -83,6 +116,17 @@ impl CaseError {
     /// as such.
     pub fn key(&self) -> Option<&str> {
         self.key.as_deref()
+    }
+
+    /// What else is wrong with the same case, in the order in which a reader meets it; of a file or a
+    /// text, not of code.
+    pub fn others(&self) -> &[CaseError] {
+        &self.more.others
+    }
+
+    /// Takes [`CaseError::others`] out: what is left is this fault alone.
+    pub fn take_others(&mut self) -> Vec<CaseError> {
+        std::mem::take(&mut self.more.others)
     }
 
     /// What was found.
@@ -132,6 +176,9 @@ impl CaseError {
         }
         if let Some(help) = &self.help {
             block += &format!("\n  help: {help}");
+        }
+        for other in &self.more.others {
+            block += &format!("\n{other}");
         }
         // A case file may hold anything; a terminal must not obey it.
         block.replace(|c: char| c.is_control() && c != '\n', "\u{fffd}")

@@ -46,7 +46,8 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     }
     if let Some(rest) = message.strip_prefix("missing field ") {
         let missing = rest.trim_matches('`');
-        let error = at(format!("the key `{missing}` is missing{}", in_table(path)));
+        let error =
+            at(format!("the key `{missing}` is missing{}", in_table(path))).lacking(missing);
         let example = EXAMPLES.iter().find(|(key, _)| *key == missing);
         return match example {
             Some((_, line)) => error.with_help(format!("write {line}")),

@@ -6,6 +6,7 @@ use crate::quantity::{Acceleration, Count, Quantity};
 
 /// `[gravity]`: the weight of the upper sphere, which the lower body bears.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [gravity]")]
 pub struct GravityTable {
     /// Along -y, > 0.
@@ -21,6 +22,7 @@ impl GravityTable {
 
 /// `[stop]`: when a run is over.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [stop]")]
 pub struct StopTable {
     /// After so many contacts, >= 1; rest ends the run before.

@@ -13,6 +13,8 @@
 //! it collides is for crates above. Text and code ([`Case::of`], [`Case::edited`]) are validated by
 //! the same path.
 //!
+//! A body's `material = "lib:NAME"` is one of [`library`].
+//!
 //! Every fault is a [`CaseError`] with file (or override), line, column, what was found and what
 //! is allowed. [`Case::load`] does all of it; [`Case::of`] takes a [`CaseFile`] made in code and
 //! [`Case::edited`] changes a case, where the key stands in place of file and line:
@@ -58,21 +60,29 @@ mod empty_table;
 pub mod engineering;
 mod error;
 mod explain;
+mod faults;
 mod gravity;
 mod gravity_tables;
+#[cfg(feature = "schema")]
+pub mod json_schema;
 mod key_path;
 mod keyword;
+pub mod library;
 mod material_tables;
 mod model;
 mod model_tables;
+mod number_at;
+mod oddities;
 mod overrides;
 mod positions;
+mod probe_table;
 mod quantity;
 mod scene;
 pub mod schema;
 mod sweep;
 mod sweep_axes;
 mod sweep_file;
+mod sweep_values;
 mod toml_text;
 mod unit_table;
 mod units;
@@ -88,9 +98,9 @@ pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
-pub use scene::{Accuracy, Limits, MeshSettings, Scene, Snapshots};
+pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
 pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
-pub use sweep_axes::{Axis, Element};
+pub use sweep_axes::{Axis, Element, SweptKey};
 pub use sweep_file::{Combine, Keep, PlotTable};
 pub use units::{Dimension, UnitError, parse_quantity};

@@ -7,6 +7,7 @@ use crate::quantity::{Density, Number, Quantity, Rate, Stress, Time};
 
 /// `[material.NAME]`: density, exactly two of the four instantaneous moduli, and relaxation.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass]")]
 pub struct MaterialTable {
     /// Mass per volume, > 0.
@@ -108,6 +109,7 @@ impl From<HyperelasticLaw> for fem_material::finite::HyperelasticLaw {
 
 /// `[material.NAME.relaxation]`: a Prony series.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [material.glass.relaxation]")]
 pub struct RelaxationTable {
     /// Which moduli relax.
@@ -146,6 +148,7 @@ impl From<ActsOn> for fem_material::ActsOn {
 
 /// A Prony term: its weight and exactly one of decay rate and relaxation time.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
     expecting = "a table such as { weight = 1.0, decay_rate = \"2708 1/s\" }"

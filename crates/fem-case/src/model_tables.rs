@@ -11,6 +11,7 @@ use crate::quantity::{Kind, QuantityKind};
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as [model] with fem = {}")]
 pub struct ModelTable {
     /// Explicit finite elements.
@@ -47,6 +48,9 @@ pub struct ModelTable {
 /// # assert_eq!(law.law.unwrap().given(), ["kuwabara_kono"]);
 /// ```
 impl ModelTable {
+    /// The names of models that need no key.
+    pub const NAMES: &'static [&'static str] = &["fem", "condensed", "ting", "hertz", "auto"];
+
     /// Explicit finite elements.
     pub fn fem() -> Self {
         Self { fem: Some(EmptyTable {}), ..Self::default() }
@@ -104,6 +108,7 @@ impl From<LawTable> for ModelTable {
 
 /// `condensed = { … }`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { vibration_modes = 12 }")]
 pub struct CondensedTable {
     /// Modes of free vibration of each body, 0 to 100; 0 is quasi-static.
@@ -119,6 +124,7 @@ pub struct CondensedTable {
 
 /// `ting = { … }`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
 pub struct TingTable {
     /// Whether the spheres' finite size adds to the approach.
@@ -131,6 +137,7 @@ pub struct TingTable {
 
 /// `hertz = { … }`.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table such as { finite_size = true }")]
 pub struct HertzTable {
     /// Whether the spheres' finite size adds to the approach.
@@ -177,6 +184,7 @@ macro_rules! law_tables {
         $(
             $(#[$doc])*
             #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+            #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
             #[serde(deny_unknown_fields, expecting = $example)]
             pub struct $table {
                 $(
@@ -201,6 +209,7 @@ macro_rules! law_tables {
 
         /// `law = { NAME = { … } }`: exactly one law; `end` and `tolerance` may stand beside it.
         #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         #[serde(
             deny_unknown_fields,
             expecting = "a table such as { kuwabara_kono = { a = \"1e-6 s\" } }"
@@ -355,6 +364,15 @@ pub(crate) fn exclude_each_other(table: &[&str], key: &str, other: &str) -> bool
     match table {
         ["model"] => key != other,
         ["model", "law"] => key != other && is_law(key) && is_law(other),
+        _ => false,
+    }
+}
+
+/// Whether a name stands for the table of this name, with its defaults, at this path.
+pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
+    match path {
+        ["model"] => ModelTable::NAMES.contains(&name),
+        ["model", "law"] => LawTable::NAMES.contains(&name),
         _ => false,
     }
 }

@@ -1,8 +1,9 @@
 //! An override `KEY=VALUE`: one value put into the tree of a case before it is validated.
 //!
 //! KEY is a dotted path in TOML's key syntax (`material."my glass".density`), an index from 0 in
-//! an array. VALUE is a TOML value. Keys and tables that are absent are added; array elements
-//! are not.
+//! an array. VALUE is a TOML value; words that are none are a string whose quotes a shell has eaten,
+//! unless they begin like a table, an array or a string. Keys and tables that are absent are added;
+//! array elements are not. A model or a law by its name, `model=ting`, has its defaults.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -12,7 +13,7 @@ use toml::de::{DeString, DeTable, DeValue};
 use toml::map::{Entry, VacantEntry};
 
 use crate::key_path::is_bare;
-use crate::model_tables::exclude_each_other;
+use crate::model_tables::{exclude_each_other, is_choice};
 use crate::toml_text::{first_line, shift};
 
 /// Deeper than any key of a case; keeps recursion over the tree shallow.
@@ -76,11 +77,20 @@ pub(crate) fn parse(text: &str, offset: usize) -> Result<Assignment<'_>, Fault> 
         let message = "there is no value after `=`".to_string();
         return Err(value_fault(equals..equals + 1, message));
     }
-    let value = DeValue::parse(raw).map_err(|error| {
-        let message = format!("`{raw}` is no TOML value: {}", first_line(error.message()));
-        value_fault(start..start + raw.len(), message)
-    })?;
+    let value = match DeValue::parse(raw) {
+        Ok(value) => value,
+        Err(_) if is_unquoted(raw) => Spanned::new(0..raw.len(), DeValue::String(raw.into())),
+        Err(error) => {
+            let message = format!("`{raw}` is no TOML value: {}", first_line(error.message()));
+            return Err(value_fault(start..start + raw.len(), message));
+        }
+    };
     Ok(Assignment { path, value: shift(value, offset + start) })
+}
+
+/// Whether it can only be meant as a string: `1 m/s`, `14um`, `off`, and no half of a table.
+fn is_unquoted(raw: &str) -> bool {
+    !raw.starts_with(['{', '[', '"', '\'']) && !raw.contains(|c: char| c.is_control() || c == '=')
 }
 
 /// The parts of the key and the position of the `=` after it.
@@ -151,7 +161,9 @@ fn quoted_part(text: &str, quote: char) -> Option<(String, usize)> {
 
 /// Puts the value into the tree.
 pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> Result<(), Fault> {
-    let Assignment { path, value } = assignment;
+    let Assignment { path, mut value } = assignment;
+    let names: Vec<&str> = path.iter().map(|part| part.get_ref().as_str()).collect();
+    expand_choice(&names, &mut value);
     let Some((last, parents)) = path.split_last() else {
         return Ok(());
     };
@@ -177,6 +189,61 @@ pub(crate) fn apply<'t>(root: &mut DeTable<'t>, assignment: Assignment<'t>) -> R
         }
     }
     Ok(())
+}
+
+/// Gives the key at a path another value, or takes it out; nothing where the path leads nowhere. The
+/// value stands where the old one stood, or the nearest one around it.
+pub(crate) fn mend<'t>(root: &mut DeTable<'t>, path: &[String], value: Option<&'t str>) {
+    let Some((last, parents)) = path.split_last() else { return };
+    let mut place = Place::Table(root);
+    let mut span = 0..0;
+    for part in parents {
+        let part = Spanned::new(span.clone(), part.clone());
+        let Ok(Child::Value(child)) = place.child(&part) else { return };
+        span = child.span();
+        let Ok(inner) = Place::of(child, &part) else { return };
+        place = inner;
+    }
+    let new = value.and_then(|text| DeValue::parse(text).ok());
+    let moved = |new: Spanned<DeValue<'t>>, span: Range<usize>| {
+        Spanned::new(span.clone(), shift(new, span.start).into_inner())
+    };
+    match (place, new) {
+        (Place::Table(table), new) => {
+            let span = table.remove(last.as_str()).map_or(span, |old| old.span());
+            if let Some(new) = new {
+                let key = Spanned::new(span.clone(), Cow::Owned(last.clone()));
+                table.insert(key, moved(new, span));
+            }
+        }
+        (Place::Array(array), Some(new)) => {
+            if let Some(old) = last.parse().ok().and_then(|index: usize| array.get_mut(index)) {
+                *old = moved(new, old.span());
+            }
+        }
+        (Place::Array(_), None) => {}
+    }
+}
+
+/// Names of a model and a law of a file as their tables.
+pub(crate) fn expand_choices(root: &mut DeTable<'_>) {
+    let Some(model) = root.get_mut("model") else { return };
+    expand_choice(&["model"], model);
+    if let DeValue::Table(model) = model.get_mut()
+        && let Some(law) = model.get_mut("law")
+    {
+        expand_choice(&["model", "law"], law);
+    }
+}
+
+/// The name of a model or a law in the place of its table, `ting` for `{ ting = {} }`.
+fn expand_choice(path: &[&str], value: &mut Spanned<DeValue<'_>>) {
+    let Some(name) = value.get_ref().as_str().filter(|name| is_choice(path, name)) else { return };
+    let (span, name) = (value.span(), name.to_string());
+    let mut table = DeTable::new();
+    let inner = Spanned::new(span.clone(), DeValue::Table(DeTable::new()));
+    table.insert(Spanned::new(span, Cow::Owned(name)), inner);
+    *value.get_mut() = DeValue::Table(table);
 }
 
 /// Of keys that exclude each other, such as the models, the path's takes the place of another.

@@ -249,12 +249,13 @@ impl<K: QuantityKind> fmt::Debug for Quantity<K> {
     }
 }
 
+/// A new type of the name of its SI unit, so that a serializer can know it; most look through it.
 impl<K: QuantityKind> Serialize for Quantity<K> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match (self.si(), &self.written) {
             (Ok(value), _) | (Err(_), &Written::Si(value)) => match Self::whole(value) {
-                Some(count) => serializer.serialize_i64(count),
-                None => serializer.serialize_f64(value),
+                Some(count) => serializer.serialize_newtype_struct(K::KIND.si, &count),
+                None => serializer.serialize_newtype_struct(K::KIND.si, &value),
             },
             (Err(_), Written::Text(text)) => serializer.serialize_str(text),
         }

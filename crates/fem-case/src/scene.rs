@@ -22,6 +22,7 @@ pub struct Scene {
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
     pub(crate) wants_report: bool,
+    pub(crate) probes: Vec<Probe>,
     pub(crate) model: ModelChoice,
     pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
@@ -83,6 +84,11 @@ impl Scene {
     /// Whether a run writes its page.
     pub fn wants_report(&self) -> bool {
         self.wants_report
+    }
+
+    /// Places of which is told what happens there over time.
+    pub fn probes(&self) -> &[Probe] {
+        &self.probes
     }
 
     /// Which model computes the collision.
@@ -150,6 +156,7 @@ impl Scene {
         scene.mesh.contact_element_size = None;
         scene.mesh.refined_radius = None;
         scene.mesh.far_radius = None;
+        scene.mesh.staggered = None;
         Some(scene)
     }
 
@@ -260,6 +267,19 @@ pub struct MeshSettings {
     pub growth: Option<f64>,
     /// Distance of the far boundary of a half-space, m, > 0.
     pub far_radius: Option<f64>,
+    /// Whether the nodes of one body lie between those of the other at the edge of the contact.
+    pub staggered: Option<bool>,
+}
+
+/// A place of the undeformed body, whose contact pole is at the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probe {
+    /// 0 lower, 1 upper.
+    pub body: usize,
+    /// From the axis, m.
+    pub r: f64,
+    /// Along the axis, m.
+    pub y: f64,
 }
 
 /// The instants at which fields are written.

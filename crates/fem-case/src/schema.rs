@@ -16,9 +16,11 @@ pub use crate::empty_table::EmptyTable;
 pub use crate::gravity_tables::*;
 pub use crate::material_tables::*;
 pub use crate::model_tables::*;
+pub use crate::probe_table::ProbeTable;
 
 /// A whole case file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("required" = ["body"])))]
 #[serde(deny_unknown_fields)]
 pub struct CaseFile {
     /// What the case is about; the file's stem if absent.
@@ -26,9 +28,11 @@ pub struct CaseFile {
     pub title: Option<String>,
     /// The tables `[material.NAME]`, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(extend("patternProperties" = crate::json_schema::library_tables())))]
     pub material: BTreeMap<String, MaterialTable>,
     /// `[[body]]`, exactly two; the first lies below the second on the axis y.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(length(equal = 2)))]
     pub body: Vec<BodyTable>,
     /// Where the bodies start.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,6 +104,7 @@ impl CaseFile {
 
 /// `[start]`: where the bodies are at time 0.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [start]")]
 pub struct StartTable {
     /// Distance of the surfaces on the axis at time 0, >= 0.
@@ -109,6 +114,7 @@ pub struct StartTable {
 
 /// `[mesh]`: how finely the bodies are divided.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [mesh]")]
 pub struct MeshTable {
     /// Edge length of the elements at the contact, > 0.
@@ -123,10 +129,15 @@ pub struct MeshTable {
     /// Distance of the far boundary of a half-space, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub far_radius: Option<Quantity<Length>>,
+    /// Whether elements of one body are a little larger and those of the other a little smaller, so that at
+    /// the edge of the contact their nodes lie between each other.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub staggered: Option<bool>,
 }
 
 /// `[contact]`: how springs keep the surfaces apart, and how stiff they are.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [contact]")]
 pub struct ContactTable {
     /// Where the springs are, and what they pull at.
@@ -152,6 +163,7 @@ keywords! {
 
 /// `[time]`: how long a time step is.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [time]")]
 pub struct TimeTable {
     /// Times the critical time step, > 0 and at most 1.
@@ -164,6 +176,7 @@ pub struct TimeTable {
 
 /// `[output]`: what is drawn of the collision.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [output]")]
 pub struct OutputTable {
     /// The instants at which fields are written.
@@ -172,6 +185,9 @@ pub struct OutputTable {
     /// Whether a run writes its page, `report.html`; it does unless told otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub report: Option<bool>,
+    /// `[[output.probe]]`: places of which is told what happens there over time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub probe: Vec<ProbeTable>,
 }
 
 /// `snapshots`: a count, or a list of labels or of times.
@@ -262,6 +278,7 @@ impl<'de> Deserialize<'de> for SnapshotsValue {
 
 /// `[effects]`: numerical effects, forced or left to the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [effects]")]
 pub struct EffectsTable {
     /// Relaxation of the materials, a term at a time.
@@ -321,6 +338,7 @@ keywords! {
 
 /// `[limits]`: a run that needs more is refused before it starts.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [limits]")]
 pub struct LimitsTable {
     /// Elements of both bodies together.
@@ -338,5 +356,5 @@ pub struct LimitsTable {
 /// reads `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
     let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
-    is_terms || path == "body" || path == "output.snapshots"
+    is_terms || matches!(path, "body" | "output.snapshots" | "output.probe")
 }

@@ -14,7 +14,7 @@ use crate::error::CaseError;
 use crate::explain::explain;
 use crate::overrides;
 use crate::quantity::{Count, Quantity};
-use crate::sweep_axes::{Axis, read_axes};
+use crate::sweep_axes::{Axis, SweptKey, read_axes};
 use crate::sweep_file::{Combine, Keep, PlotTable, SweepFile};
 
 /// Members that a sweep may have unless it says otherwise.
@@ -61,8 +61,9 @@ impl Sweep {
             }
             _ => error,
         })?;
-        let (document, tree) = Document::parse(&name, &text, &[], None)?;
-        let axes = read_axes(&document, &text, tree.get_ref());
+        let (document, tree) = Document::parse(&name, &text, &[], None, &[])?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let axes = read_axes(&document, &text, folder, tree.get_ref());
         let file = SweepFile::deserialize(toml::de::Deserializer::from(tree))
             .map_err(|error| explain(&document, &error))?;
         let axes = axes?;
@@ -111,18 +112,30 @@ impl Sweep {
         }
     }
 
-    /// The member's values as written, in the order of the axes.
+    /// The varied keys, axis by axis.
+    pub fn keys(&self) -> impl Iterator<Item = &SweptKey> {
+        self.axes.iter().flat_map(|axis| &axis.keys)
+    }
+
+    /// Of each varied key, its axis and its place in it.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        let places =
+            |(axis, keys): (usize, &Axis)| (0..keys.keys.len()).map(move |key| (axis, key));
+        self.axes.iter().enumerate().flat_map(places)
+    }
+
+    /// The member's values as written, in the order of the keys.
     pub fn values(&self, member: usize) -> Vec<&str> {
         let choice = self.choice(member);
-        let elements = self.axes.iter().zip(choice);
-        elements.map(|(axis, element)| axis.elements[element].text.as_str()).collect()
+        let value = |(axis, key): (usize, usize)| self.axes[axis].elements[choice[axis]].text(key);
+        self.places().map(value).collect()
     }
 
     /// The member in words: `body.0.approach_speed = 0.1 m/s, …`.
     pub fn describe(&self, member: usize) -> String {
         let values = self.values(member);
-        let pairs = self.axes.iter().zip(values);
-        let pairs: Vec<_> = pairs.map(|(axis, value)| format!("{} = {value}", axis.key)).collect();
+        let pairs = self.keys().zip(values);
+        let pairs: Vec<_> = pairs.map(|(key, value)| format!("{} = {value}", key.key)).collect();
         pairs.join(", ")
     }
 
@@ -164,13 +177,13 @@ impl Sweep {
     /// The base case with these elements of these axes.
     fn case(&self, choice: &[(usize, usize)]) -> Result<Case, CaseError> {
         let assign =
-            |(axis, element): &(usize, usize)| self.axes[*axis].assignment(*element, &self.text);
-        let assignments = choice.iter().filter_map(assign).collect();
+            |(axis, element): &(usize, usize)| self.axes[*axis].assignments(*element, &self.text);
+        let assignments = choice.iter().flat_map(assign).collect();
         let insertions = Insertions { name: &self.name, text: &self.text, assignments };
         let Base { path, name, text, overrides } = &self.base;
         let stem = path.file_stem().map_or(name.clone(), |stem| stem.to_string_lossy().to_string());
         let folder = path.parent().unwrap_or(Path::new(""));
-        Case::build(name, &stem, text, folder, overrides, Some(insertions))
+        Case::build(name, &stem, text, folder, overrides, insertions)
     }
 
     /// The error of a member that points into the base case, pointed at an element.
@@ -217,9 +230,9 @@ fn count_members(
                     |n: usize| if n == 1 { "1 value".into() } else { format!("{n} values") };
                 let message = format!(
                     "{} has {}, {} has {}",
-                    other.key,
+                    other.name(),
                     count(other.elements.len()),
-                    first.key,
+                    first.name(),
                     count(n)
                 );
                 return Err(document.error_on(other.span.clone(), message).with_help(
@@ -262,11 +275,12 @@ fn check_overrides(sweep: &str, axes: &[Axis], overrides: &[String]) -> Result<(
     for text in overrides {
         // What is wrong with an override itself is found with the first member.
         let Ok(assignment) = overrides::parse(text, 0) else { continue };
-        if let Some(axis) = axes.iter().find(|axis| axis.contains(&assignment.path)) {
+        let mut keys = axes.iter().flat_map(|axis| &axis.keys);
+        if let Some(swept) = keys.find(|swept| swept.contains(&assignment.path)) {
             let key = overrides::key_text(text);
             let error = CaseError::new(
                 format!("--set {key}=…"),
-                format!("{sweep} varies {}; the override has no effect", axis.key),
+                format!("{sweep} varies {}; the override has no effect", swept.key),
             );
             return Err(error.with_help("change the list in the sweep file, or drop the override"));
         }

@@ -1,9 +1,11 @@
-//! `[vary]`: dotted keys and the list of values of each, with their places in the sweep file.
+//! `[vary]`: dotted keys and the values of each, with their places in the sweep file.
 //!
 //! A key is one string in quotes (`"body.0.approach_speed" = […]`) or TOML's own nesting
-//! (`body.0.approach_speed = […]`); both mean the same.
+//! (`body.0.approach_speed = […]`); both mean the same. A string with commas links keys: they change
+//! together. Values are a list, a range or the rows of a table ([`crate::sweep_values`]).
 
 use std::ops::Range;
+use std::path::Path;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -12,40 +14,59 @@ use crate::document::Document;
 use crate::error::CaseError;
 use crate::key_path::quote_key;
 use crate::overrides::{Assignment, parse_path};
+use crate::sweep_values::{Values, is_values};
 use crate::toml_text::shift;
 
-/// A varied key and its values.
+/// The parts of a key and their places.
+type KeyPath = Vec<Spanned<String>>;
+
+/// Keys that change together, mostly one, and their values.
 #[derive(Clone, Debug)]
 pub struct Axis {
-    /// The dotted key.
-    pub key: String,
-    /// Its values, at least one.
+    /// The keys, at least one.
+    pub keys: Vec<SweptKey>,
+    /// The values, at least one.
     pub elements: Vec<Element>,
-    pub(crate) path: Vec<Spanned<String>>,
     pub(crate) span: Range<usize>,
 }
 
-/// One value of a list.
+/// A varied key.
+#[derive(Clone, Debug)]
+pub struct SweptKey {
+    /// The dotted key.
+    pub key: String,
+    path: KeyPath,
+}
+
+/// One value of an axis, for each of its keys.
 #[derive(Clone, Debug)]
 pub struct Element {
-    /// The value as written, a string without its quotes.
-    pub text: String,
+    /// As written, a string without its quotes: of each key, or one for all of them.
+    texts: Vec<String>,
+    /// What the keys are set to.
+    source: Source,
     /// Its bytes in the sweep file.
     pub(crate) span: Range<usize>,
 }
 
-impl Axis {
+/// Where values come from.
+#[derive(Clone, Debug)]
+enum Source {
+    /// The bytes of the element in the sweep file are TOML.
+    Written,
+    /// Bare numbers or text, made of a range or read from a table.
+    Made,
+}
+
+impl SweptKey {
+    fn new(path: KeyPath) -> Self {
+        let parts: Vec<String> = path.iter().map(|part| quote_key(part.get_ref())).collect();
+        Self { key: parts.join("."), path }
+    }
+
     /// The parts of the key, quotes removed.
     pub fn parts(&self) -> impl Iterator<Item = &str> {
         self.path.iter().map(|part| part.get_ref().as_str())
-    }
-
-    /// The assignment of an element; spans count from the beginning of the sweep file `text`.
-    pub(crate) fn assignment<'t>(&self, element: usize, text: &'t str) -> Option<Assignment<'t>> {
-        let span = self.elements[element].span.clone();
-        let value = DeValue::parse(&text[span.clone()]).ok()?;
-        let value = shift(value, span.start);
-        Some(Assignment { path: self.path.clone(), value })
     }
 
     /// Whether this key is `other` or a table or array around it.
@@ -54,6 +75,64 @@ impl Axis {
             canonical_part(a.get_ref()) == canonical_part(b.get_ref())
         };
         self.path.len() <= other.len() && self.path.iter().zip(other).all(same)
+    }
+}
+
+impl Element {
+    /// A value that stands in the sweep file.
+    fn written(text: String, span: Range<usize>) -> Self {
+        Self { texts: vec![text], source: Source::Written, span }
+    }
+
+    /// Values that are made of what stands there.
+    pub(crate) fn made(texts: Vec<String>, span: Range<usize>) -> Self {
+        Self { texts, source: Source::Made, span }
+    }
+
+    /// The value of a key of the axis, as written.
+    pub fn text(&self, key: usize) -> &str {
+        let text = self.texts.get(key).or(self.texts.last());
+        text.map_or("", String::as_str)
+    }
+
+    /// The value of a key, its spans counted from the beginning of the sweep file `text`.
+    fn value<'t>(&'t self, key: usize, text: &'t str) -> Option<Spanned<DeValue<'t>>> {
+        match self.source {
+            Source::Written => {
+                let value = DeValue::parse(&text[self.span.clone()]).ok()?;
+                Some(shift(value, self.span.start))
+            }
+            Source::Made => {
+                let text = self.text(key);
+                // Else it is text, such as 0.5 m/s.
+                let number = DeValue::parse(text).ok().map(Spanned::into_inner);
+                let is_plain = |value: &DeValue<'_>| {
+                    matches!(value, DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_))
+                };
+                let value = number.filter(is_plain).unwrap_or(DeValue::String(text.into()));
+                Some(Spanned::new(self.span.clone(), value))
+            }
+        }
+    }
+}
+
+impl Axis {
+    /// The keys in words.
+    pub fn name(&self) -> String {
+        let keys: Vec<&str> = self.keys.iter().map(|key| key.key.as_str()).collect();
+        keys.join(", ")
+    }
+
+    /// The assignments of an element; spans count from the beginning of the sweep file `text`.
+    pub(crate) fn assignments<'t>(
+        &'t self,
+        element: usize,
+        text: &'t str,
+    ) -> impl Iterator<Item = Assignment<'t>> {
+        let element = &self.elements[element];
+        self.keys.iter().enumerate().filter_map(|(k, key)| {
+            Some(Assignment { path: key.path.clone(), value: element.value(k, text)? })
+        })
     }
 }
 
@@ -68,19 +147,20 @@ fn canonical_part(part: &str) -> &str {
     }
 }
 
-/// Reads `[vary]` of the sweep file `text`.
+/// Reads `[vary]` of the sweep file `text`; `folder` is where it lies.
 pub(crate) fn read_axes(
     document: &Document,
     text: &str,
+    folder: &Path,
     root: &DeTable<'_>,
 ) -> Result<Vec<Axis>, CaseError> {
-    let reader = Reader { document, text };
+    let reader = Reader { document, text, folder };
     let mut axes = Vec::new();
     match root.get("vary").map(Spanned::get_ref) {
         Some(DeValue::Table(table)) => {
             for (key, value) in table {
-                let path = reader.path(key.get_ref(), key.span())?;
-                reader.collect(path, key.span(), value, &mut axes)?;
+                let paths = reader.paths(key.get_ref(), key.span())?;
+                reader.collect(paths, key.span(), value, &mut axes)?;
             }
         }
         Some(_) => {
@@ -91,9 +171,11 @@ pub(crate) fn read_axes(
     if axes.is_empty() {
         return Err(document.error_at("vary", "the sweep varies no key").with_help(EXAMPLE));
     }
-    for (index, axis) in axes.iter().enumerate() {
-        for other in &axes[..index] {
-            reader.check_apart(axis, other)?;
+    let keys = axes.iter().flat_map(|axis| axis.keys.iter().map(|key| (key, &axis.span)));
+    let keys: Vec<_> = keys.collect();
+    for (index, (key, span)) in keys.iter().enumerate() {
+        for (other, _) in &keys[..index] {
+            reader.check_apart(key, other, span)?;
         }
     }
     Ok(axes)
@@ -105,62 +187,76 @@ const EXAMPLE: &str =
 struct Reader<'a> {
     document: &'a Document,
     text: &'a str,
+    folder: &'a Path,
 }
 
 impl Reader<'_> {
-    /// The parts of a key that stands directly in `[vary]`.
-    fn path(&self, key: &str, span: Range<usize>) -> Result<Vec<Spanned<String>>, CaseError> {
+    /// The parts of the keys that stand directly in `[vary]`.
+    fn paths(&self, key: &str, span: Range<usize>) -> Result<Vec<KeyPath>, CaseError> {
         let raw = &self.text[span.clone()];
         let is_quoted = raw.starts_with(['"', '\'']);
         if !is_quoted {
-            return Ok(vec![Spanned::new(span, key.to_string())]);
+            return Ok(vec![vec![Spanned::new(span, key.to_string())]]);
         }
         // Escapes in the key move its characters; then all of it stands for each of its parts.
         let is_exact = raw.get(1..raw.len() - 1) == Some(key);
         let place = |part: Range<usize>| if is_exact { part } else { span.clone() };
-        let (parts, _) = parse_path(&format!("{key}="), span.start + 1).map_err(|fault| {
-            self.document.error_on(place(fault.span), fault.message).with_help(EXAMPLE)
-        })?;
-        let placed = |part: Spanned<String>| {
-            let span = place(part.span());
-            Spanned::new(span, part.into_inner())
-        };
-        Ok(parts.into_iter().map(placed).collect())
+        let mut start = span.start + 1;
+        let mut paths = Vec::new();
+        for one in linked(key) {
+            let (parts, _) = parse_path(&format!("{one}="), start).map_err(|fault| {
+                self.document.error_on(place(fault.span), fault.message).with_help(EXAMPLE)
+            })?;
+            start += one.len() + 1;
+            let placed = |part: Spanned<String>| {
+                let span = place(part.span());
+                Spanned::new(span, part.into_inner())
+            };
+            paths.push(parts.into_iter().map(placed).collect());
+        }
+        Ok(paths)
     }
 
     /// Adds the axes at and below a value.
     fn collect(
         &self,
-        path: Vec<Spanned<String>>,
+        paths: Vec<KeyPath>,
         span: Range<usize>,
         value: &Spanned<DeValue<'_>>,
         axes: &mut Vec<Axis>,
     ) -> Result<(), CaseError> {
-        let parts: Vec<String> = path.iter().map(|part| quote_key(part.get_ref())).collect();
-        let key = parts.join(".");
+        let keys: Vec<_> = paths.iter().cloned().map(SweptKey::new).collect();
+        let axis = |elements| Axis { keys: keys.clone(), elements, span: span.clone() };
+        let name = axis(Vec::new()).name();
+        let values = Values { document: self.document, folder: self.folder, name: &name };
         match value.get_ref() {
+            DeValue::Table(table) if is_values(table) => {
+                let names: Vec<&str> = keys.iter().map(|key| key.key.as_str()).collect();
+                axes.push(axis(values.read(table, value.span(), &names)?));
+            }
             DeValue::Table(table) => {
                 if table.is_empty() {
-                    let error = self.document.error_on(span, format!("{key} has no list"));
+                    let error = self.document.error_on(span, format!("{name} has no list"));
                     return Err(error.with_help(EXAMPLE));
                 }
                 for (key, value) in table {
-                    let mut path = path.clone();
-                    path.push(Spanned::new(key.span(), key.get_ref().to_string()));
-                    self.collect(path, key.span(), value, axes)?;
+                    let mut paths = paths.clone();
+                    for path in &mut paths {
+                        path.push(Spanned::new(key.span(), key.get_ref().to_string()));
+                    }
+                    self.collect(paths, key.span(), value, axes)?;
                 }
             }
             DeValue::Array(array) => {
                 if array.is_empty() {
-                    let error = self.document.error_on(value.span(), format!("{key}: no values"));
+                    let error = self.document.error_on(value.span(), format!("{name}: no values"));
                     return Err(error.with_help("a list holds at least one value"));
                 }
-                let elements = array.iter().map(|element| self.element(&key, element));
-                let elements = elements.collect::<Result<_, _>>()?;
-                axes.push(Axis { key, elements, path, span });
+                let elements = array.iter().map(|element| self.element(&name, element));
+                axes.push(axis(elements.collect::<Result<_, _>>()?));
             }
             _ => {
-                let error = self.document.error_on(value.span(), format!("{key} is not a list"));
+                let error = self.document.error_on(value.span(), format!("{name} is not a list"));
                 return Err(error.with_help("put the values in brackets: [\"0.1 m/s\", \"1 m/s\"]"));
             }
         }
@@ -176,17 +272,40 @@ impl Reader<'_> {
             return Err(error.with_help("write tables as [{ … }, { … }]"));
         }
         let text = value.get_ref().as_str().unwrap_or(raw).to_string();
-        Ok(Element { text, span })
+        Ok(Element::written(text, span))
     }
 
-    fn check_apart(&self, axis: &Axis, other: &Axis) -> Result<(), CaseError> {
-        let message = match (axis.contains(&other.path), other.contains(&axis.path)) {
+    fn check_apart(
+        &self,
+        key: &SweptKey,
+        other: &SweptKey,
+        span: &Range<usize>,
+    ) -> Result<(), CaseError> {
+        let message = match (key.contains(&other.path), other.contains(&key.path)) {
             (false, false) => return Ok(()),
-            (true, true) => format!("{} is varied twice", axis.key),
-            (true, false) => format!("{} contains {}, which is varied too", axis.key, other.key),
-            (false, true) => format!("{} is part of {}, which is varied too", axis.key, other.key),
+            (true, true) => format!("{} is varied twice", key.key),
+            (true, false) => format!("{} contains {}, which is varied too", key.key, other.key),
+            (false, true) => format!("{} is part of {}, which is varied too", key.key, other.key),
         };
         let help = "vary each of them alone, or only the outer one with whole tables as values";
-        Err(self.document.error_on(axis.span.clone(), message).with_help(help))
+        Err(self.document.error_on(span.clone(), message).with_help(help))
     }
+}
+
+/// The keys that commas link, in order; a comma in quotes is part of a key.
+fn linked(keys: &str) -> Vec<&str> {
+    let (mut quote, mut start, mut found) = (None, 0, Vec::new());
+    for (index, c) in keys.char_indices() {
+        match (quote, c) {
+            (None, ',') => {
+                found.push(&keys[start..index]);
+                start = index + 1;
+            }
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if c == open => quote = None,
+            _ => {}
+        }
+    }
+    found.push(&keys[start..]);
+    found
 }

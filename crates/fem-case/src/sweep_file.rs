@@ -8,6 +8,7 @@ use crate::quantity::{Count, Quantity};
 
 /// A whole sweep file.
 #[derive(Debug, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("required" = ["case", "vary"])))]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SweepFile {
     /// The base case; relative to the sweep file.
@@ -22,6 +23,13 @@ pub(crate) struct SweepFile {
     pub(crate) max_members: Option<Quantity<Count>>,
     /// Dotted keys and lists; [`crate::sweep_axes`] reads them, positions included.
     #[serde(default, rename = "vary")]
+    #[cfg_attr(
+        feature = "schema",
+        schemars(
+            description = "Dotted keys, and the values of each.",
+            with = "std::collections::BTreeMap<String, serde_json::Value>"
+        )
+    )]
     pub(crate) _vary: Option<IgnoredAny>,
     /// What is drawn.
     #[serde(default)]
@@ -54,6 +62,7 @@ keywords! {
 
 /// `[plot]` of a sweep.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a table [plot]")]
 pub struct PlotTable {
     /// The varied key along the horizontal axis; the first one with numbers if absent.

@@ -90,6 +90,9 @@ pub struct Collision {
     pub history: Vec<Row>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
+    /// What the probes that were asked for saw, in the order of time: fields of one entry a probe
+    /// ([`Probes::reduce`](crate::Probes::reduce)).
+    pub probes: Vec<Snapshot>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -101,9 +104,9 @@ pub struct BodyResult {
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// Mass without what scaling adds, kg; a wall or a half-space has none.
+    /// Mass, kg; a wall or a half-space has none.
     pub mass: Option<f64>,
-    /// Added by mass scaling, kg.
+    /// Added to light nodes by mass scaling, from others of the body, kg.
     pub added_mass: Option<f64>,
     /// Velocity of the mass centre along +y, m/s; of a half-space far away.
     pub velocity_after: Option<f64>,
@@ -147,6 +150,7 @@ impl Collision {
             rest: None,
             history: Vec::new(),
             snapshots: Vec::new(),
+            probes: Vec::new(),
             warnings: Vec::new(),
         }
     }

@@ -76,6 +76,11 @@ impl Patches {
         self.starts.push(self.weights.len());
     }
 
+    /// Elements around a node and their weights.
+    pub fn weights(&self, node: usize) -> &[(u32, f64)] {
+        &self.weights[self.starts[node]..self.starts[node + 1]]
+    }
+
     /// Four components at every node from those of the elements.
     pub fn smooth(&self, cells: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let patches = self.starts.windows(2).map(|ends| &self.weights[ends[0]..ends[1]]);

@@ -1,7 +1,7 @@
 //! Stress from a snapshot.
 
 use fem_element::QuadGeometry;
-use fem_material::{ActsOn, Material};
+use fem_material::{ActsOn, ElasticModuli, Material};
 use fem_mesh::SphereMesh;
 
 use crate::patches::Patches;
@@ -50,36 +50,70 @@ impl<'a> StressRecovery<'a> {
         let mut points = self.patches.smooth(&cells);
         for &node in self.mesh.axis() {
             let point = &mut points[node as usize];
-            let mean = 0.5 * (point[0] + point[2]);
-            *point = [mean, point[1], mean, 0.0];
+            *point = Self::on_axis(*point);
         }
         StressField { cells, points }
     }
 
+    /// A stress as symmetry has it on the axis.
+    pub(crate) fn on_axis([rr, yy, tt, _]: [f64; 4]) -> [f64; 4] {
+        let mean = 0.5 * (rr + tt);
+        [mean, yy, mean, 0.0]
+    }
+
+    /// The mesh.
+    pub(crate) fn mesh(&self) -> &SphereMesh {
+        self.mesh
+    }
+
+    /// Elements around a node and their weights in its stress.
+    pub(crate) fn weights(&self, node: usize) -> &[(u32, f64)] {
+        self.patches.weights(node)
+    }
+
+    /// Geometry of an element.
+    pub(crate) fn geometry(&self, element: usize) -> &QuadGeometry {
+        &self.geometries[element]
+    }
+
     /// Stress of the elements at small strain.
     fn at_small_strain(&self, material: &Material, fields: &BodyFields) -> Vec<[f64; 4]> {
-        let moduli = material.instantaneous();
-        let relaxed = if fields.effective.is_empty() { None } else { material.relaxation() };
-        let shear_field = if relaxed.is_some() { &fields.effective } else { &fields.displacement };
-        // The field of the mean part, where it is another.
-        let bulk_field = relaxed
-            .filter(|series| series.acts_on() == ActsOn::Shear)
-            .map(|_| fields.displacement.as_slice());
-        let trace = |e: &[f64; 4]| e[0] + e[1] + e[2];
+        let of = SmallStrain::of(material, fields);
         let elements = self.geometries.iter().zip(self.mesh.quads());
-        elements
-            .map(|(geometry, quad)| {
-                let at = |field: &[[f64; 2]]| {
-                    geometry.mean_strain(&quad.map(|node| field[node as usize]))
-                };
-                let mut strain = at(shear_field);
-                if let Some(bulk_field) = bulk_field {
-                    let shift = (trace(&at(bulk_field)) - trace(&strain)) / 3.0;
-                    strain[..3].iter_mut().for_each(|e| *e += shift);
-                }
-                moduli.stress(strain)
-            })
-            .collect()
+        elements.map(|(geometry, quad)| of.stress(geometry, quad)).collect()
+    }
+}
+
+/// What stress follows from at small strain.
+pub(crate) struct SmallStrain<'a> {
+    moduli: &'a ElasticModuli,
+    shear_field: &'a [[f64; 2]],
+    /// The field of the mean part, where it is another.
+    bulk_field: Option<&'a [[f64; 2]]>,
+}
+
+impl<'a> SmallStrain<'a> {
+    pub fn of(material: &'a Material, fields: &'a BodyFields) -> Self {
+        let relaxed = if fields.effective.is_empty() { None } else { material.relaxation() };
+        Self {
+            moduli: material.instantaneous(),
+            shear_field: if relaxed.is_some() { &fields.effective } else { &fields.displacement },
+            bulk_field: relaxed
+                .filter(|series| series.acts_on() == ActsOn::Shear)
+                .map(|_| fields.displacement.as_slice()),
+        }
+    }
+
+    /// Of an element.
+    pub fn stress(&self, geometry: &QuadGeometry, quad: &[u32; 4]) -> [f64; 4] {
+        let trace = |e: &[f64; 4]| e[0] + e[1] + e[2];
+        let at = |field: &[[f64; 2]]| geometry.mean_strain(&quad.map(|node| field[node as usize]));
+        let mut strain = at(self.shear_field);
+        if let Some(bulk_field) = self.bulk_field {
+            let shift = (trace(&at(bulk_field)) - trace(&strain)) / 3.0;
+            strain[..3].iter_mut().for_each(|e| *e += shift);
+        }
+        self.moduli.stress(strain)
     }
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::probe::ProbeRequest;
 use crate::snapshot::SnapshotRequest;
 
 /// What a run is asked for.
@@ -22,6 +23,8 @@ pub struct Want {
     pub history_rows: usize,
     /// Snapshots to keep.
     pub snapshots: SnapshotRequest,
+    /// Places that are told of over time.
+    pub probes: Vec<ProbeRequest>,
     /// The run gives up after so many expected contact times.
     pub give_up_after: f64,
     /// A run that computes each element at each step ends after so many elements times steps.
@@ -60,6 +63,7 @@ impl Want {
         Self {
             history_rows: Self::ROWS,
             snapshots: SnapshotRequest::none(),
+            probes: Vec::new(),
             give_up_after: Self::GIVE_UP_AFTER,
             most_element_updates: u64::MAX,
         }

@@ -95,6 +95,14 @@ impl CondensedPair {
                 Err(error) => collision.ending = Ending::Stopped(error.into()),
             }
         }
+        if !want.probes.is_empty() {
+            monitor.enter(Phase::Fields);
+            let (trace, ending) = (&finished.trace, &collision.ending);
+            match self.probed(frame, damping, time_step, trace, ending, &want.probes) {
+                Ok(probes) => collision.probes = probes,
+                Err(error) => collision.ending = Ending::Stopped(error.into()),
+            }
+        }
         let share = collision
             .repeated_contact_solutions
             .zip(collision.steps)

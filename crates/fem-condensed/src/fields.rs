@@ -9,8 +9,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, Par};
-use fem_collision::{BodyFields, Ending, Frame, Snapshot, SnapshotRequest};
-use fem_material::{ActsOn, PronySeries};
+use fem_collision::{
+    BodyFields, BodyInput, Ending, Frame, ProbeRequest, Probes, Snapshot, SnapshotRequest,
+};
+use fem_material::{ActsOn, Material, PronySeries};
 
 use crate::damping::Damping;
 use crate::error::CondensedError;
@@ -19,6 +21,10 @@ use crate::motion::{Motion, SideState};
 use crate::pair::CondensedPair;
 use crate::side::PairSide;
 
+/// Instants of which probes tell, at least where there are so many steps.
+const PROBED_INSTANTS: usize = 200;
+/// Snapshots that are kept at a time to be reduced to the places of probes.
+const SNAPSHOTS_AT_ONCE: usize = 64;
 /// Fields that are solved for at a time: those of eight snapshots.
 const FIELDS_AT_ONCE: usize = 24;
 
@@ -129,6 +135,42 @@ impl CondensedPair {
             snapshot.contact = self.profile(&now.contact, &snapshot.bodies, centres, is_whole)?;
         }
         Ok((snapshots, missing))
+    }
+
+    /// What probes see of a collision at some hundred instants from first touch to its end, as
+    /// [`CondensedPair::snapshots`].
+    ///
+    /// # Errors
+    /// As [`CondensedPair::collide`].
+    pub(crate) fn probed(
+        &self,
+        frame: &Frame,
+        damping: Damping<'_>,
+        time_step: f64,
+        trace: &[Trace],
+        ending: &Ending,
+        requests: &[ProbeRequest],
+    ) -> Result<Vec<Snapshot>, CondensedError> {
+        let probes = Probes::new(self.inputs().each_ref().map(BodyInput::mesh), requests);
+        // A pair serves any relaxation: stress is that of the ones of this collision.
+        let materials = [0, 1].map(|s: usize| {
+            let material = self.inputs()[s].material()?;
+            let relaxation = damping.relaxations[s].cloned();
+            Material::new(material.density(), *material.instantaneous(), relaxation).ok()
+        });
+        let materials = materials.each_ref().map(Option::as_ref);
+        let last = trace.len().saturating_sub(1);
+        let stride = last.div_ceil(PROBED_INSTANTS).max(1);
+        let first_touch = frame.approach.first_touch();
+        let steps: Vec<usize> = (0..last).step_by(stride).chain([last]).collect();
+        let mut seen = Vec::with_capacity(steps.len());
+        for some in steps.chunks(SNAPSHOTS_AT_ONCE) {
+            let times = some.iter().map(|&step| first_touch + step as f64 * time_step).collect();
+            let request = SnapshotRequest::Times(times);
+            let (all, _) = self.snapshots(frame, damping, time_step, trace, ending, &request)?;
+            seen.extend(all.iter().map(|one| probes.reduce(materials, one)));
+        }
+        Ok(seen)
     }
 
     /// State and rates at each instant: the motion once more, of which the steps around are kept.

@@ -9,7 +9,7 @@ use crate::curve::{ElasticCurve, ElasticImpact};
 use crate::error::CondensedError;
 use crate::points::Points;
 use crate::settings::{ContactModel, PairSettings};
-use crate::side::{PairSide, PressureNode, coarser, pressure_nodes};
+use crate::side::{PairSide, PressureNode, Staggered, coarser, pressure_nodes};
 
 /// A shear modulus that falls below this share within the elastic contact time is strongly relaxed:
 /// two blocks are 4e-5 off in the restitution of glass at 0.02 and 2e-4 at 0.002, and leave a spring
@@ -35,6 +35,8 @@ pub struct CondensedPair {
     pub(crate) nodal_side: Option<usize>,
     /// Nodes at which the pressure is taken.
     pub(crate) nodes: Vec<PressureNode>,
+    /// The other ones, where the meshes are staggered.
+    pub(crate) staggered: Option<Staggered>,
     /// Compliance of the penalty springs at the points, m/N.
     pub(crate) spring_compliance: Vec<f64>,
     /// Compliance between all points without relaxation, m/N.
@@ -92,6 +94,7 @@ impl CondensedPair {
         }
         let carrier = if nodal_side.is_some() { None } else { coarser(&sides) };
         let nodes = pressure_nodes(&points, carrier);
+        let staggered = carrier.and_then(|carrier| Staggered::beside(carrier, &sides, &points));
         let gaps: Vec<f64> = points.iter().map(|point| point.initial_gap).collect();
         let curve = match settings.contact {
             ContactModel::Exact => ElasticCurve::new(&compliance, &gaps),
@@ -110,6 +113,7 @@ impl CondensedPair {
             points,
             nodal_side,
             nodes,
+            staggered,
             spring_compliance,
             compliance,
             curve,

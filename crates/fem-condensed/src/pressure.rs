@@ -1,9 +1,10 @@
 //! Contact radius and pressure from the forces at the points.
 
-use fem_contact::{Barrier, centre_pressure, contact_radius};
+use fem_contact::{Barrier, centre_pressure, contact_radius, staggered_radius};
 
 use crate::disc::Disc;
 use crate::pair::CondensedPair;
+use crate::side::{PressureNode, Staggered};
 
 impl CondensedPair {
     /// Radius at which the pressure falls to zero (m) and pressure on the axis (Pa); of surfaces that have
@@ -17,18 +18,30 @@ impl CondensedPair {
         if contact.n_closed == 0 {
             return (0.0, 0.0);
         }
-        let nodes = self.nodal_pressure(forces);
-        let radius = contact_radius(nodes.clone(), self.barrier());
-        let pressure = centre_pressure(nodes, radius, self.barrier());
+        let read = self.read_out(forces);
         match &self.settings().slip {
-            None => (radius, pressure),
-            Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
+            None => read.into(),
+            Some(slip) => slip.halfway(read, forces.iter().sum(), moved),
         }
     }
 
-    /// What keeps the surfaces apart.
-    pub(crate) fn barrier(&self) -> Barrier {
-        if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs }
+    /// The same of the points as they are numbered, which slip does not move.
+    pub(crate) fn read_out(&self, forces: &[f64]) -> [f64; 2] {
+        let barrier = if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs };
+        let at = |nodes: &[PressureNode]| contact_radius(pressures(nodes, forces), barrier);
+        let of = |nodes: &[PressureNode], radius: f64| {
+            centre_pressure(pressures(nodes, forces), radius, barrier)
+        };
+        match &self.staggered {
+            None => {
+                let radius = at(&self.nodes);
+                [radius, of(&self.nodes, radius)]
+            }
+            Some(Staggered { nodes, lengths }) => {
+                let radius = staggered_radius([at(&self.nodes), at(nodes)], *lengths);
+                [radius, 0.5 * (of(&self.nodes, radius) + of(nodes, radius))]
+            }
+        }
     }
 
     /// Pressure at the nodes of a deformable side from the axis outward, (r in m, p in Pa): nodal
@@ -37,13 +50,17 @@ impl CondensedPair {
         &'a self,
         forces: &'a [f64],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        self.nodes.iter().map(move |node| {
-            let force: f64 = node
-                .shares
-                .iter()
-                .filter_map(|(point, share)| Some(share * forces.get(*point)?))
-                .sum();
-            (node.radius, force / node.area)
-        })
+        pressures(&self.nodes, forces)
     }
+}
+
+fn pressures<'a>(
+    nodes: &'a [PressureNode],
+    forces: &'a [f64],
+) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+    nodes.iter().map(move |node| {
+        let force: f64 =
+            node.shares.iter().filter_map(|(point, share)| Some(share * forces.get(*point)?)).sum();
+        (node.radius, force / node.area)
+    })
 }

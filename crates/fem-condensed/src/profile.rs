@@ -33,13 +33,14 @@ impl CondensedPair {
         let nodes = self.nodal_pressure(&contact.forces);
         let at = |radius: f64| facing(surfaces.each_ref(), 0.0, radius, u);
         let along = nodes.clone().map(|(radius, _)| Some(at(radius)));
-        let mut profile = Profile::new(nodes, self.barrier(), along);
+        let read = self.read_out(&contact.forces);
+        let mut profile = Profile::new(nodes, read, along);
         if !is_whole || self.settings().slip.is_some() {
             self.close(&mut profile);
         }
-        let (force, own) = (contact.forces.iter().sum(), profile.contact_radius);
+        let force = contact.forces.iter().sum();
         // Surfaces that slip are read halfway between both, as radius and pressure of the history are.
-        let pressure = profile.points.first().map_or(0.0, |axis| axis.pressure);
+        let [own, pressure] = read;
         let [wider, denser] = match &self.settings().slip {
             Some(slip) if own > 0.0 && pressure > 0.0 => {
                 let (radius, on_axis) = slip.halfway([own, pressure], force, contact.moved);

@@ -338,6 +338,7 @@ impl<'a> Run<'a> {
             rest: None,
             history,
             snapshots: Vec::new(),
+            probes: Vec::new(),
             warnings: if is_stopped || is_parted { Vec::new() } else { vec![STAY_TOGETHER.into()] },
             ending,
         };

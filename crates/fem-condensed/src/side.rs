@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use faer::Mat;
-use fem_contact::ContactPoint;
+use fem_contact::{ContactPoint, are_staggered};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
@@ -113,6 +113,30 @@ pub(crate) struct PressureNode {
     pub area: f64,
     /// Point and share of its force.
     pub shares: Vec<(usize, f64)>,
+}
+
+/// Of meshes that are staggered the surface that has the smaller elements.
+#[derive(Debug, Clone)]
+pub(crate) struct Staggered {
+    pub nodes: Vec<PressureNode>,
+    /// Of the segments of both surfaces, m.
+    pub lengths: [f64; 2],
+}
+
+impl Staggered {
+    /// Beside the side that pressures are read at.
+    pub fn beside(
+        carrier: &PairSide,
+        sides: &[Option<PairSide>; 2],
+        points: &[ContactPoint],
+    ) -> Option<Self> {
+        let [Some(lower), Some(upper)] = sides else { return None };
+        let other = if std::ptr::eq(carrier, lower) { upper } else { lower };
+        let lengths = [carrier, other].map(|side| side.contact_radii().get(1).copied());
+        let nodes = || pressure_nodes(points, Some(other));
+        are_staggered(lengths)
+            .then(|| Self { nodes: nodes(), lengths: lengths.map(Option::unwrap_or_default) })
+    }
 }
 
 /// The side that deforms and has the fewer contact nodes.

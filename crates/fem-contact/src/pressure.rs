@@ -1,14 +1,34 @@
 //! Contact radius and pressure, recovered from a configuration.
 
 use crate::interface::ContactInterface;
-use crate::read_out::{self, Barrier};
+use crate::read_out::{self, Barrier, are_staggered, staggered_radius};
 use crate::surface::Surface;
 
 impl ContactInterface {
     /// Radius at which the pressure falls to zero, m; 0 without contact: see
     /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        read_out::contact_radius(self.nodal_pressure(u), Barrier::Springs)
+        self.radius_of(self.signed_pressure(u))
+    }
+
+    /// The same of signed pressures at the points.
+    pub(crate) fn radius_of(
+        &self,
+        signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
+    ) -> f64 {
+        let at = |side: usize| {
+            let nodes = self.at_nodes(side, signed_pressure.clone());
+            read_out::contact_radius(nodes, Barrier::Springs)
+        };
+        match staggered_lengths(&self.surfaces) {
+            Some(lengths) => staggered_radius([at(0), at(1)], lengths),
+            None => at(self.coarser()),
+        }
+    }
+
+    /// The side at whose nodes pressures are told.
+    pub(crate) fn coarser(&self) -> usize {
+        coarser(&self.surfaces, self.candidate_radius)
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis
@@ -17,26 +37,27 @@ impl ContactInterface {
         &'a self,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        self.at_nodes(self.signed_pressure(u))
+        self.at_nodes(self.coarser(), self.signed_pressure(u))
     }
 
-    /// The same of signed pressures at the points.
+    /// The same at the nodes of one side (0 lower, 1 upper), of signed pressures at the points.
     pub(crate) fn at_nodes<'a>(
         &'a self,
+        side: usize,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone + 'a,
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
         let pressures = signed_pressure.map(|(_, pressure)| pressure.max(0.0));
-        let sums = self.sums_at_nodes(pressures);
+        let sums = self.sums_at_nodes(side, pressures);
         sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
     }
 
-    /// Of what each point has the integral over the hat of each node of the coarser side, and its area, m²,
-    /// with the radius of the node, m.
+    /// Of what each point has the integral over the hat of each node of a side, and its area, m², with the
+    /// radius of the node, m.
     pub(crate) fn sums_at_nodes<'a>(
         &'a self,
+        side: usize,
         values: impl Iterator<Item = f64> + Clone + 'a,
     ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
-        let side = coarser(&self.surfaces, self.candidate_radius);
         let surface = &self.surfaces[side];
         let mut points = self.points.iter().zip(values).peekable();
         // Integral and area that the segment inside of a node has given to it.
@@ -59,9 +80,30 @@ impl ContactInterface {
 
     /// Contact pressure on the axis, Pa; 0 without contact there: see [`centre_pressure`](crate::centre_pressure).
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let radius = self.contact_radius(u);
-        read_out::centre_pressure(self.nodal_pressure(u), radius, Barrier::Springs)
+        self.centre_pressure_of(self.signed_pressure(u))
     }
+
+    /// The same of signed pressures at the points.
+    pub(crate) fn centre_pressure_of(
+        &self,
+        signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
+    ) -> f64 {
+        let radius = self.radius_of(signed_pressure.clone());
+        let at = |side: usize| {
+            let nodes = self.at_nodes(side, signed_pressure.clone());
+            read_out::centre_pressure(nodes, radius, Barrier::Springs)
+        };
+        match staggered_lengths(&self.surfaces) {
+            Some(_) => 0.5 * (at(0) + at(1)),
+            None => at(self.coarser()),
+        }
+    }
+}
+
+/// Lengths of the segments of surfaces (m) whose meshes are staggered.
+pub(crate) fn staggered_lengths(surfaces: &[Surface; 2]) -> Option<[f64; 2]> {
+    let lengths = surfaces.each_ref().map(|s| (!s.is_rigid()).then(|| s.segment_length(0)));
+    are_staggered(lengths).then(|| lengths.map(Option::unwrap_or_default))
 }
 
 /// The side that deforms and has the longer segments, at whose nodes pressures are read.

@@ -20,11 +20,11 @@
 
 use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::read_out::{self, Barrier};
+use crate::pressure::coarser;
 use crate::surface::Foot;
 
 /// Displacement (u_r, u_y) of a node, m.
-type Displacement = [f64; 2];
+pub type Displacement = [f64; 2];
 
 /// The slope of the interface at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +43,15 @@ struct Slip {
     slope: f64,
     /// u_r of the lower less that of the upper body, m.
     relative: f64,
+}
+
+/// The gap at a point, m, and what it grows by where a node moves, by side, end of the segment, and axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlippingGap {
+    /// g, m.
+    pub gap: f64,
+    /// ∂g/∂u.
+    pub opening: [[Displacement; 2]; 2],
 }
 
 /// An interface whose surfaces slip on each other.
@@ -81,10 +90,29 @@ impl SlippingInterface {
         &self.interface
     }
 
+    /// Gap and its derivative at point k, for displacements of the ends of both sides' segments.
+    pub fn gap_of_ends(&self, k: usize, ends: [[Displacement; 2]; 2]) -> SlippingGap {
+        let Slip { gap, slope: m, relative } = self.of_ends(k, ends);
+        let (point, slope) = (&self.interface.points[k], &self.slopes[k]);
+        let opening = [0, 1].map(|side: usize| {
+            let (shape, turning) = (point.feet[side].shape, slope.per_difference[side] * relative);
+            let sign = [-1.0, 1.0][side];
+            [0, 1].map(|end: usize| {
+                let own = sign * shape[end];
+                [-own * m, own + [-1.0, 1.0][end] * turning]
+            })
+        });
+        SlippingGap { gap, opening }
+    }
+
     /// What there is at point k, for displacements of the nodes of the lower and the upper body.
     fn at(&self, k: usize, u: [impl Fn(u32) -> Displacement; 2]) -> Slip {
+        let feet = &self.interface.points[k].feet;
+        self.of_ends(k, [0, 1].map(|side: usize| feet[side].nodes.map(&u[side])))
+    }
+
+    fn of_ends(&self, k: usize, ends: [[Displacement; 2]; 2]) -> Slip {
         let (point, slope) = (&self.interface.points[k], &self.slopes[k]);
-        let ends = [0, 1].map(|side: usize| point.feet[side].nodes.map(&u[side]));
         let [lower, upper] = [0, 1].map(|side: usize| point.feet[side].at(ends[side]));
         let turned = [0, 1]
             .map(|side: usize| slope.per_difference[side] * (ends[side][1][1] - ends[side][0][1]));
@@ -133,6 +161,16 @@ impl SlippingInterface {
         (0..self.slopes.len()).any(|k| self.at(k, [&lower as &dyn Fn(u32) -> _, &upper]).gap < 0.0)
     }
 
+    /// As [`ContactInterface::force`].
+    pub fn force(&self, displacement: [impl Fn(u32) -> Displacement; 2]) -> f64 {
+        let [lower, upper] = displacement;
+        let force = |(k, point): (usize, &ContactPoint)| {
+            let gap = self.at(k, [&lower as &dyn Fn(u32) -> _, &upper]).gap;
+            point.stiffness * point.area * (-gap).max(0.0)
+        };
+        self.interface.points.iter().enumerate().map(force).sum()
+    }
+
     /// As [`ContactInterface::add_stiffness_bound`]: 1 + m² times that, with the slope of the steeper arc,
     /// for the share of a spring that acts along r. What turns the slope, some per cent where surfaces
     /// slip by some per cent of a segment, is within the safety of springs that open and close.
@@ -148,7 +186,7 @@ impl SlippingInterface {
 
     /// As [`ContactInterface::contact_radius`].
     pub fn contact_radius(&self, u: [&[Displacement]; 2]) -> f64 {
-        read_out::contact_radius(self.nodal_pressure(u), Barrier::Springs)
+        self.interface.radius_of(self.signed_pressure(u))
     }
 
     /// As [`ContactInterface::nodal_pressure`].
@@ -156,13 +194,13 @@ impl SlippingInterface {
         &'a self,
         u: [&'a [Displacement]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        self.interface.at_nodes(self.signed_pressure(u))
+        let side = coarser(&self.interface.surfaces, self.interface.candidate_radius);
+        self.interface.at_nodes(side, self.signed_pressure(u))
     }
 
     /// As [`ContactInterface::centre_pressure`].
     pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
-        let radius = self.contact_radius(u);
-        read_out::centre_pressure(self.nodal_pressure(u), radius, Barrier::Springs)
+        self.interface.centre_pressure_of(self.signed_pressure(u))
     }
 
     fn signed_pressure<'a>(
@@ -260,6 +298,37 @@ mod tests {
             assert!((plain / slip - 1.0).abs() < 0.15, "{rigid:?}: {plain:e} {slip:e}");
             assert!(first < mesh + 0.06 * plain, "{rigid:?}: {first:e} {plain:e}");
             assert!(second < mesh + 0.25 * plain, "{rigid:?}: {second:e} {plain:e}");
+        }
+    }
+
+    /// What a gap opens by is its derivative: a gap is of second order in the displacements, so that half
+    /// the difference of what two opposite steps make of it is it, to rounding.
+    #[test]
+    fn what_a_gap_opens_by_is_its_derivative() {
+        for rigid in [None, Some(0)] {
+            let meshes = [sphere(Side::Below), sphere(Side::Above)];
+            let [lower, upper] = [0, 1].map(|side: usize| match rigid == Some(side) {
+                true => Surface::rigid_sphere(RADII[side]).unwrap(),
+                false => Surface::of_sphere(&meshes[side]),
+            });
+            let interface = ContactInterface::new(lower, upper, 1.0, 0.0, 0.4).unwrap();
+            let slipping = SlippingInterface::new(interface);
+            let ends = [[[0.02, -0.01], [0.03, 0.02]], [[-0.01, 0.015], [0.004, -0.02]]];
+            for k in [0, 3, 40] {
+                let found = slipping.gap_of_ends(k, ends).opening;
+                for (entry, side) in (0..8).map(|entry| (entry, entry / 4)) {
+                    let moved = |step: f64| {
+                        let mut ends = ends;
+                        ends[side][entry / 2 % 2][entry % 2] += step;
+                        slipping.gap_of_ends(k, ends).gap
+                    };
+                    let step = 0.01;
+                    let exact = (moved(step) - moved(-step)) / (2.0 * step);
+                    let found = found[side][entry / 2 % 2][entry % 2];
+                    // Rounding of gaps of size 0.1 over the step; turning is 100 times a difference.
+                    assert!((found - exact).abs() < 1e-13, "{k} {entry}: {found} {exact}");
+                }
+            }
         }
     }
 }

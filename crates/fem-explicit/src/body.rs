@@ -89,8 +89,7 @@ impl Body {
         let RigidSphere { node_forces, bound } = sphere;
         let mass = bound.mass.iter().sum::<f64>();
         let mut n_history = 0;
-        let masses = (bound.mass.as_slice(), 0.0);
-        let node_forces = place(node_forces, &mut n_history, time_step, masses);
+        let node_forces = place(node_forces, &mut n_history, time_step);
         Self {
             acceleration: acceleration(&node_forces),
             node_forces,
@@ -102,8 +101,8 @@ impl Body {
         }
     }
 
-    /// A sphere or a half-space whose nodes carry `nodal_mass` (kg), `added_mass` of it by mass
-    /// scaling, at the given time step (s).
+    /// A sphere or a half-space whose nodes carry `nodal_mass` (kg), `added_mass` of it where mass
+    /// scaling has put it, at the given time step (s).
     pub(crate) fn of_mesh(
         lumped: LumpedMesh,
         velocity: f64,
@@ -111,7 +110,7 @@ impl Body {
         added_mass: f64,
         time_step: f64,
     ) -> Self {
-        let LumpedMesh { mesh, material, mut stress, node_forces, .. } = lumped;
+        let LumpedMesh { mesh, material, mut stress, node_forces, bound } = lumped;
         // What has no mass the step does not accelerate.
         let inverse = |m: &f64| if *m > 0.0 { [m.recip(); 2] } else { [0.0; 2] };
         let mut inverse_mass: Vec<_> = nodal_mass.iter().map(inverse).collect();
@@ -128,12 +127,11 @@ impl Body {
         // The fields of its elements come first.
         stress.fields.start = 0;
         let stress = Some(stress);
-        let masses = (nodal_mass.as_slice(), added_mass);
-        let node_forces = place(node_forces, &mut n_fields, time_step, masses);
+        let node_forces = place(node_forces, &mut n_fields, time_step);
         let acceleration = acceleration(&node_forces);
         let mass = match mesh.is_half_space() {
             true => f64::INFINITY,
-            false => nodal_mass.iter().sum::<f64>() - added_mass,
+            false => bound.mass.iter().sum(),
         };
         Self {
             stress,
@@ -201,12 +199,12 @@ impl Body {
         }
     }
 
-    /// Mass without mass scaling, kg; infinite for a wall or a half-space.
+    /// Mass, kg; infinite for a wall or a half-space.
     pub fn mass(&self) -> f64 {
         self.mass
     }
 
-    /// Mass added by mass scaling, kg.
+    /// Mass that mass scaling has added to light nodes and taken from others, kg.
     pub fn added_mass(&self) -> f64 {
         self.added_mass
     }
@@ -244,11 +242,6 @@ impl Body {
         self.n_element_history + self.n_history
     }
 
-    /// Mass with mass scaling, kg.
-    pub(crate) fn total_mass(&self) -> f64 {
-        self.mass + self.added_mass
-    }
-
     /// Whether its mass centre moves: a wall and a half-space keep their velocity.
     pub(crate) fn is_free(&self) -> bool {
         self.mass.is_finite()
@@ -264,16 +257,16 @@ impl Body {
         self.mesh.as_ref().map_or(&[], SphereMesh::far_boundary)
     }
 
-    /// 1/m with mass scaling, 1/kg; 0 of a body that is held, and of a wall.
-    pub(crate) fn inverse_total_mass(&self) -> f64 {
-        if self.held { 0.0 } else { self.total_mass().recip() }
+    /// 1/m of the mass centre, 1/kg; 0 of a body that is held, and of a wall.
+    pub(crate) fn inverse_mass_of_centre(&self) -> f64 {
+        if self.held { 0.0 } else { self.mass.recip() }
     }
 
     /// Takes the acceleration of the mass centre out of all forces on its nodes; what that adds to their
     /// sum along +y, N.
     pub(crate) fn hold(&self, forces: &mut Field) -> f64 {
         let resultant: f64 = forces.iter().map(|force| force[1]).sum();
-        let acceleration = resultant / self.total_mass();
+        let acceleration = resultant / self.mass;
         for (force, mass) in forces.iter_mut().zip(&self.nodal_mass) {
             force[1] -= mass * acceleration;
         }
@@ -290,7 +283,7 @@ impl Body {
         if !self.is_free() {
             return field[self.held_node()][1];
         }
-        self.sum_mass(field) / self.total_mass()
+        self.sum_mass(field) / self.mass
     }
 
     /// Σ m x_y, 0 for a wall.
@@ -332,17 +325,14 @@ impl Body {
     }
 }
 
-/// Forces at their place in the history, with the step and with the masses of the nodes (kg), of which so
-/// much is added.
+/// Forces at their place in the history, with the step.
 fn place(
     node_forces: Vec<Box<dyn NodeForce>>,
     n_history: &mut usize,
     time_step: f64,
-    (masses, added_mass): (&[f64], f64),
 ) -> Vec<Placed<dyn NodeForce>> {
     let place = |mut force: Box<dyn NodeForce>| {
         force.set_time_step(time_step);
-        force.set_masses(masses, added_mass);
         Placed::behind(n_history, Arc::from(force))
     };
     node_forces.into_iter().map(place).collect()

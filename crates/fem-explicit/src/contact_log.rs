@@ -79,7 +79,7 @@ impl ContactLog {
         self.approach_rate -= time * self.force * model.inverse_mass;
         for (side, body) in model.bodies().iter().enumerate() {
             if !body.node_forces.is_empty() {
-                let change = time * scratch.resultants[side] / body.total_mass();
+                let change = time * scratch.resultants[side] / body.mass();
                 self.approach_rate += if side == 0 { change } else { -change };
             }
         }

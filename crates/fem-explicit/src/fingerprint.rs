@@ -86,7 +86,7 @@ fn take_contact(digest: &mut Digest, contact: &dyn Contact) {
         digest.take_text("slipping");
         Some(slipping.interface())
     } else if let Some(massless) = contact_of_any_kind.downcast_ref::<Massless>() {
-        digest.take_text("massless");
+        digest.take_text(if massless.slips() { "massless, slipping" } else { "massless" });
         Some(massless.interface())
     } else {
         contact_of_any_kind.downcast_ref()

@@ -78,11 +78,11 @@ impl Ledger {
     pub fn new(model: &Model, state: &State) -> Self {
         let moving = || model.bodies().iter().filter(|body| body.is_free());
         let sum = |value: &dyn Fn(&Body) -> f64| moving().map(value).sum::<f64>();
-        let inverse_mass: f64 = sum(&Body::inverse_total_mass);
-        let momentum: f64 = sum(&|body| body.total_mass() * body.velocity.abs());
+        let inverse_mass: f64 = sum(&Body::inverse_mass_of_centre);
+        let momentum: f64 = sum(&|body| body.mass() * body.velocity.abs());
         let momentum_before = |(body, state): (&Body, &BodyState)| {
             match (body.is_free(), body.node_forces.is_empty()) {
-                (true, true) => body.total_mass() * body.velocity,
+                (true, true) => body.mass() * body.velocity,
                 // Half a step before first touch the forces had done less.
                 (true, false) => body.sum_mass(&state.velocity),
                 (false, _) => momentum_relative_to(body.velocity, body, state),
@@ -91,7 +91,7 @@ impl Ledger {
         let states = model.bodies().iter().zip(&state.bodies);
         let moved = states.filter(|(body, _)| !body.is_wall());
         // A wall can bring all of the motion to a body at rest.
-        let momentum_of_approach = sum(&Body::total_mass) * model.approach().speed();
+        let momentum_of_approach = sum(&Body::mass) * model.approach().speed();
         Self {
             initial: sum(&kinetic_before),
             initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
@@ -231,7 +231,7 @@ impl Ledger {
         let (body, sign) = (&model.bodies()[side], [-1.0, 1.0][side]);
         let before = sign * self.impulse;
         let after = before + sign * next;
-        let gained = body.velocity * (before + after) + before * after / body.total_mass();
+        let gained = body.velocity * (before + after) + before * after / body.mass();
         Some((side, 0.5 * gained))
     }
 
@@ -251,7 +251,7 @@ impl Ledger {
 /// Kinetic energy at the start, J; of a body that is not free, relative to its own velocity.
 fn kinetic_before(body: &Body) -> f64 {
     match body.is_free() {
-        true => 0.5 * body.total_mass() * body.velocity.powi(2),
+        true => 0.5 * body.mass() * body.velocity.powi(2),
         false => 0.0,
     }
 }
@@ -300,7 +300,7 @@ fn balance_body(
             displacement: state.displacement[body.held_node()][1],
         };
     }
-    let mass = body.total_mass();
+    let mass = body.mass();
     let before = momentum / mass;
     let after = before + time_step * total_force / mass;
     let vibration = 0.5 * (twice_kinetic - mass * before * after);

@@ -70,6 +70,7 @@ mod observed;
 mod outcome;
 mod pace;
 mod part;
+mod probing;
 mod recorder;
 mod run;
 mod snapshot;

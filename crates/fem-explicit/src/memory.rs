@@ -1,6 +1,6 @@
 //! All that a run knows beside its model: what a restart needs, and nothing else.
 
-use fem_collision::{Approach, Ending, Expectation, History, Want};
+use fem_collision::{Approach, Ending, Expectation, History, Snapshot, Want};
 use serde::{Deserialize, Serialize};
 
 use crate::contact_log::ContactLog;
@@ -8,6 +8,7 @@ use crate::fingerprint::fingerprint;
 use crate::ledger::Ledger;
 use crate::model::Model;
 use crate::observed::Observed;
+use crate::probing;
 use crate::recorder::Recorder;
 use crate::sound::LastSound;
 use crate::state::State;
@@ -22,6 +23,8 @@ pub struct Memory {
     /// Of a run that is asked for rows.
     pub(crate) history: Option<History>,
     pub(crate) recorder: Recorder,
+    /// What probes have seen so far.
+    pub(crate) probes: Vec<Snapshot>,
     /// Of a run that has not come to its end.
     pub(crate) sound: LastSound,
     /// Of a run that has ended.
@@ -51,6 +54,7 @@ impl Memory {
             history: (want.history_rows > 0)
                 .then(|| History::new(want.history_rows, expected_steps)),
             recorder: Recorder::new(&want.snapshots, model, expected),
+            probes: Vec::new(),
             sound: LastSound::of(want),
             ending: None,
             expected,
@@ -120,6 +124,7 @@ impl Memory {
             && self.history.is_some() == (self.want.history_rows > 0)
             && self.history.as_ref().is_none_or(history_fits)
             && self.recorder.fits(model, &self.want.snapshots)
+            && probing::fits(&self.probes, &self.want, state.time)
             && self.sound.fits(model, state, &self.want)
     }
 }

@@ -142,7 +142,7 @@ impl Model {
             None => Body::wall(velocity),
         });
         Ok(Self {
-            inverse_mass: bodies.iter().map(Body::inverse_total_mass).sum(),
+            inverse_mass: bodies.iter().map(Body::inverse_mass_of_centre).sum(),
             bodies,
             contact_advances: contact.n_history() > 0
                 || (0..2).any(|side| !contact.massless_nodes(side).is_empty()),
@@ -167,8 +167,8 @@ impl Model {
     /// The springs of their contact, where it has any and its surfaces do not slip.
     pub fn interface(&self) -> Option<&ContactInterface> {
         let contact = self.contact() as &dyn Any;
-        let massless = || contact.downcast_ref().map(Massless::interface);
-        contact.downcast_ref().or_else(massless)
+        let massless = contact.downcast_ref::<Massless>().filter(|massless| !massless.slips());
+        contact.downcast_ref().or_else(|| massless.map(Massless::interface))
     }
 
     /// Radius out to which contact is looked for, m.
@@ -223,7 +223,7 @@ impl Model {
 
     /// The frame of the common mass centre, mass scaling included.
     pub(crate) fn frame(&self) -> Frame {
-        let mass = |body: &Body| (body.is_free() && !body.held).then(|| body.total_mass());
+        let mass = |body: &Body| (body.is_free() && !body.held).then(|| body.mass());
         let masses = self.bodies.each_ref().map(mass);
         Frame {
             approach: self.approach,
@@ -266,6 +266,9 @@ fn springs(
         None => interface,
     };
     Ok(match method {
+        ContactMethod::Massless if surface_slip => {
+            Box::new(Massless::slipping(inputs, SlippingInterface::new(interface))?)
+        }
         _ if surface_slip => Box::new(SlippingInterface::new(interface)),
         ContactMethod::Massless => Box::new(Massless::new(inputs, interface)?),
         ContactMethod::Penalty | ContactMethod::NodeToSurface => Box::new(interface),

@@ -7,7 +7,7 @@ use crate::model::Model;
 
 /// The collision of a run that ended like this.
 pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collision {
-    let Memory { state, log, ledger, observed, history, recorder, sound, .. } = memory;
+    let Memory { state, log, ledger, observed, history, recorder, probes, sound, .. } = memory;
     let (is_complete, is_parted) =
         (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
     let bodies = model.bodies();
@@ -92,6 +92,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         rest: None,
         history: history.map_or_else(Vec::new, History::into_rows),
         snapshots,
+        probes,
         warnings,
     }
 }

@@ -11,6 +11,7 @@ use crate::error::ModelError;
 use crate::memory::Memory;
 use crate::model::Model;
 use crate::outcome::outcome;
+use crate::probing::Probing;
 use crate::recorder::Instant;
 use crate::state::{Scratch, State};
 use crate::step::{Fault, advance, is_closed_next, update_forces, update_step};
@@ -77,13 +78,15 @@ pub struct Run<M> {
     model: M,
     pub(crate) memory: Memory,
     scratch: Scratch,
+    probing: Probing,
 }
 
 impl<M: Deref<Target = Model>> Run<M> {
     /// A run at first touch.
     pub fn new(model: M, expected: Expectation, want: &Want) -> Self {
         let (memory, scratch) = (Memory::new(&model, expected, want), Scratch::new(&model));
-        Self { model, memory, scratch }
+        let probing = Probing::new(&model, want);
+        Self { model, memory, scratch, probing }
     }
 
     /// Goes on from a memory of a run of the same model; a run that had ended has ended.
@@ -95,8 +98,8 @@ impl<M: Deref<Target = Model>> Run<M> {
         if !memory.fits(&model) {
             return Err(ModelError::MemoryOfAnother);
         }
-        let scratch = Scratch::new(&model);
-        Ok(Self { model, memory, scratch })
+        let (scratch, probing) = (Scratch::new(&model), Probing::new(&model, memory.want()));
+        Ok(Self { model, memory, scratch, probing })
     }
 
     /// What holds the model.
@@ -124,14 +127,14 @@ impl<M: Deref<Target = Model>> Run<M> {
 
     /// At most so many steps. How the run ended, once it has: then there is no step any more.
     pub fn advance(&mut self, n_steps: u64) -> Option<&Ending> {
-        let Self { model, memory, scratch } = self;
-        advance_run(model, memory, scratch, n_steps);
+        let Self { model, memory, scratch, probing } = self;
+        advance_run(model, memory, (scratch, probing), n_steps);
         memory.ending.as_ref()
     }
 
     /// What came out so far. A run that has not ended is interrupted here.
     pub fn finish(self) -> Collision {
-        let Self { model, mut memory, mut scratch } = self;
+        let Self { model, mut memory, mut scratch, .. } = self;
         let ending = memory.ending.take().unwrap_or_else(|| {
             let (time, step) = (memory.state.time, memory.state.step);
             Ending::Stopped(Stop::Interrupted { time, step })
@@ -144,12 +147,17 @@ impl<M: Deref<Target = Model>> Run<M> {
 }
 
 /// At most so many steps of a run that has not ended; none of one that has.
-fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_steps: u64) {
+fn advance_run(
+    model: &Model,
+    memory: &mut Memory,
+    (scratch, probing): (&mut Scratch, &mut Probing),
+    n_steps: u64,
+) {
     for _ in 0..n_steps {
         if memory.ending.is_some() {
             return;
         }
-        memory.ending = match step(model, memory, scratch) {
+        memory.ending = match step(model, memory, scratch, probing) {
             Ok(ending) => ending.inspect(|_| memory.sound.forget()),
             Err(stop) => Some(Ending::Stopped(stop)),
         };
@@ -158,9 +166,14 @@ fn advance_run(model: &Model, memory: &mut Memory, scratch: &mut Scratch, n_step
 
 /// Forces of the present configuration, what is observed of it, and the motion to the next; or how the
 /// run has ended instead.
-fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Option<Ending>, Stop> {
+fn step(
+    model: &Model,
+    memory: &mut Memory,
+    scratch: &mut Scratch,
+    probing: &mut Probing,
+) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
-    let Memory { state, log, ledger, observed, history, recorder, sound, .. } = memory;
+    let Memory { state, log, ledger, observed, history, recorder, probes, sound, .. } = memory;
     let stop = |fault: Fault, state: &State| model.stop(fault, state);
     let contact = update_forces(model, state, scratch)
         .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
@@ -195,6 +208,7 @@ fn step(model: &Model, memory: &mut Memory, scratch: &mut Scratch) -> Result<Opt
         let row = ledger.balance(model, state, scratch, &contact);
         ledger.check(&row, step).map_err(|grown| model.stop_of(grown, state))?;
         observed.take(row, ledger.impulse(), step, is_closed);
+        probing.observe(probes, model, state, scratch, log.approach);
         if ledger.adds_up() {
             sound.observe(model, state, scratch, log.approach);
         }

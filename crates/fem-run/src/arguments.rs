@@ -1,13 +1,16 @@
 //! The command line.
 
+use std::path::Path;
 use std::time::Instant;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
+use fem_case::nearest;
 
 use crate::case_arguments::CaseArguments;
 use crate::commands::{Command, run};
 use crate::failure::Failure;
+use crate::standard_output::one_line;
 
 /// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
 ///
@@ -40,6 +43,7 @@ input, nothing written; 130 interrupted, kept and marked (a second Ctrl-C kills 
 A case file that is named like a command runs as ./check.
 
 Examples:
+  fem-run new ball --material pmma --partner wall
   fem-run cases/glass_0.5ms.toml
   fem-run cases/glass_0.5ms.toml --set body.0.approach_speed='\"1 m/s\"' --out runs/glass_1ms
   fem-run check cases/glass_0.5ms.toml";
@@ -50,22 +54,38 @@ pub fn parse() -> Arguments {
         Ok(arguments) => return arguments,
         Err(error) => error,
     };
-    if error.kind() != ErrorKind::ArgumentConflict {
+    // clap's own message takes the second of two cases for a command.
+    let is_of_commands = error.to_string().contains("the subcommand");
+    if error.kind() != ErrorKind::ArgumentConflict || !is_of_commands {
         error.exit()
     }
-    // clap's own message takes the second of two cases for a command.
     let mut command = Arguments::command();
-    let names: Vec<&str> = command.get_subcommands().map(|command| command.get_name()).collect();
+    let names = names_of(&command);
+    let word = std::env::args().nth(1).unwrap_or_default();
+    let near = near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
     let names = names.join(", ");
     command
         .error(
             error.kind(),
             format!(
                 "one case at a time, and a command comes before everything else; the commands \
-                 are {names}"
+                 are {names}{near}"
             ),
         )
         .exit()
+}
+
+fn names_of(command: &clap::Command) -> Vec<String> {
+    command.get_subcommands().map(|command| command.get_name().to_string()).collect()
+}
+
+/// The command that a word is meant for that is neither one nor a file.
+fn near_command(word: &str) -> Option<String> {
+    // 0.85: `chek`, `sweeps` and `mateirals` are meant for commands, `glass` and `case` are not.
+    let names = names_of(&Arguments::command());
+    let is_word = !word.contains(['.', '/', '\\']) && !Path::new(word).exists();
+    let near = nearest(word, &names, 0.85).filter(|_| is_word);
+    near.map(str::to_string)
 }
 
 impl Arguments {
@@ -73,7 +93,14 @@ impl Arguments {
     pub fn execute(self, started: Instant) -> Result<(), Failure> {
         match (self.command, self.input) {
             (Some(command), _) => command.execute(Self::command),
-            (None, Some(input)) => run::execute(&input, &self.options, started),
+            (None, Some(input)) => match near_command(&input.name()) {
+                Some(near) => Err(Failure::bad_input(format!(
+                    "{}: there is neither such a file nor such a command",
+                    one_line(&input.name())
+                ))
+                .with_help(format!("did you mean fem-run {near}?"))),
+                None => run::execute(&input, &self.options, started),
+            },
             // clap prints its help when there are no arguments at all.
             (None, None) => Ok(()),
         }

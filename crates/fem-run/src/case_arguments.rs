@@ -16,8 +16,8 @@ pub struct CaseArguments {
     pub case: PathBuf,
     /// Override a key of the case by its dotted path; may be repeated
     ///
-    /// The value is TOML: --set mesh.contact_element_size=28e-6, --set
-    /// body.0.approach_speed='"1 m/s"' (arrays count from 0), --set model.ting={}, which takes the
+    /// The value is TOML, or words: --set mesh.contact_element_size=28e-6, --set
+    /// body.0.approach_speed='1 m/s' (arrays count from 0), --set model=ting, which takes the
     /// place of another model. Overrides apply from left to right and can add keys and tables that
     /// the file leaves out.
     #[arg(long, value_name = "KEY=VALUE")]

@@ -38,6 +38,8 @@ pub struct Failure {
     /// The whole as plain text.
     plain: String,
     place: Option<Box<Place>>,
+    /// What else is wrong with the same input.
+    others: Vec<Failure>,
 }
 
 /// A stretch of a case file or of an override.
@@ -65,7 +67,14 @@ impl Failure {
     }
 
     fn new(status: Status, message: String) -> Self {
-        Self { status, plain: message.clone(), message, help: None, place: None }
+        Self {
+            status,
+            plain: message.clone(),
+            message,
+            help: None,
+            place: None,
+            others: Vec::new(),
+        }
     }
 
     /// Adds what to do.
@@ -90,11 +99,13 @@ impl Failure {
         } else {
             writeln!(stderr, "error: {}", self.plain)
         };
+        self.others.iter().for_each(Self::print);
     }
 }
 
 impl From<CaseError> for Failure {
-    fn from(error: CaseError) -> Self {
+    fn from(mut error: CaseError) -> Self {
+        let others = error.take_others().into_iter().map(Self::from).collect();
         let place = Place::of(&error).map(Box::new);
         let (message, plain) = (error.message(), error.to_string());
         let message = if place.is_some() {
@@ -109,6 +120,7 @@ impl From<CaseError> for Failure {
             help: error.help().map(tame),
             plain,
             place,
+            others,
         }
     }
 }

@@ -9,8 +9,8 @@ use std::path::Path;
 
 use fem::Simulation;
 use fem::results::{
-    CONTACT_FILE, HISTORY_FILE, SUMMARY_FILE, Summary, contact_csv, has_contact, history_csv,
-    write_snapshots,
+    CONTACT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv, has_contact,
+    history_csv, probes_csv, write_snapshots,
 };
 use fem_case::Keep;
 use fem_collision::Collision;
@@ -59,6 +59,7 @@ pub fn write_result(
         let written = take_room(folder, &summary)
             .and_then(|()| write_history(folder, simulation, collision, &mut summary))
             .and_then(|()| write_contact(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_probes(folder, simulation, collision, &mut summary))
             .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
         missing = written.err();
         let _ = fs::remove_file(folder.join(ROOM_FILE));
@@ -167,6 +168,30 @@ fn write_contact(
         format!("{CONTACT_FILE} and the snapshots cannot be written: {error}")
     })?;
     summary.files.push(CONTACT_FILE.to_string());
+    Ok(())
+}
+
+/// What probes saw, of a run that has some.
+fn write_probes(
+    folder: &Path,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    let probes = &simulation.want().probes;
+    if probes.is_empty() {
+        return Ok(());
+    }
+    let path = folder.join(PROBES_FILE);
+    let write = || -> Result<(), Box<dyn std::error::Error>> {
+        let file = BufWriter::new(File::create(&path)?);
+        Ok(probes_csv(file, probes, &collision.probes)?)
+    };
+    write().map_err(|error| {
+        let _ = fs::remove_file(&path);
+        format!("{PROBES_FILE} and the snapshots cannot be written: {error}")
+    })?;
+    summary.files.push(PROBES_FILE.to_string());
     Ok(())
 }
 

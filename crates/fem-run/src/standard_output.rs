@@ -1,6 +1,6 @@
 //! Printing of results.
 
-use std::io::{ErrorKind, Write, stdout};
+use std::io::{ErrorKind, Write, stderr, stdout};
 
 use crate::failure::Failure;
 
@@ -15,6 +15,14 @@ pub fn print(text: &str) -> Result<(), Failure> {
             Err(Failure::failed(format!("the standard output cannot be written: {error}")))
         }
         _ => Ok(()),
+    }
+}
+
+/// Warnings on stderr, which go with any result that is asked for.
+pub fn warn(warnings: impl IntoIterator<Item = String>) {
+    for warning in warnings {
+        // Nobody is left to tell if stderr is closed.
+        let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
     }
 }
 

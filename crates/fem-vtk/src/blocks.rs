@@ -5,11 +5,11 @@
 //! `block_size` (meshio). Uncompressed: a header `[n_bytes]`, then the bytes. Integers are
 //! `UInt64` here when written, `UInt32` or `UInt64` when read.
 
-use std::io::{Read, Write};
+use std::cell::RefCell;
+use std::io::{self, Read};
 
-use flate2::Compression;
 use flate2::read::ZlibDecoder;
-use flate2::write::ZlibEncoder;
+use flate2::{Compress, Compression, FlushCompress, Status};
 
 /// Uncompressed bytes a block, as VTK's writer has it. A multiple of every number size: meshio
 /// turns each block into numbers on its own.
@@ -25,6 +25,9 @@ const SAMPLE_SIZE: usize = 4096;
 /// larger.
 const LARGEST_SHARE: f64 = 0.9;
 
+/// Bytes that a stream of a block has more than the block where it is stored; generous.
+const MOST_ADDED: usize = 64;
+
 /// zlib cannot shrink by more than this (Technical Details, zlib.net: 1032 to 1).
 const LARGEST_RATIO: usize = 1032;
 
@@ -35,39 +38,67 @@ pub(crate) struct Compressed {
     pub(crate) blocks: Vec<u8>,
 }
 
+thread_local! {
+    /// One state of deflate a thread: it has some 300 KB, and a new one a block took longer than the block.
+    static DEFLATE: RefCell<Deflate> = RefCell::new(Deflate::new());
+}
+
 /// Compresses bytes block by block, or stores them in the same format if they would hardly shrink.
 /// The same bytes give the same result.
-pub(crate) fn compress(bytes: &[u8]) -> std::io::Result<Compressed> {
-    let n_blocks = bytes.len().div_ceil(BLOCK_SIZE);
-    let mut header = Vec::with_capacity(8 * (3 + n_blocks));
-    for value in [n_blocks, BLOCK_SIZE, bytes.len() % BLOCK_SIZE] {
-        header.extend((value as u64).to_le_bytes());
-    }
-    let level = if shrinks(bytes)? { LEVEL } else { Compression::none() };
-    let mut blocks = Vec::with_capacity(bytes.len() + 64 * n_blocks);
-    for block in bytes.chunks(BLOCK_SIZE) {
-        let start = blocks.len();
-        deflate(block, level, &mut blocks)?;
-        header.extend(((blocks.len() - start) as u64).to_le_bytes());
-    }
-    Ok(Compressed { header, blocks })
+pub(crate) fn compress(bytes: &[u8]) -> io::Result<Compressed> {
+    DEFLATE.with_borrow_mut(|deflate| deflate.compress(bytes))
 }
 
-/// Whether a sample says that compression is worth its time.
-fn shrinks(bytes: &[u8]) -> std::io::Result<bool> {
-    let start = bytes.len().saturating_sub(SAMPLE_SIZE) / 2;
-    let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
-    let mut compressed = Vec::with_capacity(2 * SAMPLE_SIZE);
-    deflate(sample, LEVEL, &mut compressed)?;
-    Ok(compressed.len() as f64 <= LARGEST_SHARE * sample.len() as f64)
+/// What makes zlib streams, one after the other.
+struct Deflate {
+    shrinking: Compress,
+    storing: Compress,
 }
 
-/// Appends a zlib stream.
-fn deflate(bytes: &[u8], level: Compression, stream: &mut Vec<u8>) -> std::io::Result<()> {
-    let mut encoder = ZlibEncoder::new(stream, level);
-    encoder.write_all(bytes)?;
-    encoder.finish()?;
-    Ok(())
+impl Deflate {
+    fn new() -> Self {
+        let with = |level| Compress::new(level, true);
+        Self { shrinking: with(LEVEL), storing: with(Compression::none()) }
+    }
+
+    fn compress(&mut self, bytes: &[u8]) -> io::Result<Compressed> {
+        let n_blocks = bytes.len().div_ceil(BLOCK_SIZE);
+        let mut header = Vec::with_capacity(8 * (3 + n_blocks));
+        for value in [n_blocks, BLOCK_SIZE, bytes.len() % BLOCK_SIZE] {
+            header.extend((value as u64).to_le_bytes());
+        }
+        let state = match self.shrinks(bytes)? {
+            true => &mut self.shrinking,
+            false => &mut self.storing,
+        };
+        let mut blocks = Vec::with_capacity(bytes.len() + MOST_ADDED * n_blocks);
+        for block in bytes.chunks(BLOCK_SIZE) {
+            let start = blocks.len();
+            append_stream(state, block, &mut blocks)?;
+            header.extend(((blocks.len() - start) as u64).to_le_bytes());
+        }
+        Ok(Compressed { header, blocks })
+    }
+
+    /// Whether a sample says that compression is worth its time.
+    fn shrinks(&mut self, bytes: &[u8]) -> io::Result<bool> {
+        let start = bytes.len().saturating_sub(SAMPLE_SIZE) / 2;
+        let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
+        let mut compressed = Vec::with_capacity(2 * SAMPLE_SIZE);
+        append_stream(&mut self.shrinking, sample, &mut compressed)?;
+        Ok(compressed.len() as f64 <= LARGEST_SHARE * sample.len() as f64)
+    }
+}
+
+/// Appends a zlib stream of a block.
+fn append_stream(state: &mut Compress, bytes: &[u8], stream: &mut Vec<u8>) -> io::Result<()> {
+    state.reset();
+    // Deflate makes noise a little larger.
+    stream.reserve(bytes.len() + bytes.len() / 8 + MOST_ADDED);
+    match state.compress_vec(bytes, stream, FlushCompress::Finish)? {
+        Status::StreamEnd => Ok(()),
+        Status::Ok | Status::BufError => Err(io::Error::other("a zlib stream has no end")),
+    }
 }
 
 /// What a header of `[n_blocks, block_size, last_size]` promises.
@@ -162,6 +193,25 @@ mod tests {
             .collect();
         let compressed = compress(&zeros).unwrap().blocks.len();
         assert!((compressed as f64) < 0.8 * zeros.len() as f64, "{compressed}");
+    }
+
+    /// The state that makes all streams remembers nothing of those before, stored or compressed.
+    #[test]
+    fn what_came_before_leaves_no_trace() {
+        let smooth: Vec<u8> = (0..5 * BLOCK_SIZE).map(|k| (k / 7 % 251) as u8).collect();
+        let noise: Vec<u8> = (0..9000u64)
+            .flat_map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15).to_le_bytes())
+            .collect();
+        let together = |bytes: &[u8]| {
+            let Compressed { header, blocks } = compress(bytes).unwrap();
+            [header, blocks].concat()
+        };
+        let first = [together(&smooth), together(&noise)];
+        let after_each_other = [together(&smooth), together(&noise)];
+        let alone = [smooth, noise]
+            .map(|bytes| std::thread::spawn(move || together(&bytes)).join().unwrap());
+        assert_eq!(first, after_each_other);
+        assert_eq!(first, alone);
     }
 
     #[test]

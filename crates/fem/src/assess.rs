@@ -26,7 +26,8 @@ impl Simulation {
     /// All that the user should know of a collision: what was known before it, what it shows itself
     /// ([`assess`]), and what its model says.
     pub fn warnings(&self, collision: &Collision) -> Vec<String> {
-        let mut warnings: Vec<String> = self.choice_warning().into_iter().collect();
+        let mut warnings = self.case().scene().oddities();
+        warnings.extend(self.choice_warning());
         warnings.extend(self.decisions(collision).warnings);
         warnings.extend(self.setup().unread.iter().cloned());
         warnings.extend(assess(self, collision));
@@ -167,7 +168,7 @@ impl<'a> Run<'a> {
                 100.0 * scatter,
                 self.collision.noisiest.map_or(String::new(), |at| format!(", most about {at}")),
                 100.0 * LARGEST_NOISE,
-                self.quieter.advice(scatter)
+                self.quieter.advice()
             )
         })
     }

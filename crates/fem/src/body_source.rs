@@ -46,12 +46,12 @@ impl BodySource {
             Shape::Sphere { diameter, mesh, material } => {
                 let mesh = match mesh {
                     Some(path) => MeshSource::File(import(side, *diameter, path)?),
-                    None => MeshSource::HalfDisc(half_disc(plan, *diameter)),
+                    None => MeshSource::HalfDisc(half_disc(plan, side, *diameter)),
                 };
                 Self::Meshed { mesh, material: material.clone() }
             }
             Shape::HalfSpace { material } => {
-                let mesh = MeshSource::QuarterDisc(quarter_disc(plan));
+                let mesh = MeshSource::QuarterDisc(quarter_disc(plan, side));
                 Self::Meshed { mesh, material: material.clone() }
             }
             Shape::Rigid { diameter, mass } => Self::Rigid { radius: 0.5 * diameter, mass: *mass },

@@ -26,6 +26,7 @@ mod duration;
 pub mod effects;
 mod estimate;
 mod expected;
+mod fineness;
 mod flow;
 mod identity;
 mod large_partner;
@@ -40,6 +41,7 @@ mod models;
 mod numerics;
 mod pair_cache;
 mod plan;
+mod probes;
 mod quasi_static;
 mod quieter;
 mod refusal;
@@ -48,6 +50,7 @@ mod resolution;
 pub mod results;
 mod simulation;
 mod soft_springs;
+mod stagger;
 mod stress;
 pub mod sweep;
 mod uncertainty;
@@ -77,7 +80,9 @@ pub use simulation::{Simulation, collide};
 pub use stress::BodyStress;
 pub use sweep::sweep;
 
-pub use fem_case::{Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, schema};
+pub use fem_case::{
+    Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,
+};
 pub use fem_collision::{
     Account, Approach, ApproachError, BodyFields, BodyResult, Book, Bounce, Collision,
     ContactPlace, ContactProfile, Ending, Expectation, Headline, Label, Monitor, Phase, Progress,

@@ -48,12 +48,14 @@ pub(crate) fn explicit_memory(scene: &Scene, plan: &Plan, elements: u64, branche
 /// More elements or memory than the limits allow; a mesh that cannot be made.
 pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
     let (mut elements, mut branches) = (0, 0);
-    for body in scene.bodies() {
+    for (side, body) in scene.bodies().iter().enumerate() {
         let made = match body.shape() {
             Shape::Sphere { diameter, mesh: None, material } => {
-                Some((half_disc(plan, *diameter).n_elements(), material))
+                Some((half_disc(plan, side, *diameter).n_elements(), material))
             }
-            Shape::HalfSpace { material } => Some((quarter_disc(plan).n_elements(), material)),
+            Shape::HalfSpace { material } => {
+                Some((quarter_disc(plan, side).n_elements(), material))
+            }
             Shape::Sphere { mesh: Some(_), .. } | Shape::Rigid { .. } | Shape::Wall => None,
         };
         if let Some((n, material)) = made {
@@ -172,6 +174,7 @@ mod tests {
             "effects.bulk_viscosity='off'".to_string(),
             "effects.viscoelasticity='on'".to_string(),
             "output.snapshots=[]".to_string(),
+            "mesh.contact_element_size='0.8 mm'".to_string(),
             format!("material.rubber.relaxation.terms=[{}]", vec![term; terms].join(",")),
         ];
         let case = Case::parse("ball.toml", BALL, Path::new("."), &set).unwrap();

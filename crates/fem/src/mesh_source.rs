@@ -45,21 +45,21 @@ impl MeshSource {
     }
 }
 
-/// What the plan makes a sphere of this diameter (m) of.
-pub(crate) fn half_disc(plan: &Plan, diameter: f64) -> HalfDisc {
+/// What the plan makes a sphere of this diameter (m) of, the lower body, 0, or the upper one.
+pub(crate) fn half_disc(plan: &Plan, side: usize, diameter: f64) -> HalfDisc {
     HalfDisc {
         radius: 0.5 * diameter,
-        contact_element_size: plan.contact_element_size,
+        contact_element_size: plan.element_sizes()[side],
         refined_radius: plan.refined_radius,
         growth: plan.growth,
     }
 }
 
-/// What the plan makes a half-space of.
-pub(crate) fn quarter_disc(plan: &Plan) -> QuarterDisc {
+/// What the plan makes a half-space of, the lower body, 0, or the upper one.
+pub(crate) fn quarter_disc(plan: &Plan, side: usize) -> QuarterDisc {
     QuarterDisc {
         far_radius: plan.far_radius.unwrap_or_default(),
-        contact_element_size: plan.contact_element_size,
+        contact_element_size: plan.element_sizes()[side],
         refined_radius: plan.refined_radius,
         growth: plan.growth,
     }

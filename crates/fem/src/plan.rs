@@ -11,12 +11,11 @@ use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius
 
 use crate::contact_method::contact_method;
 use crate::estimate::Estimate;
+use crate::fineness::Fineness;
 use crate::flow;
 use crate::refusal::Refusal;
+use crate::stagger::{finer_body, staggered};
 
-/// Elements across the contact radius: within 0.1 % in contact time, 0.3 % in
-/// force and 2 % in pressure of the limit.
-const ELEMENTS_PER_CONTACT_RADIUS: f64 = 8.0;
 /// Half-width of the fine block over the contact radius.
 const REFINED_OVER_CONTACT: f64 = 1.2;
 /// Half-width of the searched region over the contact radius.
@@ -26,7 +25,6 @@ const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 /// contact time, 20 costs 0.02 %, 40 adds noise to the force.
 const PENALTY_OVER_MODULUS: f64 = 20.0;
 const STEP_FACTOR: f64 = 0.9;
-const MASS_SCALING: f64 = 2e-4;
 /// Default limits of `[limits]`.
 const MAX_ELEMENTS: u64 = 2_000_000;
 const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
@@ -44,6 +42,8 @@ pub struct Plan {
     pub gap: f64,
     /// Edge length of the elements at the contact, m.
     pub contact_element_size: f64,
+    /// The body with the smaller elements, where the meshes are staggered about that length.
+    pub finer_body: Option<usize>,
     /// Half-width of the fine block, m.
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
@@ -86,11 +86,10 @@ impl Plan {
     pub fn of(scene: &Scene) -> Result<Self, Refusal> {
         let estimate = Estimate::checked(scene)?;
         flow::check(scene, &estimate)?;
-        // Elements are made no larger for a contact that is wider.
-        let half_radius = 0.5 * estimate.smallest_radius;
-        let contact_radius = radius_of_elements(&estimate).min(half_radius);
+        let finer_body = finer_body(scene);
+        let fineness = Fineness::of(scene, &estimate, finer_body.is_some());
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
-            (contact_radius / ELEMENTS_PER_CONTACT_RADIUS).min(estimate.smallest_radius / 12.0),
+            (divided_radius(&estimate) / fineness.across).min(estimate.smallest_radius / 12.0),
         );
         let refined_radius = scene.mesh().refined_radius.unwrap_or(
             (REFINED_OVER_CONTACT * estimate.contact_radius).min(estimate.smallest_radius),
@@ -114,11 +113,20 @@ impl Plan {
         if far_radius.is_none() && scene.mesh().far_radius.is_some() {
             warnings.push("mesh.far_radius has no effect: no body is a half-space".to_string());
         }
+        if let Some(reached) = fineness.reached.filter(|_| makes_meshes) {
+            warnings.push(format!(
+                "accuracy.tolerance is out of reach: {:.0} elements across the contact are taken, for about \
+                 {:.2} % of the peak force; write mesh.contact_element_size for more",
+                fineness.across,
+                100.0 * reached
+            ));
+        }
         let limits = scene.limits();
         Ok(Self {
             speed_share: 1.0,
             gap: scene.gap().unwrap_or(0.0),
             contact_element_size,
+            finer_body,
             refined_radius,
             growth: scene.mesh().growth,
             far_radius,
@@ -130,7 +138,7 @@ impl Plan {
                 * PENALTY_OVER_MODULUS
                 * estimate.hertz.pair().contact_modulus(),
             step_factor: scene.step_factor().unwrap_or(STEP_FACTOR),
-            mass_scaling: scene.mass_scaling().unwrap_or(MASS_SCALING),
+            mass_scaling: scene.mass_scaling().unwrap_or(fineness.mass_scaling),
             snapshots: request(scene.snapshots()),
             max_elements: limits.elements.unwrap_or(MAX_ELEMENTS),
             max_element_updates: limits.element_updates.unwrap_or(MAX_ELEMENT_UPDATES),
@@ -147,6 +155,15 @@ impl Plan {
     /// As [`Plan::of`].
     pub fn of_case(case: &Case) -> Result<Self, CaseError> {
         Self::of(case.scene()).map_err(|refusal| refusal.in_case(case))
+    }
+
+    /// Edge lengths of the elements of both bodies at the contact, m.
+    pub fn element_sizes(&self) -> [f64; 2] {
+        let length = self.contact_element_size;
+        match self.finer_body {
+            Some(finer) => staggered(length, divided_radius(&self.estimate), finer),
+            None => [length; 2],
+        }
     }
 
     /// What a run is asked for.
@@ -167,6 +184,7 @@ impl Plan {
             refined_radius: Some(Quantity::from_si(self.refined_radius)),
             growth: self.growth.map(Quantity::from_si),
             far_radius: self.far_radius.map(Quantity::from_si),
+            staggered: Some(self.finer_body.is_some()),
         });
         file.contact = Some(ContactTable {
             method: Some(self.contact_method),
@@ -176,13 +194,14 @@ impl Plan {
             step_factor: Some(Quantity::from_si(self.step_factor)),
             mass_scaling: Some(Quantity::from_si(self.mass_scaling)),
         });
-        let OutputTable { snapshots: given, report } = file.output.take().unwrap_or_default();
+        let OutputTable { snapshots: given, report, probe } =
+            file.output.take().unwrap_or_default();
         let labels = || {
             let text = |label: Label| Quantity::from_text(label.name());
             SnapshotsValue::List(Label::ALL.into_iter().map(text).collect())
         };
         let snapshots = Some(given.unwrap_or_else(labels));
-        file.output = Some(OutputTable { snapshots, report });
+        file.output = Some(OutputTable { snapshots, report, probe });
         file.effects = Some(file.effects.unwrap_or_default().filled());
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {
@@ -194,7 +213,13 @@ impl Plan {
     }
 }
 
-/// The contact radius (m) that elements divide. Bodies that relax have the mesh of elastic ones up to
+/// The contact radius (m) that elements divide: they are made no larger for a contact that is wider than half
+/// of a body.
+pub(crate) fn divided_radius(estimate: &Estimate) -> f64 {
+    radius_of_elements(estimate).min(0.5 * estimate.smallest_radius)
+}
+
+/// The same of any contact. Bodies that relax have the mesh of elastic ones up to
 /// twice the radius with fully relaxed moduli, an upper limit that the contact does not reach; from four times
 /// on, where it goes on growing, that radius counts.
 fn radius_of_elements(estimate: &Estimate) -> f64 {

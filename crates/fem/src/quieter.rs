@@ -1,24 +1,19 @@
 //! What helps against a contact that rattles or gains energy.
 //!
 //! A boundary without mass does neither: the force scatters by 0.01 % of its peak. Where springs pull at nodes
-//! with mass because surfaces slip, at finite strain and beside bulk viscosity, softer springs help: with the
-//! usual ones ([`USUAL`]) the force scatters by less than 0.4 % in all but soft bodies that slip on stiff ones,
-//! and there a quarter of them does (measured from factors of 1 to 300: docs/contact.md).
+//! with mass, at finite strain and beside bulk viscosity, softer springs help: with the usual ones ([`USUAL`])
+//! the force scatters by less than 0.4 % (measured from factors of 1 to 300: docs/contact.md).
 
 use fem_case::Scene;
 
 use crate::contact_method::massless_is_possible;
-use crate::effects::{FiniteStrain, SurfaceSlip};
+use crate::effects::FiniteStrain;
 use crate::plan::Plan;
 
 /// Factor of the usual springs.
 const USUAL: f64 = 1.0;
 /// Factor of springs below which the surfaces overlap by more than is worth a word.
 const SOFTEST: f64 = 0.25;
-/// A force that scatters by this share of its peak opens and closes: how much softer its springs have to be
-/// does not show.
-const RATTLES: f64 = 0.03;
-
 /// What makes a contact quieter, of one that is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Quieter {
@@ -32,8 +27,6 @@ pub enum Quieter {
     Softer {
         /// Of the springs that it has.
         penalty_factor: f64,
-        /// Whether surfaces slip.
-        slips: bool,
     },
 }
 
@@ -45,10 +38,7 @@ impl Quieter {
         match (is_possible, plan.contact_method) {
             (true, fem_case::ContactMethod::Massless) => Self::ShorterSteps,
             (true, _) => Self::Massless,
-            (false, _) => Self::Softer {
-                penalty_factor: plan.penalty_factor,
-                slips: SurfaceSlip::is_on(scene) && !is_finite,
-            },
+            (false, _) => Self::Softer { penalty_factor: plan.penalty_factor },
         }
     }
 
@@ -56,29 +46,27 @@ impl Quieter {
     /// that lose it, with their square: at finite strain a factor of 0.4 leaves a fifth.
     pub(crate) fn advice_on_energy(&self) -> String {
         match *self {
-            Self::Softer { penalty_factor, .. } if penalty_factor <= USUAL => {
+            Self::Softer { penalty_factor } if penalty_factor <= USUAL => {
                 "lower time.step_factor".to_string()
             }
             Self::Softer { .. } => format!("write contact.penalty_factor = {USUAL}"),
-            _ => self.advice(0.0),
+            _ => self.advice(),
         }
     }
 
-    /// In words, of a force that scatters by a share of its peak.
-    pub(crate) fn advice(&self, scatter: f64) -> String {
+    /// In words, of a force that scatters.
+    pub(crate) fn advice(&self) -> String {
         match *self {
             Self::MoreSteps => "raise model.condensed.steps".to_string(),
             Self::ShorterSteps => "lower time.step_factor".to_string(),
             Self::Massless => "write contact.method = \"massless\"".to_string(),
-            Self::Softer { penalty_factor, slips } => {
-                // What is no number rattles.
-                let is_quiet_at_usual = !slips || scatter < RATTLES;
-                match (penalty_factor > USUAL && is_quiet_at_usual, penalty_factor > SOFTEST) {
-                    (true, _) => format!("write contact.penalty_factor = {USUAL}"),
-                    (_, true) => format!("write contact.penalty_factor = {SOFTEST}"),
-                    _ => "write time.mass_scaling = 0".to_string(),
-                }
+            Self::Softer { penalty_factor } if penalty_factor > USUAL => {
+                format!("write contact.penalty_factor = {USUAL}")
             }
+            Self::Softer { penalty_factor } if penalty_factor > SOFTEST => {
+                format!("write contact.penalty_factor = {SOFTEST}")
+            }
+            Self::Softer { .. } => "write time.mass_scaling = 0".to_string(),
         }
     }
 }
@@ -90,28 +78,16 @@ mod tests {
     /// Softer springs do not help against energy that steps lose, nor shorter steps against noise.
     #[test]
     fn noise_and_energy_have_remedies_of_their_own() {
-        let softer = |penalty_factor, slips| Quieter::Softer { penalty_factor, slips };
+        let softer = |penalty_factor| Quieter::Softer { penalty_factor };
         for (quieter, of_noise, of_energy) in [
             (Quieter::MoreSteps, "raise model.condensed.steps", "raise model.condensed.steps"),
             (Quieter::ShorterSteps, "lower time.step_factor", "lower time.step_factor"),
-            (
-                softer(10.0, false),
-                "write contact.penalty_factor = 1",
-                "write contact.penalty_factor = 1",
-            ),
-            (
-                softer(10.0, true),
-                "write contact.penalty_factor = 0.25",
-                "write contact.penalty_factor = 1",
-            ),
-            (softer(1.0, true), "write contact.penalty_factor = 0.25", "lower time.step_factor"),
-            (softer(0.25, false), "write time.mass_scaling = 0", "lower time.step_factor"),
+            (softer(10.0), "write contact.penalty_factor = 1", "write contact.penalty_factor = 1"),
+            (softer(1.0), "write contact.penalty_factor = 0.25", "lower time.step_factor"),
+            (softer(0.25), "write time.mass_scaling = 0", "lower time.step_factor"),
         ] {
-            assert_eq!(quieter.advice(0.07), of_noise, "{quieter:?}");
+            assert_eq!(quieter.advice(), of_noise, "{quieter:?}");
             assert_eq!(quieter.advice_on_energy(), of_energy, "{quieter:?}");
         }
-        // Surfaces that slip and ring little.
-        assert_eq!(softer(10.0, true).advice(0.01), "write contact.penalty_factor = 1");
-        assert_eq!(softer(10.0, true).advice(f64::NAN), "write contact.penalty_factor = 0.25");
     }
 }

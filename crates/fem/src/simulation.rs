@@ -15,6 +15,7 @@ use crate::identity::identity_of;
 use crate::memory::Memory;
 use crate::method::{Cost, Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
+use crate::probes::probes_of;
 use crate::resolution::Resolution;
 
 /// The collision of a case, by the model that it asks for.
@@ -75,7 +76,9 @@ impl Simulation {
         let model: Arc<dyn Model> = Arc::from(model);
         let resolved = Self::resolve(&case)?;
         let chosen = chosen(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
-        let want = model.setup().want.clone();
+        let mut want = model.setup().want.clone();
+        want.probes =
+            probes_of(case.scene(), model.meshes()).map_err(|refusal| refusal.in_case(&case))?;
         Ok(Self { case, model, chosen, want, resolved, shared: shared.clone() })
     }
 
@@ -113,7 +116,8 @@ impl Simulation {
     /// What the user should know before the run.
     pub fn warnings_before(&self) -> Vec<String> {
         let own = self.mesh_warning().into_iter().chain(self.cheaper());
-        self.choice_warning().into_iter().chain(self.setup().warnings()).chain(own).collect()
+        let odd = self.case.scene().oddities().into_iter().chain(self.choice_warning());
+        odd.chain(self.setup().warnings()).chain(own).collect()
     }
 
     /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
@@ -215,6 +219,7 @@ impl Simulation {
     /// keeps its bits, the resolved case too.
     pub fn skip_snapshots(&mut self) {
         self.want.snapshots = SnapshotRequest::none();
+        self.want.probes.clear();
     }
 
     /// Computes the collision.

@@ -11,6 +11,15 @@ use crate::mutate::change_text;
 use crate::random::Random;
 use crate::target::{Taken, Target, refused};
 
+/// Ranges, linked keys, a table.
+const MADE: &str = r#"case = "glass_0.5ms.toml"
+
+[vary]
+"body.0.sphere.diameter, body.1.sphere.diameter" = ["1 cm", 2e-2]
+"body.0.approach_speed" = { from = "5 cm/s", to = "2 m/s", n = 5, log = true }
+"body.1.approach_speed" = { table = "speeds.csv", columns = ["v"] }
+"#;
+
 /// What the sweeps of the repository lack.
 const ALL: &str = r#"case = "glass_0.5ms.toml"
 combine = "paired"
@@ -43,10 +52,11 @@ impl SweepText {
         for (name, text) in files("cases", "toml") {
             fs::write(folder.path().join(name), text).expect("a file");
         }
+        fs::write(folder.path().join("speeds.csv"), "v\n0\n5 cm/s\n").expect("a file");
         let shipped = files("cases", "toml").into_iter();
         let sweeps = shipped.filter(|(name, _)| name.starts_with("sweep")).map(|(_, text)| text);
         let mut seeds: Vec<Vec<u8>> = sweeps.collect();
-        seeds.extend([ALL.as_bytes().to_vec(), ALL.as_bytes().to_vec()]);
+        seeds.extend([ALL, MADE].map(|text| text.as_bytes().to_vec()));
         // Words to take over.
         seeds.extend(cases().into_iter().take(2));
         Self { seeds, folder }

@@ -9,6 +9,7 @@ use crate::body::{Body, Shape};
 use crate::error::CaseError;
 use crate::explain::{listed, near};
 use crate::key_path::{is_bare, join, quote_key};
+use crate::library;
 use crate::schema::{BodyTable, CaseFile, SphereTable};
 
 impl Check<'_> {
@@ -175,7 +176,8 @@ impl Check<'_> {
         table: &BodyTable,
         materials: &BTreeMap<&str, Material>,
     ) -> Result<Material, CaseError> {
-        let names: Vec<_> = materials.keys().copied().collect();
+        let is_own = |name: &&str| !library::is_of_library(name);
+        let names: Vec<_> = materials.keys().copied().filter(is_own).collect();
         let known = match names.as_slice() {
             [] => "the case has no [material.NAME] table".to_string(),
             names => format!("the case has {}", listed(names)),
@@ -187,6 +189,15 @@ impl Check<'_> {
         };
         materials.get(name.as_str()).cloned().ok_or_else(|| {
             let error = self.error(&join(path, "material"), format!("no material \"{name}\""));
+            if library::is_of_library(name) {
+                let bare = name.trim_start_matches(library::PREFIX);
+                let near = library::nearest_to(bare);
+                let near =
+                    near.map_or(String::new(), |near| format!("did you mean `lib:{near}`? "));
+                let names = library::names();
+                let help = format!("the library has {}", names.join(", "));
+                return error.with_help(format!("{near}{help}"));
+            }
             error.with_help(format!("{}{known}", near(name, &names)))
         })
     }

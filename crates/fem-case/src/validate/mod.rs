@@ -6,6 +6,7 @@ mod bodies;
 pub(crate) mod gravity;
 mod materials;
 mod models;
+mod probes;
 mod snapshots;
 
 use std::path::Path;
@@ -55,6 +56,8 @@ pub(crate) fn validate(
     let time = file.time.clone().unwrap_or_default();
     let limits = file.limits.clone().unwrap_or_default();
     let snapshots = file.output.as_ref().and_then(|output| output.snapshots.as_ref());
+    let probes = file.output.as_ref().map_or(&[][..], |output| &output.probe);
+    let probes = check.probes(probes, &bodies)?;
     let count = |key: &str, value| -> Result<Option<u64>, CaseError> {
         Ok(check.optional(key, value, COUNT)?.map(|count| count as u64))
     };
@@ -76,6 +79,7 @@ pub(crate) fn validate(
             )?,
             growth: check.optional("mesh.growth", mesh.growth.as_ref(), ABOVE_ONE)?,
             far_radius: check.optional("mesh.far_radius", mesh.far_radius.as_ref(), POSITIVE)?,
+            staggered: mesh.staggered,
         },
         contact_method: contact.method,
         penalty_factor: check.optional(
@@ -91,6 +95,7 @@ pub(crate) fn validate(
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
         wants_report: file.output.as_ref().and_then(|output| output.report).unwrap_or(true),
+        probes,
         model: check.model(file.model.as_ref())?,
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),

@@ -2,5 +2,6 @@
 
 mod faults;
 mod in_code;
+mod library;
 mod overrides;
 mod round_trip;

@@ -99,8 +99,16 @@ fn fault(key: &str, marked: &str, message: &str) {
 
 #[test]
 fn faults_in_the_value() {
-    fault("body.0.approach_speed", "body.0.approach_speed=«1 m/s»", "no TOML value");
-    fault("title", "title=«glass»", "no TOML value");
+    fault(
+        "body.0.approach_speed",
+        "body.0.approach_speed=«1 kg/s»",
+        "approach_speed wants a speed",
+    );
+    fault("body.0.held", "body.0.held=«yes»", "held is a string");
+    fault("title", "title=«{glass»", "no TOML value");
+    fault("title", "title=«[1, 2»", "no TOML value");
+    fault("title", "title=«a = 2»", "no TOML value");
+    fault("model", "model=«tng»", "model is a string");
     fault("title", "title=«\"glass»", "no TOML value");
     fault("title", "title=«'a' b»", "no TOML value");
     fault("start.gap", "start.gap=«1\ntitle = 2»", "no TOML value");
@@ -116,6 +124,42 @@ fn faults_in_the_value() {
     fault("mesh", "mesh=«3»", "mesh is an integer");
     fault("accuracy.tolerance", "accuracy.tolerance=«0»", "tolerance is 0");
     fault("model.ting", "model.ting={«finite»=true}", "unknown key `finite` in model.ting");
+}
+
+/// A shell eats the quotes of `body.0.approach_speed="1 m/s"`.
+#[test]
+fn words_that_are_no_toml_are_a_string() {
+    for (bare, quoted) in [
+        ("body.0.approach_speed=1 m/s", "body.0.approach_speed='1 m/s'"),
+        ("mesh.contact_element_size=14um", "mesh.contact_element_size='14um'"),
+        ("effects.finite_strain=off", "effects.finite_strain='off'"),
+        ("title= two words ", "title='two words'"),
+        ("model=ting", "model={ting={}}"),
+        ("model='hertz'", "model={hertz={}}"),
+        ("model.law=hertz", "model={law={hertz={}}}"),
+    ] {
+        let [bare, quoted] = [bare, quoted].map(|text| with(&[text]).unwrap());
+        assert_eq!(format!("{:?}", bare.scene()), format!("{:?}", quoted.scene()));
+    }
+    // What stands on it goes on.
+    let case = with(&["model=ting", "model.ting.tolerance=1e-4"]).unwrap();
+    assert_eq!(
+        case.file()
+            .model
+            .as_ref()
+            .unwrap()
+            .ting
+            .as_ref()
+            .unwrap()
+            .tolerance
+            .as_ref()
+            .and_then(|tolerance| tolerance.si().ok()),
+        Some(1e-4)
+    );
+    let law = format!("{CASE}\n[model]\nlaw = 'hertz'\n");
+    Case::parse("pair.toml", &law, Path::new("."), &[]).unwrap();
+    let model = format!("model = 'hertz'\n{CASE}");
+    Case::parse("pair.toml", &model, Path::new("."), &[]).unwrap();
 }
 
 #[test]

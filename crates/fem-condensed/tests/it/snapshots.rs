@@ -160,6 +160,60 @@ fn vibration_energy_is_that_of_the_fields() {
     }
 }
 
+/// What the stress of a body whose moduli all relax sees is the convolution of its displacements with the
+/// modulus, node by node, in contact and while it vibrates after it:
+///
+/// w = u − g ∫ (1 − e^(−β(t−s))) u'(s) ds,
+///
+/// of displacements that are linear in between.
+#[test]
+fn stress_sees_the_history_of_displacements_and_of_vibrations() {
+    let (weight, rate) = (0.6, 3e4);
+    let relaxing = material(GLASS, All, &[(weight, rate)]);
+    let scene = Scene { speed: 8.0, ..Scene::paper(relaxing.clone(), relaxing) };
+    let settings = PairSettings { vibration_modes: 8, ..scene.settings() };
+    let pair = CondensedPair::new(scene.inputs(4.0), settings).unwrap();
+    let frame = pair.frame(scene.speed).unwrap();
+    let run = drawn(&pair, frame, SnapshotRequest::none(), 300);
+    let (step, last) = (run.time_step.unwrap(), run.last_contact.unwrap());
+    let times = (0..run.steps.unwrap()).map(|k| k as f64 * step).collect::<Vec<_>>();
+    let run = drawn(&pair, frame, SnapshotRequest::Times(times), 300);
+    let decay = (-rate * step).exp();
+    let gain = (1.0 - decay) / (rate * step);
+    for side in 0..2 {
+        let masses = pair.nodal_masses(side);
+        // About the mass centre.
+        let deformed = |field: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            let nodes = || masses.iter().zip(field);
+            let mean = nodes().map(|(m, u)| m * u[1]).sum::<f64>() / masses.iter().sum::<f64>();
+            field.iter().map(|u| [u[0], u[1] - mean]).collect()
+        };
+        let n = run.snapshots[0].bodies[side].displacement.len();
+        let (mut before, mut kept) = (vec![[0.0; 2]; n], vec![[0.0; 2]; n]);
+        // In contact, and after it.
+        let (mut off, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for snapshot in &run.snapshots {
+            let fields = &snapshot.bodies[side];
+            let (now, effective) = (deformed(&fields.displacement), deformed(&fields.effective));
+            let phase = usize::from(snapshot.time > last);
+            for node in 0..n {
+                for axis in 0..2 {
+                    let change = now[node][axis] - before[node][axis];
+                    kept[node][axis] = decay * kept[node][axis] + gain * change;
+                    let expected = (1.0 - weight) * now[node][axis] + weight * kept[node][axis];
+                    off[phase] = off[phase].max((effective[node][axis] - expected).abs());
+                    largest[phase] = largest[phase].max(expected.abs());
+                }
+            }
+            before = now;
+        }
+        for (off, largest) in off.into_iter().zip(largest) {
+            // Rounding. Modes that are faster than the relaxation see 2 % of it.
+            assert!(off < 1e-10 * largest, "{side}: {off:e} {largest:e}");
+        }
+    }
+}
+
 /// Counts and times.
 #[test]
 fn counts_and_times() {

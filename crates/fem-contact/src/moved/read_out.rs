@@ -2,15 +2,19 @@
 
 use super::MovedInterface;
 use super::pieces::{GAUSS, Piece, Point};
-use crate::pressure::coarser;
+use crate::pressure::{coarser, staggered_lengths};
 use crate::profile::Profile;
-use crate::read_out::{Barrier, centre_pressure, contact_radius};
+use crate::read_out::{Barrier, centre_pressure, contact_radius, staggered_radius};
 
 impl MovedInterface {
     /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact: see
     /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        contact_radius(self.nodal_pressure(u), Barrier::Springs)
+        let at = |side: usize| contact_radius(self.at_nodes(side, u), Barrier::Springs);
+        match staggered_lengths(&self.surfaces) {
+            Some(lengths) => staggered_radius([at(0), at(1)], lengths),
+            None => at(coarser(&self.surfaces, self.candidate_radius)),
+        }
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis outward: where the node is now
@@ -20,19 +24,28 @@ impl MovedInterface {
         &'a self,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+        self.at_nodes(coarser(&self.surfaces, self.candidate_radius), u)
+    }
+
+    /// The same of one side, 0 the lower one.
+    fn at_nodes<'a>(
+        &'a self,
+        side: usize,
+        u: [&'a [[f64; 2]]; 2],
+    ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
         let pressure = |piece: &Piece<'a>, point: &Point| (-piece.stiffness * point.gap).max(0.0);
-        let sums = self.sums_at_nodes(u, pressure);
+        let sums = self.sums_at_nodes(side, u, pressure);
         sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
     }
 
-    /// Of what each point has the integral over the hat of each node of the coarser side, and its area seen
-    /// along y, m², with where the node is now, m.
+    /// Of what each point has the integral over the hat of each node of a side, and its area seen along y, m²,
+    /// with where the node is now, m.
     fn sums_at_nodes<'a>(
         &'a self,
+        side: usize,
         u: [&'a [[f64; 2]]; 2],
         value: impl Fn(&Piece<'a>, &Point) -> f64 + Clone + 'a,
     ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
-        let side = coarser(&self.surfaces, self.candidate_radius);
         let surface = &self.surfaces[side];
         let pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize]));
         let points = pieces.flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))));
@@ -61,17 +74,25 @@ impl MovedInterface {
     /// True contact pressure on the axis, Pa; 0 without contact there: see
     /// [`centre_pressure`](crate::centre_pressure), of the nodes where they are now.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        centre_pressure(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs)
+        let radius = self.contact_radius(u);
+        let at = |side: usize| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs);
+        match staggered_lengths(&self.surfaces) {
+            Some(_) => 0.5 * (at(0) + at(1)),
+            None => at(coarser(&self.surfaces, self.candidate_radius)),
+        }
     }
 
     /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and
     /// true pressures.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
-        let facing = self.sums_at_nodes(u, |_, point| point.gap).map(|(radius, [sum, area])| {
+        let side = coarser(&self.surfaces, self.candidate_radius);
+        let gaps = self.sums_at_nodes(side, u, |_, point| point.gap);
+        let facing = gaps.map(|(radius, [sum, area])| {
             let own = |of: usize| self.radial_displacement(of, radius, u[of]);
             (area > 0.0).then(|| (sum / area, [own(0), own(1)]))
         });
-        Profile::new(self.nodal_pressure(u), Barrier::Springs, facing)
+        let read = [self.contact_radius(u), self.centre_pressure(u)];
+        Profile::new(self.nodal_pressure(u), read, facing)
     }
 
     /// Displacement along r (m) of the point of a side that is now at a radius, m.

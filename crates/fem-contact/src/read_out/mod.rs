@@ -13,12 +13,14 @@
 
 mod axis;
 mod edge;
+mod staggered;
 
 use std::f64::consts::PI;
 use std::iter::from_fn;
 
 pub use axis::{centre_pressure, pressure_profile};
 pub use edge::contact_radius;
+pub use staggered::{are_staggered, staggered_radius};
 
 /// What keeps the surfaces apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,11 +1,10 @@
 //! The weight of a body.
 //!
 //! ```math
-//! f_{y,a} = -\frac{M}{\sum_b m_b}\,m_a\,g, \qquad \Pi = -\sum_a f_{y,a}\,u_{y,a}
+//! f_{y,a} = -m_a\,g, \qquad \Pi = -\sum_a f_{y,a}\,u_{y,a}
 //! ```
 //!
-//! with the lumped masses m_a and the mass M of the body without what mass scaling adds: added mass is
-//! inertia and weighs nothing. In proportion to the masses the force deforms no body that falls.
+//! with the lumped masses m_a. In proportion to the masses the force deforms no body that falls.
 //! Potential Π is 0 at first touch.
 
 use fem_collision::Account;
@@ -18,14 +17,12 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 pub struct Weight {
     /// m/s².
     acceleration: f64,
-    /// Of the body with what mass scaling adds, m/s².
-    scaled_acceleration: f64,
 }
 
 impl Weight {
     /// Of this acceleration along −y, m/s².
     pub fn new(acceleration: f64) -> Self {
-        Self { acceleration, scaled_acceleration: acceleration }
+        Self { acceleration }
     }
 }
 
@@ -35,7 +32,7 @@ impl NodeForce for Weight {
     fn add_forces(&self, motion: &Motion<'_>, _: &[NodalField], forces: &mut Field) -> f64 {
         let mut resultant = 0.0;
         for (force, mass) in forces.iter_mut().zip(motion.nodal_mass) {
-            let weight = mass * self.scaled_acceleration;
+            let weight = mass * self.acceleration;
             force[1] -= weight;
             resultant -= weight;
         }
@@ -45,15 +42,10 @@ impl NodeForce for Weight {
     fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {
         let nodes = motion.nodal_mass.iter().zip(motion.displacement);
         let raised: f64 = nodes.map(|(mass, u)| mass * u[1]).sum();
-        accounts.energies.add(Account::Potential, self.scaled_acceleration * raised);
-    }
-
-    fn set_masses(&mut self, nodal_mass: &[f64], added_mass: f64) {
-        let total: f64 = nodal_mass.iter().sum();
-        self.scaled_acceleration = self.acceleration * (1.0 - added_mass / total);
+        accounts.energies.add(Account::Potential, self.acceleration * raised);
     }
 
     fn acceleration(&self) -> f64 {
-        -self.scaled_acceleration
+        -self.acceleration
     }
 }

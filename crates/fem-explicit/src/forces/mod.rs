@@ -54,10 +54,6 @@ pub trait NodeForce: Part {
     /// Adds the work that it has done since first touch, what it stores, or its power.
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts);
 
-    /// Told once, when the model is built: the lumped masses of the nodes, mass scaling included, and
-    /// what of their sum that has added, kg.
-    fn set_masses(&mut self, _nodal_mass: &[f64], _added_mass: f64) {}
-
     /// The acceleration along +y that it gives to the whole body, wherever that is and however it moves,
     /// m/s²; 0 of any other force.
     fn acceleration(&self) -> f64 {

@@ -23,7 +23,12 @@ impl Relaxes for ConstantPoisson {
         Moduli { bulk: equilibrium_weight * bulk, shear: equilibrium_weight * shear }
     }
 
-    fn subtract_forces(Elastic { blocks, moduli }: &Elastic, _: &Field, w: &Field, f: &mut Field) {
-        subtract_internal_forces(blocks, *moduli, w, f);
+    fn subtract_forces(
+        Elastic { elements, moduli }: &Elastic,
+        _: &Field,
+        w: &Field,
+        f: &mut Field,
+    ) {
+        subtract_internal_forces(elements, *moduli, w, f);
     }
 }

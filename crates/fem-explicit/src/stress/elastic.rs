@@ -7,7 +7,7 @@
 use fem_collision::Account;
 use fem_element::{ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient};
 
-use super::block::Blocks;
+use super::elements::Elements;
 use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
 use super::port::{Collapse, Stress};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
@@ -15,7 +15,7 @@ use crate::part::{Accounts, Field, Motion, NodalField, Part};
 /// The elements of a body and their moduli, which relaxing bodies start from.
 #[derive(Debug, Clone)]
 pub(super) struct Elastic {
-    pub blocks: Blocks,
+    pub elements: Elements,
     /// Of a deformation in no time.
     pub moduli: Moduli,
 }
@@ -39,7 +39,7 @@ impl Stress for Elastic {
         _: &[NodalField],
         forces: &mut Field,
     ) -> Result<(), Collapse> {
-        subtract_internal_forces(&self.blocks, self.moduli, motion.displacement, forces);
+        subtract_internal_forces(&self.elements, self.moduli, motion.displacement, forces);
         Ok(())
     }
 
@@ -48,7 +48,7 @@ impl Stress for Elastic {
     }
 
     fn add_energies(&self, motion: &Motion<'_>, _: &[NodalField], accounts: &mut Accounts) {
-        let stored = strain_energy(&self.blocks, self.moduli, motion.displacement);
+        let stored = strain_energy(&self.elements, self.moduli, motion.displacement);
         accounts.energies.add(Account::Strain, stored);
         // A body that dissipates nothing has an account of it.
         accounts.powers.add(Account::ViscousDissipation, 0.0);

@@ -1,9 +1,9 @@
-//! Several elements at once: four at small strain, eight at finite strain, whose long chains of
-//! operations would leave four waiting for themselves.
+//! Several elements at once: eight where they lie in rows ([`RowLanes`]) and at finite strain, whose long
+//! chains of operations would leave four waiting for themselves; else four.
 //!
 //! The element kernels are written once over [`Lanes`] and compiled for plain
 //! arrays, for AVX2 with FMA and, where they take eight, for AVX-512, which is chosen at run time. Where a
-//! kernel asks for a product and a sum at once (finite strain does, small strain gains nothing by it) all
+//! kernel asks for a product and a sum at once (those of eight do, those of four gain nothing by it) all
 //! lanes round once, so all give the same bits. Plain arrays do so by the library on a processor without
 //! that instruction, slowly; in WebAssembly, which has none, they round twice: there finite strain
 //! agrees to rounding, not in bits.
@@ -73,19 +73,45 @@ pub(crate) fn run_lanes<K: LaneKernel>(kernel: K, output: &mut K::Output) {
     kernel.on::<Plain>(output);
 }
 
+/// A loop over rows of elements, written once for lanes of any kind; as [`LaneKernel`] is.
+pub(crate) trait RowKernel {
+    /// What the loop writes to.
+    type Output: ?Sized;
+
+    /// The loop.
+    fn on<L: RowLanes>(self, output: &mut Self::Output);
+}
+
+/// A kernel of eight elements that lie anywhere.
+struct Anywhere<K>(K);
+
+impl<K: LaneKernel<WIDE>> RowKernel for Anywhere<K> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn on<L: RowLanes>(self, output: &mut K::Output) {
+        self.0.on::<L>(output);
+    }
+}
+
 /// Runs a kernel of finite strain on the widest lanes that the processor has.
 pub(crate) fn run_wide_lanes<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+    run_row_lanes(Anywhere(kernel), output);
+}
+
+/// Runs a kernel of rows on the widest lanes that the processor has.
+pub(crate) fn run_row_lanes<K: RowKernel>(kernel: K, output: &mut K::Output) {
     #[cfg(target_arch = "x86_64")]
     {
         #[target_feature(enable = "avx512f")]
-        fn on_avx512<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+        fn on_avx512<K: RowKernel>(kernel: K, output: &mut K::Output) {
             kernel.on::<Avx512>(output);
         }
         #[target_feature(enable = "avx2,fma")]
-        fn on_avx2<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Output) {
+        fn on_avx2<K: RowKernel>(kernel: K, output: &mut K::Output) {
             kernel.on::<Twice<Avx2>>(output);
         }
-        if std::arch::is_x86_feature_detected!("avx512f") {
+        if has_avx512() {
             // SAFETY: the processor has been asked.
             return unsafe { on_avx512(kernel, output) };
         }
@@ -95,6 +121,12 @@ pub(crate) fn run_wide_lanes<K: LaneKernel<WIDE>>(kernel: K, output: &mut K::Out
         }
     }
     kernel.on::<Plain<WIDE>>(output);
+}
+
+/// Whether the processor has [`Avx512`]'s instructions.
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn has_avx512() -> bool {
+    std::arch::is_x86_feature_detected!("avx512f")
 }
 
 /// Whether the processor has [`Avx2`]'s instructions.
@@ -224,8 +256,11 @@ impl<const N: usize> Lanes<N> for Plain<N> {
 mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+mod rows;
 #[cfg(target_arch = "x86_64")]
 mod twice;
+
+pub(crate) use rows::{ROW_PLACES, RowLanes};
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use {avx2::Avx2, avx512::Avx512, twice::Twice};

@@ -8,26 +8,30 @@
 //! prony               the history of both, one field a term
 //! finite              a law beyond Hooke at finite strain
 //! kernel              the element loops of all: forces and strain energy
-//! lanes, block        four elements at once, at finite strain eight, and how they lie in memory
+//! lanes               several elements at once
+//! elements            how those of small strain lie in memory: rows of eight, and blocks of four
 //! ```
 
 mod block;
 mod constant_poisson;
 mod elastic;
+mod elements;
 mod finite;
 mod kernel;
 pub(crate) mod lanes;
 mod port;
 mod prony;
 mod relaxing_shear;
+mod rows;
+mod shape;
 
 use fem_element::QuadGeometry;
 use fem_material::{ActsOn, Material};
 use fem_mesh::SphereMesh;
 
-use block::Blocks;
 use constant_poisson::ConstantPoisson;
 use elastic::Elastic;
+use elements::Elements;
 pub use finite::MOST_FINITE_STRAIN_TERMS;
 pub(crate) use finite::finite_strain;
 pub(crate) use kernel::Moduli;
@@ -52,7 +56,7 @@ pub(crate) fn of_quads(
     material: &Material,
 ) -> Box<dyn Stress> {
     let elastic = Elastic {
-        blocks: Blocks::pack(n_nodes, quads, geometries),
+        elements: Elements::pack(n_nodes, quads, geometries),
         moduli: Moduli::of(material.instantaneous()),
     };
     let relaxation = material.relaxation().filter(|series| series.relaxes());

@@ -185,17 +185,17 @@ impl<R: Relaxes> Stress for Relaxing<R> {
     }
 
     fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
-        let Elastic { blocks, moduli } = &self.elastic;
+        let Elastic { elements, moduli } = &self.elastic;
         let lasting = R::lasting(*moduli, self.equilibrium_weight);
         let relaxing = R::relaxing(*moduli);
         let (mut stored, mut power) = (0.0, 0.0);
         if lasting.bulk != 0.0 || lasting.shear != 0.0 {
-            stored += strain_energy(blocks, lasting, motion.displacement);
+            stored += strain_energy(elements, lasting, motion.displacement);
         }
         for (branch, q) in self.branches.iter().zip(&history[1..]) {
             let weight = branch.weight;
             let moduli = Moduli { bulk: weight * relaxing.bulk, shear: weight * relaxing.shear };
-            let energy = strain_energy(blocks, moduli, q);
+            let energy = strain_energy(elements, moduli, q);
             stored += energy;
             power += 2.0 * energy / branch.relaxation_time;
         }

@@ -23,7 +23,12 @@ impl Relaxes for RelaxingShear {
         Moduli { bulk, shear: equilibrium_weight * shear }
     }
 
-    fn subtract_forces(Elastic { blocks, moduli }: &Elastic, u: &Field, w: &Field, f: &mut Field) {
-        subtract_split_internal_forces(blocks, *moduli, u, w, f);
+    fn subtract_forces(
+        Elastic { elements, moduli }: &Elastic,
+        u: &Field,
+        w: &Field,
+        f: &mut Field,
+    ) {
+        subtract_split_internal_forces(elements, *moduli, u, w, f);
     }
 }

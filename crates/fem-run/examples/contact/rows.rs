@@ -56,6 +56,8 @@ impl Row {
         let overrides = [
             format!("contact.method='{}'", self.method),
             format!("contact.penalty_factor={}", self.factor),
+            "mesh.contact_element_size='27.884 um'".to_string(),
+            "time.mass_scaling=2e-4".to_string(),
         ];
         let case = Case::parse("glass.toml", self.scene.text, Path::new("."), &overrides);
         let mut simulation = Simulation::new(case.expect("a case")).expect("a scene");

@@ -10,7 +10,7 @@ use fem_case::schema::ActsOn;
 
 use crate::calibrate::{calibration_picture, calibration_text};
 use crate::case_arguments::{CaseArguments, stem_of};
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::law_arguments::parse_confidence;
 use crate::output::OutputArguments;
@@ -32,6 +32,8 @@ pub struct Arguments {
     /// do.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Terms of the series
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=12))]
     terms: u8,
@@ -84,12 +86,14 @@ const OPTIONS: SettingNames = SettingNames {
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
-    let mut measured = MeasuredPairs::read(&read_table(&arguments.data)?, case.scene())?;
+    let mut measured =
+        MeasuredPairs::read(&arguments.columns.read(&arguments.data)?, case.scene())?;
     fill_uncertainties(arguments, &mut measured)?;
     let found = Calibration::of(&case, measured, &settings(arguments))?;
     let warnings = found.warnings(&OPTIONS);
     let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;
-    let inputs = [case_identity(&case), arguments.data.display().to_string()];
+    let columns = arguments.columns.text();
+    let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "calibrate", &inputs)?;
     output.write("relaxation.toml", found.relaxation_toml())?;

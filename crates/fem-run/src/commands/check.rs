@@ -24,7 +24,7 @@ pub struct Arguments {
     input: CaseArguments,
     #[command(flatten)]
     within: ToleranceArguments,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }
@@ -40,6 +40,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
     if arguments.quiet {
+        standard_output::warn(simulation.warnings_before());
         return Ok(());
     }
     let case = arguments.input.name();
@@ -64,7 +65,8 @@ fn expect(simulation: &Simulation, making: f64) -> String {
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
-            format!("Mesh\n{meshes}\nCost{}\n{costs}", of_contacts(simulation))
+            let chosen = by_tolerance(simulation);
+            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
@@ -112,6 +114,33 @@ fn unforced(simulation: &Simulation) -> String {
         }
         _ => String::new(),
     }
+}
+
+/// The keys that the case leaves to its tolerance, and what they became; nothing where it gives all.
+fn by_tolerance(simulation: &Simulation) -> String {
+    let Some(elements) = &simulation.setup().elements else { return String::new() };
+    let plan = &elements.plan;
+    let open = |key: &str| !simulation.case().gives(key);
+    let mut rows = Vec::new();
+    if plan.makes_meshes && open("mesh.contact_element_size") {
+        let across =
+            simulation.setup().estimate.hertz.max_contact_radius() / plan.contact_element_size;
+        let staggered = if plan.finer_body.is_some() { ", staggered" } else { "" };
+        let size = show(plan.contact_element_size, "m");
+        let text = format!("{size}, {across:.2} elements across the contact{staggered}");
+        rows.push(["mesh.contact_element_size".to_string(), text]);
+    }
+    let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
+    if has_steps && open("time.mass_scaling") {
+        let text = format!("{:.2} % of a body's mass", 100.0 * plan.mass_scaling);
+        rows.push(["time.mass_scaling".to_string(), text]);
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let tolerance = 100.0 * simulation.case().scene().accuracy().peak_force;
+    let table = table(&[Left, Left], rows);
+    format!("\nChosen for accuracy.tolerance, {tolerance} % of the peak force\n{table}")
 }
 
 /// Of which contact the cost is, where there are several.

@@ -9,7 +9,7 @@ use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_o
 use serde_json::json;
 
 use crate::case_arguments::stem_of;
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::output::OutputArguments;
 use crate::standard_output;
@@ -46,6 +46,8 @@ pub struct Arguments {
     /// alpha_uncertainty_deg and beta_uncertainty_deg
     #[arg(long, value_name = "FILE")]
     data: Option<PathBuf>,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Uncertainty of angles that have none of their own
     #[arg(long, value_name = "ANGLE", value_parser = angle)]
     angle_uncertainty: Option<Measured>,
@@ -88,9 +90,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
         return standard_output::print(&one(&cradle, &trial, &swing));
     };
-    let swings = swings(&cradle, &read_table(path)?, arguments)?;
-    let mut output =
-        arguments.output.claim(&stem_of(path), "cradle", &[&path.display().to_string()])?;
+    let swings = swings(&cradle, &arguments.columns.read(path)?, arguments)?;
+    let mut output = arguments.output.claim(
+        &stem_of(path),
+        "cradle",
+        &[&(path.display().to_string() + &arguments.columns.text())],
+    )?;
     let header = [
         "speed_m_s",
         "restitution",

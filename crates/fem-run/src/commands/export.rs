@@ -14,7 +14,7 @@ use fem_fit::dem::{Export, Snippet};
 use fem_laws::Family;
 
 use crate::case_arguments::CaseArguments;
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::law_arguments::parse_speed;
 use crate::output::OutputArguments;
@@ -32,6 +32,8 @@ pub struct Arguments {
     /// Restitutions, and contact times if it has them: a CSV file, such as a sweep's sweep.csv
     #[arg(long, value_name = "FILE", conflicts_with = "speeds")]
     data: Option<PathBuf>,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// Speeds that are computed, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
     #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
     speeds: Option<(f64, f64)>,
@@ -90,7 +92,7 @@ fn curve(arguments: &Arguments, case: &Case) -> Result<ImpactCurve, Failure> {
     let Some(path) = &arguments.data else {
         return Ok(ImpactCurve::computed(case, arguments.speeds)?);
     };
-    let data = Restitutions::read_with_contact_times(&read_table(path)?, case.scene())?;
+    let data = Restitutions::read_with_contact_times(&arguments.columns.read(path)?, case.scene())?;
     Ok(ImpactCurve::measured(case.scene(), &data)?)
 }
 

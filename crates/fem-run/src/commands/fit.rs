@@ -9,7 +9,7 @@ use fem_fit::{Free, Problem};
 use fem_laws::Family;
 
 use crate::case_arguments::{CaseArguments, stem_of};
-use crate::data_file::read_table;
+use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::fit::{fit_picture, fit_text, histories_picture};
 use crate::law_arguments::{
@@ -31,6 +31,8 @@ pub struct Arguments {
     /// A column restitution_uncertainty weighs them. The sweep.csv of a sweep over speeds will do.
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
+    #[command(flatten)]
+    columns: ColumnArguments,
     /// The law, such as bordbar_hyppanen or ting [default: that of the case's model]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
     law: Option<Family>,
@@ -65,7 +67,7 @@ pub struct Arguments {
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
-    let table = read_table(&arguments.data)?;
+    let table = arguments.columns.read(&arguments.data)?;
     let data = match arguments.contact_time {
         true => Restitutions::read_with_contact_times(&table, case.scene())?,
         false => Restitutions::read(&table, case.scene())?,
@@ -85,7 +87,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         fitted = fitted.compared_with(*family)?;
     }
 
-    let inputs = [case_identity(&case), arguments.data.display().to_string()];
+    let columns = arguments.columns.text();
+    let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;

@@ -49,7 +49,7 @@ pub struct Options {
     /// Print the summary alone on stdout, as it is in summary.json
     #[arg(long)]
     json: bool,
-    /// Print nothing but errors, and the summary if --json asks for it
+    /// Print nothing but errors and warnings, and the summary if --json asks for it
     #[arg(long, short)]
     quiet: bool,
 }
@@ -88,6 +88,9 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         false => folder.publish(fault.is_none()).map(Some),
     };
     let place = published.as_ref().ok().and_then(Option::as_deref);
+    if options.quiet {
+        standard_output::warn(summary.warnings.clone());
+    }
     match (options.json, options.quiet) {
         (true, _) => standard_output::print(&text)?,
         (false, true) => {}
@@ -145,9 +148,8 @@ fn announce(simulation: &Simulation, case: &str, place: &ResultPlace) {
         line += &format!(", since {} holds that of another case", taken.display());
     }
     let _ = writeln!(stderr(), "{}", one_line(&line));
-    if let Some(warning) = simulation.mesh_warning() {
-        let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
-    }
+    let odd = simulation.case().scene().oddities();
+    standard_output::warn(odd.into_iter().chain(simulation.mesh_warning()));
     if let Some(hint) = simulation.cheaper() {
         let _ = writeln!(stderr(), "hint: {}", one_line(&hint));
     }

@@ -1,24 +1,20 @@
-//! `fem-run sweep SWEEP.toml`: computes the members of a sweep, all or a shard of them.
+//! `fem-run sweep SWEEP.toml`: computes the members of a sweep, all or a shard of them, here or by Slurm.
 
-use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use comfy_table::CellAlignment::{Left, Right};
-use fem::sweep::{Checked, Member, Row, SWEEP_FILE, check};
-use fem_case::engineering::show;
+use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some};
 use fem_case::{CaseFile, Sweep};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::standard_output::{self, one_line};
+use crate::standard_output;
 use crate::sweep::{
-    AxisNumbers, Checking, Choice, Collected, Collector, Job, Mark, SweepFolder, run_members,
+    Batch, Checking, Choice, Collected, Collector, Job, Mark, Shard, SlurmOptions, SweepFolder,
+    announce, conclude, report, run_members, status,
 };
-use crate::tables::table;
 
 /// Compute many members of a case: lists of values for some of its keys
 ///
@@ -26,7 +22,7 @@ use crate::tables::table;
 /// the folder of a stopped sweep goes on where it was; members that are done are taken.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// The sweep file, TOML: a case, and under vary dotted keys with lists of values
+    /// The sweep file, TOML: a case, and under vary dotted keys with values; with --status a sweep's folder
     #[arg(value_name = "SWEEP")]
     sweep: PathBuf,
     /// Folder for the results [default: runs/<the sweep file's stem>]
@@ -46,6 +42,17 @@ pub struct Arguments {
     /// the same files as the whole sweep.
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
+    /// Leave table, picture and sweep.json to a later --merge: for shards of large sweeps
+    #[arg(long, requires = "shard")]
+    no_merge: bool,
+    /// Compute nothing: make table and picture of the members that are done
+    #[arg(long, conflicts_with_all = ["shard", "dry_run"])]
+    merge: bool,
+    /// Say how far the sweep in the folder SWEEP is, whoever computes it
+    #[arg(long, conflicts_with_all = ["out", "set", "threads", "shard", "dry_run", "merge", "slurm"])]
+    status: bool,
+    #[command(flatten)]
+    slurm: SlurmOptions,
     /// Check all members and say how many are to run; compute and write nothing
     #[arg(long)]
     dry_run: bool,
@@ -54,171 +61,147 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// `K/N`: members K − 1, K − 1 + N, …
-#[derive(Clone, Copy, Debug)]
-struct Shard {
-    first: usize,
-    step: usize,
-}
-
-impl Shard {
-    fn has(&self, index: usize) -> bool {
-        index % self.step == self.first
-    }
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers = text.split_once('/').map(|(k, n)| (k.parse::<usize>(), n.parse::<usize>()));
-        match numbers {
-            Some((Ok(k), Ok(n))) if 1 <= k && k <= n => Ok(Self { first: k - 1, step: n }),
-            _ => Err("a shard is K/N with K from 1 to N, such as 3/10".to_string()),
-        }
-    }
+/// A sweep, where it goes and what computes it.
+struct Work<'a> {
+    arguments: &'a Arguments,
+    sweep: &'a Sweep,
+    out: &'a Path,
+    pool: &'a ThreadPool,
+    interrupt: Interrupt,
 }
 
 /// Computes a sweep.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.status {
+        return standard_output::print(&status(&arguments.sweep)?);
+    }
     let interrupt = Interrupt::listen();
     let sweep = Sweep::load(&arguments.sweep, &arguments.set)?;
     let out = match &arguments.out {
         Some(out) => out.clone(),
         None => Path::new("runs").join(stem_of(&arguments.sweep)),
     };
-    let shard = arguments.shard.unwrap_or(Shard { first: 0, step: 1 });
     let pool = pool(arguments.threads)?;
-    let there = SweepFolder::at(&out);
-    let mut numbers = AxisNumbers::new(&sweep);
-    let mut checking = Checking::new(sweep.n_members(), arguments.quiet);
-    let is_done = |member: &Member| there.has(&member.identity(), sweep.keep);
-    let see = |member: &Member, case: &CaseFile| {
-        checking.tick();
-        numbers.see(&sweep, member.index, case);
-    };
-    let checked = pool.install(|| check(&sweep, |index| shard.has(index), is_done, see))?;
-    let Checked { members, left, advice } = &checked;
-    let choice = Choice::of(&sweep, &numbers)?;
-    let n_own = members.iter().filter(|member| shard.has(member.index)).count();
-    let tell = || {
-        if !arguments.quiet {
-            announce(arguments, members.len(), n_own, left.len(), *advice);
-        }
-    };
-    if arguments.dry_run {
-        tell();
-        return Ok(());
+    let work = Work { arguments, sweep: &sweep, out: &out, pool: &pool, interrupt };
+    match arguments.shard {
+        Some(shard) if arguments.no_merge => work.compute_shard(shard),
+        shard => work.compute(shard.unwrap_or(Shard::WHOLE)),
     }
-    let mark = Mark { sweep: &sweep, members, set: &arguments.set };
-    let folder = SweepFolder::claim(&out, |file| mark.write(file))?;
-    tell();
+}
 
-    let job = Job {
-        sweep: &sweep,
-        members,
-        folder: &folder,
-        pool: &pool,
-        quiet: arguments.quiet,
-        interrupt: interrupt.clone(),
-    };
-    let ran = run_members(&job, left);
-    let collector = Collector { sweep: &sweep, members, folder: &folder, choice: &choice };
-    let collected = collector.collect(|index| shard.has(index))?;
-    ran?;
-    if !arguments.quiet {
-        standard_output::print(&report(&sweep, &collected, members.len(), folder.path()))?;
+impl Work<'_> {
+    /// Computes a shard, mostly the whole, and makes table and picture of what is there then.
+    fn compute(&self, shard: Shard) -> Result<(), Failure> {
+        let Self { arguments, sweep, out, pool, .. } = self;
+        let mut numbers = KeyNumbers::new(sweep);
+        let mut checking = Checking::new(sweep.n_members(), arguments.quiet);
+        let see = |member: &Member, case: &CaseFile| {
+            checking.tick();
+            numbers.see(sweep, member.index, case);
+        };
+        let checked =
+            pool.install(|| check(*sweep, |index| shard.has(index), self.is_done(), see))?;
+        let Checked { members, left, .. } = &checked;
+        let choice = Choice::of(sweep, &numbers)?;
+        let n_own = shard.places(members.len()).len();
+        if arguments.dry_run {
+            self.announce(&checked, n_own);
+            return Ok(());
+        }
+        let batch = match arguments.slurm.options() {
+            Some(options) => Some(Batch::of(self.sweep, &checked, options)?),
+            None => None,
+        };
+        let mark = Mark { sweep, members, set: &arguments.set };
+        let folder = SweepFolder::claim(out, |file| mark.write(file))?;
+        if let Some(batch) = batch {
+            return self.hand_over(&batch, &folder, &checked);
+        }
+        let mut ran = Ok(());
+        if !arguments.merge {
+            self.announce(&checked, n_own);
+            ran = run_members(&self.job(&folder, members), left);
+        }
+        let collector =
+            Collector { sweep, members, folder: &folder, numbers: &numbers, choice: &choice };
+        let collected = collector.collect(|index| shard.has(index))?;
+        ran?;
+        if !arguments.quiet {
+            let text = report(sweep, &collected, members.len(), folder.path());
+            standard_output::print(&text)?;
+        }
+        if arguments.merge && collected.n_done < n_own {
+            let message = format!("{} of {n_own} members are done", collected.n_done);
+            let help =
+                "the table has those; the same command without --merge goes on with the others";
+            return Err(Failure::failed(message).with_help(help));
+        }
+        conclude(&collected, n_own, self.interrupt.is_requested())
     }
-    conclude(&collected, n_own, interrupt.is_requested())
+
+    /// Computes a shard and looks at no other member.
+    fn compute_shard(&self, shard: Shard) -> Result<(), Failure> {
+        let Self { arguments, sweep, out, pool, .. } = self;
+        let places = shard.places(sweep.n_members());
+        let mut checking = Checking::new(places.len(), arguments.quiet);
+        let see = |_: &Member, _: &CaseFile| checking.tick();
+        let checked =
+            pool.install(|| check_some(*sweep, &places, |_| true, self.is_done(), see))?;
+        self.announce(&checked, places.len());
+        if arguments.dry_run {
+            return Ok(());
+        }
+        let mark = Mark { sweep, members: &checked.members, set: &arguments.set };
+        let folder = SweepFolder::join(out, |file| mark.write(file))?;
+        run_members(&self.job(&folder, &checked.members), &checked.left)?;
+        let mut collected = Collected::default();
+        for member in &checked.members {
+            if let Some(summary) = folder.summary(&member.identity()) {
+                let row = Row::new(member, sweep.values(member.index), summary);
+                collected.take(row, sweep, true);
+            }
+        }
+        conclude(&collected, places.len(), self.interrupt.is_requested())
+    }
+
+    /// Writes the script of a batch system, and submits it if that is asked for.
+    fn hand_over(
+        &self,
+        batch: &Batch,
+        folder: &SweepFolder,
+        checked: &Checked,
+    ) -> Result<(), Failure> {
+        let Self { arguments, sweep, .. } = self;
+        self.announce(checked, sweep.n_members());
+        let set = &arguments.set;
+        let script = batch.write(&arguments.sweep, set, folder)?;
+        let submitted = if arguments.slurm.submit { Some(batch.submit(&script)?) } else { None };
+        match arguments.quiet {
+            true => Ok(()),
+            false => standard_output::print(&batch.report(&script, submitted.as_deref())),
+        }
+    }
+
+    fn is_done(&self) -> impl Fn(&Member) -> bool + Sync {
+        let (there, keep) = (SweepFolder::at(self.out), self.sweep.keep);
+        move |member| there.has(&member.identity(), keep)
+    }
+
+    fn announce(&self, checked: &Checked, n_own: usize) {
+        let Self { arguments, sweep, pool, .. } = self;
+        if !arguments.quiet {
+            let name = arguments.sweep.display().to_string();
+            announce(&name, checked, sweep.n_members(), n_own, pool.current_num_threads());
+        }
+    }
+
+    fn job<'j>(&'j self, folder: &'j SweepFolder, members: &'j [Member]) -> Job<'j> {
+        let (sweep, pool, quiet) = (self.sweep, self.pool, self.arguments.quiet);
+        Job { sweep, members, folder, pool, quiet, interrupt: self.interrupt.clone() }
+    }
 }
 
 fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.map_or(0, NonZeroUsize::get)).build();
     pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))
-}
-
-/// One line on stderr about what begins.
-fn announce(
-    arguments: &Arguments,
-    n_members: usize,
-    n_own: usize,
-    n_left: usize,
-    advice: Option<&str>,
-) {
-    let shard = if n_own == n_members { String::new() } else { format!(", {n_own} in this shard") };
-    let name = one_line(&arguments.sweep.display().to_string());
-    let _ = writeln!(
-        stderr(),
-        "{name}: {n_members} members{shard}; {} done before, {n_left} to run",
-        n_own - n_left
-    );
-    if let Some(advice) = advice {
-        let _ = writeln!(stderr(), "hint: {advice}");
-    }
-}
-
-/// The main results of each member, and where the rest is.
-fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &Path) -> String {
-    let keys = sweep.axes.iter().map(|axis| axis.key.as_str());
-    let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
-    let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
-    let row = |row: &Row| {
-        let mut cells: Vec<String> = row.values.iter().map(|value| one_line(value)).collect();
-        cells.extend(result_cells(row));
-        cells
-    };
-    let mut alignment = vec![Left; sweep.axes.len()];
-    alignment.extend([Right; 5]);
-    let shown = collected.shown.iter().map(row);
-    let mut text = table(&alignment, std::iter::once(header).chain(shown));
-    let (n_done, n_shown) = (collected.n_done, collected.shown.len());
-    if n_done > n_shown {
-        text += &format!("… and {} more\n", n_done - n_shown);
-    }
-    if n_done < n_members {
-        text += &format!("\n{n_done} of {n_members} members are done.\n");
-    }
-    text + &format!("\nResult: {}\n", one_line(&folder.join(SWEEP_FILE).display().to_string()))
-}
-
-fn result_cells(row: &Row) -> [String; 5] {
-    const NONE: &str = "-";
-    let summary = &row.summary;
-    let number = |key: &str| summary[key].as_f64();
-    let quantity = |key: &str, unit| number(key).map_or(NONE.into(), |value| show(value, unit));
-    let ratio = |key: &str| {
-        let both = number(key).zip(summary["hertz"][key].as_f64());
-        both.map_or(NONE.into(), |(ours, hertz)| format!("{:.4}", ours / hertz))
-    };
-    if !row.is_complete() {
-        return ["failed", NONE, NONE, NONE, NONE].map(String::from);
-    }
-    [
-        number("restitution").map_or(NONE.into(), |value| format!("{value:.5}")),
-        quantity("contact_time_s", "s"),
-        ratio("contact_time_s"),
-        quantity("peak_force_n", "N"),
-        ratio("peak_force_n"),
-    ]
-}
-
-/// Success, or which members failed, or how to go on.
-fn conclude(collected: &Collected, n_own: usize, is_interrupted: bool) -> Result<(), Failure> {
-    let Collected { n_own_done, n_failed, failed, .. } = collected;
-    if is_interrupted && *n_own_done < n_own {
-        let message = format!("interrupted: {n_own_done} of {n_own} members are done");
-        return Err(Failure::interrupted(message)
-            .with_help("they are kept; the same command goes on with the others"));
-    }
-    if *n_failed == 0 {
-        return Ok(());
-    }
-    let mut lines = failed.join("\n");
-    if failed.len() < *n_failed {
-        lines += &format!("\n… and {} more", n_failed - failed.len());
-    }
-    Err(Failure::failed(format!("{n_failed} of {n_own} members failed")).with_help(format!(
-        "{lines}\nthe others are done; run a failed one alone with --set for the cause and remedy, or \
-         change its value: the same command then computes what is new"
-    )))
 }

@@ -5,7 +5,7 @@
 
 use std::io;
 
-use fem::sweep::{Columns, Member, Row, SWEEP_FILE, sweep_csv};
+use fem::sweep::{Columns, KeyNumbers, Member, NumberColumn, Row, SWEEP_FILE, sweep_csv};
 use fem_case::Sweep;
 
 use super::folder::{PICTURE_FILE, SweepFolder};
@@ -51,6 +51,8 @@ pub struct Collector<'a> {
     pub members: &'a [Member],
     /// Where their results are.
     pub folder: &'a SweepFolder,
+    /// The values of its keys.
+    pub numbers: &'a KeyNumbers,
     /// What is drawn.
     pub choice: &'a Choice,
 }
@@ -101,9 +103,11 @@ impl Collector<'_> {
             Failure::failed(message)
                 .with_help("the members that were computed are kept; the same command goes on")
         };
-        let keys = self.sweep.axes.iter().map(|axis| axis.key.as_str());
+        let numbers = self.numbers.columns(self.sweep);
+        let keys = self.sweep.keys().map(|swept| swept.key.as_str());
+        let keys = keys.chain(numbers.iter().map(|column| column.name.as_str()));
         let there = self.members.iter().filter(|member| look.is_there[member.index]);
-        let rows = there.filter_map(|member| self.row(member));
+        let rows = there.filter_map(|member| Some(self.numbered(self.row(member)?, &numbers)));
         folder
             .write(SWEEP_FILE, |file| {
                 sweep_csv(file, keys, &look.columns.names(), rows).map_err(io::Error::from)
@@ -123,10 +127,17 @@ impl Collector<'_> {
         let summary = self.folder.summary(&member.identity())?;
         Some(Row::new(member, self.sweep.values(member.index), summary))
     }
+
+    /// A row with its values in SI.
+    fn numbered(&self, row: Row, columns: &[NumberColumn]) -> Row {
+        let numbers = self.numbers.row(self.sweep, columns, row.index);
+        row.with_numbers(numbers)
+    }
 }
 
 impl Collected {
-    fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
+    /// Takes the row of a member that is done.
+    pub fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
         self.n_done += 1;
         self.n_own_done += usize::from(is_own);
         if is_own && !row.is_complete() {

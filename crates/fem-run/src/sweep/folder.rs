@@ -70,6 +70,20 @@ impl SweepFolder {
         Ok(folder)
     }
 
+    /// As [`SweepFolder::claim`], of a folder that may hold this sweep already: its mark is left as it is.
+    ///
+    /// # Errors
+    /// As [`SweepFolder::claim`].
+    pub fn join(
+        out: &Path,
+        mark: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<Self, Failure> {
+        match out.join(MARK_FILE).is_file() && is_ours(out).unwrap_or(false) {
+            true => Ok(Self::at(out)),
+            false => Self::claim(out, mark),
+        }
+    }
+
     /// The folder as it is, to look into; it may not be there.
     pub fn at(out: &Path) -> Self {
         Self { path: out.to_path_buf() }

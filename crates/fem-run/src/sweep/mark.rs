@@ -49,9 +49,10 @@ struct Lists<'a>(&'a Sweep);
 
 impl Serialize for Lists<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.axes.iter().map(|axis| {
-            let values = axis.elements.iter().map(|element| element.text.as_str());
-            (&axis.key, values.collect::<Vec<_>>())
+        let places = self.0.keys().zip(self.0.places());
+        serializer.collect_map(places.map(|(swept, (axis, key))| {
+            let values = self.0.axes[axis].elements.iter().map(|element| element.text(key));
+            (&swept.key, values.collect::<Vec<_>>())
         }))
     }
 }
@@ -82,7 +83,7 @@ struct Values<'a>(&'a Sweep, usize);
 
 impl Serialize for Values<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let keys = self.0.axes.iter().map(|axis| &axis.key);
+        let keys = self.0.keys().map(|swept| &swept.key);
         serializer.collect_map(keys.zip(self.0.values(self.1)))
     }
 }

@@ -6,26 +6,35 @@
 //! threads      keeping     renamed into place
 //! ```
 //!
+//! `slurm` writes a script that has shards computed by a batch system, `status` says how far they are.
+//!
 //! The file system is all that processes share. A member is known by what it computes, so the
 //! same command goes on where another one stopped, and shards of a batch system fill one folder.
 //! Table and picture are made from the members' folders alone, by whoever finishes one: the same
 //! bytes whatever the order.
 
-mod axis_numbers;
 mod board;
 mod checking;
 mod collect;
+mod duration;
 mod folder;
 mod mark;
 mod picture;
 mod picture_data;
 mod picture_points;
+mod report;
 mod runner;
+mod shard;
+mod slurm;
+mod status;
 
-pub use axis_numbers::AxisNumbers;
 pub use checking::Checking;
 pub use collect::{Collected, Collector};
 pub use folder::SweepFolder;
 pub use mark::Mark;
 pub use picture_data::Choice;
+pub use report::{announce, conclude, report};
 pub use runner::{Job, run_members};
+pub use shard::Shard;
+pub use slurm::{Batch, SlurmOptions};
+pub use status::status;

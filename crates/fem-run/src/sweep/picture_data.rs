@@ -1,9 +1,8 @@
 //! What the picture of a sweep shows: which columns against which key, and the curves.
 
-use fem::sweep::COLUMNS;
-use fem_case::{CaseError, Combine, Sweep, parse_quantity};
+use fem::sweep::{COLUMNS, KeyNumbers};
+use fem_case::{CaseError, Combine, Sweep};
 
-use super::axis_numbers::AxisNumbers;
 use super::picture_points::PicturePoint;
 
 /// Panels unless the sweep file names others.
@@ -11,31 +10,6 @@ const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
 /// Columns of text or of yes and no.
 const NOT_NUMBERS: [&str; 2] = ["complete", "stopped_because"];
-/// Exponents of metre, kilogram, second and byte, and their units.
-const DIMENSIONS: [([i32; 4], &str); 6] = [
-    ([1, 0, 0, 0], "m"),
-    ([1, 0, -1, 0], "m/s"),
-    ([-3, 1, 0, 0], "kg/m³"),
-    ([-1, 1, -2, 0], "Pa"),
-    ([0, 0, 1, 0], "s"),
-    ([0, 0, -1, 0], "1/s"),
-];
-
-/// Dimensions of keys that often hold bare numbers.
-const KEYS: [(&str, [i32; 4]); 11] = [
-    ("diameter", [1, 0, 0, 0]),
-    ("gap", [1, 0, 0, 0]),
-    ("contact_element_size", [1, 0, 0, 0]),
-    ("refined_radius", [1, 0, 0, 0]),
-    ("approach_speed", [1, 0, -1, 0]),
-    ("density", [-3, 1, 0, 0]),
-    ("youngs_modulus", [-1, 1, -2, 0]),
-    ("shear_modulus", [-1, 1, -2, 0]),
-    ("bulk_modulus", [-1, 1, -2, 0]),
-    ("relaxation_time", [0, 0, 1, 0]),
-    ("decay_rate", [0, 0, -1, 0]),
-];
-
 /// Which columns are drawn against which key.
 #[derive(Clone, Debug)]
 pub struct Choice {
@@ -43,17 +17,21 @@ pub struct Choice {
     pub x: Option<Horizontal>,
     /// Columns of the table, one panel each.
     pub y: Vec<&'static str>,
-    /// The axis whose values tell curves apart; all others together if none.
+    /// The key whose values tell curves apart; those of all other axes together if none.
     pub series: Option<usize>,
 }
 
-/// An axis of the sweep along the horizontal of the picture.
+/// A varied key along the horizontal of the picture.
 #[derive(Clone, Debug)]
 pub struct Horizontal {
     /// Which.
+    pub key: usize,
+    /// The axis that it is on.
     pub axis: usize,
     /// Its values, SI.
     pub values: Vec<f64>,
+    /// Their unit.
+    pub unit: Option<&'static str>,
 }
 
 impl Choice {
@@ -61,27 +39,31 @@ impl Choice {
     ///
     /// # Errors
     /// Keys that are not varied, a horizontal key whose values are not numbers, unknown columns.
-    pub fn of(sweep: &Sweep, numbers: &AxisNumbers) -> Result<Self, CaseError> {
-        let keys: Vec<&str> = sweep.axes.iter().map(|axis| axis.key.as_str()).collect();
+    pub fn of(sweep: &Sweep, numbers: &KeyNumbers) -> Result<Self, CaseError> {
+        let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
+        let places: Vec<(usize, usize)> = sweep.places().collect();
         let find = |place: &str, key: &str| {
             keys.iter().position(|known| *known == key).ok_or_else(|| {
                 let error = sweep.error_at(place, format!("{key} is not varied"));
                 error.with_help(format!("the varied keys are {}", keys.join(", ")))
             })
         };
-        let horizontal = |axis: usize| Some(Horizontal { axis, values: numbers.of_axis(axis)? });
+        let horizontal = |key: usize| {
+            let (axis, unit) = (places[key].0, numbers.unit(key).filter(|unit| !unit.is_empty()));
+            Some(Horizontal { key, axis, values: numbers.of_key(key)?, unit })
+        };
         let x = match &sweep.plot.x {
             Some(key) => {
-                let axis = find("plot.x", key)?;
-                Some(horizontal(axis).ok_or_else(|| {
-                    let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[axis]));
+                let key = find("plot.x", key)?;
+                Some(horizontal(key).ok_or_else(|| {
+                    let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[key]));
                     error.with_help("name a varied key whose values are numbers")
                 })?)
             }
             None => (0..keys.len()).find_map(horizontal),
         };
         let series = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
-        if series.is_some() && series == x.as_ref().map(|x| x.axis) {
+        if series.is_some() && series == x.as_ref().map(|x| x.key) {
             let error = sweep.error_at("plot.series", "x and series are the same key");
             return Err(error.with_help("series tells curves apart; leave it out"));
         }
@@ -151,27 +133,18 @@ pub fn curves(
 }
 
 fn label(sweep: &Sweep, member: usize, choice: &Choice, x: usize) -> String {
-    let is_part = |axis: &usize| match (choice.series, sweep.combine) {
-        (Some(series), _) => *axis == series,
-        // Paired keys run along with x.
+    let is_part = |key: usize, axis: usize| match (choice.series, sweep.combine) {
+        (Some(series), _) => key == series,
+        // Paired keys run along with x, as linked ones do.
         (None, Combine::Paired) => false,
-        (None, Combine::All) => *axis != x,
+        (None, Combine::All) => axis != x,
     };
     let values = sweep.values(member);
-    let parts = (0..sweep.axes.len()).filter(is_part).map(|axis| {
-        let name = sweep.axes[axis].parts().last().unwrap_or_default();
-        format!("{} {}", name.replace('_', " "), values[axis])
-    });
+    let parts = sweep.keys().zip(sweep.places()).enumerate();
+    let parts =
+        parts.filter(|(key, (_, (axis, _)))| is_part(*key, *axis)).map(|(key, (swept, _))| {
+            let name = swept.parts().last().unwrap_or_default();
+            format!("{} {}", name.replace('_', " "), values[key])
+        });
     parts.collect::<Vec<_>>().join(", ")
-}
-
-/// The SI unit of a varied key: that of its values, or that of the key if all are bare numbers.
-pub fn axis_unit(sweep: &Sweep, axis: usize) -> Option<&'static str> {
-    let axis = &sweep.axes[axis];
-    let dimension = |text: &str| parse_quantity(text).ok().map(|(_, dimension)| dimension.0);
-    let mut written = axis.elements.iter().filter_map(|element| dimension(&element.text));
-    let name = axis.parts().last().unwrap_or_default();
-    let of_key = KEYS.into_iter().find(|(known, _)| *known == name).map(|(_, dimension)| dimension);
-    let found = written.find(|dimension| *dimension != [0; 4]).or(of_key)?;
-    DIMENSIONS.into_iter().find(|(known, _)| *known == found).map(|(_, unit)| unit)
 }

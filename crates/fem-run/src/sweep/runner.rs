@@ -22,7 +22,7 @@ use crate::stopwatch::{Stopwatch, Timed};
 pub struct Job<'a> {
     /// The sweep.
     pub sweep: &'a Sweep,
-    /// All members.
+    /// The members, in order, those that run among them.
     pub members: &'a [Member],
     /// Where results go.
     pub folder: &'a SweepFolder,
@@ -32,6 +32,14 @@ pub struct Job<'a> {
     pub quiet: bool,
     /// Whether the user wants the sweep to end.
     pub interrupt: Interrupt,
+}
+
+impl Job<'_> {
+    /// What the member at a place is known by.
+    fn identity(&self, index: usize) -> String {
+        let place = self.members.binary_search_by_key(&index, |member| member.index);
+        place.map_or(String::new(), |place| self.members[place].identity())
+    }
 }
 
 /// Runs these members in this order; those that another process finishes first are left out.
@@ -64,8 +72,8 @@ impl<'a> Observer for Keeper<'a> {
         if self.board.is_stopped() {
             return false;
         }
-        let Job { sweep, members, folder, .. } = self.job;
-        let is_done = folder.has(&members[index].identity(), sweep.keep);
+        let Job { sweep, folder, .. } = self.job;
+        let is_done = folder.has(&self.job.identity(index), sweep.keep);
         if is_done {
             self.board.finish_member(&format!("{}: done elsewhere", sweep.describe(index)));
         }
@@ -101,8 +109,8 @@ impl<'a> Observer for Keeper<'a> {
 
 impl Keeper<'_> {
     fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
-        let Job { sweep, members, folder, .. } = self.job;
-        let stem = &members[index].identity();
+        let Job { sweep, folder, .. } = self.job;
+        let stem = &self.job.identity(index);
         let out = folder.member(stem);
         let place = ResultFolder::claim_swept(&out, &longest_name(stem), Replaces::Any)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;

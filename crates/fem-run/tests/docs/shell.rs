@@ -11,13 +11,16 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// The words behind the name of the program, if it is this program.
+    /// The words behind the name of the program, if it is this program, up to where the shell sends
+    /// its output or takes its input.
     pub fn arguments(&self) -> Option<&[String]> {
         let own = ["fem-run"];
         let built = ["cargo", "run", "--release", "--"];
         [&own[..], &built].iter().find_map(|name| {
             let (head, rest) = self.words.split_at_checked(name.len())?;
-            (head == *name).then_some(rest)
+            let is_behind = |word: &String| [">", "|", "<"].contains(&word.as_str());
+            let end = rest.iter().position(is_behind).unwrap_or(rest.len());
+            (head == *name).then_some(&rest[..end])
         })
     }
 }

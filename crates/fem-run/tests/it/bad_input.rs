@@ -130,7 +130,7 @@ fn meshes_too_coarse_or_too_dear_are_refused_and_limits_override() {
     assert!(message.contains("element updates"), "{message}");
     let message = refused(&place, &["case.toml", "--set", "limits.memory=1000"]);
     assert!(message.contains("memory"), "{message}");
-    let long = ["check", "case.toml", "--set", "time.step_factor=1e-6"];
+    let long = ["check", "case.toml", "--set", "time.step_factor=1e-7"];
     let message = refused(&place, &long);
     assert!(message.contains("limits.element_updates"), "{message}");
     place.succeed(&[&long[..], &["--set", "limits.element_updates=1e15"]].concat());

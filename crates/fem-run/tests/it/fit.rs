@@ -1,5 +1,7 @@
 //! `fem-run fit`, `invert`, `export` and `cradle` as their users call them.
 
+use std::path::Path;
+
 use crate::common::{CASE, Place};
 
 const ICE: &str = include_str!("../../../../cases/ice_2cm.toml");
@@ -62,7 +64,7 @@ fn both_parameters_with_profile_and_comparison() {
     assert!(ran.stdout.contains("correlation of a and n"), "{}", ran.stdout);
     assert!(ran.stdout.contains("the residuals have a trend"), "{}", ran.stdout);
     let svg = String::from_utf8(place.read("runs/ice_fit/fit.svg")).unwrap();
-    for label in ["kuwabara_kono", "best fit", "restitution", "approach speed"] {
+    for label in ["kuwabara_kono", "best fit", "restitution", "impact speed v"] {
         assert!(svg.contains(label), "{label}");
     }
     // A second fit takes the place of the first; files of others stay.
@@ -356,4 +358,36 @@ fn cradle_of_one_trial_and_of_a_file() {
     refused(&["--masses", "1 g,1 g", "--data", "trials.csv"], "does not name its unit");
     place.write("trials.csv", "alpha_deg,beta_deg\n20,20\n120,20\n");
     refused(&["--masses", "1 g,1 g", "--data", "trials.csv"], "trials.csv:3: release angle");
+}
+
+/// A spreadsheet's file: Latin-1, semicolons, decimal commas, names of its own, an empty row.
+#[test]
+fn columns_of_other_names_are_told() {
+    let place = Place::new();
+    let data = "../validation/data/spreadsheet.csv";
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(data);
+    let data = data.to_str().unwrap();
+    let fit = |columns: &[&str]| {
+        let law = ["fit", "case.toml", "--data", data, "--law", "kuwabara_kono"];
+        place.run(&[&law[..], columns].concat())
+    };
+    let ran = fit(&["--columns", "speed=v,restitution=COR,uncertainty=u", "--out", "out"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert!(ran.stdout.contains("4 points"), "{}", ran.stdout);
+    assert!(
+        ran.stdout.contains("1 row without a speed or a restitution left out"),
+        "{}",
+        ran.stdout
+    );
+    assert!(ran.stdout.contains("kontaktzeit_us"), "{}", ran.stdout);
+    let residuals = String::from_utf8(place.read("out/residuals.csv")).unwrap();
+    assert!(residuals.contains("\n0.1,0.957,"), "{residuals}");
+    for (columns, told) in [
+        ("restitution=e_n", "there is no column e_n; found are versuch, v_cm_s, cor, u"),
+        ("restitution", "there is no `=`"),
+    ] {
+        let ran = fit(&["--columns", columns]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.contains(told), "{}", ran.stderr);
+    }
 }

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Every crate, what it is (the `description` of its manifest), and the crates that it stands on.
 /// A crate comes after those that it stands on.
-const HOUSE: [(&str, &str, &[&str]); 16] = [
+const HOUSE: [(&str, &str, &[&str]); 17] = [
     (
         "fem-material",
         "Isotropic viscoelastic materials: elastic moduli, Prony relaxation, hyperelastic laws",
@@ -93,6 +93,11 @@ const HOUSE: [(&str, &str, &[&str]); 16] = [
             "fem-material",
             "fem-mesh",
         ],
+    ),
+    (
+        "fem-page",
+        "A page that computes collisions in the browser: the front door in WebAssembly",
+        &["fem", "fem-case", "fem-figure"],
     ),
     (
         COMMAND,

@@ -5,6 +5,7 @@ mod bad_input;
 mod bounces;
 mod calibrate;
 mod common;
+mod first_minutes;
 mod fit;
 mod full_disk;
 mod house;
@@ -15,6 +16,8 @@ mod replacing;
 mod report;
 mod restart;
 mod result_folder;
+#[cfg(unix)]
+mod slurm;
 mod stopping;
 mod streams;
 mod sweep;

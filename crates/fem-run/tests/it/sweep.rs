@@ -44,7 +44,11 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     assert_eq!(place.list("runs/sweep"), ["members", "sweep.csv", "sweep.json", "sweep.svg"]);
     let rows = rows(&place, "runs/sweep/sweep.csv");
     let weight = "material.glass.relaxation.terms.0.weight";
-    assert_eq!(rows[0][..3], ["body.0.approach_speed", weight, "restitution"]);
+    let speed = "body.0.approach_speed";
+    // A plain number that is written as such has no second column.
+    assert_eq!(rows[0][..4], [speed, weight, "body.0.approach_speed_m_s", "restitution"]);
+    let numbers: Vec<_> = rows[1..].iter().map(|row| row[2].as_str()).collect();
+    assert_eq!(numbers, ["0.3", "0.3", "0.5", "0.5", "1.0", "1.0"]);
     let values: Vec<_> = rows[1..].iter().map(|row| [row[0].as_str(), &row[1]]).collect();
     let speeds = ["0.3 m/s", "50 cm/s", "1.0"];
     let expected = speeds.map(|speed| [[speed, "0.5"], [speed, "1.0"]]);
@@ -71,7 +75,13 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     for (key, value) in alone.as_object().unwrap() {
         match key.as_str() {
             "cost" | "case" | "bodies" | "effects" | "files" | "program" | "version"
-            | "numerics" | "made_from" | "models_considered" | "uncertainty" | "elastic_null" => {}
+            | "numerics" | "made_from" | "models_considered" | "elastic_null" => {}
+            "uncertainty" => value.as_object().unwrap().iter().for_each(|(quantity, parts)| {
+                let parts = parts.as_object().unwrap().iter();
+                parts.for_each(|(part, value)| {
+                    check(format!("uncertainty_{part}_{quantity}"), value)
+                });
+            }),
             "bounces" | "rest" => assert!(value.is_null(), "{key} without gravity"),
             "warnings" => check(key.clone(), &value.as_array().unwrap().len().into()),
             "hertz" | "energy" => value
@@ -123,6 +133,59 @@ fn paired_lists_run_side_by_side() {
     assert_eq!(
         rows[1..].iter().map(|row| &row[..2]).collect::<Vec<_>>(),
         [["0.3", "16 mm"], ["0.5", "18 mm"]]
+    );
+}
+
+/// Equal spheres by speeds that are a ratio apart, and pairs from a table.
+#[test]
+fn ranges_links_and_tables_make_the_members_that_lists_make() {
+    let linked = "'body.0.sphere.diameter, body.1.sphere.diameter'";
+    let speeds = "'body.0.approach_speed'";
+    let place = place(&format!(
+        "case = 'case.toml'\n[vary]\n{linked} = ['16 mm', '18 mm']\n\
+         {speeds} = {{ from = '25 cm/s', to = '100 cm/s', n = 3, log = true }}\n"
+    ));
+    let ting = ["--set", "model.ting={}", "--quiet", "--out"];
+    place.succeed(&[&["sweep", "sweep.toml"][..], &ting, &["range"]].concat());
+    let range = rows(&place, "range/sweep.csv");
+    assert_eq!(
+        range[0][..6],
+        [
+            "body.0.sphere.diameter",
+            "body.1.sphere.diameter",
+            "body.0.approach_speed",
+            "body.0.sphere.diameter_m",
+            "body.1.sphere.diameter_m",
+            "body.0.approach_speed_m_s"
+        ]
+    );
+    assert_eq!(range[5][..6], ["18 mm", "18 mm", "50 cm/s", "0.018", "0.018", "0.5"]);
+    // The same from a table of them, which has columns of other names, too.
+    let table: Vec<String> =
+        range[1..].iter().map(|row| format!("x,{},{}\n", row[0], row[5])).collect();
+    place.write("pairs.csv", &format!("# made\nnote,d,body.0.approach_speed\n{}", table.concat()));
+    place.write(
+        "sweep.toml",
+        "case = 'case.toml'\n[vary]\n'body.0.sphere.diameter, body.1.sphere.diameter, \
+         body.0.approach_speed' = { table = 'pairs.csv', columns = ['d', 'd', 'body.0.approach_speed'] }\n",
+    );
+    place.succeed(&[&["sweep", "sweep.toml"][..], &ting, &["table"]].concat());
+    let table = rows(&place, "table/sweep.csv");
+    assert_eq!(table.len(), 7);
+    let results =
+        |rows: &[Vec<String>]| rows.iter().map(|row| row[3..].to_vec()).collect::<Vec<_>>();
+    assert_eq!(results(&table), results(&range));
+    assert_eq!(place.list("range/members"), place.list("table/members"));
+    // A range without log has equal steps.
+    place.write(
+        "sweep.toml",
+        "case = 'case.toml'\n[vary]\nbody.0.approach_speed = { from = 0.25, to = 1, n = 4 }\n",
+    );
+    place.succeed(&[&["sweep", "sweep.toml"][..], &ting, &["even"]].concat());
+    let even = rows(&place, "even/sweep.csv");
+    assert_eq!(
+        even.iter().map(|row| row[0].as_str()).collect::<Vec<_>>()[1..],
+        ["0.25", "0.5", "0.75", "1.0"]
     );
 }
 
@@ -300,7 +363,8 @@ fn the_page_on_sweeps_is_true() {
     }
     for column in &rows(&place, "out/sweep.csv")[0] {
         let is_varied = column.contains('.');
-        let bare = column.trim_start_matches("hertz_").trim_start_matches("energy_");
+        let starts = ["hertz_", "energy_", "uncertainty_discretisation_", "uncertainty_model_"];
+        let bare = starts.iter().find_map(|start| column.strip_prefix(start)).unwrap_or(column);
         assert!(is_varied || page.contains(bare), "{column} is not on the page");
     }
 }

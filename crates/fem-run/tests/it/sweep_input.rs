@@ -62,6 +62,36 @@ fn keys_that_cannot_be_varied_are_refused() {
 }
 
 #[test]
+fn ranges_and_tables_that_make_no_values_are_refused() {
+    let range = |table: &str| vary(&format!("'body.0.approach_speed' = {table}"));
+    refused(&range("{ from = 1, to = 2 }"), "3:27", &["there is no `n`", "log = true"]);
+    refused(&range("{ from = 1, to = 2, n = 1 }"), "3:51", &["n is 1", "2 to"]);
+    refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", &["unknown key", "log"]);
+    refused(&range("{ from = '1 m/s', to = 2, n = 3 }"), "3:50", &["\"m/s\" and \"\"", "one unit"]);
+    refused(&range("{ from = '1 mm', to = '2 m', n = 3 }"), "3:49", &["one unit"]);
+    refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", &["furlong"]);
+    refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", &["no end of a range"]);
+    refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", &["greater than 0"]);
+    // The range is sound, its values are no lengths.
+    let lengths = vary("'body.0.approach_speed' = { from = '1 m', to = '2 m', n = 3 }");
+    refused(&lengths, "3:27", &["\"1 m\" is a length"]);
+    refused(&range("{ table = 'none.csv' }"), "3:37", &["no such file", "a CSV file"]);
+    refused(&range("{ table = 'case.toml' }"), "3:37", &["case.toml"]);
+    let linked = "'body.0.approach_speed, body.1.approach_speed' =";
+    refused(
+        &vary(&format!("{linked} {{ table = 'a', columns = ['v'] }}")),
+        "3:75",
+        &["1 columns for 2"],
+    );
+    refused(
+        &vary("'body.0.approach_speed, body.0.approach_speed' = [1]"),
+        "3:1",
+        &["varied twice"],
+    );
+    refused(&vary("'body.0.approach_speed, ' = [1]"), "3:25", &["empty"]);
+}
+
+#[test]
 fn the_value_that_makes_no_case_is_pointed_at() {
     let speed = "'body.0.approach_speed' = ['1 m/s', 0.5, '2 m']";
     refused(&vary(speed), "3:42", &["length", "\"0.5 m/s\""]);

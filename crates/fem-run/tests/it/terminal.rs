@@ -42,11 +42,28 @@ fn a_coarse_mesh_is_warned_of() {
 }
 
 #[test]
-fn quiet_means_silent_but_for_errors() {
+fn quiet_means_silent_but_for_errors_and_warnings() {
     let place = Place::new();
     let ran = place.succeed(&["case.toml", "--quiet"]);
-    assert_eq!((ran.stdout.as_str(), ran.stderr.as_str()), ("", ""));
+    assert_eq!(ran.stdout, "");
+    assert!(ran.stderr.starts_with("warning: the mesh is too coarse"), "{}", ran.stderr);
+    assert_eq!(ran.stderr.lines().count(), 1, "{}", ran.stderr);
     assert!(place.path("runs/case/summary.json").exists());
+    // 22.2 mm, but the unit was forgotten: not refused, and told.
+    for command in
+        [&["case.toml", "--set", "model=hertz", "--out", "odd"][..], &["check", "case.toml"]]
+    {
+        let odd = ["--quiet", "--set", "body.0.sphere.diameter=22.2"];
+        let ran = place.succeed(&[command, &odd].concat());
+        assert_eq!(ran.stdout, "");
+        assert!(
+            ran.stderr.contains("warning: the diameter of striker is 22.2 m"),
+            "{}",
+            ran.stderr
+        );
+    }
+    let warnings = place.json("odd/summary.json")["warnings"].to_string();
+    assert!(warnings.contains("a bare number is in metres"), "{warnings}");
     let ran = place.run(&["missing.toml", "--quiet"]);
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
     assert!(ran.stderr.contains("missing.toml"));

@@ -113,6 +113,8 @@ impl Companions<'_> {
             self.collide(&[
                 Setting::Condensed { vibration_modes: 0, penalty_springs },
                 Setting::ElementSize(size),
+                // Nodes that touch exactly have no meshes that are staggered.
+                Setting::Staggered(penalty_springs && self.plan.finer_body.is_some()),
             ])
         };
         let same = condensed(true, size)?;

@@ -5,7 +5,8 @@ use fem_case::{Case, CaseError, CaseFile, Quantity};
 
 use super::rung::{Rung, Series};
 use super::setting::Setting;
-use crate::plan::Plan;
+use crate::fineness::Fineness;
+use crate::plan::{Plan, divided_radius};
 
 /// Elements across the contact radius, of condensed bodies.
 const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
@@ -55,10 +56,10 @@ impl Ladder {
             file.stop = first_contact(file);
         })?;
         let plan = Plan::of_case(&base)?;
-        let across = (plan.estimate.contact_radius, plan.contact_element_size * COMMON);
+        let contact_radius = plan.estimate.contact_radius;
         // Of a contact as wide as its sphere the plan counts elements across less than all of it.
-        let unit = across.0.min(across.1);
-        let mut ladder = Self { rungs: Vec::new(), contact_radius: across.0, refused: None };
+        let unit = contact_radius.min(divided_radius(&plan.estimate));
+        let mut ladder = Self { rungs: Vec::new(), contact_radius, refused: None };
         if CHOSEN.iter().any(|key| case.gives(key)) {
             let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
             ladder.add(&own, Series::AsWritten, &[], None);
@@ -66,7 +67,8 @@ impl Ladder {
         let add = |series, settings: &[Setting], value| {
             ladder.add(&base, series, settings, value);
         };
-        Self::fill(case, plan.makes_meshes, unit, add);
+        let made = plan.makes_meshes.then_some(plan.finer_body.is_some());
+        Self::fill(case, made, unit, add);
         match ladder.refused.take() {
             // What has only closed forms has no limit to tell.
             Some(refused) if !ladder.rungs.iter().any(Rung::has_elements) => Err(refused),
@@ -74,10 +76,11 @@ impl Ladder {
         }
     }
 
-    /// The ways that the scene calls for, a series after the other.
+    /// The ways that the scene calls for, a series after the other, on meshes that are staggered or not,
+    /// unless they are read from files.
     fn fill(
         case: &Case,
-        makes_meshes: bool,
+        made: Option<bool>,
         unit: f64,
         mut add: impl FnMut(Series, &[Setting], Option<f64>),
     ) {
@@ -91,13 +94,11 @@ impl Ladder {
             }
         }
         let mut over_size = |series, across: &[f64], settings: &[Setting]| {
-            if !makes_meshes {
-                return add(series, settings, None);
-            }
+            let Some(is_staggered) = made else { return add(series, settings, None) };
             for across in across {
                 let size = short(unit / across);
-                let settings = [settings, &[Setting::ElementSize(size)]].concat();
-                add(series, &settings, Some(size));
+                let settings = [settings, &own(settings, *across, is_staggered)].concat();
+                add(series, &[&settings[..], &[Setting::ElementSize(size)]].concat(), Some(size));
             }
         };
         for (series, across, vibration_modes, penalty_springs) in [
@@ -111,7 +112,7 @@ impl Ladder {
         over_size(Series::Explicit, &EXPLICIT, &[explicit]);
         let much = Setting::MassScaling(MUCH_MASS);
         over_size(Series::ExplicitScaled, &COMPARED, &[explicit, much]);
-        if makes_meshes {
+        if made.is_some() {
             over_size(Series::ExplicitGrown, &COMPARED, &[explicit, Setting::Growth(GROWN)]);
         }
         for (series, method) in [
@@ -121,11 +122,14 @@ impl Ladder {
             over_size(series, &COMPARED, &[explicit, Setting::ContactMethod(method)]);
         }
         over_size(Series::FiniteStrain, &STRAINED, &[explicit, Setting::FiniteStrain]);
-        let size = makes_meshes.then(|| Setting::ElementSize(short(unit / COMMON)));
         let mut varied = |series, values: &[f64], setting: fn(f64) -> Setting| {
             for value in values {
-                let settings = [Some(explicit), size, Some(setting(*value))];
-                let settings: Vec<Setting> = settings.into_iter().flatten().collect();
+                let mut settings = vec![explicit];
+                if let Some(is_staggered) = made {
+                    settings.extend(own(&[explicit, setting(*value)], COMMON, is_staggered));
+                    settings.push(Setting::ElementSize(short(unit / COMMON)));
+                }
+                settings.push(setting(*value));
                 add(series, &settings, Some(*value));
             }
         };
@@ -151,6 +155,23 @@ impl Ladder {
         order.sort_by_key(|&k| self.rungs[k].price);
         order
     }
+}
+
+/// What goes with a mesh with so many elements across the contact, beside these settings: mass is moved as
+/// the plan would for it, and meshes with springs between them are staggered where those of the scene are.
+fn own(settings: &[Setting], across: f64, is_staggered: bool) -> Vec<Setting> {
+    let has = |wanted: fn(&Setting) -> bool| settings.iter().any(wanted);
+    let is_explicit = has(|it| matches!(it, Setting::Explicit));
+    let at_nodes = has(|it| matches!(it, Setting::Condensed { penalty_springs: false, .. }));
+    let is_scaled = has(|it| matches!(it, Setting::MassScaling(_)));
+    let mut own = Vec::new();
+    if is_explicit && !is_scaled {
+        own.push(Setting::MassScaling(short(Fineness::mass_scaling_beside(across))));
+    }
+    if is_staggered && !at_nodes {
+        own.push(Setting::Staggered(true));
+    }
+    own
 }
 
 /// `[stop]` after the first contact, where there are more.

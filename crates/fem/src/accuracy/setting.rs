@@ -27,6 +27,8 @@ pub enum Setting {
     Explicit,
     /// `mesh.contact_element_size`, m.
     ElementSize(f64),
+    /// `mesh.staggered`.
+    Staggered(bool),
     /// `mesh.growth`.
     Growth(f64),
     /// `contact.method`.
@@ -64,6 +66,9 @@ impl Setting {
             Self::ElementSize(size) => {
                 file.mesh.get_or_insert_default().contact_element_size =
                     Some(Quantity::from_si(size));
+            }
+            Self::Staggered(is) => {
+                file.mesh.get_or_insert_default().staggered = Some(is);
             }
             Self::Growth(growth) => {
                 file.mesh.get_or_insert_default().growth = Some(Quantity::from_si(growth));
@@ -103,6 +108,7 @@ impl Setting {
             }
             Self::Explicit => "model.fem={}".to_string(),
             Self::ElementSize(size) => format!("mesh.contact_element_size={size:e}"),
+            Self::Staggered(is) => format!("mesh.staggered={is}"),
             Self::Growth(growth) => format!("mesh.growth={growth:?}"),
             Self::ContactMethod(method) => format!("contact.method=\"{}\"", method.word()),
             Self::PenaltyFactor(factor) => format!("contact.penalty_factor={factor:?}"),
@@ -140,6 +146,7 @@ mod tests {
             Setting::Condensed { vibration_modes: 12, penalty_springs: true },
             Setting::Explicit,
             Setting::ElementSize(2.8125e-5),
+            Setting::Staggered(true),
             Setting::Growth(1.25),
             Setting::ContactMethod(ContactMethod::Massless),
             Setting::ContactMethod(ContactMethod::Penalty),

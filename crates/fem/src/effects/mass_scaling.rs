@@ -1,4 +1,4 @@
-//! Mass added to the lightest nodes for a longer time step: a decision of the plan.
+//! Mass moved to the lightest nodes for a longer time step: a decision of the plan.
 
 use fem_case::Scene;
 use fem_collision::Collision;
@@ -7,12 +7,12 @@ use super::answer::Answer;
 use super::effect::Effect;
 use crate::estimate::Estimate;
 
-/// Added mass over a body's mass.
-const LARGEST_ADDED_MASS: f64 = 1e-3;
-/// Added mass over a body's mass up to which it is a rounding of the node that decides on the step.
+/// Moved mass over a body's mass: of 1 % the peak force is off by up to half of that.
+const LARGEST_ADDED_MASS: f64 = 1e-2;
+/// Moved mass over a body's mass up to which it is a rounding of the node that decides on the step.
 const ROUNDING: f64 = 1e-12;
 
-/// Mass added for a longer time step.
+/// Mass moved for a longer time step.
 #[derive(Clone, Copy, Debug)]
 pub struct MassScaling;
 
@@ -20,17 +20,17 @@ impl MassScaling {
     /// Its name in results.
     pub const NAME: &'static str = "mass scaling";
 
-    /// What a model has of it that adds these shares to the masses of bodies, by name, and whose time
+    /// What a model has of it that moves these shares of the masses of bodies, by name, and whose time
     /// step is so many times longer for it. A wall's share is no number.
     pub(crate) fn of<'a>(shares: impl Iterator<Item = (&'a str, f64)>, longer: f64) -> Answer {
         let added = shares.filter(|(_, share)| *share > ROUNDING);
         let added: Vec<String> =
             added.map(|(name, share)| format!("{share:.1e} of the mass of {name}")).collect();
         match added.is_empty() {
-            true => Answer::is(false, "no mass is added"),
+            true => Answer::is(false, "no mass is moved"),
             false => {
                 let added = added.join(" and ");
-                Answer::is(true, format!("adds {added} for a {longer:.1} times longer step"))
+                Answer::is(true, format!("moves {added} for a {longer:.1} times longer step"))
             }
         }
     }
@@ -55,8 +55,8 @@ impl Effect for MassScaling {
             let share = body.added_mass? / body.mass?;
             (share > LARGEST_ADDED_MASS).then(|| {
                 format!(
-                    "mass scaling adds {:.2} % to the mass of {}; above {} %, use a smaller \
-                     time.mass_scaling",
+                    "mass scaling moves {:.2} % of the mass of {} to its light nodes; above {} %, use a \
+                     smaller time.mass_scaling",
                     100.0 * share,
                     named.name(),
                     100.0 * LARGEST_ADDED_MASS

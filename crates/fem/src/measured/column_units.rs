@@ -40,6 +40,15 @@ pub(super) fn ending_of(header: &str) -> Option<Ending> {
     ENDINGS.into_iter().find(|ending| header.ends_with(ending.text))
 }
 
+/// The ending that stands for so many SI units of a dimension (metre, kilogram, second, byte).
+pub(super) fn ending_like(scale: f64, dimension: [i32; 4]) -> Option<Ending> {
+    let [m, kg, s, bytes] = dimension;
+    ENDINGS.into_iter().find(|ending| {
+        let is_scale = (ending.scale / scale - 1.0).abs() < 1e-9;
+        is_scale && ending.dimension == [m, kg, s] && bytes == 0
+    })
+}
+
 /// A name without the ending of its unit.
 pub(super) fn bare(header: &str) -> &str {
     ENDINGS.iter().find_map(|ending| header.strip_suffix(ending.text)).unwrap_or(header)

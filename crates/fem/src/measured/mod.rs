@@ -27,6 +27,8 @@ mod restitution_table;
 mod restitutions;
 #[cfg(feature = "csv")]
 mod table;
+#[cfg(feature = "csv")]
+mod written;
 
 #[cfg(feature = "csv")]
 pub use cradle_trials::cradle_trials;
@@ -36,5 +38,7 @@ pub use quantity::{Kind, NotMeasured, parse_measured};
 pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError};
 #[cfg(feature = "csv")]
 pub use table::Table;
+#[cfg(feature = "csv")]
+pub use written::decode;
 
 pub use fem_fit::Point;

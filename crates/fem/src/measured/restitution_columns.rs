@@ -9,7 +9,7 @@ use super::table::Table;
 
 const SPEEDS: [&str; 6] =
     ["speed", "approach_speed", "impact_speed", "relative_speed", "velocity", "v"];
-const RESTITUTIONS: [&str; 3] = ["restitution", "coefficient_of_restitution", "e"];
+const RESTITUTIONS: [&str; 4] = ["restitution", "coefficient_of_restitution", "cor", "e"];
 const UNCERTAINTIES: [&str; 5] =
     ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
 pub(super) const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
@@ -76,10 +76,12 @@ impl Columns {
         required.chain(optional.into_iter().flatten()).collect()
     }
 
-    /// A sweep has rows of members that failed.
+    /// A sweep has rows of members that failed, a measurement rows without a speed or a restitution.
     pub fn has_result(&self, table: &Table, row: usize) -> bool {
-        let Some(complete) = self.complete else { return true };
-        table.text(row, complete) != "false" && !table.text(row, self.restitution).is_empty()
+        let is_complete = |complete: usize| table.text(row, complete) != "false";
+        self.complete.is_none_or(is_complete)
+            && !table.is_missing(row, self.restitution)
+            && !self.speeds.iter().any(|speed| table.is_missing(row, *speed))
     }
 
     pub fn point(&self, table: &Table, row: usize) -> Result<Point, DataError> {
@@ -118,8 +120,14 @@ impl Columns {
 fn check_same_bodies(table: &Table, may_vary: &[usize]) -> Result<(), DataError> {
     for (column, header) in table.header().iter().enumerate() {
         let is_same = |row: usize| table.text(row, column) == table.text(0, column);
+        // A sweep has its keys twice, as written and in SI.
+        let is_twin = |other: &String| {
+            let ending = header.strip_prefix(other.as_str());
+            other.contains('.') && ending.is_some_and(|ending| ending.starts_with('_'))
+        };
         if header.contains('.')
             && !may_vary.contains(&column)
+            && !table.header().iter().any(is_twin)
             && let Some(row) = (1..table.n_rows()).find(|row| !is_same(*row))
         {
             let error = table.fault(row, format!("the sweep varies {header}, too"));
@@ -152,7 +160,7 @@ fn positive(
     column: usize,
     dimension: [i32; 3],
 ) -> Result<Option<f64>, DataError> {
-    if table.text(row, column).is_empty() {
+    if table.is_missing(row, column) {
         return Ok(None);
     }
     let value = table.number(row, column, dimension)?;

@@ -24,7 +24,7 @@ pub struct Restitutions {
     pub points: Vec<Point>,
     /// The line of the text that each point is from; none if they are from code.
     pub lines: Vec<u64>,
-    /// Rows of a sweep's members that failed.
+    /// Rows of a sweep's members that failed, and rows without a speed or a restitution.
     pub n_left_out: usize,
     /// Columns that nobody reads.
     pub unread: Vec<String>,
@@ -76,7 +76,9 @@ impl Restitutions {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         if self.n_left_out > 0 {
-            warnings.push(format!("{} rows without a result were left out", self.n_left_out));
+            let rows =
+                if self.n_left_out == 1 { "1 row" } else { &format!("{} rows", self.n_left_out) };
+            warnings.push(format!("{rows} without a speed or a restitution left out"));
         }
         if !self.unread.is_empty() {
             warnings.push(format!("columns that are not read: {}", self.unread.join(", ")));

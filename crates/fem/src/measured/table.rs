@@ -1,7 +1,8 @@
 //! CSV tables with a header: cells as numbers, faults with their line.
 //!
-//! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`; without one a
-//! cell is a bare SI number or has its unit, `5 cm/s`.
+//! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`, or have it in
+//! brackets, `speed [cm/s]`; without one a cell is a bare SI number or has its unit, `5 cm/s`. Cells are
+//! parted by commas, semicolons or tabs; with the latter two numbers may have decimal commas.
 
 use std::fmt::Display;
 
@@ -9,6 +10,7 @@ use fem_case::{nearest, parse_quantity};
 
 use super::column_units::{bare, ending_of, readings};
 use super::data_error::{DataError, one_line};
+use super::written::{column_name, is_missing, separator, with_point};
 
 /// A table in memory, its cells as they are written.
 ///
@@ -29,6 +31,9 @@ pub struct Table {
     header: Vec<String>,
     header_line: u64,
     rows: Vec<(u64, Vec<String>)>,
+    has_decimal_commas: bool,
+    /// Columns that the user has named.
+    named: Vec<usize>,
 }
 
 /// Similarity of names above which one is the other misspelt: `diameter1`, `uncertanty` are, and
@@ -42,30 +47,81 @@ impl Table {
     /// A text that is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
         let name = one_line(name);
+        let (separator, below) = separator(text);
+        let n_above = text.lines().count() - below.lines().count();
         let mut reader = csv::ReaderBuilder::new()
+            .delimiter(separator)
+            .flexible(true)
             .comment(Some(b'#'))
             .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
+            .from_reader(below.as_bytes());
         let header = reader.headers().map_err(|error| DataError::new(&name, error))?;
         let is_header = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
-        let header_line = text.lines().position(is_header).map_or(1, |above| above as u64 + 1);
-        let header: Vec<String> =
-            header.iter().map(|name| name.trim_start_matches('\u{feff}').to_lowercase()).collect();
+        let header_line = text.lines().skip(n_above).position(is_header);
+        let header_line = (n_above + header_line.unwrap_or(0) + 1) as u64;
+        let header: Vec<String> = header.iter().map(column_name).collect();
         let mut rows = Vec::new();
         for record in reader.records() {
+            let place = |position: Option<&csv::Position>| {
+                n_above as u64 + position.map_or(0, csv::Position::line)
+            };
             let record = record.map_err(|error| {
-                let line = error.position().map_or(0, csv::Position::line);
-                DataError::new(&name, error)
-                    .in_line(line)
-                    .with_help("every row has as many cells as the header")
+                let line = place(error.position());
+                DataError::new(&name, error).in_line(line)
             })?;
-            let line = record.position().map_or(0, csv::Position::line);
-            rows.push((line, record.iter().map(str::to_string).collect()));
+            let line = place(record.position());
+            let mut cells: Vec<String> = record.iter().map(str::to_string).collect();
+            // Spreadsheets end rows with empty cells.
+            while cells.len() > header.len() && cells.last().is_some_and(String::is_empty) {
+                cells.pop();
+            }
+            if cells.len() != header.len() {
+                let message = format!("{} cells below a header of {}", cells.len(), header.len());
+                return Err(DataError::new(&name, message)
+                    .in_line(line)
+                    .with_help("every row has as many cells as the header"));
+            }
+            rows.push((line, cells));
         }
         if rows.is_empty() {
             return Err(DataError::new(&name, "there is no row below the header"));
         }
-        Ok(Self { name, header, header_line, rows })
+        let has_decimal_commas = separator != b',';
+        Ok(Self { name, header, header_line, rows, has_decimal_commas, named: Vec::new() })
+    }
+
+    /// The same table with other names for columns: `speed` for what its header calls `v`. A name that
+    /// has no unit takes that of the header.
+    ///
+    /// # Errors
+    /// A column that the header does not have.
+    ///
+    /// ```
+    /// use fem::measured::Table;
+    ///
+    /// let table = Table::parse("e.csv", "v_cm_s;COR\n50;0,925\n")?;
+    /// let table = table.renamed(&[("speed", "v_cm_s"), ("restitution", "cor")])?;
+    /// assert_eq!(table.header(), ["speed_cm_s", "restitution"]);
+    /// # Ok::<(), fem::measured::DataError>(())
+    /// ```
+    pub fn renamed(mut self, names: &[(&str, &str)]) -> Result<Self, DataError> {
+        let found = self.header.clone();
+        for (name, old) in names {
+            let wanted = column_name(old);
+            let column = found.iter().position(|header| *header == wanted).or_else(|| {
+                let mut alike = (0..found.len()).filter(|k| bare(&found[*k]) == wanted);
+                alike.next().filter(|_| alike.next().is_none())
+            });
+            let Some(column) = column else {
+                let message = format!("there is no column {old}; found are {}", found.join(", "));
+                return Err(self.header_fault(message));
+            };
+            let name = column_name(name);
+            let unit = ending_of(&found[column]).filter(|_| ending_of(&name).is_none());
+            self.header[column] = name + unit.map_or("", |unit| unit.text);
+            self.named.push(column);
+        }
+        Ok(self)
     }
 
     /// What the table is called, in one line.
@@ -91,6 +147,9 @@ impl Table {
         let is_it = |column: &usize| {
             readings(&self.header[*column]).any(|reading| names.contains(&reading))
         };
+        if let Some(named) = self.named.iter().copied().find(is_it) {
+            return Ok(Some(named));
+        }
         let mut found = (0..self.header.len()).filter(is_it);
         match (found.next(), found.next()) {
             (Some(first), Some(second)) => {
@@ -153,6 +212,11 @@ impl Table {
         self.rows[row].1.get(column).map_or("", String::as_str)
     }
 
+    /// Whether a cell says that there is no value: empty, `nan`, `n/a`, `-`, ….
+    pub fn is_missing(&self, row: usize, column: usize) -> bool {
+        is_missing(self.text(row, column))
+    }
+
     /// The line of a row.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0
@@ -167,8 +231,9 @@ impl Table {
         let fault = |found: String| {
             self.fault(row, format!("{header} is \"{text}\", {found}")).in_column(header)
         };
+        let cell = if self.has_decimal_commas { with_point(text) } else { text.into() };
         let (value, found) =
-            parse_quantity(text).map_err(|_| fault("which is not a number".to_string()))?;
+            parse_quantity(&cell).map_err(|_| fault("which is not a number".to_string()))?;
         let [m, kg, s] = dimension;
         let is_bare = found.0 == [0; 4];
         match ending_of(header) {

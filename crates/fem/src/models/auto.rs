@@ -350,9 +350,10 @@ impl Sum {
     }
 }
 
-/// Whether the case asks for snapshots.
+/// Whether the case asks for snapshots or probes.
 fn asks_for_fields(scene: &Scene) -> bool {
     match scene.snapshots() {
+        _ if !scene.probes().is_empty() => true,
         None => false,
         Some(Snapshots::Labels(labels)) => !labels.is_empty(),
         Some(Snapshots::Count(_)) => true,

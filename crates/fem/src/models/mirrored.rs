@@ -69,7 +69,10 @@ impl<M: Model> Model for Mirrored<M> {
 
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
         match half_of(approach) {
-            Ok(half) => Whole::of(approach).collision(self.half.collide(&half, want, monitor)),
+            Ok(half) => {
+                let want = &in_half(want);
+                Whole::of(approach).collision(self.half.collide(&half, want, monitor))
+            }
             Err(stop) => Collision::stopped(*approach, stop),
         }
     }
@@ -78,7 +81,8 @@ impl<M: Model> Model for Mirrored<M> {
         let whole = Whole::of(approach);
         match half_of(approach) {
             Ok(half) => {
-                Some(Box::new(MirroredCourse { half: self.half.start(&half, want)?, whole }))
+                let half = self.half.start(&half, &in_half(want))?;
+                Some(Box::new(MirroredCourse { half, whole }))
             }
             Err(stop) => Some(stopped(*approach, stop)),
         }
@@ -99,6 +103,15 @@ impl<M: Model> Model for Mirrored<M> {
     fn meshes(&self) -> [Option<&SphereMesh>; 2] {
         [self.half.meshes()[0], self.image.as_ref()]
     }
+}
+
+/// What the half is asked for: a place in the upper body is the mirrored one in the lower.
+fn in_half(want: &Want) -> Want {
+    let mut want = want.clone();
+    for probe in want.probes.iter_mut().filter(|probe| probe.side == 1) {
+        (probe.side, probe.place[1]) = (0, -probe.place[1]);
+    }
+    want
 }
 
 /// How the lower body meets the plane between both.
@@ -148,9 +161,7 @@ impl Whole {
     fn collision(&self, half: Collision) -> Collision {
         let body = half.bodies[0];
         // Of both bodies in the frame in which the half was computed, 2 m V²/2.
-        let of_centre = (body.mass.unwrap_or(0.0) + body.added_mass.unwrap_or(0.0))
-            * self.velocity
-            * self.velocity;
+        let of_centre = body.mass.unwrap_or(0.0) * self.velocity * self.velocity;
         let after = |side: usize| BodyResult {
             velocity_after: body.velocity_after.map(|v| self.velocities(v)[side]),
             ..body
@@ -165,6 +176,7 @@ impl Whole {
             bodies: [after(0), after(1)],
             history: half.history.iter().map(|row| self.row(row, of_centre)).collect(),
             snapshots: half.snapshots.into_iter().map(|s| self.snapshot(s)).collect(),
+            probes: half.probes.into_iter().map(|s| self.snapshot(s)).collect(),
             ..half
         }
     }

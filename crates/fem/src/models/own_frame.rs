@@ -68,7 +68,7 @@ impl OwnFrame {
         if self.met == self.own {
             return own;
         }
-        let masses = own.bodies.map(|body| Some(body.mass? + body.added_mass.unwrap_or(0.0)));
+        let masses = own.bodies.map(|body| body.mass);
         let later = |time: f64| self.delay() + time;
         let scale = |approach: &Approach| momentum_scale(approach, masses);
         let initial =
@@ -99,6 +99,7 @@ impl OwnFrame {
             }),
             history: own.history.into_iter().map(|row| self.row(row, masses)).collect(),
             snapshots: own.snapshots.into_iter().map(|snapshot| self.snapshot(snapshot)).collect(),
+            probes: own.probes.into_iter().map(|snapshot| self.snapshot(snapshot)).collect(),
             ..own
         }
     }

@@ -21,10 +21,10 @@ use crate::plan::Plan;
 const TIME_OVER_LOSS: [f64; 2] = [0.5, 0.1];
 /// The same of the peak force. Measured: 0.6 to 0.9, and 0.1 to 0.6.
 const FORCE_OVER_LOSS: [f64; 2] = [0.8, 0.4];
-/// What defaults keep well below: an error that is foretold above this is worth a word.
-const LARGEST_ERROR: f64 = 0.01;
+/// What defaults keep below: an error that is foretold above this is worth a word.
+const LARGEST_ERROR: f64 = 0.015;
 /// Fewer elements across the contact radius cost more than about 1 % of the force.
-const FEWEST_ELEMENTS: f64 = 4.0;
+const FEWEST_ELEMENTS: f64 = 3.5;
 /// A length is advised that brings the error to this share of the largest.
 const SHARE_OF_ADVICE: f64 = 0.5;
 

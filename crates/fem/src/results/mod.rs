@@ -8,6 +8,8 @@ mod energy;
 #[cfg(feature = "files")]
 mod history;
 #[cfg(feature = "files")]
+mod probes;
+#[cfg(feature = "files")]
 mod shown;
 #[cfg(feature = "files")]
 mod snapshots;
@@ -20,6 +22,8 @@ pub use elastic_null::ElasticNull;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]
 pub use history::{HISTORY_FILE, history_csv};
+#[cfg(feature = "files")]
+pub use probes::{PROBES_FILE, probes_csv};
 #[cfg(feature = "files")]
 pub use snapshots::write_snapshots;
 pub use summarise::Spent;

@@ -203,9 +203,9 @@ pub struct BodySummary {
     pub elements: Option<usize>,
     /// Nodes of its mesh.
     pub nodes: Option<usize>,
-    /// Mass without what scaling adds.
+    /// Mass.
     pub mass_kg: Option<f64>,
-    /// Mass added by scaling.
+    /// Mass added to light nodes by scaling, from others of the body.
     pub added_mass_kg: Option<f64>,
     /// Velocity along +y before.
     pub velocity_before_m_s: Option<f64>,

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use fem_collision::{Account, Shown};
+use fem_collision::{Account, Headline, Shown};
 use serde_json::Value;
 
 use crate::results::energy_key;
@@ -37,15 +37,22 @@ const LAST: [&str; 9] = [
     "warnings",
 ];
 
-/// Names and order of all columns that a table can have; `hertz_` and `energy_` are the summary's
-/// objects of that name. What the run took (`cost`) differs from run to run and stays in the member's
+/// Before a key of the summary's `uncertainty`, and its part.
+const UNCERTAINTIES: [(&str, &str); 2] =
+    [("uncertainty_discretisation_", "discretisation"), ("uncertainty_model_", "model")];
+
+/// Names and order of all columns that a table can have; `hertz_`, `energy_` and `uncertainty_` are the
+/// summary's objects of that name, the last with its part before the quantity. What the run took (`cost`) differs from run to run and stays in the member's
 /// summary.
 pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let own = |names: &'static [&str]| names.iter().map(ToString::to_string);
     let accounts = Account::all().map(|account| column_of(&energy_key(account)));
     let energies = [column_of("initial_j")].into_iter().chain(accounts);
     let energies = energies.chain([column_of("residual_j")]);
-    own(&FIRST).chain(energies).chain(own(&LAST)).collect()
+    let parts =
+        |quantity: Headline| UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()));
+    let uncertainties = Headline::ALL.into_iter().flat_map(parts);
+    own(&FIRST).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
 /// The columns of a table of these summaries, as JSON: all but those of energies that none of them
@@ -92,14 +99,37 @@ fn column_of(energy_key: &str) -> String {
     format!("energy_{energy_key}")
 }
 
-/// Endings of column names and their units.
-const ENDINGS: [(&str, &str); 6] =
-    [("_m_s", "m/s"), ("_pa", "Pa"), ("_n", "N"), ("_s", "s"), ("_m", "m"), ("_j", "J")];
+/// Endings of column names and their units; of two that end the same name the longer one is first.
+const ENDINGS: [(&str, &str); 14] = [
+    ("_m_s2", "m/s^2"),
+    ("_m_s", "m/s"),
+    ("_kg_m3", "kg/m^3"),
+    ("_n_s_m", "N s/m"),
+    ("_pa_s", "Pa s"),
+    ("_per_s", "1/s"),
+    ("_n_m", "N/m"),
+    ("_pa", "Pa"),
+    ("_n", "N"),
+    ("_s", "s"),
+    ("_m", "m"),
+    ("_j", "J"),
+    ("_bytes", "bytes"),
+    ("_number", ""),
+];
+
+/// The column of a varied key in SI: `body.0.approach_speed_m_s`.
+pub fn key_column(key: &str, unit: &str) -> String {
+    let ending = ENDINGS.into_iter().find(|(_, known)| *known == unit);
+    format!("{key}{}", ending.map_or("_si", |(ending, _)| ending))
+}
 
 /// The value of a column in a summary; `null` if it has none.
 pub(super) fn value_of(summary: &Value, column: &str) -> Value {
     let table =
         |name: &str| column.strip_prefix(name).map(|key| &summary[name.trim_end_matches('_')][key]);
+    let uncertainty = UNCERTAINTIES.into_iter().find_map(|(start, part)| {
+        column.strip_prefix(start).map(|quantity| &summary["uncertainty"][quantity][part])
+    });
     match column {
         "elements" => {
             let bodies = summary["bodies"].as_array().into_iter().flatten();
@@ -107,7 +137,9 @@ pub(super) fn value_of(summary: &Value, column: &str) -> Value {
             if counts.is_empty() { Value::Null } else { counts.into_iter().sum::<u64>().into() }
         }
         "warnings" => summary["warnings"].as_array().map_or(0, Vec::len).into(),
-        _ => table("hertz_").or(table("energy_")).unwrap_or(&summary[column]).clone(),
+        _ => {
+            uncertainty.or(table("hertz_")).or(table("energy_")).unwrap_or(&summary[column]).clone()
+        }
     }
 }
 

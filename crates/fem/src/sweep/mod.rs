@@ -13,8 +13,10 @@
 
 mod check;
 mod columns;
+mod expense;
 mod identity;
 mod in_code;
+mod key_numbers;
 mod members;
 mod observer;
 mod order;
@@ -24,10 +26,11 @@ mod runner;
 mod table;
 mod variations;
 
-pub use check::{Checked, check};
-pub use columns::{COLUMNS, Columns, column_unit, column_words, columns};
+pub use check::{Checked, check, check_some};
+pub use columns::{COLUMNS, Columns, column_unit, column_words, columns, key_column};
 pub use identity::Member;
 pub use in_code::sweep;
+pub use key_numbers::{KeyNumbers, NumberColumn};
 pub use members::Members;
 pub use observer::{Observer, Ran};
 pub use order::dearest_first;

@@ -13,6 +13,8 @@ pub struct Row {
     pub index: usize,
     /// Of each varied key, as written.
     pub values: Vec<String>,
+    /// Of those that are quantities, in SI; see [`KeyNumbers::columns`](super::KeyNumbers::columns).
+    pub numbers: Vec<Option<f64>>,
     /// What the member is known by.
     pub identity: String,
     /// Its summary.
@@ -27,7 +29,14 @@ impl Row {
         summary: Value,
     ) -> Self {
         let values = values.into_iter().map(|value| value.to_string()).collect();
-        Self { index: member.index, values, identity: member.identity(), summary }
+        let (index, identity) = (member.index, member.identity());
+        Self { index, values, numbers: Vec::new(), identity, summary }
+    }
+
+    /// This row with its values in SI.
+    #[must_use]
+    pub fn with_numbers(self, numbers: Vec<Option<f64>>) -> Self {
+        Self { numbers, ..self }
     }
 
     /// A row of a summary as it comes out of a run.

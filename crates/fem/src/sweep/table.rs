@@ -1,4 +1,4 @@
-//! `sweep.csv`: the swept keys as written, the summary's columns, and the member's identity.
+//! `sweep.csv`: the swept keys as written, the same in SI, the summary's columns, and the member's identity.
 
 use std::io::Write;
 
@@ -9,7 +9,8 @@ use super::row::Row;
 /// The name of the file.
 pub const SWEEP_FILE: &str = "sweep.csv";
 
-/// Writes a table of these columns, a row a member; numbers are the shortest that read back as the same,
+/// Writes a table of these columns, a row a member, after those of the swept `keys`, as written and in SI;
+/// numbers are the shortest that read back as the same,
 /// a cell without a value is empty. A row is let go when it is written.
 ///
 /// # Errors
@@ -24,7 +25,8 @@ pub fn sweep_csv<'k>(
     file.write_record(keys.into_iter().chain(columns.iter().copied()).chain(["member"]))?;
     for row in rows {
         let cells = columns.iter().map(|column| cell(&row.value(column)));
-        let values = row.values.iter().cloned();
+        let numbers = row.numbers.iter().map(|number| cell(&Value::from(*number)));
+        let values = row.values.iter().cloned().chain(numbers);
         file.write_record(values.chain(cells).chain([row.identity.clone()]))?;
     }
     Ok(file.flush()?)

@@ -109,7 +109,7 @@ fn a_ball_that_relaxes_comes_to_rest_on_what_is_left() {
     let modulus = 0.5 * 20e6 / (1.0 - 0.4 * 0.4);
     let radius = (0.75 * weight * 0.01 / modulus).cbrt();
     for model in ["model.ting={}", "model.condensed={}"] {
-        let ball = run(&[model, "stop.bounces=100"]);
+        let ball = run(&[model, "stop.bounces=100", "accuracy.tolerance='0.3 %'"]);
         assert_eq!(ball.ending, Ending::AtRest, "{model}");
         assert!(ball.is_complete() && ball.bounces.len() > 20, "{model}: {}", ball.bounces.len());
         let rest = ball.rest.unwrap();
@@ -349,13 +349,15 @@ fn an_interrupted_ball_keeps_its_bounces() {
     assert!(last.time > whole.bounces[1].time, "{}", last.time);
 }
 
-/// Meshes are chosen anew where the contacts have become small: eight elements, never fewer than six.
+/// Meshes are chosen anew where the contacts have become small: never fewer elements than three quarters of
+/// what the tolerance asks for.
 #[test]
 fn late_contacts_have_elements_of_their_own() {
-    let ball = run(&["model.condensed={}", "stop.bounces=100"]);
+    let fine = "accuracy.tolerance='0.3 %'";
+    let ball = run(&["model.condensed={}", "stop.bounces=100", fine]);
     let plan = |speed: f64| {
         let speed = format!("body.1.approach_speed={speed:?}");
-        let own = simulation(&["model.condensed={}", &speed, "start.gap=0"]);
+        let own = simulation(&["model.condensed={}", &speed, "start.gap=0", fine]);
         own.setup().elements.as_ref().unwrap().plan.contact_element_size
     };
     let (first, last) = (plan(0.99), plan(ball.bounces.last().unwrap().speed_before));

@@ -32,6 +32,7 @@ mod paper;
 mod partner_waves;
 mod plan;
 mod plastic_yield;
+mod probes;
 mod ranges;
 mod refusals_in_code;
 mod remedies;

@@ -70,7 +70,7 @@ fn faults_have_name_line_and_column() {
     };
     for (text, place, column, message) in [
         ("", "bad.csv", None, "there is no row below the header"),
-        ("speed_m_s,e\n1,0.9,3\n", "bad.csv:2", None, "CSV error"),
+        ("speed_m_s,e\n1,0.9,3\n", "bad.csv:2", None, "3 cells below a header of 2"),
         ("speed_m_s,e\n1,0.9\n2,much\n", "bad.csv:3", Some("e"), "which is not a number"),
         ("speed_m_s,e\n1,92\n", "bad.csv:2", Some("e"), "the restitution is 92.0"),
         ("speed_s,e\n1,0.9\n", "bad.csv:2", Some("speed_s"), "a column whose name ends in _s"),
@@ -88,4 +88,42 @@ fn faults_have_name_line_and_column() {
     let wall = case(BodyTable::wall("floor"));
     let error = fault(&wall, "diameter_1_mm,speed_m_s,e\n10,1,0.9\n").unwrap_err();
     assert_eq!(error.message, "diameter_1_mm is of the first body, and \"floor\" is a wall");
+}
+
+/// What spreadsheets and instruments write: one set of data in eight spellings.
+#[test]
+fn data_are_read_as_people_have_them() {
+    let names: [(&str, &str); 3] = [("speed", "v"), ("restitution", "COR"), ("uncertainty", "u")];
+    for (text, names) in [
+        ("v;COR;u\n0,5;0,95;0,01\n0,75;0,92;0,02\n", &names[..]),
+        ("v\tCOR\tu\n0.5\t0.95\t0.01\n0.75\t0.92\t0.02\n", &names),
+        ("sep=;\r\nv;COR;u\r\n0,5;0,95;0,01;;\r\n0,75;0,92;0,02\r\n", &names),
+        ("v [cm/s];COR [%];u\n50;95;0,01\n75;92;0,02\n", &names),
+        ("speed;COR;v;u\n9;0,95;0,5;0,01\n9;0,92;0,75;0,02\n", &names),
+        ("Impact speed (m/s),Coefficient of restitution,sigma\n.5,.95,.01\n.75,.92,.02\n", &[]),
+        ("v,e,u\n0.5,0.95,0.01\nnan,0.9,0.1\n0.6,,0.1\n0.75,0.92,0.02\n,,\n", &names[2..]),
+        ("v,e,u\n0.5,0.95,0.01\n1,n/a,\n1,-,\n1,NaN,\n0.75,0.92,0.02\n", &names[2..]),
+    ] {
+        let table = Table::parse("e.csv", text).unwrap().renamed(names).unwrap();
+        let read = Restitutions::read(&table, spheres().scene()).unwrap();
+        assert_eq!(read.points.len(), 2, "{text}");
+        for (point, [speed, restitution, uncertainty]) in
+            read.points.iter().zip([[0.5, 0.95, 0.01], [0.75, 0.92, 0.02]])
+        {
+            let found = [point.speed, point.restitution, point.restitution_uncertainty.unwrap()];
+            let is_near = |(a, b): (f64, f64)| (a - b).abs() < 1e-15;
+            let expected = [speed, restitution, uncertainty];
+            assert!(found.into_iter().zip(expected).all(is_near), "{text}: {point:?}");
+        }
+        let n_missing = if text.contains("nan") || text.contains("NaN") { 3 } else { 0 };
+        assert_eq!(read.n_left_out, n_missing, "{text}");
+        assert_eq!(read.warnings().iter().any(|text| text.starts_with("3 rows")), n_missing > 0);
+    }
+    // Lines are those of the file.
+    let table = Table::parse("e.csv", "sep=;\n# x\nv;e\n0,5;0,9\n1;viel\n").unwrap();
+    let error = Restitutions::read(&table, spheres().scene()).unwrap_err();
+    assert_eq!(error.place(), "e.csv:5");
+    let table = Table::parse("e.csv", "v,e\n1,0.9\n").unwrap();
+    let error = table.renamed(&[("restitution", "COR")]).unwrap_err();
+    assert_eq!(error.to_string(), "e.csv:1: there is no column COR; found are v, e");
 }

@@ -26,6 +26,7 @@ fn simulations() -> Vec<(&'static str, Simulation)> {
         ("shear", simulation(GLASS, &[COARSE, shear, "output.snapshots=5"])),
         ("viscosity", simulation(GLASS, &[COARSE, "effects.bulk_viscosity='on'"])),
         ("finite strain", simulation(GLASS, &[COARSE, shear, "effects.finite_strain='on'"])),
+        ("probe", simulation(GLASS, &[COARSE, "output.probe=[{body='striker', r=0, y=0}]"])),
         ("ball", simulation(BALL, &ball)),
     ]
 }

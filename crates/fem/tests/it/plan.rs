@@ -8,6 +8,9 @@ use fem_case::{Case, CaseError};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 
+/// Eight elements across the contact.
+const FINE: &str = "accuracy.tolerance='0.1 %'";
+
 fn case(overrides: &[&str]) -> Case {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     Case::parse("glass.toml", GLASS, Path::new("."), &overrides).expect("a valid case")
@@ -22,8 +25,11 @@ fn defaults_follow_from_hertz() {
     let plan = Plan::of_case(&case(&[])).unwrap();
     // Printed digits of the closed form for this pair at 0.5 m/s.
     assert!((plan.estimate.hertz.contact_time() * 1e6 - 63.235).abs() < 5e-4);
-    assert!((plan.contact_element_size * 8.0 * 1e3 - 0.22307).abs() < 5e-6);
-    assert_eq!(plan.mass_scaling, 2e-4);
+    // Four elements across the contact of 1 %, the larger sphere's a 3.75th and the smaller's a 4.25th.
+    assert!((plan.contact_element_size * 4.0 * 1e3 - 0.22307).abs() < 5e-6);
+    let [larger, smaller] = plan.element_sizes().map(|size| 0.22307e-3 / size);
+    assert!((larger - 3.75).abs() < 1e-3 && (smaller - 4.25).abs() < 1e-3, "{larger} {smaller}");
+    assert_eq!(plan.mass_scaling, 5e-3);
     assert_eq!(plan.step_factor, 0.9);
     assert!((plan.contact_stiffness / 33.494e9 - 20.0).abs() < 1e-3);
 }
@@ -74,17 +80,17 @@ fn what_is_too_dear_is_refused_with_the_estimate() {
         assert!(error.message().contains("elements"), "{error}");
         assert!(error.help().unwrap().contains("contact_element_size"), "{error}");
     }
-    let error = refusal(&["limits.elements=1000"]);
+    let error = refusal(&["limits.elements=1000", FINE]);
     assert_eq!(error.source_name(), "--set limits.elements=…");
-    assert!(error.message().contains("2620 elements"), "{error}");
+    assert!(error.message().contains("2878 elements"), "{error}");
     assert!(error.help().unwrap().contains("limits.elements"), "{error}");
-    let error = refusal(&["limits.memory='1 MB'"]);
+    let error = refusal(&["limits.memory='1 MB'", FINE]);
     assert_eq!(error.source_name(), "--set limits.memory=…");
-    assert!(error.message().contains("4.2 MB of memory"), "{error}");
+    assert!(error.message().contains("5.0 MB of memory"), "{error}");
     let error = refusal(&["output.snapshots=100000"]);
     assert_eq!(error.source_name(), "--set output.snapshots=…");
     assert!(error.help().unwrap().contains("fewer output.snapshots"), "{error}");
-    let error = refusal(&["limits.element_updates=1e6"]);
+    let error = refusal(&["limits.element_updates=1e6", FINE]);
     assert!(error.message().contains("steps"), "{error}");
     assert!(error.help().unwrap().contains("mass_scaling"), "{error}");
 }

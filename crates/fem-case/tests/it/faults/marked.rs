@@ -72,6 +72,8 @@ pub fn error_at_mark(marked: &str) -> CaseError {
     let column = before.rsplit('\n').next().unwrap().chars().count() + 1;
     assert_eq!((error.line(), error.column()), (Some(line), Some(column)), "{error}");
     assert_eq!(&text[error.span().unwrap()], culprit, "{error}");
+    // One fault is one.
+    assert_eq!(error.others(), []);
     assert_eq!(error.source_name(), "pair.toml");
     assert_eq!(error.source_text(), Some(text.as_str()));
     error

@@ -1,6 +1,6 @@
 //! Numbers: units, range, and what is no number.
 
-use super::marked::fault;
+use super::marked::{VALID, fault, parse};
 
 #[test]
 fn wrong_units() {
@@ -86,4 +86,30 @@ fn out_of_range() {
         fault(part, bad, message, "");
     }
     fault("\"22.2 mm\"", "«0»", "", "diameter must be greater than 0");
+}
+
+#[test]
+fn what_is_seldom_meant_is_told_and_not_refused() {
+    let odd = |part: &str, replacement: &str| {
+        assert!(VALID.contains(part), "{part}");
+        parse(&VALID.replacen(part, replacement, 1)).unwrap().scene().oddities()
+    };
+    assert!(parse(VALID).unwrap().scene().oddities().is_empty());
+    for (part, replacement, told) in [
+        ("\"22.2 mm\"", "5", "diameter of striker is 5 m"),
+        ("\"15.9 mm\"", "\"3 m\"", "beside"),
+        ("\"22.2 mm\"", "\"101 m\"", "diameter of striker is 101 m"),
+        ("\"2390 kg/m^3\"", "2.39", "density of striker is 2.39"),
+        ("\"2390 kg/m^3\"", "\"26 g/cm^3\"", "density of"),
+        ("\"63 GPa\"", "63", "Young's modulus of striker is"),
+    ] {
+        let found = odd(part, replacement);
+        assert!(found.iter().any(|text| text.contains(told)), "{replacement}: {found:?}");
+    }
+    // Rare, and meant.
+    for (part, replacement) in
+        [("\"22.2 mm\"", "1.5"), ("\"2390 kg/m^3\"", "11"), ("\"63 GPa\"", "\"1 kPa\"")]
+    {
+        assert_eq!(odd(part, replacement), [""; 0], "{replacement}");
+    }
 }

@@ -1,5 +1,7 @@
 //! Materials, bodies and what is asked of their collision.
 
+use fem_case::Probe;
+
 use super::marked::{VALID, error_at_mark, fault, parse};
 
 #[test]
@@ -195,4 +197,24 @@ fn models() {
     fault("fem = {}", "auto = «3»", "auto is an integer", "");
     fault("fem = {}", "fem = {}\nting = «{}»", "the keys fem and ting", "exactly one");
     fault("[model]\nfem = {}", "«[model]»", "names no model", "fem = {}");
+}
+
+#[test]
+fn probes() {
+    let with = |probe: &str| format!("{VALID}[[output.probe]]\n{probe}");
+    let is = |probe: &str, message: &str, help: &str| {
+        let error = error_at_mark(&with(probe));
+        assert!(error.message().contains(message), "{error}");
+        assert!(error.help().is_some_and(|found| found.contains(help)), "{error:?}");
+    };
+    let at = |r: &str, y: &str| format!("body = \"target\"\nr = {r}\ny = {y}\n");
+    let case = parse(&with(&at("\"1 mm\"", "2e-3"))).unwrap();
+    let probe = Probe { body: 1, r: 1e-3, y: 2e-3 };
+    assert_eq!(case.scene().probes(), [probe]);
+    is(&at("«-1e-3»", "2e-3"), "r is -0.001 m", "0 or greater");
+    is(&at("«\"1 s\"»", "2e-3"), "r", "");
+    is(&at("0", "«-1e-3»"), "outside of \"target\"", "upper body, y >= 0");
+    is("body = \"striker\"\nr = 0\ny = «1e-3»\n", "outside of \"striker\"", "lower body, y <= 0");
+    is(&at("«\"5 mm\"»", "\"1 mm\""), "outside of \"target\"", "a radius of");
+    is("body = «\"taget\"»\nr = 0\ny = 0\n", "no body \"taget\"", "did you mean `target`");
 }

@@ -1,6 +1,11 @@
 //! What is no TOML, or no key or type of a case.
 
-use super::marked::fault;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use fem_case::Case;
+
+use super::marked::{VALID, fault, parse};
 
 #[test]
 fn not_toml() {
@@ -97,4 +102,38 @@ fn wrong_types() {
 fn wrong_words() {
     fault("\"all\"", "«\"sheer\"»", "acts_on is \"sheer\"", "did you mean `shear`?");
     fault("\"off\"", "«\"no\"»", "bulk_viscosity is \"no\"", "\"auto\", \"on\", \"off\"");
+}
+
+/// Eight faults of five kinds, each told once, in one reading.
+#[test]
+fn all_faults_of_a_file_are_told_at_once() {
+    let text = VALID
+        .replace("2390 kg/m^3", "2390 kg")
+        .replace("poissons_ratio = 0.244", "poissons_ratio = 0.7")
+        .replace("acts_on = \"all\"", "acts_on = \"bulk\"")
+        .replace("name = \"target\"\n", "naem = \"target\"\n")
+        .replace("15.9 mm", "15.9 furlong")
+        .replace("refined_radius", "refined_raduis")
+        .replace("penalty_factor = 1.0", "penalty_factor = -1.0")
+        .replace("bulk_viscosity = \"off\"", "bulk_viscosity = true");
+    let error = parse(&text).unwrap_err();
+    let all: Vec<_> = std::iter::once(&error).chain(error.others()).collect();
+    let lines: BTreeSet<_> = all.iter().map(|fault| fault.line().unwrap()).collect();
+    let changed = VALID.lines().zip(text.lines()).enumerate();
+    let expected: BTreeSet<_> =
+        changed.filter(|(_, (old, new))| old != new).map(|(k, _)| k + 1).collect();
+    assert_eq!(lines, expected, "{error}");
+    assert_eq!(all.len(), 8, "{error}");
+    // Each has its block, and each is what the reader says of it alone.
+    for fault in &all {
+        let own = fault.to_string();
+        assert!(error.to_string().contains(own.lines().next().unwrap()), "{own}");
+    }
+    // Overrides are read as well.
+    let overrides = ["mesh.growth=0.5", "body.0.approach_speed=1 kg"].map(String::from);
+    let error = Case::parse("pair.toml", VALID, Path::new("."), &overrides).unwrap_err();
+    let names: BTreeSet<_> =
+        std::iter::once(&error).chain(error.others()).map(|fault| fault.source_name()).collect();
+    let expected = ["--set body.0.approach_speed=…", "--set mesh.growth=…"];
+    assert_eq!(names, BTreeSet::from(expected));
 }

@@ -147,6 +147,11 @@ impl Random {
         SnapshotsValue::List((0..self.below(4)).map(|_| self.quantity(&[1e-6, 2e-6])).collect())
     }
 
+    fn probe(&mut self) -> ProbeTable {
+        let body = self.name(&["a", "b"]);
+        ProbeTable { body, r: self.quantity(&[1e-5]), y: self.quantity(&[1e-4, -1e-4]) }
+    }
+
     fn file(&mut self) -> CaseFile {
         let names = match self.below(20) {
             0 => &["a", "b", "c"][..self.below(4)],
@@ -167,6 +172,7 @@ impl Random {
                 refined_radius: random.maybe(|random| random.quantity(&[3e-4])),
                 growth: random.maybe(|random| random.quantity(&[1.1])),
                 far_radius: random.maybe(|random| random.quantity(&[0.1])),
+                staggered: random.maybe(|_| true),
             }),
             contact: self.maybe(|random| ContactTable {
                 method: random.maybe(|random| {
@@ -186,6 +192,7 @@ impl Random {
             output: self.maybe(|random| OutputTable {
                 snapshots: random.maybe(Self::snapshots),
                 report: random.maybe(|random| random.below(2) == 0),
+                probe: (0..random.below(3).saturating_sub(1)).map(|_| random.probe()).collect(),
             }),
             model: self.maybe(Self::model),
             accuracy: self.maybe(|random| AccuracyTable {

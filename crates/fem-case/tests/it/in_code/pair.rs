@@ -84,10 +84,15 @@ pub fn made() -> CaseFile {
             refined_radius: Some("0.3 mm".into()),
             growth: Some(1.1.into()),
             far_radius: None,
+            staggered: None,
         }),
         contact: Some(ContactTable { penalty_factor: Some(1.0.into()), ..Default::default() }),
         time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),
-        output: Some(OutputTable { snapshots: Some(SnapshotsValue::List(labels)), report: None }),
+        output: Some(OutputTable {
+            snapshots: Some(SnapshotsValue::List(labels)),
+            report: None,
+            probe: Vec::new(),
+        }),
         effects: Some(EffectsTable { bulk_viscosity: Some(Switch::Off), ..Default::default() }),
         limits: Some(LimitsTable {
             elements: Some(200_000.into()),

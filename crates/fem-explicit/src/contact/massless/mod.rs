@@ -15,17 +15,20 @@
 //! In a step the nodes without mass keep their velocity first; of the forces R that they lack then, and
 //! of the gaps, follows what they have to move more, x: its balance is linear but for the springs that
 //! close ([`Rounds`]). The matrix is that of the elements at the end of a step, in which history has a
-//! share ([`Stress::stiffness_of_step`](crate::Stress::stiffness_of_step)). Masses are moved inward
+//! share ([`Stress::stiffness_of_step`](crate::Stress::stiffness_of_step)); springs of surfaces that slip turn,
+//! and it is solved in passes ([`Turning`]). Masses are moved inward
 //! ([`BoundaryMass`](crate::boundary_mass::BoundaryMass)).
 
 mod boundary;
 mod rounds;
 mod skyline;
+mod springs;
+mod turning;
 
 use std::any::Any;
 
 use fem_collision::{BodyInput, Searched};
-use fem_contact::{ContactForces, ContactInterface, Profile};
+use fem_contact::{ContactForces, ContactInterface, Profile, SlippingInterface};
 
 use super::Contact;
 use crate::error::ModelError;
@@ -34,6 +37,8 @@ use crate::stress::Collapse;
 use boundary::Boundary;
 use rounds::{Problem, Rounds, Spring};
 use skyline::Skyline;
+use springs::Springs;
+use turning::Turning;
 
 /// A contact is taken for the last where it would lose more than this share of its force in a step if
 /// nodes without mass kept their velocity.
@@ -42,10 +47,12 @@ const LAST_LOSS: f64 = 0.25;
 /// A massless boundary of each body that deforms.
 #[derive(Debug)]
 pub struct Massless {
-    interface: ContactInterface,
+    springs: Springs,
     sides: [Option<Boundary>; 2],
     /// Side and place of the node of each pair of unknowns (r, y), from the axis outward.
     unknowns: Vec<(usize, usize)>,
+    /// Of each spring the unknowns of the ends of the segments of both sides, radial and along y.
+    ends: Vec<[[[Option<usize>; 2]; 2]; 2]>,
     /// Once the time step is known, unless elements have no stiffness.
     problem: Option<Problem>,
     inverse_step: f64,
@@ -57,9 +64,23 @@ impl Massless {
     /// # Errors
     /// An element none of whose corners has mass.
     pub fn new(bodies: &[BodyInput; 2], interface: ContactInterface) -> Result<Self, ModelError> {
-        let nodes = |side: usize| {
-            interface.points().iter().flat_map(|point| point.feet[side].nodes).collect()
-        };
+        Self::with_springs(bodies, Springs::Straight(interface))
+    }
+
+    /// The same of surfaces that slip.
+    ///
+    /// # Errors
+    /// As of others.
+    pub fn slipping(
+        bodies: &[BodyInput; 2],
+        interface: SlippingInterface,
+    ) -> Result<Self, ModelError> {
+        Self::with_springs(bodies, Springs::Slipping(interface))
+    }
+
+    fn with_springs(bodies: &[BodyInput; 2], springs: Springs) -> Result<Self, ModelError> {
+        let points = springs.interface().points();
+        let nodes = |side: usize| points.iter().flat_map(|point| point.feet[side].nodes).collect();
         let sides = [Boundary::new(&bodies[0], nodes(0))?, Boundary::new(&bodies[1], nodes(1))?];
         let places = |side: usize| {
             let n = sides[side].as_ref().map_or(0, |boundary| boundary.nodes.len());
@@ -70,12 +91,20 @@ impl Massless {
             sides[side].as_ref().map_or(0.0, |boundary| boundary.radii[place])
         };
         unknowns.sort_by(|&a, &b| radius(a).total_cmp(&radius(b)));
-        Ok(Self { interface, sides, unknowns, problem: None, inverse_step: 0.0 })
+        let none =
+            Self { springs, sides, unknowns, ends: Vec::new(), problem: None, inverse_step: 0.0 };
+        let ends = none.ends();
+        Ok(Self { ends, ..none })
     }
 
-    /// The springs.
+    /// The springs, without slip.
     pub fn interface(&self) -> &ContactInterface {
-        &self.interface
+        self.springs.interface()
+    }
+
+    /// Whether they are of surfaces that slip.
+    pub fn slips(&self) -> bool {
+        self.springs.slipping().is_some()
     }
 
     /// First row of the unknowns of a node of a side.
@@ -85,18 +114,46 @@ impl Massless {
         Some(2 * self.unknowns.iter().position(is_node)?)
     }
 
-    /// What each spring opens by.
+    /// The unknowns of each spring's ends. Those that do not turn open along y alone.
+    fn ends(&self) -> Vec<[[[Option<usize>; 2]; 2]; 2]> {
+        let unknown = |side: usize, node: u32| {
+            let row = self.row(side, node);
+            let radial = row.filter(|&row| self.slips() && !self.is_fixed(row));
+            [radial, row.map(|row| row + 1)]
+        };
+        let of_spring = |point: &fem_contact::ContactPoint| {
+            std::array::from_fn(|side| point.feet[side].nodes.map(|node| unknown(side, node)))
+        };
+        self.interface().points().iter().map(of_spring).collect()
+    }
+
+    /// The unknown of an end of a spring.
+    fn unknown(&self, k: usize, side: usize, end: usize, axis: usize) -> Option<usize> {
+        self.ends[k][side][end][axis]
+    }
+
+    /// Side, end and axis of the unknowns of a spring, in the order of what it opens by.
+    fn entries(&self, k: usize) -> impl Iterator<Item = [usize; 3]> + '_ {
+        (0..8)
+            .map(|entry: usize| [entry / 4, entry / 2 % 2, entry % 2])
+            .filter(move |&[side, end, axis]| self.unknown(k, side, end, axis).is_some())
+    }
+
+    /// What each spring opens by, where nothing has moved.
     fn springs(&self) -> Vec<Spring> {
-        let spring = |point: &fem_contact::ContactPoint| {
-            let ends = [0, 1].into_iter().flat_map(|side: usize| {
-                let (foot, sign) = (&point.feet[side], [-1.0, 1.0][side]);
-                foot.nodes.into_iter().zip(foot.shape).filter_map(move |(node, shape)| {
-                    Some((self.row(side, node)? + 1, sign * shape))
-                })
+        let spring = |(k, point): (usize, &fem_contact::ContactPoint)| {
+            let at_first = self
+                .springs
+                .slipping()
+                .map(|slipping| slipping.gap_of_ends(k, [[[0.0; 2]; 2]; 2]).opening);
+            let ends = self.entries(k).filter_map(|[side, end, axis]| {
+                let straight = [-1.0, 1.0][side] * point.feet[side].shape[end];
+                let share = at_first.map_or(straight, |opening| opening[side][end][axis]);
+                Some((self.unknown(k, side, end, axis)?, share))
             });
             Spring { stiffness: point.stiffness * point.area, opening: ends.collect() }
         };
-        self.interface.points().iter().map(spring).collect()
+        self.interface().points().iter().enumerate().map(spring).collect()
     }
 
     /// Matrix and springs of a time step that the boundaries know.
@@ -142,10 +199,10 @@ impl Massless {
         row.is_multiple_of(2) && self.sides[side].as_ref().is_some_and(on_axis)
     }
 
-    /// What is lacking in the balance of the nodes without mass, and the gaps, of a step in which they
+    /// What is lacking in the balance of the nodes without mass, of a step in which they
     /// kept their velocity.
     fn update(&self, motions: &[MotionMut<'_>; 2], buffers: &mut Buffers) -> Result<(), Collapse> {
-        let Buffers { forces, rounds } = buffers;
+        let Buffers { forces, rounds, .. } = buffers;
         for (side, boundary) in self.sides.iter().enumerate() {
             if let Some(boundary) = boundary {
                 boundary.update_forces(&motions[side], &mut forces[side])?;
@@ -156,11 +213,31 @@ impl Massless {
             let [r, y] = forces[side][boundary.nodes[place] as usize];
             pair.copy_from_slice(&[if boundary.radii[place] == 0.0 { 0.0 } else { r }, y]);
         }
-        let displacements = motions.each_ref().map(|motion| &*motion.displacement);
-        for (k, gap) in rounds.gaps.iter_mut().enumerate() {
-            *gap = self.interface.gap(k, displacements);
-        }
         Ok(())
+    }
+
+    /// Finds what the nodes without mass have to move more.
+    fn solve(
+        &self,
+        problem: &Problem,
+        motions: &[MotionMut<'_>; 2],
+        buffers: &mut Buffers,
+    ) -> Option<()> {
+        // No element of these collapses.
+        self.update(motions, buffers).ok()?;
+        let Buffers { rounds, turning, .. } = buffers;
+        match (&self.springs, turning) {
+            (Springs::Slipping(slipping), Some(turning)) => {
+                self.solve_turning(slipping, motions, rounds, turning)
+            }
+            (springs, _) => {
+                let displacements = motions.each_ref().map(|motion| &*motion.displacement);
+                for (k, gap) in rounds.gaps.iter_mut().enumerate() {
+                    *gap = springs.interface().gap(k, displacements);
+                }
+                rounds.solve(problem)
+            }
+        }
     }
 }
 
@@ -170,6 +247,8 @@ struct Buffers {
     /// Of the elements at the boundaries, N; of no meaning at other nodes.
     forces: [NodalField; 2],
     rounds: Rounds,
+    /// Of springs that turn.
+    turning: Option<Turning>,
 }
 
 impl Part for Massless {
@@ -182,7 +261,7 @@ impl Part for Massless {
 
 impl Contact for Massless {
     fn searched(&self) -> Searched {
-        Contact::searched(&self.interface)
+        Contact::searched(self.interface())
     }
 
     fn check(&self) -> Result<(), ModelError> {
@@ -192,7 +271,7 @@ impl Contact for Massless {
     /// A rigid sphere feels the springs as if the other body were held: more than they can pull.
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {
         if self.sides[side].is_none() {
-            self.interface.add_bound_against_held(side, bound);
+            self.interface().add_bound_against_held(side, bound);
         }
     }
 
@@ -204,7 +283,9 @@ impl Contact for Massless {
         let field =
             |side: &Option<Boundary>| vec![[0.0; 2]; side.as_ref().map_or(0, Boundary::n_nodes)];
         let Some(problem) = &self.problem else { return Box::new(()) };
-        Box::new(Buffers { forces: self.sides.each_ref().map(field), rounds: Rounds::new(problem) })
+        let forces = self.sides.each_ref().map(field);
+        let turning = self.slips().then(|| Turning::new(problem));
+        Box::new(Buffers { forces, rounds: Rounds::new(problem), turning })
     }
 
     fn add_forces(
@@ -214,7 +295,7 @@ impl Contact for Massless {
         [lower, upper]: [&mut Field; 2],
     ) -> ContactForces {
         let displacements = motions.each_ref().map(|motion| motion.displacement);
-        let contact = self.interface.add_forces(displacements, [&mut *lower, &mut *upper]);
+        let contact = self.springs.add_forces(displacements, [&mut *lower, &mut *upper]);
         for (boundary, forces) in self.sides.iter().zip([lower, upper]) {
             if let Some(boundary) = boundary {
                 boundary.hand_over(forces);
@@ -233,8 +314,8 @@ impl Contact for Massless {
         else {
             return;
         };
-        // No element of these collapses, and a matrix that was positive stays so with springs.
-        if self.update(&motions, buffers).is_err() || buffers.rounds.solve(problem).is_none() {
+        // A matrix that was positive stays so with springs.
+        if self.solve(problem, &motions, buffers).is_none() {
             return;
         }
         for (pair, &(side, place)) in buffers.rounds.change.chunks_exact(2).zip(&self.unknowns) {
@@ -251,20 +332,19 @@ impl Contact for Massless {
         next: [&dyn Fn(u32) -> [f64; 2]; 2],
         _: [&[NodalField]; 2],
     ) -> bool {
-        let force =
-            self.interface.force(next.map(|displacement| move |node| displacement(node)[1]));
+        let force = self.springs.force(next);
         force > (1.0 - LAST_LOSS) * now.force
     }
 
     fn contact_radius(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        self.interface.contact_radius(motions.each_ref().map(|motion| motion.displacement))
+        self.springs.contact_radius(motions.each_ref().map(|motion| motion.displacement))
     }
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        self.interface.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+        self.springs.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
     }
 
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
-        self.interface.profile(motions.each_ref().map(|motion| motion.displacement))
+        self.springs.profile(motions.each_ref().map(|motion| motion.displacement))
     }
 }

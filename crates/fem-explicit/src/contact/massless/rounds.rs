@@ -37,13 +37,13 @@ impl Spring {
         self.opening.iter().map(|(row, _)| *row).min().unwrap_or(usize::MAX)
     }
 
-    fn opens_by(&self, x: &[f64]) -> f64 {
+    pub fn opens_by(&self, x: &[f64]) -> f64 {
         self.opening.iter().map(|&(row, share)| share * x[row]).sum()
     }
 }
 
 /// The matrix K and the springs.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Problem {
     pub stiffness: Skyline,
     pub springs: Vec<Spring>,
@@ -90,6 +90,11 @@ impl Rounds {
             }
         }
         self.search_lines(problem)
+    }
+
+    /// To be told where springs that are closed open by something else than at the last solution.
+    pub fn forget_closed(&mut self) {
+        self.factored.take_if(|factored| factored.contains(&true));
     }
 
     /// Closes the springs whose gap is negative before any change.

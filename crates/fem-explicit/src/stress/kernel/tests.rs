@@ -3,15 +3,16 @@
 use fem_mesh::{Side, SphereMesh};
 
 use super::*;
+use crate::part::NodalField;
 use crate::test_support::{assembled, geometries, moduli, ragged, unit_glass, unit_sphere, vector};
 
-fn meshes() -> [SphereMesh; 2] {
-    // 24 and 96 elements, and a number that leaves lanes empty.
-    [unit_sphere(4.0, Side::Above), unit_sphere(8.0, Side::Below)]
+fn meshes() -> [SphereMesh; 3] {
+    // All of 24 elements where they may be, most of 96 and of 1,200 in rows; numbers that leave lanes empty.
+    [4.0, 8.0, 30.0].map(|n| unit_sphere(n, if n < 8.0 { Side::Above } else { Side::Below }))
 }
 
-fn pack(mesh: &SphereMesh) -> Blocks {
-    Blocks::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
+fn pack(mesh: &SphereMesh) -> Elements {
+    Elements::pack(mesh.nodes().len(), mesh.quads(), &geometries(mesh))
 }
 
 /// Largest difference over the largest number.
@@ -79,49 +80,62 @@ fn internal_forces_balance() {
     }
 }
 
+/// Forces of a field, of two fields, and energy, of the lanes that are asked for.
+type Computed = (NodalField, NodalField, [f64; 2]);
+
+/// On lanes of four and on lanes of rows.
+fn on<L: Lanes, R: RowLanes>(elements: &Elements, u: &Field, w: &Field) -> Computed {
+    let (Elements { rows, others }, moduli) = (elements, moduli(&unit_glass()));
+    let (mut f, mut split) = (vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]);
+    let mut energy = [0.0; 2];
+    let one = |field| (moduli, field, field);
+    let (moduli, bulk_field, shear_field) = one(u);
+    RowKernel::on::<R>(
+        Forces::<_, false> { elements: rows, moduli, bulk_field, shear_field },
+        &mut f,
+    );
+    LaneKernel::on::<L>(
+        Forces::<_, false> { elements: others, moduli, bulk_field, shear_field },
+        &mut f,
+    );
+    let shear_field = w;
+    RowKernel::on::<R>(
+        Forces::<_, true> { elements: rows, moduli, bulk_field, shear_field },
+        &mut split,
+    );
+    LaneKernel::on::<L>(
+        Forces::<_, true> { elements: others, moduli, bulk_field, shear_field },
+        &mut split,
+    );
+    RowKernel::on::<R>(Energy { elements: rows, moduli, field: w }, &mut energy[0]);
+    LaneKernel::on::<L>(Energy { elements: others, moduli, field: w }, &mut energy[1]);
+    (f, split, energy)
+}
+
 #[cfg(target_arch = "x86_64")]
 #[test]
-fn plain_and_avx2_lanes_give_the_same_bits() {
-    use super::super::lanes::{Avx2, Plain};
+fn all_lanes_give_the_same_bits() {
+    use super::super::lanes::{Avx2, Avx512, Plain, Twice, has_avx2, has_avx512};
     #[target_feature(enable = "avx2,fma")]
-    fn avx2<const SPLIT: bool>(
-        blocks: &Blocks,
-        moduli: Moduli,
-        u: &Field,
-        w: &Field,
-        f: &mut Field,
-    ) -> f64 {
-        subtract_forces::<Avx2, SPLIT>(blocks, moduli, u, w, f);
-        sum_energy::<Avx2>(blocks, moduli, w)
+    fn on_avx2(elements: &Elements, u: &Field, w: &Field) -> Computed {
+        on::<Avx2, Twice<Avx2>>(elements, u, w)
     }
-    fn plain<const SPLIT: bool>(
-        blocks: &Blocks,
-        moduli: Moduli,
-        u: &Field,
-        w: &Field,
-        f: &mut Field,
-    ) -> f64 {
-        subtract_forces::<Plain, SPLIT>(blocks, moduli, u, w, f);
-        sum_energy::<Plain>(blocks, moduli, w)
+    #[target_feature(enable = "avx512f")]
+    fn on_avx512(elements: &Elements, u: &Field, w: &Field) -> Computed {
+        on::<Avx2, Avx512>(elements, u, w)
     }
-    if !crate::stress::lanes::has_avx2() {
-        return;
-    }
-    let moduli = moduli(&unit_glass());
     for mesh in meshes() {
-        let blocks = pack(&mesh);
+        let elements = pack(&mesh);
         let (u, w) = (ragged(&mesh, 0), ragged(&mesh, 1));
-        let mut f = [vec![[0.0; 2]; u.len()], vec![[0.0; 2]; u.len()]];
-        let [f_plain, f_avx2] = &mut f;
-        let one = plain::<true>(&blocks, moduli, &u, &w, f_plain);
-        // SAFETY: the processor has been asked.
-        let other = unsafe { avx2::<true>(&blocks, moduli, &u, &w, f_avx2) };
-        assert_eq!(one.to_bits(), other.to_bits());
-        plain::<false>(&blocks, moduli, &u, &w, f_plain);
-        // SAFETY: as above.
-        unsafe { avx2::<false>(&blocks, moduli, &u, &w, f_avx2) };
-        let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
-        assert_eq!(bits(&f[0]), bits(&f[1]));
+        let plain = on::<Plain, Plain<WIDE>>(&elements, &u, &w);
+        if has_avx2() {
+            // SAFETY: the processor has been asked.
+            assert_eq!(plain, unsafe { on_avx2(&elements, &u, &w) });
+        }
+        if has_avx512() {
+            // SAFETY: as above.
+            assert_eq!(plain, unsafe { on_avx512(&elements, &u, &w) });
+        }
     }
 }
 

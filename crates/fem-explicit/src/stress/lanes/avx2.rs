@@ -17,7 +17,7 @@ use fem_material::finite::{POWER_OFFSET, UNITS, UNITS_AND_OFFSET};
 /// Lanes as an AVX register. Values must be made and used only in functions
 /// that are compiled for AVX2 and FMA and called after the processor was asked.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Avx2(__m256d);
+pub(crate) struct Avx2(pub(super) __m256d);
 
 /// All bits of the lanes that lie within ± a bound.
 ///

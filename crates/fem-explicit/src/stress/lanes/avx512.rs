@@ -19,7 +19,7 @@ use super::{Lanes, WIDE};
 /// Lanes as an AVX-512 register. Values must be made and used only in functions that are compiled for
 /// AVX-512F and called after the processor was asked.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Avx512(__m512d);
+pub(crate) struct Avx512(pub(super) __m512d);
 
 macro_rules! avx512_operator {
     ($operator:ident, $method:ident, $instruction:ident) => {

@@ -8,7 +8,7 @@ use super::{LANES, Lanes, WIDE};
 
 /// Lanes of two registers.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Twice<L>(L, L);
+pub(crate) struct Twice<L>(pub(super) L, pub(super) L);
 
 macro_rules! twice_operator {
     ($operator:ident, $method:ident) => {

@@ -47,8 +47,8 @@ use course::BouncingCourse;
 
 /// Contact radius at rest over effective radius beyond which a sphere is no sphere any more.
 const LARGEST_DENT: f64 = 0.5;
-/// Elements across the expected contact radius below which a mesh is made anew; the plan's has eight.
-const FEWEST_ELEMENTS: f64 = 6.0;
+/// Expected contact radius over the one for which a mesh was made below which it is made anew.
+const SMALLEST_SHARE: f64 = 0.75;
 /// Rows of all contacts after the first one together are at most so many times those of the first.
 const ROWS_OF_ALL: usize = 10;
 /// Rows of a contact that show its course.
@@ -122,7 +122,7 @@ impl Ball {
         }
         let estimate = Estimate::at(&self.scene, speed)
             .map_err(|error| Stop::OutOfRange(error.to_string()))?;
-        if estimate.contact_radius >= FEWEST_ELEMENTS * elements.plan.contact_element_size {
+        if estimate.contact_radius >= SMALLEST_SHARE * elements.plan.estimate.contact_radius {
             return Ok(None);
         }
         self.made_at(speed).map(Some)
@@ -211,6 +211,7 @@ fn later_want(want: &Want, n_contacts: usize, element_updates: u64) -> Want {
     Want {
         history_rows: share.min(want.history_rows).max(FEWEST_ROWS),
         snapshots: SnapshotRequest::none(),
+        probes: Vec::new(),
         most_element_updates: want.most_element_updates.saturating_sub(element_updates),
         ..want.clone()
     }
@@ -224,5 +225,6 @@ fn fallen(collision: Collision, time: f64, height: f64) -> Collision {
         snapshot
     };
     let snapshots = collision.snapshots.into_iter().map(lowered).collect();
-    Collision { snapshots, ..collision }
+    let probes = collision.probes.into_iter().map(lowered).collect();
+    Collision { snapshots, probes, ..collision }
 }

@@ -64,6 +64,7 @@ pub(super) fn of_impact(
         rest: None,
         history: rows.of(impact, pair, law, want.history_rows),
         snapshots: Vec::new(),
+        probes: Vec::new(),
         warnings: is_together.then(|| STAY_TOGETHER.to_string()).into_iter().collect(),
     }
 }

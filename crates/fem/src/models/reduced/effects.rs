@@ -68,11 +68,11 @@ pub(super) fn has(
 
 /// What the case gives and a reduced model does not read.
 pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
-    let unread = scene.snapshots().map(|_| {
-        let name = describe(scene.model());
-        format!("output.snapshots has no effect: {name} has no fields to draw")
-    });
-    unread.into_iter().collect()
+    let name = describe(scene.model());
+    let snapshots = scene.snapshots().map(|_| ("snapshots", "to draw"));
+    let probes = scene.probes().first().map(|_| ("probe", "to tell of"));
+    let warning = |(key, what)| format!("output.{key} has no effect: {name} has no fields {what}");
+    snapshots.into_iter().chain(probes).map(warning).collect()
 }
 
 /// What the model has of the relaxation.

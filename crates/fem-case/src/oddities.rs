@@ -1,0 +1,62 @@
+//! Numbers of a scene that are possible and seldom meant: a unit that was forgotten. They are told,
+//! never refused.
+
+use crate::body::Shape;
+use crate::scene::Scene;
+
+/// Larger than what is thrown at each other; a bare number is in metres.
+const LARGEST_DIAMETER: f64 = 100.0;
+/// A sphere of a metre and more beside one that is so much smaller.
+const LARGE: f64 = 1.0;
+const LARGEST_RATIO: f64 = 100.0;
+/// Aerogel is 1 to 100 kg/m³, osmium 22,590.
+const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
+/// The softest gels have some 100 Pa, diamond has 1.2 TPa.
+const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
+
+impl Scene {
+    /// What is so far from all bodies that a unit was probably forgotten, a sentence each.
+    pub fn oddities(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let diameters = self.bodies.each_ref().map(|body| body.diameter());
+        for (k, body) in self.bodies.iter().enumerate() {
+            let name = body.name();
+            let key = format!("body.{k}.sphere.diameter");
+            let other = diameters[1 - k];
+            if let Some(diameter) = diameters[k] {
+                if diameter > LARGEST_DIAMETER {
+                    found.push(format!(
+                        "the diameter of {name} is {diameter} m ({key}); a bare number is in metres"
+                    ));
+                } else if let Some(other) = other
+                    && diameter >= LARGE
+                    && diameter > LARGEST_RATIO * other
+                {
+                    found.push(format!(
+                        "the diameter of {name} is {diameter} m ({key}), beside one of {other} m; a \
+                         bare number is in metres"
+                    ));
+                }
+            }
+            let (Shape::Sphere { material, .. } | Shape::HalfSpace { material }) = &body.shape
+            else {
+                continue;
+            };
+            let density = material.density();
+            if !DENSITIES.contains(&density) {
+                found.push(format!(
+                    "the density of {name} is {density} kg/m^3; solids have 10 to 25000, and a bare \
+                     number is in kg/m^3"
+                ));
+            }
+            let modulus = material.instantaneous().youngs_modulus();
+            if !YOUNGS_MODULI.contains(&modulus) {
+                found.push(format!(
+                    "Young's modulus of {name} is {modulus:e} Pa; solids have 100 Pa to 2e12 Pa, and a \
+                     bare number is in Pa"
+                ));
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,223 @@
+//! Values of a varied key that are not written one by one: a range, `{ from = "5 cm/s", to = "2 m/s",
+//! n = 40, log = true }`, or the rows of a CSV file, `{ table = "pairs.csv" }`.
+//!
+//! The values of a range are evenly apart, or have the same ratio with `log`: x_k = from + (to −
+//! from) k / (n − 1), or from (to / from)^(k / (n − 1)); the ends are as they are written. Of a table
+//! each row is one value of all keys of the axis, in columns of their names or in those that
+//! `columns` lists.
+
+use std::ops::Range;
+use std::path::Path;
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::DeTable;
+
+use crate::case::read;
+use crate::document::Document;
+use crate::error::CaseError;
+use crate::explain::{explain, listed};
+use crate::quantity::{Number, Quantity};
+use crate::sweep_axes::Element;
+use crate::units::parse_quantity;
+
+/// Values of one range.
+const MOST_VALUES: u64 = 10_000_000;
+const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true";
+
+/// Whether a table under `[vary]` makes values: no key of a case is called so.
+pub(crate) fn is_values(table: &DeTable<'_>) -> bool {
+    ["from", "to", "table"].iter().any(|key| table.contains_key(*key))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RangeTable {
+    from: Spanned<Quantity<Number>>,
+    to: Spanned<Quantity<Number>>,
+    n: Spanned<u64>,
+    #[serde(default)]
+    log: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RowsTable {
+    table: Spanned<String>,
+    columns: Option<Spanned<Vec<String>>>,
+}
+
+/// Reads the values of the keys of an axis.
+pub(crate) struct Values<'a> {
+    pub(crate) document: &'a Document,
+    /// Where the sweep file lies.
+    pub(crate) folder: &'a Path,
+    /// The keys in words.
+    pub(crate) name: &'a str,
+}
+
+impl Values<'_> {
+    /// The values that a table under `[vary]` makes, of these keys.
+    pub(crate) fn read(
+        &self,
+        table: &DeTable<'_>,
+        span: Range<usize>,
+        keys: &[&str],
+    ) -> Result<Vec<Element>, CaseError> {
+        let tree = Spanned::new(span.clone(), table.clone());
+        let tree = toml::de::Deserializer::from(tree);
+        let explained = |error: toml::de::Error| match error.message().starts_with("missing field")
+        {
+            true => self.fault(
+                span.clone(),
+                error.message().replace("missing field", "there is no"),
+                RANGE,
+            ),
+            false => explain(self.document, &error),
+        };
+        match table.contains_key("table") {
+            true => self.rows(&RowsTable::deserialize(tree).map_err(explained)?, &span, keys),
+            false => self.range(&RangeTable::deserialize(tree).map_err(explained)?, &span),
+        }
+    }
+
+    fn fault(&self, span: Range<usize>, message: impl Into<String>, help: &str) -> CaseError {
+        self.document.error_on(span, format!("{}: {}", self.name, message.into())).with_help(help)
+    }
+
+    fn range(&self, range: &RangeTable, span: &Range<usize>) -> Result<Vec<Element>, CaseError> {
+        let end = |bound: &Spanned<Quantity<Number>>| {
+            let fault = |found: &str| self.fault(bound.span(), found, RANGE);
+            let written = bound.get_ref().text().map(str::trim);
+            let (number, unit) = match written {
+                None => (bound.get_ref().si().unwrap_or(f64::NAN), ""),
+                Some(text) => {
+                    parse_quantity(text).map_err(|error| fault(&format!("{text:?}: {error}")))?;
+                    split_unit(text)
+                }
+            };
+            let is_finite = number.is_finite().then(|| (number, unit.to_string()));
+            is_finite.ok_or_else(|| fault("this is no end of a range"))
+        };
+        let ((from, unit), (to, other)) = (end(&range.from)?, end(&range.to)?);
+        if unit != other {
+            let message = format!("the ends have the units {unit:?} and {other:?}");
+            return Err(self.fault(range.to.span(), message, "write both ends in one unit"));
+        }
+        let n = *range.n.get_ref();
+        if !(2..=MOST_VALUES).contains(&n) {
+            let help = format!("a range has 2 to {MOST_VALUES} values; one value is a list, [1.0]");
+            return Err(self.fault(range.n.span(), format!("n is {n}"), &help));
+        }
+        if range.log && !(from > 0.0 && to > 0.0) {
+            let end = if from > 0.0 { &range.to } else { &range.from };
+            let help = "with log = true both ends are greater than 0";
+            return Err(self.fault(end.span(), "this end is not greater than 0", help));
+        }
+        let value = |k: u64| {
+            let share = k as f64 / (n - 1) as f64;
+            match k {
+                0 => from,
+                _ if k == n - 1 => to,
+                _ if range.log => from * (to / from).powf(share),
+                _ => from + (to - from) * share,
+            }
+        };
+        let text = |k| match unit.as_str() {
+            // As TOML has it: 1.0, not 1.
+            "" => format!("{:?}", value(k)),
+            unit => format!("{} {unit}", value(k)),
+        };
+        Ok((0..n).map(|k| Element::made(vec![text(k)], span.clone())).collect())
+    }
+
+    fn rows(
+        &self,
+        rows: &RowsTable,
+        span: &Range<usize>,
+        keys: &[&str],
+    ) -> Result<Vec<Element>, CaseError> {
+        let fault = |message: String, help: &str| self.fault(rows.table.span(), message, help);
+        let wanted = match &rows.columns {
+            None => keys.iter().map(ToString::to_string).collect(),
+            Some(columns) if columns.get_ref().len() == keys.len() => columns.get_ref().clone(),
+            Some(columns) => {
+                let message =
+                    format!("{} columns for {} keys", columns.get_ref().len(), keys.len());
+                return Err(self.fault(
+                    columns.span(),
+                    message,
+                    "name one column a key, in their order",
+                ));
+            }
+        };
+        let path = self.folder.join(rows.table.get_ref());
+        let name = path.display().to_string();
+        let text = read(&path, &name).map_err(|error| {
+            let help = "table names a CSV file, relative to the sweep file";
+            fault(format!("{name}: {}", error.message()), help)
+        })?;
+        let bad = |error: csv::Error| {
+            let help = "the table is a CSV file with a header; every row has as many cells";
+            fault(format!("{name}: {error}"), help)
+        };
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let header: Vec<String> =
+            reader.headers().map_err(bad)?.iter().map(str::to_string).collect();
+        let place = |column: &String| {
+            let found = header.iter().position(|known| known == column);
+            found.ok_or_else(|| {
+                let columns: Vec<&str> = header.iter().map(String::as_str).collect();
+                let help =
+                    format!("its columns are {}; columns = […] names others", listed(&columns));
+                fault(format!("{name} has no column {column:?}"), &help)
+            })
+        };
+        let places = wanted.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+        let mut elements = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(bad)?;
+            let texts = places.iter().map(|place| record[*place].to_string()).collect();
+            elements.push(Element::made(texts, span.clone()));
+        }
+        match elements.is_empty() {
+            true => Err(fault(format!("{name} has no row"), "a row is a value of each key")),
+            false => Ok(elements),
+        }
+    }
+}
+
+/// The number of a quantity, not scaled, and its unit as written.
+fn split_unit(text: &str) -> (f64, &str) {
+    let ends = text.char_indices().map(|(index, _)| index).chain([text.len()]).rev();
+    let number = |end: usize| Some((text[..end].trim_end().parse().ok()?, text[end..].trim()));
+    ends.filter(|end| *end > 0).find_map(number).unwrap_or((f64::NAN, text))
+}
+
+#[cfg(test)]
+mod tests {
+    use toml::de::DeValue;
+
+    use super::*;
+
+    #[test]
+    fn a_quantity_is_a_number_and_a_unit() {
+        assert_eq!(split_unit("0.05 m/s"), (0.05, "m/s"));
+        assert_eq!(split_unit("1e-3m"), (1e-3, "m"));
+        assert_eq!(split_unit("5 1/s"), (5.0, "1/s"));
+        assert_eq!(split_unit("2."), (2.0, ""));
+    }
+
+    #[test]
+    fn tables_of_a_case_are_no_values() {
+        let is = |text: &str| match DeValue::parse(text).unwrap().into_inner() {
+            DeValue::Table(table) => is_values(&table),
+            _ => false,
+        };
+        assert!(is("{ from = 1, to = 2, n = 3 }") && is("{ table = 'a.csv' }"));
+        assert!(!is("{ approach_speed = [1] }"));
+    }
+}

@@ -1,0 +1,123 @@
+//! `material = "lib:NAME"`.
+
+use std::path::Path;
+
+use fem_case::library::{materials, table_text};
+use fem_case::schema::BodyTable;
+use fem_case::{Case, CaseFile};
+
+const BALL: &str = "
+[[body]]
+name = 'floor'
+wall = {}
+
+[[body]]
+name = 'ball'
+sphere = { diameter = '10 mm' }
+material = 'lib:pmma'
+approach_speed = '1 m/s'
+";
+
+fn parse(text: &str, overrides: &[&str]) -> Result<Case, fem_case::CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(|text| text.to_string()).collect();
+    Case::parse("ball.toml", text, Path::new("."), &overrides)
+}
+
+fn fault(overrides: &[&str]) -> String {
+    parse(BALL, overrides).unwrap_err().to_string()
+}
+
+/// Numbers of data books, by a second way: moduli of other sources and what a user knows by heart.
+#[test]
+fn materials_are_solids_and_say_where_they_are_from() {
+    assert!(materials().len() > 15, "{:?}", materials().keys());
+    for (name, entry) in materials() {
+        for text in [&entry.title, &entry.source, &entry.range] {
+            assert!(text.len() > 3, "{name}: {entry:?}");
+        }
+        let set = format!("body.1.material='lib:{name}'");
+        let case = parse(BALL, &[&set]).unwrap();
+        let material = case.scene().bodies()[1].material().unwrap();
+        // From cork to tungsten carbide.
+        assert!((100.0..20_000.0).contains(&material.density()), "{name}");
+        assert!((1e6..6e11).contains(&material.instantaneous().youngs_modulus()), "{name}");
+    }
+    let of = |name: &str| {
+        let set = format!("body.1.material='lib:{name}'");
+        let case = parse(BALL, &[&set]).unwrap();
+        *case.scene().bodies()[1].material().unwrap().instantaneous()
+    };
+    // Bulk and shear moduli that the sources print beside the two that stand in the library, GPa, and
+    // how far their rounding lets them differ.
+    for (name, bulk, shear, digit) in [
+        ("alumina", 257.0, 169.0, 1.0),
+        ("ice", 8.90, 3.52, 0.02),
+        ("brass", 111.8, 37.3, 0.1),
+        ("copper", 137.8, 48.3, 0.2),
+        ("fused-silica", 36.9, 31.2, 0.1),
+        ("tungsten-carbide", 319.0, 219.0, 1.0),
+        ("steel", 175.0, 80.8, 0.1),
+    ] {
+        let found = of(name);
+        assert!((found.bulk_modulus() / 1e9 - bulk).abs() <= digit, "{name}: {found:?}");
+        assert!((found.shear_modulus() / 1e9 - shear).abs() <= digit, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_case_has_the_table_that_it_names() {
+    let case = parse(BALL, &[]).unwrap();
+    let pmma = &materials()["pmma"].material;
+    assert_eq!(case.file().material.get("lib:pmma").unwrap().density.si(), pmma.density.si());
+    // As text and in code, and from the resolved case, it is the same scene.
+    let again = parse(&case.file().to_toml().unwrap(), &[]).unwrap();
+    assert_eq!(again.scene().bodies(), case.scene().bodies());
+    let ball = BodyTable::sphere("ball", "10 mm", "lib:pmma").approaching("1 m/s");
+    let made = Case::of(CaseFile::of_bodies(BodyTable::wall("floor"), ball)).unwrap();
+    assert_eq!(made.scene().bodies(), case.scene().bodies());
+    let edited = case.edited(|file| file.body[1].material = Some("lib:steel".into())).unwrap();
+    let steel = parse(BALL, &["body.1.material='lib:steel'"]).unwrap();
+    assert_eq!(edited.scene().bodies(), steel.scene().bodies());
+    // A case without one is none the wiser.
+    assert!(!case.file().material.contains_key("lib:steel"));
+}
+
+#[test]
+fn the_text_of_a_table_is_the_same_material() {
+    for name in materials().keys() {
+        let text = BALL.replace("lib:pmma", name) + &table_text(name).unwrap();
+        let own = parse(&text, &[]).unwrap();
+        let set = format!("body.1.material='lib:{name}'");
+        let library = parse(BALL, &[&set]).unwrap();
+        assert_eq!(own.scene().bodies(), library.scene().bodies(), "{name}");
+    }
+    assert_eq!(table_text("no such"), None);
+}
+
+/// A key that the case gives itself goes before that of the library.
+#[test]
+fn single_keys_can_be_overridden() {
+    let case = parse(BALL, &["material.'lib:pmma'.youngs_modulus='5 GPa'"]).unwrap();
+    let material = case.scene().bodies()[1].material().unwrap();
+    assert!((material.instantaneous().youngs_modulus() / 5e9 - 1.0).abs() < 1e-14);
+    assert_eq!(material.density(), 1190.0);
+    let text = format!("{BALL}\n[material.'lib:pmma']\ndensity = 1200\n");
+    let case = parse(&text, &[]).unwrap();
+    assert_eq!(case.scene().bodies()[1].material().unwrap().density(), 1200.0);
+    // To blame is what the user gave.
+    let three = fault(&["material.'lib:pmma'.shear_modulus=1e9"]);
+    assert!(three.starts_with("--set material.'lib:pmma'.shear_modulus=…:"), "{three}");
+    assert!(three.contains("exactly two of"), "{three}");
+}
+
+#[test]
+fn an_unknown_one_is_told_what_there_is() {
+    let error = parse(&BALL.replace("pmma", "pmna"), &[]).unwrap_err();
+    assert_eq!((error.line(), error.column()), (Some(9), Some(12)), "{error}");
+    let text = error.to_string();
+    assert!(text.contains("did you mean `lib:pmma`?"), "{text}");
+    assert!(text.contains("lib:alumina, lib:aluminium"), "{text}");
+    assert!(fault(&["body.1.material='lib:'"]).contains("the library has"));
+    assert!(fault(&["material=3"]).contains("material"));
+    assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));
+}

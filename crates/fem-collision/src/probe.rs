@@ -1,0 +1,308 @@
+//! Places of a body of which is told what happens there over time.
+//!
+//! A place moves with the material. Displacement and velocity are those of its element's four nodes, the
+//! stress is the smooth one of the nodes ([`StressRecovery`]), all by the element's shape functions.
+
+use fem_element::QuadGeometry;
+use fem_material::Material;
+use fem_mesh::SphereMesh;
+use serde::{Deserialize, Serialize};
+
+use crate::snapshot::{BodyFields, Snapshot};
+use crate::stress::{SmallStrain, StressRecovery};
+
+/// A place that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ProbeRequest {
+    /// 0 lower body, 1 upper.
+    pub side: usize,
+    /// (r, y) in the undeformed body, whose contact pole is at the origin, m.
+    pub place: [f64; 2],
+}
+
+/// So far beyond an element's edge, in its own coordinates from −1 to 1, a place is still of it: the arc
+/// of a surface is beyond its chord.
+const BEYOND: f64 = 0.05;
+/// Newton's steps to the own coordinates of a place; in a convex quad a handful is enough.
+const NEWTON_STEPS: usize = 20;
+
+/// Where a place is in a mesh, and what its stress is made of.
+#[derive(Debug, Clone)]
+pub struct Probe {
+    quad: [u32; 4],
+    /// Of the element's corners, sum 1.
+    shares: [f64; 4],
+    elements: Vec<Element>,
+    /// For each corner the elements around, by their place in the list above, and their weights.
+    around: [Vec<(usize, f64)>; 4],
+    on_axis: [bool; 4],
+}
+
+/// One that has a part in the stress.
+#[derive(Debug, Clone)]
+struct Element {
+    number: usize,
+    quad: [u32; 4],
+    geometry: QuadGeometry,
+}
+
+impl Probe {
+    /// Of a place (r, y) in a mesh, m; `None` outside of it.
+    pub fn new(recovery: &StressRecovery<'_>, place: [f64; 2]) -> Option<Self> {
+        let mesh = recovery.mesh();
+        let within = |number: usize| {
+            let [xi, eta] = own_coordinates(&mesh.corners(number), place)?;
+            let beyond = xi.abs().max(eta.abs()) - 1.0;
+            (beyond <= BEYOND).then_some((number, [xi, eta], beyond))
+        };
+        let found = (0..mesh.quads().len()).filter_map(within);
+        let (number, own, _) = found.min_by(|one, other| one.2.total_cmp(&other.2))?;
+        let quad = mesh.quads()[number];
+        let mut elements: Vec<Element> = Vec::new();
+        let around = quad.map(|node| {
+            let place = |&(number, weight): &(u32, f64)| {
+                let number = number as usize;
+                let known = elements.iter().position(|element| element.number == number);
+                let at = known.unwrap_or_else(|| {
+                    let (quad, geometry) = (mesh.quads()[number], *recovery.geometry(number));
+                    elements.push(Element { number, quad, geometry });
+                    elements.len() - 1
+                });
+                (at, weight)
+            };
+            recovery.weights(node as usize).iter().map(place).collect()
+        });
+        let on_axis = quad.map(|node| mesh.axis().contains(&node));
+        Some(Self { quad, shares: shape(own), elements, around, on_axis })
+    }
+
+    /// Displacement (r, y), m, of a nodal field, or velocity, m/s.
+    pub fn of_nodes(&self, field: &[[f64; 2]]) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for (node, share) in self.quad.into_iter().zip(self.shares) {
+            for axis in 0..2 {
+                sum[axis] += share * field[node as usize][axis];
+            }
+        }
+        sum
+    }
+
+    /// Stress (σ_rr, σ_yy, σ_θθ, σ_ry) of a body's fields, tension positive, Pa.
+    pub fn stress(&self, material: &Material, fields: &BodyFields) -> [f64; 4] {
+        let small_strain = SmallStrain::of(material, fields);
+        let of_element = |element: &Element| match fields.stress.get(element.number) {
+            Some(stress) => *stress,
+            None => small_strain.stress(&element.geometry, &element.quad),
+        };
+        let cells: Vec<[f64; 4]> = self.elements.iter().map(of_element).collect();
+        let mut sum = [0.0; 4];
+        for corner in 0..4 {
+            let mut at_node = [0.0; 4];
+            for &(element, weight) in &self.around[corner] {
+                (0..4).for_each(|k| at_node[k] += weight * cells[element][k]);
+            }
+            if self.on_axis[corner] {
+                at_node = StressRecovery::on_axis(at_node);
+            }
+            (0..4).for_each(|k| sum[k] += self.shares[corner] * at_node[k]);
+        }
+        sum
+    }
+}
+
+/// The places that are asked for, found in the meshes of a pair.
+#[derive(Debug, Clone, Default)]
+pub struct Probes {
+    /// The body of each and where it is there; `None` of a place that no mesh has.
+    found: Vec<Option<(usize, Probe)>>,
+}
+
+impl Probes {
+    /// Of the lower and the upper mesh.
+    pub fn new(meshes: [Option<&SphereMesh>; 2], requests: &[ProbeRequest]) -> Self {
+        if requests.is_empty() {
+            return Self::default();
+        }
+        let recoveries = meshes.map(|mesh| mesh.map(StressRecovery::new));
+        let find = |request: &ProbeRequest| {
+            let recovery = recoveries.get(request.side)?.as_ref()?;
+            Some((request.side, Probe::new(recovery, request.place)?))
+        };
+        Self { found: requests.iter().map(find).collect() }
+    }
+
+    /// Whether nothing is asked for.
+    pub fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// The first that no mesh has.
+    pub fn first_outside(&self) -> Option<usize> {
+        self.found.iter().position(Option::is_none)
+    }
+
+    /// What is left of a snapshot of bodies of these materials: fields of one entry a place, in the order
+    /// in which they were asked for, zero in the body that does not have it.
+    pub fn reduce(&self, materials: [Option<&Material>; 2], all: &Snapshot) -> Snapshot {
+        let n = self.found.len();
+        let mut few = Snapshot {
+            label: None,
+            time: all.time,
+            approach: all.approach,
+            carried: all.carried,
+            bodies: [0, 1].map(|_| BodyFields {
+                displacement: vec![[0.0; 2]; n],
+                velocity: vec![[0.0; 2]; n],
+                effective: Vec::new(),
+                stress: vec![[0.0; 4]; n],
+            }),
+            ..Snapshot::default()
+        };
+        for (k, (side, probe)) in
+            self.found.iter().enumerate().filter_map(|(k, found)| Some((k, found.as_ref()?)))
+        {
+            let (from, to) = (&all.bodies[*side], &mut few.bodies[*side]);
+            to.displacement[k] = probe.of_nodes(&from.displacement);
+            to.velocity[k] = probe.of_nodes(&from.velocity);
+            if let Some(material) = materials[*side] {
+                to.stress[k] = probe.stress(material, from);
+            }
+        }
+        few
+    }
+}
+
+/// Signs of the corners' own coordinates.
+const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+
+/// Shape functions at (ξ, η).
+fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
+    CORNERS.map(|[x, e]| 0.25 * (1.0 + x * xi) * (1.0 + e * eta))
+}
+
+/// (ξ, η) of a place, by Newton's method on the bilinear map; `None` where it does not settle.
+fn own_coordinates(corners: &[[f64; 2]; 4], place: [f64; 2]) -> Option<[f64; 2]> {
+    // Far away nothing has to settle.
+    let within = (0..2).all(|axis| {
+        let (low, high) =
+            corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), c| {
+                (low.min(c[axis]), high.max(c[axis]))
+            });
+        let margin = BEYOND * (high - low);
+        (low - margin..=high + margin).contains(&place[axis])
+    });
+    if !within {
+        return None;
+    }
+    let mut own = [0.0; 2];
+    for _ in 0..NEWTON_STEPS {
+        let (mut miss, mut slope) = (place, [[0.0; 2]; 2]);
+        for (corner, (share, [x, e])) in corners.iter().zip(shape(own).into_iter().zip(CORNERS)) {
+            for axis in 0..2 {
+                miss[axis] -= share * corner[axis];
+                slope[axis][0] += 0.25 * x * (1.0 + e * own[1]) * corner[axis];
+                slope[axis][1] += 0.25 * e * (1.0 + x * own[0]) * corner[axis];
+            }
+        }
+        let determinant = slope[0][0] * slope[1][1] - slope[0][1] * slope[1][0];
+        let change = [
+            (slope[1][1] * miss[0] - slope[0][1] * miss[1]) / determinant,
+            (slope[0][0] * miss[1] - slope[1][0] * miss[0]) / determinant,
+        ];
+        own = [own[0] + change[0], own[1] + change[1]];
+        if change[0].abs().max(change[1].abs()) < 1e-14 {
+            break;
+        }
+    }
+    own.iter().all(|x| x.is_finite()).then_some(own)
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_material::ElasticModuli;
+    use fem_mesh::{HalfDisc, Side};
+
+    use super::*;
+
+    fn glass() -> Material {
+        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+        Material::new(2390.0, moduli, None).unwrap()
+    }
+
+    fn mesh(side: Side) -> SphereMesh {
+        let disc =
+            HalfDisc { radius: 1.0, contact_element_size: 0.05, refined_radius: 0.2, growth: None };
+        disc.build().unwrap().on_side(side)
+    }
+
+    /// u = (a r, b y) strains all alike: displacement and stress are exact everywhere, on the axis and
+    /// on the arc of the surface too.
+    #[test]
+    fn linear_fields_are_exact_at_any_place() {
+        let (glass, [a, b]) = (glass(), [1e-3, -2e-3]);
+        let expected = glass.instantaneous().stress([a, b, a, 0.0]);
+        for (side, sign) in [(Side::Above, 1.0), (Side::Below, -1.0)] {
+            let mesh = mesh(side);
+            let recovery = StressRecovery::new(&mesh);
+            let displacement = mesh.nodes().iter().map(|[r, y]| [a * r, b * y]).collect();
+            let fields = BodyFields { displacement, ..BodyFields::default() };
+            let on_arc = [0.5f64.sin(), sign * (1.0 - 0.5f64.cos())];
+            for place in [[0.0, 0.0], [0.0, sign * 1.3], [0.313, sign * 0.7], on_arc, [1.0, sign]] {
+                let probe = Probe::new(&recovery, place).unwrap();
+                let [u_r, u_y] = probe.of_nodes(&fields.displacement);
+                // Rounding.
+                assert!((u_r - a * place[0]).abs() < 1e-16, "{place:?} {u_r}");
+                assert!((u_y - b * place[1]).abs() < 1e-16, "{place:?} {u_y}");
+                let stress = probe.stress(&glass, &fields);
+                for (value, expected) in stress.into_iter().zip(expected) {
+                    // Rounding of strains of 1e-3 and of the fit around a node.
+                    assert!(
+                        (value - expected).abs() < 1e-11 * expected.abs().max(6e7),
+                        "{place:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_place_outside_is_not_found() {
+        let mesh = mesh(Side::Above);
+        let recovery = StressRecovery::new(&mesh);
+        for place in [[0.0, -0.1], [0.9, 0.1], [-0.1, 1.0], [0.0, 2.1], [f64::NAN, 1.0]] {
+            assert!(Probe::new(&recovery, place).is_none(), "{place:?}");
+        }
+    }
+
+    /// Each body's entries are its own; what is nobody's is zero.
+    #[test]
+    fn a_snapshot_is_reduced_to_its_places() {
+        let (meshes, glass) = ([mesh(Side::Below), mesh(Side::Above)], glass());
+        let requests = [
+            ProbeRequest { side: 1, place: [0.0, 0.5] },
+            ProbeRequest { side: 0, place: [0.2, -0.5] },
+            ProbeRequest { side: 0, place: [0.0, 0.5] },
+        ];
+        let probes = Probes::new(meshes.each_ref().map(Some), &requests);
+        assert_eq!(probes.first_outside(), Some(2));
+        let all = Snapshot {
+            time: 2.0,
+            carried: [0.5, 0.25],
+            bodies: meshes.each_ref().map(|mesh| BodyFields {
+                displacement: mesh.nodes().iter().map(|[r, y]| [*r, 2.0 * y]).collect(),
+                velocity: mesh.nodes().iter().map(|[r, y]| [-r, *y]).collect(),
+                ..BodyFields::default()
+            }),
+            ..Snapshot::default()
+        };
+        let few = probes.reduce([Some(&glass); 2], &all);
+        let near = |[a, b]: [f64; 2], [c, d]: [f64; 2]| (a - c).abs() + (b - d).abs() < 1e-15;
+        assert!(
+            near(few.displacement(1)[0], [0.0, 1.25]) && near(few.displacement(0)[1], [0.2, -0.5])
+        );
+        assert!(near(few.bodies[0].velocity[1], [-0.2, -0.5]));
+        assert_eq!(few.bodies[0].displacement[2], [0.0; 2]);
+        assert_eq!(few.bodies[0].stress[0], [0.0; 4]);
+        assert!(few.bodies[1].stress[0][1] > 1e10);
+    }
+}

@@ -1,0 +1,115 @@
+//! The bodies that benchmarks move: the larger sphere of the glass pair.
+
+use fem_explicit::FreeMotion;
+use fem_material::finite::HyperelasticLaw;
+use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
+use fem_mesh::{HalfDisc, SphereMesh};
+
+/// m.
+pub const RADIUS: f64 = 11.1e-3;
+
+/// What goes wrong in none of them.
+pub type Error = Box<dyn std::error::Error>;
+
+/// A way to compute an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Hooke's law on a mesh that is made here.
+    Elastic,
+    /// The same elements, their nodes in no order, as a file may have them.
+    Unordered,
+    /// All moduli relax, one term.
+    Relaxing,
+    /// All moduli relax, three terms.
+    ThreeTerms,
+    /// Shear relaxes, one term.
+    RelaxingShear,
+    /// Neo-Hooke at finite strain.
+    FiniteStrain,
+    /// The same, and it relaxes, one term.
+    FiniteRelaxing,
+}
+
+impl Kind {
+    /// All, in the order of the table.
+    pub const ALL: [Self; 7] = [
+        Self::Elastic,
+        Self::Unordered,
+        Self::Relaxing,
+        Self::ThreeTerms,
+        Self::RelaxingShear,
+        Self::FiniteStrain,
+        Self::FiniteRelaxing,
+    ];
+
+    /// As tables have it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Elastic => "elastic",
+            Self::Unordered => "elastic, nodes in no order",
+            Self::Relaxing => "all moduli relax, one term",
+            Self::ThreeTerms => "all moduli relax, three terms",
+            Self::RelaxingShear => "shear relaxes, one term",
+            Self::FiniteStrain => "finite strain, neo-Hooke",
+            Self::FiniteRelaxing => "finite strain that relaxes, one term",
+        }
+    }
+
+    /// A sphere that breathes, its elements at the contact of a size (m).
+    pub fn sphere(self, size: f64) -> Result<FreeMotion, Error> {
+        let mesh = mesh(size)?;
+        let mut sphere = match self {
+            Self::Elastic => FreeMotion::new(mesh, &glass(&[], ActsOn::All)?, 0.9)?,
+            Self::Unordered => FreeMotion::new(unordered(&mesh)?, &glass(&[], ActsOn::All)?, 0.9)?,
+            Self::Relaxing => FreeMotion::new(mesh, &glass(&[0.5], ActsOn::All)?, 0.9)?,
+            Self::ThreeTerms => FreeMotion::new(mesh, &glass(&[0.4, 0.3, 0.2], ActsOn::All)?, 0.9)?,
+            Self::RelaxingShear => FreeMotion::new(mesh, &glass(&[0.5], ActsOn::Shear)?, 0.9)?,
+            Self::FiniteStrain => {
+                let (glass, law) = (glass(&[], ActsOn::All)?, HyperelasticLaw::NeoHooke);
+                FreeMotion::at_finite_strain(mesh, &glass, law, 0.9)?
+            }
+            Self::FiniteRelaxing => {
+                let (glass, law) = (glass(&[0.5], ActsOn::All)?, HyperelasticLaw::NeoHooke);
+                FreeMotion::at_finite_strain(mesh, &glass, law, 0.9)?
+            }
+        };
+        sphere.set_velocity(|[r, y]| [r, y - RADIUS]);
+        Ok(sphere)
+    }
+}
+
+/// Contact radius 0.22 mm, refined a fifth further.
+pub fn mesh(contact_element_size: f64) -> Result<SphereMesh, Error> {
+    let disc =
+        HalfDisc { radius: RADIUS, contact_element_size, refined_radius: 0.27e-3, growth: None };
+    Ok(disc.build()?)
+}
+
+/// Glass that relaxes by terms of these weights.
+pub fn glass(weights: &[f64], acts_on: ActsOn) -> Result<Material, Error> {
+    let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244)?;
+    let term = |&weight: &f64| PronyTerm { weight, relaxation_time: 1e-4 * weight };
+    let series = PronySeries::new(weights.iter().map(term).collect(), acts_on);
+    let relaxation = if weights.is_empty() { None } else { Some(series?) };
+    Ok(Material::new(2390.0, moduli, relaxation)?)
+}
+
+/// The mesh with its nodes numbered in another order, none beside the one that it lies beside.
+fn unordered(mesh: &SphereMesh) -> Result<SphereMesh, Error> {
+    let n = mesh.nodes().len();
+    let common = |mut a: usize, mut b: usize| {
+        while b != 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    // A step that has no factor in common with the number of nodes visits all.
+    let step = (n / 3..n).find(|&step| common(step, n) == 1).unwrap_or(1);
+    let mut nodes = mesh.nodes().to_vec();
+    for (k, node) in mesh.nodes().iter().enumerate() {
+        nodes[k * step % n] = *node;
+    }
+    let number = |node: u32| (node as usize * step % n) as u32;
+    let quads = mesh.quads().iter().map(|quad| quad.map(number)).collect();
+    Ok(SphereMesh::import(mesh.radius(), nodes, quads)?)
+}

@@ -1,0 +1,5 @@
+//! The page's module, run where tests run.
+
+mod pictures;
+mod session;
+mod words;

@@ -1,0 +1,70 @@
+//! Pictures: of what the bodies do, and of what a page asks for.
+
+use fem_page::{Ask, ChartSpec, Session};
+
+use crate::session::{CONDENSED, GLASS, run};
+
+const ASK: Ask = Ask { rows: 300, frames: 3 };
+
+/// The middle of three instants is within a step of the largest approach: its stress is the largest
+/// pressure, recovered from elements of a twelfth of the contact, and its force the largest force.
+#[test]
+fn the_picture_of_the_middle_has_the_largest_pressure() {
+    let mut session = Session::default();
+    let outcome = run(&mut session, &(GLASS.to_string() + CONDENSED), ASK);
+    assert_eq!(outcome.frames.len(), 3);
+    let [first, middle] = [0, 1].map(|k| session.picture(k, 2.5).expect("elements"));
+    let pressure = outcome.summary.collision.peak_pressure_pa.unwrap();
+    assert!((-middle.range_pa.0 / pressure - 1.0).abs() < 0.06, "{:?}", middle.range_pa);
+    let force = outcome.summary.collision.peak_force_n.unwrap();
+    // An elastic pulse falls by a hundredth within a twentieth of its length from the top.
+    assert!((outcome.frames[1].contact_force_n.unwrap() / force - 1.0).abs() < 0.01);
+    // All instants have one scale, and every band a colour on both grounds.
+    assert_eq!(
+        (first.bar.as_str(), first.dark_rules.as_str()),
+        (&*middle.bar, &*middle.dark_rules)
+    );
+    assert!(middle.svg.contains("in striker (below) and target (above)"));
+    assert!(middle.svg.contains("class=\"n9\"") && !first.svg.contains("class=\"n9\""));
+    assert!(session.picture(3, 2.5).is_none());
+    // No window is larger than the larger sphere to each side, 22.2 mm.
+    let [whole, beyond] = [200.0, 1e9].map(|width| session.picture(0, width).unwrap().svg);
+    assert_eq!(whole, beyond);
+}
+
+#[test]
+fn a_model_without_elements_has_no_picture_but_curves() {
+    let mut session = Session::default();
+    let outcome = run(&mut session, &(GLASS.to_string() + "\n[model]\nting = {}\n"), ASK);
+    assert!(session.picture(0, 2.5).is_none() && outcome.frames.is_empty());
+    for chart in [&outcome.charts.force, &outcome.charts.approach] {
+        let svg = chart.as_deref().expect("a curve");
+        assert!(svg.contains(">Hertz<") && svg.contains("[µs]"), "{svg}");
+    }
+}
+
+/// What is nothing next to the rest has no curve: glass without relaxation loses no energy to it.
+#[test]
+fn energy_has_a_curve_where_there_is_some() {
+    let of = |text: &str| {
+        let outcome = run(&mut Session::default(), &(text.to_string() + CONDENSED), ASK);
+        outcome.charts.energy.expect("energies")
+    };
+    let elastic = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+    assert!(of(GLASS).contains(">viscous dissipation<"));
+    assert!(!of(elastic).contains("dissipation") && of(elastic).contains(">kinetic<"));
+}
+
+#[test]
+fn a_page_asks_for_charts_of_its_own() {
+    let spec = |text: &str| serde_json::from_str::<ChartSpec>(text);
+    let chart = spec(
+        r#"{"x": "speed [m/s]", "y": "T [µs]", "logarithmic": [true, true], "range": [40, 100], "curves":
+            [{"label": "computed", "mark": "line", "points": [[0.1, 90.0], [1.0, 60.0]]},
+             {"label": "measured", "mark": "points", "points": [[0.5, 66.0]]}]}"#,
+    );
+    let svg = chart.unwrap().svg().expect("points");
+    assert_eq!(svg.matches("<circle").count(), 2 + 1 + 1);
+    assert!(spec(r#"{"x": "", "y": "", "curves": []}"#).unwrap().svg().is_none());
+    assert!(spec(r#"{"x": "", "y": "", "curves": [], "z": 1}"#).is_err());
+}

@@ -1,0 +1,93 @@
+//! A session gives what the front door gives, whatever came before, and says what is wrong.
+
+use std::path::Path;
+
+use fem::{Case, Simulation};
+use fem_page::{Ask, Fault, Outcome, Session};
+
+pub const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+const WALL: &str = include_str!("../../../../cases/glass_on_wall.toml");
+pub const CONDENSED: &str = "\n[model]\ncondensed = {}\n";
+const ASK: Ask = Ask { rows: 300, frames: 5 };
+
+/// Runs a case to its end.
+pub fn run(session: &mut Session, text: &str, ask: Ask) -> Outcome {
+    session.begin(text, ask).expect("a case that runs");
+    while session.advance(1) < 1.0 {}
+    session.finish(0.5).expect("a run")
+}
+
+fn fault(text: &str) -> Fault {
+    Session::default().begin(text, ASK).expect_err("a fault").into()
+}
+
+/// The same bits as the command's, after other cases too: what sliders ask for on the way leaves no
+/// trace.
+#[test]
+fn numbers_are_those_of_the_front_door_whatever_came_before() {
+    let mut session = Session::default();
+    let text = GLASS.to_string() + CONDENSED;
+    for other in [&text.replace("22.2 mm", "10 mm"), &text.replace("0.5 m/s\"", "3 m/s\""), &text] {
+        run(&mut session, other, ASK);
+    }
+    for text in [&text, &(WALL.to_string() + CONDENSED)] {
+        let outcome = run(&mut session, text, ASK);
+        let case = Case::parse("x", text, Path::new("."), &[]).unwrap();
+        let simulation = Simulation::new(case).unwrap();
+        let direct = simulation.summary(&simulation.run(&mut ()));
+        let of = |summary: &fem::Summary| {
+            let value = serde_json::to_value(summary).unwrap();
+            ["restitution", "contact_time_s", "peak_force_n", "max_approach_m", "energy", "effects"]
+                .map(|key| value[key].clone())
+        };
+        assert_eq!(of(&outcome.summary), of(&direct));
+        assert_eq!(outcome.summary.cost.solve_s, 0.5);
+    }
+}
+
+#[test]
+fn faults_say_where_and_what_is_allowed() {
+    let negative = fault(&GLASS.replace("22.2 mm\" }", "-1 mm\" }"));
+    assert_eq!(negative.key.as_deref(), Some("body.0.sphere.diameter"));
+    assert_eq!((negative.line, negative.column), (Some(20), Some(23)));
+    assert!(negative.help.unwrap().contains("greater than 0"));
+
+    let third =
+        "\n[[body]]\nname = \"third\"\nsphere = { diameter = 1e-2 }\nmaterial = \"glass\"\n";
+    let three = fault(&(GLASS.to_string() + third));
+    assert!(three.text.contains("body") && three.message.contains('3'), "{}", three.text);
+
+    let mesh = fault(include_str!("../../../../cases/glass_0.5ms_14um.toml"));
+    assert_eq!(mesh.key.as_deref(), Some("body.0.sphere.mesh"));
+    assert!(!fault("title = [").text.is_empty());
+}
+
+/// A run that the reader ends is told as far as it got; nothing runs after it.
+#[test]
+fn a_run_can_be_ended_before_it_is_over() {
+    let mut session = Session::default();
+    let begun = session.begin(GLASS, ASK).unwrap();
+    assert!(begun.price.element_updates.is_some_and(|updates| updates > 1_000_000));
+    while session.advance(1) < 0.3 {}
+    let outcome = session.finish(1.0).unwrap();
+    assert!(!outcome.summary.complete && outcome.summary.collision.restitution.is_none());
+    assert!(outcome.charts.force.is_some_and(|svg| svg.contains("this run")));
+    assert!(session.finish(1.0).is_none() && session.advance(1) == 1.0);
+}
+
+/// A fault leaves nothing of the case before.
+#[test]
+fn a_fault_leaves_nothing_to_run() {
+    let mut session = Session::default();
+    session.begin(GLASS, ASK).unwrap();
+    assert!(session.begin("title = 1", ASK).is_err());
+    assert!(session.finish(0.0).is_none() && session.picture(0, 2.0).is_none());
+}
+
+/// More than a run keeps is refused in words.
+#[test]
+fn more_frames_than_a_run_keeps_are_refused() {
+    let ask = Ask { frames: 100_000_000, ..ASK };
+    let error = Session::default().begin(GLASS, ask).unwrap_err();
+    assert!(error.message().contains("snapshots"), "{error}");
+}

@@ -1,0 +1,36 @@
+//! What the page says in words of its own is said of everything that results name.
+
+use fem::Account;
+use fem::effects::EFFECTS;
+use fem_page::LibraryEntry;
+
+const WORDS: &str = include_str!("../../web/scripts/effects.js");
+const SCENE: &str = include_str!("../../web/scripts/scene.js");
+
+#[test]
+fn every_effect_and_account_has_plain_words() {
+    for effect in EFFECTS {
+        assert!(WORDS.contains(&format!("  '{}': '", effect.name())), "{}", effect.name());
+    }
+    // The work of a wall is given, not held: what there was at first.
+    for account in Account::all().filter(|account| *account != Account::WallWork) {
+        assert!(WORDS.contains(&format!("  {}: '", account.name())), "{}", account.name());
+    }
+}
+
+/// The page cuts a relaxation off at its table, and begins with a material of the library.
+#[test]
+fn materials_have_their_relaxation_last() {
+    let all = LibraryEntry::all();
+    assert!(all.len() > 10);
+    for material in &all {
+        let table = format!("\n[material.{}.relaxation]", material.name);
+        let parts: Vec<&str> = material.text.split(&table).collect();
+        assert!(parts.len() <= 2 && parts[0].contains("density"), "{}", material.text);
+        assert!(!parts[0].contains("terms"), "{}", material.text);
+    }
+    assert!(SCENE.contains("'striker.material': 'glass'"));
+    assert!(
+        all.iter().any(|material| material.name == "glass" && material.text.contains("2708 1/s"))
+    );
+}

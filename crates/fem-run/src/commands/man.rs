@@ -1,0 +1,36 @@
+//! `fem-run man`.
+
+use clap::Command;
+use clap_mangen::Man;
+
+use crate::failure::Failure;
+use crate::standard_output;
+
+/// Print the manual page, of fem-run or of one of its commands
+///
+/// To read it: fem-run man | man -l -. To install it: fem-run man > ~/.local/share/man/man1/fem-run.1
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// A command, such as check
+    command: Option<String>,
+}
+
+/// Prints the page as troff; `whole` is the command line.
+pub fn execute(arguments: &Arguments, mut whole: Command) -> Result<(), Failure> {
+    whole.build();
+    let page = match &arguments.command {
+        None => whole.clone(),
+        Some(name) => whole.find_subcommand(name).cloned().ok_or_else(|| {
+            let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
+            Failure::bad_input(format!("fem-run has no command {name:?}"))
+                .with_help(format!("the commands are {}", names.join(", ")))
+        })?,
+    };
+    let title = page.get_bin_name().unwrap_or("fem-run").replace(' ', "-");
+    let mut text = Vec::new();
+    Man::new(page)
+        .title(title)
+        .render(&mut text)
+        .map_err(|error| Failure::failed(format!("the manual page: {error}")))?;
+    standard_output::print(&String::from_utf8_lossy(&text))
+}

@@ -1,0 +1,82 @@
+//! `fem-run materials`: the library of materials, and one of them as a case has it.
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem_case::CaseFile;
+use fem_case::engineering::show;
+use fem_case::library::{Material, materials, nearest_to, table_text};
+use fem_case::schema::BodyTable;
+use fem_case::{Case, CaseError};
+use textwrap::{Options, WordSeparator, WordSplitter};
+
+use crate::failure::Failure;
+use crate::standard_output;
+use crate::tables::table;
+
+/// List the materials that a case can name as "lib:NAME", or print one of them
+///
+/// One is printed as the table of a case, with its source and the range in which its numbers hold:
+/// to be copied into a case and changed there. A case that writes material = "lib:NAME" needs no
+/// table.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// A material of the list
+    name: Option<String>,
+}
+
+/// Prints the list or the one.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    match &arguments.name {
+        None => standard_output::print(&list()?),
+        Some(name) => standard_output::print(&one(name)?),
+    }
+}
+
+/// A material of the library as a case has it, its source and range as comments; `lib:` before the
+/// name may be left out.
+///
+/// # Errors
+/// No such material.
+pub fn one(name: &str) -> Result<String, Failure> {
+    let name = name.strip_prefix("lib:").unwrap_or(name);
+    let found = materials().get(name).zip(table_text(name));
+    let Some((Material { title, source, range, .. }, text)) = found else {
+        let near = nearest_to(name).map_or(String::new(), |near| format!("did you mean {near}? "));
+        let all: Vec<&str> = materials().keys().map(String::as_str).collect();
+        let message = format!("the library has no material {name:?}");
+        return Err(
+            Failure::bad_input(message).with_help(format!("{near}it has {}", all.join(", ")))
+        );
+    };
+    let width = Options::new(100).initial_indent("# ").subsequent_indent("# ");
+    let width = width.word_separator(WordSeparator::AsciiSpace);
+    let width = width.word_splitter(WordSplitter::NoHyphenation);
+    let comment = |text: &str| textwrap::fill(text, &width);
+    let lines = [title.clone(), format!("Source: {source}."), format!("Range: {range}.")];
+    let comments: Vec<String> = lines.iter().map(|line| comment(line)).collect();
+    Ok(format!("{}\n{text}", comments.join("\n")))
+}
+
+/// One row a material.
+fn list() -> Result<String, CaseError> {
+    let header = ["name", "density", "Young's", "Poisson's", "relaxes", "what"];
+    let mut rows = vec![header.map(String::from)];
+    for (name, entry) in materials() {
+        let floor = BodyTable::wall("floor");
+        let ball = BodyTable::sphere("ball", 0.01, format!("lib:{name}")).approaching(1.0);
+        let case = Case::of(CaseFile::of_bodies(floor, ball))?;
+        let Some(material) = case.scene().bodies()[1].material() else { continue };
+        let moduli = material.instantaneous();
+        rows.push([
+            name.clone(),
+            format!("{} kg/m^3", material.density()),
+            show(moduli.youngs_modulus(), "Pa"),
+            format!("{:.4}", moduli.poissons_ratio()),
+            if material.relaxation().is_some() { "yes" } else { "no" }.to_string(),
+            entry.title.clone(),
+        ]);
+    }
+    let list = table(&[Left, Right, Right, Right, Left, Left], rows);
+    Ok(format!(
+        "{list}\nIn a case: material = \"lib:NAME\". Source and range: fem-run materials NAME\n"
+    ))
+}

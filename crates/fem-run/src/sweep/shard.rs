@@ -1,0 +1,51 @@
+//! A part of a sweep: every N-th member, from the K-th.
+
+use std::str::FromStr;
+
+/// `K/N`: members K − 1, K − 1 + N, …
+#[derive(Clone, Copy, Debug)]
+pub struct Shard {
+    first: usize,
+    step: usize,
+}
+
+impl Shard {
+    /// All members.
+    pub const WHOLE: Self = Self { first: 0, step: 1 };
+
+    /// Whether it has the member at this place.
+    pub fn has(&self, index: usize) -> bool {
+        index % self.step == self.first
+    }
+
+    /// The places of its members in a sweep of so many.
+    pub fn places(&self, n_members: usize) -> Vec<usize> {
+        (self.first..n_members).step_by(self.step).collect()
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').map(|(k, n)| (k.parse::<usize>(), n.parse::<usize>()));
+        match numbers {
+            Some((Ok(k), Ok(n))) if 1 <= k && k <= n => Ok(Self { first: k - 1, step: n }),
+            _ => Err("a shard is K/N with K from 1 to N, such as 3/10".to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_share_out_all_members() {
+        let shards = ["1/3", "2/3", "3/3"].map(|text| text.parse::<Shard>().unwrap());
+        let mut places: Vec<usize> = shards.iter().flat_map(|shard| shard.places(8)).collect();
+        places.sort_unstable();
+        assert_eq!(places, Shard::WHOLE.places(8));
+        assert!(shards[1].has(4) && !shards[1].has(3));
+    }
+}

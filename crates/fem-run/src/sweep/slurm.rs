@@ -1,0 +1,225 @@
+//! `sweep.sbatch`: shards of a sweep as a job array of Slurm, and a job after it that merges them.
+//!
+//! One script plays all parts. Run by a shell it submits itself twice: as the array, and as the merge that
+//! waits for its end. A task computes its shard and looks at nothing else; what is there already is taken, so
+//! that a task that is killed, preempted or out of time goes on when it is queued again. The program owns
+//! the list of work, the scheduler only starts it.
+
+use std::collections::HashSet;
+use std::env::{current_dir, current_exe};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use fem::sweep::Checked;
+use fem_case::Sweep;
+
+use super::duration::duration;
+use super::folder::SweepFolder;
+use crate::case_arguments::stem_of;
+use crate::failure::Failure;
+use crate::standard_output::one_line;
+
+/// The script.
+const SCRIPT_FILE: &str = "sweep.sbatch";
+/// What a task is to take, s: long for a scheduler, short for what may be lost.
+const TASK_SECONDS: f64 = 300.0;
+/// Tasks of one array: Slurm's MaxArraySize is 1001 unless a site says otherwise.
+const MOST_TASKS: usize = 1000;
+/// Options that the script gives itself.
+const OWN_OPTIONS: [&str; 5] = ["--array", "-a", "--dependency", "-d", "--wrap"];
+
+/// How a sweep is handed to Slurm.
+#[derive(clap::Args, Clone, Debug)]
+pub struct SlurmOptions {
+    /// Write sweep.sbatch, a job array over shards, with these options of sbatch: --slurm='--time=10 --mem=1G'
+    ///
+    /// Nothing is computed here. `sh sweep.sbatch` submits the array and a job that merges it.
+    #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true, num_args = 1,
+        conflicts_with_all = ["shard", "merge", "dry_run", "threads"])]
+    slurm: Option<String>,
+    /// Submit it, too
+    #[arg(long, requires = "slurm")]
+    pub submit: bool,
+    /// Shards, each a task of the array [default: as many as take some five minutes each]
+    #[arg(long, value_name = "N", requires = "slurm", allow_negative_numbers = true)]
+    shards: Option<NonZeroUsize>,
+}
+
+impl SlurmOptions {
+    /// These options, if there is to be a script.
+    pub fn options(&self) -> Option<&Self> {
+        self.slurm.is_some().then_some(self)
+    }
+}
+
+/// A sweep as a job array.
+pub struct Batch {
+    options: String,
+    n_shards: usize,
+    n_left: usize,
+    seconds: f64,
+}
+
+impl Batch {
+    /// The array of a sweep that was checked.
+    ///
+    /// # Errors
+    /// Options that the script gives itself, or that are not of one line; more shards than members or than
+    /// an array has.
+    pub fn of(sweep: &Sweep, checked: &Checked, options: &SlurmOptions) -> Result<Self, Failure> {
+        let text = options.slurm.clone().unwrap_or_default().trim().to_string();
+        let refuse = |found: String, help: &str| Err(Failure::bad_input(found).with_help(help));
+        if text.contains(char::is_control) {
+            return refuse(
+                "--slurm: the options are not in one line".into(),
+                "separate them by spaces",
+            );
+        }
+        let names: HashSet<&str> =
+            text.split_whitespace().map(|word| word.split('=').next().unwrap_or(word)).collect();
+        if let Some(own) = OWN_OPTIONS.iter().find(|own| names.contains(**own)) {
+            let help = "the array is over the shards: say how many with --shards N";
+            return refuse(format!("--slurm: {own} is the sweep's own"), help);
+        }
+        let most = MOST_TASKS.min(sweep.n_members());
+        let threads = cpus_per_task(&text) as f64;
+        let wanted = (checked.seconds / (TASK_SECONDS * threads)).ceil() as usize;
+        let n_shards = match options.shards.map(NonZeroUsize::get) {
+            Some(n) if n > most => {
+                let help = format!(
+                    "the sweep has {} members, an array at most {MOST_TASKS} tasks",
+                    sweep.n_members()
+                );
+                return refuse(format!("--shards {n}"), &help);
+            }
+            Some(n) => n,
+            None => wanted.clamp(1, most),
+        };
+        let seconds = checked.seconds / (n_shards as f64 * threads);
+        Ok(Self { options: text, n_shards, n_left: checked.left.len(), seconds })
+    }
+
+    /// Writes the script into the sweep's folder and says where it is.
+    ///
+    /// # Errors
+    /// A current folder that has no name, a script that cannot be written.
+    pub fn write(
+        &self,
+        sweep: &Path,
+        set: &[String],
+        folder: &SweepFolder,
+    ) -> Result<PathBuf, Failure> {
+        let fault = |error: std::io::Error| Failure::failed(format!("{SCRIPT_FILE}: {error}"));
+        let here = current_dir().map_err(fault)?;
+        let place = here.join(folder.path()).join(SCRIPT_FILE);
+        let text = self.script(sweep, set, folder.path(), &here);
+        folder.write(SCRIPT_FILE, |file| file.write_all(text.as_bytes())).map_err(fault)?;
+        Ok(place)
+    }
+
+    fn script(&self, sweep: &Path, set: &[String], out: &Path, here: &Path) -> String {
+        let text = |path: &Path| path.display().to_string();
+        let mut command = vec![text(&program()), "sweep".into(), text(sweep)];
+        command.extend(set.iter().flat_map(|set| ["--set".to_string(), set.clone()]));
+        command.extend(["--out".to_string(), text(out), "--quiet".to_string()]);
+        let command: Vec<String> = command.iter().map(|word| quoted(word)).collect();
+        let name = stem_of(sweep).replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+        let logs = here.join(out).join("slurm-%A_%a.log");
+        let options = match self.options.as_str() {
+            "" => String::new(),
+            options => format!("#SBATCH {options}\n"),
+        };
+        include_str!("sweep.sbatch")
+            .replace("@NAME@", &name)
+            .replace("@SHARDS@", &self.n_shards.to_string())
+            .replace("@HERE@", &in_quotes(&text(here)))
+            .replace("@LOGS@", &in_quotes(&text(&logs)))
+            .replace("#SBATCH @OPTIONS@\n", &options)
+            .replace("@SCRIPT@", &quoted(&text(&here.join(out).join(SCRIPT_FILE))))
+            .replace("@COMMAND@", &command.join(" "))
+    }
+
+    /// Submits the script and gives what its output says.
+    ///
+    /// # Errors
+    /// No shell, or no Slurm, or a Slurm that refuses.
+    pub fn submit(&self, script: &Path) -> Result<String, Failure> {
+        let help = format!("the script is kept; submit it with: sh {}", script.display());
+        let fault = |found: String| Failure::failed(format!("--submit: {found}")).with_help(&help);
+        let ran = Command::new("sh").arg(script).stdin(Stdio::null()).output();
+        let ran = ran.map_err(|error| fault(format!("sh: {error}")))?;
+        match ran.status.success() {
+            true => Ok(one_line(String::from_utf8_lossy(&ran.stdout).trim())),
+            false => Err(fault(one_line(String::from_utf8_lossy(&ran.stderr).trim()))),
+        }
+    }
+
+    /// What was made, and what to do with it.
+    pub fn report(&self, script: &Path, submitted: Option<&str>) -> String {
+        let script = one_line(&script.display().to_string());
+        let Self { n_shards, n_left, seconds, .. } = self;
+        let task = if *n_shards == 1 { "1 task" } else { &format!("{n_shards} tasks") };
+        let next = match submitted {
+            Some(said) => format!("Submitted: {said}"),
+            None => format!("Submit it with: sh {}", quoted(&script)),
+        };
+        format!(
+            "{n_left} members in {task} of some {}, and a task that merges them.\n{next}\n\nResult: {script}\n",
+            duration(*seconds)
+        )
+    }
+}
+
+/// This program, or its name where another one, such as Python, plays it.
+fn program() -> PathBuf {
+    let own =
+        current_exe().ok().filter(|path| path.file_stem().is_some_and(|stem| stem == "fem-run"));
+    own.unwrap_or_else(|| PathBuf::from("fem-run"))
+}
+
+/// Processors of a task, as the options of sbatch say.
+fn cpus_per_task(options: &str) -> usize {
+    let words: Vec<&str> = options.split_whitespace().collect();
+    let given = words.iter().enumerate().find_map(|(k, word)| {
+        let attached = word.strip_prefix("--cpus-per-task=").or(word.strip_prefix("-c"));
+        let apart = ["--cpus-per-task", "-c"].contains(word).then(|| words.get(k + 1).copied());
+        apart.flatten().or(attached)?.parse::<usize>().ok()
+    });
+    given.unwrap_or(1).max(1)
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+%@".contains(c);
+    match !word.is_empty() && word.chars().all(is_plain) {
+        true => word.to_string(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
+/// A path in a line of options of sbatch.
+fn in_quotes(path: &str) -> String {
+    if path.contains(char::is_whitespace) { format!("\"{path}\"") } else { path.to_string() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_come_out_of_a_shell_as_they_went_in() {
+        for word in ["a b", "it's", "body.0.name='\"x\"'", "", "$HOME `id` \\", "ünï/10 %"] {
+            let ran =
+                Command::new("sh").args(["-c", &format!("printf %s {}", quoted(word))]).output();
+            assert_eq!(String::from_utf8_lossy(&ran.unwrap().stdout), word);
+        }
+    }
+
+    #[test]
+    fn processors_are_read_from_the_options() {
+        let all = ["--cpus-per-task=4", "-c 4", "--time=10 -c4 --mem=1G", "--cpus-per-task 4"];
+        assert_eq!(all.map(cpus_per_task), [4; 4]);
+        assert_eq!(["", "--time=10", "-c 0"].map(cpus_per_task), [1; 3]);
+    }
+}

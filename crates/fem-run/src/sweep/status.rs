@@ -1,0 +1,71 @@
+//! `fem-run sweep --status FOLDER`: how far a sweep is, told by its folder alone.
+
+use std::fs;
+use std::path::Path;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::results::PROGRAM;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use super::duration::duration;
+use super::folder::{MARK_FILE, SweepFolder};
+use crate::failure::Failure;
+use crate::standard_output::one_line;
+use crate::tables::table;
+
+/// What is read of `sweep.json`.
+#[derive(Deserialize)]
+struct Mark {
+    program: String,
+    case: String,
+    members: Vec<MarkedMember>,
+}
+
+#[derive(Deserialize)]
+struct MarkedMember {
+    member: String,
+    #[serde(rename = "values")]
+    _values: IgnoredAny,
+}
+
+/// How far the sweep in a folder is.
+///
+/// # Errors
+/// A folder that holds no sweep.
+pub fn status(folder: &Path) -> Result<String, Failure> {
+    let place = folder.join(MARK_FILE);
+    let name = one_line(&folder.display().to_string());
+    let refuse = |found: String| {
+        let help = "name the folder of a sweep, such as fem-run sweep --status runs/sweep_speed";
+        Failure::bad_input(format!("{name}: {found}")).with_help(help)
+    };
+    let bytes = fs::read(&place).map_err(|error| refuse(format!("{MARK_FILE}: {error}")))?;
+    let mark = serde_json::from_slice::<Mark>(&bytes);
+    let mark = mark.ok().filter(|mark| mark.program == PROGRAM);
+    let mark = mark.ok_or_else(|| refuse(format!("{MARK_FILE} is not a sweep's")))?;
+
+    let there = SweepFolder::at(folder);
+    let (mut n_done, mut n_failed, mut spent) = (0_usize, 0_usize, 0.0);
+    for member in &mark.members {
+        let Some(summary) = there.summary(&member.member) else { continue };
+        n_done += 1;
+        n_failed += usize::from(summary["complete"] == false);
+        spent += summary["cost"]["wall_s"].as_f64().unwrap_or(0.0);
+    }
+    let n_left = mark.members.len() - n_done;
+    let mut rows = vec![
+        ["members", &mark.members.len().to_string()].map(String::from),
+        ["done", &n_done.to_string()].map(String::from),
+        ["of those failed", &n_failed.to_string()].map(String::from),
+        ["left", &n_left.to_string()].map(String::from),
+        ["spent", &format!("{} of one core", duration(spent))].map(String::from),
+    ];
+    if n_left > 0 && n_done > 0 {
+        let left = spent / n_done as f64 * n_left as f64;
+        let left = format!("{} of one core, if the others take as long", duration(left));
+        rows.push(["left to spend", &left].map(String::from));
+    }
+    let case = one_line(&mark.case);
+    Ok(format!("{name}: a sweep of {case}\n\n{}", table(&[Left, Right], rows)))
+}

@@ -1,0 +1,150 @@
+//! What a new user does first: pick a material, start a case.
+
+use crate::common::Place;
+
+#[test]
+fn materials_are_listed_and_one_is_printed_as_a_table_of_a_case() {
+    let place = Place::new();
+    let list = place.succeed(&["materials"]).stdout;
+    for name in ["alumina", "glass", "pmma", "soda-lime-glass"] {
+        let row = list.lines().find(|line| line.starts_with(&format!("{name} ")));
+        assert!(row.is_some(), "{name}: {list}");
+    }
+    let one = place.succeed(&["materials", "lib:pmma"]).stdout;
+    assert!(one.contains("# Source: ") && one.contains("# Range: "), "{one}");
+    assert!(one.lines().all(|line| line.len() <= 100), "{one}");
+    // The text is a table of a case.
+    let bodies = "[[body]]\nname = 'floor'\nwall = {}\n\n[[body]]\nname = 'ball'\nmaterial = 'pmma'\n\
+                  sphere = { diameter = '1 cm' }\napproach_speed = 1\n\n[model]\nhertz = {}\n";
+    place.write("ball.toml", &format!("{bodies}\n{one}"));
+    place.write("short.toml", &bodies.replace("'pmma'", "'lib:pmma'"));
+    let own = place.succeed(&["ball.toml", "--json"]).stdout;
+    let short = place.succeed(&["short.toml", "--json"]).stdout;
+    let read = |text: &str| -> serde_json::Value { serde_json::from_str(text).unwrap() };
+    let (own, short) = (read(&own), read(&short));
+    assert_eq!(own["peak_force_n"], short["peak_force_n"]);
+    assert_eq!(own["case"]["material"]["pmma"], short["case"]["material"]["lib:pmma"]);
+    assert_eq!(short["case"]["material"]["lib:pmma"]["density"], 1190.0);
+}
+
+#[test]
+fn a_material_that_is_not_there_is_bad_input() {
+    let ran = Place::new().run(&["materials", "rubber"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("did you mean natural-rubber?"), "{}", ran.stderr);
+    assert!(ran.stdout.is_empty());
+}
+
+/// A new case runs, and so it does with each of its commented keys in force.
+#[test]
+fn a_new_case_is_sound_with_all_that_its_comments_offer() {
+    let place = Place::new();
+    for (partner, material) in
+        [("sphere", "soda-lime-glass"), ("wall", "pmma"), ("half-space", "lib:pvb")]
+    {
+        let name = format!("{partner}_0.5ms");
+        let ran = place.succeed(&["new", &name, "--partner", partner, "--material", material]);
+        let file = format!("{name}.toml");
+        assert!(ran.stdout.contains(&file), "{}", ran.stdout);
+        let text = String::from_utf8(place.read(&file)).unwrap();
+        assert!(text.starts_with("#:schema ./fem-run.schema.json\n"), "{text}");
+        for place in ["{below}", "{table}", "{relaxation}", "{gravity}", "{material}", "{file}"] {
+            assert!(!text.contains(place), "{text}");
+        }
+        place.succeed(&[&file, "--set", "model.hertz={}"]);
+        place.succeed(&["check", &file]);
+        // A bare # stands before a key; `# ` before words.
+        let is_offer =
+            |line: &str| line.starts_with('#') && !line.starts_with("# ") && line.len() > 1;
+        let offers: Vec<&str> = text
+            .split("\n\n")
+            .filter(|block| {
+                block.lines().next().is_some_and(is_offer) && !block.contains(":schema")
+            })
+            .collect();
+        let expected = if partner == "sphere" { 4 } else { 5 } - usize::from(material == "lib:pvb");
+        assert_eq!(offers.len(), expected, "{offers:?}");
+        for offer in offers {
+            assert!(offer.lines().all(is_offer), "{offer}");
+            let in_force: Vec<&str> = offer.lines().map(|line| &line[1..]).collect();
+            place.write("offered.toml", &text.replace(offer, &in_force.join("\n")));
+            let ran = place.run(&["check", "offered.toml"]);
+            assert_eq!(ran.code, Some(0), "{offer}\n{}", ran.stderr);
+        }
+    }
+    let schema = place.json("fem-run.schema.json");
+    assert_eq!(schema["properties"]["body"]["minItems"], 2);
+    let printed = place.succeed(&["schema"]).stdout;
+    assert_eq!(printed.as_bytes(), place.read("fem-run.schema.json"));
+}
+
+#[test]
+fn a_new_case_overwrites_nothing() {
+    let place = Place::new();
+    let ran = place.run(&["new", "case"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("case.toml exists"), "{}", ran.stderr);
+    assert_eq!(place.list("."), ["case.toml"]);
+    place.write("fem-run.schema.json", "{}");
+    place.succeed(&["new", "other", "--quiet"]);
+    assert_eq!(place.read("fem-run.schema.json"), b"{}");
+    assert_eq!(place.run(&["new", "none/ball"]).code, Some(2));
+    assert_eq!(place.run(&["new", "ball", "--material", "stee"]).code, Some(2));
+    assert_eq!(place.list("."), ["case.toml", "fem-run.schema.json", "other.toml"]);
+}
+
+/// The keys of the schema are those that the reader names when it meets another.
+#[test]
+fn a_schema_has_the_keys_of_the_reader() {
+    let place = Place::new();
+    let read = |of: &str| -> serde_json::Value {
+        serde_json::from_str(&place.succeed(&["schema", of]).stdout).unwrap()
+    };
+    let keys = |schema: &serde_json::Value| -> Vec<String> {
+        schema["properties"].as_object().unwrap().keys().cloned().collect()
+    };
+    let told = |stderr: &str| -> Vec<String> {
+        let (_, list) = stderr.split_once("the keys here are ").unwrap();
+        list.split(", ").map(|key| key.split_whitespace().collect()).collect()
+    };
+    let schema = read("case");
+    for (at, keys) in [
+        ("nothing=1", keys(&schema)),
+        ("body.0.nothing=1", keys(&schema["definitions"]["BodyTable"])),
+        ("material.glass.nothing=1", keys(&schema["definitions"]["MaterialTable"])),
+        ("model.law.tsuji.nothing=1", keys(&schema["definitions"]["TsujiTable"])),
+    ] {
+        assert_eq!(told(&place.run(&["check", "case.toml", "--set", at]).stderr), keys, "{at}");
+    }
+    place.write("sweep.toml", "nothing = 1\ncase = 'case.toml'\nvary = { title = ['a'] }\n");
+    assert_eq!(told(&place.run(&["sweep", "sweep.toml"]).stderr), keys(&read("sweep")));
+}
+
+#[test]
+fn a_word_that_is_nearly_a_command_is_asked_about() {
+    let place = Place::new();
+    for (arguments, meant) in [
+        (&["chek"][..], "did you mean fem-run check?"),
+        (&["swep", "sweep.toml"], "did you mean sweep?"),
+        (&["mateirals"], "did you mean fem-run materials?"),
+    ] {
+        let ran = place.run(arguments);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.contains(meant), "{}", ran.stderr);
+    }
+    // A file is meant.
+    for file in ["mesh.toml", "glass"] {
+        let ran = place.run(&[file]);
+        assert!(ran.stderr.contains("there is no such file"), "{}", ran.stderr);
+    }
+}
+
+#[test]
+fn manual_pages_are_of_the_command_and_its_commands() {
+    let place = Place::new();
+    let whole = place.succeed(&["man"]).stdout;
+    assert!(whole.contains(".TH fem-run 1") && whole.contains("fem\\-run\\-check"), "{whole}");
+    let one = place.succeed(&["man", "check"]).stdout;
+    assert!(one.contains("Check a case and print it"), "{one}");
+    assert_eq!(place.run(&["man", "chek"]).code, Some(2));
+}

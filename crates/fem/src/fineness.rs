@@ -1,0 +1,106 @@
+//! How fine elements and steps are for the tolerance of a case.
+//!
+//! With k elements across the contact radius the peak force is off by
+//!
+//! ```math
+//! \Bigl|\frac{\Delta F}{F}\Bigr| \le \frac{C}{k^2} + c\,\mu, \qquad
+//! C = C_0 + C_1 s, \qquad c = \tfrac12,
+//! ```
+//!
+//! with μ the share of mass that is moved for a longer step. C₁ is the swing with the place of the contact's
+//! edge between two nodes, at most 3/16 by theory ([`stagger`](crate::stagger)); s is what of it is left: all
+//! where the meshes are not staggered, else how much the bodies' shares in the compliance of the
+//! contact differ. All other numbers are off by less: contact time 0.06/k², restitution 0.04/k²,
+//! peak pressure 0.45/k².
+//!
+//! C and c are measured: errors of 11 cases of this repository and 17 random scenes (walls, half-spaces,
+//! strong relaxation, size ratios to 30, moduli to 1:30) against limits of fine meshes, k = 3 to 11, μ = 2e-4 to 2e-2
+//! (docs/accuracy.md). The claim `tolerance` tries the rule on scenes that are drawn anew each time.
+//!
+//! Where the swing is not taken away, the place of the edge of elastic bodies is chosen where it passes
+//! through zero: k = n + 0.35 with springs at points between nodes, n + 0.45 without overlap at nodes.
+
+use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
+
+use crate::effects::FiniteStrain;
+use crate::estimate::Estimate;
+
+/// What is left without a swing, ...
+const SMOOTH: f64 = 0.05;
+/// ... and what the swing adds, with springs between the surfaces; ...
+const SWING: f64 = 0.10;
+/// ... of nodes that touch exactly, together.
+const AT_NODES: f64 = 3.0 / 16.0;
+/// Share of the tolerance that the mesh may take. Moved mass takes the rest.
+const OF_MESH: f64 = 0.75;
+/// Moved mass over the tolerance: it takes half of its own share of the force.
+const MASS_OVER_TOLERANCE: f64 = 0.5;
+/// More mass is never moved unless the case says so: bodies with terms of relaxation that are nearly as fast as
+/// the step show it.
+const MOST_MASS: f64 = 1e-2;
+/// More elements are never chosen: 0.01 % of the force with springs and no swing taken away.
+const MOST: f64 = 45.0;
+/// Share of a tolerance that is served at finite strain without staggered meshes: of soft balls on walls contact
+/// time and pressure are off by twice the above.
+const AT_FINITE_STRAIN: f64 = 0.5;
+/// Fewer elements do not carry a pressure: with 3.5 the radius is off by 8 % where bodies relax.
+const FEWEST: f64 = 4.0;
+/// Where between two nodes the swing passes through zero: springs, nodes that touch.
+const LUCKY: [f64; 2] = [0.35, 0.45];
+/// Bounds of the errors of force, contact time, restitution and peak pressure over that of the force.
+const BOUNDS: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
+
+/// How fine a computation is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fineness {
+    /// Elements across the contact radius.
+    pub across: f64,
+    /// Largest moved mass over a body's mass.
+    pub mass_scaling: f64,
+    /// The tolerance that these serve, where that of the case is out of reach.
+    pub reached: Option<f64>,
+}
+
+impl Fineness {
+    /// Of a scene with the model that computes it, whose meshes are staggered or not.
+    pub fn of(scene: &Scene, estimate: &Estimate, is_staggered: bool) -> Self {
+        let is_finite = FiniteStrain::laws(scene, estimate) != [None; 2];
+        let share = if is_finite && !is_staggered { AT_FINITE_STRAIN } else { 1.0 };
+        let tolerance = share * tolerance(&scene.accuracy());
+        let at_nodes = matches!(
+            scene.model(),
+            ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. })
+        );
+        let (error, share) = match at_nodes {
+            true => (AT_NODES, 1.0),
+            false => {
+                let [lower, upper] = scene.compliance_shares();
+                let swing = if is_staggered { (lower - upper).abs() } else { 1.0 };
+                (SMOOTH + SWING * swing, OF_MESH)
+            }
+        };
+        let asked_for = (error / (share * tolerance)).sqrt().max(FEWEST);
+        let lucky = LUCKY[usize::from(at_nodes)];
+        let across = asked_for.min(MOST);
+        let across = if is_staggered { across } else { (across - lucky).ceil() + lucky };
+        let reached = error / (share * MOST * MOST);
+        Self {
+            across,
+            mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MASS),
+            reached: (asked_for > MOST).then_some(reached),
+        }
+    }
+
+    /// The share of mass that is moved beside so many elements across the contact where nothing is staggered.
+    pub fn mass_scaling_beside(across: f64) -> f64 {
+        let tolerance = (SMOOTH + SWING) / (OF_MESH * across * across);
+        (MASS_OVER_TOLERANCE * tolerance).min(MOST_MASS)
+    }
+}
+
+/// The tolerance of the peak force at which all tolerances are met.
+fn tolerance(accuracy: &Accuracy) -> f64 {
+    let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
+    let all = [peak_force, contact_time, restitution, peak_pressure].into_iter().zip(BOUNDS);
+    all.map(|(tolerance, bound)| tolerance / bound).fold(f64::INFINITY, f64::min)
+}

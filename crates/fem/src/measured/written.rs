@@ -1,0 +1,120 @@
+//! How tables of measurements are written: encodings, separators, decimal commas, cells without a value.
+
+use std::borrow::Cow;
+
+use fem_case::parse_quantity;
+
+use super::column_units::ending_like;
+
+/// The text of a file: UTF-8, or else Latin-1, of which every byte is a letter.
+pub fn decode(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_string(),
+        Err(_) => bytes.iter().copied().map(char::from).collect(),
+    }
+}
+
+/// What parts the cells of a table by its header: semicolons, tabs or commas, whichever it has most
+/// of; of as many the first of these. A line `sep=;`, which spreadsheets write, is not the header.
+pub(super) fn separator(text: &str) -> (u8, &str) {
+    let text = text.trim_start_matches('\u{feff}');
+    if let Some((first, rest)) = text.split_once('\n')
+        && let [separator] = first.trim_end().strip_prefix("sep=").unwrap_or("").as_bytes()
+    {
+        return (*separator, rest);
+    }
+    let is_header = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let header = text.lines().find(is_header).unwrap_or("");
+    let count = |separator: &u8| header.bytes().filter(|byte| byte == separator).count();
+    // Of equal ones `max_by_key` takes the last.
+    let separator = [b',', b'\t', b';'].into_iter().max_by_key(count).unwrap_or(b',');
+    (separator, text)
+}
+
+/// A name of a column as it is looked for: in lower case, `_` for spaces, and a unit in brackets as
+/// an ending: `Impact speed [cm/s]` is `impact_speed_cm_s`.
+pub(super) fn column_name(header: &str) -> String {
+    let header = header.trim();
+    let bracketed = ['[', '('].iter().find_map(|open| {
+        let (name, unit) = header.split_once(*open)?;
+        Some((name.trim(), unit.trim_end_matches([']', ')']).trim()))
+    });
+    let joined = |name: &str| name.to_lowercase().split_whitespace().collect::<Vec<_>>().join("_");
+    match bracketed {
+        Some((name, "-" | "1" | "")) => joined(name),
+        Some((name, unit)) => match parse_quantity(&format!("1 {unit}")) {
+            Ok((scale, dimension)) => match ending_like(scale, dimension.0) {
+                Some(ending) => joined(name) + ending.text,
+                None => joined(header),
+            },
+            Err(_) => joined(header),
+        },
+        None => joined(header),
+    }
+}
+
+/// Whether a cell says that there is no value.
+pub(super) fn is_missing(cell: &str) -> bool {
+    const WORDS: [&str; 9] = ["", "nan", "na", "n/a", "n.a.", "#n/a", "null", "-", "--"];
+    WORDS.contains(&cell.to_lowercase().as_str())
+}
+
+/// A number with a decimal comma, `0,92` or `5,5 cm/s`, with a point; all else as it is.
+pub(super) fn with_point(cell: &str) -> Cow<'_, str> {
+    let is_digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let Some((before, after)) = cell.split_once(',') else { return Cow::Borrowed(cell) };
+    let is_decimal = is_digit(before.chars().last())
+        && is_digit(after.chars().next())
+        && !after.contains(',')
+        && !before.contains('.');
+    if is_decimal { Cow::Owned(format!("{before}.{after}")) } else { Cow::Borrowed(cell) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separators_are_those_of_the_header() {
+        for (text, expected) in [
+            ("v,e\n1,2", b','),
+            ("v;e\n1,5;2", b';'),
+            ("# a; b; c\n\nv\te\n", b'\t'),
+            ("v [m/s];e (mean, n = 3)\n", b';'),
+            ("sep=;\nv,x;e\n", b';'),
+            ("speed\n1\n", b';'),
+        ] {
+            assert_eq!(separator(text).0, expected, "{text}");
+        }
+        assert_eq!(separator("sep=;\r\nv;e\n").1, "v;e\n");
+    }
+
+    #[test]
+    fn names_are_looked_for_in_one_spelling() {
+        for (header, expected) in [
+            ("Speed_cm_s", "speed_cm_s"),
+            ("Impact speed [cm/s]", "impact_speed_cm_s"),
+            ("COR [-]", "cor"),
+            ("e (%)", "e_percent"),
+            ("t [µs]", "t_us"),
+            ("d (furlong)", "d_(furlong)"),
+        ] {
+            assert_eq!(column_name(header), expected);
+        }
+    }
+
+    #[test]
+    fn commas_are_points_where_they_can_be_nothing_else() {
+        assert_eq!(with_point("0,92"), "0.92");
+        assert_eq!(with_point("-5,5 cm/s"), "-5.5 cm/s");
+        for other in ["1.234,5", "1,234,567", "a,b", "1,", "0.92"] {
+            assert_eq!(with_point(other), other);
+        }
+    }
+
+    #[test]
+    fn bytes_that_are_no_utf_8_are_latin_1() {
+        assert_eq!(decode("µ".as_bytes()), "µ");
+        assert_eq!(decode(b"t [\xb5s]"), "t [µs]");
+    }
+}
