@@ -21,8 +21,8 @@ pub struct Scene {
     pub(crate) step_factor: Option<f64>,
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
-    pub(crate) wants_report: bool,
     pub(crate) probes: Vec<Probe>,
+    pub(crate) wants_report: bool,
     pub(crate) model: ModelChoice,
     pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
@@ -81,14 +81,14 @@ impl Scene {
         self.snapshots.as_ref()
     }
 
-    /// Whether a run writes its page.
-    pub fn wants_report(&self) -> bool {
-        self.wants_report
-    }
-
     /// Places of which is told what happens there over time.
     pub fn probes(&self) -> &[Probe] {
         &self.probes
+    }
+
+    /// Whether a run writes its page.
+    pub fn wants_report(&self) -> bool {
+        self.wants_report
     }
 
     /// Which model computes the collision.

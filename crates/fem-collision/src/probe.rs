@@ -8,7 +8,7 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
 
-use crate::snapshot::{BodyFields, Snapshot};
+use crate::snapshot::{BodyFields, ContactProfile, Snapshot};
 use crate::stress::{SmallStrain, StressRecovery};
 
 /// A place that is asked for.
@@ -150,13 +150,13 @@ impl Probes {
             time: all.time,
             approach: all.approach,
             carried: all.carried,
+            contact: ContactProfile::default(),
             bodies: [0, 1].map(|_| BodyFields {
                 displacement: vec![[0.0; 2]; n],
                 velocity: vec![[0.0; 2]; n],
                 effective: Vec::new(),
                 stress: vec![[0.0; 4]; n],
             }),
-            ..Snapshot::default()
         };
         for (k, (side, probe)) in
             self.found.iter().enumerate().filter_map(|(k, found)| Some((k, found.as_ref()?)))

@@ -18,16 +18,16 @@ impl CondensedPair {
         if contact.n_closed == 0 {
             return (0.0, 0.0);
         }
-        let read = self.read_out(forces);
+        let (radius, pressure) = self.read_out(forces);
         match &self.settings().slip {
-            None => read.into(),
-            Some(slip) => slip.halfway(read, forces.iter().sum(), moved),
+            None => (radius, pressure),
+            Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
         }
     }
 
-    /// The same of the points as they are numbered, which slip does not move.
-    pub(crate) fn read_out(&self, forces: &[f64]) -> [f64; 2] {
-        let barrier = if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs };
+    /// The same of surfaces that do not slip, or as if they had not.
+    pub(crate) fn read_out(&self, forces: &[f64]) -> (f64, f64) {
+        let barrier = self.barrier();
         let at = |nodes: &[PressureNode]| contact_radius(pressures(nodes, forces), barrier);
         let of = |nodes: &[PressureNode], radius: f64| {
             centre_pressure(pressures(nodes, forces), radius, barrier)
@@ -35,13 +35,18 @@ impl CondensedPair {
         match &self.staggered {
             None => {
                 let radius = at(&self.nodes);
-                [radius, of(&self.nodes, radius)]
+                (radius, of(&self.nodes, radius))
             }
             Some(Staggered { nodes, lengths }) => {
                 let radius = staggered_radius([at(&self.nodes), at(nodes)], *lengths);
-                [radius, 0.5 * (of(&self.nodes, radius) + of(nodes, radius))]
+                (radius, 0.5 * (of(&self.nodes, radius) + of(nodes, radius)))
             }
         }
+    }
+
+    /// What keeps the surfaces apart.
+    pub(crate) fn barrier(&self) -> Barrier {
+        if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs }
     }
 
     /// Pressure at the nodes of a deformable side from the axis outward, (r in m, p in Pa): nodal

@@ -33,14 +33,14 @@ impl CondensedPair {
         let nodes = self.nodal_pressure(&contact.forces);
         let at = |radius: f64| facing(surfaces.each_ref(), 0.0, radius, u);
         let along = nodes.clone().map(|(radius, _)| Some(at(radius)));
-        let read = self.read_out(&contact.forces);
-        let mut profile = Profile::new(nodes, read, along);
+        let mut profile =
+            Profile::new(nodes, self.read_out(&contact.forces).0, self.barrier(), along);
         if !is_whole || self.settings().slip.is_some() {
             self.close(&mut profile);
         }
-        let force = contact.forces.iter().sum();
+        let (force, own) = (contact.forces.iter().sum(), profile.contact_radius);
         // Surfaces that slip are read halfway between both, as radius and pressure of the history are.
-        let [own, pressure] = read;
+        let pressure = profile.points.first().map_or(0.0, |axis| axis.pressure);
         let [wider, denser] = match &self.settings().slip {
             Some(slip) if own > 0.0 && pressure > 0.0 => {
                 let (radius, on_axis) = slip.halfway([own, pressure], force, contact.moved);

@@ -26,8 +26,7 @@ impl ContactInterface {
         }
     }
 
-    /// The side at whose nodes pressures are told.
-    pub(crate) fn coarser(&self) -> usize {
+    fn coarser(&self) -> usize {
         coarser(&self.surfaces, self.candidate_radius)
     }
 
@@ -53,7 +52,7 @@ impl ContactInterface {
 
     /// Of what each point has the integral over the hat of each node of a side, and its area, m², with the
     /// radius of the node, m.
-    pub(crate) fn sums_at_nodes<'a>(
+    fn sums_at_nodes<'a>(
         &'a self,
         side: usize,
         values: impl Iterator<Item = f64> + Clone + 'a,
@@ -76,6 +75,14 @@ impl ContactInterface {
             }
             (radius, [sum, area])
         })
+    }
+
+    /// The same of what each point has, at the nodes at which pressures are read.
+    pub(crate) fn sums<'a>(
+        &'a self,
+        values: impl Iterator<Item = f64> + Clone + 'a,
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
+        self.sums_at_nodes(self.coarser(), values)
     }
 
     /// Contact pressure on the axis, Pa; 0 without contact there: see [`centre_pressure`](crate::centre_pressure).

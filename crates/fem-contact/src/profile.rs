@@ -6,7 +6,7 @@
 //! points swing as their pressures do.
 
 use crate::interface::ContactInterface;
-use crate::read_out::pressure_profile;
+use crate::read_out::{Barrier, pressure_profile};
 use crate::slip::SlippingInterface;
 use crate::surface::Surface;
 
@@ -33,15 +33,15 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Of pressures at nodes from the axis outward (r in m, p in Pa), the contact radius (m) and the pressure
-    /// on the axis (Pa) that are read from them, and what gap (m) and radial displacements (m) there are at
-    /// each; nothing where there is none.
+    /// Of pressures at nodes from the axis outward (r in m, p in Pa), the radius (m) out to which they reach, and
+    /// what gap (m) and radial displacements (m) there are at each node; nothing where there is none.
     pub fn new(
         nodes: impl Iterator<Item = (f64, f64)> + Clone,
-        [contact_radius, on_axis]: [f64; 2],
+        contact_radius: f64,
+        barrier: Barrier,
         facing: impl Iterator<Item = Option<(f64, [f64; 2])>>,
     ) -> Self {
-        let pressures = pressure_profile(nodes.clone(), contact_radius, on_axis);
+        let pressures = pressure_profile(nodes.clone(), contact_radius, barrier);
         let rows = nodes.zip(pressures).zip(facing);
         let point = |(((radius, _), pressure), facing): (((f64, f64), f64), Option<_>)| {
             facing.map(|(gap, radial)| ProfilePoint { radius, pressure, gap, radial })
@@ -79,8 +79,12 @@ impl ContactInterface {
     /// The contact for displacements (m) of the nodes of the lower and the upper body.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let gaps = (0..self.n_points()).map(|k| self.gap(k, u));
-        let read = [self.contact_radius(u), self.centre_pressure(u)];
-        Profile::new(self.nodal_pressure(u), read, self.facing(gaps, u))
+        Profile::new(
+            self.nodal_pressure(u),
+            self.contact_radius(u),
+            Barrier::Springs,
+            self.facing(gaps, u),
+        )
     }
 
     /// At each node the mean of the gaps (m) of the points around, and the radial displacements.
@@ -89,7 +93,7 @@ impl ContactInterface {
         gaps: impl Iterator<Item = f64> + Clone + 'a,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = Option<(f64, [f64; 2])>> + 'a {
-        self.sums_at_nodes(self.coarser(), gaps).map(move |(radius, [sum, area])| {
+        self.sums(gaps).map(move |(radius, [sum, area])| {
             let radial = |side: usize| self.surfaces[side].displacement_at(radius, u[side])[0];
             (area > 0.0).then(|| (sum / area, [radial(0), radial(1)]))
         })
@@ -100,7 +104,6 @@ impl SlippingInterface {
     /// As [`ContactInterface::profile`], with the gap where both surfaces have come to lie.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let facing = self.interface().facing(self.gaps(u), u);
-        let read = [self.contact_radius(u), self.centre_pressure(u)];
-        Profile::new(self.nodal_pressure(u), read, facing)
+        Profile::new(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs, facing)
     }
 }

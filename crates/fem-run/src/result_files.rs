@@ -58,8 +58,8 @@ pub fn write_result(
     if keep == Keep::All {
         let written = take_room(folder, &summary)
             .and_then(|()| write_history(folder, simulation, collision, &mut summary))
-            .and_then(|()| write_contact(folder, simulation, collision, &mut summary))
             .and_then(|()| write_probes(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_contact(folder, simulation, collision, &mut summary))
             .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
         missing = written.err();
         let _ = fs::remove_file(folder.join(ROOM_FILE));
@@ -148,29 +148,6 @@ fn write_history(
     Ok(())
 }
 
-/// The contact at the snapshots, of models that have them.
-fn write_contact(
-    folder: &Path,
-    simulation: &Simulation,
-    collision: &Collision,
-    summary: &mut Summary,
-) -> Result<(), String> {
-    if !has_contact(collision) {
-        return Ok(());
-    }
-    let path = folder.join(CONTACT_FILE);
-    let write = || -> Result<(), Box<dyn std::error::Error>> {
-        let file = BufWriter::new(File::create(&path)?);
-        Ok(contact_csv(file, simulation, collision)?)
-    };
-    write().map_err(|error| {
-        let _ = fs::remove_file(&path);
-        format!("{CONTACT_FILE} and the snapshots cannot be written: {error}")
-    })?;
-    summary.files.push(CONTACT_FILE.to_string());
-    Ok(())
-}
-
 /// What probes saw, of a run that has some.
 fn write_probes(
     folder: &Path,
@@ -192,6 +169,29 @@ fn write_probes(
         format!("{PROBES_FILE} and the snapshots cannot be written: {error}")
     })?;
     summary.files.push(PROBES_FILE.to_string());
+    Ok(())
+}
+
+/// The contact at the snapshots, of models that have them.
+fn write_contact(
+    folder: &Path,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    if !has_contact(collision) {
+        return Ok(());
+    }
+    let path = folder.join(CONTACT_FILE);
+    let write = || -> Result<(), Box<dyn std::error::Error>> {
+        let file = BufWriter::new(File::create(&path)?);
+        Ok(contact_csv(file, simulation, collision)?)
+    };
+    write().map_err(|error| {
+        let _ = fs::remove_file(&path);
+        format!("{CONTACT_FILE} and the snapshots cannot be written: {error}")
+    })?;
+    summary.files.push(CONTACT_FILE.to_string());
     Ok(())
 }
 

@@ -38,8 +38,8 @@ impl MovedInterface {
         sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
     }
 
-    /// Of what each point has the integral over the hat of each node of a side, and its area seen along y, m²,
-    /// with where the node is now, m.
+    /// Of what each point has the integral over the hat of each node of a side, and its area seen along y,
+    /// m², with where the node is now, m.
     fn sums_at_nodes<'a>(
         &'a self,
         side: usize,
@@ -91,8 +91,7 @@ impl MovedInterface {
             let own = |of: usize| self.radial_displacement(of, radius, u[of]);
             (area > 0.0).then(|| (sum / area, [own(0), own(1)]))
         });
-        let read = [self.contact_radius(u), self.centre_pressure(u)];
-        Profile::new(self.nodal_pressure(u), read, facing)
+        Profile::new(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs, facing)
     }
 
     /// Displacement along r (m) of the point of a side that is now at a radius, m.

@@ -38,9 +38,9 @@ pub enum Command {
     Invert(invert::Arguments),
     Export(export::Arguments),
     Cradle(cradle::Arguments),
+    Schema(schema::Arguments),
     Report(report::Arguments),
     Plot(plot::Arguments),
-    Schema(schema::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -61,9 +61,9 @@ impl Command {
             Self::Invert(arguments) => invert::execute(&arguments),
             Self::Export(arguments) => export::execute(&arguments),
             Self::Cradle(arguments) => cradle::execute(&arguments),
+            Self::Schema(arguments) => schema::execute(&arguments),
             Self::Report(arguments) => report::execute(&arguments),
             Self::Plot(arguments) => plot::execute(&arguments),
-            Self::Schema(arguments) => schema::execute(&arguments),
             Self::Completions(arguments) => completions::execute(&arguments, whole()),
             Self::Man(arguments) => man::execute(&arguments, whole()),
         }

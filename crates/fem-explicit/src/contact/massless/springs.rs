@@ -51,17 +51,17 @@ impl Springs {
         }
     }
 
-    pub fn profile(&self, u: [&[Displacement]; 2]) -> Profile {
-        match self {
-            Self::Straight(interface) => interface.profile(u),
-            Self::Slipping(slipping) => slipping.profile(u),
-        }
-    }
-
     pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
         match self {
             Self::Straight(interface) => interface.centre_pressure(u),
             Self::Slipping(slipping) => slipping.centre_pressure(u),
+        }
+    }
+
+    pub fn profile(&self, u: [&[Displacement]; 2]) -> Profile {
+        match self {
+            Self::Straight(interface) => interface.profile(u),
+            Self::Slipping(slipping) => slipping.profile(u),
         }
     }
 }
