@@ -1,5 +1,6 @@
 //! One panel: curves over an axis.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use kuva::plot::legend::{LegendEntry, LegendShape};
@@ -78,7 +79,7 @@ pub struct Curve {
     pub(crate) label: String,
     pub(crate) points: Vec<(f64, f64)>,
     pub(crate) mark: Mark,
-    colour: Option<&'static str>,
+    colour: Option<Cow<'static, str>>,
     pub(crate) errors: Vec<f64>,
 }
 
@@ -115,8 +116,8 @@ impl Curve {
     }
 
     /// In a colour of its own; else the chart gives one.
-    pub fn coloured(mut self, colour: &'static str) -> Self {
-        self.colour = Some(colour);
+    pub fn coloured(mut self, colour: impl Into<Cow<'static, str>>) -> Self {
+        self.colour = Some(colour.into());
         self
     }
 
@@ -180,11 +181,11 @@ impl Chart {
     }
 
     /// Curves with their visible points and colours.
-    pub(crate) fn drawn(&self) -> impl Iterator<Item = (&Curve, Vec<(f64, f64)>, &'static str)> {
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = (&Curve, Vec<(f64, f64)>, &str)> {
         self.curves.iter().enumerate().map(|(k, curve)| {
             let visible = |(x, y): &&(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
             let points = curve.points.iter().filter(visible).copied().collect();
-            (curve, points, curve.colour.unwrap_or(COLOURS[k % COLOURS.len()]))
+            (curve, points, curve.colour.as_deref().unwrap_or(COLOURS[k % COLOURS.len()]))
         })
     }
 

@@ -26,4 +26,4 @@ mod ticks;
 pub use chart::{Axis, Chart, Curve, Mark};
 pub use grid::svg;
 pub use panel::panel;
-pub use style::{COLOURS, GREY, tick};
+pub use style::{COLOURS, GREY, colour_along, tick};

@@ -8,6 +8,30 @@ pub const COLOURS: [&str; 7] =
 /// For what stands beside the data: a closed form, a limit.
 pub const GREY: &str = "#555555";
 
+/// Colours along a number, dark blue to yellow: samples of viridis (van der Walt and Smith 2015), even in
+/// lightness and apart for colour-blind eyes; its light end, which paper does not show, is left out.
+const SEQUENCE: [[u8; 3]; 7] = [
+    [68, 1, 84],
+    [70, 50, 127],
+    [54, 92, 141],
+    [39, 127, 142],
+    [31, 161, 135],
+    [74, 194, 109],
+    [159, 218, 58],
+];
+
+/// `#rrggbb` of the k-th of n curves that a number tells apart: no two of them alike.
+pub fn colour_along(k: usize, n: usize) -> String {
+    let place = k as f64 / n.saturating_sub(1).max(1) as f64 * (SEQUENCE.len() - 1) as f64;
+    let from = (place.floor() as usize).min(SEQUENCE.len() - 2);
+    let share = (place - from as f64).clamp(0.0, 1.0);
+    let channel = |c: usize| {
+        let [a, b] = [SEQUENCE[from][c], SEQUENCE[from + 1][c]].map(f64::from);
+        (a + share * (b - a)).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
+}
+
 /// A tick's number: as short as it can be said, rounding errors left out.
 pub fn tick(value: f64) -> String {
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
@@ -60,6 +84,16 @@ pub(crate) fn words(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_two_curves_along_a_number_are_alike() {
+        for n in [1, 2, 8, 40] {
+            let colours: std::collections::BTreeSet<String> =
+                (0..n).map(|k| colour_along(k, n)).collect();
+            assert_eq!(colours.len(), n);
+        }
+        assert_eq!((colour_along(0, 9), colour_along(8, 9)), ("#440154".into(), "#9fda3a".into()));
+    }
 
     #[test]
     fn ticks_are_short() {

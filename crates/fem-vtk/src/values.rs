@@ -8,6 +8,8 @@ use crate::scalar_type::ScalarType;
 pub enum Values<'a> {
     /// `f64`
     Float64(&'a [f64]),
+    /// `f32`
+    Float32(&'a [f32]),
     /// `u8`
     UInt8(&'a [u8]),
     /// `i32`
@@ -38,12 +40,13 @@ macro_rules! values_from {
     )*};
 }
 
-values_from!(Float64(f64), UInt8(u8), Int32(i32), UInt32(u32), Int64(i64));
+values_from!(Float64(f64), Float32(f32), UInt8(u8), Int32(i32), UInt32(u32), Int64(i64));
 
 impl Values<'_> {
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Float64(values) => values.len(),
+            Self::Float32(values) => values.len(),
             Self::UInt8(values) => values.len(),
             Self::Int32(values) => values.len(),
             Self::UInt32(values) => values.len(),
@@ -54,6 +57,7 @@ impl Values<'_> {
     pub(crate) fn scalar_type(&self) -> ScalarType {
         match self {
             Self::Float64(_) => ScalarType::Float64,
+            Self::Float32(_) => ScalarType::Float32,
             Self::UInt8(_) => ScalarType::UInt8,
             Self::Int32(_) => ScalarType::Int32,
             Self::UInt32(_) => ScalarType::UInt32,
@@ -65,6 +69,10 @@ impl Values<'_> {
     pub(crate) fn first_not_finite(&self) -> Option<(usize, f64)> {
         match self {
             Self::Float64(values) => first_not_finite(values),
+            Self::Float32(values) => {
+                let mut values = values.iter().map(|value| f64::from(*value)).enumerate();
+                values.find(|(_, value)| !value.is_finite())
+            }
             _ => None,
         }
     }
@@ -72,6 +80,7 @@ impl Values<'_> {
     pub(crate) fn to_le_bytes(self) -> Vec<u8> {
         match self {
             Self::Float64(values) => little_endian(values, f64::to_le_bytes),
+            Self::Float32(values) => little_endian(values, f32::to_le_bytes),
             Self::UInt8(values) => values.to_vec(),
             Self::Int32(values) => little_endian(values, i32::to_le_bytes),
             Self::UInt32(values) => little_endian(values, u32::to_le_bytes),

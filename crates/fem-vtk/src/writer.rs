@@ -14,7 +14,7 @@ use crate::values::Values;
 /// Collects borrowed arrays, then checks and writes them in one go.
 ///
 /// Arrays are flat, tuple after tuple: `n_points * components` values for point data,
-/// `n_cells * components` for cell data. Floats are written as `Float64`, integers in their own
+/// `n_cells * components` for cell data. Numbers are written in their own
 /// type, connectivity as `Int64`; bytes are little-endian in zlib blocks. The first scalar and the
 /// first vector of point and cell data are marked as active, so readers show them first.
 pub struct VtuWriter<'a> {

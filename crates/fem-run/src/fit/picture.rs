@@ -3,7 +3,7 @@
 use fem::laws::LawFit;
 use fem_case::Scene;
 use fem_case::engineering::{Unit, show};
-use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
+use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark, colour_along};
 use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawImpact, Role};
@@ -34,11 +34,17 @@ pub fn fit_picture(fitted: &LawFit<'_>) -> String {
         let exponent = exponent.map(|(_, n)| format!(", n = {n:.3}")).next();
         format!("{}{}", model.family().name(), exponent.unwrap_or_default())
     };
-    let speed_axis = Axis::new(format!("approach speed [{}]", unit.symbol())).logarithmic();
-    let mut chart = Chart::new(speed_axis, Axis::new("restitution"))
+    let speed_axis = Axis::new(format!("impact speed v [{}]", unit.symbol())).logarithmic();
+    let mut chart = Chart::new(speed_axis, Axis::new("restitution e"))
         .with(Curve::line(label(model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
-    for ((model, fit), colour) in fitted.compared.iter().zip(&COLOURS[2..]) {
-        chart = chart.with(Curve::dashed(label(model, fit), curve(model, fit)).coloured(colour));
+    // The law and the data have the first two colours.
+    let n = fitted.compared.len();
+    for (k, (model, fit)) in fitted.compared.iter().enumerate() {
+        let curve = Curve::dashed(label(model, fit), curve(model, fit));
+        chart = chart.with(match COLOURS.get(k + 2) {
+            Some(colour) if n + 2 <= COLOURS.len() => curve.coloured(*colour),
+            _ => curve.coloured(colour_along(k, n)),
+        });
     }
     let data = points.iter().map(|point| (unit.scaled(point.speed), point.restitution)).collect();
     let errors = points.iter().filter_map(|point| point.restitution_uncertainty).collect();
@@ -126,7 +132,7 @@ fn overlaps(model: &Model, values: &[f64], speed: f64, time: &Unit) -> Result<Ch
         let instants = impact.history.iter();
         let points = instants.map(|now| (time.scaled(now.time), length.scaled(now.approach)));
         let label = format!("overlap at {}", show(*speed, "m/s"));
-        Curve::line(label, points.collect()).coloured(colour)
+        Curve::line(label, points.collect()).coloured(*colour)
     });
     let label = format!("overlap [{}]", length.symbol());
     Ok(curves.fold(Chart::new(time_axis(time), Axis::new(label)), Chart::with))

@@ -154,8 +154,10 @@ fn outline(quads: &[[u32; 4]], points: &[[f64; 2]], sign: f64) -> Vec<u32> {
     let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| [quad[k], quad[(k + 1) % 4]]);
     let all: BTreeSet<[u32; 2]> = quads.iter().flat_map(sides).collect();
     let is_on_axis = |point: u32| points[point as usize][0] == 0.0;
-    let border =
-        all.iter().filter(|[a, b]| !all.contains(&[*b, *a]) && !(is_on_axis(*a) && is_on_axis(*b)));
+    let border = all.iter().filter(|[a, b]| {
+        let is_inside = all.contains(&[*b, *a]);
+        !(is_inside || is_on_axis(*a) && is_on_axis(*b))
+    });
     let mut next: HashMap<u32, Vec<u32>> = HashMap::new();
     for [a, b] in border {
         next.entry(*a).or_default().push(*b);

@@ -149,8 +149,8 @@ pub fn energies(record: &Record) -> Option<Chart> {
     }
     let unit = Unit::fitting(largest, "J");
     let mut chart = Chart::new(clock.axis(), Axis::new(format!("Energy E [{}]", unit.symbol())));
-    let mut k = 0;
-    for name in accounts.into_iter().filter(|name| size(name) > FAINT * largest) {
+    let shown = accounts.into_iter().filter(|name| size(name) > FAINT * largest);
+    for (k, name) in shown.enumerate() {
         let label = match name.trim_end_matches("_j") {
             "viscous_dissipation" => "dissipated".to_string(),
             "contact" => "contact springs".to_string(),
@@ -158,7 +158,6 @@ pub fn energies(record: &Record) -> Option<Chart> {
         };
         let points = clock.points(record, record.history.get(name), &unit);
         chart = chart.with(Curve::line(label, points).like_curve(k));
-        k += 1;
     }
     if let Some(hertz) = &hertz {
         let point = |at: &HertzInstant| (clock.unit.scaled(at.time), unit.scaled(at.energy));

@@ -64,7 +64,7 @@ fn both_parameters_with_profile_and_comparison() {
     assert!(ran.stdout.contains("correlation of a and n"), "{}", ran.stdout);
     assert!(ran.stdout.contains("the residuals have a trend"), "{}", ran.stdout);
     let svg = String::from_utf8(place.read("runs/ice_fit/fit.svg")).unwrap();
-    for label in ["kuwabara_kono", "best fit", "restitution", "approach speed"] {
+    for label in ["kuwabara_kono", "best fit", "restitution", "impact speed v"] {
         assert!(svg.contains(label), "{label}");
     }
     // A second fit takes the place of the first; files of others stay.

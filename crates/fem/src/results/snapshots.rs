@@ -1,4 +1,7 @@
 //! The snapshots as VTK files: one grid with both bodies an instant, and a collection of them.
+//!
+//! Places and displacements are doubles, for strains are small differences of them; stresses, pressures and
+//! velocities have the seven digits of single precision, which is more than any mesh gives them.
 
 use std::path::Path;
 
@@ -64,7 +67,7 @@ struct Scene<'a> {
 }
 
 /// Six arrays of one value a cell or point.
-type GridStress = [Vec<f64>; 6];
+type GridStress = [Vec<f32>; 6];
 
 /// Writes all snapshots of a collision and their collection into `folder`.
 ///
@@ -124,7 +127,8 @@ fn write_snapshot(
     for ((side, mesh, material), recovery) in drawing.meshed().zip(&scene.recoveries) {
         let fields = &snapshot.bodies[side];
         displacement.extend(pad_vectors(snapshot.displacement(side).as_flattened()));
-        velocity.extend(pad_vectors(fields.velocity.as_flattened()));
+        let velocities = pad_vectors(fields.velocity.as_flattened());
+        velocity.extend(velocities.into_iter().map(|value| value as f32));
         pressure.extend(contact_pressure(snapshot, side, mesh));
         let stress = recovery.stress(material, fields);
         append_stress(&mut cells, &stress.cells);
@@ -146,7 +150,7 @@ fn write_snapshot(
 
 /// Contact pressure (Pa) at the nodes of a body: that of the profile where a node of the surface is, 0 at
 /// all others.
-fn contact_pressure(snapshot: &Snapshot, side: usize, mesh: &SphereMesh) -> Vec<f64> {
+fn contact_pressure(snapshot: &Snapshot, side: usize, mesh: &SphereMesh) -> Vec<f32> {
     let mut pressures = vec![0.0; mesh.nodes().len()];
     let places = &snapshot.contact.places;
     // Bodies at finite strain have their stress with them, and a profile over where their nodes are now.
@@ -157,13 +161,14 @@ fn contact_pressure(snapshot: &Snapshot, side: usize, mesh: &SphereMesh) -> Vec<
         let radius = mesh.nodes()[node][0] + moved;
         let outer = places.partition_point(|place| place.radius < radius);
         let Some(end) = places.get(outer) else { break };
-        pressures[node] = match outer.checked_sub(1).map(|inner| &places[inner]) {
+        let pressure = match outer.checked_sub(1).map(|inner| &places[inner]) {
             Some(start) => {
                 let share = (radius - start.radius) / (end.radius - start.radius);
                 start.pressure + share * (end.pressure - start.pressure)
             }
             None => end.pressure,
         };
+        pressures[node] = pressure as f32;
     }
     pressures
 }
@@ -173,7 +178,7 @@ fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
         let (pressure, von_mises) = invariants(*stress);
         let [rr, yy, tt, ry] = *stress;
         for (array, value) in arrays.iter_mut().zip([yy, rr, tt, ry, pressure, von_mises]) {
-            array.push(value);
+            array.push(value as f32);
         }
     }
 }

