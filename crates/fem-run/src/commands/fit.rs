@@ -4,15 +4,17 @@ use std::path::PathBuf;
 
 use fem::case_identity;
 use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
-use fem::measured::Restitutions;
+use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_fit::{Free, Problem};
 use fem_laws::Family;
+use serde_json::Value;
 
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::fit::{fit_picture, fit_text, histories_picture, ranking_csv, ranking_text};
+use crate::jobs::value_of;
 use crate::law_arguments::{
     End, LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
 };
@@ -85,9 +87,33 @@ fn parse_wanted(name: &str) -> Result<Wanted, String> {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
     let table = arguments.columns.read(&arguments.data)?;
+    fitted(arguments, &case, &table, |found| write(arguments, &case, found))
+}
+
+/// Fits to a table in place of the file that the arguments name, and gives the numbers.
+pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
+    let table = arguments.columns.name_columns(table.clone())?;
+    let name = arguments.input.name();
+    fitted(arguments, case, &table, |found| value_of(&found.fitted.numbers(&name)))
+}
+
+/// A law with its parameters, and the order of all laws where it is the first of them.
+struct Found<'a> {
+    fitted: LawFit<'a>,
+    law: &'a ChosenLaw,
+    ranking: Option<LawRanking>,
+}
+
+/// What `then` makes of the fit.
+fn fitted<T>(
+    arguments: &Arguments,
+    case: &Case,
+    table: &Table,
+    then: impl FnOnce(&Found<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
     let data = match arguments.contact_time {
-        true => Restitutions::read_with_contact_times(&table, case.scene())?,
-        false => Restitutions::read(&table, case.scene())?,
+        true => Restitutions::read_with_contact_times(table, case.scene())?,
+        false => Restitutions::read(table, case.scene())?,
     };
     let wanted = arguments.law.or_else(|| family_of(case.scene()).map(Wanted::One));
     let wanted = wanted.ok_or_else(|| {
@@ -98,7 +124,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     let ranking = match wanted {
         Wanted::One(_) => None,
-        Wanted::All => Some(ranked(arguments, &case, &data)?),
+        Wanted::All => Some(ranked(arguments, case, &data)?),
     };
     let best = ranking.as_ref().and_then(|ranking| ranking.laws.first());
     let (family, free) = match (wanted, best) {
@@ -108,7 +134,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
         (Wanted::All, None) => return Err(Failure::failed("no law can be fitted")),
     };
-    let law = arguments.values.choose(&case, family)?;
+    let law = arguments.values.choose(case, family)?;
     let problem = problem(arguments, &law, &data, &free)?;
     let profiled = profiled(arguments, &problem)?.copied();
     let mut fitted = LawFit::of(&data, problem, arguments.confidence)?;
@@ -118,16 +144,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for family in &arguments.compare {
         fitted = fitted.compared_with(*family)?;
     }
+    then(&Found { fitted, law: &law, ranking })
+}
 
+fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Failure> {
+    let Found { fitted, law, ranking } = found;
     let columns = arguments.columns.text();
-    let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
+    let inputs = [case_identity(case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
-    if let Some(ranking) = &ranking {
+    if let Some(ranking) = ranking {
         output.write("ranking.csv", ranking_csv(ranking))?;
     }
-    output.write("fit.svg", fit_picture(&fitted))?;
+    output.write("fit.svg", fit_picture(fitted))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
@@ -136,7 +166,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     let ranking = ranking.as_ref().map_or(String::new(), ranking_text);
-    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(&fitted)))
+    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted)))
 }
 
 /// All laws in their order; what is said of one law is not for all.
