@@ -3,7 +3,7 @@
 //! ```text
 //! Model ─┬─ Problem ─ Fit, Profile     parameters to e(v) and T(v), by least squares
 //! pair,  ├─ invert                     the parameter that gives one e at one speed
-//! law    └─ dem                        the numbers that LAMMPS, LIGGGHTS, YADE ask for
+//! law    └─ dem                        the numbers that DEM codes, Drake and MuJoCo ask for
 //!
 //! spectrum                         a Prony series to e(v), and what the data leave open
 //! cradle                               angles of a Newton's cradle to e

@@ -110,6 +110,10 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
                 text += &format!("pair_coeff {0} {0} {contact}\n", index + 1);
             }
             text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
+            if export.spheres.first() != export.spheres.last() {
+                text += "# Fitted for contacts of 1 with 2 alone: 1 with 1 and 2 with 2 are other pairs, \
+                         which want an\n# export each.\n";
+            }
         }
         let restitution = is_constant.then_some(e);
         Snippet {

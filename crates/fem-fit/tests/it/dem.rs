@@ -91,6 +91,8 @@ fn lammps_eta_depends_on_the_sizes() {
     assert!((eta / viscoelastic_damping(&twice, 1e-6).unwrap() - 8.0).abs() < 1e-12);
     let snippets = lammps_snippets(&export()).unwrap();
     assert_eq!(entry(&snippets, "lammps_viscoelastic.in", "eta"), eta);
+    // The spheres differ, and a damping is of one pair.
+    assert!(snippets[1].text.contains("Fitted for contacts of 1 with 2 alone"), "{snippets:?}");
 }
 
 /// LIGGGHTS' k_n stores the energy ½ m* V² at Hertz' approach for V; its contact with the chosen V

@@ -23,7 +23,7 @@ use crate::output::OutputArguments;
 use crate::standard_output;
 use crate::tables::table;
 
-/// Write input for LAMMPS, LIGGGHTS and YADE that makes the same restitutions
+/// Write input for LAMMPS, LIGGGHTS, YADE, Drake and MuJoCo that makes the same restitutions
 ///
 /// They come from the sweep.csv of a sweep over speeds, from a measurement, or, without --data,
 /// from the case's model: a law, ting, or in place of finite elements ting. Each snippet says at which speeds it is good.
@@ -68,8 +68,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n";
     }
     if fitted.export.spheres.len() < 2 {
-        note += "\nA wall is written for LAMMPS only: LIGGGHTS and YADE give it a material or a radius \
-                 of its own.\n";
+        note += "\nA wall is not written for LIGGGHTS and YADE, which give it a material or a radius of \
+                 its own.\n";
     }
     standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&fitted.export, &snippets)))
 }

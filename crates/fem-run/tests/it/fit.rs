@@ -283,6 +283,8 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
         "liggghts_hooke.in",
         "yade_hertz_mindlin.py",
         "yade_viscel.py",
+        "drake_point_contact.py",
+        "mujoco_contact.xml",
     ] {
         assert!(ran.stdout.contains(file), "{}", ran.stdout);
         let text = String::from_utf8(place.read(format!("runs/case_export/{file}"))).unwrap();
@@ -310,11 +312,11 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     // A model with elements has Ting in its place.
     place.succeed(&["export", "case.toml", "--set", "model.condensed={}", "--quiet", "--out", "c"]);
     assert_eq!(place.read("c/lammps_tsuji.in"), place.read("runs/case_export/lammps_tsuji.in"));
-    // A wall is for LAMMPS alone.
+    // LIGGGHTS and YADE have no such wall.
     let wall = "body.1={name='floor',wall={}}";
     let ran = place.succeed(&["export", "case.toml", "--set", wall, "--out", "wall"]);
-    assert!(ran.stdout.contains("for LAMMPS only"), "{}", ran.stdout);
-    assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 3);
+    assert!(ran.stdout.contains("not written for LIGGGHTS and YADE"), "{}", ran.stdout);
+    assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 5);
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
         .replace("[[body]]\nname = \"striker\"", "[material.other]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n\n[[body]]\nname = \"striker\""));
     let ran = elastic.run(&["export", "case.toml"]);

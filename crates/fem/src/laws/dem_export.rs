@@ -2,7 +2,8 @@
 
 use fem_case::{Body, Case, Scene};
 use fem_fit::dem::{
-    Dashpot, Elastic, Export, Snippet, Sphere, lammps_snippets, liggghts_snippets, yade_snippets,
+    Dashpot, Elastic, Export, Snippet, Sphere, drake_snippets, lammps_snippets, liggghts_snippets,
+    mujoco_snippets, yade_snippets,
 };
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::{EndRule, Family, LawError};
@@ -109,7 +110,7 @@ impl DemExport {
         Ok(Self { curve, export, laws: [constant, viscoelastic, linear] })
     }
 
-    /// Input of LAMMPS, LIGGGHTS and YADE.
+    /// Input of LAMMPS, LIGGGHTS, YADE, Drake and MuJoCo.
     ///
     /// # Errors
     /// Numbers that a code's formula does not take.
@@ -117,6 +118,8 @@ impl DemExport {
         let mut snippets = lammps_snippets(&self.export)?;
         snippets.extend(liggghts_snippets(&self.export)?);
         snippets.extend(yade_snippets(&self.export)?);
+        snippets.extend(drake_snippets(&self.export));
+        snippets.extend(mujoco_snippets(&self.export));
         Ok(snippets)
     }
 }

@@ -1,7 +1,7 @@
 //! `export.json`: laws of DEM codes as numbers.
 
 use fem_fit::Point;
-use fem_fit::dem::{Snippet, Sphere};
+use fem_fit::dem::{Snippet, Sphere, restitution_of};
 use fem_laws::Family;
 use serde::{Serialize, Serializer};
 
@@ -112,9 +112,10 @@ impl DemExport {
         // What depends on speed is the viscoelastic damping.
         let mut laws = self.laws.iter();
         let viscoelastic = laws.find(|law| law.model.family() == Family::KuwabaraKono);
-        let at_speed = |point: &Point| match snippet.restitution {
-            Some(restitution) => Some(restitution),
-            None => viscoelastic?.outcome(point.speed).map(|outcome| outcome.restitution),
+        let at_speed = |point: &Point| match (snippet.restitution, snippet.entries.first()) {
+            (Some(restitution), _) => Some(restitution),
+            (None, Some(("dissipation", d))) => Some(restitution_of(d * point.speed)),
+            (None, _) => viscoelastic?.outcome(point.speed).map(|outcome| outcome.restitution),
         };
         SnippetNumbers {
             file: snippet.name,
