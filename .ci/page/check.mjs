@@ -124,11 +124,12 @@ check('what is wrong is said at its place, and the numbers stand back', async ()
   const { page, complaints } = await open(browser, address);
   await settled(page);
   const glass = readFileSync(join(cases, 'glass_0.5ms.toml'), 'utf8');
-  await paste(page, glass.replace('"22.2 mm"', '"-22.2 mm"'));
+  await paste(page, glass.replace('"22.2 mm"', '"-22.2 mm"').replace('0.244', '0.9'));
   await page.locator('#paste-fault').waitFor();
   const negative = await page.locator('#paste-fault').innerText();
   assert.match(negative, /Line 20, column 23/);
   assert.match(negative, /greater than 0/);
+  assert.match(negative, /poissons_ratio/);
   await shot(page, 'fault');
   await paste(page, `${glass}\n[[body]]\nname = "third"\nsphere = { diameter = "1 cm" }\nmaterial = "glass"\n`);
   await page.waitForFunction(() => /3/.test(document.querySelector('#paste-fault strong')?.textContent));
@@ -162,6 +163,24 @@ check('a slow model shows how far it is, and can be ended', async () => {
   // Another slider takes the place of a run that goes on.
   const whole = await ran(page, () => page.selectOption('[data-key="model"]', 'condensed'));
   assert.equal(whole.summary.complete, true);
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
+check('what is too large is refused, and a worker that does not hear is replaced', async () => {
+  const { page, complaints } = await open(browser, address);
+  await settled(page);
+  const glass = readFileSync(join(cases, 'glass_0.5ms.toml'), 'utf8');
+  const fine = (size, limits) => `${glass}\n[mesh]\ncontact_element_size = "${size} um"\n${limits}\n[model]\ncondensed = {}\n`;
+  await paste(page, fine(1.2, ''));
+  await page.locator('#paste-fault').waitFor();
+  assert.match(await page.locator('#paste-fault').innerText(), /limits.memory/);
+  await paste(page, fine(0.8, '[limits]\nelements = 1e8\nmemory = 1e12'));
+  await page.locator('#progress').waitFor();
+  await page.click('#cancel');
+  await page.waitForFunction(() => /^Ended/.test(document.getElementById('status').textContent), null, { timeout: 30_000 });
+  const again = await ran(page, () => page.click('#reset'));
+  assert.ok(again.summary.complete);
   assert.deepEqual(complaints, []);
   await page.context().close();
 });

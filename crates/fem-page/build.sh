@@ -16,7 +16,7 @@ folder=${CARGO_TARGET_DIR:-target}
 module=$folder/$target/page/fem_page.wasm
 
 # Scripts in the order in which they stand on each other.
-scripts=(units effects materials scene runner results stories page)
+scripts=(units effects materials scene runner results controls stories telling page)
 
 script() {
   local name

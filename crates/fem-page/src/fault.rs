@@ -18,11 +18,15 @@ pub struct Fault {
     pub column: Option<usize>,
     /// All of it as plain text, with the line of the case and what in it is at fault.
     pub text: String,
+    /// What else is wrong with the same case.
+    pub others: Vec<Fault>,
 }
 
 impl From<CaseError> for Fault {
-    fn from(error: CaseError) -> Self {
+    fn from(mut error: CaseError) -> Self {
+        let others = error.take_others().into_iter().map(Self::from).collect();
         Self {
+            others,
             message: error.message().to_string(),
             help: error.help().map(String::from),
             key: error.key().map(String::from),

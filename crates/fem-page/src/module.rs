@@ -7,8 +7,8 @@
 //! page_answer(), page_answer_length()  →  what one of these has answered, as JSON
 //! ```
 //!
-//! Memory may grow in any call, so addresses are asked for after it. A failure that no text can cause
-//! ends the module with a trap; [`page_answer`] then still leads to what it said.
+//! Memory may grow in any call, so addresses are asked for after it. A failure ends the module
+//! with a trap, also that no memory is left; [`page_answer`] then still leads to what it said, if anything.
 
 use std::cell::RefCell;
 use std::panic;
@@ -35,7 +35,9 @@ struct Page {
     session: Session,
 }
 
+/// What was answered before is gone, so that a trap without a word leaves none.
 fn with<T>(act: impl FnOnce(&mut Page) -> T) -> T {
+    answer(Vec::new());
     PAGE.with(|page| act(&mut page.borrow_mut()))
 }
 

@@ -16,6 +16,8 @@ use crate::outcome::{Begun, Frame, Outcome};
 
 /// What faults call the text.
 const SOURCE: &str = "the case";
+/// Bytes that a run may take: a module of 32 bits has 4 GB, other cases and the results in them.
+const MOST_MEMORY: f64 = 2.5e9;
 /// Bytes that condensed bodies may take which are kept for the next case: some dozens of them.
 const MOST_KEPT: usize = 200_000_000;
 
@@ -48,6 +50,16 @@ impl Default for Session {
     }
 }
 
+/// A case that leaves its limit of memory open, with that of a browser.
+fn within_memory(case: Case) -> Result<Case, CaseError> {
+    match case.gives("limits.memory") {
+        true => Ok(case),
+        false => case.edited(|file| {
+            file.limits.get_or_insert_default().memory = Some(MOST_MEMORY.into());
+        }),
+    }
+}
+
 impl Session {
     /// Reads a case and begins its collision, in place of the one before.
     ///
@@ -55,7 +67,7 @@ impl Session {
     /// What is wrong with the case, what its model refuses, more than a run keeps.
     pub fn begin(&mut self, text: &str, ask: Ask) -> Result<Begun, CaseError> {
         (self.simulation, self.course, self.collision) = (None, None, None);
-        let case = Case::parse(SOURCE, text, Path::new("."), &[])?;
+        let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
         let mut simulation = Simulation::sharing(case, &self.shared)?;
         let snapshots = SnapshotRequest::Count(ask.frames);
         let want = Want { history_rows: ask.rows, snapshots, ..simulation.want().clone() };

@@ -38,12 +38,8 @@ async function start({ id, packed }) {
 
 // A trap leaves the module as it was in the middle of something: a new one takes its place.
 async function failed(id, error) {
-  let reason = String(error);
-  try {
-    reason = `${answerText()} (${reason})`;
-  } catch {
-    // No memory to read what it said.
-  }
+  const said = answerText();
+  const reason = `${said || 'It said nothing: most likely it had no memory left, of which a browser gives it 4 GB at most.'} (${error})`;
   job = null;
   await instantiate();
   postMessage({ id, kind: 'failed', message: reason });

@@ -37,6 +37,7 @@ mod law_arguments;
 mod law_failures;
 mod occupant;
 mod output;
+mod page;
 mod peak_memory;
 mod place;
 mod progress;

@@ -57,9 +57,24 @@ fn faults_say_where_and_what_is_allowed() {
     let three = fault(&(GLASS.to_string() + third));
     assert!(three.text.contains("body") && three.message.contains('3'), "{}", three.text);
 
+    let both = GLASS.replace("22.2 mm\" }", "-1 mm\" }").replace("0.244", "0.9");
+    let both = fault(&both);
+    assert_eq!(both.others.len(), 1, "{both:?}");
+    assert!(!both.text.contains(&both.others[0].message));
+
     let mesh = fault(include_str!("../../../../cases/glass_0.5ms_14um.toml"));
     assert_eq!(mesh.key.as_deref(), Some("body.0.sphere.mesh"));
     assert!(!fault("title = [").text.is_empty());
+}
+
+/// A browser has less memory than the plan allows; who knows better says so in the case.
+#[test]
+fn what_a_browser_has_no_memory_for_is_refused() {
+    let fine = GLASS.to_string() + "[mesh]\ncontact_element_size = \"1.2 um\"\n" + CONDENSED;
+    let fault = fault(&fine);
+    assert!(fault.text.contains("limits.memory"), "{}", fault.text);
+    let own = GLASS.to_string() + "[limits]\nmemory = \"10 kB\"\n" + CONDENSED;
+    assert!(Session::default().begin(&own, ASK).is_err());
 }
 
 /// A run that the reader ends is told as far as it got; nothing runs after it.

@@ -1,19 +1,21 @@
-// Sliders, runs, stories.
-import { rounded, show } from './units.js';
+// Sliders, runs, pictures.
+import { show } from './units.js';
 import { allMaterials, setMaterials } from './materials.js';
-import { FIRST, SLIDERS, caseOf, commandOf, fragmentOf, isMeant, read, sound } from './scene.js';
+import { FIRST, caseOf, commandOf, fragmentOf, read, sound } from './scene.js';
 import { Runner, lastOnly } from './runner.js';
-import { at, draw, element, showCharts, showEffects, showEnergy, showFault, showNumbers, showPicture } from './results.js';
-import { STORIES, chartOf, stateOf } from './stories.js';
+import { at, element, showCharts, showEffects, showEnergy, showFault, showNumbers, showPicture } from './results.js';
+import { buildSlider, refreshControls } from './controls.js';
+import { buildStories, storyText } from './telling.js';
 
 // While a slider moves: fewer instants. At rest: as the command has it.
 const MOVING = { rows: 250, frames: 9 };
 const AT_REST = { rows: 1000, frames: 25 };
 const LEAST_VIEW = 1.5;
 const PLAY_MS = 120;
+// After which a reader is told that something is under way.
+const LATE_MS = 700;
 
 const runner = new Runner();
-let sweeps = null;
 let state = { ...FIRST };
 let ownText = null;
 let shown = { outcome: null, index: 0, text: '' };
@@ -47,10 +49,18 @@ const compute = lastOnly(async (text, ask) => {
       at('progress-bar').value = done;
     }
   };
+  at('progress-text').textContent = 'Computing';
+  const late = setTimeout(() => { at('progress').hidden = false; }, LATE_MS);
   const answer = await runner.ask('begin', request, onway);
+  clearTimeout(late);
   at('progress').hidden = true;
   at('progress-bar').value = 0;
   if (answer.kind === 'dropped') return;
+  if (answer.kind === 'ended') {
+    at('status').textContent = 'Ended before there was anything to show; the numbers are those of the case before.';
+    at('results').classList.add('stale');
+    return;
+  }
   tell(text, answer, performance.now() - began, ask === MOVING);
   // The reader may have moved on while it was computed.
   if (request.share !== share() || request.halfWidth !== halfWidth()) drawPicture();
@@ -66,7 +76,7 @@ function tell(text, answer, milliseconds, isMoving) {
   showFault(at('fault'), null);
   showFault(at('paste-fault'), null);
   if (answer.kind !== 'done') {
-    const fault = answer.fault ?? { message: 'The module failed; it has been started anew.', help: answer.message };
+    const fault = answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message };
     showFault(place, fault);
     at('results').classList.add('stale');
     at('status').textContent = 'Something is wrong with the case; the numbers are those of the case before.';
@@ -89,12 +99,12 @@ function tell(text, answer, milliseconds, isMoving) {
   // For whoever opens the console, and for tests.
   window.collision = { summary, text, frames: outcome.frames, milliseconds };
   document.documentElement.dataset.runs = Number(document.documentElement.dataset.runs ?? 0) + 1;
-  storyText();
+  storyText(text, summary);
 }
 
 function run(ask) {
   refreshTexts();
-  runner.tell('drop');
+  runner.drop();
   compute(textNow(), ask);
 }
 
@@ -130,57 +140,10 @@ function play() {
 
 // ---- controls
 
-function placeOf(key) {
-  const { from, to, isLogarithmic } = SLIDERS[key];
-  const value = state[key];
-  return Math.round(1000 * (isLogarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from)));
-}
-
-function valueAt(key, place) {
-  const { from, to, isLogarithmic } = SLIDERS[key];
-  const part = place / 1000;
-  return rounded(isLogarithmic ? from * (to / from) ** part : from + (to - from) * part);
-}
-
-function buildSlider(box) {
-  const { key, label } = box.dataset;
-  const { from, to, unit } = SLIDERS[key];
-  const id = `slider-${key.replace('.', '-')}`;
-  const slider = element('input', '', { type: 'range', id, min: 0, max: 1000, step: 1 });
-  const number = element('input', '', { type: 'number', min: from, max: to, step: 'any', 'aria-label': unit ? `${label} in ${unit}` : label });
-  box.append(element('label', label, { for: id }), slider, number, element('span', unit, { class: 'unit' }));
-  slider.addEventListener('input', () => change({ [key]: valueAt(key, slider.value) }, MOVING));
-  slider.addEventListener('change', () => change({ [key]: valueAt(key, slider.value) }, AT_REST));
-  number.addEventListener('change', () => {
-    const value = Number(number.value);
-    const isWithin = number.value !== '' && value >= from && value <= to;
-    number.setAttribute('aria-invalid', String(!isWithin));
-    if (isWithin) change({ [key]: value }, AT_REST);
-    else showFault(at('fault'), { message: `${label}: ${number.value || 'nothing'} is given`, help: `Between ${from} and ${to} ${unit}. A case of your own may go further: see below.` });
-  });
-}
-
-// Puts the state into the controls.
-function refreshControls() {
-  for (const box of document.querySelectorAll('.slider')) {
-    const { key } = box.dataset;
-    const [slider, number] = box.querySelectorAll('input');
-    slider.value = placeOf(key);
-    slider.setAttribute('aria-valuetext', `${state[key]} ${SLIDERS[key].unit}`.trim());
-    if (document.activeElement !== number || number.getAttribute('aria-invalid') !== 'true') number.value = state[key];
-    number.setAttribute('aria-invalid', 'false');
-    box.hidden = !isMeant(key, state);
-  }
-  for (const select of document.querySelectorAll('select[data-key]')) {
-    select.value = state[select.dataset.key];
-    select.parentElement.hidden = !isMeant(select.dataset.key, state);
-  }
-}
-
 function change(changes, ask) {
   state = sound({ ...state, ...changes });
   ownText = null;
-  refreshControls();
+  refreshControls(state);
   if (isSlow() && ask === MOVING) {
     refreshTexts();
     at('status').textContent = 'Let go to compute: this model takes seconds.';
@@ -193,14 +156,19 @@ function buildControls() {
   for (const select of document.querySelectorAll('select[data-key$="material"]')) {
     select.append(...allMaterials().map(({ name, title }) => element('option', title, { value: name })));
   }
-  document.querySelectorAll('.slider').forEach(buildSlider);
+  const hear = {
+    moved: (changes) => change(changes, MOVING),
+    set: (changes) => change(changes, AT_REST),
+    refuse: (fault) => showFault(at('fault'), fault),
+  };
+  document.querySelectorAll('.slider').forEach((box) => buildSlider(box, hear));
   for (const select of document.querySelectorAll('select[data-key]')) {
     select.addEventListener('change', () => change({ [select.dataset.key]: select.value }, AT_REST));
   }
   at('controls').addEventListener('submit', (event) => event.preventDefault());
   at('reset').addEventListener('click', () => change({ ...FIRST }, AT_REST));
   at('sliders-back').addEventListener('click', () => change({}, AT_REST));
-  at('cancel').addEventListener('click', () => runner.tell('cancel'));
+  at('cancel').addEventListener('click', () => runner.cancel());
   at('instant').addEventListener('input', drawPicture);
   at('zoom').addEventListener('input', drawPicture);
   at('play').addEventListener('click', play);
@@ -237,73 +205,6 @@ function buildSharing() {
   });
 }
 
-// ---- stories
-
-let told = null;
-
-function buildStories() {
-  STORIES.forEach((story, k) => {
-    const button = element('button', story.title, { type: 'button', 'aria-expanded': 'false', 'aria-controls': 'story' });
-    button.addEventListener('click', () => goTo(k, 0));
-    at('stories').append(button);
-  });
-  at('story-next').addEventListener('click', () => goTo(told.story, told.step + 1));
-  at('story-back').addEventListener('click', () => goTo(told.story, told.step - 1));
-  at('story-close').addEventListener('click', closeStory);
-}
-
-function closeStory() {
-  const button = at('stories').children[told.story];
-  told = null;
-  at('story').hidden = true;
-  markStory();
-  button.focus();
-}
-
-function markStory() {
-  [...at('stories').children].forEach((button, k) => button.setAttribute('aria-expanded', String(told?.story === k)));
-}
-
-function goTo(story, step) {
-  const { title, steps } = STORIES[story];
-  const isNew = told?.story !== story;
-  told = { story, step, text: caseOf(stateOf(steps[step])) };
-  markStory();
-  at('story').hidden = false;
-  at('story-title').textContent = title;
-  at('story-text').textContent = '';
-  at('story-place').textContent = `${step + 1} of ${steps.length}`;
-  at('story-back').disabled = step === 0;
-  at('story-next').disabled = step === steps.length - 1;
-  draw(at('story-chart'), null, '');
-  if (isNew) at('story-title').focus();
-  change(stateOf(steps[step]), AT_REST);
-  if (steps[step].chart) tellChart(told, steps[step]);
-}
-
-// A step's text, once its own case has been computed; it stays while the reader plays on.
-function storyText() {
-  if (!told || shown.text !== told.text) return;
-  const { summary } = shown.outcome;
-  const heat = (summary.energy.viscous_dissipation_j ?? 0) / summary.energy.initial_j;
-  const numbers = { restitution: summary.restitution, time: summary.contact_time_s, heat };
-  at('story-text').textContent = STORIES[told.story].steps[told.step].text(numbers);
-}
-
-async function tellChart(own, step) {
-  sweeps ??= new Runner();
-  await sweeps.ready;
-  const summaryOf = async (text) => {
-    if (own !== told) return null;
-    const answer = await sweeps.ask('begin', { text, rows: 0, frames: 0, share: 0, halfWidth: 1 });
-    return answer.outcome?.summary ?? null;
-  };
-  const spec = await chartOf(step, summaryOf);
-  if (!spec || own !== told) return;
-  const { svg } = await sweeps.ask('chart', { spec });
-  if (own === told) draw(at('story-chart'), svg, `${spec.y} over ${spec.x}: from ${spec.curves[0].points.map(([x, y]) => `${show(y, '', 3)} at ${show(x, '', 2)}`).join(', ')}.`);
-}
-
 // ---- light and dark
 
 function buildTheme() {
@@ -328,7 +229,7 @@ function takeAddress() {
     at('paste').value = ownText;
     at('paste-details').open = true;
   }
-  refreshControls();
+  refreshControls(state);
   run(AT_REST);
 }
 
@@ -344,7 +245,7 @@ async function begin() {
   setMaterials(answer.materials);
   buildControls();
   buildSharing();
-  buildStories();
+  buildStories((told) => change(told, AT_REST));
   addEventListener('hashchange', takeAddress);
   takeAddress();
 }

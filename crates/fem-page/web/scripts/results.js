@@ -126,8 +126,10 @@ export function showFault(place, fault) {
   place.hidden = !fault;
   place.replaceChildren();
   if (!fault) return;
-  const where = fault.line ? `Line ${fault.line}, column ${fault.column}: ` : '';
-  place.append(element('strong', `${where}${fault.message}`));
-  if (fault.help) place.append(element('p', fault.help));
-  if (fault.text) place.append(element('pre', fault.text));
+  for (const { line, column, message, help, text } of [fault, ...(fault.others ?? [])]) {
+    const where = line ? `Line ${line}, column ${column}: ` : '';
+    place.append(element('strong', `${where}${message}`));
+    if (help) place.append(element('p', help));
+    if (text) place.append(element('pre', text));
+  }
 }

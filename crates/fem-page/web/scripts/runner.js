@@ -1,12 +1,19 @@
 // The worker and what is asked of it.
 
+// Within which a worker that computes hears that it should end, at most: else another one takes its place.
+const PATIENCE_MS = 1500;
+
 export class Runner {
   #worker;
   #open = new Map();
   #last = 0;
 
-  // A worker made of the page's own text, with the module in it.
   constructor() {
+    this.#begin();
+  }
+
+  // A worker made of the page's own text, with the module in it.
+  #begin() {
     const source = document.getElementById('worker').textContent;
     const address = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
     this.#worker = new Worker(address);
@@ -31,8 +38,9 @@ export class Runner {
     this.#open.clear();
   }
 
-  // The answer, of kind done, fault, failed or dropped; `onway` hears of begun and progress.
-  ask(kind, body = {}, onway = null) {
+  // The answer, of kind done, fault, failed, dropped or ended; `onway` hears of begun and progress.
+  async ask(kind, body = {}, onway = null) {
+    if (kind !== 'start') await this.ready;
     this.#last += 1;
     const id = this.#last;
     return new Promise((resolve) => {
@@ -41,9 +49,23 @@ export class Runner {
     });
   }
 
-  // What has no answer: cancel (what there is so far is told), drop (nothing is).
-  tell(kind) {
-    this.#worker.postMessage({ kind });
+  // Nothing is told of a run under way, if there is one.
+  drop() {
+    this.#worker.postMessage({ kind: 'drop' });
+  }
+
+  // What there is so far is told of a run under way. One that does not hear, since it makes meshes or
+  // factors, ends with its worker.
+  cancel() {
+    const asked = [...this.#open.keys()];
+    this.#worker.postMessage({ kind: 'cancel' });
+    setTimeout(() => {
+      if (!asked.some((id) => this.#open.has(id))) return;
+      this.#worker.terminate();
+      for (const { resolve } of this.#open.values()) resolve({ kind: 'ended' });
+      this.#open.clear();
+      this.#begin();
+    }, PATIENCE_MS);
   }
 }
 

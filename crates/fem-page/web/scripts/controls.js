@@ -1,0 +1,51 @@
+// Sliders, fields and choices, and the state in them.
+import { rounded } from './units.js';
+import { SLIDERS, isMeant } from './scene.js';
+import { element } from './results.js';
+
+function placeOf(key, value) {
+  const { from, to, isLogarithmic } = SLIDERS[key];
+  return Math.round(1000 * (isLogarithmic ? Math.log(value / from) / Math.log(to / from) : (value - from) / (to - from)));
+}
+
+function valueAt(key, place) {
+  const { from, to, isLogarithmic } = SLIDERS[key];
+  const part = place / 1000;
+  return rounded(isLogarithmic ? from * (to / from) ** part : from + (to - from) * part);
+}
+
+// A slider with a field beside it. `moved` and `set` take a change of the state, `refuse` a fault.
+export function buildSlider(box, { moved, set, refuse }) {
+  const { key, label } = box.dataset;
+  const { from, to, unit } = SLIDERS[key];
+  const id = `slider-${key.replace('.', '-')}`;
+  const slider = element('input', '', { type: 'range', id, min: 0, max: 1000, step: 1 });
+  const number = element('input', '', { type: 'number', min: from, max: to, step: 'any', 'aria-label': unit ? `${label} in ${unit}` : label });
+  box.append(element('label', label, { for: id }), slider, number, element('span', unit, { class: 'unit' }));
+  slider.addEventListener('input', () => moved({ [key]: valueAt(key, slider.value) }));
+  slider.addEventListener('change', () => set({ [key]: valueAt(key, slider.value) }));
+  number.addEventListener('change', () => {
+    const value = Number(number.value);
+    const isWithin = number.value !== '' && value >= from && value <= to;
+    number.setAttribute('aria-invalid', String(!isWithin));
+    if (isWithin) set({ [key]: value });
+    else refuse({ message: `${label}: ${number.value || 'nothing'} is given`, help: `Between ${from} and ${to} ${unit}. A case of your own may go further: see below.` });
+  });
+}
+
+// Puts a state into the controls.
+export function refreshControls(state) {
+  for (const box of document.querySelectorAll('.slider')) {
+    const { key } = box.dataset;
+    const [slider, number] = box.querySelectorAll('input');
+    slider.value = placeOf(key, state[key]);
+    slider.setAttribute('aria-valuetext', `${state[key]} ${SLIDERS[key].unit}`.trim());
+    if (document.activeElement !== number || number.getAttribute('aria-invalid') !== 'true') number.value = state[key];
+    number.setAttribute('aria-invalid', 'false');
+    box.hidden = !isMeant(key, state);
+  }
+  for (const select of document.querySelectorAll('select[data-key]')) {
+    select.value = state[select.dataset.key];
+    select.parentElement.hidden = !isMeant(select.dataset.key, state);
+  }
+}
