@@ -1,5 +1,5 @@
 """What Python adds: the size of the wheel, the time of an import, and of a thousand condensed collisions beside the
-command. `measure_python.py WHEEL COMMAND`; prints the rows of docs/python.md."""
+command. `measure_python.py WHEEL COMMAND [COLLISIONS]`; prints the numbers of docs/python.md."""
 
 import pathlib
 import subprocess
@@ -10,10 +10,9 @@ import time
 import fem_run
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-N = 1000
 
 
-def best(work, n):
+def best(work, times):
     """The least of some times, s: other work on the machine only adds."""
 
     def once():
@@ -21,10 +20,12 @@ def best(work, n):
         work()
         return time.perf_counter() - start
 
-    return min(once() for _ in range(n))
+    return min(once() for _ in range(times))
 
 
-def main(wheel, command):
+def main(wheel, command, collisions="1000"):
+    n = int(collisions)
+
     def python(code):
         return best(lambda: subprocess.run([sys.executable, "-c", code], check=True), 7)
 
@@ -32,8 +33,8 @@ def main(wheel, command):
 
     changes = {"model": {"condensed": {}}, "mesh.contact_element_size": "40 um", "mesh.refined_radius": "0.4 mm"}
     case = fem_run.Case.load(ROOT / "cases" / "glass_0.5ms.toml").with_(changes)
-    speeds = [0.2 + 1.8 * k / (N - 1) for k in range(N)]
-    own = best(lambda: fem_run.sweep(case, {"body.0.approach_speed": speeds}, threads=1), 3)
+    speeds = [0.2 + 1.8 * k / (n - 1) for k in range(n)]
+    own = best(lambda: fem_run.sweep(case, {"body.0.approach_speed": speeds}, threads=1), 2)
     with tempfile.TemporaryDirectory() as folder:
         place = pathlib.Path(folder)
         (place / "case.toml").write_text(case.to_toml())
@@ -46,11 +47,11 @@ def main(wheel, command):
             words = [command, "sweep", "sweep.toml", "--threads", "1", "--quiet", "--out", f"out{next(outs)}"]
             subprocess.run(words, cwd=place, check=True)
 
-        of_command = best(run, 3)
+        of_command = best(run, 2)
     print(f"| wheel | {pathlib.Path(wheel).stat().st_size / 1e6:.1f} MB |")
     print(f"| `import fem_run`, numpy imported | {1e3 * imported:.0f} ms |")
-    print(f"| a condensed collision, one of {N} on one thread, by `fem_run.sweep` | {1e3 * own / N:.2f} ms |")
-    print(f"| the same by `fem-run sweep` | {1e3 * of_command / N:.2f} ms |")
+    print(f"| a condensed collision, one of {n} on one thread, by `fem_run.sweep` | {1e3 * own / n:.2f} ms |")
+    print(f"| the same by `fem-run sweep` | {1e3 * of_command / n:.2f} ms |")
 
 
 if __name__ == "__main__":
