@@ -37,6 +37,8 @@ LONGEST_RUN_S = 300
 BEFORE, AFTER = 20, 40
 
 # What differs between two runs of one build: keys of JSON files, ...
+# What a page of a result says that its other files do not: what the run took.
+NOT_COMPARED = {"report.html"}
 MEASURED = re.compile(
     r"(^|\.)cost\.(wall_s|setup_s|solve_s|ns_per_element_update|peak_memory_bytes)$"
     r"|^claims\.\d+\.seconds$")
@@ -97,7 +99,8 @@ def without_names(text, names):
 
 def files_of(folder, members):
     """The files that a job has left, by their paths in the folder."""
-    places = [(Path(place), name) for place, _, names in os.walk(folder) for name in names]
+    places = [(Path(place), name) for place, _, names in os.walk(folder) for name in names
+              if name not in NOT_COMPARED]
     return {without_names(str((place / name).relative_to(folder)), members): place / name
             for place, name in places}
 

@@ -22,6 +22,7 @@ pub struct Scene {
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
     pub(crate) probes: Vec<Probe>,
+    pub(crate) wants_report: bool,
     pub(crate) model: ModelChoice,
     pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
@@ -83,6 +84,11 @@ impl Scene {
     /// Places of which is told what happens there over time.
     pub fn probes(&self) -> &[Probe] {
         &self.probes
+    }
+
+    /// Whether a run writes its page.
+    pub fn wants_report(&self) -> bool {
+        self.wants_report
     }
 
     /// Which model computes the collision.

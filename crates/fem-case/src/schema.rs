@@ -169,7 +169,7 @@ pub struct TimeTable {
     /// Times the critical time step, > 0 and at most 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_factor: Option<Quantity<Number>>,
-    /// Largest added mass as a fraction of a body's mass, 0 to 0.1; 0 forbids it.
+    /// Largest mass that is moved to light nodes, as a fraction of a body's mass, 0 to 0.1; 0 forbids it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_scaling: Option<Quantity<Number>>,
 }
@@ -185,6 +185,9 @@ pub struct OutputTable {
     /// `[[output.probe]]`: places of which is told what happens there over time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probe: Vec<ProbeTable>,
+    /// Whether a run writes its page, `report.html`; it does unless told otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub report: Option<bool>,
 }
 
 /// `snapshots`: a count, or a list of labels or of times.

@@ -72,7 +72,7 @@ pub use pulse::{PEAK_WINDOW, Peaks, Pulse};
 pub use row::Row;
 pub use scatter::Scatter;
 pub use searched::Searched;
-pub use snapshot::{BodyFields, Label, Snapshot, SnapshotRequest};
+pub use snapshot::{BodyFields, ContactPlace, ContactProfile, Label, Snapshot, SnapshotRequest};
 pub use standstill::{Held, Standstill};
 pub use stop::Stop;
 pub use stress::{StressField, StressRecovery, invariants};

@@ -8,7 +8,7 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
 
-use crate::snapshot::{BodyFields, Snapshot};
+use crate::snapshot::{BodyFields, ContactProfile, Snapshot};
 use crate::stress::{SmallStrain, StressRecovery};
 
 /// A place that is asked for.
@@ -150,6 +150,7 @@ impl Probes {
             time: all.time,
             approach: all.approach,
             carried: all.carried,
+            contact: ContactProfile::default(),
             bodies: [0, 1].map(|_| BodyFields {
                 displacement: vec![[0.0; 2]; n],
                 velocity: vec![[0.0; 2]; n],

@@ -67,6 +67,28 @@ pub struct BodyFields {
     pub stress: Vec<[f64; 4]>,
 }
 
+/// The contact at one distance from the axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct ContactPlace {
+    /// Distance from the axis, m; where surfaces are followed as they move, the present one.
+    pub radius: f64,
+    /// Contact pressure, Pa.
+    pub pressure: f64,
+    /// y of the upper less that of the lower surface, m; negative by what springs overlap.
+    pub gap: f64,
+    /// Displacement along r of the lower and the upper surface, m.
+    pub radial: [f64; 2],
+}
+
+/// The contact at an instant.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ContactProfile {
+    /// Where the pressure falls to zero, m; 0 without contact.
+    pub radius: f64,
+    /// From the axis outward, as far as contact is looked for; none in flight.
+    pub places: Vec<ContactPlace>,
+}
+
 /// Both bodies at an instant.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Snapshot {
@@ -81,6 +103,8 @@ pub struct Snapshot {
     pub carried: [f64; 2],
     /// Lower and upper body.
     pub bodies: [BodyFields; 2],
+    /// What they do to each other.
+    pub contact: ContactProfile,
 }
 
 impl Snapshot {

@@ -45,6 +45,16 @@ pub(crate) struct Coordinates {
 struct State {
     approach: f64,
     sides: [Coordinates; 2],
+    contact: Contact,
+}
+
+/// What acts between the bodies, or its rate.
+#[derive(Debug, Clone)]
+pub(crate) struct Contact {
+    /// At the contact points, N.
+    pub forces: Vec<f64>,
+    /// q of each side whose surface slips, m².
+    pub moved: [f64; 2],
 }
 
 /// The steps of a run.
@@ -85,7 +95,7 @@ impl CondensedPair {
                 time: time(instant),
                 approach: now.approach,
                 carried: approach.centres(self.masses(), approach.gap(), time(instant)),
-                bodies: [BodyFields::default(), BodyFields::default()],
+                ..Snapshot::default()
             })
             .collect();
         for (s, side) in self.sides.iter().enumerate() {
@@ -118,6 +128,11 @@ impl CondensedPair {
                     stress: Vec::new(),
                 };
             }
+        }
+        let is_whole = damping.radiation == [None, None];
+        for (snapshot, [now, _]) in snapshots.iter_mut().zip(&states) {
+            let centres = frame.approach.centres(self.masses(), now.approach, 0.0);
+            snapshot.contact = self.profile(&now.contact, &snapshot.bodies, centres, is_whole)?;
         }
         Ok((snapshots, missing))
     }
@@ -204,7 +219,8 @@ impl CondensedPair {
             Some(side) => coordinates(side, &motion.sides[s], &motion.forces),
             None => Coordinates::default(),
         });
-        State { approach: motion.approach, sides }
+        let contact = Contact { forces: motion.forces.clone(), moved: motion.slipped() };
+        State { approach: motion.approach, sides, contact }
     }
 
     /// Nodal displacements (m) of coordinates, each on top of a mean motion along the axis; none
@@ -257,15 +273,18 @@ impl State {
         Self {
             approach: a * self.approach + b * other.approach,
             sides: [0, 1].map(|s: usize| self.sides[s].combine(&other.sides[s], weights)),
+            contact: Contact {
+                forces: combined(&self.contact.forces, &other.contact.forces, weights),
+                moved: [0, 1]
+                    .map(|s: usize| a * self.contact.moved[s] + b * other.contact.moved[s]),
+            },
         }
     }
 }
 
 impl Coordinates {
-    fn combine(&self, other: &Self, [a, b]: [f64; 2]) -> Self {
-        let sum = |get: fn(&Self) -> &[f64]| {
-            get(self).iter().zip(get(other)).map(|(x, y)| a * x + b * y).collect()
-        };
+    fn combine(&self, other: &Self, weights: [f64; 2]) -> Self {
+        let sum = |get: fn(&Self) -> &[f64]| combined(get(self), get(other), weights);
         Self {
             springs: sum(|c| &c.springs),
             effective: sum(|c| &c.effective),
@@ -304,6 +323,10 @@ fn coordinates(side: &PairSide, state: &SideState, forces: &[f64]) -> Coordinate
             .map(|both| difference(both.each_ref().map(|chain| chain.effective())))
             .unwrap_or_default(),
     }
+}
+
+fn combined(some: &[f64], others: &[f64], [a, b]: [f64; 2]) -> Vec<f64> {
+    some.iter().zip(others).map(|(x, y)| a * x + b * y).collect()
 }
 
 /// Side by side; all of one length.

@@ -76,6 +76,7 @@ mod peak;
 mod points;
 mod press;
 mod pressure;
+mod profile;
 mod radiation;
 mod run;
 mod sample;

@@ -308,7 +308,7 @@ impl CondensedPair {
 }
 
 /// The touching side of a body.
-fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
+pub(crate) fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
     match input {
         BodyInput::Sphere { mesh, .. } | BodyInput::HalfSpace { mesh, .. } => {
             Ok(Surface::of_sphere(mesh))

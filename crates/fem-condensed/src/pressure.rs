@@ -18,12 +18,21 @@ impl CondensedPair {
         if contact.n_closed == 0 {
             return (0.0, 0.0);
         }
-        let barrier = if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs };
+        let (radius, pressure) = self.read_out(forces);
+        match &self.settings().slip {
+            None => (radius, pressure),
+            Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
+        }
+    }
+
+    /// The same of surfaces that do not slip, or as if they had not.
+    pub(crate) fn read_out(&self, forces: &[f64]) -> (f64, f64) {
+        let barrier = self.barrier();
         let at = |nodes: &[PressureNode]| contact_radius(pressures(nodes, forces), barrier);
         let of = |nodes: &[PressureNode], radius: f64| {
             centre_pressure(pressures(nodes, forces), radius, barrier)
         };
-        let (radius, pressure) = match &self.staggered {
+        match &self.staggered {
             None => {
                 let radius = at(&self.nodes);
                 (radius, of(&self.nodes, radius))
@@ -32,11 +41,12 @@ impl CondensedPair {
                 let radius = staggered_radius([at(&self.nodes), at(nodes)], *lengths);
                 (radius, 0.5 * (of(&self.nodes, radius) + of(nodes, radius)))
             }
-        };
-        match &self.settings().slip {
-            None => (radius, pressure),
-            Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
         }
+    }
+
+    /// What keeps the surfaces apart.
+    pub(crate) fn barrier(&self) -> Barrier {
+        if self.nodal_side.is_some() { Barrier::Rigid } else { Barrier::Springs }
     }
 
     /// Pressure at the nodes of a deformable side from the axis outward, (r in m, p in Pa): nodal

@@ -45,25 +45,44 @@ impl ContactInterface {
         side: usize,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone + 'a,
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+        let pressures = signed_pressure.map(|(_, pressure)| pressure.max(0.0));
+        let sums = self.sums_at_nodes(side, pressures);
+        sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
+    }
+
+    /// Of what each point has the integral over the hat of each node of a side, and its area, m², with the
+    /// radius of the node, m.
+    fn sums_at_nodes<'a>(
+        &'a self,
+        side: usize,
+        values: impl Iterator<Item = f64> + Clone + 'a,
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
         let surface = &self.surfaces[side];
-        let mut points = self.points.iter().zip(signed_pressure).peekable();
-        // Force and area that the segment inside of a node has given to it.
+        let mut points = self.points.iter().zip(values).peekable();
+        // Integral and area that the segment inside of a node has given to it.
         let mut from_inside = [0.0; 2];
         self.candidate_nodes(side).zip(&surface.radii).map(move |(node, &radius)| {
-            let [mut force, mut area] = from_inside;
+            let [mut sum, mut area] = from_inside;
             from_inside = [0.0; 2];
-            while let Some((point, (_, pressure))) =
+            while let Some((point, value)) =
                 points.next_if(|(point, _)| point.feet[side].nodes[0] == node)
             {
                 let [inner, outer] = point.feet[side].shape.map(|shape| point.area * shape);
-                let pressure = pressure.max(0.0);
-                force += inner * pressure;
+                sum += inner * value;
                 area += inner;
-                from_inside[0] += outer * pressure;
+                from_inside[0] += outer * value;
                 from_inside[1] += outer;
             }
-            (radius, if area > 0.0 { force / area } else { 0.0 })
+            (radius, [sum, area])
         })
+    }
+
+    /// The same of what each point has, at the nodes at which pressures are read.
+    pub(crate) fn sums<'a>(
+        &'a self,
+        values: impl Iterator<Item = f64> + Clone + 'a,
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
+        self.sums_at_nodes(self.coarser(), values)
     }
 
     /// Contact pressure on the axis, Pa; 0 without contact there: see [`centre_pressure`](crate::centre_pressure).

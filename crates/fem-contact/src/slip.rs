@@ -147,6 +147,14 @@ impl SlippingInterface {
         total
     }
 
+    /// Gap at each point, m.
+    pub(crate) fn gaps<'a>(
+        &'a self,
+        u: [&'a [Displacement]; 2],
+    ) -> impl Iterator<Item = f64> + Clone + 'a {
+        (0..self.slopes.len()).map(move |k| self.at(k, of_nodes(u)).gap)
+    }
+
     /// Whether any point is closed for the given displacements of the candidate nodes.
     pub fn is_closed(&self, displacement: [impl Fn(u32) -> Displacement; 2]) -> bool {
         let [lower, upper] = displacement;

@@ -6,10 +6,9 @@ mod bodies;
 #[path = "plain/mod.rs"]
 mod plain;
 
-use bodies::{Error, Kind, glass, mesh};
+use bodies::{Kind, mesh_and_glass};
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use fem_material::ActsOn;
 use plain::Plain;
 
 /// Elements of the contact, µm: what 1 % needs, what 0.1 % needs, the paper's.
@@ -19,59 +18,19 @@ fn main() {
     divan::main();
 }
 
-fn size(micrometres: u32) -> f64 {
-    1e-6 * f64::from(micrometres)
-}
-
-fn step(bencher: Bencher<'_, '_>, kind: Kind, micrometres: u32) {
-    let mut sphere = kind.sphere(size(micrometres)).expect("a sphere");
+#[divan::bench(args = Kind::ALL, consts = SIZES)]
+fn step<const MICROMETRES: u32>(bencher: Bencher<'_, '_>, kind: Kind) {
+    let mut sphere = kind.sphere(1e-6 * f64::from(MICROMETRES)).expect("a sphere");
     let elements = ItemsCount::new(sphere.body().n_elements());
     bencher.counter(elements).bench_local(|| sphere.step());
 }
 
 /// The measure of the others.
-#[divan::bench(args = SIZES)]
-fn plain_code(bencher: Bencher<'_, '_>, micrometres: u32) {
-    let run = || -> Result<(Plain, usize, f64), Error> {
-        let (mesh, glass) = (mesh(size(micrometres))?, glass(&[], ActsOn::All)?);
-        let time_step = Kind::Elastic.sphere(size(micrometres))?.time_step();
-        Ok((Plain::new(&mesh, &glass), mesh.quads().len(), time_step))
-    };
-    let (mut sphere, n_elements, time_step) = run().expect("a sphere");
-    bencher.counter(ItemsCount::new(n_elements)).bench_local(|| sphere.step(time_step));
-}
-
-#[divan::bench(args = SIZES)]
-fn elastic(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::Elastic, micrometres);
-}
-
-#[divan::bench(args = SIZES)]
-fn unordered(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::Unordered, micrometres);
-}
-
-#[divan::bench(args = SIZES)]
-fn relaxing(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::Relaxing, micrometres);
-}
-
-#[divan::bench(args = SIZES)]
-fn three_terms(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::ThreeTerms, micrometres);
-}
-
-#[divan::bench(args = SIZES)]
-fn relaxing_shear(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::RelaxingShear, micrometres);
-}
-
-#[divan::bench(args = SIZES)]
-fn finite_strain(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::FiniteStrain, micrometres);
-}
-
-#[divan::bench(args = SIZES)]
-fn finite_relaxing(bencher: Bencher<'_, '_>, micrometres: u32) {
-    step(bencher, Kind::FiniteRelaxing, micrometres);
+#[divan::bench(consts = SIZES)]
+fn plain_code<const MICROMETRES: u32>(bencher: Bencher<'_, '_>) {
+    let size = 1e-6 * f64::from(MICROMETRES);
+    let (mesh, glass) = mesh_and_glass(size).expect("a sphere");
+    let mut elastic = Kind::Elastic.sphere(size).expect("a sphere");
+    let mut sphere = Plain::beside(&mesh, &glass, &mut elastic);
+    bencher.counter(ItemsCount::new(mesh.quads().len())).bench_local(|| sphere.step());
 }

@@ -30,7 +30,7 @@ pub struct Body {
     /// Inverse masses of (r, y); 0 for what cannot move.
     pub(crate) inverse_mass: Vec<[f64; 2]>,
     pub(crate) velocity: f64,
-    /// Of a body that deforms, where the stiffness of either changes.
+    /// Of a body that moves, where the stiffness of either changes.
     pub(crate) bound: Option<Arc<ChangingBound>>,
     mesh: Option<SphereMesh>,
     material: Option<Material>,
@@ -55,12 +55,17 @@ impl Body {
         match lumped {
             LumpedBody::Meshed(meshed) => {
                 let (nodal_mass, added_mass) = meshed.bound.scale_mass(critical);
-                let of = || Arc::new(ChangingBound::of(meshed.bound.clone(), &*meshed.stress));
+                let of =
+                    || Arc::new(ChangingBound::of(meshed.bound.clone(), Some(&*meshed.stress)));
                 let bound = changes_stiffness.then(of);
                 let body = Self::of_mesh(*meshed, velocity, nodal_mass, added_mass, time_step);
                 Self { bound, ..body }
             }
-            LumpedBody::Rigid(sphere) => Self::rigid(sphere, velocity, time_step),
+            LumpedBody::Rigid(sphere) => {
+                let of = || Arc::new(ChangingBound::of(sphere.bound.clone(), None));
+                let bound = changes_stiffness.then(of);
+                Self { bound, ..Self::rigid(sphere, velocity, time_step) }
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! Snapshots of the explicit model's state.
 
-use fem_collision::{BodyFields, Label, Snapshot, SnapshotRequest};
+use fem_collision::{BodyFields, ContactPlace, Label, Snapshot, SnapshotRequest};
 
 use crate::model::Model;
 use crate::motion::advance_motion;
@@ -55,6 +55,15 @@ pub(crate) fn take(
         );
         fields.displacement.copy_from_slice(&state.displacement);
     }
+    let profile = model.contact().profile(&state.motions(model), state.contact_history(model));
+    snapshot.contact.radius = profile.contact_radius;
+    snapshot.contact.places.clear();
+    snapshot.contact.places.extend(profile.points.iter().map(|point| ContactPlace {
+        radius: point.radius,
+        pressure: point.pressure,
+        gap: point.gap,
+        radial: point.radial,
+    }));
 }
 
 /// Rigid motion at a time before first touch (s).
@@ -72,7 +81,7 @@ pub(crate) fn in_free_flight(model: &Model, time: f64) -> Snapshot {
         }
     });
     let approach = model.approach().speed() * time - model.approach().gap();
-    Snapshot { label: None, time, approach, carried: [0.0; 2], bodies }
+    Snapshot { time, approach, bodies, ..Snapshot::default() }
 }
 
 /// Whether a snapshot's fields are of the model's sizes.

@@ -177,10 +177,12 @@ pub(crate) struct ChangingBound {
 }
 
 impl ChangingBound {
-    /// Of the bound that the time step was chosen from.
-    pub fn of(bound: NodalBound, stress: &dyn Stress) -> Self {
+    /// Of the bound that the time step was chosen from, and of the stress of a body that is not rigid.
+    pub fn of(bound: NodalBound, stress: Option<&dyn Stress>) -> Self {
         let mut of_elements = vec![0.0; bound.mass.len()];
-        stress.add_undeformed_stiffness_bound(&mut of_elements);
+        if let Some(stress) = stress {
+            stress.add_undeformed_stiffness_bound(&mut of_elements);
+        }
         Self { stiffness: bound.stiffness, of_elements, damping: bound.damping }
     }
 

@@ -82,7 +82,7 @@ fn draw_curve(svg: &mut String, curve: &Curve, places: &[[f64; 2]], colour: &str
         let dashes = if curve.mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
         let _ = writeln!(
             svg,
-            "<path {} fill=\"none\" stroke-width=\"1.8\" stroke-linejoin=\"round\"{dashes} \
+            "<path {} stroke-width=\"1.8\" stroke-linejoin=\"round\"{dashes} \
              d=\"{}\"/>",
             paint(colour, "stroke"),
             path_of(&kept)

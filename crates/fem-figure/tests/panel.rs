@@ -64,3 +64,21 @@ fn names_are_text_and_nothing_else() {
     let svg = panel(&chart).unwrap();
     assert!(svg.contains("&lt;script&gt;&amp;") && !svg.contains("<script"));
 }
+
+/// A picture by itself is XML: no attribute twice, every element closed.
+#[test]
+fn pictures_are_well_formed() {
+    let band = force().with_band("range", vec![(0.0, 1.0, 2.0), (60.0, 3.0, 5.0)], GREY);
+    let errors = Curve::points("measured", vec![(10.0, 50.0)]).with_errors(vec![5.0]);
+    let svg = panel(&band.with(errors)).unwrap();
+    let mut reader = quick_xml::Reader::from_str(&svg);
+    loop {
+        match reader.read_event().unwrap() {
+            quick_xml::events::Event::Eof => break,
+            quick_xml::events::Event::Start(tag) | quick_xml::events::Event::Empty(tag) => {
+                tag.attributes().for_each(|attribute| assert!(attribute.is_ok(), "{tag:?}"));
+            }
+            _ => {}
+        }
+    }
+}

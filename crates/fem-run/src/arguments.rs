@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::ffi::OsString;
 use std::path::Path;
 use std::time::Instant;
 
@@ -49,8 +50,8 @@ Examples:
   fem-run check cases/glass_0.5ms.toml";
 
 /// Reads the command line; prints help, version or what is wrong with it, and exits.
-pub fn parse() -> Arguments {
-    let error = match Arguments::try_parse() {
+pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
+    let error = match Arguments::try_parse_from(words) {
         Ok(arguments) => return arguments,
         Err(error) => error,
     };

@@ -31,12 +31,20 @@ impl ColumnArguments {
             Failure::bad_input(format!("{name}: this file cannot be read: {error}"))
                 .with_help("name a CSV file with a header, such as validation/data/bridges_ice.csv")
         })?;
+        self.name_columns(Table::parse(&name, &decode(&bytes))?)
+    }
+
+    /// A table whose columns have the names that are given.
+    ///
+    /// # Errors
+    /// Not the columns that are named.
+    pub fn name_columns(&self, table: Table) -> Result<Table, Failure> {
         let names = self.columns.iter().map(|text| {
             let (name, column) = split(text, "--columns")?;
             Ok((name.trim(), column.trim()))
         });
         let names: Vec<(&str, &str)> = names.collect::<Result<_, Failure>>()?;
-        Ok(Table::parse(&name, &decode(&bytes))?.renamed(&names)?)
+        Ok(table.renamed(&names)?)
     }
 
     /// All of it in one text: results of other columns are other results.

@@ -38,6 +38,8 @@ pub struct Failure {
     /// The whole as plain text.
     plain: String,
     place: Option<Box<Place>>,
+    /// The fault of a case that it is.
+    case: Option<Box<CaseError>>,
     /// What else is wrong with the same input.
     others: Vec<Failure>,
 }
@@ -73,6 +75,7 @@ impl Failure {
             message,
             help: None,
             place: None,
+            case: None,
             others: Vec::new(),
         }
     }
@@ -83,6 +86,22 @@ impl Failure {
         self.plain += &format!("\n  help: {}", help.replace('\n', "\n        "));
         self.help = Some(help);
         self
+    }
+
+    /// All of it as plain text, as a pipe gets it behind `error: `.
+    pub fn text(&self) -> String {
+        let others = self.others.iter().map(|other| format!("\nerror: {}", other.text()));
+        self.plain.clone() + &others.collect::<String>()
+    }
+
+    /// What to do about it.
+    pub fn advice(&self) -> Option<&str> {
+        self.help.as_deref()
+    }
+
+    /// The fault of a case that it is, with file, position and key.
+    pub fn case_error(&self) -> Option<&CaseError> {
+        self.case.as_deref()
     }
 
     /// The exit status.
@@ -120,6 +139,7 @@ impl From<CaseError> for Failure {
             help: error.help().map(tame),
             plain,
             place,
+            case: Some(Box::new(error)),
             others,
         }
     }

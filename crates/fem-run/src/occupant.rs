@@ -10,6 +10,7 @@ use serde::Deserialize;
 use fem::results::{PROGRAM, SUMMARY_FILE};
 
 use crate::hidden_folder::LOCK_FILE;
+use crate::page::REPORT_FILE;
 use crate::restart::{RESTART_FILE, head_of};
 
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.
@@ -75,7 +76,10 @@ impl Occupant {
         };
         let mut ours = marks.filter(|marks| marks.program == PROGRAM);
         Ok(ours.next().or_else(under_way).map_or(Self::Foreign, |marks| {
-            let files = marks.files.into_iter().chain([RESTART_FILE, LOCK_FILE].map(String::from));
+            let files = marks
+                .files
+                .into_iter()
+                .chain([RESTART_FILE, LOCK_FILE, REPORT_FILE].map(String::from));
             Self::Result(OldResult { files: files.collect(), made_from: marks.made_from })
         }))
     }

@@ -9,13 +9,15 @@ use std::path::Path;
 
 use fem::Simulation;
 use fem::results::{
-    HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, history_csv, probes_csv, write_snapshots,
+    CONTACT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv, has_contact,
+    history_csv, probes_csv, write_snapshots,
 };
 use fem_case::Keep;
 use fem_collision::Collision;
 
 use crate::failure::Failure;
 use crate::last_sound::write_last_sound;
+use crate::page::{REPORT_FILE, Record, page};
 use crate::stopwatch::Stopwatch;
 use crate::whole_file::write_whole;
 
@@ -57,6 +59,7 @@ pub fn write_result(
         let written = take_room(folder, &summary)
             .and_then(|()| write_history(folder, simulation, collision, &mut summary))
             .and_then(|()| write_probes(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_contact(folder, simulation, collision, &mut summary))
             .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
         missing = written.err();
         let _ = fs::remove_file(folder.join(ROOM_FILE));
@@ -64,9 +67,17 @@ pub fn write_result(
         (summary.cost.wall_s, summary.cost.peak_memory_bytes) = (spent.wall, spent.peak_memory);
     }
     summary.warnings.extend(missing.clone());
+    let wants_report = simulation.case().scene().wants_report();
+    if keep == Keep::All && missing.is_none() && wants_report {
+        summary.files.push(REPORT_FILE.to_string());
+    }
     let text = match text_of(&summary) {
         Ok(text) => text,
         Err(error) => return nothing_kept(summary, String::new(), &error),
+    };
+    let (text, missing) = match summary.files.iter().any(|file| file == REPORT_FILE) {
+        true => with_page(folder, &mut summary, text),
+        false => (text, missing),
     };
     if let Err(error) = write_whole(&folder.join(SUMMARY_FILE), folder, text.as_bytes()) {
         return nothing_kept(summary, text, &error);
@@ -76,6 +87,24 @@ pub fn write_result(
         Failure::failed(missing).with_help(format!("kept: {kept}; is the disk full?"))
     });
     Written { summary, text, fault }
+}
+
+/// Writes the page of a result whose files are there and whose summary is this text; if that cannot be,
+/// the summary has to do without and says so.
+fn with_page(folder: &Path, summary: &mut Summary, text: String) -> (String, Option<String>) {
+    let write = || -> Result<(), Box<dyn std::error::Error>> {
+        let page = page(&Record::of(folder, &text)?).map_err(|failure| failure.to_string())?;
+        Ok(write_whole(&folder.join(REPORT_FILE), folder, page.as_bytes())?)
+    };
+    match write() {
+        Ok(()) => (text, None),
+        Err(error) => {
+            let missing = format!("{REPORT_FILE} cannot be written: {error}");
+            summary.files.retain(|file| file != REPORT_FILE);
+            summary.warnings.push(missing.clone());
+            (text_of(summary).unwrap_or(text), Some(missing))
+        }
+    }
 }
 
 fn nothing_kept(mut summary: Summary, text: String, error: &dyn std::error::Error) -> Written {
@@ -140,6 +169,29 @@ fn write_probes(
         format!("{PROBES_FILE} and the snapshots cannot be written: {error}")
     })?;
     summary.files.push(PROBES_FILE.to_string());
+    Ok(())
+}
+
+/// The contact at the snapshots, of models that have them.
+fn write_contact(
+    folder: &Path,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    if !has_contact(collision) {
+        return Ok(());
+    }
+    let path = folder.join(CONTACT_FILE);
+    let write = || -> Result<(), Box<dyn std::error::Error>> {
+        let file = BufWriter::new(File::create(&path)?);
+        Ok(contact_csv(file, simulation, collision)?)
+    };
+    write().map_err(|error| {
+        let _ = fs::remove_file(&path);
+        format!("{CONTACT_FILE} and the snapshots cannot be written: {error}")
+    })?;
+    summary.files.push(CONTACT_FILE.to_string());
     Ok(())
 }
 

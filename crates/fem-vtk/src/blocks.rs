@@ -25,6 +25,9 @@ const SAMPLE_SIZE: usize = 4096;
 /// larger.
 const LARGEST_SHARE: f64 = 0.9;
 
+/// Bytes of a stream that are made at a time.
+const ROOM: usize = 32768;
+
 /// Bytes that a stream of a block has more than the block where it is stored; generous.
 const MOST_ADDED: usize = 64;
 
@@ -53,12 +56,17 @@ pub(crate) fn compress(bytes: &[u8]) -> io::Result<Compressed> {
 struct Deflate {
     shrinking: Compress,
     storing: Compress,
+    room: Vec<u8>,
 }
 
 impl Deflate {
     fn new() -> Self {
         let with = |level| Compress::new(level, true);
-        Self { shrinking: with(LEVEL), storing: with(Compression::none()) }
+        Self {
+            shrinking: with(LEVEL),
+            storing: with(Compression::none()),
+            room: Vec::with_capacity(ROOM),
+        }
     }
 
     fn compress(&mut self, bytes: &[u8]) -> io::Result<Compressed> {
@@ -74,7 +82,7 @@ impl Deflate {
         let mut blocks = Vec::with_capacity(bytes.len() + MOST_ADDED * n_blocks);
         for block in bytes.chunks(BLOCK_SIZE) {
             let start = blocks.len();
-            append_stream(state, block, &mut blocks)?;
+            append_stream(state, &mut self.room, block, &mut blocks)?;
             header.extend(((blocks.len() - start) as u64).to_le_bytes());
         }
         Ok(Compressed { header, blocks })
@@ -85,19 +93,40 @@ impl Deflate {
         let start = bytes.len().saturating_sub(SAMPLE_SIZE) / 2;
         let sample = &bytes[start..bytes.len().min(start + SAMPLE_SIZE)];
         let mut compressed = Vec::with_capacity(2 * SAMPLE_SIZE);
-        append_stream(&mut self.shrinking, sample, &mut compressed)?;
+        append_stream(&mut self.shrinking, &mut self.room, sample, &mut compressed)?;
         Ok(compressed.len() as f64 <= LARGEST_SHARE * sample.len() as f64)
     }
 }
 
-/// Appends a zlib stream of a block.
-fn append_stream(state: &mut Compress, bytes: &[u8], stream: &mut Vec<u8>) -> io::Result<()> {
+/// Appends a zlib stream of a block. How stored bytes are parted in a stream follows from the room that
+/// it is given at a time.
+fn append_stream(
+    state: &mut Compress,
+    room: &mut Vec<u8>,
+    bytes: &[u8],
+    stream: &mut Vec<u8>,
+) -> io::Result<()> {
     state.reset();
-    // Deflate makes noise a little larger.
-    stream.reserve(bytes.len() + bytes.len() / 8 + MOST_ADDED);
-    match state.compress_vec(bytes, stream, FlushCompress::Finish)? {
-        Status::StreamEnd => Ok(()),
-        Status::Ok | Status::BufError => Err(io::Error::other("a zlib stream has no end")),
+    let mut rest = bytes;
+    while !rest.is_empty() {
+        let before = state.total_in();
+        state.compress_vec(rest, room, FlushCompress::None)?;
+        let taken = (state.total_in() - before) as usize;
+        if taken == 0 && room.is_empty() {
+            return Err(io::Error::other("deflate takes no bytes"));
+        }
+        rest = &rest[taken..];
+        stream.append(room);
+    }
+    loop {
+        let status = state.compress_vec(&[], room, FlushCompress::Finish)?;
+        let made = room.len();
+        stream.append(room);
+        match status {
+            Status::StreamEnd => return Ok(()),
+            _ if made == 0 => return Err(io::Error::other("a zlib stream has no end")),
+            _ => {}
+        }
     }
 }
 
@@ -150,6 +179,8 @@ impl Layout {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use super::*;
 
     fn header_numbers(header: &[u8]) -> Vec<usize> {
@@ -195,23 +226,24 @@ mod tests {
         assert!((compressed as f64) < 0.8 * zeros.len() as f64, "{compressed}");
     }
 
-    /// The state that makes all streams remembers nothing of those before, stored or compressed.
+    /// The state that makes all streams remembers nothing of those before: each is the one that an encoder of
+    /// its own makes.
     #[test]
-    fn what_came_before_leaves_no_trace() {
-        let smooth: Vec<u8> = (0..5 * BLOCK_SIZE).map(|k| (k / 7 % 251) as u8).collect();
+    fn streams_are_those_of_new_encoders() {
+        let smooth: Vec<u8> = (0..5 * BLOCK_SIZE + 77).map(|k| (k / 7 % 251) as u8).collect();
         let noise: Vec<u8> = (0..9000u64)
-            .flat_map(|k| k.wrapping_mul(0x9E37_79B9_7F4A_7C15).to_le_bytes())
+            .flat_map(|k| (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 40)).to_le_bytes())
             .collect();
-        let together = |bytes: &[u8]| {
-            let Compressed { header, blocks } = compress(bytes).unwrap();
-            [header, blocks].concat()
-        };
-        let first = [together(&smooth), together(&noise)];
-        let after_each_other = [together(&smooth), together(&noise)];
-        let alone = [smooth, noise]
-            .map(|bytes| std::thread::spawn(move || together(&bytes)).join().unwrap());
-        assert_eq!(first, after_each_other);
-        assert_eq!(first, alone);
+        let levels = [(&smooth, LEVEL), (&noise, Compression::none())];
+        for (bytes, level) in levels.into_iter().chain(levels) {
+            let stream = |block: &[u8]| {
+                let mut encoder = flate2::write::ZlibEncoder::new(Vec::new(), level);
+                encoder.write_all(block).unwrap();
+                encoder.finish().unwrap()
+            };
+            let alone: Vec<u8> = bytes.chunks(BLOCK_SIZE).flat_map(stream).collect();
+            assert!(compress(bytes).unwrap().blocks == alone, "{level:?}");
+        }
     }
 
     #[test]

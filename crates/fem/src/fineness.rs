@@ -104,3 +104,85 @@ fn tolerance(accuracy: &Accuracy) -> f64 {
     let all = [peak_force, contact_time, restitution, peak_pressure].into_iter().zip(BOUNDS);
     all.map(|(tolerance, bound)| tolerance / bound).fold(f64::INFINITY, f64::min)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use fem_case::Case;
+
+    use super::*;
+    use crate::stagger::finer_body;
+
+    const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
+    const WALL: &str = "body.0={ name = 'striker', wall = {} }";
+    const SMALL_STRAIN: &str = "effects.finite_strain='off'";
+
+    fn fineness(set: &[&str]) -> Fineness {
+        let set: Vec<String> = set.iter().chain([&SMALL_STRAIN]).map(ToString::to_string).collect();
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
+        let scene = case.scene();
+        let estimate = Estimate::of(scene).unwrap();
+        Fineness::of(scene, &estimate, finer_body(scene).is_some())
+    }
+
+    /// From a tolerance to k and µ by hand: √(0.05/0.75τ) staggered, the next place without swing above
+    /// √(0.15/0.75τ) on a wall and √(3/16τ) at nodes; half of τ of mass.
+    #[test]
+    fn a_tolerance_becomes_elements_and_mass() {
+        for (set, tolerance, across, mass) in [
+            (&[][..], "1 %", 4.0, 5e-3),
+            (&[], "0.1 %", 8.165, 5e-4),
+            (&[WALL, "body.1.approach_speed=0.5"], "1 %", 5.35, 5e-3),
+            (&[WALL, "body.1.approach_speed=0.5"], "0.1 %", 14.35, 5e-4),
+            (&["mesh.staggered=false"], "1 %", 5.35, 5e-3),
+            (&["model.condensed={}"], "1 %", 4.45, 5e-3),
+            (&["model.condensed={}"], "0.1 %", 14.45, 5e-4),
+            (&["model.condensed.penalty_springs=true"], "1 %", 4.0, 5e-3),
+            (&[], "20 %", 4.0, 1e-2),
+        ] {
+            let tolerance = format!("accuracy.tolerance='{tolerance}'");
+            let found = fineness(&[set, &[tolerance.as_str()]].concat());
+            assert!((found.across - across).abs() < 1e-3, "{set:?} {tolerance}: {found:?}");
+            assert!(
+                (found.mass_scaling / mass - 1.0).abs() < 1e-9,
+                "{set:?} {tolerance}: {found:?}"
+            );
+            assert_eq!(found.reached, None);
+        }
+    }
+
+    /// Whatever is asked for, less error is never less work, and the tightest of several tolerances counts.
+    #[test]
+    fn less_error_is_no_less_work() {
+        for set in [&[][..], &[WALL, "body.1.approach_speed=0.5"], &["model.condensed={}"]] {
+            let mut before: Option<Fineness> = None;
+            for k in 0..60 {
+                let tolerance = format!("accuracy.tolerance={:e}", 0.4 * 0.8_f64.powi(k));
+                let now = fineness(&[set, &[tolerance.as_str()]].concat());
+                assert!(now.across <= MOST + 1.0 && now.across >= FEWEST);
+                if let Some(before) = before {
+                    assert!(now.across >= before.across && now.mass_scaling <= before.mass_scaling);
+                }
+                before = Some(now);
+            }
+            assert!(before.unwrap().reached.is_some_and(|reached| reached < 2e-4));
+        }
+        let one = |key: &str, tolerance: f64| {
+            fineness(&[&format!("accuracy.tolerance.{key}={tolerance:e}")]).across
+        };
+        let of_force = one("peak_force", 1e-3);
+        assert!((one("peak_pressure", 3e-3) - of_force).abs() < 1e-9);
+        assert!((one("contact_time", 4e-4) - of_force).abs() < 1e-9);
+        assert!((one("restitution", 3e-4) - of_force).abs() < 1e-9);
+    }
+
+    /// Where one body alone gives way nothing is left to stagger: the swing is that of a wall.
+    #[test]
+    fn a_stiff_partner_leaves_the_swing() {
+        let stiff = "material.stiff={ density=7800, youngs_modulus='63 TPa', poissons_ratio=0.3 }";
+        let set = ["accuracy.tolerance='0.1 %'", stiff, "body.1.material='stiff'"];
+        let across = fineness(&[&set[..], &["effects.rigid_partner='off'"]].concat()).across;
+        assert!((13.9..14.2).contains(&across), "{across}");
+    }
+}

@@ -84,9 +84,10 @@ pub use fem_case::{
     Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,
 };
 pub use fem_collision::{
-    Account, Approach, ApproachError, BodyFields, BodyResult, Book, Bounce, Collision, Ending,
-    Expectation, Headline, Label, Monitor, Phase, Progress, Rest, Row, Searched, Shown, Side,
-    Snapshot, SnapshotRequest, StaticContact, Stop, StressField, Want, WantError, invariants,
+    Account, Approach, ApproachError, BodyFields, BodyResult, Book, Bounce, Collision,
+    ContactPlace, ContactProfile, Ending, Expectation, Headline, Label, Monitor, Phase, Progress,
+    Rest, Row, Searched, Shown, Side, Snapshot, SnapshotRequest, StaticContact, Stop, StressField,
+    Want, WantError, invariants,
 };
 pub use fem_condensed::CondensedPair;
 pub use fem_explicit::{Model as ExplicitBodies, ModelError};

@@ -60,3 +60,59 @@ pub(crate) fn staggered(length: f64, contact_radius: f64, finer: usize) -> [f64;
         contact_radius / (across + more)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use fem_case::Case;
+
+    use super::*;
+
+    const GLASS: &str = include_str!("../../../cases/glass_0.5ms_elastic.toml");
+
+    fn finer(set: &[&str]) -> Option<usize> {
+        let set: Vec<String> = set.iter().map(ToString::to_string).collect();
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &set).unwrap();
+        finer_body(case.scene())
+    }
+
+    /// At the edge of the contact the nodes of one mesh lie midway between those of the other.
+    #[test]
+    fn nodes_are_half_an_element_apart_at_the_edge() {
+        for across in [3.5, 4.0, 8.3] {
+            for finer in [0, 1] {
+                let lengths = staggered(1.0 / across, 1.0, finer);
+                let counts = lengths.map(|length| 1.0 / length);
+                assert!((counts[finer] - counts[1 - finer] - 0.5).abs() < 1e-12);
+                assert!((0.5 * (counts[0] + counts[1]) - across).abs() < 1e-12);
+            }
+        }
+    }
+
+    /// The smaller body, or the softer one of two of one size; whichever comes first. Not where there is one
+    /// mesh, where nodes touch exactly, or where elements are named.
+    #[test]
+    fn the_smaller_body_has_the_smaller_elements() {
+        let swapped = ["body.0.sphere.diameter='1 cm'", "body.1.sphere.diameter='2 cm'"];
+        let like = ["body.0.sphere.diameter='1 cm'", "body.1.sphere.diameter='1 cm'"];
+        let soft = "material.soft={ density=2390, youngs_modulus='6 GPa', poissons_ratio=0.3 }";
+        let block = "body.0={ name = 'striker', half_space = {}, material = 'glass' }";
+        let size = "mesh.contact_element_size='50 um'";
+        for (set, expected) in [
+            (&[][..], Some(1)),
+            (&swapped, Some(0)),
+            (&like, None),
+            (&[like[0], like[1], soft, "body.0.material='soft'"], Some(0)),
+            (&[block, "body.1.approach_speed=1"], Some(1)),
+            (&["body.0={ name = 'striker', wall = {} }", "body.1.approach_speed=1"], None),
+            (&["model.condensed={}"], None),
+            (&["model.condensed.penalty_springs=true"], Some(1)),
+            (&[size], None),
+            (&[size, "mesh.staggered=true"], Some(1)),
+            (&["mesh.staggered=false"], None),
+        ] {
+            assert_eq!(finer(set), expected, "{set:?}");
+        }
+    }
+}

@@ -95,6 +95,7 @@ pub(crate) fn validate(
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
         probes,
+        wants_report: file.output.as_ref().and_then(|output| output.report).unwrap_or(true),
         model: check.model(file.model.as_ref())?,
         accuracy: check.accuracy(file.accuracy.as_ref())?,
         effects: file.effects.unwrap_or_default(),

@@ -1,8 +1,9 @@
 //! Contact radius and pressure of moved surfaces: true ones.
 
 use super::MovedInterface;
-use super::pieces::GAUSS;
+use super::pieces::{GAUSS, Piece, Point};
 use crate::pressure::{coarser, staggered_lengths};
+use crate::profile::Profile;
 use crate::read_out::{Barrier, centre_pressure, contact_radius, staggered_radius};
 
 impl MovedInterface {
@@ -32,28 +33,41 @@ impl MovedInterface {
         side: usize,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
+        let pressure = |piece: &Piece<'a>, point: &Point| (-piece.stiffness * point.gap).max(0.0);
+        let sums = self.sums_at_nodes(side, u, pressure);
+        sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
+    }
+
+    /// Of what each point has the integral over the hat of each node of a side, and its area seen along y,
+    /// m², with where the node is now, m.
+    fn sums_at_nodes<'a>(
+        &'a self,
+        side: usize,
+        u: [&'a [[f64; 2]]; 2],
+        value: impl Fn(&Piece<'a>, &Point) -> f64 + Clone + 'a,
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
         let surface = &self.surfaces[side];
         let pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize]));
         let points = pieces.flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))));
         let mut points = points.peekable();
-        // Force and area that the segment inside of a node has given to it.
+        // Integral and area that the segment inside of a node has given to it.
         let mut from_inside = [0.0; 2];
         (0..self.n_nodes[side]).map(move |k| {
-            let [mut force, mut area] = from_inside;
+            let [mut sum, mut area] = from_inside;
             from_inside = [0.0; 2];
             while let Some((piece, point)) =
                 points.next_if(|(piece, _)| piece.segments[side].index == k)
             {
                 let share = point.places[side].share;
-                let pressure = (-piece.stiffness * point.gap).max(0.0);
+                let value = value(&piece, &point);
                 let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
-                force += inner * pressure;
+                sum += inner * value;
                 area += inner;
-                from_inside[0] += outer * pressure;
+                from_inside[0] += outer * value;
                 from_inside[1] += outer;
             }
             let radius = surface.radii[k] + u[side][surface.nodes[k] as usize][0];
-            (radius, if area > 0.0 { force / area } else { 0.0 })
+            (radius, [sum, area])
         })
     }
 
@@ -66,5 +80,31 @@ impl MovedInterface {
             Some(_) => 0.5 * (at(0) + at(1)),
             None => at(coarser(&self.surfaces, self.candidate_radius)),
         }
+    }
+
+    /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and
+    /// true pressures.
+    pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
+        let side = coarser(&self.surfaces, self.candidate_radius);
+        let gaps = self.sums_at_nodes(side, u, |_, point| point.gap);
+        let facing = gaps.map(|(radius, [sum, area])| {
+            let own = |of: usize| self.radial_displacement(of, radius, u[of]);
+            (area > 0.0).then(|| (sum / area, [own(0), own(1)]))
+        });
+        Profile::new(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs, facing)
+    }
+
+    /// Displacement along r (m) of the point of a side that is now at a radius, m.
+    fn radial_displacement(&self, side: usize, radius: f64, u: &[[f64; 2]]) -> f64 {
+        let surface = &self.surfaces[side];
+        if surface.is_rigid() {
+            return 0.0;
+        }
+        let along = |k: usize| u[surface.nodes[k] as usize][0];
+        let now = |k: usize| surface.radii[k] + along(k);
+        let n = surface.radii.len();
+        let outer = (1..n).find(|&k| now(k) >= radius).unwrap_or(n - 1);
+        let share = (radius - now(outer - 1)) / (now(outer) - now(outer - 1));
+        along(outer - 1) + share.clamp(0.0, 1.0) * (along(outer) - along(outer - 1))
     }
 }

@@ -80,6 +80,23 @@ pub fn centre_pressure(
     scale * without_layer(0, axis, coarseness).pressure
 }
 
+/// Contact pressures at nodes from the axis outward (r in m, p in Pa), Pa: on the axis [`centre_pressure`], at
+/// the next without what elements take off them there, farther out as they are.
+pub fn pressure_profile(
+    nodes: impl Iterator<Item = (f64, f64)> + Clone,
+    contact_radius: f64,
+    barrier: Barrier,
+) -> impl Iterator<Item = f64> + Clone {
+    let on_axis = centre_pressure(nodes.clone(), contact_radius, barrier);
+    let size = nodes.clone().nth(1).map_or(0.0, |(radius, _)| radius);
+    let coarseness = (size / contact_radius).min(COARSEST);
+    cells(nodes).enumerate().map(move |(k, cell)| match k {
+        0 => on_axis,
+        _ if coarseness > 0.0 => without_layer(k, cell, coarseness).pressure,
+        _ => cell.pressure,
+    })
+}
+
 /// A cell without what elements take off the pressure near the axis.
 fn without_layer(k: usize, cell: Cell, coarseness: f64) -> Cell {
     let taken = LAYER.get(k).map_or(0.0, |layer| layer * coarseness);

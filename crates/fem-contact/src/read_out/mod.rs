@@ -18,7 +18,7 @@ mod staggered;
 use std::f64::consts::PI;
 use std::iter::from_fn;
 
-pub use axis::centre_pressure;
+pub use axis::{centre_pressure, pressure_profile};
 pub use edge::contact_radius;
 pub use staggered::{are_staggered, staggered_radius};
 

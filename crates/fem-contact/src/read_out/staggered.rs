@@ -21,3 +21,27 @@ pub fn staggered_radius(readings: [f64; 2], lengths: [f64; 2]) -> f64 {
     let [radius, length] = [readings, lengths].map(|[a, b]| 0.5 * (a + b));
     if radius > 0.0 { radius + EDGE * length } else { radius }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With 3 to 45 elements across a contact, half an element apart; not of one mesh twice as fine, of
+    /// meshes of one size, or of a rigid surface.
+    #[test]
+    fn staggered_meshes_are_known_by_their_elements() {
+        for across in [3.5, 8.0, 45.0] {
+            let lengths = [across - 0.25, across + 0.25].map(|across: f64| Some(1.0 / across));
+            assert!(are_staggered(lengths) && are_staggered([lengths[1], lengths[0]]));
+        }
+        for lengths in [[Some(1.0), Some(0.5)], [Some(1.0), Some(1.0 + 1e-4)], [None, Some(1.0)]] {
+            assert!(!are_staggered(lengths), "{lengths:?}");
+        }
+    }
+
+    #[test]
+    fn the_radius_is_the_mean_and_a_fortieth_of_an_element() {
+        assert!((staggered_radius([3.9, 4.1], [0.9, 1.1]) - 4.025).abs() < 1e-12);
+        assert_eq!(staggered_radius([0.0; 2], [0.9, 1.1]), 0.0);
+    }
+}

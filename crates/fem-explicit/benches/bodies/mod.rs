@@ -1,12 +1,14 @@
 //! The bodies that benchmarks move: the larger sphere of the glass pair.
 
+use std::fmt::{self, Display, Formatter};
+
 use fem_explicit::FreeMotion;
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 use fem_mesh::{HalfDisc, SphereMesh};
 
 /// m.
-pub const RADIUS: f64 = 11.1e-3;
+const RADIUS: f64 = 11.1e-3;
 
 /// What goes wrong in none of them.
 pub type Error = Box<dyn std::error::Error>;
@@ -41,10 +43,11 @@ impl Kind {
         Self::FiniteStrain,
         Self::FiniteRelaxing,
     ];
+}
 
-    /// As tables have it.
-    pub fn name(self) -> &'static str {
-        match self {
+impl Display for Kind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
             Self::Elastic => "elastic",
             Self::Unordered => "elastic, nodes in no order",
             Self::Relaxing => "all moduli relax, one term",
@@ -52,9 +55,11 @@ impl Kind {
             Self::RelaxingShear => "shear relaxes, one term",
             Self::FiniteStrain => "finite strain, neo-Hooke",
             Self::FiniteRelaxing => "finite strain that relaxes, one term",
-        }
+        })
     }
+}
 
+impl Kind {
     /// A sphere that breathes, its elements at the contact of a size (m).
     pub fn sphere(self, size: f64) -> Result<FreeMotion, Error> {
         let mesh = mesh(size)?;
@@ -78,15 +83,20 @@ impl Kind {
     }
 }
 
+/// The mesh of the elastic one, and what it is made of.
+pub fn mesh_and_glass(contact_element_size: f64) -> Result<(SphereMesh, Material), Error> {
+    Ok((mesh(contact_element_size)?, glass(&[], ActsOn::All)?))
+}
+
 /// Contact radius 0.22 mm, refined a fifth further.
-pub fn mesh(contact_element_size: f64) -> Result<SphereMesh, Error> {
+fn mesh(contact_element_size: f64) -> Result<SphereMesh, Error> {
     let disc =
         HalfDisc { radius: RADIUS, contact_element_size, refined_radius: 0.27e-3, growth: None };
     Ok(disc.build()?)
 }
 
 /// Glass that relaxes by terms of these weights.
-pub fn glass(weights: &[f64], acts_on: ActsOn) -> Result<Material, Error> {
+fn glass(weights: &[f64], acts_on: ActsOn) -> Result<Material, Error> {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244)?;
     let term = |&weight: &f64| PronyTerm { weight, relaxation_time: 1e-4 * weight };
     let series = PronySeries::new(weights.iter().map(term).collect(), acts_on);

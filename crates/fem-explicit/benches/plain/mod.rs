@@ -2,6 +2,7 @@
 //! against, on the machine of the moment.
 
 use fem_element::QuadGeometry;
+use fem_explicit::FreeMotion;
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
@@ -14,31 +15,44 @@ pub struct Plain {
     inverse_mass: Vec<[f64; 2]>,
     bulk: f64,
     shear: f64,
+    /// s.
+    time_step: f64,
     displacement: Vec<[f64; 2]>,
     velocity: Vec<[f64; 2]>,
     forces: Vec<[f64; 2]>,
 }
 
 impl Plain {
-    /// Undeformed, each node at a velocity (m/s) in proportion to its place.
-    pub fn new(mesh: &SphereMesh, material: &Material) -> Self {
+    /// The body that `fast` computes, both undeformed and each node at a velocity (m/s) in proportion to
+    /// its place; they are to move alike.
+    pub fn beside(mesh: &SphereMesh, material: &Material, fast: &mut FreeMotion) -> Self {
+        let mut plain = Self::new(mesh, material, fast);
+        for _ in 0..100 {
+            plain.step();
+            fast.step();
+        }
+        let largest = |numbers: &mut dyn Iterator<Item = f64>| {
+            numbers.fold(0.0, |most: f64, number| most.max(number.abs()))
+        };
+        let both = plain.displacement.as_flattened().iter().zip(fast.displacement().as_flattened());
+        let apart = largest(&mut both.map(|(one, other)| one - other));
+        let size = largest(&mut plain.displacement.as_flattened().iter().copied());
+        assert!(apart < 1e-12 * size, "plain code computes another body");
+        plain
+    }
+
+    fn new(mesh: &SphereMesh, material: &Material, fast: &FreeMotion) -> Self {
         let elements = 0..mesh.quads().len();
         let geometries: Vec<_> = elements.map(|k| QuadGeometry::new(&mesh.corners(k))).collect();
         let shear = material.instantaneous().shear_modulus();
         let n_nodes = mesh.nodes().len();
-        let mut mass = vec![0.0; n_nodes];
-        for (quad, geometry) in mesh.quads().iter().zip(&geometries) {
-            for (node, volume) in quad.iter().zip(geometry.nodal_volumes) {
-                mass[*node as usize] += material.density() * volume;
-            }
-        }
         Self {
             quads: mesh.quads().to_vec(),
             hourglass: (geometries.iter())
                 .map(|geometry| geometry.hourglass_stiffness().map(|k| shear * k))
                 .collect(),
             geometries,
-            inverse_mass: (mass.iter().enumerate())
+            inverse_mass: (fast.body().nodal_mass().iter().enumerate())
                 .map(|(node, mass)| match mesh.axis().contains(&(node as u32)) {
                     true => [0.0, mass.recip()],
                     false => [mass.recip(); 2],
@@ -46,14 +60,16 @@ impl Plain {
                 .collect(),
             bulk: material.instantaneous().bulk_modulus(),
             shear,
+            time_step: fast.time_step(),
             displacement: vec![[0.0; 2]; n_nodes],
             velocity: mesh.nodes().iter().map(|[r, y]| [*r, y - mesh.radius()]).collect(),
             forces: vec![[0.0; 2]; n_nodes],
         }
     }
 
-    /// Moves the body by a step (s) of central differences.
-    pub fn step(&mut self, time_step: f64) {
+    /// Moves the body by a step of central differences.
+    pub fn step(&mut self) {
+        let time_step = self.time_step;
         self.forces.fill([0.0; 2]);
         for element in 0..self.quads.len() {
             self.subtract_force(element);
@@ -93,10 +109,5 @@ impl Plain {
                 + g.hourglass[a] * q_r;
             force[1] -= g.gradient_y[a] * s_yy + g.gradient_r[a] * s_ry + g.hourglass[a] * q_y;
         }
-    }
-
-    /// Displacements (r, y) of the nodes, m.
-    pub fn displacement(&self) -> &[[f64; 2]] {
-        &self.displacement
     }
 }

@@ -8,7 +8,7 @@ mod slipping;
 use std::any::Any;
 
 use fem_collision::Searched;
-use fem_contact::ContactForces;
+use fem_contact::{ContactForces, Profile};
 
 use crate::error::ModelError;
 use crate::part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
@@ -114,4 +114,7 @@ pub trait Contact: Part {
 
     /// Contact pressure on the axis, Pa; 0 without contact there.
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64;
+
+    /// The contact from the axis outward, as snapshots show it.
+    fn profile(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> Profile;
 }

@@ -12,7 +12,7 @@
 use std::any::Any;
 
 use fem_collision::{Account, BodyInput, Searched};
-use fem_contact::{ContactError, ContactForces, MovedInterface};
+use fem_contact::{ContactError, ContactForces, MovedInterface, Profile};
 
 use super::Contact;
 use crate::model::{Settings, mass_ratio, surface};
@@ -173,5 +173,9 @@ impl Contact for MovedContact {
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
         self.interface.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
+        self.interface.profile(motions.each_ref().map(|motion| motion.displacement))
     }
 }

@@ -2,7 +2,7 @@
 //! history.
 
 use fem_collision::Searched;
-use fem_contact::{ContactForces, ContactInterface};
+use fem_contact::{ContactForces, ContactInterface, Profile};
 
 use super::Contact;
 use crate::part::{Field, Motion, NodalField, Part};
@@ -43,5 +43,9 @@ impl Contact for ContactInterface {
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
         self.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
+        self.profile(motions.each_ref().map(|motion| motion.displacement))
     }
 }

@@ -1,7 +1,7 @@
 //! The penalty interface of [`fem_contact`] between surfaces that slip on each other as a contact.
 
 use fem_collision::Searched;
-use fem_contact::{ContactForces, SlippingInterface};
+use fem_contact::{ContactForces, Profile, SlippingInterface};
 
 use super::Contact;
 use crate::part::{Field, Motion, NodalField, Part};
@@ -41,5 +41,9 @@ impl Contact for SlippingInterface {
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
         self.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
+        self.profile(motions.each_ref().map(|motion| motion.displacement))
     }
 }

@@ -57,11 +57,13 @@ impl Model {
         let (mut critical, mut node) = (f64::INFINITY, [0, 0]);
         for (side, body) in self.bodies.iter().enumerate() {
             let (stiffness, damping) = (&mut scratch.stiffness[side], &mut scratch.damping[side]);
-            // Of a body at small strain the contact alone.
-            if let (Some(bound), Some(stress)) = (&body.bound, &body.stress) {
+            // Of a body at small strain, or a rigid one, the contact alone.
+            if let Some(bound) = &body.bound {
                 stiffness.fill(0.0);
-                let history = stress.of(&state.bodies[side].history);
-                stress.part.add_stiffness_bound(&motions[side], history, stiffness);
+                if let Some(stress) = &body.stress {
+                    let history = stress.of(&state.bodies[side].history);
+                    stress.part.add_stiffness_bound(&motions[side], history, stiffness);
+                }
                 damping.fill(0.0);
                 self.contact.add_bound_growth(&motions, within, side, stiffness, damping);
                 let (own, at) = bound.critical_time_step(&body.nodal_mass, stiffness, damping);

@@ -163,6 +163,44 @@ fn the_critical_step_beside_a_deformed_body_is_safe() {
     assert!((0.4..0.5).contains(&ratio), "{ratio}");
 }
 
+/// A rigid sphere that weighs nothing beside its dashpots, on a ball beyond small strain that has become wider
+/// by a third under it: the step is that of the sphere, and shorter as the area of the surface is larger.
+#[test]
+fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
+    let mass = 1e-6;
+    let bodies = [
+        BodyInput::Rigid { radius: 1.0, mass },
+        BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() },
+    ];
+    let settings = Settings {
+        contact_stiffness: 100.0,
+        candidate_radius: 0.7,
+        step_factor: 1.0,
+        ..settings()
+    };
+    let parts =
+        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
+    let approach = Approach::at(1.0).unwrap();
+    let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+    let mut state = State::at_first_touch(&model);
+    // Onto the rigid sphere, and into it a little.
+    let place = |[r, y]: [f64; 2]| {
+        let wider = 0.33 * r;
+        let depth = |r: f64| 1.0 - (1.0 - r * r).max(0.36).sqrt();
+        let down = depth(r + wider) + depth(r) + 1e-3;
+        [wider, -down * (1.0 - (y - depth(r))).max(0.0)]
+    };
+    let nodes = model.bodies()[1].mesh().unwrap().nodes();
+    state.bodies[1].displacement = nodes.iter().map(|node| place(*node)).collect();
+    let mut scratch = Scratch::new(&model);
+    let contact = update_forces(&model, &state, &mut scratch).unwrap();
+    assert!(contact.n_closed > 10, "{contact:?}");
+    let critical = model.outlook(&state, &mut scratch).critical_time_step;
+    let ratio = critical / model.time_step();
+    // What springs add to dashpots is 2e-5 of the step. Without the sphere it would be 2e4 times as long.
+    assert!((ratio * 1.33f64.powi(2) - 1.0).abs() < 1e-4, "{ratio}");
+}
+
 /// Every step of a collision is below the critical one of the bodies as they are then, springs included.
 #[test]
 fn every_step_of_a_collision_is_stable() {

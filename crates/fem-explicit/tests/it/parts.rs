@@ -4,7 +4,7 @@ use std::any::Any;
 
 use crate::common::{Pair, quantities};
 use fem_collision::{Account, BodyInput, Collision, Label, Searched, SnapshotRequest};
-use fem_contact::{ContactForces, ContactInterface, Surface};
+use fem_contact::{ContactForces, ContactInterface, Profile, Surface};
 use fem_explicit::{
     Accounts, Contact, Field, Model, ModelError, Motion, MotionMut, NodalField, NodeForce, Part,
     Parts, Run,
@@ -288,6 +288,10 @@ impl Contact for Counting {
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
         Contact::centre_pressure(&self.penalty, motions, [&[]; 2])
+    }
+
+    fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
+        Contact::profile(&self.penalty, motions, [&[]; 2])
     }
 }
 

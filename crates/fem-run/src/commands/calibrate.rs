@@ -4,14 +4,17 @@ use std::path::PathBuf;
 
 use fem::calibrate::{Calibration, CalibrationFault, CalibrationModel, SettingNames, Settings};
 use fem::case_identity;
-use fem::measured::{MeasuredPairs, UncertaintyError};
+use fem::measured::{MeasuredPairs, Table, UncertaintyError};
+use fem_case::Case;
 use fem_case::parse_quantity;
 use fem_case::schema::ActsOn;
+use serde_json::Value;
 
 use crate::calibrate::{calibration_picture, calibration_text};
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
+use crate::jobs::value_of;
 use crate::law_arguments::parse_confidence;
 use crate::output::OutputArguments;
 use crate::standard_output;
@@ -86,11 +89,8 @@ const OPTIONS: SettingNames = SettingNames {
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
-    let mut measured =
-        MeasuredPairs::read(&arguments.columns.read(&arguments.data)?, case.scene())?;
-    fill_uncertainties(arguments, &mut measured)?;
-    let found = Calibration::of(&case, measured, &settings(arguments))?;
-    let warnings = found.warnings(&OPTIONS);
+    let table = arguments.columns.read(&arguments.data)?;
+    let (found, warnings) = found(arguments, &case, &table)?;
     let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;
     let columns = arguments.columns.text();
     let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
@@ -106,6 +106,28 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     standard_output::print(&format!("{text}\nResult: {place}\n"))
+}
+
+/// Calibrates to a table in place of the file that the arguments name, and gives the numbers, with the table to
+/// paste into the case.
+pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
+    let table = arguments.columns.name_columns(table.clone())?;
+    let (found, warnings) = found(arguments, case, &table)?;
+    let mut numbers = value_of(&found.numbers(&arguments.input.name(), warnings))?;
+    numbers["relaxation_toml"] = found.relaxation_toml().into();
+    Ok(numbers)
+}
+
+fn found(
+    arguments: &Arguments,
+    case: &Case,
+    table: &Table,
+) -> Result<(Calibration, Vec<String>), Failure> {
+    let mut measured = MeasuredPairs::read(table, case.scene())?;
+    fill_uncertainties(arguments, &mut measured)?;
+    let found = Calibration::of(case, measured, &settings(arguments))?;
+    let warnings = found.warnings(&OPTIONS);
+    Ok((found, warnings))
 }
 
 fn settings(arguments: &Arguments) -> Settings {

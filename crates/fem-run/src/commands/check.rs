@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::{Cost, ForceLaw, Simulation};
+use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::show;
 use indicatif::{DecimalBytes, HumanCount};
@@ -32,6 +33,23 @@ pub struct Arguments {
 /// Checks a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_within(&arguments.within)?;
+    let (simulation, text) = checked(case, &arguments.input.name())?;
+    if arguments.quiet {
+        standard_output::warn(simulation.warnings_before());
+        return Ok(());
+    }
+    standard_output::print(&text)
+}
+
+/// The resolved case as TOML, with comments on what to expect of a run.
+///
+/// # Errors
+/// What the case's model refuses.
+pub fn text(case: Case, name: &str) -> Result<String, Failure> {
+    Ok(checked(case, name)?.1)
+}
+
+fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let begin = Instant::now();
     let simulation = Simulation::new(case)?;
     let setup = begin.elapsed().as_secs_f64();
@@ -39,15 +57,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
-    if arguments.quiet {
-        standard_output::warn(simulation.warnings_before());
-        return Ok(());
-    }
-    let case = arguments.input.name();
-    let heading = format!("{case} is sound. What to expect of a run:");
+    let heading = format!("{name} is sound. What to expect of a run:");
     let expectation =
         format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, setup));
-    standard_output::print(&format!("{}\n{resolved}", as_comment(&expectation)))
+    let text = format!("{}\n{resolved}", as_comment(&expectation));
+    Ok((simulation, text))
 }
 
 /// What to expect of a run, whose bodies took so long to make, s.

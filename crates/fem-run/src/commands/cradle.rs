@@ -6,7 +6,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
 use fem_figure::{Axis, Chart, Curve};
 use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::case_arguments::stem_of;
 use crate::data_file::ColumnArguments;
@@ -133,6 +133,37 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     standard_output::print(&format!("{}\nResult: {place}\n", many(&cradle, &swings)))
+}
+
+/// Of a trial, or of each trial of a table: speed before, restitution and velocities after, with their
+/// uncertainties.
+pub fn numbers(arguments: &Arguments, table: Option<&Table>) -> Result<Value, Failure> {
+    let cradle = cradle(arguments)?;
+    let of = |(trial, swing): &(Trial, Swing)| {
+        json!({
+            "alpha_rad": trial.release.value,
+            "beta_rad": trial.rise.value,
+            "speed_m_s": swing.before.value,
+            "speed_uncertainty_m_s": swing.before.uncertainty,
+            "restitution": swing.restitution.value,
+            "restitution_uncertainty": swing.restitution.uncertainty,
+            "first_after_m_s": swing.first_after.value,
+            "second_after_m_s": swing.second_after.value,
+        })
+    };
+    match (table, arguments.alpha, arguments.beta) {
+        (Some(table), ..) => {
+            let swings = swings(&cradle, table, arguments)?;
+            Ok(swings.iter().map(of).collect())
+        }
+        (None, Some(alpha), Some(beta)) => {
+            let uncertain = |angle| with_default(angle, arguments);
+            let trial = Trial { release: uncertain(alpha), rise: uncertain(beta) };
+            let swing = cradle.swing(&trial)?;
+            Ok(of(&(trial, swing)))
+        }
+        _ => Err(Failure::bad_input("--alpha and --beta are missing")),
+    }
 }
 
 fn cradle(arguments: &Arguments) -> Result<Cradle, Failure> {

@@ -5,17 +5,19 @@ use std::path::PathBuf;
 use comfy_table::CellAlignment::{Left, Right};
 use fem::case_identity;
 use fem::laws::{DemExport, FittedLaw, ImpactCurve};
-use fem::measured::Restitutions;
+use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, Mark};
 use fem_fit::FitError;
 use fem_fit::dem::{Export, Snippet};
 use fem_laws::Family;
+use serde_json::Value;
 
 use crate::case_arguments::CaseArguments;
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
+use crate::jobs::value_of;
 use crate::law_arguments::parse_speed;
 use crate::output::OutputArguments;
 use crate::standard_output;
@@ -46,25 +48,9 @@ pub struct Arguments {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    if !(arguments.tolerance > 0.0 && arguments.tolerance < 1.0) {
-        let message = format!("--tolerance is {:?}", arguments.tolerance);
-        return Err(Failure::bad_input(message).with_help("it must be between 0 and 1"));
-    }
     let case = arguments.input.load()?;
-    let curve = curve(arguments, &case)?;
-    let fitted = DemExport::of(&case, curve, arguments.tolerance).map_err(|error| {
-        let is_lossless = matches!(error, FitError::Insensitive { .. });
-        let failure = Failure::from(error);
-        if is_lossless {
-            failure.with_help(
-                "an elastic contact needs no fit, its restitution is 1; if there is a loss, narrow \
-                 the range of speeds",
-            )
-        } else {
-            failure
-        }
-    })?;
-    let snippets = fitted.snippets()?;
+    let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
+    let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", &[&case_identity(&case)])?;
     for snippet in &snippets {
@@ -88,12 +74,52 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&fitted.export, &snippets)))
 }
 
-fn curve(arguments: &Arguments, case: &Case) -> Result<ImpactCurve, Failure> {
-    let Some(path) = &arguments.data else {
-        return Ok(ImpactCurve::computed(case, arguments.speeds)?);
+/// Fits to a table in place of the file that the arguments name, and gives the numbers, each snippet with its
+/// text.
+pub fn numbers(
+    arguments: &Arguments,
+    case: &Case,
+    table: Option<&Table>,
+) -> Result<Value, Failure> {
+    let table = table.cloned().map(|table| arguments.columns.name_columns(table)).transpose()?;
+    let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
+    let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
+    let texts =
+        snippets.iter().map(|snippet| (snippet.name.to_string(), snippet.text.clone().into()));
+    numbers["texts"] = Value::Object(texts.collect());
+    Ok(numbers)
+}
+
+fn fitted(
+    arguments: &Arguments,
+    case: &Case,
+    table: Option<&Table>,
+) -> Result<(DemExport, Vec<Snippet>), Failure> {
+    if !(arguments.tolerance > 0.0 && arguments.tolerance < 1.0) {
+        let message = format!("--tolerance is {:?}", arguments.tolerance);
+        return Err(Failure::bad_input(message).with_help("it must be between 0 and 1"));
+    }
+    let curve = match table {
+        None => ImpactCurve::computed(case, arguments.speeds)?,
+        Some(table) => {
+            let data = Restitutions::read_with_contact_times(table, case.scene())?;
+            ImpactCurve::measured(case.scene(), &data)?
+        }
     };
-    let data = Restitutions::read_with_contact_times(&arguments.columns.read(path)?, case.scene())?;
-    Ok(ImpactCurve::measured(case.scene(), &data)?)
+    let fitted = DemExport::of(case, curve, arguments.tolerance).map_err(|error| {
+        let is_lossless = matches!(error, FitError::Insensitive { .. });
+        let failure = Failure::from(error);
+        if is_lossless {
+            failure.with_help(
+                "an elastic contact needs no fit, its restitution is 1; if there is a loss, narrow \
+                 the range of speeds",
+            )
+        } else {
+            failure
+        }
+    })?;
+    let snippets = fitted.snippets()?;
+    Ok((fitted, snippets))
 }
 
 fn parse_speeds(text: &str) -> Result<(f64, f64), String> {

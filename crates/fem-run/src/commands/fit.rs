@@ -3,17 +3,20 @@
 use std::path::PathBuf;
 
 use fem::case_identity;
-use fem::laws::{ChosenLaw, LawFit, family_of, parse_value};
-use fem::measured::Restitutions;
+use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
+use fem::measured::{Restitutions, Table};
+use fem_case::Case;
 use fem_fit::{Free, Problem};
 use fem_laws::Family;
+use serde_json::Value;
 
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
-use crate::fit::{fit_picture, fit_text, histories_picture};
+use crate::fit::{fit_picture, fit_text, histories_picture, ranking_csv, ranking_text};
+use crate::jobs::value_of;
 use crate::law_arguments::{
-    LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
+    End, LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
 };
 use crate::output::OutputArguments;
 use crate::standard_output;
@@ -33,9 +36,10 @@ pub struct Arguments {
     data: PathBuf,
     #[command(flatten)]
     columns: ColumnArguments,
-    /// The law, such as bordbar_hyppanen or ting [default: that of the case's model]
-    #[arg(long, value_name = "LAW", value_parser = parse_family)]
-    law: Option<Family>,
+    /// The law, such as bordbar_hyppanen or ting, or all: which explains the data best [default: that
+    /// of the case's model]
+    #[arg(long, value_name = "LAW", value_parser = parse_wanted)]
+    law: Option<Wanted>,
     /// Parameters to find, such as a,n [default: the one that damps]
     #[arg(long, value_name = "KEYS", value_delimiter = ',')]
     free: Vec<String>,
@@ -64,20 +68,74 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
+/// Which law is fitted.
+#[derive(Clone, Copy, Debug)]
+enum Wanted {
+    One(Family),
+    /// The best of all.
+    All,
+}
+
+fn parse_wanted(name: &str) -> Result<Wanted, String> {
+    match name {
+        "all" => Ok(Wanted::All),
+        name => parse_family(name).map(Wanted::One).map_err(|told| format!("{told}; or all")),
+    }
+}
+
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
     let table = arguments.columns.read(&arguments.data)?;
+    fitted(arguments, &case, &table, |found| write(arguments, &case, found))
+}
+
+/// Fits to a table in place of the file that the arguments name, and gives the numbers.
+pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
+    let table = arguments.columns.name_columns(table.clone())?;
+    let name = arguments.input.name();
+    fitted(arguments, case, &table, |found| value_of(&found.fitted.numbers(&name)))
+}
+
+/// A law with its parameters, and the order of all laws where it is the first of them.
+struct Found<'a> {
+    fitted: LawFit<'a>,
+    law: &'a ChosenLaw,
+    ranking: Option<LawRanking>,
+}
+
+/// What `then` makes of the fit.
+fn fitted<T>(
+    arguments: &Arguments,
+    case: &Case,
+    table: &Table,
+    then: impl FnOnce(&Found<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
     let data = match arguments.contact_time {
-        true => Restitutions::read_with_contact_times(&table, case.scene())?,
-        false => Restitutions::read(&table, case.scene())?,
+        true => Restitutions::read_with_contact_times(table, case.scene())?,
+        false => Restitutions::read(table, case.scene())?,
     };
-    let family = arguments.law.or_else(|| family_of(case.scene())).ok_or_else(|| {
-        Failure::bad_input("--law is missing, and the case's [model] names no law")
-            .with_help("name one, such as --law bordbar_hyppanen; docs/fits.md lists them")
+    let wanted = arguments.law.or_else(|| family_of(case.scene()).map(Wanted::One));
+    let wanted = wanted.ok_or_else(|| {
+        Failure::bad_input("--law is missing, and the case's [model] names no law").with_help(
+            "name one, such as --law kuwabara_kono, or let --law all find out which explains the data \
+             best; fem-run fit --help, and docs/fits.md, have their names",
+        )
     })?;
-    let law = arguments.values.choose(&case, family)?;
-    let problem = problem(arguments, &law, &data)?;
+    let ranking = match wanted {
+        Wanted::One(_) => None,
+        Wanted::All => Some(ranked(arguments, case, &data)?),
+    };
+    let best = ranking.as_ref().and_then(|ranking| ranking.laws.first());
+    let (family, free) = match (wanted, best) {
+        (Wanted::One(family), _) => (family, arguments.free.clone()),
+        (Wanted::All, Some(best)) => {
+            (best.family, best.free.iter().map(ToString::to_string).collect())
+        }
+        (Wanted::All, None) => return Err(Failure::failed("no law can be fitted")),
+    };
+    let law = arguments.values.choose(case, family)?;
+    let problem = problem(arguments, &law, &data, &free)?;
     let profiled = profiled(arguments, &problem)?.copied();
     let mut fitted = LawFit::of(&data, problem, arguments.confidence)?;
     if let Some(free) = &profiled {
@@ -86,13 +144,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for family in &arguments.compare {
         fitted = fitted.compared_with(*family)?;
     }
+    then(&Found { fitted, law: &law, ranking })
+}
 
+fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Failure> {
+    let Found { fitted, law, ranking } = found;
     let columns = arguments.columns.text();
-    let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
+    let inputs = [case_identity(case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);
     let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
     output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
-    output.write("fit.svg", fit_picture(&fitted))?;
+    if let Some(ranking) = ranking {
+        output.write("ranking.csv", ranking_csv(ranking))?;
+    }
+    output.write("fit.svg", fit_picture(fitted))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
@@ -100,7 +165,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.output.quiet {
         return Ok(());
     }
-    standard_output::print(&format!("{}\nResult: {place}\n", fit_text(&fitted)))
+    let ranking = ranking.as_ref().map_or(String::new(), ranking_text);
+    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted)))
+}
+
+/// All laws in their order; what is said of one law is not for all.
+fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<LawRanking, Failure> {
+    let of_one = [
+        ("--free", &arguments.free),
+        ("--param", &arguments.values.param),
+        ("--bounds", &arguments.bounds),
+    ];
+    if let Some((option, _)) = of_one.iter().find(|(_, given)| !given.is_empty()) {
+        return Err(Failure::bad_input(format!("{option} is of one law, and --law all is of all"))
+            .with_help("leave it out, or name the law"));
+    }
+    Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule))?)
 }
 
 /// The problem with all that options and case say.
@@ -108,11 +188,12 @@ fn problem<'a>(
     arguments: &Arguments,
     law: &'a ChosenLaw,
     data: &'a Restitutions,
+    free: &[String],
 ) -> Result<Problem<'a>, Failure> {
-    for key in &arguments.free {
+    for key in free {
         find_key(law.family(), key, "--free")?;
     }
-    let free: Vec<&str> = arguments.free.iter().map(String::as_str).collect();
+    let free: Vec<&str> = free.iter().map(String::as_str).collect();
     let mut problem = law.problem(&data.points, &free)?;
     for text in &arguments.bounds {
         bound(&mut problem, law.family(), text)?;

@@ -6,6 +6,7 @@ use fem_case::Case;
 use fem_case::engineering::show;
 use fem_fit::FitError;
 use fem_laws::Family;
+use serde_json::{Value, json};
 
 use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
@@ -41,16 +42,74 @@ pub struct Arguments {
     quiet: bool,
 }
 
+/// What a law has to say to it.
+enum Answer {
+    Solved(Box<LawInversion>),
+    /// Why it has no parameter that would do.
+    Unsolved(Family, String),
+}
+
 /// Solves and prints.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
+    let (speed, answers) = answers(arguments, &case)?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
+    for answer in &answers {
+        match answer {
+            Answer::Solved(solved) => rows.extend(lines(solved)),
+            Answer::Unsolved(family, reason) => {
+                let [none, dash] = [String::new(), "-".into()];
+                rows.push([family.name().into(), none.clone(), dash, reason.clone(), none]);
+            }
+        }
+    }
+    standard_output::print(&format!(
+        "restitution {} at {}\n\n{}",
+        arguments.restitution,
+        show(speed, "m/s"),
+        table(&[Left, Left, Right, Right, Right], rows)
+    ))
+}
+
+/// Solves and gives the numbers.
+pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
+    let (speed, answers) = answers(arguments, case)?;
+    let mut solutions = Vec::new();
+    let mut unsolved = serde_json::Map::new();
+    for answer in answers {
+        match answer {
+            Answer::Solved(solved) => {
+                solutions.extend(solved.solutions().into_iter().map(|solution| {
+                    json!({
+                        "law": solved.model.family().name(),
+                        "parameter": solved.parameter().key,
+                        "value": solution.0,
+                        "contact_time_s": solution.1,
+                    })
+                }))
+            }
+            Answer::Unsolved(family, reason) => {
+                unsolved.insert(family.name().to_string(), reason.into());
+            }
+        }
+    }
+    let wanted = arguments.restitution;
+    Ok(
+        json!({ "restitution": wanted, "speed_m_s": speed, "solutions": solutions, "unsolved": unsolved }),
+    )
+}
+
+/// The speed and what each law says.
+fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Failure> {
     let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
     let wanted = arguments.restitution;
     if !(wanted > 0.0 && wanted < 1.0) {
         let message = format!("--restitution {wanted}: it must be greater than 0 and less than 1");
         return Err(Failure::bad_input(message));
     }
-    let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
     let law = arguments.law.or_else(|| family_of(case.scene()));
     let options =
         [("--param", !arguments.values.param.is_empty()), ("--find", arguments.find.is_some())];
@@ -59,37 +118,27 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::bad_input(message).with_help("name it with --law"));
     }
     let families: Vec<Family> = law.map_or(Family::ALL.to_vec(), |law| vec![law]);
-    let mut is_found = false;
+    let mut answers = Vec::new();
     for family in families {
-        match solve(arguments, &case, family, speed) {
-            Ok(solved) => {
-                is_found = true;
-                rows.extend(lines(&solved));
-            }
+        match solve(arguments, case, family, speed) {
+            Ok(solved) => answers.push(Answer::Solved(Box::new(solved))),
             Err(failure) if law.is_some() => return Err(failure),
             // Of all laws, those that cannot are told so in the table.
             Err(_) if needs_more(family) => {}
             Err(failure) => {
                 let reason = failure.to_string();
                 let short = reason.split(':').next().unwrap_or("").to_string();
-                rows.push([family.name().into(), String::new(), "-".into(), short, String::new()]);
+                answers.push(Answer::Unsolved(family, short));
             }
         }
     }
-    if !is_found {
+    if !answers.iter().any(|answer| matches!(answer, Answer::Solved(_))) {
         let message = format!("no law gives a restitution of {wanted} at {}", show(speed, "m/s"));
         return Err(
             Failure::bad_input(message).with_help("ask for one law, --law, to see its reach")
         );
     }
-    if arguments.quiet {
-        return Ok(());
-    }
-    standard_output::print(&format!(
-        "restitution {wanted} at {}\n\n{}",
-        show(speed, "m/s"),
-        table(&[Left, Left, Right, Right, Right], rows)
-    ))
+    Ok((speed, answers))
 }
 
 fn solve(

@@ -12,6 +12,8 @@ pub mod man;
 pub mod materials;
 pub mod mesh;
 pub mod new;
+pub mod plot;
+pub mod report;
 pub mod run;
 pub mod schema;
 pub mod sweep;
@@ -37,6 +39,8 @@ pub enum Command {
     Export(export::Arguments),
     Cradle(cradle::Arguments),
     Schema(schema::Arguments),
+    Report(report::Arguments),
+    Plot(plot::Arguments),
     Completions(completions::Arguments),
     Man(man::Arguments),
 }
@@ -58,6 +62,8 @@ impl Command {
             Self::Export(arguments) => export::execute(&arguments),
             Self::Cradle(arguments) => cradle::execute(&arguments),
             Self::Schema(arguments) => schema::execute(&arguments),
+            Self::Report(arguments) => report::execute(&arguments),
+            Self::Plot(arguments) => plot::execute(&arguments),
             Self::Completions(arguments) => completions::execute(&arguments, whole()),
             Self::Man(arguments) => man::execute(&arguments, whole()),
         }

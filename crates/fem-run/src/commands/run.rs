@@ -2,7 +2,7 @@
 
 use std::io::{Write, stderr};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use fem::results::Summary;
@@ -100,7 +100,11 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         return Err(fault);
     }
     match (published?, collision.stop()) {
-        (Some(place), Some(stop)) => Err(stopped(stop, &summary, &place)),
+        (Some(place), Some(stop)) => {
+            let place = standard_output::one_line(&place.display().to_string());
+            let kept = format!("what was computed so far is in {place}, marked incomplete");
+            Err(stopped(stop, &summary, &kept))
+        }
         _ => Ok(()),
     }
 }
@@ -174,11 +178,8 @@ fn price(simulation: &Simulation) -> String {
     }
 }
 
-fn stopped(stop: &Stop, summary: &Summary, place: &Path) -> Failure {
-    let kept = format!(
-        "what was computed so far is in {}, marked incomplete",
-        standard_output::one_line(&place.display().to_string())
-    );
+/// Why a run did not come to its end; `kept` says where what was computed is.
+pub fn stopped(stop: &Stop, summary: &Summary, kept: &str) -> Failure {
     let Some(remedy) = remedy_of(stop) else {
         return Failure::interrupted(stop.to_string()).with_help(kept);
     };

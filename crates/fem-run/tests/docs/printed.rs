@@ -9,9 +9,10 @@ use crate::pages::{Page, root};
 use crate::shell::{commands, words};
 
 /// Commands that take longer than two seconds, or read what such a one has written.
-const SLOW: [&str; 6] = [
+const SLOW: [&str; 7] = [
     "calibrate cases/ice_2cm.toml",
     "export cases/",
+    "export mine.toml",
     "invert cases/glass_0.5ms_elastic_bulk.toml",
     "sweep cases/sweep_speed.toml",
     "sweep cases/sweep_glass.toml",
@@ -227,6 +228,14 @@ fn the_readme_shows_what_is_printed() {
 #[test]
 fn the_page_on_fits_shows_what_is_printed() {
     check("docs/fits.md", Pace::Quick, Digits::All);
+}
+
+/// Pages that show commands and not what they print: the commands run, in their order.
+#[test]
+fn commands_of_the_first_pages_run() {
+    for page in ["docs/why-balls-bounce.md", "docs/gallery.md", "docs/measurement-to-dem.md"] {
+        check(page, Pace::Quick, Digits::All);
+    }
 }
 
 #[test]

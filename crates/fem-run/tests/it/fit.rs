@@ -391,3 +391,20 @@ fn columns_of_other_names_are_told() {
         assert!(ran.stderr.contains(told), "{}", ran.stderr);
     }
 }
+
+#[test]
+fn all_laws_are_ranked_and_the_best_is_fitted() {
+    let place = Place::new();
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/data/bridges_ice.csv");
+    let all =
+        ["fit", "case.toml", "--data", data.to_str().unwrap(), "--law", "all", "--out", "out"];
+    let ran = place.succeed(&all);
+    let first = ran.stdout.lines().nth(1).unwrap();
+    assert!(first.starts_with("bordbar_hyppanen  a, n"), "{}", ran.stdout);
+    assert!(place.json("out/fit.json")["law"] == "bordbar_hyppanen");
+    let ranking = String::from_utf8(place.read("out/ranking.csv")).unwrap();
+    assert!(ranking.contains("\nbordbar_hyppanen,a n,"), "{ranking}");
+    let ran = place.run(&[&all[..], &["--free", "a"]].concat());
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("--free is of one law"), "{}", ran.stderr);
+}

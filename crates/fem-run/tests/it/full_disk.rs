@@ -14,13 +14,13 @@ fn run_within(place: &Place, kilobytes: usize, arguments: &[&str]) -> Ran {
     command.arg(env!("CARGO_BIN_EXE_fem-run")).args(arguments).output().unwrap().into()
 }
 
-/// A snapshot takes 0.5 MB, the history 0.3 MB, the summary 7 kB and 16 kB of room.
+/// A snapshot takes 0.5 MB, the history 0.3 MB, the contact some kB, the summary 7 kB and 16 kB of room.
 const FINE: [&str; 3] = ["case.toml", "--set", "mesh.contact_element_size='30 um'"];
 
 #[test]
 fn the_snapshots_go_first_then_the_history() {
     for (kilobytes, kept, lost) in [
-        (400, &["history.csv", "summary.json"][..], "the snapshots"),
+        (400, &["contact.csv", "history.csv", "summary.json"][..], "the snapshots"),
         (60, &["summary.json"], "history.csv and the snapshots"),
         (20, &["summary.json"], "history.csv and the snapshots"),
     ] {
@@ -65,7 +65,7 @@ fn what_lacks_files_goes_beside_an_older_result() {
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);
     assert!(ran.stdout.contains("Result: runs/case.new"), "{}", ran.stdout);
     assert_eq!(place.result("runs/case"), before);
-    assert_eq!(place.list("runs/case.new"), ["history.csv", "summary.json"]);
+    assert_eq!(place.list("runs/case.new"), ["contact.csv", "history.csv", "summary.json"]);
 }
 
 /// A reader that is gone is no fault; a stdout that takes no more is one, and the result is kept.

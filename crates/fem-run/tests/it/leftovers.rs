@@ -89,7 +89,7 @@ fn an_older_result_comes_back() {
     let aside = abandon(&place, "b");
     rename(&place, "older", &format!("{aside}/old"));
     sweep(&place);
-    assert_eq!(place.list("out"), ["history.csv", "notes.txt", "summary.json"]);
+    assert_eq!(place.list("out"), ["history.csv", "notes.txt", "report.html", "summary.json"]);
     assert_eq!(place.json("out/summary.json")["effects"][0]["name"], "viscoelasticity");
 }
 
@@ -106,7 +106,10 @@ fn a_finished_result_takes_its_place() {
     rename(&place, "older", &format!("{aside}/old"));
     let new = place.read(format!("{staging}/summary.json"));
     sweep(&place);
-    assert_eq!(place.list("out"), ["history.csv", "more.txt", "notes.txt", "summary.json"]);
+    assert_eq!(
+        place.list("out"),
+        ["history.csv", "more.txt", "notes.txt", "report.html", "summary.json"]
+    );
     assert_eq!(place.read("out/summary.json"), new);
 }
 
@@ -120,7 +123,7 @@ fn what_is_replaced_goes() {
     rename(&place, "newer", "out");
     let new = place.read("out/summary.json");
     sweep(&place);
-    assert_eq!(place.list("out"), ["history.csv", "notes.txt", "summary.json"]);
+    assert_eq!(place.list("out"), ["history.csv", "notes.txt", "report.html", "summary.json"]);
     assert_eq!(place.read("out/summary.json"), new);
 }
 

@@ -13,6 +13,7 @@ mod leftovers;
 mod models;
 mod repeatability;
 mod replacing;
+mod report;
 mod restart;
 mod result_folder;
 #[cfg(unix)]

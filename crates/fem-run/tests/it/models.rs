@@ -54,8 +54,11 @@ fn every_model_writes_the_same_keys_and_columns() {
             assert!((0.85..1.15).contains(&ratio), "{model} {key}: {ratio}");
         }
         assert!(number(&reduced["energy"]["residual_relative"]) < 1e-8);
-        assert_eq!(place.list("out"), ["history.csv", "summary.json"]);
-        assert_eq!(reduced["files"], serde_json::json!(["summary.json", "history.csv"]));
+        assert_eq!(place.list("out"), ["history.csv", "report.html", "summary.json"]);
+        assert_eq!(
+            reduced["files"],
+            serde_json::json!(["summary.json", "history.csv", "report.html"])
+        );
         let history = String::from_utf8(place.read("out/history.csv")).unwrap();
         assert_eq!(history.lines().next(), columns.lines().next());
         assert_eq!(history.lines().count(), 1202);

@@ -112,7 +112,9 @@ fn the_folder_holds_what_the_contract_says() {
         "case_1_maximum.vtu",
         "case_2_mid-separation.vtu",
         "case_3_last-contact.vtu",
+        "contact.csv",
         "history.csv",
+        "report.html",
         "summary.json",
     ];
     assert_eq!(place.list("runs/case"), files);
@@ -199,6 +201,31 @@ fn snapshots_can_be_a_count_times_or_none() {
     assert!(files.is_empty(), "{files:?}");
 }
 
+/// A row an instant, eight columns a probe; nothing of it without.
+#[test]
+fn probes_have_a_table() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--out", "none"]);
+    assert!(!place.list("none").contains(&"probes.csv".to_string()));
+    let probes = "output.probe=[{body='target', r=0, y=0}, {body='target', r='0.1 mm', y='1 mm'}]";
+    place.succeed(&["case.toml", "--set", probes, "--out", "out"]);
+    let files = place.json("out/summary.json")["files"].clone();
+    assert!(files.as_array().unwrap().contains(&"probes.csv".into()), "{files}");
+    let text = String::from_utf8(place.read("out/probes.csv")).unwrap();
+    let (head, rows) = text.split_once('\n').unwrap();
+    let columns: Vec<&str> = head.split(',').collect();
+    assert_eq!((columns.len(), columns[0], columns[9]), (17, "time_s", "probe_1_u_r_m"));
+    assert_eq!(columns[8], "probe_0_sigma_ry_pa");
+    let rows: Vec<Vec<f64>> = rows
+        .lines()
+        .map(|row| row.split(',').map(|number| number.parse().unwrap()).collect())
+        .collect();
+    assert!(rows.len() > 100 && rows.iter().all(|row| row.len() == 17), "{}", rows.len());
+    // The axis stays where it is, and is pressed.
+    assert!(rows.iter().all(|row| row[1] == 0.0 && row[8] == 0.0));
+    assert!(rows.iter().any(|row| row[6] < -1e6));
+}
+
 #[test]
 fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
     let place = Place::new();
@@ -209,12 +236,14 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
     place.write("other.toml", crate::common::CASE);
     place.succeed(&["other.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
     let files = [
+        "contact.csv",
         "history.csv",
         "notes.txt",
         "other.pvd",
         "other.vtu.series",
         "other_0_maximum.vtu",
         "plots",
+        "report.html",
         "summary.json",
     ];
     assert_eq!(place.list("out"), files);

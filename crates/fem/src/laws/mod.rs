@@ -4,8 +4,9 @@
 //! ```text
 //! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ fit_numbers
 //! keys and                a case's    ├─ law_inversion
-//! values as               law, what   └─ impact_curve ─ dem_export ─ export_numbers
-//! text                    is given       e(v), T(v)
+//! values as               law, what   ├─ law_ranking
+//! text                    is given    └─ impact_curve ─ dem_export ─ export_numbers
+//!                                        e(v), T(v)
 //! ```
 
 mod chosen_law;
@@ -16,6 +17,7 @@ mod impact_curve;
 mod law_fault;
 mod law_fit;
 mod law_inversion;
+mod law_ranking;
 mod parameter;
 
 pub use chosen_law::{ChosenLaw, family_of, model_of};
@@ -28,6 +30,7 @@ pub use impact_curve::ImpactCurve;
 pub use law_fault::LawFault;
 pub use law_fit::LawFit;
 pub use law_inversion::{LawInversion, needs_more};
+pub use law_ranking::{LawRanking, RankedLaw};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
 
 pub use fem_fit::FitError;

@@ -3,8 +3,8 @@
 
 use fem_case::Scene;
 use fem_collision::{
-    Account, Approach, BodyFields, BodyResult, Book, Collision, Monitor, Progress, Row, Snapshot,
-    StaticContact, Stop, Want,
+    Account, Approach, BodyFields, BodyResult, Book, Collision, ContactPlace, ContactProfile,
+    Monitor, Progress, Row, Snapshot, StaticContact, Stop, Want,
 };
 use fem_mesh::{Side, SphereMesh};
 
@@ -210,7 +210,16 @@ impl Whole {
             stress: lower.stress.iter().map(|&[rr, yy, tt, ry]| [rr, yy, tt, sign * ry]).collect(),
         };
         let carried = [half.carried[0] + shift, shift - half.carried[0]];
-        Snapshot { approach: 2.0 * half.approach, carried, bodies: [body(1.0), body(-1.0)], ..half }
+        // The plane between both does not move along r, the image as the body itself.
+        let place = |place: &ContactPlace| ContactPlace {
+            gap: 2.0 * place.gap,
+            radial: [place.radial[0]; 2],
+            ..*place
+        };
+        let places = half.contact.places.iter().map(place).collect();
+        let contact = ContactProfile { places, ..half.contact };
+        let bodies = [body(1.0), body(-1.0)];
+        Snapshot { approach: 2.0 * half.approach, carried, bodies, contact, ..half }
     }
 }
 

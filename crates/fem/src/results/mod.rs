@@ -1,17 +1,22 @@
 //! What is kept of a collision: names, order and units of a summary's keys, of a history's columns
 //! and of a snapshot's arrays.
 
+#[cfg(feature = "files")]
+mod contact;
 mod elastic_null;
 mod energy;
 #[cfg(feature = "files")]
 mod history;
 #[cfg(feature = "files")]
 mod probes;
+mod shown;
 #[cfg(feature = "files")]
 mod snapshots;
 mod summarise;
 mod summary;
 
+#[cfg(feature = "files")]
+pub use contact::{CONTACT_FILE, contact_csv, has_contact};
 pub use elastic_null::ElasticNull;
 pub use energy::{Accounts, Energy, energy_key};
 #[cfg(feature = "files")]

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use fem_collision::{Collision, Label, Snapshot, SnapshotRequest, StressRecovery, invariants};
+use fem_collision::{Collision, Snapshot, StressRecovery, invariants};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};
 
+use super::shown::{Shown, shown};
 use crate::simulation::Simulation;
 
 /// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
@@ -19,20 +20,14 @@ struct Drawing<'a> {
     materials: [Option<&'a Material>; 2],
     /// m.
     gap: f64,
-    request: &'a SnapshotRequest,
-    snapshots: &'a [Snapshot],
-    is_complete: bool,
 }
 
 impl<'a> Drawing<'a> {
-    fn of(simulation: &'a Simulation, collision: &'a Collision) -> Self {
+    fn of(simulation: &'a Simulation, collision: &Collision) -> Self {
         Self {
             meshes: simulation.model().meshes(),
             materials: simulation.case().scene().bodies().each_ref().map(|body| body.material()),
             gap: start_gap(simulation, collision),
-            request: &simulation.want().snapshots,
-            snapshots: &collision.snapshots,
-            is_complete: collision.is_complete(),
         }
     }
 
@@ -55,14 +50,15 @@ fn start_gap(simulation: &Simulation, collision: &Collision) -> f64 {
 struct GridArrays {
     points: Vec<[f64; 3]>,
     quads: Vec<[u32; 4]>,
-    /// 0 or 1 for each cell.
+    /// 0 or 1 for each cell, and for each point.
     body: Vec<i32>,
+    body_of_points: Vec<i32>,
 }
 
 /// What all snapshots share.
 struct Scene<'a> {
     grid: VtuGrid<'a>,
-    body: &'a [i32],
+    arrays: &'a GridArrays,
     /// Of the bodies with a mesh.
     recoveries: Vec<StressRecovery<'a>>,
 }
@@ -82,33 +78,22 @@ pub fn write_snapshots(
     simulation: &Simulation,
     collision: &Collision,
 ) -> Result<(Vec<String>, Vec<String>), fem_vtk::Error> {
-    let drawing = &Drawing::of(simulation, collision);
-    if drawing.snapshots.is_empty() {
-        return Ok((Vec::new(), Vec::new()));
+    let Shown { snapshots, mut warnings } = shown(simulation, collision);
+    if snapshots.is_empty() {
+        return Ok((Vec::new(), warnings));
     }
+    let drawing = &Drawing::of(simulation, collision);
     let arrays = GridArrays::of(drawing);
     let scene = Scene {
         grid: VtuGrid::new(&arrays.points, &arrays.quads),
-        body: &arrays.body,
+        arrays: &arrays,
         recoveries: drawing.meshed().map(|(_, mesh, _)| StressRecovery::new(mesh)).collect(),
     };
-    let (mut series, mut warnings): (Vec<(f64, String)>, _) = (Vec::new(), Vec::new());
-    for snapshot in drawing.snapshots {
-        let label = label(snapshot, drawing.request);
-        if snapshot.label == Some(Label::LastContact) && !drawing.is_complete {
-            warnings.push(format!("the run ended before the instant \"{label}\"; it is left out"));
-            continue;
-        }
-        // Viewers draw two files of one time on top of each other.
-        if let Some((time, earlier)) = series.last()
-            && snapshot.time <= *time
-        {
-            warnings.push(format!(
-                "the snapshot \"{label}\" is of the same instant as {earlier}; it is left out"
-            ));
-            continue;
-        }
-        let name = format!("{stem}_{}_{label}.vtu", series.len());
+    let mut series: Vec<(f64, String)> = Vec::new();
+    // Files of a film are in order by their names too.
+    let digits = (snapshots.len() - 1).to_string().len();
+    for (snapshot, label) in snapshots {
+        let name = format!("{stem}_{:0digits$}_{label}.vtu", series.len());
         match write_snapshot(&folder.join(&name), &scene, drawing, snapshot) {
             Err(error @ fem_vtk::Error::NotFinite { .. }) => {
                 warnings.push(format!("the snapshot \"{label}\" is left out: {error}"));
@@ -128,26 +113,19 @@ pub fn write_snapshots(
     Ok((files, warnings))
 }
 
-fn label(snapshot: &Snapshot, request: &SnapshotRequest) -> &'static str {
-    match (snapshot.label, request) {
-        (Some(label), _) => label.name(),
-        (None, SnapshotRequest::Times(_)) => "time",
-        (None, _) => "even",
-    }
-}
-
 fn write_snapshot(
     path: &Path,
     scene: &Scene<'_>,
     drawing: &Drawing<'_>,
     snapshot: &Snapshot,
 ) -> Result<(), fem_vtk::Error> {
-    let (mut displacement, mut velocity) = (Vec::new(), Vec::new());
+    let (mut displacement, mut velocity, mut pressure) = (Vec::new(), Vec::new(), Vec::new());
     let (mut cells, mut points) = (GridStress::default(), GridStress::default());
-    for ((side, _, material), recovery) in drawing.meshed().zip(&scene.recoveries) {
+    for ((side, mesh, material), recovery) in drawing.meshed().zip(&scene.recoveries) {
         let fields = &snapshot.bodies[side];
         displacement.extend(pad_vectors(snapshot.displacement(side).as_flattened()));
         velocity.extend(pad_vectors(fields.velocity.as_flattened()));
+        pressure.extend(contact_pressure(snapshot, side, mesh));
         let stress = recovery.stress(material, fields);
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
@@ -159,7 +137,35 @@ fn write_snapshot(
     for (k, name) in STRESSES.into_iter().enumerate() {
         writer = writer.point_data(name, 1, &points[k]).cell_data(name, 1, &cells[k]);
     }
-    writer.cell_data("body", 1, scene.body).write(path)
+    writer
+        .point_data("contact_pressure", 1, &pressure)
+        .point_data("body", 1, &scene.arrays.body_of_points)
+        .cell_data("body", 1, &scene.arrays.body)
+        .write(path)
+}
+
+/// Contact pressure (Pa) at the nodes of a body: that of the profile where a node of the surface is, 0 at
+/// all others.
+fn contact_pressure(snapshot: &Snapshot, side: usize, mesh: &SphereMesh) -> Vec<f64> {
+    let mut pressures = vec![0.0; mesh.nodes().len()];
+    let places = &snapshot.contact.places;
+    // Bodies at finite strain have their stress with them, and a profile over where their nodes are now.
+    let is_moved = !snapshot.bodies[side].stress.is_empty();
+    for &node in mesh.surface() {
+        let node = node as usize;
+        let moved = if is_moved { snapshot.bodies[side].displacement[node][0] } else { 0.0 };
+        let radius = mesh.nodes()[node][0] + moved;
+        let outer = places.partition_point(|place| place.radius < radius);
+        let Some(end) = places.get(outer) else { break };
+        pressures[node] = match outer.checked_sub(1).map(|inner| &places[inner]) {
+            Some(start) => {
+                let share = (radius - start.radius) / (end.radius - start.radius);
+                start.pressure + share * (end.pressure - start.pressure)
+            }
+            None => end.pressure,
+        };
+    }
+    pressures
 }
 
 fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
@@ -175,13 +181,15 @@ fn append_stress(arrays: &mut GridStress, stresses: &[[f64; 4]]) {
 impl GridArrays {
     /// Reference positions (r, y, 0), half of the start gap between each body and y = 0.
     fn of(drawing: &Drawing<'_>) -> Self {
-        let mut arrays = Self { points: Vec::new(), quads: Vec::new(), body: Vec::new() };
+        let (points, quads) = (Vec::new(), Vec::new());
+        let mut arrays = Self { points, quads, body: Vec::new(), body_of_points: Vec::new() };
         for (side, mesh, _) in drawing.meshed() {
             let shift = if side == 0 { -0.5 * drawing.gap } else { 0.5 * drawing.gap };
             let first = arrays.points.len() as u32;
             arrays.points.extend(mesh.nodes().iter().map(|[r, y]| [*r, y + shift, 0.0]));
             arrays.quads.extend(mesh.quads().iter().map(|quad| quad.map(|node| first + node)));
             arrays.body.extend(mesh.quads().iter().map(|_| side as i32));
+            arrays.body_of_points.extend(mesh.nodes().iter().map(|_| side as i32));
         }
         arrays
     }

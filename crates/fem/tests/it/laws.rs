@@ -2,7 +2,7 @@
 
 use fem::laws::{
     ChosenLaw, DemExport, EndRule, Family, FitError, ImpactCurve, LawFault, LawFit, LawInversion,
-    ParameterError, family_of, needs_more,
+    LawRanking, ParameterError, RankedLaw, family_of, needs_more,
 };
 use fem::measured::Restitutions;
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable, TsujiTable};
@@ -148,4 +148,50 @@ fn elements_have_ting_in_their_place_if_a_body_relaxes() {
     // A decade around the case's speed; powers round.
     assert!((high / low - 10.0).abs() < 1e-9 && (low * high - 0.01).abs() < 1e-12);
     assert!(curve.points.iter().all(|point| point.restitution < 1.0));
+}
+
+/// Data of one law with scatter of 0.003 either way: that law comes first, one that can do as well with
+/// a parameter more pays for it, and one that cannot has no share.
+#[test]
+fn laws_are_ranked_by_their_evidence() {
+    let case = ball(None);
+    let speeds: Vec<f64> = (0..8).map(|k| 0.02 * 1.8_f64.powi(k)).collect();
+    let law = ChosenLaw::of(&case, Family::KuwabaraKono, &[], None).unwrap();
+    let scatter = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+    let point = |(speed, sign): (&f64, f64)| {
+        (*speed, law.model().outcome(&[1e-6], *speed).unwrap().restitution + 0.003 * sign)
+    };
+    let mut data =
+        Restitutions::of("made", &speeds.iter().zip(scatter).map(point).collect::<Vec<_>>());
+    for is_weighted in [false, true] {
+        if is_weighted {
+            data.set_uncertainty(0.003).unwrap();
+        }
+        let ranking = LawRanking::of(&case, &data, None).unwrap();
+        let place = |family: Family, n_free: usize| {
+            let is_it = |law: &&RankedLaw| (law.family, law.free.len()) == (family, n_free);
+            ranking.laws.iter().find(is_it).unwrap()
+        };
+        assert_eq!(ranking.laws[0].family, Family::KuwabaraKono, "{ranking:?}");
+        let (own, more) = (place(Family::KuwabaraKono, 1), place(Family::BordbarHyppanen, 2));
+        assert!(more.rms <= own.rms && own.difference == Some(0.0), "{ranking:?}");
+        // By hand: what a parameter more costs of 8 data, less what it gains in the misfit.
+        let (n, ratio) = (8.0, (more.rms / own.rms).powi(2));
+        let misfit = match is_weighted {
+            true => n * (more.rms.powi(2) - own.rms.powi(2)),
+            false => n * ratio.ln(),
+        };
+        let price = |q: f64| 2.0 * q + 2.0 * q * (q + 1.0) / (n - q - 1.0);
+        let q = if is_weighted { 1.0 } else { 2.0 };
+        let expected = misfit + price(q + 1.0) - price(q);
+        assert!((more.difference.unwrap() - expected).abs() < 1e-9, "{ranking:?}");
+        assert!(place(Family::Tsuji, 1).weight.unwrap() < 1e-3, "{ranking:?}");
+        let sum: f64 = ranking.laws.iter().filter_map(|law| law.weight).sum();
+        assert!((sum - 1.0).abs() < 1e-12);
+        // One curve has one place.
+        let is_twin = |(name, why): &(&str, String)| {
+            *name == "schwager_poeschel" && why == "the same as kuwabara_kono"
+        };
+        assert!(ranking.others.iter().any(is_twin), "{ranking:?}");
+    }
 }

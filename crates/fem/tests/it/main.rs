@@ -10,6 +10,7 @@ mod calibrate;
 mod coarse;
 mod condensed;
 mod contact_method;
+mod contact_profile;
 mod courses;
 mod effects;
 mod error_bars;

@@ -192,6 +192,7 @@ impl Random {
             output: self.maybe(|random| OutputTable {
                 snapshots: random.maybe(Self::snapshots),
                 probe: (0..random.below(3).saturating_sub(1)).map(|_| random.probe()).collect(),
+                report: random.maybe(|random| random.below(2) == 0),
             }),
             model: self.maybe(Self::model),
             accuracy: self.maybe(|random| AccuracyTable {

@@ -91,6 +91,7 @@ pub fn made() -> CaseFile {
         output: Some(OutputTable {
             snapshots: Some(SnapshotsValue::List(labels)),
             probe: Vec::new(),
+            report: None,
         }),
         effects: Some(EffectsTable { bulk_viscosity: Some(Switch::Off), ..Default::default() }),
         limits: Some(LimitsTable {

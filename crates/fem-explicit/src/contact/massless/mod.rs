@@ -28,7 +28,7 @@ mod turning;
 use std::any::Any;
 
 use fem_collision::{BodyInput, Searched};
-use fem_contact::{ContactForces, ContactInterface, SlippingInterface};
+use fem_contact::{ContactForces, ContactInterface, Profile, SlippingInterface};
 
 use super::Contact;
 use crate::error::ModelError;
@@ -342,5 +342,9 @@ impl Contact for Massless {
 
     fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
         self.springs.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    }
+
+    fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {
+        self.springs.profile(motions.each_ref().map(|motion| motion.displacement))
     }
 }

@@ -1,6 +1,6 @@
 //! The springs between the nodes without mass.
 
-use fem_contact::{ContactForces, ContactInterface, Displacement, SlippingInterface};
+use fem_contact::{ContactForces, ContactInterface, Displacement, Profile, SlippingInterface};
 
 /// Springs along y, whose gap is a linear function of the displacements, or those of surfaces that slip and
 /// turn, whose gap is one of second order.
@@ -55,6 +55,13 @@ impl Springs {
         match self {
             Self::Straight(interface) => interface.centre_pressure(u),
             Self::Slipping(slipping) => slipping.centre_pressure(u),
+        }
+    }
+
+    pub fn profile(&self, u: [&[Displacement]; 2]) -> Profile {
+        match self {
+            Self::Straight(interface) => interface.profile(u),
+            Self::Slipping(slipping) => slipping.profile(u),
         }
     }
 }

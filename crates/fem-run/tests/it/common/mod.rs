@@ -85,7 +85,8 @@ impl Place {
         serde_json::from_slice(&self.read(name)).unwrap()
     }
 
-    /// A result but for what the run took: all files as text or bytes, by their names.
+    /// A result but for what the run took, which its page shows: all other files as text or bytes, by their
+    /// names.
     pub fn result(&self, folder: &str) -> Vec<(String, Vec<u8>)> {
         let file = |name: String| {
             let path = format!("{folder}/{name}");
@@ -96,7 +97,7 @@ impl Place {
             summary.as_object_mut().unwrap().remove("cost").unwrap();
             (name, summary.to_string().into_bytes())
         };
-        self.list(folder).into_iter().map(file).collect()
+        self.list(folder).into_iter().filter(|name| name != "report.html").map(file).collect()
     }
 
     /// Names in a folder, hidden ones included, sorted.

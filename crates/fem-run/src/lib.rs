@@ -7,6 +7,9 @@
 //!                                                                    into place
 //! ```
 //!
+//! The program in `bin` is one line over [`run`]. Another front door, such as Python's, takes [`run`] for the
+//! command, and of what commands do the part before files and printing ([`fit`] and the others of `jobs`).
+//!
 //! stdout carries the result, stderr everything else. The exit status is 0 (done), 1 (the run
 //! failed), 2 (bad input, nothing written) or 130 (interrupted).
 
@@ -28,11 +31,13 @@ mod fit;
 mod forecast;
 mod hidden_folder;
 mod interrupt;
+mod jobs;
 mod last_sound;
 mod law_arguments;
 mod law_failures;
 mod occupant;
 mod output;
+mod page;
 mod peak_memory;
 mod place;
 mod progress;
@@ -40,6 +45,7 @@ mod report;
 mod restart;
 mod result_files;
 mod result_folder;
+mod save;
 mod standard_output;
 mod stopwatch;
 mod sweep;
@@ -48,16 +54,23 @@ mod uncertainty;
 mod validation;
 mod whole_file;
 
-use std::process::ExitCode;
+use std::ffi::OsString;
 use std::time::Instant;
 
-fn main() -> ExitCode {
+pub use failure::{Failure, Status};
+pub use jobs::{Given, calibrate, check, cradle, export, fit, invert, material, stopped};
+pub use save::save;
+pub use stopwatch::{Stopwatch, Timed};
+
+/// Does what a command line asks for, the name of the program first, and gives the exit status; help, version
+/// and what is no command line end the process.
+pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let started = Instant::now();
-    match arguments::parse().execute(started) {
-        Ok(()) => ExitCode::SUCCESS,
+    match arguments::parse(words).execute(started) {
+        Ok(()) => 0,
         Err(failure) => {
             failure.print();
-            failure.status().into()
+            failure.status() as u8
         }
     }
 }

@@ -1,0 +1,12 @@
+"""The command ``fem-run`` of this wheel."""
+
+from __future__ import annotations
+
+import sys
+
+from . import _native
+
+
+def main() -> None:
+    """Does what the command line asks for and ends the process."""
+    sys.exit(_native.run_command(["fem-run", *sys.argv[1:]]))

@@ -1,0 +1,44 @@
+"""The library of materials that a case names as ``"lib:NAME"``."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from typing import Any
+
+from . import _native
+
+
+class Materials(Mapping[str, "dict[str, Any]"]):
+    """Materials by name: ``title``, ``source``, ``range`` in words, and ``table`` as a case holds it, SI."""
+
+    @cached_property
+    def _all(self) -> dict[str, dict[str, Any]]:
+        return json.loads(_native.materials())
+
+    def __getitem__(self, name: str) -> dict[str, Any]:
+        name = name.removeprefix("lib:")
+        if name not in self._all:
+            # The command's words, with the nearest name.
+            _native.material_toml(name)
+        return self._all[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name.removeprefix("lib:") in self._all
+
+    def toml(self, name: str) -> str:
+        """A material as a table to copy into a case file."""
+        return _native.material_toml(name)
+
+    def __repr__(self) -> str:
+        return f"<fem_run.materials: {', '.join(self._all)}>"
+
+
+materials = Materials()

@@ -1,0 +1,145 @@
+"""What comes out of a collision."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pyvista
+
+    from . import _native
+
+#: Keys of the summary that :class:`Result` and its picture in a notebook show, and their names.
+_SHOWN = {
+    "restitution": ("restitution", ""),
+    "contact_time_s": ("contact time", "s"),
+    "peak_force_n": ("peak force", "N"),
+    "max_approach_m": ("largest approach", "m"),
+    "max_contact_radius_m": ("largest contact radius", "m"),
+    "peak_pressure_pa": ("peak pressure", "Pa"),
+}
+
+
+class Result:
+    """A collision that was computed. The keys of :attr:`summary` are attributes, too: ``result.restitution``."""
+
+    def __init__(self, outcome: _native.Outcome, stem: str) -> None:
+        self._outcome = outcome
+        self._stem = stem
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """The keys of ``summary.json``: numbers in SI, ``None`` where they have no meaning."""
+        return json.loads(self._outcome.summary())
+
+    @cached_property
+    def history(self) -> dict[str, NDArray[np.float64]]:
+        """The columns of ``history.csv``, arrays of shape (n,) in SI: ``time_s``, ``contact_force_n``, …"""
+        return dict(self._outcome.history())
+
+    @cached_property
+    def snapshots(self) -> list[Snapshot]:
+        """The fields at the instants that the case asks for, in time order."""
+        return [Snapshot(*parts) for parts in self._outcome.snapshots()]
+
+    def snapshot(self, label: str) -> Snapshot:
+        """The snapshot of a label: ``mid-compression``, ``maximum``, ``mid-separation``, ``last-contact``.
+
+        Raises:
+            KeyError: a label that did not occur.
+        """
+        for snapshot in self.snapshots:
+            if snapshot.label == label:
+                return snapshot
+        there = ", ".join(snapshot.label for snapshot in self.snapshots) or "none"
+        raise KeyError(f"no snapshot {label!r}; there are: {there}")
+
+    def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> None:
+        """Writes the folder that ``fem-run CASE --out FOLDER`` leaves; ``force`` replaces another case's.
+
+        Raises:
+            InputError: a folder that holds something else.
+        """
+        self._outcome.save(os.fspath(folder), self._stem, force)
+
+    def uncertainty(self, key: str) -> float | None:
+        """How far a quantity, such as ``restitution``, may be off nature: both parts of its error bar, SI."""
+        parts = [part for part in self.summary["uncertainty"][key].values() if part is not None]
+        return sum(parts) if parts else None
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and name in self.summary:
+            return self.summary[name]
+        raise AttributeError(f"a result has no {name!r}; its summary has {', '.join(self.summary)}")
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self.summary})
+
+    def __repr__(self) -> str:
+        shown = (f"{key}={self.summary[key]!r}" for key in _SHOWN)
+        return f"<fem_run.Result {', '.join(shown)}>"
+
+    def _repr_html_(self) -> str:
+        def row(key: str, name: str, unit: str) -> str:
+            value, bar = self.summary[key], self.uncertainty(key)
+            shown = "–" if value is None else f"{value:.6g}"
+            error = "" if value is None or bar is None else f"± {bar:.1g}"
+            return f"<tr><td>{name}</td><td>{shown}</td><td>{error}</td><td>{unit}</td></tr>"
+
+        rows = "".join(row(key, *names) for key, names in _SHOWN.items())
+        title = html.escape(self.summary["case"].get("title") or "")
+        return f"<table><caption>{title}</caption>{rows}</table>"
+
+
+class Snapshot:
+    """Both bodies at an instant; arrays as in the VTK file of the result folder.
+
+    Attributes:
+        label: which instant.
+        time: s.
+        points: reference positions (r, y, 0), shape (n, 3), m.
+        quads: corners of the cells, indices of points, shape (m, 4).
+        point_data: ``displacement`` (n, 3) m, ``velocity`` (n, 3) m/s, and smooth stresses (n,) Pa, by name.
+        cell_data: ``sigma_rr``, ``sigma_yy``, ``sigma_tt``, ``sigma_ry``, ``pressure``, ``von_mises`` (m,) Pa;
+            ``body`` (m,), 0 or 1.
+    """
+
+    def __init__(
+        self,
+        label: str,
+        time: float,
+        grid: dict[str, NDArray[Any]],
+        point_data: dict[str, NDArray[Any]],
+        cell_data: dict[str, NDArray[Any]],
+    ) -> None:
+        self.label = label
+        self.time = time
+        self.points: NDArray[np.float64] = grid["points"]
+        self.quads: NDArray[np.int64] = grid["quads"]
+        self.point_data = {name: _flat(array) for name, array in point_data.items()}
+        self.cell_data = {name: _flat(array) for name, array in cell_data.items()}
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The same as a grid of PyVista, which has to be installed."""
+        import pyvista
+
+        grid = pyvista.UnstructuredGrid({pyvista.CellType.QUAD: self.quads}, self.points)
+        grid.point_data.update(self.point_data)
+        grid.cell_data.update(self.cell_data)
+        grid.field_data["TimeValue"] = [self.time]
+        return grid
+
+    def __repr__(self) -> str:
+        return f"<fem_run.Snapshot {self.label!r} at {self.time:.4g} s, {len(self.quads)} cells>"
+
+
+def _flat(array: NDArray[Any]) -> NDArray[Any]:
+    """One value a point or cell has one index."""
+    return array[:, 0] if array.ndim == 2 and array.shape[1] == 1 else array

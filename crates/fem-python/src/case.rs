@@ -1,0 +1,133 @@
+//! A case in memory.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use fem::{Identity, Simulation};
+use fem_command::{Failure, Given, Timed};
+use pyo3::prelude::*;
+
+use crate::failure::Raise;
+use crate::outcome::Outcome;
+use crate::watch::{RunWatch, watched};
+
+/// A valid case: its text, overrides and what they make.
+#[pyclass(frozen, module = "fem_run._native")]
+#[derive(Clone)]
+pub struct Case {
+    name: String,
+    text: String,
+    folder: PathBuf,
+    overrides: Vec<String>,
+    pub(crate) case: fem::Case,
+}
+
+impl Case {
+    fn made(
+        py: Python<'_>,
+        name: String,
+        text: String,
+        folder: PathBuf,
+        overrides: Vec<String>,
+    ) -> PyResult<Self> {
+        let case = fem::Case::parse(&name, &text, &folder, &overrides).or_raise(py)?;
+        Ok(Self { name, text, folder, overrides, case })
+    }
+
+    /// What jobs are given of it.
+    pub(crate) fn given(&self) -> Given {
+        Given { case: Some(self.case.clone()), name: self.name.clone(), table: None }
+    }
+}
+
+#[pymethods]
+impl Case {
+    /// Reads a file.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
+        fem::Case::load(&path, &overrides).or_raise(py)?;
+        let text = std::fs::read_to_string(&path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+        Self::made(py, path.display().to_string(), text, folder, overrides)
+    }
+
+    /// Reads a text.
+    #[staticmethod]
+    fn parse(
+        py: Python<'_>,
+        name: String,
+        text: String,
+        folder: PathBuf,
+        overrides: Vec<String>,
+    ) -> PyResult<Self> {
+        Self::made(py, name, text, folder, overrides)
+    }
+
+    /// What `parse` makes it of again, in another process too.
+    fn parts(&self) -> (String, String, PathBuf, Vec<String>) {
+        (self.name.clone(), self.text.clone(), self.folder.clone(), self.overrides.clone())
+    }
+
+    /// The same case with more overrides, `KEY=VALUE`.
+    fn overridden(&self, py: Python<'_>, overrides: Vec<String>) -> PyResult<Self> {
+        let (name, text, folder, mut all) = self.parts();
+        all.extend(overrides);
+        Self::made(py, name, text, folder, all)
+    }
+
+    /// What messages call it.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its title.
+    #[getter]
+    fn title(&self) -> &str {
+        self.case.scene().title()
+    }
+
+    /// The case as written, overrides in it, as TOML in SI.
+    fn to_toml(&self) -> String {
+        // A valid case has only what TOML can hold.
+        self.case.file().to_toml().unwrap_or_default()
+    }
+
+    /// The number at a key in SI, and its unit.
+    fn number_at(&self, parts: Vec<String>) -> Option<(f64, &'static str)> {
+        self.case.file().number_at(parts.iter().map(String::as_str))
+    }
+
+    /// What its result by this build is known by: the name of a sweep's member.
+    fn identity(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(Identity::of(&self.case).or_raise(py)?.result)
+    }
+
+    /// What `fem-run check` prints.
+    fn check(&self, py: Python<'_>) -> PyResult<String> {
+        let given = self.given();
+        py.detach(|| fem_command::check(&given)).or_raise(py)
+    }
+
+    /// Computes the collision; `report` is called with how far it is, 0 to 1.
+    fn run(
+        &self,
+        py: Python<'_>,
+        report: Option<&Bound<'_, PyAny>>,
+        fields: bool,
+    ) -> PyResult<(Outcome, Option<PyErr>)> {
+        let started = Instant::now();
+        let case = self.case.clone();
+        let (ran, error) = watched(py, report, |watch| {
+            let mut simulation = Simulation::new(case)?;
+            if !fields {
+                simulation.skip_snapshots();
+            }
+            let mut timed = Timed::since(started, RunWatch(watch));
+            let collision = simulation.run(&mut timed);
+            Ok::<_, Failure>((simulation, collision, timed.stop().0))
+        })?;
+        let (simulation, collision, stopwatch) = ran.or_raise(py)?;
+        Ok((Outcome::of(simulation, collision, stopwatch), error))
+    }
+}

@@ -1,0 +1,89 @@
+//! The other jobs of the command, and the command itself.
+
+use std::ffi::OsString;
+
+use fem::measured::{Table, decode};
+use fem_case::library;
+use fem_command::{Failure, Given};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use serde_json::{Value, json};
+
+use crate::case::Case;
+use crate::failure::Raise;
+
+/// A table: its name and the bytes of its text, CSV.
+type Data = Option<(String, Vec<u8>)>;
+
+/// Does a job without Python's lock and gives its numbers as JSON.
+fn done(
+    py: Python<'_>,
+    given: Given,
+    data: Data,
+    options: Vec<String>,
+    job: fn(&Given, &[String]) -> Result<Value, Failure>,
+) -> PyResult<String> {
+    let work = || -> Result<Value, Failure> {
+        let table = data.map(|(name, bytes)| Table::parse(&name, &decode(&bytes))).transpose()?;
+        job(&Given { table, ..given }, &options)
+    };
+    let numbers = py.detach(work).or_raise(py)?;
+    serde_json::to_string(&numbers).map_err(|error| PyRuntimeError::new_err(error.to_string()))
+}
+
+macro_rules! jobs {
+    ($($(#[$doc:meta])+ $name:ident;)+) => {
+        $(
+            $(#[$doc])+
+            #[pyfunction]
+            pub fn $name(
+                py: Python<'_>,
+                case: PyRef<'_, Case>,
+                data: Data,
+                options: Vec<String>,
+            ) -> PyResult<String> {
+                done(py, case.given(), data, options, fem_command::$name)
+            }
+        )+
+    };
+}
+
+jobs! {
+    /// `fem-run fit`.
+    fit;
+    /// `fem-run invert`.
+    invert;
+    /// `fem-run export`.
+    export;
+    /// `fem-run calibrate`.
+    calibrate;
+}
+
+/// `fem-run cradle`.
+#[pyfunction]
+pub fn cradle(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
+    done(py, Given::default(), data, options, fem_command::cradle)
+}
+
+/// The materials library as JSON.
+#[pyfunction]
+pub fn materials() -> String {
+    let entry = |(name, found): (&String, &library::Material)| {
+        let library::Material { title, source, range, material } = found;
+        let value = json!({ "title": title, "source": source, "range": range, "table": material });
+        (name.clone(), value)
+    };
+    Value::Object(library::materials().iter().map(entry).collect()).to_string()
+}
+
+/// `fem-run materials NAME`.
+#[pyfunction]
+pub fn material_toml(py: Python<'_>, name: &str) -> PyResult<String> {
+    fem_command::material(name).or_raise(py)
+}
+
+/// The command, with these words; gives the exit status.
+#[pyfunction]
+pub fn run_command(py: Python<'_>, words: Vec<OsString>) -> u8 {
+    py.detach(|| fem_command::run(words))
+}

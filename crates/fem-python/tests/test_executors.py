@@ -1,0 +1,41 @@
+"""Whatever computes a sweep, the table is the same."""
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+
+import numpy as np
+import pytest
+
+import fem_run
+
+from conftest import COARSE
+
+VARY = {"body.0.approach_speed": np.geomspace(0.1, 1, 5), "material.glass.relaxation.terms.0.weight": [0.5, 1]}
+
+
+@pytest.fixture(scope="module")
+def case(glass):
+    return fem_run.Case.load(glass).with_({"model": {"condensed": {}}, **COARSE})
+
+
+@pytest.fixture(scope="module")
+def local(case):
+    return fem_run.sweep(case, VARY).to_csv()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_any_number_of_threads(case, local, threads):
+    assert fem_run.sweep(case, VARY, threads=threads).to_csv() == local
+
+
+def test_threads_of_an_executor(case, local):
+    with ThreadPoolExecutor(2) as executor:
+        assert fem_run.sweep(case, VARY, executor=executor).to_csv() == local
+
+
+def test_processes(case, local):
+    fractions = []
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as executor:
+        table = fem_run.sweep(case, VARY, executor=executor, progress=fractions.append)
+    assert table.to_csv() == local
+    assert fractions[-1] == 1.0 and len(fractions) == 10

@@ -1,0 +1,171 @@
+"""Numbers are the command's, to the bit."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+import pyvista
+
+import fem_run
+
+from conftest import COARSE
+
+#: What differs from run to run, or between memory and folder.
+OWN = {"cost", "files", "case", "made_from"}
+
+
+def rest(summary):
+    return {key: value for key, value in summary.items() if key not in OWN}
+
+
+def number(cell):
+    """A number may be written in two ways; both read back to the same bits."""
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
+
+
+@pytest.mark.parametrize("model", ["fem", "condensed", "ting", "hertz"])
+def test_a_run_is_that_of_the_command(glass, command, tmp_path, model):
+    element = COARSE["mesh.contact_element_size"]
+    out = tmp_path / "command"
+    sets = [f"--set=mesh.contact_element_size={element!r}", f"--set=model.{model}={{}}"]
+    command(glass, *sets, "--out", out, "--quiet")
+    result = fem_run.Case.load(glass).with_({**COARSE, f"model.{model}": {}}).run()
+
+    expected = json.loads((out / "summary.json").read_text())
+    assert rest(result.summary) == rest(expected)
+    assert result.summary["case"] == expected["case"]
+    assert result.restitution == expected["restitution"]
+
+    with open(out / "history.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    assert list(result.history) == rows[0]
+    columns = np.array([[float(cell or "nan") for cell in row] for row in rows[1:]]).T
+    for name, column in zip(rows[0], columns):
+        np.testing.assert_array_equal(result.history[name], column)
+
+    # Saved, it is the same folder.
+    result.save(tmp_path / "python")
+    names = {path.name for path in out.iterdir()}
+    assert {path.name for path in (tmp_path / "python").iterdir()} == names
+    assert (tmp_path / "python" / "history.csv").read_bytes() == (out / "history.csv").read_bytes()
+
+    grids = sorted(out.glob("*.vtu"), key=lambda path: int(path.stem.split("_")[-2]))
+    assert len(grids) == len(result.snapshots) and bool(grids) == (model in ("fem", "condensed"))
+    for path, snapshot in zip(grids, result.snapshots):
+        assert path.stem.endswith(snapshot.label)
+        read, own = pyvista.read(path), snapshot.to_pyvista()
+        np.testing.assert_array_equal(own.points, read.points)
+        np.testing.assert_array_equal(own.cells, read.cells)
+        for of in ("point_data", "cell_data"):
+            assert sorted(getattr(own, of).keys()) == sorted(getattr(read, of).keys())
+            for name, array in getattr(read, of).items():
+                np.testing.assert_array_equal(getattr(own, of)[name], array)
+
+
+def test_a_sweep_is_that_of_the_command(glass, command, tmp_path):
+    (tmp_path / "sweep.toml").write_text(
+        f"case = {json.dumps(str(glass))}\n[vary]\n"
+        "'body.0.sphere.diameter, body.1.sphere.diameter' = ['12 mm', 0.016]\n"
+        "'body.0.approach_speed' = ['20 cm/s', 0.5, 1.0]\n"
+    )
+    command("sweep", "sweep.toml", "--set=model.condensed={}", "--set=mesh.contact_element_size=90e-6", cwd=tmp_path)
+    with open(tmp_path / "runs" / "sweep" / "sweep.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    case = fem_run.Case.load(glass).with_({"model": {"condensed": {}}, **COARSE})
+    both = ("body.0.sphere.diameter", "body.1.sphere.diameter")
+    vary = {both: ["12 mm", 0.016], "body.0.approach_speed": ["20 cm/s", 0.5, 1.0]}
+    table = fem_run.sweep(case, vary)
+    assert list(table) == rows[0]
+    own = list(csv.reader(table.to_csv().splitlines()))
+    assert [list(map(number, row)) for row in own] == [list(map(number, row)) for row in rows]
+    # A pair for both keys.
+    pairs = fem_run.sweep(case, {both: [("12 mm", "12 mm")], "body.0.approach_speed": [0.5]})
+    assert pairs["restitution"][0] == table["restitution"][1]
+    assert list(table.to_pandas().columns) == rows[0]
+
+
+def test_a_dict_is_a_case(glass):
+    glass_table = {
+        "density": "2390 kg/m^3",
+        "youngs_modulus": "63 GPa",
+        "poissons_ratio": 0.244,
+        "relaxation": {"acts_on": "all", "terms": [{"weight": 1.0, "decay_rate": "2708 1/s"}]},
+    }
+    case = fem_run.Case.from_dict(
+        {
+            "title": None,
+            "material": {"glass": glass_table},
+            "body": [
+                {"name": "striker", "sphere": {"diameter": np.float64(0.0222)}, "material": "glass", "approach_speed": 0.5},
+                {"name": "target", "sphere": {"diameter": "15.9 mm"}, "material": "glass"},
+            ],
+            "model": {"ting": {}},
+        }
+    )
+    other = fem_run.Case.load(glass).with_({"model.ting": {}})
+    assert case.run().restitution == other.run().restitution
+    assert case.number("body.1.sphere.diameter") == (0.0159, "m")
+    again = fem_run.Case.from_toml(case.to_toml())
+    assert again.identity == case.identity
+
+
+def test_laws_are_those_of_the_commands(glass, command, tmp_path):
+    case = fem_run.Case.load(glass).with_({"model.ting": {}})
+    table = fem_run.sweep(case, {"body.0.approach_speed": np.geomspace(0.1, 1, 6)})
+    (tmp_path / "e.csv").write_text(table.to_csv())
+    base = [str(glass), "--set=model.ting={}"]
+    command("fit", *base, "--data", "e.csv", "--law", "bordbar_hyppanen", "--free", "a,n", "--out", "fit", cwd=tmp_path)
+    fitted = fem_run.fit(case, table, law="bordbar_hyppanen", free=["a", "n"])
+    expected = json.loads((tmp_path / "fit" / "fit.json").read_text())
+    assert fitted["parameters"] == expected["parameters"]
+
+    command("export", *base, "--data", "e.csv", "--out", "export", cwd=tmp_path)
+    exported = fem_run.export(case, table.to_pandas())
+    assert exported["texts"]
+    for name, text in exported["texts"].items():
+        assert (tmp_path / "export" / name).read_text() == text
+
+    command("calibrate", *base, "--data", "e.csv", "--model", "ting", "--terms", "2", "--out", "cal", cwd=tmp_path)
+    found = fem_run.calibrate(case, tmp_path / "e.csv", model="ting", terms=2)
+    written = (tmp_path / "cal" / "relaxation.toml").read_text()
+    # The first line names the file as it was given.
+    assert found["relaxation_toml"].splitlines()[1:] == written.splitlines()[1:]
+
+    solved = fem_run.invert(case, 0.9, law="tsuji", speed="0.5 m/s")
+    (solution,) = solved["solutions"]
+    law = case.with_({"model": {"law": {"tsuji": {solution["parameter"]: solution["value"]}}}})
+    assert law.run().restitution == pytest.approx(0.9, abs=1e-6)
+
+    swing = fem_run.cradle(length="20 cm", diameters=["22.2 mm", "15.9 mm"], alpha="20 deg", beta="24 deg")
+    assert 0.5 < swing["restitution"] < 1.1
+    trials = {"alpha_deg": [20.0, 10.0], "beta_deg": [24.0, 11.9]}
+    rows = fem_run.cradle(trials, length="20 cm", diameters=["22.2 mm", "15.9 mm"])
+    assert rows["restitution"][0] == swing["restitution"] and len(rows["restitution"]) == 2
+
+
+def test_the_library_of_materials():
+    assert "pmma" in fem_run.materials and "lib:pmma" in fem_run.materials
+    pmma = fem_run.materials["pmma"]
+    assert pmma["source"] and pmma["table"]["density"] > 1000
+    assert "density" in fem_run.materials.toml("pmma")
+    case = fem_run.Case.from_dict(
+        {
+            "body": [
+                {"name": "floor", "wall": {}},
+                {"name": "ball", "sphere": {"diameter": 0.01}, "material": "lib:pmma", "approach_speed": 1},
+            ],
+            "model": {"ting": {}},
+        }
+    )
+    assert 0 < case.run().restitution < 1
+
+
+def test_pictures_for_notebooks(glass):
+    result = fem_run.Case.load(glass).with_({"model.ting": {}}).run()
+    assert "restitution" in result._repr_html_() and "±" in result._repr_html_()
+    table = fem_run.sweep(fem_run.Case.load(glass).with_({"model.ting": {}}), {"body.0.approach_speed": [0.5]})
+    assert "<table" in table._repr_html_()

@@ -1,0 +1,103 @@
+//! An element update, forces and motion, in the loops of all laws.
+
+use std::fmt::Write;
+use std::time::Instant;
+
+use fem_explicit::FreeMotion;
+
+use crate::bodies::{Error, Kind, mesh_and_glass};
+use crate::median;
+use crate::plain::Plain;
+
+/// Elements of the contact, µm.
+pub const SIZES: [u32; 3] = [60, 28, 14];
+const TURNS: usize = 301;
+/// Of an element update and a turn, so that a turn takes a tenth of a millisecond or more.
+const UPDATES: usize = 20_000;
+
+/// Bodies of one mesh, and what their turns took, ns an element update.
+struct Timed {
+    plain: Plain,
+    spheres: Vec<FreeMotion>,
+    n_elements: usize,
+    of_plain: Vec<f64>,
+    of_spheres: Vec<Vec<f64>>,
+}
+
+impl Timed {
+    fn new(micrometres: u32) -> Result<Self, Error> {
+        let size = 1e-6 * f64::from(micrometres);
+        let (mesh, glass) = mesh_and_glass(size)?;
+        let plain = Plain::beside(&mesh, &glass, &mut Kind::Elastic.sphere(size)?);
+        let spheres: Result<Vec<_>, Error> =
+            Kind::ALL.into_iter().map(|kind| kind.sphere(size)).collect();
+        let spheres = spheres?;
+        let of_spheres = spheres.iter().map(|_| Vec::new()).collect();
+        let n_elements = mesh.quads().len();
+        Ok(Self { plain, spheres, n_elements, of_plain: Vec::new(), of_spheres })
+    }
+
+    fn take_turn(&mut self) {
+        let n_steps = UPDATES.div_ceil(self.n_elements);
+        let updates = (n_steps * self.n_elements) as f64;
+        let start = Instant::now();
+        for _ in 0..n_steps {
+            self.plain.step();
+        }
+        self.of_plain.push(1e9 * start.elapsed().as_secs_f64() / updates);
+        for (sphere, times) in self.spheres.iter_mut().zip(&mut self.of_spheres) {
+            let start = Instant::now();
+            for _ in 0..n_steps {
+                sphere.step();
+            }
+            times.push(1e9 * start.elapsed().as_secs_f64() / updates);
+        }
+    }
+
+    /// Median time of each kind, ns, and its share of the plain code's of the same turn.
+    fn medians(&self) -> Vec<[f64; 2]> {
+        let share = |times: &Vec<f64>| {
+            times.iter().zip(&self.of_plain).map(|(t, plain)| t / plain).collect()
+        };
+        self.of_spheres.iter().map(|times| [median(times.clone()), median(share(times))]).collect()
+    }
+}
+
+/// ns an element update of plain code on the mesh of 28 µm: the measure of processes.
+pub fn of_plain_code() -> Result<impl FnMut() -> f64, Error> {
+    let mut timed = Timed::new(28)?;
+    timed.spheres.clear();
+    Ok(move || {
+        timed.of_plain.clear();
+        for _ in 0..20 {
+            timed.take_turn();
+        }
+        median(timed.of_plain.clone())
+    })
+}
+
+/// A line a kind.
+pub fn table() -> Result<String, Error> {
+    let mut all: Vec<Timed> = SIZES.into_iter().map(Timed::new).collect::<Result<_, _>>()?;
+    for _ in 0..TURNS {
+        all.iter_mut().for_each(Timed::take_turn);
+    }
+    let mut table = String::from("| ns an element update |");
+    for (size, timed) in SIZES.iter().zip(&all) {
+        write!(table, " {size} µm, {} elements | of plain |", timed.n_elements)?;
+    }
+    writeln!(table, "\n|---|{}", "---|---|".repeat(SIZES.len()).as_str())?;
+    write!(table, "| plain code |")?;
+    for timed in &all {
+        write!(table, " {:.1} | 1 |", median(timed.of_plain.clone()))?;
+    }
+    let medians: Vec<_> = all.iter().map(Timed::medians).collect();
+    for (k, kind) in Kind::ALL.into_iter().enumerate() {
+        write!(table, "\n| {} |", kind)?;
+        for of_mesh in &medians {
+            let [time, share] = of_mesh[k];
+            write!(table, " {time:.1} | {share:.2} |")?;
+        }
+    }
+    Ok(table)
+}

@@ -1,0 +1,100 @@
+//! `fem-run plot FOLDER --what FIGURE`: one picture of a result as SVG, for a paper.
+
+use std::path::{Path, PathBuf};
+
+use fem_figure::contour::{Contour, Panel, Section};
+
+use crate::failure::Failure;
+use crate::page::{Plotted, Record, contour, energies, over_time, pressures};
+use crate::standard_output::{self, one_line};
+use crate::whole_file::write_whole;
+
+/// Panels of contours at most.
+const MOST_PANELS: usize = 6;
+
+/// Draw one figure of a result as SVG
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// Result folders of runs; curves of several are drawn over each other
+    #[arg(value_name = "FOLDER", required = true)]
+    folders: Vec<PathBuf>,
+    /// What to draw
+    #[arg(long, value_name = "FIGURE")]
+    what: Figure,
+    /// The picture [default: FIGURE.svg]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Figure {
+    /// Stress along the axis around the contact at the snapshots
+    Contours,
+    /// Contact force over time
+    Force,
+    /// Approach over time
+    Approach,
+    /// Contact radius over time
+    Radius,
+    /// Pressure on the axis over time
+    Pressure,
+    /// Where the energy is over time
+    Energy,
+    /// Contact pressure over the distance from the axis
+    Profile,
+}
+
+/// Writes a picture and says where it is.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let records: Result<Vec<Record>, Failure> =
+        arguments.folders.iter().map(|folder| Record::read(folder)).collect();
+    let (records, figure) = (records?, arguments.what);
+    let of_one = |name: &str| match records.as_slice() {
+        [record] => Ok(record),
+        _ => Err(Failure::bad_input(format!("--what {name}: this figure is of one result"))
+            .with_help("name one folder")),
+    };
+    let chart = match figure {
+        Figure::Contours => None,
+        Figure::Force => over_time(&records, Plotted::Force),
+        Figure::Approach => over_time(&records, Plotted::Approach),
+        Figure::Radius => over_time(&records, Plotted::Radius),
+        Figure::Pressure => over_time(&records, Plotted::Pressure),
+        Figure::Energy => energies(of_one("energy")?),
+        Figure::Profile => pressures(&records),
+    };
+    let svg = match figure {
+        Figure::Contours => contour(of_one("contours")?, MOST_PANELS).map(|c| whole(c).svg()),
+        _ => chart.and_then(|chart| fem_figure::panel(&chart)),
+    };
+    let Some(svg) = svg else {
+        return Err(Failure::bad_input("there is nothing to draw: the result has no such data")
+            .with_help("fields and profiles need [output] snapshots and a model with elements"));
+    };
+    let name = clap::ValueEnum::to_possible_value(&figure);
+    let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
+    let shown = one_line(&path.display().to_string());
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    write_whole(&path, folder.unwrap_or(Path::new(".")), svg.as_bytes()).map_err(|error| {
+        Failure::bad_input(format!("{shown}: {error}"))
+            .with_help("name a file in a folder that you may write to with --out")
+    })?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    standard_output::print(&format!("Picture: {shown}\n"))
+}
+
+/// With the mirror images of its half sections.
+fn whole(contour: Contour) -> Contour {
+    let panel = |panel: Panel| Panel {
+        sections: panel.sections.iter().map(Section::mirrored).collect(),
+        ..panel
+    };
+    Contour { panels: contour.panels.into_iter().map(panel).collect(), ..contour }
+}

@@ -1,0 +1,100 @@
+//! The numbers that a collision is known by, with what they may be off by.
+
+use fem_case::engineering::{Unit, show};
+use fem_collision::Headline;
+
+use super::record::Record;
+
+/// One number.
+pub struct Card {
+    pub name: &'static str,
+    /// With its error, if anything tells it.
+    pub value: String,
+    pub unit: String,
+    /// What of the error is of what, and what Hertz says.
+    pub notes: Vec<String>,
+}
+
+/// All that a result has.
+pub fn cards(record: &Record) -> Vec<Card> {
+    Headline::ALL.into_iter().filter_map(|headline| card(record, headline)).collect()
+}
+
+fn card(record: &Record, headline: Headline) -> Option<Card> {
+    let key = headline.key();
+    let value = record.number(&[key])?;
+    let hertz = record.number(&["hertz", key]);
+    let part = |part: &str| record.number(&["uncertainty", key, part]);
+    let parts = [("mesh", part("discretisation")), ("effects left out", part("model"))];
+    let error = parts.iter().filter_map(|(_, size)| *size).reduce(|a, b| a + b);
+    let unit = (!headline.unit().is_empty()).then(|| Unit::fitting(value, headline.unit()));
+    let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
+    let mut notes = Vec::new();
+    if error.is_some() {
+        let told = parts.iter().map(|(name, size)| match size {
+            Some(size) => format!("{name} {}", rounded(scaled(*size))),
+            None => format!("{name} not known"),
+        });
+        notes.push(told.collect::<Vec<_>>().join(" + "));
+    }
+    if let Some(hertz) = hertz.filter(|_| headline != Headline::Restitution) {
+        notes.push(format!("Hertz {} (× {:.4})", show(hertz, headline.unit()), value / hertz));
+    }
+    if headline == Headline::Restitution && (1.0 - value).abs() < 0.1 {
+        notes.push(format!("1 − e = {:.3e}", 1.0 - value).replace("e-", "e\u{2212}"));
+    }
+    Some(Card {
+        name: headline.name(),
+        value: with_error(scaled(value), error.map(scaled)),
+        unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
+        notes,
+    })
+}
+
+/// Digits of a number whose error is known: so many that the error has two.
+const MOST_DIGITS: usize = 6;
+
+/// `62.46 ± 0.21`.
+pub fn with_error(value: f64, error: Option<f64>) -> String {
+    let before = if value == 0.0 { 1 } else { value.abs().log10().floor() as i64 + 1 };
+    let most = (MOST_DIGITS as i64 - before.max(1)).max(0);
+    let plain = (4 - before.max(0)).clamp(0, 8) as usize;
+    match error.filter(|error| *error > 0.0 && error.is_finite()) {
+        None => format!("{value:.plain$}"),
+        Some(error) => {
+            let decimals = (1 - error.log10().floor() as i64).clamp(0, most) as usize;
+            let error = if error < 0.5 * 10f64.powi(-(decimals as i32)) {
+                rounded(error)
+            } else {
+                format!("{error:.decimals$}")
+            };
+            format!("{value:.decimals$} ± {error}")
+        }
+    }
+}
+
+/// Two digits.
+pub fn rounded(size: f64) -> String {
+    let rounded: f64 = format!("{size:.1e}").parse().unwrap_or(size);
+    fem_figure::tick(rounded)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_the_digits_of_its_error() {
+        for (value, error, expected) in [
+            (62.459_09, Some(0.2134), "62.46 ± 0.21"),
+            (0.927_891_2, Some(1.9e-4), "0.92789 ± 0.00019"),
+            (104.586, Some(12.3), "105 ± 12"),
+            (969.801, Some(0.0), "969.8"),
+            (62.459_09, None, "62.46"),
+            (0.927_891_2, None, "0.9279"),
+            (62.459_09, Some(1e-9), "62.4591 ± 1e-9"),
+        ] {
+            assert_eq!(with_error(value, error), expected);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! The case of a result as text, and where cases differ.
+
+use serde_json::Value;
+
+/// Keys by their dotted paths, with their values.
+pub fn keys(value: &Value) -> Vec<(String, String)> {
+    let mut keys = Vec::new();
+    flatten("", value, &mut keys);
+    keys
+}
+
+fn flatten(path: &str, value: &Value, keys: &mut Vec<(String, String)>) {
+    let join = |key: &str| if path.is_empty() { key.to_string() } else { format!("{path}.{key}") };
+    match value {
+        Value::Object(map) if !map.is_empty() => {
+            map.iter().for_each(|(key, value)| flatten(&join(key), value, keys));
+        }
+        Value::Array(list) if list.iter().any(Value::is_object) => {
+            let items = list.iter().enumerate();
+            items.for_each(|(k, value)| flatten(&join(&k.to_string()), value, keys));
+        }
+        _ => keys.push((path.to_string(), value.to_string())),
+    }
+}
+
+/// Keys whose values are not the same in all cases, and the values; blank where there is no such key.
+pub fn differences(cases: &[&Value]) -> Vec<(String, Vec<String>)> {
+    let all: Vec<Vec<(String, String)>> = cases.iter().map(|case| keys(case)).collect();
+    let mut paths: Vec<&String> = Vec::new();
+    for (path, _) in all.iter().flatten() {
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    let value = |case: &[(String, String)], path: &str| {
+        let found = case.iter().find(|(known, _)| known == path);
+        found.map_or(String::new(), |(_, value)| value.clone())
+    };
+    let row = |path: &String| (path.clone(), all.iter().map(|case| value(case, path)).collect());
+    let rows = paths.into_iter().map(row);
+    rows.filter(|(_, values): &(String, Vec<String>)| values.iter().any(|v| *v != values[0]))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cases_differ_where_they_do() {
+        let one = serde_json::json!({"title": "a", "body": [{"v": 1.0}, {"v": 2.0}], "x": [1, 2]});
+        let other = serde_json::json!({"title": "a", "body": [{"v": 1.0}, {"v": 3.0}], "y": {}});
+        let expected = [("body.1.v", ["2.0", "3.0"]), ("x", ["[1,2]", ""]), ("y", ["", "{}"])];
+        let expected =
+            expected.map(|(path, values)| (path.to_string(), values.map(String::from).to_vec()));
+        assert_eq!(differences(&[&one, &other]), expected);
+    }
+}

@@ -1,0 +1,234 @@
+//! `report.html`: a result as a page that needs nothing else, and several results beside each other.
+//!
+//! Drawn from the files of a result folder alone, so that an old result has the same page as a new one.
+//! Nothing in it is computed but Hertz' curves, scaled to the summary's; pictures are SVG within the page,
+//! whose style sheet has light, dark and paper.
+
+mod cards;
+mod case_text;
+mod columns;
+mod contours;
+mod curves;
+mod effects;
+mod hertz;
+mod record;
+
+use askama::Template;
+use fem_case::engineering::{Unit, show};
+use fem_collision::Headline;
+use fem_figure::Chart;
+use fem_figure::contour::Contour;
+use serde_json::Value;
+
+use crate::failure::Failure;
+use cards::Card;
+use curves::Quantity;
+use effects::Effect;
+
+pub use contours::contour;
+pub use curves::{Quantity as Plotted, energies, over_time, pressures};
+pub use record::Record;
+
+/// The name of the page in a result folder.
+pub const REPORT_FILE: &str = "report.html";
+/// Frames that a page has room and time for.
+const MOST_FRAMES: usize = 12;
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    title: String,
+    subtitle: String,
+    stopped: &'a str,
+    cards: Vec<Card>,
+    price: String,
+    warnings: Vec<String>,
+    charts: Vec<String>,
+    frames: Vec<Shot>,
+    bar: String,
+    dark_rules: String,
+    bounces: Vec<[String; 5]>,
+    on: Vec<Effect>,
+    off: Vec<Effect>,
+    profile: String,
+    case: Vec<(String, String)>,
+    cite: Vec<String>,
+}
+
+/// A frame of the film.
+struct Shot {
+    caption: String,
+    svg: String,
+}
+
+#[derive(Template)]
+#[template(path = "comparison.html")]
+struct Comparison {
+    names: Vec<String>,
+    titles: Vec<String>,
+    charts: Vec<String>,
+    numbers: Vec<(String, Vec<String>)>,
+    differences: Vec<(String, Vec<String>)>,
+    cite: Vec<String>,
+}
+
+/// The page of one result.
+///
+/// # Errors
+/// None that depend on the result.
+pub fn page(record: &Record) -> Result<String, Failure> {
+    let contour = contour(record, MOST_FRAMES);
+    let of_time = Quantity::ALL.map(|q| over_time(std::slice::from_ref(record), q));
+    let [force, approach, radius, _] = of_time;
+    let charts = [force, approach, radius, energies(record)];
+    let profile = drawn([pressures(std::slice::from_ref(record))]).pop().unwrap_or_default();
+    let (on, off) = effects::effects(record);
+    let page = Page {
+        title: record.title(),
+        subtitle: subtitle(record),
+        stopped: record.text("stopped_because"),
+        cards: cards::cards(record),
+        price: price(record),
+        warnings: texts(record.list("warnings")),
+        charts: drawn(charts),
+        frames: contour.as_ref().map(shots).unwrap_or_default(),
+        bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),
+        dark_rules: contour.as_ref().map(Contour::dark_rules).unwrap_or_default(),
+        bounces: record.list("bounces").iter().map(bounce).collect(),
+        on,
+        off,
+        profile,
+        case: record.summary.get("case").map(case_text::keys).unwrap_or_default(),
+        cite: vec![citation(record)],
+    };
+    page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
+}
+
+/// The page of several results.
+///
+/// # Errors
+/// None that depend on the results.
+pub fn comparison(records: &[Record]) -> Result<String, Failure> {
+    let charts = Quantity::ALL.map(|quantity| over_time(records, quantity));
+    let charts = charts.into_iter().chain([pressures(records)]);
+    let cases: Vec<&Value> = records.iter().map(|record| &record.summary["case"]).collect();
+    let page = Comparison {
+        names: records.iter().map(|record| record.name.clone()).collect(),
+        titles: records.iter().map(Record::title).collect(),
+        charts: drawn(charts),
+        numbers: Headline::ALL.iter().map(|headline| numbers(records, *headline)).collect(),
+        differences: case_text::differences(&cases),
+        cite: records.iter().map(citation).collect(),
+    };
+    page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
+}
+
+fn drawn(charts: impl IntoIterator<Item = Option<Chart>>) -> Vec<String> {
+    charts.into_iter().flatten().filter_map(|chart| fem_figure::panel(&chart)).collect()
+}
+
+fn shots(contour: &Contour) -> Vec<Shot> {
+    let captions = contour.panels.iter().map(|panel| panel.title.clone());
+    let frames = captions.zip(contour.frames());
+    frames.map(|(caption, svg)| Shot { caption, svg }).collect()
+}
+
+/// A number of all results, each with its difference from the first.
+fn numbers(records: &[Record], headline: Headline) -> (String, Vec<String>) {
+    let of = |record: &Record| record.number(&[headline.key()]);
+    let first = records.first().and_then(of);
+    let cell = |(k, record): (usize, &Record)| {
+        let Some(value) = of(record) else { return "\u{2013}".to_string() };
+        let shown = match headline.unit() {
+            "" => format!("{value:.5}"),
+            unit => show(value, unit),
+        };
+        match first.filter(|_| k > 0) {
+            // A difference of restitutions is told as it is, of all else as a share.
+            Some(first) if headline == Headline::Restitution => {
+                format!("{shown} ({:+.5})", value - first)
+            }
+            Some(first) => format!("{shown} ({:+.2} %)", 100.0 * (value / first - 1.0)),
+            None => shown,
+        }
+    };
+    (headline.name().to_string(), records.iter().enumerate().map(cell).collect())
+}
+
+fn subtitle(record: &Record) -> String {
+    let name = |body: &Value| body.get("name").and_then(Value::as_str).map(String::from);
+    let names: Vec<String> = record.list("bodies").iter().filter_map(name).collect();
+    let model = record.summary.get("case").and_then(|case| case.get("model"));
+    let model = model.and_then(Value::as_object).and_then(|model| model.keys().next());
+    let model = match model.map_or("", String::as_str) {
+        "fem" => "explicit finite elements",
+        "condensed" => "bodies condensed to their contact",
+        "ting" => "Ting's viscoelastic contact",
+        "hertz" => "Hertz' contact",
+        "law" => "a contact law",
+        other => other,
+    };
+    format!("{}, by {model}", names.join(" and "))
+}
+
+/// What the run took.
+fn price(record: &Record) -> String {
+    let elements: f64 = record
+        .list("bodies")
+        .iter()
+        .filter_map(|body| body.get("elements").and_then(Value::as_f64))
+        .sum();
+    let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
+    let seconds = Unit::fitting(seconds, "s").with_digits(3).show(seconds);
+    let mut parts = vec![format!("computed in {seconds}")];
+    if elements > 0.0 {
+        parts.push(format!("{} elements", grouped(elements)));
+    }
+    if let Some((steps, step)) = record.number(&["steps"]).zip(record.number(&["time_step_s"])) {
+        parts.push(format!("{} steps of {}", grouped(steps), show(step, "s")));
+    }
+    if let Some(residual) = record.number(&["energy", "residual_relative"]) {
+        parts.push(format!("energy adds up to {} of the initial", cards::rounded(residual)));
+    }
+    parts.join(" · ")
+}
+
+/// With thin spaces between thousands.
+fn grouped(count: f64) -> String {
+    let digits = format!("{count:.0}");
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+fn texts(values: &[Value]) -> Vec<String> {
+    values.iter().filter_map(Value::as_str).map(String::from).collect()
+}
+
+fn bounce(bounce: &Value) -> [String; 5] {
+    let number = |key: &str| bounce.get(key).and_then(Value::as_f64);
+    let shown = |key: &str, unit: &str| number(key).map_or("\u{2013}".into(), |v| show(v, unit));
+    [
+        shown("time_s", "s"),
+        shown("speed_before_m_s", "m/s"),
+        number("restitution").map_or("\u{2013}".into(), |e| format!("{e:.4}")),
+        shown("contact_time_s", "s"),
+        shown("peak_force_n", "N"),
+    ]
+}
+
+fn citation(record: &Record) -> String {
+    let made_from: String = record.text("made_from").chars().take(12).collect();
+    format!(
+        "fem-run {}, {}. Result of case {made_from}, numerics {}: \u{201c}{}\u{201d}.",
+        record.text("version"),
+        env!("CARGO_PKG_REPOSITORY"),
+        record.text("numerics"),
+        record.title()
+    )
+}

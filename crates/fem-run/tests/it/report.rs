@@ -1,0 +1,123 @@
+//! The page of a result, of several, and the pictures of one.
+
+use std::fs;
+
+use crate::common::Place;
+
+const TING: [&str; 4] = ["case.toml", "--set", "model.ting={}", "--quiet"];
+
+fn text(place: &Place, name: &str) -> String {
+    String::from_utf8(place.read(name)).unwrap()
+}
+
+/// What a page may not need: anything that is not in it.
+fn stands_alone(page: &str) {
+    for address in ["src=", "href=", "url(", "@import", "<link", "fetch("] {
+        assert!(!page.contains(address), "{address}");
+    }
+    assert!(page.len() < 1_000_000, "{}", page.len());
+    assert!(page.contains("prefers-color-scheme: dark") && page.contains("@media print"));
+}
+
+/// Numbers with their errors, curves beside Hertz, fields, effects in words, the case, how to cite.
+#[test]
+fn a_run_with_fields_has_all_of_it_on_a_page() {
+    let place = Place::new();
+    place.succeed(&["case.toml", "--set", "model.condensed={}", "--quiet"]);
+    let page = text(&place, "runs/case/report.html");
+    stands_alone(&page);
+    let summary = place.json("runs/case/summary.json");
+    let restitution = format!("{:.3}", summary["restitution"].as_f64().unwrap());
+    for expected in [
+        "<h1>A pair</h1>",
+        &restitution,
+        "Contact force F [N]",
+        "Energy E [",
+        ">Hertz<",
+        "Hertz under the same force",
+        "mid-compression, ",
+        "last contact, ",
+        "A material that relaxes while it is squeezed",
+        "body.0.approach_speed",
+        "How to cite",
+    ] {
+        assert!(page.contains(expected), "{expected}");
+    }
+    assert_eq!(page.matches("<figure>").count(), 4);
+    assert!(summary["files"].as_array().unwrap().iter().any(|file| file == "report.html"));
+    // An older result has the same page as a new one.
+    fs::remove_file(place.path("runs/case/report.html")).unwrap();
+    place.succeed(&["report", "runs/case"]);
+    assert_eq!(text(&place, "runs/case/report.html"), page);
+    // And each picture is there by itself, as XML.
+    for what in ["contours", "force", "approach", "radius", "pressure", "energy", "profile"] {
+        place.succeed(&["plot", "runs/case", "--what", what]);
+        let svg = text(&place, &format!("{what}.svg"));
+        assert!(svg.starts_with("<svg xmlns=") && svg.ends_with("</svg>\n"), "{what}");
+    }
+}
+
+#[test]
+fn a_result_without_fields_has_a_page_and_no_picture_of_them() {
+    let place = Place::new();
+    place.succeed(&TING);
+    let page = text(&place, "runs/case/report.html");
+    stands_alone(&page);
+    assert!(page.contains("Contact radius a [µm]") && !page.contains("<figure>"));
+    let ran = place.run(&["plot", "runs/case", "--what", "contours"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("nothing to draw"), "{}", ran.stderr);
+}
+
+#[test]
+fn a_case_can_do_without_a_page() {
+    let place = Place::new();
+    let spared = ["--set", "output.report=false"];
+    place.succeed(&[&TING[..], &spared].concat());
+    assert_eq!(place.list("runs/case"), ["history.csv", "summary.json"]);
+}
+
+/// Titles are text, whatever is in them.
+#[test]
+fn a_title_is_text() {
+    let place = Place::new();
+    let title = ["--set", "title='<script>alert(1)</script>'"];
+    place.succeed(&[&TING[..], &title].concat());
+    let page = text(&place, "runs/case/report.html");
+    assert!(!page.contains("<script>alert"));
+    assert_eq!(page.matches("<script>").count(), 1);
+}
+
+#[test]
+fn several_results_are_compared() {
+    let place = Place::new();
+    place.succeed(&[&TING[..], &["--out", "slow"]].concat());
+    let fast = ["--set", "body.0.approach_speed='1 m/s'", "--out", "fast"];
+    place.succeed(&[&TING[..], &fast].concat());
+    place.succeed(&["report", "slow", "fast", "--out", "both.html"]);
+    let page = text(&place, "both.html");
+    stands_alone(&page);
+    // By 2^(6/5) less what relaxes: the difference is told as a share.
+    let force = |name: &str| place.json(&format!("{name}/summary.json"))["peak_force_n"].as_f64();
+    let change = 100.0 * (force("fast").unwrap() / force("slow").unwrap() - 1.0);
+    assert!(page.contains(&format!("({change:+.2} %)")), "{change}");
+    assert!(page.contains("<td class=\"path\">body.0.approach_speed</td><td>0.5</td><td>1.0</td>"));
+    assert!(!page.contains("<td class=\"path\">title</td>"));
+    assert_eq!(place.list("slow"), ["history.csv", "report.html", "summary.json"]);
+}
+
+#[test]
+fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
+    let place = Place::new();
+    place.succeed(&TING);
+    for folder in [".", "nowhere"] {
+        let ran = place.run(&["report", folder]);
+        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+        assert!(ran.stderr.contains("summary.json cannot be read"), "{}", ran.stderr);
+    }
+    place.write("mine.html", "<p>mine</p>");
+    let ran = place.run(&["report", "runs/case", "--out", "mine.html"]);
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    assert_eq!(text(&place, "mine.html"), "<p>mine</p>");
+    place.succeed(&["report", "runs/case"]);
+}

@@ -1,0 +1,165 @@
+//! Which law explains data best: all laws fitted, in the order of their evidence.
+//!
+//! Akaike's criterion with its correction for few data (Hurvich & Tsai 1989, *Biometrika* **76**, 297),
+//! of N data and p free parameters,
+//!
+//! ```math
+//! \mathrm{AIC}_c = -2\ln L + 2q + \frac{2q(q+1)}{N-q-1}, \qquad
+//! w_i \propto \mathrm{e}^{-\mathrm{AIC}_{c,i}/2},
+//! ```
+//!
+//! with −2 ln L = Σ r² and q = p where the data have uncertainties, and −2 ln L = N ln(Σ r²/N) and
+//! q = p + 1, the scatter counting as a parameter, where they have none. Weights w are shares of the
+//! evidence among the laws that were fitted; none of them need be right.
+
+use fem_case::Case;
+use fem_fit::Fit;
+use fem_laws::{EndRule, Family, Role};
+
+use super::chosen_law::ChosenLaw;
+use super::law_fault::LawFault;
+use super::parameter::loss_parameter;
+use crate::measured::Restitutions;
+
+/// Level of the intervals of the fits, which nobody reads.
+const CONFIDENCE: f64 = 0.95;
+
+/// Misfits that differ by less are of one curve under two names.
+const SAME: f64 = 1e-6;
+
+/// A law that was fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RankedLaw {
+    /// Which.
+    pub family: Family,
+    /// Its free parameters.
+    pub free: Vec<&'static str>,
+    /// √(Σ r²/N).
+    pub rms: f64,
+    /// AICc less that of the best law; none where there are too few data for so many parameters.
+    pub difference: Option<f64>,
+    /// Share of the evidence.
+    pub weight: Option<f64>,
+}
+
+/// All laws on the same data.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawRanking {
+    /// The best first; laws without evidence last, by their rms.
+    pub laws: Vec<RankedLaw>,
+    /// Those that could not be fitted, and why; those that make the curve of another one.
+    pub others: Vec<(&'static str, String)>,
+}
+
+impl LawRanking {
+    /// Fits every law that loses energy: its damping free, and what else has neither a value nor a
+    /// default but for stiffnesses, on which restitutions do not depend.
+    ///
+    /// # Errors
+    /// No law that can be fitted: the reason of the last.
+    pub fn of(
+        case: &Case,
+        data: &Restitutions,
+        end_rule: Option<EndRule>,
+    ) -> Result<Self, LawFault> {
+        let mut found: Vec<(RankedLaw, Option<f64>)> = Vec::new();
+        let (mut others, mut last) = (Vec::new(), None);
+        let is_weighted = data.points.iter().all(|point| point.restitution_uncertainty.is_some());
+        for (family, exponent) in candidates() {
+            match fitted(case, data, (family, exponent), end_rule) {
+                Ok((free, fit)) => {
+                    let twin = found.iter().find(|(law, _)| {
+                        law.free.len() == free.len() && (law.rms - fit.rms).abs() < SAME * fit.rms
+                    });
+                    if let Some((twin, _)) = twin {
+                        others.push((family.name(), format!("the same as {}", twin.family.name())));
+                        continue;
+                    }
+                    let criterion = criterion(&fit, is_weighted);
+                    let (difference, weight) = (None, None);
+                    let law = RankedLaw { family, free, rms: fit.rms, difference, weight };
+                    found.push((law, criterion));
+                }
+                Err(fault) => {
+                    if exponent.is_none() {
+                        others.push((family.name(), fault.to_string()));
+                    }
+                    last = Some(fault);
+                }
+            }
+        }
+        let best = found.iter().filter_map(|(_, criterion)| *criterion).reduce(f64::min);
+        let share = |criterion: f64| (-0.5 * (criterion - best.unwrap_or(criterion))).exp();
+        let sum: f64 = found.iter().filter_map(|(_, criterion)| criterion.map(share)).sum();
+        for (law, criterion) in &mut found {
+            law.difference = criterion.zip(best).map(|(own, best)| own - best);
+            law.weight = criterion.map(|own| share(own) / sum);
+        }
+        let place = |(law, _): &(RankedLaw, Option<f64>)| {
+            (law.difference.unwrap_or(f64::INFINITY), law.rms)
+        };
+        found.sort_by(|a, b| {
+            let (a, b) = (place(a), place(b));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        });
+        match (found.is_empty(), last) {
+            (true, Some(fault)) => Err(fault),
+            _ => Ok(Self { laws: found.into_iter().map(|(law, _)| law).collect(), others }),
+        }
+    }
+}
+
+/// Laws that lose energy, with their damping free, and with an exponent that has a default free, too.
+fn candidates() -> impl Iterator<Item = (Family, Option<&'static str>)> {
+    let lossy = Family::ALL.into_iter().filter(|family| loss_parameter(*family).is_ok());
+    lossy.flat_map(|family| {
+        let has_default = |key: &&'static str| {
+            let mut parameters = family.parameters().iter();
+            parameters.any(|parameter| parameter.key == *key && parameter.default.is_some())
+        };
+        let exponent = Some("n").filter(has_default);
+        std::iter::once((family, None)).chain(exponent.map(|key| (family, Some(key))))
+    })
+}
+
+/// The free parameters of a law, and its fit.
+fn fitted(
+    case: &Case,
+    data: &Restitutions,
+    (family, exponent): (Family, Option<&'static str>),
+    end_rule: Option<EndRule>,
+) -> Result<(Vec<&'static str>, Fit), LawFault> {
+    let end_rule = end_rule.filter(|_| family.end_rule().is_none());
+    let law = ChosenLaw::of(case, family, &[], end_rule)?;
+    let parameters = family.parameters();
+    let mut free = vec![parameters[loss_parameter(family)?].key];
+    free.extend(exponent);
+    loop {
+        match law.problem(&data.points, &free) {
+            Ok(problem) => return Ok((free, problem.fit(CONFIDENCE)?)),
+            Err(LawFault::Missing { law, key, free: searched }) => {
+                let is_stiffness = parameters
+                    .iter()
+                    .any(|parameter| parameter.key == key && parameter.role == Role::Stiffness);
+                if is_stiffness || free.contains(&key) {
+                    return Err(LawFault::Missing { law, key, free: searched });
+                }
+                free.push(key);
+            }
+            Err(fault) => return Err(fault),
+        }
+    }
+}
+
+/// AICc; none of too few data.
+fn criterion(fit: &Fit, is_weighted: bool) -> Option<f64> {
+    let n = fit.residuals.len() as f64;
+    let p = fit.estimates.len() as f64;
+    let (misfit, q) = match is_weighted {
+        true => (fit.sum_of_squares, p),
+        // A fit through all points, to rounding, is not infinitely good.
+        false => (n * (fit.sum_of_squares / n).max(f64::EPSILON.powi(2)).ln(), p + 1.0),
+    };
+    let left = n - q - 1.0;
+    (left > 0.0).then(|| misfit + 2.0 * q + 2.0 * q * (q + 1.0) / left)
+}

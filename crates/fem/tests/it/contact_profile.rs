@@ -1,0 +1,157 @@
+//! What snapshots tell of the contact from the axis outward, whichever model and contact computed it.
+
+use std::path::Path;
+
+use fem::results::contact_csv;
+use fem::{Case, Collision, ContactPlace, Label, Simulation, Snapshot};
+
+const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+
+/// Some six elements over the contact radius.
+const MESH: &str = "mesh.contact_element_size='40 um'";
+const INSTANT: &str = "output.snapshots=['mid-compression', 'maximum']";
+const WALL: &str = "body.0={ name = 'striker', wall = {} }";
+const BLOCK: &str = "body.0={ name = 'striker', half_space = {}, material = 'glass' }";
+const TWIN: &str = "body.1.sphere.diameter='22.2 mm'";
+const MOVES: &str = "body.1.approach_speed='0.5 m/s'";
+const CONDENSED: &str = "model.condensed={}";
+
+fn run(set: &[&str]) -> (Simulation, Collision) {
+    let set: Vec<String> = [MESH, INSTANT].iter().chain(set).map(ToString::to_string).collect();
+    let case = Case::parse("glass.toml", ELASTIC, Path::new("."), &set).unwrap();
+    let simulation = Simulation::new(case).unwrap();
+    let collision = simulation.run(&mut ());
+    (simulation, collision)
+}
+
+/// Scenes and models of small strain, and what they share: Hertz' profile.
+const LIKE_HERTZ: [&[&str]; 9] = [
+    &[],
+    &["contact.method='penalty'"],
+    &["contact.method='node_to_surface'"],
+    &[CONDENSED],
+    &["model.condensed.penalty_springs=true"],
+    &[WALL, MOVES],
+    &[WALL, MOVES, CONDENSED],
+    &[BLOCK, MOVES, CONDENSED],
+    &[TWIN],
+];
+
+/// Poisson's ratio and Young's modulus of the case.
+const GLASS: (f64, f64) = (0.244, 63e9);
+
+/// At the maximum, with Hertz' a, p₀ and δ, each scene's own, and x = r/a: p = p₀ √(1 − x²); inside the surfaces
+/// touch but for what springs overlap; outside they are δ (x²/2 − 1 + ((2 − x²) asin(1/x) + √(x² − 1))/π)
+/// apart (Johnson 1985, (3.42)); each moves inward by (1 − 2ν)(1 + ν) a p₀ (1 − (1 − x²)^{3/2})/(3 E x)
+/// (his (3.41b)).
+#[test]
+fn the_contact_is_that_of_hertz() {
+    for set in LIKE_HERTZ {
+        let (simulation, collision) = run(set);
+        let hertz = simulation.setup().estimate.hertz;
+        let contact = &collision.snapshot(Label::Maximum).unwrap().contact;
+        let (a, p0) = (hertz.max_contact_radius(), hertz.peak_pressure());
+        let approach = hertz.max_approach();
+        let is_textbook = set.contains(&"contact.method='node_to_surface'");
+        // Six elements; node to surface is here for comparison and has no read-out of its own.
+        let (pressure, radius) = if is_textbook { (0.04, 0.04) } else { (0.02, 0.01) };
+        assert!((contact.radius / a - 1.0).abs() < radius, "{set:?} {}", contact.radius / a);
+        assert!(contact.places.iter().filter(|place| place.radius < a).count() >= 5, "{set:?}");
+        for place in &contact.places {
+            let x = place.radius / a;
+            let ContactPlace { pressure: p, gap, radial, .. } = *place;
+            if x < 0.85 {
+                let expected = p0 * (1.0 - x * x).sqrt();
+                assert!((p / expected - 1.0).abs() < pressure, "{set:?} {x} {}", p / expected);
+                assert!(gap.abs() < 0.01 * approach, "{set:?} {x} {}", gap / approach);
+                let (nu, modulus) = GLASS;
+                let inward = (1.0 - 2.0 * nu) * (1.0 + nu) * a * p0 / (3.0 * modulus);
+                let share = if x > 0.0 { (1.0 - (1.0 - x * x).powf(1.5)) / x } else { 0.0 };
+                for (side, u) in radial.into_iter().enumerate() {
+                    let is_rigid = side == 0 && set.contains(&WALL);
+                    let expected = if is_rigid { 0.0 } else { -inward * share };
+                    assert!((u - expected).abs() < 0.05 * inward, "{set:?} {x} {}", u / inward);
+                }
+            } else if x > 1.1 {
+                assert_eq!(p, 0.0, "{set:?} {x}");
+                let out = (2.0 - x * x) * x.recip().asin() + (x * x - 1.0).sqrt();
+                let expected = approach * (0.5 * x * x - 1.0 + out / std::f64::consts::PI);
+                let error = (gap - expected) / approach;
+                assert!(error.abs() < 0.015, "{set:?} {x} {error}");
+            }
+        }
+    }
+}
+
+/// What a profile adds up to and has on its axis is what the history has at that instant, at finite strain
+/// too, where the places are those of now.
+#[test]
+fn a_profile_carries_the_force_of_its_instant() {
+    let rubber = ["material.glass.youngs_modulus='1 MPa'", "material.glass.hyperelastic='hencky'"];
+    let fast = ["body.1.approach_speed='6 m/s'", "mesh.contact_element_size='1.8 mm'", WALL];
+    let soft: Vec<&str> = rubber.iter().chain(&fast).copied().collect();
+    let slip_condensed = ["effects.surface_slip='on'", "body.1.material='steel'", STEEL, CONDENSED];
+    let slip = [&slip_condensed[..3], &["mesh.contact_element_size='60 um'"]].concat();
+    for set in [&[][..], &[CONDENSED], &[TWIN], &soft, &slip, &slip_condensed] {
+        let (_, collision) = run(set);
+        assert!(!collision.snapshots.is_empty());
+        for snapshot in &collision.snapshots {
+            let row = collision.history.iter().min_by(|one, other| {
+                (one.time - snapshot.time).abs().total_cmp(&(other.time - snapshot.time).abs())
+            });
+            let row = row.unwrap();
+            let force: f64 = load(snapshot);
+            let ratios = [
+                force / row.contact_force,
+                snapshot.contact.radius / row.contact_radius.unwrap(),
+                snapshot.contact.places[0].pressure / row.centre_pressure.unwrap(),
+            ];
+            let finite = !snapshot.bodies[1].stress.is_empty();
+            assert_eq!(finite, set.contains(&rubber[0]), "{set:?}");
+            // Straight lines between six elements; rows are a thousandth of the contact apart.
+            assert!((ratios[0] - 1.0).abs() < 0.03, "{set:?} {ratios:?}");
+            assert!((ratios[1] - 1.0).abs() < 0.005, "{set:?} {ratios:?}");
+            assert!((ratios[2] - 1.0).abs() < 0.01, "{set:?} {ratios:?}");
+        }
+    }
+}
+
+const STEEL: &str =
+    "material.steel={ density=7850.0, youngs_modulus='210 GPa', poissons_ratio=0.29 }";
+
+/// ∫ p 2πr dr of straight lines between the places, N.
+fn load(snapshot: &Snapshot) -> f64 {
+    let part = |pair: &[ContactPlace]| {
+        let [(r0, p0), (r1, p1)] = [&pair[0], &pair[1]].map(|place| (place.radius, place.pressure));
+        // Simpson's rule is exact for the product of two linear functions.
+        let middle = 0.25 * (r0 + r1) * (p0 + p1);
+        (r1 - r0) / 6.0 * (r0 * p0 + 4.0 * middle + r1 * p1) * 2.0 * std::f64::consts::PI
+    };
+    snapshot.contact.places.windows(2).map(part).sum()
+}
+
+/// The file has the places out to 1.2 radii of each snapshot, digit for digit.
+#[test]
+fn the_file_has_a_row_a_place() {
+    let (simulation, collision) = run(&[]);
+    let mut text = Vec::new();
+    contact_csv(&mut text, &simulation, &collision).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let mut lines = text.lines();
+    let header = "time_s,label,r_m,pressure_pa,gap_m,u_r_striker_m,u_r_target_m";
+    assert_eq!(lines.next(), Some(header));
+    for snapshot in &collision.snapshots {
+        let contact = &snapshot.contact;
+        let n = contact.places.iter().filter(|p| p.radius <= 1.2 * contact.radius).count();
+        assert!(n < contact.places.len(), "rows beyond the contact are left out");
+        for place in &contact.places[..n] {
+            let row: Vec<&str> = lines.next().unwrap().split(',').collect();
+            assert_eq!(row[1], snapshot.label.unwrap().name());
+            let numbers = [0, 2, 3, 4, 5, 6].map(|k: usize| row[k].parse::<f64>().unwrap());
+            let ContactPlace { radius, pressure, gap, radial } = *place;
+            let expected = [snapshot.time, radius, pressure, gap, radial[0], radial[1]];
+            assert_eq!(numbers, expected);
+        }
+    }
+    assert_eq!(lines.next(), None);
+}
