@@ -57,6 +57,9 @@ check('it loads without a complaint, and shows a collision', async () => {
   say(`  first picture after ${Date.now() - began} ms, ${first.summary.bodies.map((body) => body.elements)} elements`);
   assert.equal(await page.locator('#picture-svg > svg').count(), 1);
   assert.equal(await page.locator('#chart-force > svg, #chart-approach > svg, #chart-energy > svg').count(), 3);
+  // The bodies end at the frame of their picture.
+  const overflow = await page.locator('#picture-svg svg svg').evaluate((inner) => getComputedStyle(inner).overflow);
+  assert.equal(overflow, 'hidden');
   assert.ok((await page.locator('#effects-on li').count()) > 0);
   await shot(page, 'desktop');
   assert.deepEqual(complaints, []);
