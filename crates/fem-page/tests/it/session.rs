@@ -70,7 +70,7 @@ fn faults_say_where_and_what_is_allowed() {
 /// A browser has less memory than the plan allows; who knows better says so in the case.
 #[test]
 fn what_a_browser_has_no_memory_for_is_refused() {
-    let fine = GLASS.to_string() + "[mesh]\ncontact_element_size = \"1.2 um\"\n" + CONDENSED;
+    let fine = GLASS.to_string() + "[mesh]\ncontact_element_size = \"2 um\"\n" + CONDENSED;
     let fault = fault(&fine);
     assert!(fault.text.contains("limits.memory"), "{}", fault.text);
     let own = GLASS.to_string() + "[limits]\nmemory = \"10 kB\"\n" + CONDENSED;

@@ -89,8 +89,8 @@ function tell(text, answer, milliseconds, isMoving) {
   showNumbers(summary);
   showCharts(outcome.charts, summary);
   showEnergy(summary);
-  showEffects(summary.effects);
-  showPicture(picture, outcome.frames[index]);
+  showEffects(summary);
+  showPicture(picture, outcome.frames[index], summary);
   at('version').textContent = `Version ${summary.version}.`;
   const headline = `Restitution ${show(summary.restitution, '')}, contact time ${show(summary.contact_time_s, 's')}, peak force ${show(summary.peak_force_n, 'N')}.`;
   at('status').textContent = `${headline} Computed in ${Math.round(milliseconds)} ms.`;
@@ -116,7 +116,7 @@ const drawPicture = lastOnly(async () => {
   const index = Math.round(share() * (outcome.frames.length - 1));
   const answer = await runner.ask('picture', { index, halfWidth: halfWidth() });
   // None: another run has begun since, and will draw its own.
-  if (answer.picture && outcome === shown.outcome) showPicture(answer.picture, outcome.frames[index]);
+  if (answer.picture && outcome === shown.outcome) showPicture(answer.picture, outcome.frames[index], outcome.summary);
 });
 
 function stopPlaying() {
@@ -146,7 +146,7 @@ function change(changes, ask) {
   refreshControls(state);
   if (isSlow() && ask === MOVING) {
     refreshTexts();
-    at('status').textContent = 'Let go to compute: this model takes seconds.';
+    at('status').textContent = 'Let go to compute: this model takes its time.';
     return;
   }
   run(ask);

@@ -83,28 +83,34 @@ export function showEnergy(summary) {
   at('energy-shares').replaceChildren(...(known ? lines : []));
 }
 
-function worth(leftOut) {
+// Changes below this share of a number are nothing to speak of.
+const LEAST_CHANGE = 5e-4;
+
+function worth(leftOut, summary) {
   if (!leftOut) return '';
-  const changes = [
-    ['restitution', leftOut.restitution, ''],
-    ['contact time', leftOut.contact_time_s, 's'],
-    ['peak force', leftOut.peak_force_n, 'N'],
-  ].filter(([, change]) => change);
-  if (changes.length === 0) return '';
+  const known = [
+    ['restitution', leftOut.restitution, '', 1],
+    ['contact time', leftOut.contact_time_s, 's', summary.contact_time_s],
+    ['peak force', leftOut.peak_force_n, 'N', summary.peak_force_n],
+  ].filter(([, change]) => change !== null);
+  const changes = known.filter(([, change, , whole]) => change > LEAST_CHANGE * (whole ?? 0));
+  if (known.length === 0) return '';
+  if (changes.length === 0) return ' Worth next to nothing.';
   return ` Worth about ${changes.map(([name, change, unit]) => `${show(change, unit, 1)} of ${name}`).join(', ')}.`;
 }
 
-export function showEffects(effects) {
+export function showEffects(summary) {
+  const { effects } = summary;
   const line = (effect) => {
     const made = element('li', '', { 'data-effect': effect.name });
-    made.append(element('strong', effect.name), ` – ${EFFECT_WORDS[effect.name] ?? ''}${worth(effect.error_if_left_out)} `, element('span', effect.reason, { class: 'reason' }));
+    made.append(element('strong', effect.name), ` – ${EFFECT_WORDS[effect.name] ?? ''}${worth(effect.error_if_left_out, summary)} `, element('span', effect.reason, { class: 'reason' }));
     return made;
   };
   at('effects-on').replaceChildren(...effects.filter((effect) => effect.active).map(line));
   at('effects-off').replaceChildren(...effects.filter((effect) => !effect.active).map(line));
 }
 
-export function showPicture(picture, frame) {
+export function showPicture(picture, frame, summary) {
   const has = Boolean(picture);
   at('picture-controls').hidden = !has;
   at('picture-bar').hidden = !has;
@@ -115,7 +121,7 @@ export function showPicture(picture, frame) {
   }
   at('bands').textContent = `[data-theme="dark"] { ${picture.dark_rules} }`;
   const [low, high] = picture.range_pa;
-  const words = `${show(frame.time_s, 's', 3)} after first touch: force ${show(frame.contact_force_n, 'N', 3)}, approach ${show(frame.approach_m, 'm', 3)}; stress from ${show(low, 'Pa', 3)} to ${show(high, 'Pa', 3)}, compression negative.`;
+  const words = `${show(frame.time_s, 's', 3)} after first touch: force ${show(frame.contact_force_n, 'N', 3)}, approach ${show(frame.approach_m, 'm', 3)}; stress from ${show(low, 'Pa', 3)} to ${show(high, 'Pa', 3)}, compression negative.${summary.bodies.some((body) => !body.elements) ? ' The rigid partner is not drawn.' : ''}`;
   draw(at('picture-svg'), picture.svg, `Section through both bodies at the contact, ${words}`);
   draw(at('picture-bar'), picture.bar, 'Colours of the stress, from compression to tension.');
   at('picture-caption').textContent = words;

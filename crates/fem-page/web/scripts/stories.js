@@ -16,7 +16,7 @@ export const STORIES = [
     steps: [
       {
         set: { 'relaxation.kind': 'none' },
-        text: ({ restitution }) => `First glass without any relaxation. It comes back with ${show(restitution, '', 6)} of its speed: all that was stored is given back. (Ringing keeps next to nothing: a wave crosses the sphere a dozen times while it is in contact, so the body follows as a spring does. The model here leaves ringing out; explicit elements, which have it, lose a hundred-thousandth.)`,
+        text: ({ restitution }) => `First glass without any relaxation. It comes back with ${show(restitution, '', 6)} of its speed: all that was stored is given back. (Ringing keeps next to nothing: a wave crosses the sphere a dozen times while it is in contact, so the body follows as a spring does. The model here leaves ringing out; explicit elements, which have it, lose less than a ten-thousandth.)`,
       },
       {
         set: {},

@@ -9,6 +9,7 @@ mod energy;
 mod history;
 #[cfg(feature = "files")]
 mod probes;
+#[cfg(feature = "files")]
 mod shown;
 #[cfg(feature = "files")]
 mod snapshots;
