@@ -18,6 +18,9 @@
 //! q(h) - q_0 \approx \frac{q(rh) - q(h)}{r^p-1}, \qquad r = \tfrac32,\ 2
 //! ```
 //!
+//! Meshes of three elements across the contact tell nothing: of condensed bodies with so few that a coarser
+//! one would be left with them, the companion is finer, r = ½, and cheap for the same reason.
+//!
 //! Errors are told without their sign and with a margin: the limit is expected within them. Margins and
 //! scatter are measured on random scenes of all kinds (`validation/error_bars`).
 
@@ -40,6 +43,8 @@ const MARGIN: [f64; 6] = [1.6; 6];
 /// ... of condensed bodies by coarser ones, whose contact time and force converge faster than is counted
 /// with, ...
 const MARGIN_OF_CONDENSED: [f64; 6] = [1.6, 1.0, 0.5, 1.2, 0.7, 0.8];
+/// ... of condensed bodies by a finer one, ...
+const MARGIN_OF_FINER: [f64; 6] = [1.3; 6];
 /// ... and of explicit elements by coarser ones.
 const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
@@ -70,6 +75,8 @@ pub(crate) fn discretisation_errors(
         return Doubt::default();
     }
     let companions = Companions { simulation, collision, plan: &elements.plan };
+    let size = elements.plan.contact_element_size;
+    let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
     let is_explicit = collision.element_updates.is_some();
     // Condensed bodies know no large strains, nor what keeps such surfaces apart.
     let condensed = match is_explicit && !is_at_finite_strain {
@@ -79,6 +86,7 @@ pub(crate) fn discretisation_errors(
     let (errors, margin) = match condensed {
         Some(errors) => (errors, MARGIN),
         None if is_explicit => (companions.of_coarser(values), MARGIN_OF_STRAINED),
+        None if across < 2.0 * FEW => (companions.of_finer(values), MARGIN_OF_FINER),
         None => (companions.of_coarser(values), MARGIN_OF_CONDENSED),
     };
     let (scatter, of_few) = match is_explicit {
@@ -86,8 +94,6 @@ pub(crate) fn discretisation_errors(
         false => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
     };
     let added = added_share(collision);
-    let size = elements.plan.contact_element_size;
-    let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
     let coarse = (FEW / across).max(1.0).powi(2);
     Doubt::by(|headline| {
         let k = headline as usize;
@@ -132,6 +138,17 @@ impl Companions<'_> {
             let limit = fine[k]? + remaining(2.0) * (fine[k]? - coarse[k]?);
             Some((same[k]? - limit) / headline.scale(limit))
         }))
+    }
+
+    /// The same from the model itself with elements of half the length.
+    fn of_finer(&self, values: [Option<f64>; 6]) -> [Option<f64>; 6] {
+        let size = Setting::ElementSize(0.5 * self.plan.contact_element_size);
+        let fine = self.collide(&[size]).unwrap_or_default();
+        Headline::ALL.map(|headline| {
+            let k = headline as usize;
+            let (fine, value) = (fine[k]?, values[k]?);
+            Some((1.0 + remaining(2.0)) * (fine - value) / headline.scale(value))
+        })
     }
 
     /// The same from the model itself with longer elements.

@@ -92,7 +92,6 @@ pub fn made() -> CaseFile {
             snapshots: Some(SnapshotsValue::List(labels)),
             report: None,
             probe: Vec::new(),
-            report: None,
         }),
         effects: Some(EffectsTable { bulk_viscosity: Some(Switch::Off), ..Default::default() }),
         limits: Some(LimitsTable {
