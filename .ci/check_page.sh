@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The page for browsers, built and tried in a headless Chromium: .ci/check_page.sh [SCREENSHOTS]
 #
-# Installs what it needs where that is missing: Debian's chromium, and a driver from npm in a folder of
-# its own. The numbers are held against the command's, built for release.
+# Installs what it needs where that is missing: Debian's chromium and Node.js, and a driver from npm in a
+# folder of its own. The numbers are held against the command's, built for release.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scratch=$(mktemp -d)
@@ -20,6 +20,10 @@ cargo build --release --locked --quiet --bin fem-run
 if [[ ! -x ${CHROMIUM:-/usr/bin/chromium} ]]; then
   apt-get update -qq
   apt-get install -y -qq --no-install-recommends chromium >/dev/null
+fi
+if ! command -v npm >/dev/null; then
+  apt-get update -qq
+  apt-get install -y -qq --no-install-recommends nodejs npm >/dev/null
 fi
 cp .ci/page/* "$scratch"
 (cd "$scratch" && npm install --silent --no-audit --no-fund)

@@ -14,7 +14,7 @@ const INPUTS: [(&str, u64); 6] = [
     ("table", 2000),
     ("sweep", 1000),
     ("checkpoint", 300),
-    ("code", 100),
+    ("code", 400),
     ("case", 100),
 ];
 

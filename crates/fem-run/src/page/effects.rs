@@ -22,7 +22,7 @@ const WORDS: [(&str, &str); 12] = [
     ("bulk viscosity", "Steep fronts of fast impacts are spread over some elements."),
     ("gravity", "Weight acts before, during and after the contact."),
     ("contact search", "Contact is looked for as far out as it can reach."),
-    ("mass scaling", "Small elements away from the contact are made heavier for longer steps."),
+    ("mass scaling", "Mass is moved to the lightest nodes, for longer steps."),
 ];
 
 /// An effect of a result.

@@ -91,9 +91,11 @@ impl Trial {
         self.collision()?.momentum_residual_relative
     }
 
-    /// Of the restitution above 1.
+    /// Of the restitution above 1; of a ball that bounces, that of its worst contact.
     pub fn excess(&self) -> Option<f64> {
-        Some(self.restitution()? - 1.0)
+        let collision = self.collision()?;
+        let bounces = collision.bounces.iter().map(|bounce| bounce.restitution).reduce(f64::max);
+        Some(bounces.or(collision.restitution)? - 1.0)
     }
 
     /// How many numbers are none.
