@@ -2,7 +2,7 @@
 //!
 //! Python code keeps the words that users meet; here are the classes that hold cases and collisions, and the
 //! calls that compute. What computes runs on a thread of its own without Python's lock, while the calling
-//! thread looks at signals and reports ([`watch::watched`]). Numbers go through JSON and CSV texts that read
+//! thread looks at signals and reports (`watch::watched`). Numbers go through JSON and CSV texts that read
 //! back to the same bits, or as arrays.
 
 #![allow(
