@@ -1,10 +1,10 @@
 //! Contact radius and pressure from the forces at the points.
 
-use fem_contact::{Barrier, centre_pressure, contact_radius, staggered_radius};
+use fem_contact::{Barrier, Reading, centre_pressure, contact_radius};
 
 use crate::disc::Disc;
 use crate::pair::CondensedPair;
-use crate::side::{PressureNode, Staggered};
+use crate::side::PressureNode;
 
 impl CondensedPair {
     /// Radius at which the pressure falls to zero (m) and pressure on the axis (Pa); of surfaces that have
@@ -28,20 +28,15 @@ impl CondensedPair {
     /// The same of surfaces that do not slip, or as if they had not.
     pub(crate) fn read_out(&self, forces: &[f64]) -> (f64, f64) {
         let barrier = self.barrier();
-        let at = |nodes: &[PressureNode]| contact_radius(pressures(nodes, forces), barrier);
-        let of = |nodes: &[PressureNode], radius: f64| {
-            centre_pressure(pressures(nodes, forces), radius, barrier)
+        let other = self.staggered.as_ref();
+        let reading = other.map_or(Reading::Single(0), |other| Reading::Staggered(other.lengths));
+        let at = |surface: usize| {
+            let nodes = other.filter(|_| surface == 1).map_or(&self.nodes, |other| &other.nodes);
+            pressures(nodes, forces)
         };
-        match &self.staggered {
-            None => {
-                let radius = at(&self.nodes);
-                (radius, of(&self.nodes, radius))
-            }
-            Some(Staggered { nodes, lengths }) => {
-                let radius = staggered_radius([at(&self.nodes), at(nodes)], *lengths);
-                (radius, 0.5 * (of(&self.nodes, radius) + of(nodes, radius)))
-            }
-        }
+        let radius = reading.radius(|surface| contact_radius(at(surface), barrier));
+        let of_axis = |surface| centre_pressure(at(surface), radius, barrier);
+        (radius, reading.pressure(of_axis))
     }
 
     /// What keeps the surfaces apart.

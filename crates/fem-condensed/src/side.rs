@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use faer::Mat;
-use fem_contact::{ContactPoint, are_staggered};
+use fem_contact::{ContactPoint, Reading};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
 
@@ -133,9 +133,12 @@ impl Staggered {
         let [Some(lower), Some(upper)] = sides else { return None };
         let other = if std::ptr::eq(carrier, lower) { upper } else { lower };
         let lengths = [carrier, other].map(|side| side.contact_radii().get(1).copied());
-        let nodes = || pressure_nodes(points, Some(other));
-        are_staggered(lengths)
-            .then(|| Self { nodes: nodes(), lengths: lengths.map(Option::unwrap_or_default) })
+        match Reading::of(lengths, 0) {
+            Reading::Single(_) => None,
+            Reading::Staggered(lengths) => {
+                Some(Self { nodes: pressure_nodes(points, Some(other)), lengths })
+            }
+        }
     }
 }
 

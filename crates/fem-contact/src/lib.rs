@@ -41,6 +41,6 @@ pub use interface::{ContactInterface, ContactPoint};
 pub use moved::MovedInterface;
 pub use nodal::NodalContact;
 pub use profile::{Profile, ProfilePoint, facing};
-pub use read_out::{Barrier, are_staggered, centre_pressure, contact_radius, staggered_radius};
+pub use read_out::{Barrier, Reading, centre_pressure, contact_radius};
 pub use slip::{Displacement, SlippingGap, SlippingInterface};
 pub use surface::{Foot, Surface};

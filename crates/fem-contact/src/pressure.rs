@@ -1,7 +1,7 @@
 //! Contact radius and pressure, recovered from a configuration.
 
 use crate::interface::ContactInterface;
-use crate::read_out::{self, Barrier, are_staggered, staggered_radius};
+use crate::read_out::{self, Barrier, Reading};
 use crate::surface::Surface;
 
 impl ContactInterface {
@@ -16,17 +16,14 @@ impl ContactInterface {
         &self,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
     ) -> f64 {
-        let at = |side: usize| {
+        reading(&self.surfaces, self.candidate_radius).radius(|side| {
             let nodes = self.at_nodes(side, signed_pressure.clone());
             read_out::contact_radius(nodes, Barrier::Springs)
-        };
-        match staggered_lengths(&self.surfaces) {
-            Some(lengths) => staggered_radius([at(0), at(1)], lengths),
-            None => at(self.coarser()),
-        }
+        })
     }
 
-    fn coarser(&self) -> usize {
+    /// The side at whose nodes profiles are told.
+    pub(crate) fn coarser(&self) -> usize {
         coarser(&self.surfaces, self.candidate_radius)
     }
 
@@ -96,21 +93,17 @@ impl ContactInterface {
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
     ) -> f64 {
         let radius = self.radius_of(signed_pressure.clone());
-        let at = |side: usize| {
+        reading(&self.surfaces, self.candidate_radius).pressure(|side| {
             let nodes = self.at_nodes(side, signed_pressure.clone());
             read_out::centre_pressure(nodes, radius, Barrier::Springs)
-        };
-        match staggered_lengths(&self.surfaces) {
-            Some(_) => 0.5 * (at(0) + at(1)),
-            None => at(self.coarser()),
-        }
+        })
     }
 }
 
-/// Lengths of the segments of surfaces (m) whose meshes are staggered.
-pub(crate) fn staggered_lengths(surfaces: &[Surface; 2]) -> Option<[f64; 2]> {
+/// At whose nodes radius and pressure of surfaces are read, which can touch out to a radius, m.
+pub(crate) fn reading(surfaces: &[Surface; 2], radius: f64) -> Reading {
     let lengths = surfaces.each_ref().map(|s| (!s.is_rigid()).then(|| s.segment_length(0)));
-    are_staggered(lengths).then(|| lengths.map(Option::unwrap_or_default))
+    Reading::of(lengths, coarser(surfaces, radius))
 }
 
 /// The side that deforms and has the longer segments, at whose nodes pressures are read.

@@ -20,7 +20,6 @@
 
 use crate::evaluate::ContactForces;
 use crate::interface::{ContactInterface, ContactPoint};
-use crate::pressure::coarser;
 use crate::surface::Foot;
 
 /// Displacement (u_r, u_y) of a node, m.
@@ -194,8 +193,7 @@ impl SlippingInterface {
         &'a self,
         u: [&'a [Displacement]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        let side = coarser(&self.interface.surfaces, self.interface.candidate_radius);
-        self.interface.at_nodes(side, self.signed_pressure(u))
+        self.interface.at_nodes(self.interface.coarser(), self.signed_pressure(u))
     }
 
     /// As [`ContactInterface::centre_pressure`].

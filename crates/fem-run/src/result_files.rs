@@ -57,9 +57,7 @@ pub fn write_result(
     let mut missing = None;
     if keep == Keep::All {
         let written = take_room(folder, &summary)
-            .and_then(|()| write_history(folder, simulation, collision, &mut summary))
-            .and_then(|()| write_probes(folder, simulation, collision, &mut summary))
-            .and_then(|()| write_contact(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_tables(folder, simulation, collision, &mut summary))
             .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
         missing = written.err();
         let _ = fs::remove_file(folder.join(ROOM_FILE));
@@ -129,69 +127,45 @@ fn take_room(folder: &Path, summary: &Summary) -> Result<(), String> {
         .map_err(|error| format!("{HISTORY_FILE} and the snapshots cannot be written: {error}"))
 }
 
-fn write_history(
+/// Tables: the history, what probes saw of a run that has some, and the contact at the snapshots of models that
+/// have them.
+fn write_tables(
     folder: &Path,
     simulation: &Simulation,
     collision: &Collision,
     summary: &mut Summary,
 ) -> Result<(), String> {
-    let path = folder.join(HISTORY_FILE);
-    let write = || -> Result<(), Box<dyn std::error::Error>> {
-        let file = BufWriter::new(File::create(&path)?);
+    write_table(folder, HISTORY_FILE, summary, |file| {
         Ok(history_csv(file, simulation.case().scene(), &collision.history)?)
-    };
-    write().map_err(|error| {
-        let _ = fs::remove_file(&path);
-        format!("{HISTORY_FILE} and the snapshots cannot be written: {error}")
     })?;
-    summary.files.push(HISTORY_FILE.to_string());
-    Ok(())
-}
-
-/// What probes saw, of a run that has some.
-fn write_probes(
-    folder: &Path,
-    simulation: &Simulation,
-    collision: &Collision,
-    summary: &mut Summary,
-) -> Result<(), String> {
     let probes = &simulation.want().probes;
-    if probes.is_empty() {
-        return Ok(());
+    if !probes.is_empty() {
+        write_table(folder, PROBES_FILE, summary, |file| {
+            Ok(probes_csv(file, probes, &collision.probes)?)
+        })?;
     }
-    let path = folder.join(PROBES_FILE);
-    let write = || -> Result<(), Box<dyn std::error::Error>> {
-        let file = BufWriter::new(File::create(&path)?);
-        Ok(probes_csv(file, probes, &collision.probes)?)
-    };
-    write().map_err(|error| {
-        let _ = fs::remove_file(&path);
-        format!("{PROBES_FILE} and the snapshots cannot be written: {error}")
-    })?;
-    summary.files.push(PROBES_FILE.to_string());
+    if has_contact(collision) {
+        write_table(folder, CONTACT_FILE, summary, |file| {
+            Ok(contact_csv(file, simulation, collision)?)
+        })?;
+    }
     Ok(())
 }
 
-/// The contact at the snapshots, of models that have them.
-fn write_contact(
+/// A table, whole or not at all.
+fn write_table(
     folder: &Path,
-    simulation: &Simulation,
-    collision: &Collision,
+    name: &str,
     summary: &mut Summary,
+    write: impl FnOnce(BufWriter<File>) -> Result<(), Box<dyn std::error::Error>>,
 ) -> Result<(), String> {
-    if !has_contact(collision) {
-        return Ok(());
-    }
-    let path = folder.join(CONTACT_FILE);
-    let write = || -> Result<(), Box<dyn std::error::Error>> {
-        let file = BufWriter::new(File::create(&path)?);
-        Ok(contact_csv(file, simulation, collision)?)
-    };
-    write().map_err(|error| {
+    let path = folder.join(name);
+    let file = File::create(&path).map_err(Into::into);
+    file.and_then(|file| write(BufWriter::new(file))).map_err(|error| {
         let _ = fs::remove_file(&path);
-        format!("{CONTACT_FILE} and the snapshots cannot be written: {error}")
+        format!("{name} and the snapshots cannot be written: {error}")
     })?;
-    summary.files.push(CONTACT_FILE.to_string());
+    summary.files.push(name.to_string());
     Ok(())
 }
 

@@ -2,19 +2,16 @@
 
 use super::MovedInterface;
 use super::pieces::{GAUSS, Piece, Point};
-use crate::pressure::{coarser, staggered_lengths};
+use crate::pressure::{coarser, reading};
 use crate::profile::Profile;
-use crate::read_out::{Barrier, centre_pressure, contact_radius, staggered_radius};
+use crate::read_out::{Barrier, centre_pressure, contact_radius};
 
 impl MovedInterface {
     /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact: see
     /// [`contact_radius`](crate::contact_radius).
     pub fn contact_radius(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        let at = |side: usize| contact_radius(self.at_nodes(side, u), Barrier::Springs);
-        match staggered_lengths(&self.surfaces) {
-            Some(lengths) => staggered_radius([at(0), at(1)], lengths),
-            None => at(coarser(&self.surfaces, self.candidate_radius)),
-        }
+        reading(&self.surfaces, self.candidate_radius)
+            .radius(|side| contact_radius(self.at_nodes(side, u), Barrier::Springs))
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis outward: where the node is now
@@ -75,11 +72,8 @@ impl MovedInterface {
     /// [`centre_pressure`](crate::centre_pressure), of the nodes where they are now.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
         let radius = self.contact_radius(u);
-        let at = |side: usize| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs);
-        match staggered_lengths(&self.surfaces) {
-            Some(_) => 0.5 * (at(0) + at(1)),
-            None => at(coarser(&self.surfaces, self.candidate_radius)),
-        }
+        reading(&self.surfaces, self.candidate_radius)
+            .pressure(|side| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs))
     }
 
     /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and

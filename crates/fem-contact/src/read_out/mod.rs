@@ -20,7 +20,7 @@ use std::iter::from_fn;
 
 pub use axis::{centre_pressure, pressure_profile};
 pub use edge::contact_radius;
-pub use staggered::{are_staggered, staggered_radius};
+pub use staggered::Reading;
 
 /// What keeps the surfaces apart.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

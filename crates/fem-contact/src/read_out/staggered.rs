@@ -10,14 +10,50 @@ const RATIOS: std::ops::Range<f64> = 1.005..1.2;
 /// an element, 3.5 to 8 across the radius; single readings scatter by 0.016.
 const EDGE: f64 = 0.025;
 
+/// At whose nodes radius and pressure are read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reading {
+    /// Those of one surface, by its number.
+    Single(usize),
+    /// Those of both, whose meshes are staggered and whose segments have these lengths, m.
+    Staggered([f64; 2]),
+}
+
+impl Reading {
+    /// At both surfaces if segments of these lengths (m) are of staggered meshes, else at this one; a rigid
+    /// surface has no length.
+    pub fn of(lengths: [Option<f64>; 2], single: usize) -> Self {
+        match lengths {
+            [Some(a), Some(b)] if are_staggered(lengths) => Self::Staggered([a, b]),
+            _ => Self::Single(single),
+        }
+    }
+
+    /// The contact radius (m) of what it is read as at a surface.
+    pub fn radius(self, at: impl Fn(usize) -> f64) -> f64 {
+        match self {
+            Self::Single(surface) => at(surface),
+            Self::Staggered(lengths) => staggered_radius([at(0), at(1)], lengths),
+        }
+    }
+
+    /// The pressure on the axis (Pa) of what it is read as at a surface.
+    pub fn pressure(self, at: impl Fn(usize) -> f64) -> f64 {
+        match self {
+            Self::Single(surface) => at(surface),
+            Self::Staggered(_) => 0.5 * (at(0) + at(1)),
+        }
+    }
+}
+
 /// Whether segments of these lengths (m) are of staggered meshes; a rigid surface has none.
-pub fn are_staggered(lengths: [Option<f64>; 2]) -> bool {
+fn are_staggered(lengths: [Option<f64>; 2]) -> bool {
     let [Some(a), Some(b)] = lengths else { return false };
     RATIOS.contains(&(a.max(b) / a.min(b)))
 }
 
 /// The radius (m) of what it is read as at the nodes of either surface, whose segments have these lengths, m.
-pub fn staggered_radius(readings: [f64; 2], lengths: [f64; 2]) -> f64 {
+fn staggered_radius(readings: [f64; 2], lengths: [f64; 2]) -> f64 {
     let [radius, length] = [readings, lengths].map(|[a, b]| 0.5 * (a + b));
     if radius > 0.0 { radius + EDGE * length } else { radius }
 }

@@ -121,6 +121,20 @@ fn the_critical_step_of_a_flattened_body_is_safe() {
     }
 }
 
+/// Bodies on stiff springs, of which the upper one is beyond small strain.
+fn with_deformed_upper(bodies: [BodyInput; 2]) -> Model {
+    let settings = Settings {
+        contact_stiffness: 100.0,
+        candidate_radius: 0.7,
+        step_factor: 1.0,
+        ..settings()
+    };
+    let parts =
+        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
+    let approach = Approach::at(1.0).unwrap();
+    Model::with_parts(bodies, approach, &settings, parts).unwrap()
+}
+
 /// A fine sphere at small strain beside a coarse one beyond it, on stiff springs, both flat and wider by a
 /// third: the springs that grow with the area of the surfaces are in the step of the one that does not change
 /// its own stiffness, and whose light nodes ask for the shortest.
@@ -131,16 +145,7 @@ fn the_critical_step_beside_a_deformed_body_is_safe() {
         material: unit_glass(),
     };
     let bodies = [sphere(8.0, Side::Below), sphere(4.0, Side::Above)];
-    let settings = Settings {
-        contact_stiffness: 100.0,
-        candidate_radius: 0.7,
-        step_factor: 1.0,
-        ..settings()
-    };
-    let parts =
-        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
-    let approach = Approach::at(1.0).unwrap();
-    let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+    let model = with_deformed_upper(bodies);
     let mut state = State::at_first_touch(&model);
     for (side, sign) in [(0, -1.0), (1, 1.0)] {
         let mesh = model.bodies()[side].mesh().unwrap();
@@ -172,16 +177,7 @@ fn the_critical_step_of_a_rigid_sphere_knows_the_area_of_its_partner() {
         BodyInput::Rigid { radius: 1.0, mass },
         BodyInput::Sphere { mesh: unit_sphere(8.0, Side::Above), material: unit_glass() },
     ];
-    let settings = Settings {
-        contact_stiffness: 100.0,
-        candidate_radius: 0.7,
-        step_factor: 1.0,
-        ..settings()
-    };
-    let parts =
-        Parts { finite_strain: [None, Some(HyperelasticLaw::NeoHooke)], ..Parts::default() };
-    let approach = Approach::at(1.0).unwrap();
-    let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
+    let model = with_deformed_upper(bodies);
     let mut state = State::at_first_touch(&model);
     // Onto the rigid sphere, and into it a little.
     let place = |[r, y]: [f64; 2]| {
