@@ -21,6 +21,7 @@ impl From<LawFault> for Failure {
                     free => format!("{give}, or let it be found, --free {},{key}", free.join(",")),
                 })
             }
+            LawFault::Grains(_, help) => Failure::bad_input(message).with_help(help),
             LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
                 .with_help("leave it out, or fit it alone with --law"),
             LawFault::NoStandIn(error) => Failure::from(error).with_help(

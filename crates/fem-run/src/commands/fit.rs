@@ -85,7 +85,7 @@ fn parse_wanted(name: &str) -> Result<Wanted, String> {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_and_warn()?;
     let table = arguments.columns.read(&arguments.data)?;
     fitted(arguments, &case, &table, |found| write(arguments, &case, found))
 }

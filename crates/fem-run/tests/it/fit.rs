@@ -283,12 +283,17 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
         "liggghts_hooke.in",
         "yade_hertz_mindlin.py",
         "yade_viscel.py",
+        "mercury_hertzian.cpp",
+        "mercury_linear.cpp",
+        "lethe.prm",
+        "mfix_hertzian.dat",
+        "mfix_lsd.dat",
         "drake_point_contact.py",
         "mujoco_contact.xml",
     ] {
         assert!(ran.stdout.contains(file), "{}", ran.stdout);
         let text = String::from_utf8(place.read(format!("runs/case_export/{file}"))).unwrap();
-        assert!(text.contains("# Fitted from 0.1581 to 1.5811 m/s"), "{text}");
+        assert!(text.contains(" Fitted from 0.1581 m/s to 1.581 m/s"), "{text}");
         assert!(snippet(file)["worst_error"].as_f64().unwrap() > 0.0);
     }
     // Relaxation makes e rise with speed, a Kelvin dashpot makes it fall: one e is nearer.
@@ -316,12 +321,49 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     let wall = "body.1={name='floor',wall={}}";
     let ran = place.succeed(&["export", "case.toml", "--set", wall, "--out", "wall"]);
     assert!(ran.stdout.contains("not written for LIGGGHTS and YADE"), "{}", ran.stdout);
-    assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 5);
+    assert_eq!(place.json("wall/export.json")["snippets"].as_array().unwrap().len(), 10);
     let elastic = Place::with(&CASE.replace("[material.glass.relaxation]", "[material.other.relaxation]")
         .replace("[[body]]\nname = \"striker\"", "[material.other]\ndensity = 1\nyoungs_modulus = 1\npoissons_ratio = 0\n\n[[body]]\nname = \"striker\""));
     let ran = elastic.run(&["export", "case.toml"]);
     assert_eq!(ran.code, Some(2));
     assert!(ran.stderr.contains("no body relaxes"), "{}", ran.stderr);
+}
+
+/// The pair of a table is what the pair alone would be given; what does not relax loses nothing.
+#[test]
+fn export_makes_all_pairs_of_materials_and_sizes() {
+    let place = Place::new();
+    let pairs =
+        ["export", "case.toml", "--materials", "glass,lib:steel", "--diameters", "2 mm,1 cm"];
+    let ran = place.succeed(&[&pairs[..], &["--out", "all"]].concat());
+    assert!(ran.stdout.contains("4 grains, 10 pairs"), "{}", ran.stdout);
+    let numbers = place.json("all/export.json");
+    let rows = numbers["pairs"].as_array().unwrap();
+    let table = String::from_utf8(place.read("all/pairs.csv")).unwrap();
+    assert_eq!((rows.len(), table.lines().count()), (10, 11));
+    let unlike = ["body.0.sphere.diameter='2 mm'", "body.1.sphere.diameter='1 cm'"];
+    place.succeed(&["export", "case.toml", "--set", unlike[0], "--set", unlike[1], "--out", "one"]);
+    let one = place.json("one/export.json");
+    assert_eq!(rows[1]["restitution"], one["snippets"][0]["restitution"]);
+    assert_eq!(rows[1]["entries"]["lammps_viscoelastic_eta"], one["snippets"][1]["entries"]["eta"]);
+    let of_steel = rows.last().unwrap();
+    assert_eq!(
+        (&of_steel["first_material"], of_steel["restitution"].as_f64()),
+        (&"lib:steel".into(), Some(1.0))
+    );
+    for file in ["lammps_pairs.in", "liggghts_pairs.in", "mfix_pairs.dat"] {
+        let text = String::from_utf8(place.read(format!("all/{file}"))).unwrap();
+        assert!(text.contains("4: lib:steel, 0.01 m"), "{text}");
+    }
+    for (option, value, expected) in [
+        ("--materials", "glas", "did you mean glass? the case has glass"),
+        ("--materials", "lib:stel", "did you mean lib:steel?"),
+        ("--diameters", "2 kg", "this is not a length"),
+    ] {
+        let ran = place.run(&["export", "case.toml", option, value]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.contains(expected), "{}", ran.stderr);
+    }
 }
 
 /// u = 2√(gl) sin(α/2), and e = 1 where equal balls rise as high as the first fell.

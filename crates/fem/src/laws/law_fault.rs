@@ -40,6 +40,9 @@ pub enum LawFault {
         /// Why it cannot be fitted.
         error: FitError,
     },
+    /// Materials or sizes that are no spheres: what was found, and what is allowed.
+    #[error("{0}")]
+    Grains(String, String),
     /// A case of finite elements in whose place no reduced model can stand.
     #[error(transparent)]
     NoStandIn(FitError),
