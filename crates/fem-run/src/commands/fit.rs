@@ -162,11 +162,12 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
     let place = output.publish(&fitted.numbers(&arguments.input.name()))?;
+    standard_output::warn(fitted.warnings());
     if arguments.output.quiet {
         return Ok(());
     }
     let ranking = ranking.as_ref().map_or(String::new(), ranking_text);
-    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted)))
+    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted, law)))
 }
 
 /// All laws in their order; what is said of one law is not for all.

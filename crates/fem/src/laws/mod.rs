@@ -21,7 +21,7 @@ mod law_ranking;
 mod pair_export;
 mod parameter;
 
-pub use chosen_law::{ChosenLaw, family_of, model_of};
+pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};
 pub use export_numbers::{ExportNumbers, PointNumbers, SnippetNumbers, SphereNumbers};
 pub use fit_numbers::{
