@@ -57,6 +57,7 @@ mod body;
 mod boundary_mass;
 mod contact;
 mod contact_log;
+mod contact_work;
 mod error;
 mod fingerprint;
 mod forces;

@@ -7,6 +7,7 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, Stop, Want,
 };
 
+use crate::contact_work::held_by;
 use crate::error::ModelError;
 use crate::memory::Memory;
 use crate::model::Model;
@@ -179,6 +180,7 @@ fn step(
     let stop = |fault: Fault, state: &State| model.stop(fault, state);
     let contact = update_forces(model, state, scratch)
         .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
+    ledger.follow(model, state, scratch, &contact).map_err(|grown| model.stop_of(grown, state))?;
     if let Some(shorter) = update_step(model, state, scratch).map_err(|at| stop(at, state))? {
         ledger.push(model, scratch, contact.force, shorter);
         log.force = contact.force;
@@ -190,7 +192,7 @@ fn step(
     let is_last_contact = is_closed
         && contact.force < 0.5 * log.peak_force
         && !is_closed_next(model, state, scratch, &contact);
-    log.observe(time, &contact);
+    log.observe(time, step, &contact);
     if is_closed {
         observed.touch();
     }
@@ -258,7 +260,9 @@ fn step(
     let time_step = state.time_step(model);
     ledger.push(model, scratch, contact.force, time_step);
     log.advance(model, scratch, time_step);
+    let held = held_by(model, state, &contact);
     advance(model, state, scratch);
+    ledger.begin_step(model, held, time_step, state, scratch, contact.force);
     Ok(None)
 }
 

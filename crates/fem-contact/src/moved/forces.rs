@@ -73,6 +73,7 @@ fn add_spring(
     total.force += force;
     total.energy += energy_per_area * point.area;
     total.n_closed += 1;
+    total.note_overlap(point.gap, point.radius);
 }
 
 impl Piece<'_> {
