@@ -104,4 +104,5 @@ pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element, SweptKey};
 pub use sweep_file::{Combine, Keep, PlotTable};
+pub use sweep_values::{ReadRows, RowsFault};
 pub use units::{Dimension, UnitError, parse_quantity};
