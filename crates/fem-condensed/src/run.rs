@@ -182,7 +182,7 @@ impl<'a> Run<'a> {
             let progress = Progress {
                 time: time_of_case,
                 step,
-                fraction: (time / self.expected_end).min(1.0),
+                fraction: Progress::share(time, self.expected_end),
                 contact_force: self.motion.force,
             };
             if !monitor.report(progress) {

@@ -28,7 +28,7 @@
 //!   observed, history,       effective                                   centre_pressure,
 //!   recorder                                                             is_closed_next
 //! where stiffness changes     add_stiffness_bound,
-//!   bound the step           strain_rate
+//!   bound the step           strain_rate, urgency
 //! advance: nodes (leapfrog)
 //!   what stress remembers    advance
 //!   what contact remembers,                                              advance

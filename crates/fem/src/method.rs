@@ -174,7 +174,7 @@ pub enum Cost {
         elements: u64,
         /// Points that can touch.
         contact_points: u64,
-        /// Over the elastic contact time.
+        /// Until the contact ends.
         steps: u64,
         /// Bytes of the factors.
         factor_bytes: u64,

@@ -73,7 +73,7 @@ impl MovedInterface {
     }
 
     /// A segment of a side, by the number of its inner node; `None` if it is turned over.
-    fn segment<U: Fn(u32) -> [f64; 2]>(
+    pub(super) fn segment<U: Fn(u32) -> [f64; 2]>(
         &self,
         side: usize,
         index: usize,

@@ -12,6 +12,7 @@
 //! profile is no ellipse.
 
 mod axis;
+mod curve;
 mod edge;
 mod staggered;
 
@@ -19,6 +20,7 @@ use std::f64::consts::PI;
 use std::iter::from_fn;
 
 pub use axis::{centre_pressure, pressure_profile};
+pub use curve::{PressureCurve, places_inside};
 pub use edge::contact_radius;
 pub use staggered::Reading;
 
@@ -75,6 +77,11 @@ impl Cell {
             Weight::default()
         }
     }
+}
+
+/// Force (N) on nodes from the axis outward (r in m, p in Pa).
+pub fn carried_force(nodes: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    cells(nodes).map(|cell| cell.pressure * cell.weight().area).sum()
 }
 
 /// The nodes with their neighbours.

@@ -72,7 +72,16 @@ impl Model {
                 }
             }
         }
-        (Outlook { critical_time_step: critical, strain_rate }, node)
+        let urgencies = self.bodies.iter().enumerate().filter_map(|(side, body)| {
+            let stress = body.stress.as_ref().filter(|_| body.bound.is_some())?;
+            let room = &mut scratch.stiffness[side];
+            for step in room.iter_mut() {
+                *step = Outlook::room(*step, critical);
+            }
+            Some(stress.part.urgency(&motions[side], room))
+        });
+        let urgency = urgencies.fold(0.0, f64::max);
+        (Outlook { critical_time_step: critical, strain_rate, urgency }, node)
     }
 
     /// What is at fault where no step is short enough: an element that is compressed most and has the node

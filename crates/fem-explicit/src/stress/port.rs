@@ -68,6 +68,12 @@ pub trait Stress: Part {
         0.0
     }
 
+    /// The same over the strain that an element may take before its nodes ask for a shorter step, the least of
+    /// its corners', where that changes its stiffness, 1/s.
+    fn urgency(&self, _: &Motion<'_>, _room: &[f64]) -> f64 {
+        0.0
+    }
+
     /// The element that is compressed most, where an element can collapse.
     fn most_compressed(&self, _displacement: &Field) -> Option<Collapse> {
         None

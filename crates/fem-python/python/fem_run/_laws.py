@@ -43,10 +43,11 @@ def invert(case: Case, restitution: float, **options: Any) -> dict[str, Any]:
 
 
 def export(case: Case, data: Any = None, **options: Any) -> dict[str, Any]:
-    """Input for LAMMPS, LIGGGHTS and YADE that makes the same restitutions.
+    """Input of DEM codes and of robotics that makes the same restitutions.
 
-    Options: ``speeds``, ``tolerance``. Returns the keys of ``export.json``, and ``texts``: the snippets by
-    file name.
+    For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. Options: ``speeds``,
+    ``tolerance``, and ``materials`` and ``diameters`` for a table of all pairs. Returns the keys of
+    ``export.json``, and ``texts``: the files by name.
     """
     return json.loads(_native.export(case._native, _data(data), _words(options)))
 

@@ -17,6 +17,8 @@ mod column_units;
 mod cradle_trials;
 mod data_error;
 #[cfg(feature = "csv")]
+mod meanings;
+#[cfg(feature = "csv")]
 mod pair_table;
 mod pairs;
 mod quantity;

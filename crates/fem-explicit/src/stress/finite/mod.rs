@@ -18,6 +18,7 @@
 //! past        what elements that relax remember
 //! relaxing    how that changes in a step and what forces follow, what it stores and dissipates
 //! hourglass   energy of the hourglass shape in a deformed element, and its derivatives
+//! rates       how fast elements are strained
 //! kernel      the element loops: forces, energy
 //! bound       the largest eigenvalue of deformed elements
 //! ```
@@ -29,6 +30,7 @@ mod hourglass;
 mod kernel;
 mod law;
 mod past;
+mod rates;
 mod relaxing;
 
 use std::fmt;
@@ -183,7 +185,11 @@ impl<R: Response> Stress for FiniteStrain<R> {
     }
 
     fn strain_rate(&self, motion: &Motion<'_>) -> f64 {
-        self.blocks.strain_rate(motion.displacement, motion.velocity)
+        rates::strain_rate(&self.blocks, motion.displacement, motion.velocity)
+    }
+
+    fn urgency(&self, motion: &Motion<'_>, room: &[f64]) -> f64 {
+        rates::urgency(&self.blocks, motion.displacement, motion.velocity, room)
     }
 
     fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {

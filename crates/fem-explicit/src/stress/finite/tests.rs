@@ -313,3 +313,36 @@ fn lanes_of_every_kind_give_the_same_bits() {
     }
     assert!(WIDE == 8 && mesh.quads().len() > WIDE);
 }
+
+/// Of a body that is stretched as a whole, undeformed and deformed; and where one of its nodes has less room the
+/// elements there count.
+#[test]
+fn the_strain_rate_is_that_of_the_fastest_element() {
+    let mesh = mesh();
+    let stress = stress(&mesh, &unit_glass(), HyperelasticLaw::NeoHooke);
+    let field = |[r, y]: [f64; 2]| -> Vec<[f64; 2]> {
+        mesh.nodes().iter().map(|node| [r * node[0], y * node[1]]).collect()
+    };
+    let still = field([0.0, 0.0]);
+    for (strain, velocity, rate) in [
+        ([0.0, 0.0], [0.5, -2.0], 2.0),
+        ([0.0, 0.0], [3.0, -2.0], 3.0),
+        // Ḟ F⁻¹: of what is there now.
+        ([0.25, -0.5], [0.5, -2.0], 4.0),
+        ([-0.75, 0.0], [0.5, -1.0], 2.0),
+    ] {
+        let (displacement, velocity) = (field(strain), field(velocity));
+        let motion = Motion { velocity: &velocity, ..motion(&displacement) };
+        let found = stress.strain_rate(&motion);
+        assert!((found / rate - 1.0).abs() < 1e-12, "{strain:?}: {found}");
+        let mut room = vec![0.5; still.len()];
+        let urgency = stress.urgency(&motion, &room);
+        assert!((urgency / rate - 2.0).abs() < 1e-12, "{strain:?}: {urgency}");
+        room[mesh.quads()[3][2] as usize] = 0.05;
+        let urgency = stress.urgency(&motion, &room);
+        assert!((urgency / rate - 20.0).abs() < 1e-9, "{strain:?}: {urgency}");
+    }
+    let mut velocity = still.clone();
+    velocity[mesh.quads()[7][1] as usize][0] = f64::NAN;
+    assert!(stress.strain_rate(&Motion { velocity: &velocity, ..motion(&still) }).is_nan());
+}
