@@ -81,7 +81,7 @@ fn with_digits(text: &str) -> String {
     let parts =
         text.split_once('e').and_then(|(digits, power)| Some((digits, power.parse::<i32>().ok()?)));
     match parts {
-        Some((digits, power)) if !(-3..=3).contains(&power) => {
+        Some((digits, power)) if !(-4..=3).contains(&power) => {
             let power = power.to_string();
             let raised = power.chars().map(|digit| match digit {
                 '-' => '⁻',
@@ -93,7 +93,8 @@ fn with_digits(text: &str) -> String {
                 }
                 _ => '⁰',
             });
-            format!("{digits} × 10{}", raised.collect::<String>()).replace('-', "\u{2212}")
+            format!("{digits}\u{a0}×\u{a0}10{}", raised.collect::<String>())
+                .replace('-', "\u{2212}")
         }
         _ => text.parse().map_or(text.to_string(), fem_figure::tick).replace('-', "\u{2212}"),
     }
@@ -134,10 +135,11 @@ mod tests {
     fn powers_of_ten_are_written_out() {
         for (value, expected) in [
             (0.0718, "0.0718"),
-            (9.087e-5, "9.09 × 10⁻⁵"),
-            (-3.8e-17, "−3.80 × 10⁻¹⁷"),
+            (9.087e-5, "9.09\u{a0}×\u{a0}10⁻⁵"),
+            (9.087e-4, "0.000909"),
+            (-3.8e-17, "−3.80\u{a0}×\u{a0}10⁻¹⁷"),
             (0.0, "0"),
-            (12_345.0, "1.23 × 10⁴"),
+            (12_345.0, "1.23\u{a0}×\u{a0}10⁴"),
         ] {
             assert_eq!(power_of_ten(value), expected);
         }
@@ -152,7 +154,7 @@ mod tests {
             (969.801, Some(0.0), "969.8"),
             (62.459_09, None, "62.46"),
             (0.927_891_2, None, "0.9279"),
-            (62.459_09, Some(1e-9), "62.4591 ± 1.0 × 10⁻⁹"),
+            (62.459_09, Some(1e-9), "62.4591 ± 1.0\u{a0}×\u{a0}10⁻⁹"),
         ] {
             assert_eq!(with_error(value, error), expected);
         }
