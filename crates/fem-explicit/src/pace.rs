@@ -2,7 +2,7 @@
 //!
 //! Steps are shorter than the model's by powers of the sixteenth root of two, which a level counts. The
 //! critical step of the deformed bodies is bounded anew after some steps, the sooner the faster it
-//! changes and any element is strained; the level follows it down at once, and up where the longer step
+//! changes and the elements that decide on it are strained; the level follows it down at once, and up where the longer step
 //! leaves room. No element is strained by more than [`STRAIN_A_STEP`] in a step: within the critical step
 //! leapfrog is stable, but what it keeps is the energy of a body whose stiffness does not change in a step,
 //! and it errs by the square of the strain there.
@@ -32,8 +32,9 @@ const STRAIN_A_STEP: f64 = 0.04;
 const LONGEST_PAUSE: f64 = 128.0;
 /// Change of the critical step from one bound to the next that is aimed at.
 const CHANGE_BETWEEN_BOUNDS: f64 = 0.02;
-/// Strain of any element from one bound to the next at the rate of now, which shortens its critical step by
-/// about as much: less than the step factor and the bound leave.
+/// Strain of an element from one bound to the next at the rate of now, which shortens its critical step by
+/// about as much: less than the step factor and the bound leave. Elements whose nodes could bear a longer step
+/// take so much more.
 const STRAIN_BETWEEN_BOUNDS: f64 = 0.05;
 /// By so much a longer step has to be below what is allowed.
 const ROOM_ABOVE: f64 = 1.01;
@@ -47,6 +48,8 @@ pub(crate) struct Outlook {
     pub critical_time_step: f64,
     /// Largest of any element, 1/s.
     pub strain_rate: f64,
+    /// Largest over the strain that an element may take until the next bound ([`Outlook::room`]), 1/s.
+    pub urgency: f64,
 }
 
 /// Level of a run and when it is looked at again.
@@ -66,6 +69,13 @@ impl Outlook {
     pub fn reaches(model: &Model, strain_rate: f64) -> f64 {
         let longest = model.time_step();
         (STRAIN_BETWEEN_BOUNDS / strain_rate).clamp(longest, LONGEST_PAUSE * longest)
+    }
+
+    /// Strain that an element may take until the next bound at a node whose step is this (s), where the critical
+    /// one is that, s: what shortens its step to the critical one, ln(Δt_i/Δt) ≥ 1 − Δt/Δt_i, by twice as much
+    /// as it is strained, and [`STRAIN_BETWEEN_BOUNDS`].
+    pub fn room(of_node: f64, critical: f64) -> f64 {
+        STRAIN_BETWEEN_BOUNDS + 0.5 * (1.0 - critical / of_node)
     }
 }
 
@@ -108,7 +118,7 @@ impl Pace {
 
     /// The pace from a step and its time (s) on, with this outlook; `None` if no level is short enough.
     pub fn after(&self, model: &Model, (step, time): (u64, f64), outlook: Outlook) -> Option<Self> {
-        let Outlook { critical_time_step: critical, strain_rate } = outlook;
+        let Outlook { critical_time_step: critical, strain_rate, urgency } = outlook;
         let allowed = model.step_factor() * critical * ROUNDING;
         let longest = |room: f64| {
             let of_strain = level_of_strain(model, strain_rate, room);
@@ -126,7 +136,7 @@ impl Pace {
         let change = ratio.max(ratio.recip()) - 1.0;
         let as_before = CHANGE_BETWEEN_BOUNDS / change * n_steps;
         let time_step = model.time_step() * share(level);
-        let until_strained = STRAIN_BETWEEN_BOUNDS / (strain_rate * time_step);
+        let until_strained = 1.0 / (urgency * time_step);
         let pause = as_before.min(until_strained).clamp(1.0, LONGEST_PAUSE);
         Some(Self { level, since, last: (step, critical), next: step + pause as u64 })
     }

@@ -44,24 +44,23 @@ impl MovedInterface {
         value: impl Fn(&Piece<'a>, &Point) -> f64 + Clone + 'a,
     ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
         let surface = &self.surfaces[side];
-        let pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize]));
-        let points = pieces.flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))));
-        let mut points = points.peekable();
+        let mut pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize])).peekable();
         // Integral and area that the segment inside of a node has given to it.
         let mut from_inside = [0.0; 2];
         (0..self.n_nodes[side]).map(move |k| {
             let [mut sum, mut area] = from_inside;
             from_inside = [0.0; 2];
-            while let Some((piece, point)) =
-                points.next_if(|(piece, _)| piece.segments[side].index == k)
-            {
-                let share = point.places[side].share;
-                let value = value(&piece, &point);
-                let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
-                sum += inner * value;
-                area += inner;
-                from_inside[0] += outer * value;
-                from_inside[1] += outer;
+            while let Some(piece) = pieces.next_if(|piece| piece.segments[side].index == k) {
+                for gauss in GAUSS {
+                    let point = piece.point(gauss);
+                    let share = point.places[side].share;
+                    let value = value(&piece, &point);
+                    let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
+                    sum += inner * value;
+                    area += inner;
+                    from_inside[0] += outer * value;
+                    from_inside[1] += outer;
+                }
             }
             let radius = surface.radii[k] + u[side][surface.nodes[k] as usize][0];
             (radius, [sum, area])

@@ -81,7 +81,7 @@ fn members_of_a_file_are_those_of_code() {
     let path = folder.path().join("sweep.toml");
     let vary = "case = 'case.toml'\n[vary]\nbody.0.approach_speed = ['30 cm/s', 0.1, 0.2]\n";
     std::fs::write(&path, vary).unwrap();
-    let file = Sweep::load(&path, &[]).unwrap();
+    let file = load(&path, &[]).unwrap();
     let code = Variations::of(&case, SPEEDS, set_speed);
     let cases = SPEEDS.map(|speed| case.edited(|file| set_speed(file, speed)).unwrap());
 
