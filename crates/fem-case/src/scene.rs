@@ -6,7 +6,7 @@ use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip, compliance_shares}
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};
 use crate::model::ModelChoice;
-use crate::schema::{ContactMethod, EffectsTable, SnapshotLabel};
+use crate::schema::{ContactMethod, EffectsTable, Field, SnapshotLabel};
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +22,7 @@ pub struct Scene {
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
     pub(crate) probes: Vec<Probe>,
+    pub(crate) fields: Option<Vec<Field>>,
     pub(crate) wants_report: bool,
     pub(crate) model: ModelChoice,
     pub(crate) accuracy: Accuracy,
@@ -79,6 +80,11 @@ impl Scene {
     /// Which instants are drawn.
     pub fn snapshots(&self) -> Option<&Snapshots> {
         self.snapshots.as_ref()
+    }
+
+    /// Whether files of snapshots have an array.
+    pub fn wants_field(&self, field: Field) -> bool {
+        self.fields.as_ref().is_none_or(|fields| fields.contains(&field))
     }
 
     /// Places of which is told what happens there over time.

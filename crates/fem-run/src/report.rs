@@ -157,7 +157,7 @@ fn price(summary: &Summary) -> String {
         return format!("{}{memory}", show(cost.solve_s, "s"));
     };
     let (solve, each) = match cost.ns_per_element_update {
-        Some(ns) => (format!("{:.2} s", cost.solve_s), format!("{ns:.1} ns an element update, ")),
+        Some(ns) => (show(cost.solve_s, "s"), format!("{ns:.1} ns an element update, ")),
         None => (show(cost.solve_s, "s"), format!("after {} of setup, ", show(cost.setup_s, "s"))),
     };
     let factors = cost.factor_bytes.map(|bytes| format!(", {} of it factors", DecimalBytes(bytes)));

@@ -194,14 +194,14 @@ impl Plan {
             step_factor: Some(Quantity::from_si(self.step_factor)),
             mass_scaling: Some(Quantity::from_si(self.mass_scaling)),
         });
-        let OutputTable { snapshots: given, probe, report } =
+        let OutputTable { snapshots: given, fields, probe, report } =
             file.output.take().unwrap_or_default();
         let labels = || {
             let text = |label: Label| Quantity::from_text(label.name());
             SnapshotsValue::List(Label::ALL.into_iter().map(text).collect())
         };
         let snapshots = Some(given.unwrap_or_else(labels));
-        file.output = Some(OutputTable { snapshots, probe, report });
+        file.output = Some(OutputTable { snapshots, fields, probe, report });
         file.effects = Some(file.effects.unwrap_or_default().filled());
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {
