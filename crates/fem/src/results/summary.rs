@@ -22,6 +22,8 @@ pub struct Summary {
     pub collision: Quantities,
     /// Largest contact force of a single step, in models that step.
     pub peak_force_raw_n: Option<f64>,
+    /// `"true"`, of the deformed bodies, at finite strain; else `"nominal"`, of undeformed area.
+    pub radius_and_pressure: &'static str,
     /// Of a relaxing run, what its mesh and settings lose with relaxation off.
     pub elastic_null: Option<ElasticNull>,
     /// Closed contacts, openings in between not counted.

@@ -27,7 +27,7 @@ use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_collision::{Collision, Headline};
 use fem_explicit::MOST_FINITE_STRAIN_TERMS;
 use fem_material::Material;
-use fem_material::finite::HyperelasticLaw;
+use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 
 use self::departure::{Deformation, Departure};
 use super::answer::Answer;
@@ -42,9 +42,10 @@ use crate::refusal::Refusal;
 
 /// Contact radius over the effective radius beyond which nothing is foretold.
 const LARGEST_STRAIN: f64 = 1.0;
-/// Largest Poisson's ratio that the elements bear at large strain: beyond it the volume is nearly
-/// fixed and the step of time next to nothing.
-const LARGEST_POISSONS_RATIO: f64 = 0.495;
+/// Largest Poisson's ratio that the elements bear at large strain: a step there is a seventh of that at 0.495,
+/// with K = 5000 G, as of natural rubber. Beyond it the volume is nearly fixed and the step of time next to
+/// nothing.
+const LARGEST_POISSONS_RATIO: f64 = 0.4999;
 /// Share of the tolerance below which a body's own strain is left small.
 const OWN_SHARE: f64 = 0.1;
 /// What laws differ by is said from this share of the contact time on.
@@ -98,13 +99,38 @@ impl FiniteStrain {
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
         let is_asked = is_open && is_called_for(scene, estimate);
         let Some(strained) = unborne.next().filter(|_| is_asked) else {
-            return Answer::Computes { idle: "" };
+            return Self::of_stability(scene, estimate).unwrap_or(Answer::Computes { idle: "" });
         };
         let why = format!("called for, but {}", strained.not_borne());
         let left_out = FiniteStrain.left_out(scene, estimate).unwrap_or_default();
         let warning = format!("{} is {why}; small strain leaves out {left_out}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
         Answer::is(active, why).warning([warning])
+    }
+}
+
+impl FiniteStrain {
+    /// Of a scene that calls for it, and whose laws are foretold not to bear it.
+    fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
+        let computed = Self::laws(scene, estimate);
+        if !is_called_for(scene, estimate) || computed == [None; 2] {
+            return None;
+        }
+        let pressure = estimate.hertz.peak_pressure();
+        let both = Strained::of_both(scene, estimate).into_iter().zip(computed);
+        let mut unstable = both.filter_map(|(body, law)| {
+            law?;
+            body.filter(|body| body.gives_way(pressure))
+        });
+        let Strained { name, material, .. } = unstable.next()?;
+        let warning = format!(
+            "{}, the law of {name}, is foretold to lose its stability under the contact's pressure: elements give \
+             way, and the run may stop; name another material.NAME.hyperelastic, as neo-hooke, which is stable at \
+             any deformation",
+            material.law().name()
+        );
+        let number = FiniteStrain.need(scene, estimate)?.number;
+        Some(Answer::is(true, number).warning([warning]))
     }
 }
 
@@ -158,6 +184,23 @@ impl<'a> Strained<'a> {
         let laws = self.possible_laws().into_iter();
         let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.deformation));
         self.share * each.fold(Departure::default(), Departure::or)
+    }
+
+    /// Whether its law loses ellipticity at the strain that Hooke's law has under the middle of Hertz' contact, σ_yy =
+    /// −p and σ_rr = σ_θθ = −(½ + ν) p (Johnson 1985, section 3.4).
+    fn gives_way(&self, pressure: f64) -> bool {
+        if self.material.law().is_always_elliptic() {
+            return false;
+        }
+        let moduli = self.material.instantaneous();
+        let (nu, pressed) = (moduli.poissons_ratio(), pressure / moduli.youngs_modulus());
+        let beside = (0.5 + nu) * pressed;
+        let (yy, rr) = (2.0 * nu * beside - pressed, nu * (pressed + beside) - beside);
+        let strain = AxisymmetricTensor { rr, yy, tt: rr, ry: 0.0, yr: 0.0 };
+        let stiffness =
+            Hyperelastic::new(self.material.law(), moduli).least_acoustic_stiffness(&strain);
+        // What is pressed beyond nothing gives way, too.
+        !stiffness.is_ok_and(|stiffness| stiffness > 0.0)
     }
 
     /// Whether elements bear it at large strain.
