@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 30] = [
+const KEYS: [&str; 31] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -25,6 +25,7 @@ const KEYS: [&str; 30] = [
     "cost",
     "effects",
     "uncertainty",
+    "coarser_meshes",
     "models_considered",
     "warnings",
     "complete",
