@@ -23,6 +23,8 @@ pub(crate) struct DiscSolver {
     factor: Vec<f64>,
     n_factored: usize,
     solution: Vec<f64>,
+    /// Forces of the last problem, if the disc was not its solution.
+    fallback: Option<Vec<f64>>,
     /// Times the disc was not the solution.
     pub n_fallbacks: usize,
 }
@@ -43,6 +45,7 @@ impl DiscSolver {
             factor: Vec::with_capacity(n * (n + 1) / 2),
             n_factored: 0,
             solution: vec![0.0; n],
+            fallback: None,
             n_fallbacks: 0,
         }
     }
@@ -100,9 +103,16 @@ impl DiscSolver {
                 self.solution[j] -= self.factor[start + j] * force;
             }
         }
-        if !self.is_solution(overlap, forces, n_closed) {
+        if self.is_solution(overlap, forces, n_closed) {
+            self.fallback = None;
+        } else {
             self.n_fallbacks += 1;
+            // What was closed is the better guess.
+            if let Some(before) = &self.fallback {
+                forces.copy_from_slice(before);
+            }
             complementarity::solve(&self.compliance, overlap, forces)?;
+            self.fallback.get_or_insert_with(|| vec![0.0; n]).copy_from_slice(forces);
             n_closed = forces.iter().rposition(|&force| force > 0.0).map_or(0, |k| k + 1);
         }
         Ok(Disc { n_closed })

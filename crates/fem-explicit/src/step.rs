@@ -48,9 +48,13 @@ pub(crate) fn update_forces(
             .map_err(|collapse| Collapsed { side, collapse })?;
         scratch.resultants[side] = body.add_node_forces(motion, history, forces);
     }
+    let sides = scratch.pushed.iter_mut().zip(&scratch.forces);
+    sides.for_each(|(pushed, forces)| pushed.begin(forces));
     let [lower, upper] = &mut scratch.forces;
     let contact =
         model.contact().add_forces(&motions, state.contact_history(model), [lower, upper]);
+    let sides = scratch.pushed.iter_mut().zip(&scratch.forces);
+    sides.for_each(|(pushed, forces)| pushed.end(forces));
     for (side, body) in model.bodies().iter().enumerate().filter(|(_, body)| body.held) {
         scratch.resultants[side] += body.hold(&mut scratch.forces[side]);
     }

@@ -45,7 +45,7 @@ pub struct Session {
 impl Default for Session {
     fn default() -> Self {
         let pairs = || Arc::new(PairCache::with_max_bytes(MOST_KEPT));
-        let shared = Shared { pairs: pairs(), companions: pairs() };
+        let shared = Shared { pairs: pairs(), companions: pairs(), ..Shared::default() };
         Self { shared, simulation: None, ask: None, course: None, collision: None }
     }
 }

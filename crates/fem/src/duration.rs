@@ -19,11 +19,22 @@ pub(crate) fn expected_duration(scene: &Scene, estimate: &Estimate, approach: &A
         return by_estimate;
     }
     let impact = foretold_impact(scene, estimate, approach.speed());
-    let told = impact.ok().and_then(|impact| match impact.contact_time {
+    let told = impact.ok().and_then(|impact| duration_of(scene, estimate, approach, &impact));
+    told.unwrap_or(by_estimate)
+}
+
+/// The same of an impact that has been foretold, s.
+pub(crate) fn duration_of(
+    scene: &Scene,
+    estimate: &Estimate,
+    approach: &Approach,
+    impact: &Impact,
+) -> Option<f64> {
+    let told = match impact.contact_time {
         Some(contact_time) => Some((1.0 + FLIGHT_AFTER) * contact_time),
-        None => standstill(scene, estimate, approach, &impact),
-    });
-    told.filter(|time| *time > 0.0 && time.is_finite()).unwrap_or(by_estimate)
+        None => standstill(scene, estimate, approach, impact),
+    };
+    told.filter(|time| *time > 0.0 && time.is_finite())
 }
 
 /// When an impact without an end comes to rest, s.

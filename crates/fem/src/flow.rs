@@ -6,12 +6,14 @@
 //! Where the contact would be as wide as a sphere nearly, no model of small strain says anything, and none
 //! is asked: all models refuse alike.
 
+use std::rc::Rc;
+
 use fem_case::Scene;
-use fem_collision::Want;
+use fem_collision::{Approach, FLIGHT_AFTER, Want};
 use fem_laws::{Impact, LawError};
 
 use crate::approach::approach_of;
-use crate::duration::expected_duration;
+use crate::duration::{duration_of, expected_duration};
 use crate::estimate::Estimate;
 use crate::quasi_static::{foretold_impact, ting_of};
 use crate::refusal::Refusal;
@@ -24,6 +26,8 @@ const WIDEST: f64 = 0.3;
 const WIDENED: f64 = 3.0;
 /// Runs give up after so many times what is foretold.
 const PATIENCE: f64 = 3.0;
+/// Bodies that come less further than this together than elastic ones are stopped by the clock of those.
+const SLOWED: f64 = 3.0;
 
 /// The largest contact radius, m: Hertz' of the instantaneous moduli, or what relaxation makes of it.
 pub(crate) fn widest_contact(scene: &Scene, estimate: &Estimate) -> f64 {
@@ -81,13 +85,33 @@ pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
     Want::GIVE_UP_AFTER.max(PATIENCE * contact_times)
 }
 
+/// Times of a contact over those of the elastic bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slower {
+    /// In which the bodies are stopped. They come to rest at the largest approach δ, in a time of some δ/v.
+    pub stop: f64,
+    /// From first touch to the end of the run.
+    pub end: f64,
+}
+
+/// How much slower a contact is that relaxation decides: 1 of others.
+pub(crate) fn slower(scene: &Scene, estimate: &Estimate, met: &Approach) -> Slower {
+    let Some(Ok(impact)) = impact(scene, estimate) else { return Slower { stop: 1.0, end: 1.0 } };
+    let hertz = &estimate.hertz;
+    let stop = Some(impact.max_approach / hertz.max_approach());
+    let stop = stop.filter(|stop| *stop > SLOWED && stop.is_finite()).unwrap_or(1.0);
+    let end = duration_of(scene, estimate, met, &impact)
+        .map_or(stop, |end| end / ((1.0 + FLIGHT_AFTER) * hertz.contact_time()));
+    Slower { stop, end: end.max(1.0) }
+}
+
 /// Whether relaxation decides how far the bodies come; beside gravity, that does.
 fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
     estimate.relaxed > RELAXED && scene.gravity().is_none()
 }
 
 /// Ting's impact of bodies that relax; none of others.
-fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Impact, LawError>> {
+fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Rc<Impact>, LawError>> {
     let speed = estimate.hertz.approach_speed();
     relaxes(scene, estimate).then(|| foretold_impact(scene, estimate, speed))
 }

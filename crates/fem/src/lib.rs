@@ -12,7 +12,7 @@
 //!
 //! Without the feature `files` (on by default) nothing here touches a file: a mesh of a case's own is
 //! refused, and what writes result files is not there. Only [`Case::load`] and
-//! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given.
+//! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given or that these name.
 
 pub mod accuracy;
 mod approach;

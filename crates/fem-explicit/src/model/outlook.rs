@@ -3,6 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use fem_collision::Stop;
+use fem_contact::Turn;
 use fem_material::Material;
 
 use super::Model;
@@ -154,10 +155,26 @@ impl Model {
         Stop::EnergyGrowth { time, step, ratio, body, node, place: self.place(body, node) }
     }
 
+    /// Why a run ends of which a surface has turned over.
+    pub(crate) fn stop_of_turn(&self, turn: Turn, state: &State) -> Stop {
+        let Turn { side, node, radius } = turn;
+        let (time, step, node) = (state.time, state.step, node as usize);
+        let place = self.place(side, node);
+        Stop::SurfaceTurnsOver { time, step, radius, body: side, node, place }
+    }
+
     /// Where a node lies before the collision (r, y), m; of a rigid body its only one.
     fn place(&self, side: usize, node: usize) -> [f64; 2] {
         let place = self.bodies[side].mesh().map(|mesh| mesh.nodes()[node]);
         place.unwrap_or([0.0; 2])
+    }
+
+    /// Centre (r, y) of an element of a side before the collision, m.
+    pub(crate) fn centre(&self, side: usize, element: usize) -> [f64; 2] {
+        let corners = self.bodies[side].mesh().map(|mesh| mesh.corners(element));
+        corners.map_or([f64::NAN; 2], |corners| {
+            [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0)
+        })
     }
 
     /// Why a run ends that cannot go on.
@@ -165,10 +182,7 @@ impl Model {
         let (time, step) = (state.time, state.step);
         match fault {
             Fault::Collapsed(Collapsed { side, collapse: Collapse { element, volume_ratio } }) => {
-                let corners = self.bodies[side].mesh().map(|mesh| mesh.corners(element));
-                let place = corners.map_or([f64::NAN; 2], |corners| {
-                    [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0)
-                });
+                let place = self.centre(side, element);
                 Stop::ElementCollapsed { time, step, body: side, element, place, volume_ratio }
             }
             Fault::TooStiff { side, node, is_of_contact } => {

@@ -195,7 +195,11 @@ pub fn pressures(records: &[Record]) -> Option<Chart> {
     for (k, (record, contact, label)) in curves.into_iter().enumerate() {
         let scaled = |(r, p): &(f64, f64)| (length.scaled(*r), stress.scaled(*p));
         let own = contact.pressure.iter().map(scaled).collect();
-        chart = chart.with(Curve::points_on_line(label, own).like_curve(k));
+        chart = chart.with(Curve::line(label, own).like_curve(k));
+        if records.len() == 1 {
+            let nodes = contact.at_nodes.iter().map(scaled).collect();
+            chart = chart.with(Curve::points("", nodes).like_curve(k));
+        }
         let force = record.history.at("contact_force_n", contact.time);
         if let Some(hertz) = Hertz::of(record).filter(|_| force > 0.0) {
             let profile = hertz.pressure_under(force);

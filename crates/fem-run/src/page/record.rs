@@ -30,8 +30,10 @@ pub struct ContactAt {
     pub time: f64,
     /// As in file names.
     pub label: String,
-    /// (r in m, p in Pa) from the axis outward.
+    /// (r in m, p in Pa) from the axis outward, as far as there is pressure and a row further.
     pub pressure: Vec<(f64, f64)>,
+    /// Those of them that are at nodes of the mesh.
+    pub at_nodes: Vec<(f64, f64)>,
 }
 
 /// A file of fields.
@@ -144,14 +146,23 @@ impl Record {
 
 fn contacts_of(columns: &Columns) -> Vec<ContactAt> {
     let (radii, pressures) = (columns.get("r_m"), columns.get("pressure_pa"));
+    let is_node = columns.get("is_node");
     let mut contacts: Vec<ContactAt> = Vec::new();
     let rows = columns.get("time_s").iter().zip(columns.texts("label"));
     for (k, (&time, label)) in rows.enumerate() {
         if contacts.last().is_none_or(|last| last.time != time) {
-            contacts.push(ContactAt { time, label: label.clone(), pressure: Vec::new() });
+            let (pressure, at_nodes) = (Vec::new(), Vec::new());
+            contacts.push(ContactAt { time, label: label.clone(), pressure, at_nodes });
         }
-        if let Some(last) = contacts.last_mut() {
+        let Some(last) = contacts.last_mut() else { continue };
+        // The first row without pressure ends the curve.
+        let is_over = last.pressure.len() > 1 && last.pressure.last().is_some_and(|p| p.1 == 0.0);
+        if !is_over {
             last.pressure.push((radii[k], pressures[k]));
+            // Tables of older results have nodes alone.
+            if is_node.get(k).is_none_or(|is_node| *is_node == 1.0) {
+                last.at_nodes.push((radii[k], pressures[k]));
+            }
         }
     }
     contacts

@@ -276,3 +276,31 @@ fn limits_are_told() {
     let error = Simulation::new(tight).unwrap_err();
     assert!(error.help().is_some_and(|help| help.contains("limits.memory")), "{error}");
 }
+
+/// What stops bodies that nearly flow is slow: they take as many steps as others, not a hundred times as
+/// many, and the work is announced.
+#[test]
+fn bodies_that_nearly_flow_take_steps_as_long_as_they_are_slow() {
+    let flowing = |acts_on: &str, weight: f64, more: &str| {
+        let relaxation = format!(
+            "material.glass.relaxation={{acts_on='{acts_on}',terms=[{{weight={weight},decay_rate=4e6}}]}}"
+        );
+        let model = format!("model.condensed={{penalty_springs=true{more}}}");
+        simulation(&["mesh.contact_element_size='60 um'", &relaxation, &model])
+    };
+    for (acts_on, weight) in [("all", 0.9999), ("all", 1.0), ("shear", 0.999)] {
+        let simulation = flowing(acts_on, weight, "");
+        let fem::Cost::Factors { steps, .. } = simulation.setup().cost else { panic!("{acts_on}") };
+        let found = simulation.run(&mut ());
+        let share = found.steps.unwrap() as f64 / steps as f64;
+        assert!(steps < 4000 && (1.0 / 1.5..1.5).contains(&share), "{share} of {steps}");
+        // Ten times as many say the same: these are some 500 over the time in which they are stopped.
+        let finer = flowing(acts_on, weight, ", steps=10000").run(&mut ());
+        let numbers =
+            |one: &Collision| [one.peak_force, one.max_approach, one.restitution.map(|e| 1.0 + e)];
+        for (a, b) in numbers(&found).into_iter().zip(numbers(&finer)) {
+            let off = a.unwrap() / b.unwrap() - 1.0;
+            assert!(off.abs() < 1e-3, "{acts_on} {weight}: {off:e}");
+        }
+    }
+}

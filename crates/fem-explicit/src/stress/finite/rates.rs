@@ -67,7 +67,7 @@ fn components<L: Lanes<WIDE>>(deformed: &Strain<L>, rate: &Strain<L>) -> L {
     // A square root has no sign, and what is no number stays none: `max` would lose it.
     let sum = size(a) + size(b) + size(e) + size(f) + size(hoop);
     let largest = size(a).max(size(b)).max(size(e).max(size(f))).max(size(hoop));
-    largest + (sum - sum)
+    largest + L::splat(0.0) * sum
 }
 
 #[inline(always)]

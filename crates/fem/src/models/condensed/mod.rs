@@ -2,18 +2,22 @@
 //! the explicit model, milliseconds instead of seconds.
 
 mod effects;
+mod pace;
 pub(super) mod static_contact;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
-use fem_collision::{Approach, BodyInput, Collision, Ending, Monitor, StaticContact, Stop, Want};
+use fem_collision::{
+    Approach, BodyInput, Collision, Ending, FLIGHT_AFTER, Monitor, StaticContact, Stop, Want,
+};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
-use fem_material::PronySeries;
+use fem_material::{ActsOn, PronySeries};
 use fem_mesh::SphereMesh;
 
+use self::pace::{Foretold, n_steps};
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
@@ -21,6 +25,7 @@ use crate::effects::{
     Answer, Effect, MirrorSymmetry, PartnerWaves, SurfaceSlip, Vibration, decide,
 };
 use crate::estimate::Estimate;
+use crate::flow::slower;
 use crate::method::{Cost, ElementSetup, Method, Model, Setup, Shared};
 use crate::pair_cache::PairKey;
 use crate::plan::Plan;
@@ -112,7 +117,11 @@ impl Condensed {
         check_memory(&plan, &sources)?;
         // Only the collision reads relaxations.
         let bodies = sources.map(BodySource::without_relaxation);
-        let key = PairKey { bodies, settings: settings(scene, &plan, options) };
+        let settings = PairSettings {
+            keeps_factors: !shared.is_of_companions || needs_factors(scene, options),
+            ..settings(scene, &plan, options)
+        };
+        let key = PairKey { bodies, settings };
         let pair = shared.pairs.pair(key, |key| {
             CondensedPair::new(inputs(key)?, key.settings)
                 .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
@@ -122,14 +131,17 @@ impl Condensed {
         let decisions = decide(scene, estimate, has)?;
         let mut unread = plan.warnings.clone();
         unread.extend(effects::unread_keys(scene, options));
+        let approach = approach_of(scene)?;
+        let slower = slower(scene, estimate, &approach);
+        let n_steps = slower.end * n_steps(options, slower) as f64;
         let setup = Setup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
-            approach: approach_of(scene)?,
+            approach,
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
             unread,
-            cost: cost_of(&pair, options.steps),
+            cost: cost_of(&pair, n_steps as u64),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
                 quieter: Quieter::MoreSteps,
@@ -289,7 +301,17 @@ impl Model for Condensed {
     fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
         let bodies = self.scene.bodies().each_ref();
         let relaxations = bodies.map(|body| body.material()?.relaxation());
-        self.follow(approach, relaxations, self.options.steps, want, monitor)
+        let estimate = match Estimate::at(&self.scene, approach.speed()) {
+            Ok(estimate) => estimate,
+            Err(error) => {
+                return Collision::stopped(*approach, Stop::OutOfRange(error.to_string()));
+            }
+        };
+        let slower = slower(&self.scene, &estimate, approach);
+        let n_steps = n_steps(self.options, slower);
+        let duration = slower.end * (1.0 + FLIGHT_AFTER) * estimate.hertz.contact_time();
+        let mut foretold = Foretold { monitor, begin: approach.first_touch(), duration };
+        self.follow(approach, relaxations, n_steps, want, &mut foretold)
     }
 
     fn static_contact(&self, force: f64) -> Result<Option<StaticContact>, Refusal> {
@@ -318,12 +340,12 @@ fn options(scene: &Scene) -> CondensedOptions {
     }
 }
 
-fn cost_of(pair: &CondensedPair, n_steps: usize) -> Cost {
+fn cost_of(pair: &CondensedPair, steps: u64) -> Cost {
     let meshes = pair.inputs().iter().filter_map(BodyInput::mesh);
     Cost::Factors {
         elements: meshes.map(|mesh| mesh.quads().len() as u64).sum(),
         contact_points: pair.n_points() as u64,
-        steps: n_steps as u64,
+        steps,
         factor_bytes: pair.factor_bytes() as u64,
     }
 }
@@ -361,6 +383,12 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
         }),
         ..PairSettings::new(candidate_radius(plan, &plan.estimate))
     }
+}
+
+/// Whether a collision needs more of the bodies than their compliance, even if no fields are asked for.
+fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
+    let mut series = scene.bodies().iter().filter_map(|body| body.material()?.relaxation());
+    options.vibration_modes > 0 || series.any(|series| series.acts_on() == ActsOn::Shear)
 }
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
