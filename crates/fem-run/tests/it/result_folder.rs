@@ -26,6 +26,7 @@ const KEYS: [&str; 31] = [
     "cost",
     "effects",
     "uncertainty",
+    "coarser_meshes",
     "models_considered",
     "warnings",
     "complete",

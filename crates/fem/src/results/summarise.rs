@@ -70,6 +70,7 @@ impl Summary {
                 factor_bytes: collision.factor_bytes,
             },
             effects,
+            coarser_meshes: Some(simulation.levels().to_vec()).filter(|levels| !levels.is_empty()),
             models_considered: Some(simulation.considered().to_vec())
                 .filter(|considered| !considered.is_empty()),
             complete: collision.is_complete(),

@@ -8,6 +8,7 @@ use super::elastic_null::ElasticNull;
 use super::energy::Energy;
 use crate::effects::{LeftOut, Verdict};
 use crate::models::Considered;
+use crate::refinement::Level;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
@@ -52,6 +53,9 @@ pub struct Summary {
     pub effects: Vec<EffectSummary>,
     /// How far the quantities may be off.
     pub uncertainty: UncertaintySummary,
+    /// Meshes that were too coarse for the tolerance of the case, the first one first; none where the first
+    /// one does.
+    pub coarser_meshes: Option<Vec<Level>>,
     /// Where the case leaves the model open: which were considered, from the cheapest to the dearest.
     pub models_considered: Option<Vec<Considered>>,
     /// What the user should know.

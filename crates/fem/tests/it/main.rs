@@ -43,4 +43,5 @@ mod stress;
 mod surface_slip;
 mod sweep;
 mod together;
+mod tolerance;
 mod uncertainty;

@@ -40,8 +40,9 @@ use crate::estimate::Estimate;
 use crate::expected::Expected;
 use crate::refusal::Refusal;
 
-/// Contact radius over the effective radius beyond which nothing is foretold.
-const LARGEST_STRAIN: f64 = 1.0;
+/// Contact radius over the radius of a body, or its strain if that is more, beyond which nothing is foretold:
+/// collisions were computed up to 0.7.
+const FLATTEST: f64 = 1.0;
 /// Largest Poisson's ratio that the elements bear at large strain: a step there is a seventh of that at 0.495,
 /// with K = 5000 G, as of natural rubber. Beyond it the volume is nearly fixed and the step of time next to
 /// nothing.
@@ -278,9 +279,15 @@ fn is_called_for(scene: &Scene, estimate: &Estimate) -> bool {
     departure(scene, estimate).over(&scene.accuracy()) > 1.0
 }
 
+/// Whether a body is flatter than anything is foretold of.
+fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
+    let both = Strained::of_both(scene, estimate);
+    both.iter().flatten().any(|strained| strained.deformation.flatness > FLATTEST)
+}
+
 /// What leaving it out changes, in words.
 fn in_words(scene: &Scene, estimate: &Estimate) -> String {
-    match estimate.strain > LARGEST_STRAIN {
+    match is_beyond(scene, estimate) {
         true => "an amount that nothing foretells".to_string(),
         false => departure(scene, estimate).in_words(),
     }
@@ -324,9 +331,13 @@ impl Effect for FiniteStrain {
         Some(Need {
             is_called_for,
             number: format!(
-                "contact radius / effective radius = {:.3}, law {}",
+                "contact radius / effective radius = {:.3}, law {}{}",
                 estimate.strain,
-                laws_in_words(scene, estimate)
+                laws_in_words(scene, estimate),
+                match is_beyond(scene, estimate) {
+                    true => ", flatter than closed forms foretell anything of",
+                    false => "",
+                }
             ),
             otherwise: format!("small strain leaves out {open}"),
             left_open: format!("{open} is left out"),
@@ -335,7 +346,7 @@ impl Effect for FiniteStrain {
     }
 
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        if estimate.strain > LARGEST_STRAIN {
+        if is_beyond(scene, estimate) {
             return Some(LeftOut::default());
         }
         let change = with_relaxation(scene, estimate, departure(scene, estimate));
@@ -346,7 +357,7 @@ impl Effect for FiniteStrain {
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
-        if estimate.strain > LARGEST_STRAIN {
+        if is_beyond(scene, estimate) {
             return Doubt::default();
         }
         let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
