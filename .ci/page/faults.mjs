@@ -92,6 +92,12 @@ check('what of a link cannot be used is said, with the setting', async () => {
     assert.deepEqual(complaints, []);
     await page.context().close();
   }
+  // A case that is at fault leaves no empty tables.
+  const { page: faulty } = await open(browser, `${address}#case=${Buffer.from('title = "x"').toString('base64')}`);
+  await faulty.locator('#fault').waitFor();
+  assert.match(await faulty.locator('#head').innerText(), /no \[\[body\]\][^]*no numbers yet/);
+  assert.equal(await faulty.locator('#numbers').isVisible(), false);
+  await faulty.context().close();
   // What can be used is, and the next change takes the note away.
   const { page } = await open(browser, `${address}#speed=2&law.e=x`);
   assert.match((await settled(page)).text, /approach_speed = "2 m\/s"/);

@@ -31,7 +31,15 @@ function refreshTexts() {
   at('case').textContent = text;
   at('command').textContent = commandOf(text);
   at('pasted').hidden = ownText === null;
-  history.replaceState(null, '', fragmentOf({ state, text: ownText }) || '#');
+}
+
+// Where a slider has come to rest: browsers bear only so many changes of the address, or so long a one.
+function refreshAddress() {
+  try {
+    history.replaceState(null, '', fragmentOf({ state, text: ownText }) || '#');
+  } catch {
+    // The case stands below all the same.
+  }
 }
 
 function sayOfOwn(words) {
@@ -60,7 +68,7 @@ const compute = lastOnly(async (text, ask) => {
   at('progress-bar').value = 0;
   if (answer.kind === 'dropped') return;
   if (answer.kind === 'ended') {
-    standBack('Ended before there was anything to show; the numbers are those of the case before.');
+    standBack('Ended before there was anything to show');
     return;
   }
   tell(text, answer, { begun, milliseconds: performance.now() - began, isMoving: ask === MOVING });
@@ -73,11 +81,12 @@ function progressText({ model, price }) {
   return `Computing: ${model}${steps}`;
 }
 
-// The numbers shown are not those that were asked for.
+// The numbers shown, if there are any, are not those that were asked for.
 function standBack(words) {
+  const of = shownSummary ? '; the numbers are those of the case before.' : '; there are no numbers yet.';
   main.classList.add('stale');
-  at('status').textContent = words;
-  sayOfOwn('Your own case could not be computed; the numbers are those of the case before.');
+  at('status').textContent = words + of;
+  sayOfOwn(`Your own case could not be computed${of}`);
 }
 
 function clearFaults() {
@@ -91,7 +100,7 @@ function tell(text, answer, { begun, milliseconds, isMoving }) {
     tellFault(text, answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message });
     return;
   }
-  main.classList.remove('stale');
+  main.classList.remove('stale', 'empty');
   const { outcome, picture, index } = answer;
   const { summary, sharing } = outcome;
   shownSummary = summary;
@@ -115,7 +124,7 @@ function tell(text, answer, { begun, milliseconds, isMoving }) {
 
 // Of a case of one's own at its place, and in a line above.
 function tellFault(text, fault) {
-  standBack('Something is wrong with the case; the numbers are those of the case before.');
+  standBack('Something is wrong with the case');
   if (ownText === null) {
     showFault(at('fault'), fault);
     return;
@@ -127,6 +136,7 @@ function tellFault(text, fault) {
 
 function run(ask) {
   refreshTexts();
+  if (ask === AT_REST) refreshAddress();
   runner.drop();
   compute(textNow(), ask);
 }
@@ -164,7 +174,7 @@ function buildControls() {
     set: (changes) => change(changes, AT_REST),
     refuse: (fault) => {
       showFault(at('fault'), fault);
-      standBack('Not computed; the numbers are those of the case before.');
+      standBack('Not computed');
     },
   };
   document.querySelectorAll('.slider').forEach((box) => buildSlider(box, hear));
