@@ -96,6 +96,15 @@ check('a phone and a dark ground', async () => {
   // For fingers: 44 px.
   const small = await phone.page.$$eval('button, select, input, summary', (all) => all.filter((one) => one.checkVisibility() && one.getBoundingClientRect().height < 44).map((one) => one.outerHTML.slice(0, 80)));
   assert.deepEqual(small, []);
+  // Whatever the width, nothing is cut off.
+  const any = await open(browser, address);
+  await settled(any.page);
+  for (const width of [320, 600, 861, 900, 1041, 1600]) {
+    await any.page.setViewportSize({ width, height: 900 });
+    const cut = await any.page.$$eval('.scroll, html', (all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.className || one.tagName));
+    assert.deepEqual(cut, [], `${width} px`);
+  }
+  await any.page.context().close();
   const dark = await open(browser, address, { colorScheme: 'dark' });
   await settled(dark.page);
   assert.equal(await dark.page.evaluate(() => document.documentElement.dataset.theme), 'dark');
