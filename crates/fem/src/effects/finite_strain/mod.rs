@@ -394,7 +394,9 @@ impl Effect for FiniteStrain {
             )
         });
         let spread = spread(scene, &found);
-        let law = (spread > scene.accuracy().contact_time).then(|| {
+        // A contact that does not end has no time to change.
+        let has_end = collision.contact_time.is_some();
+        let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
             format!(
                 "how the materials go on beyond Hooke's law changes the contact time by up to {}, and \
                  the case does not say: name a law (material.NAME.hyperelastic)",
