@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 31] = [
+const KEYS: [&str; 32] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
