@@ -39,6 +39,9 @@ impl Stability {
     /// # Errors
     /// It does not, and a law has lost its stability.
     pub fn observe(&mut self, model: &Model, state: &State, adds_up: bool) -> Result<(), Stop> {
+        if !can_be_lost(model) {
+            return Ok(());
+        }
         if self.lost.is_none() && (!adds_up || self.n_seen.is_multiple_of(STRIDE)) {
             self.lost = look(model, state);
         }
@@ -72,6 +75,12 @@ impl Lost {
         let Self { moment: Moment { time, step }, body, element, place, stretches, .. } = *self;
         Stop::StabilityLost { time, step, body, element, place, stretches, law: self.law.clone() }
     }
+}
+
+/// Whether a body has a law that can lose it.
+fn can_be_lost(model: &Model) -> bool {
+    let mut stresses = model.bodies().iter().filter_map(|body| body.stress.as_ref());
+    stresses.any(|stress| stress.part.can_lose_stability())
 }
 
 /// The element of either body that is not stable.

@@ -7,7 +7,7 @@
 //! `NAME.width_at_tenth`, and the largest mean over a hundredth of that, `NAME.mean_force`.
 //!
 //! For each pair of `against` what changes from the partner to the run: `NAME.time_change` (first to
-//! last contact), `NAME.width_change` (of `pulse_time`) and `NAME.force_change` as shares,
+//! last contact), `NAME.width_change` (of `pulse_time`), `NAME.force_change` and `NAME.printed_change` as shares,
 //! `NAME.restitution_change`, and `NAME.width_slope` and `NAME.force_slope` over the partner's largest
 //! contact radius over R\*.
 
@@ -36,6 +36,8 @@ struct Measured {
     contact_time: f64,
     pulse: Pulse,
     restitution: f64,
+    /// The peak force that the program prints, N.
+    printed: f64,
     /// Largest contact radius over R*.
     strain: f64,
 }
@@ -77,6 +79,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
             ("time_change", time),
             ("width_change", width),
             ("force_change", force),
+            ("printed_change", change(|measured| measured.printed)),
             ("restitution_change", restitution),
             ("width_slope", width / base.strain),
             ("force_slope", force / base.strain),
@@ -110,6 +113,7 @@ impl Measured {
             contact_time: run.contact_time(),
             pulse: Pulse::of(&run.collision.history, run.contact_time()),
             restitution: run.restitution,
+            printed: run.peak_force(),
             strain: run.max_contact_radius() / run.hertz.pair().effective_radius(),
         }
     }

@@ -1,4 +1,4 @@
-//! σ_yy in section of soft bodies on a wall at four instants, on the deformed bodies.
+//! σ_yy in section of soft bodies on a wall at four instants, labelled or times, on the deformed bodies.
 //!
 //! Of each run and instant, with the upper body's σ_yy where it touches the wall on the axis, the contact
 //! pressure there, and the surface where it is:
@@ -7,7 +7,9 @@
 //! - `RUN.INSTANT.into_wall`: how far the surface is beyond the wall, over the largest approach;
 //! - `RUN.pole_over_pressure`: −σ_yy at the pole over the contact pressure on the axis at the largest approach;
 //! - `RUN.last_over_maximum`: the largest compression at the last contact over that at the largest approach;
-//! - `RUN.height`: what is left of the height on the axis at the largest approach, over the diameter.
+//! - `RUN.height`: what is left of the height on the axis at the largest approach, over the diameter;
+//! - of times `RUN.front_speed`: how fast the place on the axis where −σ_yy is a tenth of its largest there moves
+//!   through the undeformed body, from the first instant to the last, m/s.
 
 use fem_case::engineering::Unit;
 use fem_collision::{Label, Snapshot};
@@ -30,20 +32,24 @@ const WIDTH: f64 = 1.45;
 const BELOW: f64 = 0.12;
 const ABOVE: f64 = 2.15;
 
-/// Runs every case of the claim, whose snapshots are the four named instants.
+/// Runs every case of the claim, whose snapshots are the four named instants, or four times.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let names: Vec<&String> = laboratory.claim().runs.keys().collect();
     let cases = names.iter().map(|name| laboratory.case(name)).collect::<Result<_, _>>()?;
     let runs = laboratory.run_all(cases)?;
     let mut findings = Findings::new();
     for (name, run) in names.into_iter().zip(&runs) {
-        let missing = || StudyError::parameters("a case does not keep the four named snapshots");
-        let instants = Label::ALL.map(|label| {
-            let snapshots = &run.collision.snapshots;
-            snapshots.iter().find(|snapshot| snapshot.label == Some(label))
-        });
-        let instants = instants.into_iter().collect::<Option<Vec<_>>>().ok_or_else(missing)?;
-        measure(name, run, &instants, &mut findings);
+        let instants: Vec<&Snapshot> = run.collision.snapshots.iter().collect();
+        let labels: Vec<_> = instants.iter().map(|snapshot| snapshot.label).collect();
+        if labels == Label::ALL.map(Some) {
+            measure(name, run, &instants, &mut findings);
+        } else if labels == [None; Label::ALL.len()] {
+            findings.measure(format!("{name}.front_speed"), front_speed(run, &instants));
+        } else {
+            return Err(StudyError::parameters(
+                "a case does not keep the four named snapshots, or four",
+            ));
+        }
         findings.figures.push(draw(name, run, &instants));
     }
     Ok(findings)
@@ -84,6 +90,28 @@ fn measure(name: &str, run: &ExplicitRun, instants: &[&Snapshot], findings: &mut
     }
 }
 
+/// m/s.
+fn front_speed(run: &ExplicitRun, instants: &[&Snapshot]) -> f64 {
+    let Some(mesh) = run.model.bodies()[UPPER].mesh() else { return f64::NAN };
+    let place = |snapshot: &Snapshot| {
+        let half = &sections::halves(run, snapshot, 1.0)[UPPER];
+        let mut axis: Vec<_> = mesh
+            .axis()
+            .iter()
+            .map(|node| (mesh.nodes()[*node as usize][1], -half.values[*node as usize]))
+            .collect();
+        axis.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let tenth = 0.1 * axis.iter().map(|point| point.1).fold(0.0, f64::max);
+        let front = axis.windows(2).find(|pair| pair[1].1 >= tenth);
+        front.map_or(f64::NAN, |pair| {
+            let share = (tenth - pair[0].1) / (pair[1].1 - pair[0].1);
+            pair[0].0 + share * (pair[1].0 - pair[0].0)
+        })
+    };
+    let (first, last) = (instants[0], instants[instants.len() - 1]);
+    (place(last) - place(first)) / (last.time - first.time)
+}
+
 fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
     let radius = MILLI * run.smallest_radius();
     let halves: Vec<_> =
@@ -100,10 +128,12 @@ fn draw(name: &str, run: &ExplicitRun, instants: &[&Snapshot]) -> Figure {
     let panel = |(k, letter): (usize, char)| {
         let least = sections::range(&halves[k]).0 * MEGA;
         let least = Unit::fitting(least, "Pa").with_digits(3).show(least).replace('-', "\u{2212}");
-        let label = Label::ALL[k].name().replace('-', " ");
+        let label = instants[k]
+            .label
+            .map_or(String::new(), |label| format!("{}, ", label.name().replace('-', " ")));
         let time = 1e3 * instants[k].time;
         Panel {
-            title: format!("({letter}) {label}, {time:.2} ms, σ_yy ≥ {least}"),
+            title: format!("({letter}) {label}{time:.2} ms, σ_yy ≥ {least}"),
             sections: vec![halves[k][UPPER].mirrored(), wall.clone()],
         }
     };
