@@ -81,6 +81,7 @@ mod scene;
 pub mod schema;
 mod sweep;
 mod sweep_axes;
+mod sweep_faults;
 mod sweep_file;
 mod sweep_values;
 mod toml_text;
@@ -89,7 +90,7 @@ mod units;
 mod validate;
 
 pub use body::{Body, Shape};
-pub use case::Case;
+pub use case::{Case, text_at};
 pub use error::CaseError;
 pub use explain::nearest;
 pub use gravity::{Gravity, impact_speed};
@@ -99,8 +100,9 @@ pub use quantity::{
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
-pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
+pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element, SweptKey};
 pub use sweep_file::{Combine, Keep, PlotTable};
+pub use sweep_values::{ReadRows, RowsFault};
 pub use units::{Dimension, UnitError, parse_quantity};

@@ -6,19 +6,20 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-
-use crate::case::{Case, read};
+use crate::case::{Case, text_at};
 use crate::document::{Document, Insertions};
 use crate::error::CaseError;
-use crate::explain::explain;
 use crate::overrides;
 use crate::quantity::{Count, Quantity};
 use crate::sweep_axes::{Axis, SweptKey, read_axes};
-use crate::sweep_file::{Combine, Keep, PlotTable, SweepFile};
+use crate::sweep_faults::{first_of, read_file};
+use crate::sweep_file::{Combine, Keep, PlotTable};
+use crate::sweep_values::ReadRows;
 
 /// Members that a sweep may have unless it says otherwise.
 const MAX_MEMBERS: u64 = 10_000;
+/// Summaries of more members are packed unless the sweep says otherwise: file systems bear no folder for each.
+const MOST_FOLDERS: usize = 10_000;
 
 /// A sweep whose file is sound; its members are checked one by one.
 #[derive(Clone, Debug)]
@@ -48,14 +49,19 @@ struct Base {
 }
 
 impl Sweep {
-    /// Reads a sweep file and its base case; `overrides` are those of the base case.
+    /// Reads a sweep file, the tables that it names by `read_rows`, and its base case; `overrides` are those of
+    /// the base case.
     ///
     /// # Errors
-    /// The first thing that is wrong with the sweep file; a base case that cannot be read; an
+    /// What is wrong with the sweep file, all of it: [`CaseError::others`]; a base case that cannot be read; an
     /// override of a varied key; too many members.
-    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+    pub fn load(
+        path: &Path,
+        overrides: &[String],
+        read_rows: &ReadRows,
+    ) -> Result<Self, CaseError> {
         let name = path.display().to_string();
-        let text = read(path, &name).map_err(|error| match error.help() {
+        let text = text_at(path, &name).map_err(|error| match error.help() {
             Some(_) if error.span().is_none() => {
                 error.with_help("name a sweep file: fem-run sweep cases/sweep_speed.toml")
             }
@@ -63,18 +69,30 @@ impl Sweep {
         })?;
         let (document, tree) = Document::parse(&name, &text, &[], None, &[])?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let axes = read_axes(&document, &text, folder, tree.get_ref());
-        let file = SweepFile::deserialize(toml::de::Deserializer::from(tree))
-            .map_err(|error| explain(&document, &error))?;
-        let axes = axes?;
-        let max_members = max_members(&document, file.max_members.as_ref())?;
+        let mut faults = Vec::new();
+        let axes = read_axes(&document, &text, (folder, read_rows), tree.get_ref(), &mut faults);
+        let file = read_file(&document, tree, &mut faults);
+        let given = file.as_ref().and_then(|file| file.max_members.as_ref());
+        let mut found = |fault| faults.push(fault);
+        let max_members = max_members(&document, given).map_err(&mut found);
+        let base = file.as_ref().map(|file| read_base(&document, path, &file.case, overrides));
+        let base = base.and_then(|base| base.map_err(&mut found).ok());
+        if let Some(first) = first_of(faults) {
+            return Err(first);
+        }
+        // Without a fault there is all of it.
+        let (Some(file), Some(base), Ok(max_members)) = (file, base, max_members) else {
+            return Err(document.error_at("vary", "the sweep cannot be read"));
+        };
         let n_members = count_members(&document, &axes, file.combine, max_members)?;
-        let base = read_base(&document, path, &file.case, overrides)?;
         check_overrides(&name, &axes, overrides)?;
         Ok(Self {
             axes,
             combine: file.combine,
-            keep: file.keep,
+            keep: file.keep.unwrap_or(match n_members {
+                0..=MOST_FOLDERS => Keep::Summary,
+                _ => Keep::Packed,
+            }),
             plot: file.plot,
             n_members,
             name,
@@ -87,6 +105,11 @@ impl Sweep {
     /// How many members there are.
     pub fn n_members(&self) -> usize {
         self.n_members
+    }
+
+    /// What messages call the sweep file.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
     }
 
     /// The base case's file.
@@ -131,10 +154,16 @@ impl Sweep {
         self.places().map(value).collect()
     }
 
+    /// The member's values as people say them, in the order of the keys.
+    pub fn said(&self, member: usize) -> Vec<String> {
+        let choice = self.choice(member);
+        let value = |(axis, key): (usize, usize)| self.axes[axis].elements[choice[axis]].said(key);
+        self.places().map(value).collect()
+    }
+
     /// The member in words: `body.0.approach_speed = 0.1 m/s, …`.
     pub fn describe(&self, member: usize) -> String {
-        let values = self.values(member);
-        let pairs = self.keys().zip(values);
+        let pairs = self.keys().zip(self.said(member));
         let pairs: Vec<_> = pairs.map(|(key, value)| format!("{} = {value}", key.key)).collect();
         pairs.join(", ")
     }
@@ -175,7 +204,7 @@ impl Sweep {
     }
 
     /// The base case with these elements of these axes.
-    fn case(&self, choice: &[(usize, usize)]) -> Result<Case, CaseError> {
+    pub(crate) fn case(&self, choice: &[(usize, usize)]) -> Result<Case, CaseError> {
         let assign =
             |(axis, element): &(usize, usize)| self.axes[*axis].assignments(*element, &self.text);
         let assignments = choice.iter().flat_map(assign).collect();
@@ -259,7 +288,7 @@ fn read_base(
 ) -> Result<Base, CaseError> {
     let path = sweep.parent().unwrap_or(Path::new("")).join(case);
     let name = path.display().to_string();
-    let text = read(&path, &name).map_err(|error| {
+    let text = text_at(&path, &name).map_err(|error| {
         if error.span().is_some() {
             return error;
         }

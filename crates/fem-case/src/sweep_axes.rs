@@ -14,7 +14,7 @@ use crate::document::Document;
 use crate::error::CaseError;
 use crate::key_path::quote_key;
 use crate::overrides::{Assignment, parse_path};
-use crate::sweep_values::{Values, is_values};
+use crate::sweep_values::{ReadRows, Values, is_values, rounded};
 use crate::toml_text::shift;
 
 /// The parts of a key and their places.
@@ -95,6 +95,17 @@ impl Element {
         text.map_or("", String::as_str)
     }
 
+    /// The value of a key as people say it: of one that was made, whose number has all its digits, five of
+    /// them.
+    pub fn said(&self, key: usize) -> String {
+        let text = self.text(key);
+        match self.source {
+            Source::Made => rounded(text).filter(|short| short.len() < text.len()),
+            Source::Written => None,
+        }
+        .unwrap_or_else(|| text.to_string())
+    }
+
     /// The value of a key, its spans counted from the beginning of the sweep file `text`.
     fn value<'t>(&'t self, key: usize, text: &'t str) -> Option<Spanned<DeValue<'t>>> {
         match self.source {
@@ -147,38 +158,40 @@ fn canonical_part(part: &str) -> &str {
     }
 }
 
-/// Reads `[vary]` of the sweep file `text`; `folder` is where it lies.
+/// Reads `[vary]` of the sweep file `text`; tables lie in a folder and are read so. What is wrong goes to `faults`.
 pub(crate) fn read_axes(
     document: &Document,
     text: &str,
-    folder: &Path,
+    tables: (&Path, &ReadRows),
     root: &DeTable<'_>,
-) -> Result<Vec<Axis>, CaseError> {
-    let reader = Reader { document, text, folder };
-    let mut axes = Vec::new();
+    faults: &mut Vec<CaseError>,
+) -> Vec<Axis> {
+    let reader = Reader { document, text, tables };
+    let (mut axes, n_before) = (Vec::new(), faults.len());
     match root.get("vary").map(Spanned::get_ref) {
         Some(DeValue::Table(table)) => {
             for (key, value) in table {
-                let paths = reader.paths(key.get_ref(), key.span())?;
-                reader.collect(paths, key.span(), value, &mut axes)?;
+                match reader.paths(key.get_ref(), key.span()) {
+                    Ok(paths) => reader.collect(paths, key.span(), value, &mut axes, faults),
+                    Err(fault) => faults.push(fault),
+                }
             }
         }
         Some(_) => {
-            return Err(document.error_at("vary", "vary is not a table").with_help(EXAMPLE));
+            faults.push(document.error_at("vary", "vary is not a table").with_help(EXAMPLE));
         }
         None => {}
     }
-    if axes.is_empty() {
-        return Err(document.error_at("vary", "the sweep varies no key").with_help(EXAMPLE));
+    if axes.is_empty() && faults.len() == n_before {
+        faults.push(document.error_at("vary", "the sweep varies no key").with_help(EXAMPLE));
     }
     let keys = axes.iter().flat_map(|axis| axis.keys.iter().map(|key| (key, &axis.span)));
     let keys: Vec<_> = keys.collect();
     for (index, (key, span)) in keys.iter().enumerate() {
-        for (other, _) in &keys[..index] {
-            reader.check_apart(key, other, span)?;
-        }
+        let apart = |(other, _): &(&SweptKey, _)| reader.check_apart(key, other, span).err();
+        faults.extend(keys[..index].iter().find_map(apart));
     }
-    Ok(axes)
+    axes
 }
 
 const EXAMPLE: &str =
@@ -187,7 +200,7 @@ const EXAMPLE: &str =
 struct Reader<'a> {
     document: &'a Document,
     text: &'a str,
-    folder: &'a Path,
+    tables: (&'a Path, &'a ReadRows),
 }
 
 impl Reader<'_> {
@@ -224,43 +237,50 @@ impl Reader<'_> {
         span: Range<usize>,
         value: &Spanned<DeValue<'_>>,
         axes: &mut Vec<Axis>,
-    ) -> Result<(), CaseError> {
+        faults: &mut Vec<CaseError>,
+    ) {
         let keys: Vec<_> = paths.iter().cloned().map(SweptKey::new).collect();
         let axis = |elements| Axis { keys: keys.clone(), elements, span: span.clone() };
         let name = axis(Vec::new()).name();
-        let values = Values { document: self.document, folder: self.folder, name: &name };
+        let values = Values { document: self.document, tables: self.tables, name: &name };
         match value.get_ref() {
             DeValue::Table(table) if is_values(table) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.key.as_str()).collect();
-                axes.push(axis(values.read(table, value.span(), &names)?));
+                match values.read(table, value.span(), &names) {
+                    Ok(elements) => axes.push(axis(elements)),
+                    Err(fault) => faults.push(fault),
+                }
             }
             DeValue::Table(table) => {
                 if table.is_empty() {
                     let error = self.document.error_on(span, format!("{name} has no list"));
-                    return Err(error.with_help(EXAMPLE));
+                    return faults.push(error.with_help(EXAMPLE));
                 }
                 for (key, value) in table {
                     let mut paths = paths.clone();
                     for path in &mut paths {
                         path.push(Spanned::new(key.span(), key.get_ref().to_string()));
                     }
-                    self.collect(paths, key.span(), value, axes)?;
+                    self.collect(paths, key.span(), value, axes, faults);
                 }
             }
             DeValue::Array(array) => {
                 if array.is_empty() {
                     let error = self.document.error_on(value.span(), format!("{name}: no values"));
-                    return Err(error.with_help("a list holds at least one value"));
+                    return faults.push(error.with_help("a list holds at least one value"));
                 }
                 let elements = array.iter().map(|element| self.element(&name, element));
-                axes.push(axis(elements.collect::<Result<_, _>>()?));
+                match elements.collect::<Result<_, _>>() {
+                    Ok(elements) => axes.push(axis(elements)),
+                    Err(fault) => faults.push(fault),
+                }
             }
             _ => {
                 let error = self.document.error_on(value.span(), format!("{name} is not a list"));
-                return Err(error.with_help("put the values in brackets: [\"0.1 m/s\", \"1 m/s\"]"));
+                let help = "put the values in brackets: [\"0.1 m/s\", \"1 m/s\"]";
+                faults.push(error.with_help(help));
             }
         }
-        Ok(())
     }
 
     fn element(&self, key: &str, value: &Spanned<DeValue<'_>>) -> Result<Element, CaseError> {

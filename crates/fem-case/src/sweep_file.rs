@@ -16,9 +16,8 @@ pub(crate) struct SweepFile {
     /// How the lists make members.
     #[serde(default)]
     pub(crate) combine: Combine,
-    /// What is kept of each member.
-    #[serde(default)]
-    pub(crate) keep: Keep,
+    /// What is kept of each member: the summary, packed in large sweeps, unless it says otherwise.
+    pub(crate) keep: Option<Keep>,
     /// A sweep of more is refused.
     pub(crate) max_members: Option<Quantity<Count>>,
     /// Dotted keys and lists; [`crate::sweep_axes`] reads them, positions included.
@@ -50,11 +49,11 @@ keywords! {
 
 keywords! {
     /// What a sweep keeps of each member.
-    #[derive(Default)]
     Keep {
-        /// `summary.json`.
-        #[default]
+        /// `summary.json`, in a folder of the member's own.
         Summary = "summary",
+        /// The summary, as a line of a file that a process writes.
+        Packed = "packed",
         /// The whole result folder.
         All = "all",
     }

@@ -70,9 +70,11 @@ pub struct BodyFields {
 /// The contact at one distance from the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactPlace {
+    /// Whether a node of the surface that is read is there.
+    pub is_node: bool,
     /// Distance from the axis, m; where surfaces are followed as they move, the present one.
     pub radius: f64,
-    /// Contact pressure, Pa.
+    /// Contact pressure, Pa; 0 from the contact radius on.
     pub pressure: f64,
     /// y of the upper less that of the lower surface, m; negative by what springs overlap.
     pub gap: f64,
@@ -85,7 +87,8 @@ pub struct ContactPlace {
 pub struct ContactProfile {
     /// Where the pressure falls to zero, m; 0 without contact.
     pub radius: f64,
-    /// From the axis outward, as far as contact is looked for; none in flight.
+    /// From the axis outward, as far as contact is looked for: nodes, where the contact ends, and places
+    /// between, along which straight lines carry the contact force; none in flight.
     pub places: Vec<ContactPlace>,
 }
 

@@ -97,8 +97,8 @@ impl CondensedPair {
         }
         if !want.probes.is_empty() {
             monitor.enter(Phase::Fields);
-            let (trace, ending) = (&finished.trace, &collision.ending);
-            match self.probed(frame, damping, time_step, trace, ending, &want.probes) {
+            let last = finished.trace.len().saturating_sub(1);
+            match self.probed(frame, damping, time_step, last, &want.probes) {
                 Ok(probes) => collision.probes = probes,
                 Err(error) => collision.ending = Ending::Stopped(error.into()),
             }

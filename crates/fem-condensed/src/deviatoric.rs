@@ -1,9 +1,10 @@
 //! Forces of the deviatoric stiffness.
 
 use faer::Mat;
-use faer::sparse::SymbolicSparseColMat;
+use fem_element::{QuadGeometry, mean_gradient};
 
 use crate::body::CondensedBody;
+use crate::elements::ElementEquations;
 
 /// Columns that are multiplied at a time.
 const CHUNK: usize = 8;
@@ -12,8 +13,12 @@ impl CondensedBody {
     /// Product of the deviatoric stiffness with fields, ground's row included, N.
     pub fn apply_deviatoric(&self, fields: &Mat<f64>) -> Mat<f64> {
         let n = self.numbering.n_equations;
+        let elements = ElementEquations::of_mesh(&self.mesh, &self.numbering);
+        let matrices: Vec<_> = (0..elements.len())
+            .map(|number| mean_gradient(&QuadGeometry::new(&self.mesh.corners(number))).deviatoric)
+            .collect();
         let mut forces = Mat::zeros(n + 1, fields.ncols());
-        // Entries are scattered over the rows: the columns of a chunk lie together there.
+        // Equations of an element are scattered over the rows: the columns of a chunk lie together there.
         let (mut input, mut output) = (vec![[0.0; CHUNK]; n], vec![[0.0; CHUNK]; n]);
         for start in (0..fields.ncols()).step_by(CHUNK) {
             let columns = start..(start + CHUNK).min(fields.ncols());
@@ -24,7 +29,18 @@ impl CondensedBody {
                     row[k] = fields[(i, j)] - if self.is_axial[i] { ground } else { 0.0 };
                 }
             }
-            multiply(&self.pattern, &self.deviatoric, &input, &mut output);
+            output.fill([0.0; CHUNK]);
+            for (element, matrix) in elements.iter().zip(&matrices) {
+                let solved = || element.equations.into_iter().enumerate();
+                for (j, from) in solved() {
+                    let Some(from) = input.get(from as usize).copied() else { continue };
+                    for (i, to) in solved() {
+                        let Some(to) = output.get_mut(to as usize) else { continue };
+                        let value = self.shear_modulus * matrix[(i, j)];
+                        to.iter_mut().zip(from).for_each(|(to, from)| *to += value * from);
+                    }
+                }
+            }
             for (k, j) in columns.enumerate() {
                 let mut axial = 0.0;
                 for (i, row) in output.iter().enumerate() {
@@ -35,31 +51,5 @@ impl CondensedBody {
             }
         }
         forces
-    }
-}
-
-/// Product of a symmetric matrix, given by its upper triangle, with a chunk of columns.
-fn multiply(
-    pattern: &SymbolicSparseColMat<u32>,
-    values: &[f64],
-    input: &[[f64; CHUNK]],
-    output: &mut [[f64; CHUNK]],
-) {
-    for column in 0..input.len() {
-        let entries = pattern.col_range(column);
-        let (own, mut sum) = (input[column], [0.0; CHUNK]);
-        for (&row, &value) in pattern.row_idx()[entries.clone()].iter().zip(&values[entries]) {
-            let row = row as usize;
-            if row == column {
-                (0..CHUNK).for_each(|k| sum[k] += value * own[k]);
-            } else {
-                let (target, source) = (&mut output[row], &input[row]);
-                for k in 0..CHUNK {
-                    target[k] += value * own[k];
-                    sum[k] += value * source[k];
-                }
-            }
-        }
-        output[column] = sum;
     }
 }

@@ -80,18 +80,37 @@ impl CondensedPair {
         ending: &Ending,
         request: &SnapshotRequest,
     ) -> Result<(Vec<Snapshot>, Vec<String>), CondensedError> {
-        let approach = &frame.approach;
-        let (chosen, missing) = choose(trace, time_step, request, approach.first_touch(), ending);
+        let first_touch = frame.approach.first_touch();
+        let (chosen, missing) = choose(trace, time_step, request, first_touch, ending);
         let instants: Vec<Instant> = chosen.iter().map(|(instant, _)| *instant).collect();
         let steps = Steps { time_step, last: trace.len() - 1 };
         let states = self.states(frame, damping, steps, &instants)?;
-        let relaxations = damping.relaxations;
+        let mut snapshots = self.pictures(frame, damping, time_step, &instants, &states)?;
+        let is_whole = damping.radiation == [None, None];
+        let labels = chosen.iter().map(|(_, label)| *label);
+        for ((snapshot, [now, _]), label) in snapshots.iter_mut().zip(&states).zip(labels) {
+            let centres = frame.approach.centres(self.masses(), now.approach, 0.0);
+            snapshot.label = label;
+            snapshot.contact = self.profile(&now.contact, &snapshot.bodies, centres, is_whole)?;
+        }
+        Ok((snapshots, missing))
+    }
+
+    /// Both bodies at some instants whose states and rates are given, without their contact.
+    fn pictures(
+        &self,
+        frame: &Frame,
+        damping: Damping<'_>,
+        time_step: f64,
+        instants: &[Instant],
+        states: &[[State; 2]],
+    ) -> Result<Vec<Snapshot>, CondensedError> {
+        let (approach, relaxations) = (&frame.approach, damping.relaxations);
         let time = |instant: Instant| approach.first_touch() + instant.position() * time_step;
-        let mut snapshots: Vec<Snapshot> = chosen
+        let mut snapshots: Vec<Snapshot> = instants
             .iter()
-            .zip(&states)
-            .map(|(&(instant, label), [now, _])| Snapshot {
-                label,
+            .zip(states)
+            .map(|(&instant, [now, _])| Snapshot {
                 time: time(instant),
                 approach: now.approach,
                 carried: approach.centres(self.masses(), approach.gap(), time(instant)),
@@ -129,15 +148,10 @@ impl CondensedPair {
                 };
             }
         }
-        let is_whole = damping.radiation == [None, None];
-        for (snapshot, [now, _]) in snapshots.iter_mut().zip(&states) {
-            let centres = frame.approach.centres(self.masses(), now.approach, 0.0);
-            snapshot.contact = self.profile(&now.contact, &snapshot.bodies, centres, is_whole)?;
-        }
-        Ok((snapshots, missing))
+        Ok(snapshots)
     }
 
-    /// What probes see of a collision at some hundred instants from first touch to its end, as
+    /// What probes see of a collision at some hundred instants from first touch to its `last` step, as
     /// [`CondensedPair::snapshots`].
     ///
     /// # Errors
@@ -147,8 +161,7 @@ impl CondensedPair {
         frame: &Frame,
         damping: Damping<'_>,
         time_step: f64,
-        trace: &[Trace],
-        ending: &Ending,
+        last: usize,
         requests: &[ProbeRequest],
     ) -> Result<Vec<Snapshot>, CondensedError> {
         let probes = Probes::new(self.inputs().each_ref().map(BodyInput::mesh), requests);
@@ -159,15 +172,15 @@ impl CondensedPair {
             Material::new(material.density(), *material.instantaneous(), relaxation).ok()
         });
         let materials = materials.each_ref().map(Option::as_ref);
-        let last = trace.len().saturating_sub(1);
         let stride = last.div_ceil(PROBED_INSTANTS).max(1);
-        let first_touch = frame.approach.first_touch();
-        let steps: Vec<usize> = (0..last).step_by(stride).chain([last]).collect();
-        let mut seen = Vec::with_capacity(steps.len());
-        for some in steps.chunks(SNAPSHOTS_AT_ONCE) {
-            let times = some.iter().map(|&step| first_touch + step as f64 * time_step).collect();
-            let request = SnapshotRequest::Times(times);
-            let (all, _) = self.snapshots(frame, damping, time_step, trace, ending, &request)?;
+        let instants: Vec<Instant> =
+            (0..last).step_by(stride).chain([last]).map(Instant::at).collect();
+        let states = self.states(frame, damping, Steps { time_step, last }, &instants)?;
+        let mut seen = Vec::with_capacity(instants.len());
+        for (instants, states) in
+            instants.chunks(SNAPSHOTS_AT_ONCE).zip(states.chunks(SNAPSHOTS_AT_ONCE))
+        {
+            let all = self.pictures(frame, damping, time_step, instants, states)?;
             seen.extend(all.iter().map(|one| probes.reduce(materials, one)));
         }
         Ok(seen)
@@ -245,7 +258,7 @@ impl CondensedPair {
                 };
                 // One solution for all, so that the factor is read once.
                 let mut loads = body.balanced_load(&forces);
-                body.solve_balanced(&mut loads);
+                body.solve_balanced(&mut loads)?;
                 loads
             }
         };

@@ -22,7 +22,8 @@ pub(crate) struct Instant {
 }
 
 impl Instant {
-    fn at(step: usize) -> Self {
+    /// A step itself.
+    pub fn at(step: usize) -> Self {
         Self { step, part: 0.0 }
     }
 

@@ -55,7 +55,6 @@
 //! # }
 //! ```
 
-mod assembly;
 mod body;
 mod chain;
 mod collision;
@@ -65,6 +64,8 @@ mod damping;
 mod dense;
 mod deviatoric;
 mod disc;
+mod dissection;
+mod elements;
 mod error;
 mod factor;
 mod fields;

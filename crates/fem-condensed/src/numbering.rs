@@ -2,18 +2,13 @@
 //!
 //! Fixed is u_r on the axis; u_y of the far pole, the ground, is held and not eliminated, which makes
 //! the stiffness of a free body positive definite. A half-space is held at its far boundary instead, and
-//! has no ground. The interior comes first,
-//! in the order of approximate minimum degree (Amestoy, Davis & Duff 1996) of the graph of nodes;
-//! then u_r of the contact nodes; last their u_y, from the axis outward, so that the trailing block
-//! of the Cholesky factor is all that contact needs.
+//! has no ground. The interior comes first, by nested dissection ([`Dissection`]); then u_r of the contact
+//! nodes; last their u_y, from the axis outward, so that the trailing block of the Cholesky factor is all
+//! that contact needs.
 
-use dyn_stack::{MemBuffer, MemStack};
-use faer::dyn_stack;
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
 use fem_mesh::SphereMesh;
 
-use crate::error::CondensedError;
+use crate::dissection::Dissection;
 
 /// Marks a degree of freedom that does not move.
 pub(crate) const FIXED: u32 = u32::MAX;
@@ -27,14 +22,13 @@ pub(crate) struct Numbering {
     /// Equations that are solved, the ground not counted.
     pub n_equations: usize,
     pub n_contact: usize,
+    /// Where each set of equations ends that are eliminated together; the last one is the contact's.
+    pub ends: Vec<usize>,
 }
 
 impl Numbering {
     /// With u_y of the given surface nodes last.
-    ///
-    /// # Errors
-    /// Memory for the ordering is missing.
-    pub fn new(mesh: &SphereMesh, contact_nodes: &[u32]) -> Result<Self, CondensedError> {
+    pub fn new(mesh: &SphereMesh, contact_nodes: &[u32]) -> Self {
         let n_nodes = mesh.nodes().len();
         let mut equations = vec![[0; 2]; n_nodes];
         for &node in mesh.axis() {
@@ -45,81 +39,50 @@ impl Numbering {
         for &node in mesh.far_boundary() {
             equations[node as usize] = [FIXED; 2];
         }
-        let mut interior = vec![0; n_nodes];
+        let mut is_contact = vec![false; n_nodes];
         for &node in contact_nodes {
-            interior[node as usize] = FIXED;
+            is_contact[node as usize] = true;
         }
-        let mut order = eliminate_interior(mesh, &mut interior)?;
-        order.extend(contact_nodes.iter().map(|&node| [node, 0]));
-        order.extend(contact_nodes.iter().map(|&node| [node, 1]));
+        let interior = Dissection::new(mesh, |node| !is_contact[node]);
         let mut n_equations = 0;
-        for [node, component] in order {
-            let equation = &mut equations[node as usize][component as usize];
+        let mut number = |node: u32, component: usize| {
+            let equation = &mut equations[node as usize][component];
             if *equation != FIXED {
                 *equation = n_equations;
                 n_equations += 1;
             }
+            n_equations as usize
+        };
+        let mut ends = Vec::with_capacity(interior.ends.len() + 1);
+        let mut nodes = interior.nodes.iter();
+        let mut end = 0;
+        let starts = [0].iter().chain(&interior.ends);
+        for (start, stop) in starts.zip(&interior.ends) {
+            for &node in nodes.by_ref().take(stop - start) {
+                end = number(node, 0).max(number(node, 1));
+            }
+            ends.push(end);
+        }
+        for component in 0..2 {
+            for &node in contact_nodes {
+                end = number(node, component);
+            }
+        }
+        ends.push(end);
+        // What is fixed makes no set of its own.
+        ends.dedup();
+        if ends.first() == Some(&0) {
+            ends.remove(0);
         }
         if !mesh.is_half_space() {
             equations[ground][1] = n_equations;
         }
-        Ok(Self { equations, n_equations: n_equations as usize, n_contact: contact_nodes.len() })
+        let n_equations = n_equations as usize;
+        Self { equations, n_equations, n_contact: contact_nodes.len(), ends }
     }
 
     /// First equation of the contact unknowns.
     pub fn first_contact(&self) -> usize {
         self.n_equations - self.n_contact
     }
-}
-
-/// (node, component) of all nodes that are not marked, in the order of elimination. `local` is
-/// overwritten by the numbers of the unmarked nodes in their graph.
-fn eliminate_interior(
-    mesh: &SphereMesh,
-    local: &mut [u32],
-) -> Result<Vec<[u32; 2]>, CondensedError> {
-    let mut nodes = Vec::with_capacity(local.len());
-    for (node, number) in local.iter_mut().enumerate() {
-        if *number != FIXED {
-            *number = nodes.len() as u32;
-            nodes.push(node as u32);
-        }
-    }
-    let n = nodes.len();
-    // Every pair of corners once an element: an interior edge comes twice, which does no harm.
-    let mut pairs = Vec::with_capacity(6 * mesh.quads().len());
-    for quad in mesh.quads() {
-        let corners = quad.map(|node| local[node as usize]);
-        for i in 0..4 {
-            for j in 0..i {
-                let (a, b) = (corners[i].min(corners[j]), corners[i].max(corners[j]));
-                if b != FIXED {
-                    pairs.push((b, a));
-                }
-            }
-        }
-    }
-    pairs.sort_unstable();
-    pairs.dedup();
-    let mut starts = vec![0u32; n + 1];
-    for &(column, _) in &pairs {
-        starts[column as usize + 1] += 1;
-    }
-    for i in 0..n {
-        starts[i + 1] += starts[i];
-    }
-    let rows: Vec<u32> = pairs.into_iter().map(|(_, row)| row).collect();
-    let graph = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
-    let (mut order, mut inverse) = (vec![0u32; n], vec![0u32; n]);
-    let request = amd::order_maybe_unsorted_scratch::<u32>(n, rows.len());
-    let mut memory = MemBuffer::try_new(request).map_err(|_| CondensedError::OutOfMemory)?;
-    amd::order_maybe_unsorted(
-        &mut order,
-        &mut inverse,
-        graph,
-        amd::Control::default(),
-        MemStack::new(&mut memory),
-    )
-    .map_err(|_| CondensedError::OutOfMemory)?;
-    Ok(order.into_iter().flat_map(|k| [[nodes[k as usize], 0], [nodes[k as usize], 1]]).collect())
 }

@@ -64,11 +64,8 @@ impl CondensedPair {
             match input {
                 BodyInput::Sphere { mesh, material } | BodyInput::HalfSpace { mesh, material } => {
                     let nodes = surfaces[side].nodes_within(f64::INFINITY);
-                    // Waves in a half-space do not come back: it has no modes.
-                    let is_endless = mesh.is_half_space();
-                    let n_modes = if is_endless { 0 } else { settings.vibration_modes };
-                    let side_made = PairSide::new(mesh, material, nodes, feet, n_modes)?;
-                    masses[side] = (!is_endless).then_some(side_made.body.mass);
+                    let side_made = PairSide::new(mesh, material, nodes, feet, &settings)?;
+                    masses[side] = (!mesh.is_half_space()).then_some(side_made.body.mass);
                     sides[side] = Some(side_made);
                 }
                 BodyInput::Rigid { mass, .. } => masses[side] = Some(check_mass(*mass)?),

@@ -35,6 +35,8 @@ impl CondensedPair {
         let along = nodes.clone().map(|(radius, _)| Some(at(radius)));
         let mut profile =
             Profile::new(nodes, self.read_out(&contact.forces).0, self.barrier(), along);
+        let beyond = profile.nodes_beyond(surfaces.each_ref(), self.candidate_radius());
+        profile = profile.extended(beyond.map(|radius| (radius, at(radius))));
         if !is_whole || self.settings().slip.is_some() {
             self.close(&mut profile);
         }
@@ -48,13 +50,19 @@ impl CondensedPair {
             }
             _ => [1.0; 2],
         };
+        profile.contact_radius = wider * own;
+        for point in &mut profile.points {
+            (point.radius, point.pressure) = (wider * point.radius, denser * point.pressure);
+        }
+        let profile = profile.closed();
         let places = profile.points.iter().map(|point| ContactPlace {
-            radius: wider * point.radius,
-            pressure: denser * point.pressure,
+            is_node: point.is_node,
+            radius: point.radius,
+            pressure: point.pressure,
             gap: point.gap,
             radial: point.radial,
         });
-        Ok(ContactProfile { radius: wider * own, places: places.collect() })
+        Ok(ContactProfile { radius: profile.contact_radius, places: places.collect() })
     }
 
     /// Moves all gaps so that their mean under the pressure is what springs overlap there.

@@ -28,10 +28,13 @@ pub struct PairSettings {
     pub held: [bool; 2],
     /// How the surfaces of unlike bodies slip on each other; facing points move alike without.
     pub slip: Option<Slip>,
+    /// Whether factors are kept for fields, for a modulus that relaxes beside an elastic one, and for modes;
+    /// without, they are made where these are asked for.
+    pub keeps_factors: bool,
 }
 
 impl PairSettings {
-    /// Exact contact, two blocks, no vibration, no body held, no slip.
+    /// Exact contact, two blocks, no vibration, no body held, no slip, factors kept.
     pub fn new(candidate_radius: f64) -> Self {
         Self {
             candidate_radius,
@@ -40,6 +43,7 @@ impl PairSettings {
             vibration_modes: 0,
             held: [false; 2],
             slip: None,
+            keeps_factors: true,
         }
     }
 }

@@ -47,7 +47,7 @@ impl ShearSprings {
     /// # Errors
     /// Missing memory; a stiffness that is not positive definite to rounding.
     pub fn new(body: &CondensedBody, n_blocks: usize) -> Result<Self, CondensedError> {
-        let mut blocks = vec![body.orthonormal_answers()];
+        let mut blocks = vec![body.orthonormal_answers()?];
         let mut projected = Vec::with_capacity(n_blocks);
         loop {
             let force = body.apply_deviatoric(&blocks[blocks.len() - 1]);
@@ -118,7 +118,8 @@ fn next_block(
     let n = body.numbering.n_equations;
     force.as_mut().row_mut(n).fill(0.0);
     // fᵀK⁻¹f = yᵀy with L y = f.
-    body.factor.solve_lower(force.as_mut().subrows_mut(0, n));
+    let factor = &body.solver()?.factor;
+    factor.solve_lower(force.as_mut().subrows_mut(0, n));
     let mut gram = force.transpose() * &force;
     for share in shares {
         gram -= share.transpose() * share;
@@ -133,7 +134,7 @@ fn next_block(
         vectors[(i, first + j)] / values[first + j].sqrt()
     });
     let mut next = force;
-    body.factor.solve_transposed(next.as_mut().subrows_mut(0, n));
+    factor.solve_transposed(next.as_mut().subrows_mut(0, n));
     for (block, share) in blocks.iter().zip(shares) {
         matmul(next.as_mut(), Accum::Add, block.as_ref(), share.as_ref(), -1.0, Par::Seq);
     }

@@ -11,6 +11,7 @@ use fem_mesh::SphereMesh;
 use crate::body::CondensedBody;
 use crate::error::CondensedError;
 use crate::points::{Feet, gather};
+use crate::settings::PairSettings;
 use crate::shear::ShearSprings;
 use crate::vibration::Vibrations;
 
@@ -54,12 +55,15 @@ impl PairSide {
         material: &Material,
         nodes: &[u32],
         feet: Feet,
-        n_vibrations: usize,
+        settings: &PairSettings,
     ) -> Result<Self, CondensedError> {
         let outermost = feet.iter().flatten().map(|(node, _)| *node).max().unwrap_or(0);
-        let body = CondensedBody::new(mesh.clone(), material, &nodes[..=outermost])?;
+        let nodes = &nodes[..=outermost];
+        let body = CondensedBody::new(mesh.clone(), material, nodes, settings.keeps_factors)?;
         let compliance = gather(&feet, &gather(&feet, &body.compliance).transpose().to_owned());
         let uniform = gather(&feet, &body.compliance_factor);
+        // Waves in a half-space do not come back: it has no modes.
+        let n_vibrations = if mesh.is_half_space() { 0 } else { settings.vibration_modes };
         let vibrations = (n_vibrations > 0)
             .then(|| {
                 let modes = Vibrations::new(&body, material.shear_wave_speed(), n_vibrations)?;

@@ -56,7 +56,7 @@ impl Vibrations {
         // rounding: no more are made than it takes to know all modes that the mesh resolves.
         let mut asked = n_modes.min(FIRST_MODES);
         let settled = loop {
-            lanczos.extend(VECTORS_PER_MODE * asked + VECTORS_MORE);
+            lanczos.extend(VECTORS_PER_MODE * asked + VECTORS_MORE)?;
             let settled = lanczos.settled(asked, least)?;
             if settled.is_all || asked == n_modes || lanczos.is_over() {
                 break settled;
@@ -112,18 +112,21 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Up to so many vectors.
-    fn extend(&mut self, n_vectors: usize) {
+    fn extend(&mut self, n_vectors: usize) -> Result<(), CondensedError> {
         while self.count < n_vectors && !self.is_over() {
-            self.add_vector();
+            self.add_vector()?;
         }
+        Ok(())
     }
 
-    fn add_vector(&mut self) {
+    fn add_vector(&mut self) -> Result<(), CondensedError> {
         let (k, masses) = (self.count, &self.body.mass_of_equation);
-        self.body.solve_balanced(&mut self.load);
-        self.body.remove_mean_motion(&mut self.load);
-        // The first pass gives the projection of G, the second removes what rounding left.
+        self.body.solve_balanced(&mut self.load)?;
+        // The first pass gives the projection of G, the second removes what rounding left. A motion of the
+        // whole body is taken out in both: G knows none, and what of it rounding has left in the vectors
+        // would grow in each of them by half.
         for pass in 0..2 {
+            self.body.remove_mean_motion(&mut self.load);
             let done = self.weighted.as_ref().subcols(0, k);
             let shares = done.transpose() * &self.load;
             self.load -= self.basis.as_ref().subcols(0, k) * &shares;
@@ -134,11 +137,12 @@ impl<'a> Lanczos<'a> {
                 }
             }
         }
+        self.body.remove_mean_motion(&mut self.load);
         let squares = masses.iter().enumerate().map(|(i, mass)| mass * self.load[(i, 0)].powi(2));
         let norm = squares.sum::<f64>().sqrt();
         if norm <= 0.0 || norm.is_nan() {
             self.has_broken_down = true;
-            return;
+            return Ok(());
         }
         for (i, mass) in masses.iter().enumerate() {
             self.basis[(i, k)] = self.load[(i, 0)] / norm;
@@ -146,6 +150,7 @@ impl<'a> Lanczos<'a> {
             self.load[(i, 0)] = self.weighted[(i, k)];
         }
         (self.count, self.last_norm) = (k + 1, norm);
+        Ok(())
     }
 
     /// Up to so many modes that have settled, the lowest ones, of flexibilities of at least `least`, s².
@@ -218,7 +223,7 @@ mod tests {
             HalfDisc { radius: 1.0, contact_element_size: size, refined_radius: 0.5, growth: None };
         let mesh = mesh.build().unwrap();
         let contact = mesh.surface()[..4].to_vec();
-        let body = CondensedBody::new(mesh, &material, &contact).unwrap();
+        let body = CondensedBody::new(mesh, &material, &contact, true).unwrap();
         let modes = Vibrations::new(&body, 1.0, 6).unwrap();
         // ψ of each mode has unit energy in the stiffness, and a share of it is deviatoric; the
         // breathing mode 0S0 has the least.

@@ -18,9 +18,20 @@ pub struct ContactForces {
     pub overlap_radius: f64,
     /// Whether the outermost candidate point is closed.
     pub at_limit: bool,
-    /// Distance from the axis (m) at which a surface turns over where the other one touches it, so
-    /// that it is not a graph over the radius any more; only of moved surfaces.
-    pub turned_at: Option<f64>,
+    /// Where a surface turns over that the other one touches there, so that it is not a graph over the
+    /// radius any more; only of moved surfaces.
+    pub turn: Option<Turn>,
+}
+
+/// Where a surface turns over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// 0 of the lower body, 1 of the upper.
+    pub side: usize,
+    /// Node of that body that has come as near to the axis as the one before it.
+    pub node: u32,
+    /// Distance from the axis, m.
+    pub radius: f64,
 }
 
 impl ContactForces {

@@ -24,7 +24,7 @@ impl ContactInterface {
 
     /// The side at whose nodes profiles are told.
     pub(crate) fn coarser(&self) -> usize {
-        coarser(&self.surfaces, self.candidate_radius)
+        coarser(self.surfaces.each_ref(), self.candidate_radius)
     }
 
     /// Contact pressure at the nodes of a deformable side, from the axis
@@ -103,12 +103,12 @@ impl ContactInterface {
 /// At whose nodes radius and pressure of surfaces are read, which can touch out to a radius, m.
 pub(crate) fn reading(surfaces: &[Surface; 2], radius: f64) -> Reading {
     let lengths = surfaces.each_ref().map(|s| (!s.is_rigid()).then(|| s.segment_length(0)));
-    Reading::of(lengths, coarser(surfaces, radius))
+    Reading::of(lengths, coarser(surfaces.each_ref(), radius))
 }
 
 /// The side that deforms and has the longer segments, at whose nodes pressures are read.
-pub(crate) fn coarser(surfaces: &[Surface; 2], radius: f64) -> usize {
-    let n_nodes = surfaces.each_ref().map(|surface| match surface.is_rigid() {
+pub(crate) fn coarser(surfaces: [&Surface; 2], radius: f64) -> usize {
+    let n_nodes = surfaces.map(|surface| match surface.is_rigid() {
         true => usize::MAX,
         false => surface.nodes_within(radius).len(),
     });

@@ -69,6 +69,12 @@ pub(crate) fn quadrature(corners: &[[f64; 2]; 4]) -> [QuadraturePoint; 4] {
     })
 }
 
+/// ∫ N_a 2πr dA, m³, of the quad with the given corners (r, y) in m: [`QuadGeometry::nodal_volumes`] alone.
+pub fn nodal_volumes(corners: &[[f64; 2]; 4]) -> [f64; 4] {
+    let points = quadrature(corners);
+    std::array::from_fn(|a| points.iter().map(|p| p.weight * p.shape[a]).sum())
+}
+
 impl QuadGeometry {
     /// Integrates over the quad with the given corners (r, y) in m,
     /// counter-clockwise, r ≥ 0.

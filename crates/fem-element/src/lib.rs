@@ -19,6 +19,6 @@ mod stiffness;
 
 pub use b_bar::b_bar;
 pub use eigenvalue::largest_eigenvalue;
-pub use geometry::QuadGeometry;
-pub use mean_gradient::mean_gradient;
+pub use geometry::{QuadGeometry, nodal_volumes};
+pub use mean_gradient::{mean_gradient, mean_gradient_stiffness};
 pub use stiffness::{ElementMatrix, ElementStiffness};

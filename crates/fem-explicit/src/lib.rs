@@ -28,7 +28,7 @@
 //!   observed, history,       effective                                   centre_pressure,
 //!   recorder                                                             is_closed_next
 //! where stiffness changes     add_stiffness_bound,
-//!   bound the step           strain_rate
+//!   bound the step           strain_rate, urgency
 //! advance: nodes (leapfrog)
 //!   what stress remembers    advance
 //!   what contact remembers,                                              advance
@@ -76,6 +76,7 @@ mod recorder;
 mod run;
 mod snapshot;
 mod sound;
+mod stability;
 mod state;
 mod step;
 mod stress;
@@ -95,4 +96,4 @@ pub use model::{Model, Parts, Settings};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, collide};
 pub use snapshot::n_states;
-pub use stress::{Collapse, MOST_FINITE_STRAIN_TERMS, Stress};
+pub use stress::{Collapse, MOST_FINITE_STRAIN_TERMS, Stress, Unstable};

@@ -174,7 +174,9 @@ fn step(
     probing: &mut Probing,
 ) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
-    let Memory { state, log, ledger, observed, history, recorder, probes, sound, .. } = memory;
+    let Memory {
+        state, log, ledger, observed, history, recorder, probes, sound, stability, ..
+    } = memory;
     let stop = |fault: Fault, state: &State| model.stop(fault, state);
     let contact = update_forces(model, state, scratch)
         .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
@@ -197,7 +199,7 @@ fn step(
     let has_separated = log.has_separated(time, model.gravity());
     // At the limit too: a run that blows up throws its nodes about, which is not a large contact, and
     // its balance tells.
-    let is_beyond = contact.at_limit || contact.turned_at.is_some();
+    let is_beyond = contact.at_limit || contact.turn.is_some();
     let kind = match (is_last_contact, is_first_contact || has_separated || is_beyond) {
         (_, true) => RowKind::Landmark,
         (true, _) => RowKind::LastContact,
@@ -214,6 +216,7 @@ fn step(
         if ledger.adds_up() {
             sound.observe(model, state, scratch, log.approach);
         }
+        stability.observe(model, state, ledger.adds_up())?;
         if let Some(history) = &mut history {
             history.push(row, kind);
         }
@@ -241,8 +244,8 @@ fn step(
     if stays_together {
         return Ok(Some(Ending::Together));
     }
-    if let Some(radius) = contact.turned_at {
-        return Err(Stop::SurfaceTurnsOver { time, step, radius });
+    if let Some(turn) = contact.turn {
+        return Err(model.stop_of_turn(turn, state));
     }
     if contact.at_limit {
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });

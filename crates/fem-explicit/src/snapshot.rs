@@ -56,9 +56,11 @@ pub(crate) fn take(
         fields.displacement.copy_from_slice(&state.displacement);
     }
     let profile = model.contact().profile(&state.motions(model), state.contact_history(model));
+    let profile = profile.closed();
     snapshot.contact.radius = profile.contact_radius;
     snapshot.contact.places.clear();
     snapshot.contact.places.extend(profile.points.iter().map(|point| ContactPlace {
+        is_node: point.is_node,
         radius: point.radius,
         pressure: point.pressure,
         gap: point.gap,

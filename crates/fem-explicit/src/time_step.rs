@@ -188,21 +188,24 @@ impl ChangingBound {
 
     /// Critical time step (s) at masses (kg), where the elements have these bounds now (N/m), with what the
     /// contact's have grown by, and its damping (N s/m); and the node that asks for it. What is no number
-    /// counts.
+    /// counts. In place of the bounds it leaves the steps of all nodes, s.
     pub fn critical_time_step(
         &self,
         mass: &[f64],
-        of_elements: &[f64],
+        of_elements: &mut [f64],
         grown_damping: &[f64],
     ) -> (f64, usize) {
-        let step = |k: usize| {
-            let grown = of_elements[k] - self.of_elements[k];
+        let mut least = (f64::INFINITY, 0);
+        for (k, bound) in of_elements.iter_mut().enumerate() {
+            let grown = *bound - self.of_elements[k];
             let damping = self.damping[k] + grown_damping[k];
-            (critical_time_step([mass[k], self.stiffness[k] + grown, damping]), k)
-        };
-        (0..mass.len()).map(step).fold((f64::INFINITY, 0), |least, step| {
-            if step.0 < least.0 || step.0.is_nan() { step } else { least }
-        })
+            let step = critical_time_step([mass[k], self.stiffness[k] + grown, damping]);
+            if step < least.0 || step.is_nan() {
+                least = (step, k);
+            }
+            *bound = step;
+        }
+        least
     }
 }
 

@@ -8,8 +8,18 @@ use crate::chart::Chart;
 
 const PANEL_WIDTH: f64 = 480.0;
 const PANEL_HEIGHT: f64 = 340.0;
-/// Entries that a legend can tell apart.
-const LONGEST_LEGEND: usize = 15;
+/// Height of an entry of the legend.
+const ENTRY_HEIGHT: f64 = 18.0;
+
+/// Entries that the legend beside so many charts has room for.
+pub fn legend_room(n_charts: usize) -> usize {
+    let n_rows = n_charts.max(1).div_ceil(n_columns(n_charts));
+    (n_rows as f64 * PANEL_HEIGHT / ENTRY_HEIGHT) as usize - 1
+}
+
+fn n_columns(n_charts: usize) -> usize {
+    if n_charts <= 1 { 1 } else { 2 }
+}
 
 /// The charts, two in a row, as one SVG document; `None` if there is no point to draw.
 ///
@@ -19,14 +29,15 @@ pub fn svg(charts: &[Chart]) -> Option<String> {
     if charts.is_empty() {
         return None;
     }
+    let room = legend_room(charts.len());
     let mut legend: Vec<LegendEntry> = Vec::new();
     for entry in charts.iter().flat_map(|chart| chart.legend()) {
         let is_known = legend.iter().any(|known| known.label == entry.label);
-        if !is_known && legend.len() < LONGEST_LEGEND {
+        if !is_known && legend.len() < room {
             legend.push(entry);
         }
     }
-    let columns = if charts.len() == 1 { 1 } else { 2 };
+    let columns = n_columns(charts.len());
     let (plots, layouts): (Vec<_>, Vec<_>) = charts.iter().map(|chart| chart.draw()).unzip();
     let mut figure = Figure::new(charts.len().div_ceil(columns), columns)
         .with_plots(plots)

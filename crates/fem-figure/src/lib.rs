@@ -24,6 +24,6 @@ mod style;
 mod ticks;
 
 pub use chart::{Axis, Chart, Curve, Mark};
-pub use grid::svg;
+pub use grid::{legend_room, svg};
 pub use panel::panel;
 pub use style::{COLOURS, GREY, colour_along, tick};

@@ -1,11 +1,14 @@
 //! A pair of bodies under a law of a [`Family`]: parameters to restitution and contact time.
 
+use std::f64::consts::PI;
+
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
     EndRule, Family, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation,
     Parameter, Role, Ting,
 };
 use fem_material::{Material, PronySeries, PronyTerm};
+use statrs::function::gamma::gamma;
 
 use crate::error::FitError;
 
@@ -195,6 +198,34 @@ impl Model {
         }
     }
 
+    /// K, N/m^γ, of a law whose stiffness no theory gives, with which its spring alone makes Hertz' contact
+    /// time at a speed, m/s: of a spring K ξ^γ between masses
+    ///
+    /// ```math
+    /// T = \frac{2\xi_m}{v}\,\frac{\sqrt\pi\,\Gamma(1+q)}{\Gamma(\frac12+q)}, \qquad q = \frac1{\gamma+1}, \qquad
+    /// \frac{K\xi_m^{\gamma+1}}{\gamma+1} = \tfrac12m^*v^2
+    /// ```
+    ///
+    /// (the integral of dξ/√(v² − 2Kξ^(γ+1)/((γ+1)m*)), a beta function).
+    ///
+    /// # Errors
+    /// Those of Hertz' impact; values without a meaning.
+    pub fn stiffness_of_hertz(&self, values: &[f64], speed: f64) -> Result<f64, LawError> {
+        let time = HertzImpact::new(&self.pair, speed)?.contact_time();
+        let exponent = self.law(values).transpose()?.map_or(1.5, |law| law.elastic_exponent());
+        let q = (exponent + 1.0).recip();
+        let integral = PI.sqrt() * gamma(1.0 + q) / gamma(0.5 + q);
+        let overlap = 0.5 * time * speed / integral;
+        let energy = 0.5 * self.pair.effective_mass() * speed * speed;
+        Ok((exponent + 1.0) * energy / overlap.powf(exponent + 1.0))
+    }
+
+    /// Poisson's ratio of the first body that has a material.
+    pub fn poissons_ratio(&self) -> Option<f64> {
+        let mut materials = self.materials.iter().flatten();
+        materials.next().map(|material| material.instantaneous().poissons_ratio())
+    }
+
     fn materials_at_rate(&self, rate: f64) -> Result<[Option<Material>; 2], LawError> {
         let factor = rate / self.fastest_rate().unwrap_or(rate);
         let wrong = |_| LawError::NotPositive { quantity: "decay_rate", value: rate };
@@ -210,5 +241,35 @@ impl Model {
                 .map_err(wrong)?;
         }
         Ok(scaled)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The spring, integrated without its dashpot, takes as long as Hertz'; the integration is good to 1e-10.
+    #[test]
+    fn a_stiffness_of_hertz_makes_his_contact_time() {
+        use fem_material::ElasticModuli;
+
+        let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(63e9, 0.244).unwrap();
+        let glass = Material::new(2390.0, moduli, None).unwrap();
+        let sphere = fem_laws::Partner::solid_sphere(15.9e-3, &glass);
+        let pair = Pair::new(sphere, sphere).unwrap();
+        for (family, mut values) in [
+            (Family::Linear, vec![1.0, 0.0]),
+            (Family::MishraMurty, vec![1.0, 0.0]),
+            (Family::Power, vec![1.0, 1.5, 0.0, 0.5]),
+            (Family::Power, vec![1.0, 3.0, 0.0, 0.5]),
+        ] {
+            let model = Model::new(&pair, [None, None], family, EndRule::ZeroForce).unwrap();
+            for speed in [0.01, 2.0] {
+                values[0] = model.stiffness_of_hertz(&values, speed).unwrap();
+                let time = model.outcome(&values, speed).unwrap().contact_time.unwrap();
+                let hertz = HertzImpact::new(&pair, speed).unwrap().contact_time();
+                assert!((time / hertz - 1.0).abs() < 1e-8, "{family:?}: {time} {hertz}");
+            }
+        }
     }
 }

@@ -10,6 +10,8 @@
 //!
 //! is exact for every ratio z of step to relaxation time, from elastic (z → 0) to viscous (z → ∞).
 
+use crate::functions::exp_m1;
+
 /// Gauss points, and coefficients, a step.
 pub(crate) const N: usize = 5;
 
@@ -124,7 +126,7 @@ pub(crate) fn fading_moments(theta: f64, z: f64) -> Vector {
             moments[m - 1] = (theta.powi(m as i32) - z * moments[m]) / m as f64;
         }
     } else {
-        moments[0] = -(-y).exp_m1() / z;
+        moments[0] = -exp_m1(-y) / z;
         for m in 1..N {
             moments[m] = (theta.powi(m as i32) - m as f64 * moments[m - 1]) / z;
         }

@@ -8,6 +8,8 @@
 //!
 //! The logarithm is of the present contact, inside which all earlier load lies in loading.
 
+use crate::functions::ln;
+
 /// α − β ln u.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Correction {
@@ -39,12 +41,12 @@ impl Correction {
             return half_space;
         }
         let cube = hertz * hertz * hertz;
-        half_space + cube * (0.5 * (self.alpha - self.beta * hertz.ln()) - self.beta / 6.0)
+        half_space + cube * (0.5 * (self.alpha - self.beta * ln(hertz)) - self.beta / 6.0)
     }
 
     /// α − β ln u, 0 at u = 0.
     pub fn at(&self, hertz: f64) -> f64 {
-        if hertz > 0.0 { self.alpha - self.beta * hertz.ln() } else { 0.0 }
+        if hertz > 0.0 { self.alpha - self.beta * ln(hertz) } else { 0.0 }
     }
 
     /// u, and ∂u/∂δ there, at δ (an open contact: 0), with the `remembered` Σ M_k (α_k − β_k ln u).
@@ -69,7 +71,7 @@ impl Correction {
         let mut hertz = approach;
         let mut slope = 1.0;
         for _ in 0..n_iterations {
-            let (root, log) = (hertz.sqrt(), hertz.ln());
+            let (root, log) = (hertz.sqrt(), ln(hertz));
             let factor = self.alpha - self.beta * log;
             let stiffening = root * (1.5 * factor - self.beta) - remembered.beta / hertz;
             // Beyond the validity, but a motion: an iteration of a step may stray.

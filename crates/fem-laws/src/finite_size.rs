@@ -28,6 +28,7 @@ use fem_material::Material;
 
 use crate::error::LawError;
 use crate::finite_correction::{Correction, RelaxingCorrection};
+use crate::functions::ln;
 use crate::pair_relaxation::PairRelaxation;
 use crate::sphere_compliance::{Parts, SphereCompliance};
 
@@ -97,7 +98,7 @@ impl FiniteSize {
     ) -> f64 {
         let of_sphere = |sphere: &SphereCompliance| {
             let [constant, slope] = coefficient(sphere);
-            sphere.unit() * (constant + slope * (sphere.radius() / contact_radius).ln())
+            sphere.unit() * (constant + slope * ln(sphere.radius() / contact_radius))
         };
         self.spheres.iter().map(of_sphere).sum()
     }

@@ -48,6 +48,7 @@ mod finite_coefficient;
 mod finite_correction;
 mod finite_size;
 mod folded;
+mod functions;
 mod hertz;
 mod hertz_field;
 mod hertz_history;

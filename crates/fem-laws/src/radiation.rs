@@ -23,6 +23,7 @@ use std::f64::consts::PI;
 use fem_material::Material;
 use statrs::function::beta::beta;
 
+use crate::functions::sin_cos;
 use crate::hertz::HertzImpact;
 
 /// Points of the midpoint rule over each stretch; the integrands are smooth and periodic in the angle
@@ -72,7 +73,7 @@ fn slope(x: f64, squared_ratio: f64) -> f64 {
 fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
     let step = 0.5 * PI / f64::from(POINTS);
     let point = |k: u32| {
-        let (sin, cos) = (step * (f64::from(k) + 0.5)).sin_cos();
+        let (sin, cos) = sin_cos(step * (f64::from(k) + 0.5));
         2.0 * (b - a) * sin * cos * f(a + (b - a) * sin * sin)
     };
     step * (0..POINTS).map(point).sum::<f64>()

@@ -48,6 +48,7 @@ use fem_material::Material;
 use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
 use crate::finite_correction::RelaxingCorrection;
 use crate::finite_size::FiniteSize;
+use crate::functions::power;
 use crate::hertz::HertzImpact;
 use crate::impact::Impact;
 use crate::pair::Pair;
@@ -214,7 +215,7 @@ impl Ting {
             return Ok(approach_speed);
         }
         let stiffness = HertzImpact::new(&self.pair, approach_speed)?.stiffness();
-        let at_rest = (self.pair.effective_mass() * self.gravity / stiffness).powf(2.0 / 3.0);
+        let at_rest = power(self.pair.effective_mass() * self.gravity / stiffness, 2.0 / 3.0);
         Ok(approach_speed.max((self.gravity * at_rest).sqrt()))
     }
 }

@@ -6,6 +6,7 @@ use crate::bisection::last_where;
 use crate::collocation::{Interpolation, N, POINTS, evaluate};
 use crate::error::LawError;
 use crate::finite_size::FiniteSize;
+use crate::functions::power;
 use crate::hertz::HertzImpact;
 use crate::impact::{Impact, ImpactInstant};
 use crate::ting::Ting;
@@ -53,8 +54,8 @@ pub(crate) struct Units {
 impl Units {
     pub fn of(hertz: &HertzImpact) -> Self {
         let (pair, speed) = (hertz.pair(), hertz.approach_speed());
-        // Hertz' energy balance is u^(5/2) = 5/4 at the largest approach.
-        let length = hertz.max_approach() / 1.25f64.powf(0.4);
+        let inertia = pair.effective_mass() / hertz.stiffness();
+        let length = power(inertia, 0.4) * power(speed, 0.8);
         Self {
             time: length / speed,
             length,
@@ -101,7 +102,7 @@ impl<'a> Collision<'a> {
             finite_size,
             interpolation: Interpolation::new(),
             local_tolerance: LOCAL_SHARE * tolerance,
-            max_steps: (MAX_STEPS * (Ting::DEFAULT_TOLERANCE / tolerance).powf(0.2))
+            max_steps: (MAX_STEPS * power(Ting::DEFAULT_TOLERANCE / tolerance, 0.2))
                 .max(FEWEST_STEPS) as usize,
             state: State { time: 0.0, approach: 0.0, rate, force: 0.0, slow_force: 0.0, memory },
             // δ^(3/2) is not smooth at first touch: begin far below all time scales.
@@ -230,7 +231,7 @@ impl<'a> Collision<'a> {
                 continue;
             };
             // The finest detail falls with the fifth power of the step.
-            let factor = (0.9 * (self.local_tolerance / solved.error).powf(0.2)).clamp(0.2, 2.0);
+            let factor = (0.9 * power(self.local_tolerance / solved.error, 0.2)).clamp(0.2, 2.0);
             // Many iterations say that the step nears the limit of contraction.
             self.length *= if solved.n_iterations > 14 { factor.min(0.8) } else { factor };
             if solved.error <= self.local_tolerance {

@@ -31,6 +31,7 @@
 
 use crate::collocation::{Interpolation, N, POINTS, Vector, derivative, dot, fading_moments};
 use crate::finite_correction::Correction;
+use crate::functions::exp;
 
 /// Times γ F′(u_max) that τ is at least.
 const STIFFNESS_TIMES: f64 = 2.5;
@@ -111,7 +112,7 @@ impl SlowForce {
         response: f64,
     ) -> Self {
         let z = radiation.rate * length;
-        let faded = POINTS.map(|theta| (-z * theta).exp() * start);
+        let faded = POINTS.map(|theta| exp(-z * theta) * start);
         let weights = POINTS
             .map(|theta| interpolation.weights(&fading_moments(theta, z)).map(|weight| z * weight));
         Self { radiation, faded, weights, response }

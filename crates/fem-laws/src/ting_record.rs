@@ -9,6 +9,7 @@ use crate::collocation::{
     Interpolation, POINTS, Vector, double_integral, evaluate, fading_moments, integral,
 };
 use crate::finite_correction::Correction;
+use crate::functions::exp;
 use crate::ting_radiation::Radiation;
 
 /// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
@@ -119,7 +120,7 @@ impl Step {
     /// f.
     pub fn slow_force_at(&self, radiation: &Radiation, theta: f64) -> f64 {
         let z = radiation.rate * self.length;
-        (-z * theta).exp() * self.slow_force + z * dot(&fading_moments(theta, z), &self.force)
+        exp(-z * theta) * self.slow_force + z * dot(&fading_moments(theta, z), &self.force)
     }
 
     /// γ ∫ḟ² dt from the start to θ.
@@ -148,7 +149,7 @@ impl Step {
 
     pub fn memory_at(&self, element: usize, rate: f64, theta: f64) -> Memory {
         let z = rate * self.length;
-        let decay = (-z * theta).exp();
+        let decay = exp(-z * theta);
         let moments = fading_moments(theta, z);
         std::array::from_fn(|i| {
             decay * self.memory[element][i] + self.length * dot(&moments, &self.drives[i])
@@ -234,7 +235,7 @@ impl Record {
         let mut pressure = contact.equilibrium * hertz.sqrt();
         let mut relaxation = contact.equilibrium;
         for (element, memory) in contact.elements.iter().zip(&memories) {
-            let faded = element.weight * (-element.rate * (time - t1)).exp();
+            let faded = element.weight * exp(-element.rate * (time - t1));
             surface += faded * memory[SURFACE];
             force += faded * memory[FORCE];
             pressure += faded * memory[PRESSURE];

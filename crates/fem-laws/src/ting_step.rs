@@ -10,6 +10,7 @@ use crate::collocation::{
     integral_moments,
 };
 use crate::finite_correction::Correction;
+use crate::functions::exp;
 use crate::ting_radiation::SlowForce;
 use crate::ting_record::{Contact, FORCE, Memory, PRESSURE, Record, SURFACE, Step};
 
@@ -190,7 +191,7 @@ impl Stepper<'_> {
         let mut kernel = Kernel { force: Fading::NONE, creep: none, creep_decay: none, radiation };
         for (element, memory) in self.contact.elements.iter().zip(&state.memory) {
             let z = element.rate * length;
-            let decay = POINTS.map(|theta| (-z * theta).exp());
+            let decay = POINTS.map(|theta| exp(-z * theta));
             let weights = POINTS.map(|theta| self.interpolation.weights(&fading_moments(theta, z)));
             let add = |fading: &mut Fading, factor: f64| {
                 fading.instantaneous += factor;

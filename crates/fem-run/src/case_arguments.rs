@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use fem_case::{Case, CaseError};
 
+use crate::standard_output;
+
 /// As a case: it is read from the standard input.
 const STDIN: &str = "-";
 
@@ -49,6 +51,17 @@ impl CaseArguments {
     /// The first thing that is wrong with it.
     pub fn load(&self) -> Result<Case, CaseError> {
         self.overridden(&self.set)
+    }
+
+    /// The same, with a warning of what is so odd that a unit was probably forgotten: for commands that do
+    /// not run the case.
+    ///
+    /// # Errors
+    /// As [`CaseArguments::load`].
+    pub fn load_and_warn(&self) -> Result<Case, CaseError> {
+        let case = self.load()?;
+        standard_output::warn(case.scene().oddities());
+        Ok(case)
     }
 
     /// The same with a tolerance of its own.

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use fem::{Cost, Simulation};
 
-/// What the timing of steps may take.
-const PATIENCE: Duration = Duration::from_millis(30);
+/// What the timing of steps may take, beside those of one report.
+const PATIENCE: Duration = Duration::from_millis(1);
 
 /// Seconds of a run of explicit elements; nothing of a model that computes all in one go.
 pub fn seconds(simulation: &Simulation) -> Option<f64> {

@@ -118,15 +118,27 @@ pub fn parse_confidence(text: &str) -> Result<f64, String> {
 /// # Errors
 /// What is no positive speed.
 pub fn parse_speed(text: &str) -> Result<f64, String> {
+    positive(text, "speed", "1 cm/s", [1, 0, -1, 0])
+}
+
+/// A length, m.
+///
+/// # Errors
+/// What is no positive length.
+pub fn parse_length(text: &str) -> Result<f64, String> {
+    positive(text, "length", "2 mm", [1, 0, 0, 0])
+}
+
+fn positive(text: &str, what: &str, example: &str, wanted: [i32; 4]) -> Result<f64, String> {
     match parse_quantity(text) {
-        Ok((value, dimension)) if [[0; 4], [1, 0, -1, 0]].contains(&dimension.0) => {
+        Ok((value, dimension)) if [[0; 4], wanted].contains(&dimension.0) => {
             if value > 0.0 {
                 Ok(value)
             } else {
-                Err("a speed is greater than 0".to_string())
+                Err(format!("a {what} is greater than 0"))
             }
         }
-        Ok(_) => Err("this is not a speed, such as '1 cm/s'".to_string()),
-        Err(error) => Err(format!("this is not a speed: {error}")),
+        Ok(_) => Err(format!("this is not a {what}, such as '{example}'")),
+        Err(error) => Err(format!("this is not a {what}: {error}")),
     }
 }

@@ -21,6 +21,11 @@ impl From<LawFault> for Failure {
                     free => format!("{give}, or let it be found, --free {},{key}", free.join(",")),
                 })
             }
+            LawFault::NeedsTimes { key, .. } => Failure::bad_input(message).with_help(format!(
+                "leave {key} out of --free, and it makes Hertz' contact time; or give contact times, a column \
+                 contact_time_s and --contact-time"
+            )),
+            LawFault::Grains(_, help) => Failure::bad_input(message).with_help(help),
             LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
                 .with_help("leave it out, or fit it alone with --law"),
             LawFault::NoStandIn(error) => Failure::from(error).with_help(

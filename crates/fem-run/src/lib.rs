@@ -26,6 +26,7 @@ mod calibrate;
 mod case_arguments;
 mod commands;
 mod data_file;
+mod export;
 mod failure;
 mod fit;
 mod forecast;

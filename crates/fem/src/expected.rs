@@ -7,7 +7,7 @@ use fem_laws::{HertzImpact, Impact, LawError, Ting};
 use crate::effects::{PartnerWaves, SurfaceSlip};
 use crate::estimate::Estimate;
 use crate::large_partner::radiating_impact;
-use crate::quasi_static::ting_of;
+use crate::quasi_static::{known_impact, ting_of};
 
 /// Accuracy of the impacts that foretell what effects change.
 const TOLERANCE: f64 = 1e-4;
@@ -47,7 +47,7 @@ impl Expected {
         let size = finite_size.then(|| scene.finite_size()).transpose()?;
         let ting = finish(ting_of(scene, estimate.hertz.pair(), true, size)?)?;
         let ting = ting.with_radiation(radiating.into_iter().flatten())?;
-        Ok(Self::from(&ting.impact(speed)?))
+        Ok(Self::from(&*known_impact(ting, speed)?))
     }
 }
 

@@ -6,6 +6,8 @@
 //! Where the contact would be as wide as a sphere nearly, no model of small strain says anything, and none
 //! is asked: all models refuse alike.
 
+use std::rc::Rc;
+
 use fem_case::Scene;
 use fem_collision::{Approach, FLIGHT_AFTER, Want};
 use fem_laws::{Impact, LawError};
@@ -109,7 +111,7 @@ fn relaxes(scene: &Scene, estimate: &Estimate) -> bool {
 }
 
 /// Ting's impact of bodies that relax; none of others.
-fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Impact, LawError>> {
+fn impact(scene: &Scene, estimate: &Estimate) -> Option<Result<Rc<Impact>, LawError>> {
     let speed = estimate.hertz.approach_speed();
     relaxes(scene, estimate).then(|| foretold_impact(scene, estimate, speed))
 }

@@ -52,12 +52,15 @@ pub struct Shared {
     pub pairs: Arc<PairCache>,
     /// The same of companions, which tell how far results are off.
     pub companions: Arc<PairCache>,
+    /// Whether models are asked for quantities alone, and keep no factors for fields.
+    pub is_of_companions: bool,
 }
 
 impl Shared {
     /// What companions share.
     pub(crate) fn of_companions(&self) -> Self {
-        Self { pairs: self.companions.clone(), companions: self.companions.clone() }
+        let companions = || self.companions.clone();
+        Self { pairs: companions(), companions: companions(), is_of_companions: true }
     }
 }
 

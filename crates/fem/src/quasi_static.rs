@@ -1,5 +1,8 @@
 //! Ting's quasi-static impact of a scene.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use fem_case::{Body, Scene};
 use fem_laws::{FiniteSize, Impact, LawError, Pair, PairRelaxation, Ting};
 use fem_material::Material;
@@ -29,9 +32,38 @@ pub(crate) fn foretold_impact(
     scene: &Scene,
     estimate: &Estimate,
     speed: f64,
-) -> Result<Impact, LawError> {
+) -> Result<Rc<Impact>, LawError> {
     let ting = ting_of(scene, estimate.hertz.pair(), true, None)?;
-    ting.with_tolerance(FORECAST)?.impact(speed)
+    known_impact(ting.with_tolerance(FORECAST)?, speed)
+}
+
+/// Impacts that are remembered; a case asks for some, each of them several times.
+const REMEMBERED: usize = 8;
+
+thread_local! {
+    /// The impacts of this thread that were computed last.
+    static LAST: RefCell<Vec<(Ting, f64, Rc<Impact>)>> = const { RefCell::new(Vec::new()) };
+}
+
+/// [`Ting::impact`], computed once where it was among the last ones: what effects change is told between
+/// impacts most of which are the same for all effects.
+///
+/// # Errors
+/// Those of [`Ting::impact`].
+pub(crate) fn known_impact(ting: Ting, speed: f64) -> Result<Rc<Impact>, LawError> {
+    let known = LAST.with_borrow(|last| {
+        let same = last.iter().find(|(other, at, _)| *at == speed && *other == ting);
+        same.map(|(.., impact)| impact.clone())
+    });
+    if let Some(impact) = known {
+        return Ok(impact);
+    }
+    let impact = Rc::new(ting.impact(speed)?);
+    LAST.with_borrow_mut(|last| {
+        last.drain(..(last.len() + 1).saturating_sub(REMEMBERED));
+        last.push((ting, speed, impact.clone()));
+    });
+    Ok(impact)
 }
 
 /// Ting's model of a scene and its pair, of surfaces that slip on each other where the scene has that on;

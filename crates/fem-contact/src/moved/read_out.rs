@@ -3,7 +3,7 @@
 use super::MovedInterface;
 use super::pieces::{GAUSS, Piece, Point};
 use crate::pressure::{coarser, reading};
-use crate::profile::Profile;
+use crate::profile::{N_BEYOND, Profile};
 use crate::read_out::{Barrier, centre_pressure, contact_radius};
 
 impl MovedInterface {
@@ -21,7 +21,7 @@ impl MovedInterface {
         &'a self,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        self.at_nodes(coarser(&self.surfaces, self.candidate_radius), u)
+        self.at_nodes(coarser(self.surfaces.each_ref(), self.candidate_radius), u)
     }
 
     /// The same of one side, 0 the lower one.
@@ -44,24 +44,23 @@ impl MovedInterface {
         value: impl Fn(&Piece<'a>, &Point) -> f64 + Clone + 'a,
     ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
         let surface = &self.surfaces[side];
-        let pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize]));
-        let points = pieces.flat_map(|piece| GAUSS.map(|gauss| (piece, piece.point(gauss))));
-        let mut points = points.peekable();
+        let mut pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize])).peekable();
         // Integral and area that the segment inside of a node has given to it.
         let mut from_inside = [0.0; 2];
         (0..self.n_nodes[side]).map(move |k| {
             let [mut sum, mut area] = from_inside;
             from_inside = [0.0; 2];
-            while let Some((piece, point)) =
-                points.next_if(|(piece, _)| piece.segments[side].index == k)
-            {
-                let share = point.places[side].share;
-                let value = value(&piece, &point);
-                let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
-                sum += inner * value;
-                area += inner;
-                from_inside[0] += outer * value;
-                from_inside[1] += outer;
+            while let Some(piece) = pieces.next_if(|piece| piece.segments[side].index == k) {
+                for gauss in GAUSS {
+                    let point = piece.point(gauss);
+                    let share = point.places[side].share;
+                    let value = value(&piece, &point);
+                    let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
+                    sum += inner * value;
+                    area += inner;
+                    from_inside[0] += outer * value;
+                    from_inside[1] += outer;
+                }
             }
             let radius = surface.radii[k] + u[side][surface.nodes[k] as usize][0];
             (radius, [sum, area])
@@ -79,13 +78,35 @@ impl MovedInterface {
     /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and
     /// true pressures.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
-        let side = coarser(&self.surfaces, self.candidate_radius);
+        let side = coarser(self.surfaces.each_ref(), self.candidate_radius);
         let gaps = self.sums_at_nodes(side, u, |_, point| point.gap);
         let facing = gaps.map(|(radius, [sum, area])| {
             let own = |of: usize| self.radial_displacement(of, radius, u[of]);
             (area > 0.0).then(|| (sum / area, [own(0), own(1)]))
         });
-        Profile::new(self.nodal_pressure(u), self.contact_radius(u), Barrier::Springs, facing)
+        let radius = self.contact_radius(u);
+        let own = Profile::new(self.nodal_pressure(u), radius, Barrier::Springs, facing);
+        let last = own.points.last().map_or(0.0, |point| point.radius);
+        let (surface, of) =
+            (&self.surfaces[side], |k: usize| self.surfaces[side].nodes[k] as usize);
+        let now = |k: usize| surface.radii[k] + u[side][of(k)][0];
+        // As long as the surface runs outward.
+        let rising = (1..surface.radii.len()).take_while(|k| now(*k) > now(k - 1)).map(now);
+        let beyond = rising.filter(|radius| *radius > last * (1.0 + 1e-9)).take(N_BEYOND);
+        let faces = |radius: f64| {
+            let [lower, upper] = [self.height(0, radius, u[0])?, self.height(1, radius, u[1])?];
+            let radial = [0, 1].map(|side: usize| self.radial_displacement(side, radius, u[side]));
+            Some((radius, (upper - lower, radial)))
+        };
+        own.extended(beyond.map_while(faces))
+    }
+
+    /// y (m) of a side's surface at a radius, m; `None` beyond its end.
+    fn height(&self, side: usize, radius: f64, u: &[[f64; 2]]) -> Option<f64> {
+        let last = self.surfaces[side].radii.len() - 1;
+        let at = |node: u32| u[node as usize];
+        let mut segments = (0..last).map_while(|k| self.segment(side, k, &at));
+        segments.find(|segment| radius <= segment.radii[1]).map(|segment| segment.at(radius).height)
     }
 
     /// Displacement along r (m) of the point of a side that is now at a radius, m.

@@ -10,8 +10,10 @@
 //! bodies that relax is followed by it: fits of two terms over 0.8 a are 2 to 3 % too high
 //! where the moduli fall by e⁻² within the contact.
 
-use super::{Barrier, Cell, cells};
+use super::{Barrier, Cell, Weight, cells};
 
+/// Nodes that a fit takes at most, from the axis outward: plenty for three coefficients.
+const MOST: usize = 64;
 /// The fits that are tried: terms, share of the contact radius over which they go, fewest nodes. Their
 /// weight falls to zero there, so that no node that comes or goes makes a step.
 const FITS: [(usize, f64, usize); 2] = [(3, 0.6, 4), (2, 0.8, 2)];
@@ -63,14 +65,24 @@ pub fn centre_pressure(
             Barrier::Springs => SPRINGS * coarseness,
             Barrier::Rigid => 0.0,
         };
+    // What weights cost is spent once for all fits and passes.
+    let mut room = [Inside::default(); MOST];
+    let widest = (FITS[1].1 * contact_radius).powi(2);
+    let mut n_inside = 0;
+    for (k, cell) in cells.take_while(|cell| cell.pressure > 0.0).take(MOST).enumerate() {
+        let weight = cell.weight();
+        if weight.square >= widest {
+            break;
+        }
+        room[k] = Inside { pressure: without_layer(k, cell, coarseness).pressure, weight };
+        n_inside = k + 1;
+    }
     let inside = |reach: f64| {
         let end = (reach * contact_radius).powi(2);
-        let within =
-            cells.clone().take_while(move |cell| cell.pressure > 0.0 && cell.weight().square < end);
-        within.enumerate().map(move |(k, cell)| without_layer(k, cell, coarseness))
+        &room[..room[..n_inside].partition_point(|node| node.weight.square < end)]
     };
     for (terms, reach, fewest) in FITS {
-        if inside(reach).count() >= fewest
+        if inside(reach).len() >= fewest
             && let Some(pressure) = fitted(inside(reach), reach, contact_radius, terms)
             && SOUND.contains(&(pressure / axis.pressure))
         {
@@ -103,23 +115,25 @@ fn without_layer(k: usize, cell: Cell, coarseness: f64) -> Cell {
     Cell { pressure: cell.pressure / (1.0 - taken), ..cell }
 }
 
+/// A node that a fit takes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Inside {
+    /// Without what elements take off it, Pa.
+    pressure: f64,
+    weight: Weight,
+}
+
 /// √c₀ of a fit of so many terms; `None` if it has none.
-fn fitted(
-    cells: impl Iterator<Item = Cell> + Clone,
-    reach: f64,
-    radius: f64,
-    terms: usize,
-) -> Option<f64> {
+fn fitted(nodes: &[Inside], reach: f64, radius: f64, terms: usize) -> Option<f64> {
     let mut fit: Option<Fit> = None;
     for _ in 0..PASSES {
         let (mut moments, mut sums) = ([0.0; 5], [0.0; 3]);
-        for cell in cells.clone() {
-            let weight = cell.weight();
+        for Inside { pressure, weight } in nodes {
             let (x, spread) = (weight.square / radius.powi(2), weight.variance / radius.powi(4));
-            let bend = fit.map_or(0.0, |fit| fit.half_bend(x, cell.pressure));
-            let squared = (cell.pressure - bend * spread).powi(2);
+            let bend = fit.map_or(0.0, |fit| fit.half_bend(x, *pressure));
+            let squared = (pressure - bend * spread).powi(2);
             let taper = 1.0 - x / (reach * reach);
-            let mut term = weight.area * taper / cell.pressure.powi(2);
+            let mut term = weight.area * taper / pressure.powi(2);
             for k in 0..5 {
                 moments[k] += term;
                 if k < 3 {

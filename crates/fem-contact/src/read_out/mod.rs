@@ -12,6 +12,7 @@
 //! profile is no ellipse.
 
 mod axis;
+mod curve;
 mod edge;
 mod staggered;
 
@@ -19,6 +20,7 @@ use std::f64::consts::PI;
 use std::iter::from_fn;
 
 pub use axis::{centre_pressure, pressure_profile};
+pub use curve::{PressureCurve, places_inside};
 pub use edge::contact_radius;
 pub use staggered::Reading;
 
@@ -50,25 +52,22 @@ struct Weight {
     variance: f64,
 }
 
-/// Gauss points and weights on −1..1 for polynomials up to the seventh degree: φ r⁵ is of the sixth.
-const GAUSS: [[f64; 2]; 4] = [
-    [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
-    [-0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
-    [0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
-    [0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
-];
-
 impl Cell {
+    /// With φ from 0 at a to 1 at b,
+    ///
+    /// ```math
+    /// \int\!\varphi\,r^n\,\mathrm dr
+    ///   = |b-a|\,\frac{\sum_k (k+1)\,a^{n-k}b^k}{(n+1)(n+2)}, \qquad n = 1, 3, 5.
+    /// ```
     fn weight(&self) -> Weight {
         let mut sums = [0.0; 3];
-        for neighbour in self.neighbours.into_iter().flatten() {
-            for [place, weight] in GAUSS {
-                let share = 0.5 * (1.0 + place);
-                let r = neighbour + share * (self.radius - neighbour);
-                let area = 0.5 * weight * (self.radius - neighbour).abs() * share * 2.0 * PI * r;
-                let x = r * r;
-                sums = [sums[0] + area, sums[1] + area * x, sums[2] + area * x * x];
-            }
+        let b = self.radius;
+        for a in self.neighbours.into_iter().flatten() {
+            let width = 2.0 * PI * (b - a).abs();
+            sums[0] += width * (a + 2.0 * b) / 6.0;
+            sums[1] += width * (a * (a * (a + 2.0 * b) + 3.0 * b * b) + 4.0 * b * b * b) / 20.0;
+            let inner = a * (a * (a * (a + 2.0 * b) + 3.0 * b * b) + 4.0 * b * b * b);
+            sums[2] += width * (a * (inner + 5.0 * b.powi(4)) + 6.0 * b.powi(5)) / 42.0;
         }
         let [area, first, second] = sums;
         if area > 0.0 {
@@ -78,6 +77,11 @@ impl Cell {
             Weight::default()
         }
     }
+}
+
+/// Force (N) on nodes from the axis outward (r in m, p in Pa).
+pub fn carried_force(nodes: impl Iterator<Item = (f64, f64)> + Clone) -> f64 {
+    cells(nodes).map(|cell| cell.pressure * cell.weight().area).sum()
 }
 
 /// The nodes with their neighbours.

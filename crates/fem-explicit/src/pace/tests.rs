@@ -32,6 +32,7 @@ fn strained(pace: &Pace, model: &Model, step: u64, critical: f64, rate: f64) -> 
     let outlook = Outlook {
         critical_time_step: critical * model.time_step() / model.step_factor(),
         strain_rate: rate / model.time_step(),
+        urgency: rate / STRAIN_BETWEEN_BOUNDS / model.time_step(),
     };
     pace.after(model, (step, pace.time_after(step, model)), outlook)
 }

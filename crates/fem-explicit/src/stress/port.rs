@@ -13,6 +13,17 @@ pub struct Collapse {
     pub volume_ratio: f64,
 }
 
+/// An element whose material does not bear every wave any more: its law has lost ellipticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unstable {
+    /// Number of the element.
+    pub element: usize,
+    /// Its principal stretches: two of the meridian plane, the larger first, then that of the hoop.
+    pub stretches: [f64; 3],
+    /// Name of the law.
+    pub law: &'static str,
+}
+
 /// The stress of a body: internal forces, what it stores and dissipates, and how stiff it is.
 ///
 /// The place of effects that depend on strain and its past: another material law, finite strain.
@@ -56,6 +67,16 @@ pub trait Stress: Part {
         false
     }
 
+    /// Whether its law can lose ellipticity: then it is looked for.
+    fn can_lose_stability(&self) -> bool {
+        false
+    }
+
+    /// The element that is least stable, if it is not stable.
+    fn unstable_element(&self, _displacement: &Field, _: &[NodalField]) -> Option<Unstable> {
+        None
+    }
+
     /// Adds a bound of its stiffness at each node (N/m) of the undeformed body, where it changes.
     fn add_undeformed_stiffness_bound(&self, _bound: &mut [f64]) {}
 
@@ -65,6 +86,12 @@ pub trait Stress: Part {
     /// Largest rate (1/s) at which an element is strained, seen from how it is deformed, where that changes
     /// its stiffness.
     fn strain_rate(&self, _: &Motion<'_>) -> f64 {
+        0.0
+    }
+
+    /// The same over the strain that an element may take before its nodes ask for a shorter step, the least of
+    /// its corners', where that changes its stiffness, 1/s.
+    fn urgency(&self, _: &Motion<'_>, _room: &[f64]) -> f64 {
         0.0
     }
 

@@ -233,6 +233,28 @@ fn every_step_of_a_collision_is_stable() {
     }
 }
 
+/// A bound costs as much as ten updates: there is one in ten steps at most. Fast elements that do not decide on
+/// the step would have one in three steps.
+#[test]
+fn the_step_is_bounded_now_and_then() {
+    let sphere = BodyInput::Sphere { mesh: unit_sphere(16.0, Side::Above), material: unit_glass() };
+    let law = Some(HyperelasticLaw::NeoHooke);
+    let parts = Parts { finite_strain: [None, law], ..Parts::default() };
+    let settings = Settings { candidate_radius: 0.9, ..settings() };
+    let approach = Approach::new([0.0, -0.3], 0.0).unwrap();
+    let model = Model::with_parts([BodyInput::Wall, sphere], approach, &settings, parts).unwrap();
+    let (mut state, mut scratch) = (State::at_first_touch(&model), Scratch::new(&model));
+    let (mut n_steps, mut n_bounds) = (0, 0);
+    while state.time < 3.0 {
+        update_forces(&model, &state, &mut scratch).unwrap();
+        n_steps += 1;
+        n_bounds += u32::from(state.pace.unwrap().is_due(state.step));
+        update_step(&model, &mut state, &mut scratch).unwrap();
+        advance(&model, &mut state, &mut scratch);
+    }
+    assert!(10 * n_bounds < n_steps, "{n_bounds} of {n_steps}");
+}
+
 /// Every step of two spheres that flatten each other until their flanks bulge is below the critical one of
 /// both, their contact included; and flanks that touch nothing ask for no shorter one.
 #[test]

@@ -18,61 +18,106 @@
 use fem_laws::EndRule;
 use fem_laws::bisection::last_where;
 
-use super::snippet::{Export, Snippet, short};
+use super::snippet::{Export, HuntCrossley, Snippet, short, speed, time};
+use crate::error::FitError;
+use crate::least_squares::minimise;
+use crate::problem::Point;
+
+/// Decades around the data's own values within which d is searched.
+const REACH: f64 = 1e6;
 
 /// a = d v of a restitution between 0 and 1.
 pub fn dissipation_of(restitution: f64) -> f64 {
     let e = restitution;
-    // The difference is positive up to the root, which is above 3/2 (1 − e), and negative beyond; far
-    // below the root it is rounding.
-    let is_below = |a: f64| (1.0 + e) * a >= a.ln_1p() - (-e * a).ln_1p();
-    last_where(0.5 * (1.0 - e), e.recip(), is_below)
+    // The root is above 3/2 (1 − e).
+    last_where(0.5 * (1.0 - e), e.recip(), |a| surplus(e, a) >= 0.0)
 }
 
 /// The restitution at a = d v > 0.
 pub fn restitution_of(a: f64) -> f64 {
-    last_where(0.0, 1.0, |e| dissipation_of(e) >= a)
+    last_where(0.0, a.recip().min(1.0), |e| surplus(e, a) >= 0.0)
 }
 
-/// A point contact that has e of the data at their middle speed, and T of the linear law.
+/// (1 + e) a less the logarithm: positive below the root, a of an e or e of an a; far below it rounding.
+fn surplus(e: f64, a: f64) -> f64 {
+    (1.0 + e) * a - a.ln_1p() + (-e * a).ln_1p()
+}
+
+/// d, s/m, by least squares of e(v), and how far it is off; `None` of data without a loss or without
+/// anything but loss.
+///
+/// # Errors
+/// A fit that does not converge.
+pub fn fit_dissipation(points: &[Point]) -> Result<Option<HuntCrossley>, FitError> {
+    let lossy = points.iter().filter(|point| (1e-6..1.0 - 1e-6).contains(&point.restitution));
+    let mut own: Vec<f64> =
+        lossy.map(|point| dissipation_of(point.restitution) / point.speed).collect();
+    own.sort_by(f64::total_cmp);
+    let [first, .., last] = own[..] else { return Ok(None) };
+    let residuals = |theta: &[f64]| {
+        let d = theta[0].exp();
+        Some(
+            points
+                .iter()
+                .map(|point| restitution_of(d * point.speed) - point.restitution)
+                .collect(),
+        )
+    };
+    let bounds = [((first / REACH).ln(), (last * REACH).ln())];
+    // Of data that rise with speed the sum of squares may have more than one minimum.
+    let starts = [first, own[own.len() / 2], last];
+    let mut best: Option<(f64, f64)> = None;
+    for start in starts {
+        let (theta, sum) = minimise(&residuals, &[start.ln()], &bounds)?;
+        if best.is_none_or(|best| sum < best.1) {
+            best = Some((theta[0].exp(), sum));
+        }
+    }
+    Ok(best.map(|(dissipation, sum)| HuntCrossley {
+        dissipation,
+        rms: (sum / points.len() as f64).sqrt(),
+        validity: [f64::INFINITY, 0.0, 0.0],
+    }))
+}
+
+/// A point contact with the d that fits e(v) best, and T of the linear law.
 pub fn drake_snippets(export: &Export) -> Vec<Snippet> {
-    let e = export.hertz.restitution;
     // What cannot be entered is left out.
-    let (Ok(law), true) = (export.linear_law(EndRule::ZeroForce), e > 0.0 && e < 1.0) else {
+    let (Ok(law), Some(fitted)) = (export.linear_law(EndRule::ZeroForce), export.hunt_crossley)
+    else {
         return Vec::new();
     };
-    let stiffness = law.stiffness();
+    let HuntCrossley { dissipation, rms, validity } = fitted;
     let (slow, fast) = export.speeds;
-    let speed = (slow * fast).sqrt();
-    let dissipation = dissipation_of(e) / speed;
-    let at = |e: f64| dissipation_of(e.clamp(1e-6, 1.0 - 1e-9)) / dissipation;
-    let off = |v: f64| (restitution_of(dissipation * v) - e).abs();
-    // The data's own departure from one e adds to that of the law.
-    let worst = off(slow).max(off(fast)) + export.hertz.validity[2];
-    let (from, to) = (at(e + export.tolerance).max(slow), at(e - export.tolerance).min(fast));
-    let validity = [from, to, worst];
+    let made = |speed: f64| restitution_of(dissipation * speed);
     let heading = export.heading(
         "Drake, point contact, Hunt & Crossley",
         validity,
         &[
-            format!("Makes e = {e:.4} at {speed:.4} m/s, and less above: 1 - e goes with speed."),
-            "Of data with one e for all speeds; what theirs changes comes on top.".to_string(),
+            format!(
+                "Makes e = {:.4} at {}, {:.4} at {}: what it loses goes with speed.",
+                made(slow),
+                speed(slow),
+                made(fast),
+                speed(fast)
+            ),
+            format!("dissipation is fitted to e(v); rms error {rms:.4}."),
         ],
     );
     let text = format!(
         "{heading}from pydrake.geometry import AddContactMaterial, ProximityProperties\n\n\
          properties = ProximityProperties()   # of both bodies\n\
          AddContactMaterial(\n    dissipation={}, point_stiffness={}, properties=properties)\n\
-         # The contact takes {:.2e} s: a discrete plant needs a fiftieth of that, or less.\n",
+         # The contact takes {}: a discrete plant needs a fiftieth of that, or less.\n",
         short(dissipation),
-        short(2.0 * stiffness),
-        export.linear.contact_time
+        short(2.0 * law.stiffness()),
+        time(export.linear.contact_time)
     );
     vec![Snippet {
         name: "drake_point_contact.py",
         code: "Drake",
         model: "Hunt-Crossley",
-        entries: vec![("dissipation", dissipation), ("point_stiffness", 2.0 * stiffness)],
+        entries: vec![("dissipation", dissipation), ("point_stiffness", 2.0 * law.stiffness())],
         restitution: None,
         validity,
         text,
@@ -102,6 +147,25 @@ mod tests {
         for a in [1e-2, 1e-3] {
             assert!((restitution_of(a) - (1.0 - 2.0 * a / 3.0)).abs() < a * a, "{a}");
         }
+    }
+
+    /// What makes the data is found, and of data with another slope the best: no neighbour is better.
+    #[test]
+    fn the_dissipation_is_the_one_that_fits_best() {
+        let of = |e: &dyn Fn(f64) -> f64| -> Vec<Point> {
+            [0.05, 0.1, 0.3, 1.0, 4.0].iter().map(|v| Point::new(*v, e(*v))).collect()
+        };
+        let exact = fit_dissipation(&of(&|v| restitution_of(0.7 * v))).unwrap().unwrap();
+        assert!((exact.dissipation / 0.7 - 1.0).abs() < 1e-6 && exact.rms < 1e-7, "{exact:?}");
+        let points = of(&|v| 0.8 - 0.1 * v.ln());
+        let best = fit_dissipation(&points).unwrap().unwrap();
+        let sum = |d: f64| -> f64 {
+            points.iter().map(|p| (restitution_of(d * p.speed) - p.restitution).powi(2)).sum()
+        };
+        for factor in [0.01, 0.1, 0.5, 0.99, 1.01, 2.0, 10.0] {
+            assert!(sum(best.dissipation) < sum(factor * best.dissipation), "{factor}");
+        }
+        assert_eq!(fit_dissipation(&of(&|_| 1.0)), Ok(None));
     }
 
     #[test]

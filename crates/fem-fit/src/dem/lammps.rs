@@ -16,7 +16,8 @@
 //!
 //! made for a mass that counts double: up to the release of 22 July 2025 the code applies it to m*
 //! and damps too little by √2; later sources multiply by √2 (`gran_sub_mod_damping.cpp`).
-//! `fix wall/gran` gives a wall the sphere's own modulus, E* = E/(2(1−ν²)): half of a rigid wall's.
+//! `fix wall/gran` gives a wall the sphere's own modulus, E* = E/(2(1−ν²)): half of a rigid wall's. So
+//! 2(1−ν²)E* of the contact is entered.
 //! All of it checked by a collision in LAMMPS itself, `.ci/check_dem.py`.
 
 use std::f64::consts::PI;
@@ -98,10 +99,14 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
         };
         if let [sphere] = &export.spheres[..] {
             text += &format!(
-                "# LAMMPS takes a wall for the sphere's own material; twice its modulus makes it \
-                 rigid.\n# Put your own wall in the place of zplane 0 NULL.\n\
+                "# LAMMPS takes a wall for the sphere's own material: the modulus makes it a {}.\n\
+                 # Put your own wall in the place of zplane 0 NULL.\n\
                  fix wall all wall/gran granular {} zplane 0 NULL\n",
-                contact(2.0 * sphere.youngs_modulus, sphere.poissons_ratio)
+                export.wall(),
+                contact(
+                    2.0 * (1.0 - sphere.poissons_ratio.powi(2)) * export.pair.contact_modulus(),
+                    sphere.poissons_ratio
+                )
             );
         } else {
             text += "pair_style granular\n";
@@ -110,10 +115,7 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
                 text += &format!("pair_coeff {0} {0} {contact}\n", index + 1);
             }
             text += "# 1 2 is mixed by LAMMPS as Hertz' contact of unlike bodies is.\n";
-            if export.spheres.first() != export.spheres.last() {
-                text += "# Fitted for contacts of 1 with 2 alone: 1 with 1 and 2 with 2 are other pairs, \
-                         which want an\n# export each.\n";
-            }
+            text += export.unlike_note();
         }
         let restitution = is_constant.then_some(e);
         Snippet {
@@ -147,7 +149,8 @@ pub fn lammps_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
             " limit_damping",
             &[
                 format!(
-                    "A = {time:.4e} s: restitution falls with speed; the contact ends at zero force."
+                    "A = {}: restitution falls with speed; the contact ends at zero force.",
+                    super::snippet::time(time)
                 ),
                 format!(
                     "eta = 2 E* A/m_eff holds for this contact's sizes only (1/(m s)): {eta:.6e}."

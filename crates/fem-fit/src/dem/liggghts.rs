@@ -13,7 +13,7 @@
 
 use fem_laws::{EndRule, LawError, Pair};
 
-use super::snippet::{Export, Snippet, short};
+use super::snippet::{Export, Snippet, short, time};
 
 /// k_n, N/m, of `hooke` for a characteristic velocity, m/s.
 pub fn hooke_stiffness(pair: &Pair, velocity: f64) -> f64 {
@@ -47,7 +47,7 @@ pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
             short(second.youngs_modulus),
             short(first.poissons_ratio),
             short(second.poissons_ratio)
-        )
+        ) + export.unlike_note()
     };
     let style =
         |model: &str| format!("pair_style gran model {model} tangential history\npair_coeff * *\n");
@@ -59,13 +59,17 @@ pub fn liggghts_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
         &["One restitution for all speeds.".to_string(), ends.clone()],
     );
     let linear = &export.linear;
-    let hooke_text = export.heading("LIGGGHTS, gran model hooke", linear.validity, &[
-        format!(
-            "Linear, contact time {:.4e} s at all speeds: characteristicVelocity is chosen for it.",
-            linear.contact_time
-        ),
-        ends,
-    ]);
+    let hooke_text = export.heading(
+        "LIGGGHTS, gran model hooke",
+        linear.validity,
+        &[
+            format!(
+                "Linear, contact time {} at all speeds: characteristicVelocity is chosen for it.",
+                time(linear.contact_time)
+            ),
+            ends,
+        ],
+    );
     Ok(vec![
         Snippet {
             name: "liggghts_hertz.in",

@@ -14,7 +14,7 @@
 
 use fem_laws::EndRule;
 
-use super::snippet::{Export, Snippet, short};
+use super::snippet::{Export, Snippet, short, time};
 
 /// A contact with e and T of the linear law.
 pub fn mujoco_snippets(export: &Export) -> Vec<Snippet> {
@@ -27,7 +27,7 @@ pub fn mujoco_snippets(export: &Export) -> Vec<Snippet> {
         "MuJoCo, solref in its direct format",
         export.linear.validity,
         &[
-            format!("Makes e = {e:.4} in {:.4e} s, of any sizes;", export.linear.contact_time),
+            format!("Makes e = {e:.4} in {}, of any sizes;", time(export.linear.contact_time)),
             "the time step must be a fiftieth of that or less.".to_string(),
         ],
     );

@@ -2,6 +2,7 @@
 
 use fem_laws::laws::{ContactLaw, linear_from_restitution};
 use fem_laws::{EndRule, LawError, Pair};
+use fem_material::Material;
 
 /// A sphere, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +15,18 @@ pub struct Sphere {
     pub youngs_modulus: f64,
     /// Poisson's ratio ν.
     pub poissons_ratio: f64,
+}
+
+impl Sphere {
+    /// A sphere of a diameter, m, and a material, with its instantaneous moduli.
+    pub fn new(diameter: f64, material: &Material) -> Self {
+        Self {
+            diameter,
+            density: material.density(),
+            youngs_modulus: material.instantaneous().youngs_modulus(),
+            poissons_ratio: material.instantaneous().poissons_ratio(),
+        }
+    }
 }
 
 /// A Hertzian contact whose restitution is the same at every speed.
@@ -32,6 +45,17 @@ pub struct Dashpot {
     pub restitution: f64,
     /// Contact time T, s.
     pub contact_time: f64,
+    /// Where e is good: from, to, m/s, and its largest error over all data.
+    pub validity: [f64; 3],
+}
+
+/// A dashpot of Hunt & Crossley on a linear spring, as Drake has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HuntCrossley {
+    /// d, s/m.
+    pub dissipation: f64,
+    /// √(Σ (e − e_i)²/N) over all data.
+    pub rms: f64,
     /// Where e is good: from, to, m/s, and its largest error over all data.
     pub validity: [f64; 3],
 }
@@ -55,6 +79,8 @@ pub struct Export {
     pub dissipation_time: (f64, [f64; 3]),
     /// Linear, for all speeds.
     pub linear: Dashpot,
+    /// Falling with speed; none of a loss that it cannot make.
+    pub hunt_crossley: Option<HuntCrossley>,
 }
 
 /// A file for a DEM code.
@@ -82,23 +108,66 @@ impl Export {
         let [from, to, worst] = validity;
         let diameters: Vec<_> = self.spheres.iter().map(|sphere| short(sphere.diameter)).collect();
         let bodies = match &diameters[..] {
-            [one] => format!("a sphere of {one} m on a rigid wall"),
+            [one] => format!("a sphere of {one} m on a {}", self.wall()),
             all => format!("spheres of {} m", all.join(" and ")),
         };
-        let range = if from <= to {
-            format!("e is good to {} from {from:.4} to {to:.4} m/s", self.tolerance)
+        let range = if from == to {
+            format!("e is good to {} at {} alone", self.tolerance, speed(from))
+        } else if from <= to {
+            format!("e is good to {} from {} to {}", self.tolerance, speed(from), speed(to))
         } else {
             format!("e is nowhere good to {}", self.tolerance)
         };
         let mut text = format!(
-            "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {:.4} to {:.4} m/s; \
-             {range}\n# (largest error {worst:.4}).\n",
-            self.title, self.speeds.0, self.speeds.1
+            "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
+             # (largest error {worst:.4}).\n",
+            self.title,
+            speed(self.speeds.0),
+            speed(self.speeds.1)
         );
         for note in notes {
             text += &format!("# {note}\n");
         }
         text
+    }
+
+    /// A comment for codes whose entries of 1 and 2 are taken for 1 with 1 and 2 with 2 as well: which
+    /// pair they are for; empty of equal spheres.
+    pub(crate) fn unlike_note(&self) -> &'static str {
+        if self.spheres.first() == self.spheres.last() {
+            return "";
+        }
+        "# Fitted for contacts of 1 with 2 alone: 1 with 1 and 2 with 2 are other pairs, which want an\n\
+         # export each; all at once: fem-run export CASE --diameters D1,D2.\n"
+    }
+
+    /// What a single sphere strikes, in words.
+    pub(crate) fn wall(&self) -> &'static str {
+        if self.has_rigid_wall() { "rigid wall" } else { "block without an end" }
+    }
+
+    /// Whether a single sphere strikes what does not give way: E* is then its own E/(1 − ν²).
+    pub(crate) fn has_rigid_wall(&self) -> bool {
+        match &self.spheres[..] {
+            [sphere] => self.wall_compliance(sphere) <= 1e-9 / self.pair.contact_modulus(),
+            _ => false,
+        }
+    }
+
+    /// Young's modulus, Pa, of a wall with Poisson's ratio 0 that makes E* of a sphere's contact with it;
+    /// of a rigid one a million times the sphere's.
+    pub(crate) fn wall_modulus(&self, sphere: &Sphere) -> f64 {
+        if self.has_rigid_wall() {
+            1e6 * sphere.youngs_modulus
+        } else {
+            self.wall_compliance(sphere).recip()
+        }
+    }
+
+    /// 1/E* less the sphere's share, 1/Pa.
+    fn wall_compliance(&self, sphere: &Sphere) -> f64 {
+        let own = (1.0 - sphere.poissons_ratio.powi(2)) / sphere.youngs_modulus;
+        self.pair.contact_modulus().recip() - own
     }
 
     /// The linear law that ends under a rule with the wanted e and T.
@@ -112,6 +181,26 @@ impl Export {
 pub(crate) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// A speed as comments say it.
+pub(crate) fn speed(value: f64) -> String {
+    format!("{} m/s", digits(value, 4))
+}
+
+/// A time as comments say it.
+pub(crate) fn time(value: f64) -> String {
+    format!("{} s", digits(value, 4))
+}
+
+/// So many digits, with an exponent where zeros would be more.
+fn digits(value: f64, n: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", n - 1).parse().unwrap_or(value);
+    if (1e-3..1e5).contains(&rounded.abs()) || rounded == 0.0 {
         rounded.to_string()
     } else {
         format!("{rounded:e}")

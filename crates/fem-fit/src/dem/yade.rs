@@ -17,7 +17,7 @@ use fem_laws::bisection::falling_zero;
 use fem_laws::laws::power;
 use fem_laws::{EndRule, LawError, LawImpact, Pair};
 
-use super::snippet::{Export, Snippet, short};
+use super::snippet::{Export, Snippet, short, time};
 
 /// β_n of an en from 0 to 1 (not included).
 pub fn yade_betan(en: f64) -> f64 {
@@ -99,6 +99,7 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     for index in 0..2 {
         hertz += &material("FrictMat", &elastic(index), index);
     }
+    hertz += export.unlike_note();
     hertz += &format!(
         "ip2 = Ip2_FrictMat_FrictMat_MindlinPhys(en={0}, es={0})\n\
          law2 = Law2_ScGeom_MindlinPhys_Mindlin()\n",
@@ -115,13 +116,18 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
     }];
     // What cannot be entered is left out.
     if let Ok((tc, en)) = viscel_entry(export) {
-        let mut text = export.heading("YADE, ViscEl", export.linear.validity, &[
-            format!(
-                "Linear; makes e = {:.4} in {:.4e} s: YADE cuts the force at zero, so en and tc",
-                export.linear.restitution, export.linear.contact_time
-            ),
-            "differ from both.".to_string(),
-        ]);
+        let mut text = export.heading(
+            "YADE, ViscEl",
+            export.linear.validity,
+            &[
+                format!(
+                    "Linear; makes e = {:.4} in {}: YADE cuts the force at zero, so en and tc",
+                    export.linear.restitution,
+                    time(export.linear.contact_time)
+                ),
+                "differ from both.".to_string(),
+            ],
+        );
         for index in 0..2 {
             text += &material(
                 "ViscElMat",
@@ -129,6 +135,7 @@ pub fn yade_snippets(export: &Export) -> Result<Vec<Snippet>, LawError> {
                 index,
             );
         }
+        text += export.unlike_note();
         text +=
             "ip2 = Ip2_ViscElMat_ViscElMat_ViscElPhys()\nlaw2 = Law2_ScGeom_ViscElPhys_Basic()\n";
         snippets.push(Snippet {

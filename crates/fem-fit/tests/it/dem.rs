@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use crate::common::{glass, glass_model};
 use fem_fit::dem::{
     Dashpot, Elastic, Export, Sphere, TsujiVersion, characteristic_velocity, hertz_mindlin_entry,
-    hooke_stiffness, lammps_snippets, liggghts_snippets, tsuji_entry, tsuji_outcome, viscel_entry,
+    hooke_stiffness, lammps_snippets, lethe_snippets, liggghts_snippets, mercury_snippets,
+    mfix_entry, mfix_outcome, mfix_snippets, tsuji_entry, tsuji_outcome, viscel_entry,
     viscoelastic_damping, yade_betan, yade_snippets,
 };
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
@@ -29,6 +30,7 @@ fn export() -> Export {
         hertz: Elastic { restitution: 0.92, validity },
         dissipation_time: (1e-6, validity),
         linear: Dashpot { restitution: 0.92, contact_time: 64e-6, validity },
+        hunt_crossley: None,
     }
 }
 
@@ -213,4 +215,107 @@ fn a_wall_is_written_for_lammps_with_twice_the_modulus() {
     let eta = entry(&snippets, "lammps_viscoelastic.in", "eta");
     let exact = 2.0 * export.pair.contact_modulus() * 1e-6 / fem_laws::sphere_mass(22.2e-3, 2390.0);
     assert!((eta / exact - 1.0).abs() < 1e-12);
+}
+
+/// MFIX's and MercuryDPM's Hertzian dashpots as their sources write them, integrated; a restitution of the law
+/// is good to 1e-8.
+#[test]
+fn hertzian_dashpots_of_mfix_and_mercury_make_what_is_said() {
+    let pair = export().pair;
+    let made = |alpha: f64| {
+        let law = tsuji(&pair, alpha).unwrap();
+        let model = LawImpact::new(&pair, law).with_end_rule(EndRule::ZeroOverlap);
+        model.impact(0.5).unwrap().restitution
+    };
+    for e in [0.3_f64, 0.9, 0.99] {
+        let sine = -e.ln() / PI.hypot(e.ln());
+        assert!((made(2.0 * sine) - mfix_outcome(e)).abs() < 1e-7, "{e}");
+        let entry = mfix_entry(e).unwrap();
+        assert!(entry < e && (mfix_outcome(entry) - e).abs() < 1e-12, "{e}: {entry}");
+        let square = e.ln().powi(2);
+        assert!((made((5.0 * square / (square + PI * PI)).sqrt()) - e).abs() < 1e-7, "{e}");
+    }
+    assert_eq!(mfix_entry(1e-3), None);
+    let snippets = mfix_snippets(&export()).unwrap();
+    let entered = entry(&snippets, "mfix_hertzian.dat", "des_en_input");
+    assert_eq!(Some(entered), mfix_entry(0.92));
+    // LSD: eta of its k makes e of the linear law at zero overlap.
+    let stiffness = entry(&snippets, "mfix_lsd.dat", "kn");
+    let loss = -0.92_f64.ln();
+    let damping = 2.0 * (stiffness * pair.effective_mass()).sqrt() * loss / PI.hypot(loss);
+    let law = linear(stiffness, damping).unwrap();
+    let impact =
+        LawImpact::new(&pair, law).with_end_rule(EndRule::ZeroOverlap).impact(0.5).unwrap();
+    assert!((impact.restitution - 0.92).abs() < 1e-7, "{}", impact.restitution);
+    assert!((impact.contact_time.unwrap() / 64e-6 - 1.0).abs() < 1e-7);
+}
+
+/// Of unlike spheres every code is told both, and which pair the numbers are for; of equal ones no word.
+#[test]
+fn snippets_say_which_pair_they_are_for() {
+    let all = |export: &Export| {
+        let mut all = lammps_snippets(export).unwrap();
+        all.extend(liggghts_snippets(export).unwrap());
+        all.extend(yade_snippets(export).unwrap());
+        all.extend(mercury_snippets(export));
+        all.extend(lethe_snippets(export));
+        all.extend(mfix_snippets(export).unwrap());
+        all
+    };
+    let unlike = all(&export());
+    assert_eq!(unlike.len(), 12);
+    let note = "Fitted for contacts of 1 with 2 alone";
+    for snippet in &unlike {
+        assert!(snippet.text.contains(note), "{}", snippet.text);
+    }
+    let alike = Export { spheres: vec![export().spheres[0]; 2], ..export() };
+    for snippet in all(&alike) {
+        assert!(!snippet.text.contains(note), "{}", snippet.text);
+    }
+    let mercury = &mercury_snippets(&export())[0].text;
+    assert!(mercury.contains("getMixedObject(first, second)"), "{mercury}");
+    assert!(mercury.lines().take(4).all(|line| line.starts_with("// ")), "{mercury}");
+    assert!(mercury_snippets(&alike)[0].text.contains("auto sphere ="));
+}
+
+/// Of a wall E* = E/(1 − ν²) is made by the modulus that is entered: codes take
+/// 1/E* = (1 − ν²)/E + 1/E_w. Of a block without an end as well.
+#[test]
+fn walls_have_the_modulus_of_the_contact() {
+    let glass = glass(None);
+    let sphere = export().spheres[0];
+    let of = |partner| {
+        let pair = Pair::new(Partner::solid_sphere(sphere.diameter, &glass), partner).unwrap();
+        Export { spheres: vec![sphere], pair, ..export() }
+    };
+    let key = |text: &str, key: &str| -> f64 {
+        let line = text.lines().find(|line| line.contains(key)).unwrap();
+        line.rsplit_once('=').unwrap().1.trim().parse().unwrap()
+    };
+    for (export, words) in [
+        (of(Partner::Wall), "rigid wall"),
+        (of(Partner::half_space(&glass)), "block without an end"),
+    ] {
+        let snippets = mfix_snippets(&export).unwrap();
+        let (mfix, lethe) = (&snippets[0].text, &lethe_snippets(&export)[0].text);
+        assert!(mfix.contains(words) && lethe.contains(words), "{mfix}{lethe}");
+        let own = (1.0 - sphere.poissons_ratio.powi(2)) / sphere.youngs_modulus;
+        for wall in [key(mfix, "ew_young"), key(lethe, "young modulus wall")] {
+            let made = (own + wall.recip()).recip() / export.pair.contact_modulus();
+            // A rigid wall is a million times as stiff, numbers have ten digits.
+            assert!((made - 1.0).abs() < 2e-6, "{made}");
+        }
+        let lammps = &lammps_snippets(&export).unwrap()[0].text;
+        let modulus: f64 = lammps
+            .split("hertz/material ")
+            .nth(1)
+            .unwrap()
+            .split(' ')
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap();
+        let made = modulus / (2.0 * (1.0 - sphere.poissons_ratio.powi(2)));
+        assert!((made / export.pair.contact_modulus() - 1.0).abs() < 1e-9, "{lammps}");
+    }
 }

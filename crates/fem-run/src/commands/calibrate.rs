@@ -88,7 +88,7 @@ const OPTIONS: SettingNames = SettingNames {
 
 /// Calibrates and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_and_warn()?;
     let table = arguments.columns.read(&arguments.data)?;
     let (found, warnings) = found(arguments, &case, &table)?;
     let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;

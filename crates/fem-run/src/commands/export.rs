@@ -2,30 +2,26 @@
 
 use std::path::PathBuf;
 
-use comfy_table::CellAlignment::{Left, Right};
 use fem::case_identity;
-use fem::laws::{DemExport, FittedLaw, ImpactCurve};
+use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
-use fem_case::engineering::{Unit, show};
-use fem_figure::{Axis, COLOURS, Chart, Curve, Mark};
 use fem_fit::FitError;
-use fem_fit::dem::{Export, Snippet};
-use fem_laws::Family;
+use fem_fit::dem::{Snippet, grain_snippets};
 use serde_json::Value;
 
 use crate::case_arguments::CaseArguments;
 use crate::data_file::ColumnArguments;
+use crate::export::{export_picture, export_text, pairs_csv, pairs_json, pairs_text};
 use crate::failure::Failure;
 use crate::jobs::value_of;
-use crate::law_arguments::parse_speed;
+use crate::law_arguments::{parse_length, parse_speed};
 use crate::output::OutputArguments;
 use crate::standard_output;
-use crate::tables::table;
 
-/// Write input for LAMMPS, LIGGGHTS, YADE, Drake and MuJoCo that makes the same restitutions
+/// Write input of DEM codes and of robotics that makes the same restitutions
 ///
-/// They come from the sweep.csv of a sweep over speeds, from a measurement, or, without --data,
+/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. The restitutions come from the sweep.csv of a sweep over speeds, from a measurement, or, without --data,
 /// from the case's model: a law, ting, or in place of finite elements ting. Each snippet says at which speeds it is good.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
@@ -39,6 +35,15 @@ pub struct Arguments {
     /// Speeds that are computed, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
     #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
     speeds: Option<(f64, f64)>,
+    /// All pairs of spheres of these materials, the case's or lib:NAME, as one table [default: the
+    /// case's, with --diameters]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "data")]
+    materials: Vec<String>,
+    /// All pairs of spheres of these diameters, such as '1 mm,2 mm', as one table [default: the
+    /// case's, with --materials]
+    #[arg(long, value_name = "LENGTHS", value_delimiter = ',', value_parser = parse_length,
+        conflicts_with = "data")]
+    diameters: Vec<f64>,
     /// Error of the restitution up to which a snippet is called good
     #[arg(long, value_name = "E", default_value_t = 0.01)]
     tolerance: f64,
@@ -48,7 +53,10 @@ pub struct Arguments {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_and_warn()?;
+    if arguments.wants_pairs() {
+        return write_pairs(arguments, &case);
+    }
     let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
@@ -56,7 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
-    output.write("export.svg", picture(&fitted))?;
+    output.write("export.svg", export_picture(&fitted))?;
     let name = arguments.input.name();
     let place = output.publish(&fitted.numbers(&name, &snippets))?;
     if arguments.output.quiet {
@@ -71,7 +79,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         note += "\nA wall is not written for LIGGGHTS and YADE, which give it a material or a radius of \
                  its own.\n";
     }
-    standard_output::print(&format!("{}{note}\nResult: {place}\n", text(&fitted.export, &snippets)))
+    standard_output::print(&format!(
+        "{}{note}\nResult: {place}\n",
+        export_text(&fitted.export, &snippets)
+    ))
 }
 
 /// Fits to a table in place of the file that the arguments name, and gives the numbers, each snippet with its
@@ -81,6 +92,14 @@ pub fn numbers(
     case: &Case,
     table: Option<&Table>,
 ) -> Result<Value, Failure> {
+    if arguments.wants_pairs() {
+        let (export, rows) = pairs(arguments, case)?;
+        let mut numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
+        let texts = grain_snippets(&export.grains, &export.of_codes());
+        let texts = texts.into_iter().map(|(name, text)| (name.to_string(), text.into()));
+        numbers["texts"] = Value::Object(texts.collect());
+        return Ok(numbers);
+    }
     let table = table.cloned().map(|table| arguments.columns.name_columns(table)).transpose()?;
     let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
     let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
@@ -90,15 +109,54 @@ pub fn numbers(
     Ok(numbers)
 }
 
+impl Arguments {
+    /// Whether a table of all pairs is asked for.
+    fn wants_pairs(&self) -> bool {
+        !(self.materials.is_empty() && self.diameters.is_empty())
+    }
+
+    fn check_tolerance(&self) -> Result<(), Failure> {
+        if self.tolerance > 0.0 && self.tolerance < 1.0 {
+            return Ok(());
+        }
+        let message = format!("--tolerance is {:?}", self.tolerance);
+        Err(Failure::bad_input(message).with_help("it must be between 0 and 1"))
+    }
+}
+
+fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumbers>), Failure> {
+    arguments.check_tolerance()?;
+    let Arguments { materials, diameters, speeds, tolerance, .. } = arguments;
+    let export = PairExport::of(case, materials, diameters, *speeds, *tolerance)?;
+    let rows = export.numbers();
+    Ok((export, rows))
+}
+
+fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
+    let (export, rows) = pairs(arguments, case)?;
+    let grains = format!("{:?} {:?}", arguments.materials, arguments.diameters);
+    let mut output = arguments.output.claim(
+        &arguments.input.stem(),
+        "export",
+        &[&case_identity(case), &grains],
+    )?;
+    output.write("pairs.csv", pairs_csv(&rows)?)?;
+    for (name, text) in grain_snippets(&export.grains, &export.of_codes()) {
+        output.write(name, text)?;
+    }
+    let place = output.publish(&pairs_json(&export, &arguments.input.name(), &rows)?)?;
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    standard_output::print(&format!("{}\nResult: {place}\n", pairs_text(&export, &rows)))
+}
+
 fn fitted(
     arguments: &Arguments,
     case: &Case,
     table: Option<&Table>,
 ) -> Result<(DemExport, Vec<Snippet>), Failure> {
-    if !(arguments.tolerance > 0.0 && arguments.tolerance < 1.0) {
-        let message = format!("--tolerance is {:?}", arguments.tolerance);
-        return Err(Failure::bad_input(message).with_help("it must be between 0 and 1"));
-    }
+    arguments.check_tolerance()?;
     let curve = match table {
         None => ImpactCurve::computed(case, arguments.speeds)?,
         Some(table) => {
@@ -126,79 +184,4 @@ fn parse_speeds(text: &str) -> Result<(f64, f64), String> {
     let (low, high) = text.split_once("..").ok_or("write LOW..HIGH, such as '5 cm/s..2 m/s'")?;
     let (low, high) = (parse_speed(low)?, parse_speed(high)?);
     if low < high { Ok((low, high)) } else { Err("the range is empty".to_string()) }
-}
-
-fn text(export: &Export, snippets: &[Snippet]) -> String {
-    let header = ["code", "model", "enter", "makes e", "good to tolerance", "worst error", "file"];
-    let row = |snippet: &Snippet| {
-        let [from, to, worst] = snippet.validity;
-        let entries = snippet.entries.iter().map(|(key, value)| format!("{key} {}", entry(*value)));
-        [
-            snippet.code.to_string(),
-            snippet.model.to_string(),
-            entries.collect::<Vec<_>>().join(", "),
-            snippet.restitution.map_or("falls with v".to_string(), |e| format!("{e:.4}")),
-            if from <= to {
-                format!("{} to {}", show(from, "m/s"), show(to, "m/s"))
-            } else {
-                "nowhere".to_string()
-            },
-            format!("{worst:.4}"),
-            snippet.name.to_string(),
-        ]
-    };
-    let rows = std::iter::once(header.map(String::from)).chain(snippets.iter().map(row));
-    format!(
-        "{}, {} to {}; a snippet is good where its restitution is right to {}\n\n{}",
-        standard_output::one_line(&export.title),
-        show(export.speeds.0, "m/s"),
-        show(export.speeds.1, "m/s"),
-        export.tolerance,
-        table(&[Left, Left, Left, Right, Left, Right, Left], rows)
-    )
-}
-
-fn entry(value: f64) -> String {
-    if (0.001..1e4).contains(&value) { format!("{value:.4}") } else { format!("{value:.4e}") }
-}
-
-/// e(v) and T(v): data and the three kinds of law.
-fn picture(fitted: &DemExport) -> String {
-    let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
-    let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
-    let (speed, time) = (Unit::fitting(fastest, "m/s"), Unit::fitting(longest, "s"));
-    let panel =
-        |y_label: String, data: Vec<(f64, f64)>, y: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {
-            // The linear law hides the other constant one.
-            let mark = |law: &FittedLaw| match law.model.family() {
-                Family::Linear => Mark::Dashed,
-                _ => Mark::Line,
-            };
-            let law = |(law, colour): (&FittedLaw, &'static str)| {
-                let points = curve
-                    .points
-                    .iter()
-                    .filter_map(|point| Some((speed.scaled(point.speed), y(law, point.speed)?)));
-                Curve::new(law.name, mark(law), points.collect()).coloured(colour)
-            };
-            let axis = Axis::new(format!("approach speed [{}]", speed.symbol())).logarithmic();
-            let colours = [COLOURS[0], COLOURS[2], COLOURS[3]];
-            let laws = fitted.laws.iter().zip(colours).map(law);
-            laws.fold(Chart::new(axis, Axis::new(y_label)), Chart::with)
-                .with(Curve::points("data", data).like_curve(1))
-        };
-    let points = || curve.points.iter();
-    let e_data = points().map(|point| (speed.scaled(point.speed), point.restitution)).collect();
-    let t_data = points()
-        .filter_map(|point| Some((speed.scaled(point.speed), time.scaled(point.contact_time?))))
-        .collect();
-    let charts = [
-        panel("restitution".to_string(), e_data, &|law, speed| {
-            law.outcome(speed).map(|outcome| outcome.restitution)
-        }),
-        panel(format!("contact time [{}]", time.symbol()), t_data, &|law, speed| {
-            law.outcome(speed)?.contact_time.map(|contact| time.scaled(contact))
-        }),
-    ];
-    fem_figure::svg(&charts).unwrap_or_default()
 }

@@ -85,7 +85,7 @@ fn parse_wanted(name: &str) -> Result<Wanted, String> {
 
 /// Fits and writes.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_and_warn()?;
     let table = arguments.columns.read(&arguments.data)?;
     fitted(arguments, &case, &table, |found| write(arguments, &case, found))
 }
@@ -162,11 +162,12 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
     let place = output.publish(&fitted.numbers(&arguments.input.name()))?;
+    standard_output::warn(fitted.warnings());
     if arguments.output.quiet {
         return Ok(());
     }
     let ranking = ranking.as_ref().map_or(String::new(), ranking_text);
-    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted)))
+    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted, law)))
 }
 
 /// All laws in their order; what is said of one law is not for all.

@@ -51,7 +51,7 @@ enum Answer {
 
 /// Solves and prints.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let case = arguments.input.load()?;
+    let case = arguments.input.load_and_warn()?;
     let (speed, answers) = answers(arguments, &case)?;
     if arguments.quiet {
         return Ok(());

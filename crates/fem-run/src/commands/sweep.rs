@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some};
+use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
 use fem_case::{CaseFile, Sweep};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -13,7 +13,7 @@ use crate::interrupt::Interrupt;
 use crate::standard_output;
 use crate::sweep::{
     Batch, Checking, Choice, Collected, Collector, Job, Mark, Shard, SlurmOptions, SweepFolder,
-    announce, conclude, report, run_members, status,
+    Whose, announce, conclude, report, run_members, status,
 };
 
 /// Compute many members of a case: lists of values for some of its keys
@@ -56,10 +56,13 @@ pub struct Arguments {
     /// Check all members and say how many are to run; compute and write nothing
     #[arg(long)]
     dry_run: bool,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }
+
+/// Oddities of scenes that are told.
+const MOST_ODDITIES: usize = 5;
 
 /// A sweep, where it goes and what computes it.
 struct Work<'a> {
@@ -76,7 +79,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return standard_output::print(&status(&arguments.sweep)?);
     }
     let interrupt = Interrupt::listen();
-    let sweep = Sweep::load(&arguments.sweep, &arguments.set)?;
+    let sweep = load(&arguments.sweep, &arguments.set)?;
     let out = match &arguments.out {
         Some(out) => out.clone(),
         None => Path::new("runs").join(stem_of(&arguments.sweep)),
@@ -93,14 +96,16 @@ impl Work<'_> {
     /// Computes a shard, mostly the whole, and makes table and picture of what is there then.
     fn compute(&self, shard: Shard) -> Result<(), Failure> {
         let Self { arguments, sweep, out, pool, .. } = self;
+        let mut folder = SweepFolder::at(out, Whose::All);
+        folder.check()?;
         let mut numbers = KeyNumbers::new(sweep);
         let mut checking = Checking::new(sweep.n_members(), arguments.quiet);
         let see = |member: &Member, case: &CaseFile| {
             checking.tick();
             numbers.see(sweep, member.index, case);
         };
-        let checked =
-            pool.install(|| check(*sweep, |index| shard.has(index), self.is_done(), see))?;
+        let is_done = |member: &Member| folder.has(&member.identity(), sweep.keep);
+        let checked = pool.install(|| check(*sweep, |index| shard.has(index), is_done, see))?;
         let Checked { members, left, .. } = &checked;
         let choice = Choice::of(sweep, &numbers)?;
         let n_own = shard.places(members.len()).len();
@@ -113,17 +118,17 @@ impl Work<'_> {
             None => None,
         };
         let mark = Mark { sweep, members, set: &arguments.set };
-        let folder = SweepFolder::claim(out, |file| mark.write(file))?;
+        folder.claim(|file| mark.write(file))?;
         if let Some(batch) = batch {
             return self.hand_over(&batch, &folder, &checked);
         }
         let mut ran = Ok(());
         if !arguments.merge {
             self.announce(&checked, n_own);
-            ran = run_members(&self.job(&folder, members), left);
+            ran = run_members(&self.job(&folder, members, shard), left);
         }
-        let collector =
-            Collector { sweep, members, folder: &folder, numbers: &numbers, choice: &choice };
+        let (numbers, choice) = (&numbers, &choice);
+        let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
         let collected = collector.collect(|index| shard.has(index))?;
         ran?;
         if !arguments.quiet {
@@ -142,21 +147,25 @@ impl Work<'_> {
     /// Computes a shard and looks at no other member.
     fn compute_shard(&self, shard: Shard) -> Result<(), Failure> {
         let Self { arguments, sweep, out, pool, .. } = self;
+        let mut folder = SweepFolder::at(out, Whose::Shard(shard));
+        folder.check()?;
         let places = shard.places(sweep.n_members());
         let mut checking = Checking::new(places.len(), arguments.quiet);
         let see = |_: &Member, _: &CaseFile| checking.tick();
-        let checked =
-            pool.install(|| check_some(*sweep, &places, |_| true, self.is_done(), see))?;
+        let is_done = |member: &Member| folder.has(&member.identity(), sweep.keep);
+        let checked = pool.install(|| check_some(*sweep, &places, |_| true, is_done, see))?;
         self.announce(&checked, places.len());
         if arguments.dry_run {
             return Ok(());
         }
         let mark = Mark { sweep, members: &checked.members, set: &arguments.set };
-        let folder = SweepFolder::join(out, |file| mark.write(file))?;
-        run_members(&self.job(&folder, &checked.members), &checked.left)?;
+        folder.join(|file| mark.write(file))?;
+        run_members(&self.job(&folder, &checked.members, shard), &checked.left)?;
+        folder.refresh();
         let mut collected = Collected::default();
-        for member in &checked.members {
-            if let Some(summary) = folder.summary(&member.identity()) {
+        let identities = checked.members.iter().map(Member::identity);
+        for (member, summary) in checked.members.iter().zip(folder.summaries(identities)) {
+            if let Some(summary) = summary {
                 let row = Row::new(member, sweep.values(member.index), summary);
                 collected.take(row, sweep, true);
             }
@@ -182,22 +191,18 @@ impl Work<'_> {
         }
     }
 
-    fn is_done(&self) -> impl Fn(&Member) -> bool + Sync {
-        let (there, keep) = (SweepFolder::at(self.out), self.sweep.keep);
-        move |member| there.has(&member.identity(), keep)
-    }
-
     fn announce(&self, checked: &Checked, n_own: usize) {
         let Self { arguments, sweep, pool, .. } = self;
         if !arguments.quiet {
             let name = arguments.sweep.display().to_string();
-            announce(&name, checked, sweep.n_members(), n_own, pool.current_num_threads());
+            announce(&name, sweep, checked, n_own, pool.current_num_threads());
         }
+        standard_output::warn(checked.oddities.iter().take(MOST_ODDITIES).cloned());
     }
 
-    fn job<'j>(&'j self, folder: &'j SweepFolder, members: &'j [Member]) -> Job<'j> {
+    fn job<'j>(&'j self, folder: &'j SweepFolder, members: &'j [Member], shard: Shard) -> Job<'j> {
         let (sweep, pool, quiet) = (self.sweep, self.pool, self.arguments.quiet);
-        Job { sweep, members, folder, pool, quiet, interrupt: self.interrupt.clone() }
+        Job { sweep, members, folder, shard, pool, quiet, interrupt: self.interrupt.clone() }
     }
 }
 

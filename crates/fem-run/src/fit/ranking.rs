@@ -24,6 +24,13 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
     let rows: Vec<_> = std::iter::once(header).chain(rows).collect();
     let mut text = table(&[Left, Left, Right, Right, Right], rows);
     text += "evidence: the share of each among these laws; none need be right\n";
+    let mut of: Vec<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();
+    of.dedup();
+    for of in of {
+        let twins = ranking.twins.iter().filter(|twin| twin.1 == of).map(|twin| twin.0.as_str());
+        let twins: Vec<&str> = twins.collect();
+        text += &format!("the same curve as {of}: {}\n", twins.join(", "));
+    }
     for (law, why) in &ranking.others {
         text += &format!("not ranked: {law}: {}\n", one_line(why));
     }

@@ -1,7 +1,7 @@
 //! A fit as text.
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::laws::LawFit;
+use fem::laws::{ChosenLaw, LawFit, StandIn};
 use fem_case::engineering::show;
 use fem_case::schema::End;
 use fem_fit::{Estimate, Profile};
@@ -10,7 +10,7 @@ use fem_laws::Family;
 use crate::tables::{show_value, table};
 
 /// What a fit prints on stdout.
-pub fn fit_text(fitted: &LawFit<'_>) -> String {
+pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let LawFit { problem, fit, .. } = fitted;
     let (model, points) = (problem.model, problem.points);
     let (slowest, fastest) = fitted.data.speeds();
@@ -29,7 +29,11 @@ pub fn fit_text(fitted: &LawFit<'_>) -> String {
         let shown = |value: f64| show_value(value, parameter.unit);
         let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
         let [error, interval, profile] = match estimate {
-            None => ["held".to_string(), String::new(), String::new()],
+            None => {
+                let of = law.stand_in(index).map(StandIn::words);
+                let held = of.map_or("held".to_string(), |of| format!("held: {of}"));
+                [held, String::new(), String::new()]
+            }
             Some(Estimate { standard_error, interval, .. }) => [
                 standard_error.map_or("-".to_string(), shown),
                 interval.map_or("-".to_string(), |(a, b)| format!("{} to {}", shown(a), shown(b))),
@@ -68,9 +72,6 @@ pub fn fit_text(fitted: &LawFit<'_>) -> String {
             .collect();
         let name = model.family().name();
         text += &format!("{name}: rms error {:.4} with {}\n", fit.rms, values.join(", "));
-    }
-    for warning in fitted.warnings() {
-        text += &format!("warning: {warning}\n");
     }
     text
 }

@@ -1,12 +1,13 @@
-//! From the members' folders to table and picture.
+//! From the members' summaries to table and picture.
 //!
-//! Members are read one by one, twice: once for what the whole table and the picture have, once for the rows.
+//! Members are read some at a time, twice: once for what the whole table and the picture have, once for the rows.
 //! What is kept of each is a bit, and of some what is drawn or shown.
 
 use std::io;
 
 use fem::sweep::{Columns, KeyNumbers, Member, NumberColumn, Row, SWEEP_FILE, sweep_csv};
 use fem_case::Sweep;
+use serde_json::Value;
 
 use super::folder::{PICTURE_FILE, SweepFolder};
 use super::picture::picture;
@@ -41,6 +42,8 @@ struct Look {
     is_there: Vec<bool>,
     columns: Columns,
     points: Vec<PicturePoint>,
+    /// Of all members, whose ever they are.
+    n_failed: usize,
 }
 
 /// A sweep and where its members' results are.
@@ -50,7 +53,7 @@ pub struct Collector<'a> {
     /// All members.
     pub members: &'a [Member],
     /// Where their results are.
-    pub folder: &'a SweepFolder,
+    pub folder: &'a mut SweepFolder,
     /// The values of its keys.
     pub numbers: &'a KeyNumbers,
     /// What is drawn.
@@ -66,13 +69,14 @@ impl Collector<'_> {
     ///
     /// # Errors
     /// The file system.
-    pub fn collect(&self, is_own: impl Fn(usize) -> bool) -> Result<Collected, Failure> {
+    pub fn collect(&mut self, is_own: impl Fn(usize) -> bool) -> Result<Collected, Failure> {
         loop {
+            self.folder.refresh();
             let look = self.look(&is_own);
             self.write(&look)?;
-            let is_new =
-                |member: &Member| !look.is_there[member.index] && self.row(member).is_some();
-            if !self.members.iter().any(is_new) {
+            self.folder.refresh();
+            let missing = self.members.iter().filter(|member| !look.is_there[member.index]);
+            if !self.summaries(missing).any(|summary| summary.is_some()) {
                 return Ok(look.collected);
             }
         }
@@ -84,11 +88,13 @@ impl Collector<'_> {
             is_there: vec![false; self.members.len()],
             columns: Columns::default(),
             points: Vec::new(),
+            n_failed: 0,
         };
-        for member in self.members {
-            let Some(row) = self.row(member) else { continue };
+        for row in self.rows(self.members.iter()) {
+            let member = &self.members[row.index];
             look.is_there[member.index] = true;
             look.columns.see(&row.summary);
+            look.n_failed += usize::from(!row.is_complete());
             look.points.extend(PicturePoint::of(&row, self.choice, self.members.len()));
             look.collected.take(row, self.sweep, is_own(member.index));
         }
@@ -96,7 +102,7 @@ impl Collector<'_> {
     }
 
     fn write(&self, look: &Look) -> Result<(), Failure> {
-        let folder = self.folder;
+        let folder = &*self.folder;
         let fault = |name: &str, error: &io::Error| {
             let place = folder.path().join(name);
             let message = format!("{} cannot be written: {error}", place.display());
@@ -107,13 +113,13 @@ impl Collector<'_> {
         let keys = self.sweep.keys().map(|swept| swept.key.as_str());
         let keys = keys.chain(numbers.iter().map(|column| column.name.as_str()));
         let there = self.members.iter().filter(|member| look.is_there[member.index]);
-        let rows = there.filter_map(|member| Some(self.numbered(self.row(member)?, &numbers)));
+        let rows = self.rows(there).map(|row| self.numbered(row, &numbers));
         folder
             .write(SWEEP_FILE, |file| {
                 sweep_csv(file, keys, &look.columns.names(), rows).map_err(io::Error::from)
             })
             .map_err(|error| fault(SWEEP_FILE, &error))?;
-        match picture(self.sweep, &look.points, self.choice) {
+        match picture(self.sweep, &look.points, self.choice, look.n_failed) {
             Some(svg) => folder
                 .write(PICTURE_FILE, |file| file.write_all(svg.as_bytes()))
                 .map_err(|error| fault(PICTURE_FILE, &error))?,
@@ -122,10 +128,22 @@ impl Collector<'_> {
         Ok(())
     }
 
-    /// The row of a member that is done.
-    fn row(&self, member: &Member) -> Option<Row> {
-        let summary = self.folder.summary(&member.identity())?;
-        Some(Row::new(member, self.sweep.values(member.index), summary))
+    fn summaries<'m>(
+        &'m self,
+        members: impl Iterator<Item = &'m Member> + 'm,
+    ) -> impl Iterator<Item = Option<Value>> + 'm {
+        self.folder.summaries(members.map(Member::identity))
+    }
+
+    /// The rows of those that are done.
+    fn rows<'m>(
+        &'m self,
+        members: impl Iterator<Item = &'m Member> + Clone + 'm,
+    ) -> impl Iterator<Item = Row> + 'm {
+        let summaries = self.summaries(members.clone());
+        members.zip(summaries).filter_map(|(member, summary)| {
+            Some(Row::new(member, self.sweep.values(member.index), summary?))
+        })
     }
 
     /// A row with its values in SI.

@@ -10,7 +10,7 @@
 //!
 //! The file system is all that processes share. A member is known by what it computes, so the
 //! same command goes on where another one stopped, and shards of a batch system fill one folder.
-//! Table and picture are made from the members' folders alone, by whoever finishes one: the same
+//! Table and picture are made from what is in `members/` alone, by whoever finishes one: the same
 //! bytes whatever the order.
 
 mod board;
@@ -19,9 +19,12 @@ mod collect;
 mod duration;
 mod folder;
 mod mark;
+mod packs;
 mod picture;
+mod picture_curves;
 mod picture_data;
 mod picture_points;
+mod picture_words;
 mod report;
 mod runner;
 mod shard;
@@ -32,6 +35,7 @@ pub use checking::Checking;
 pub use collect::{Collected, Collector};
 pub use folder::SweepFolder;
 pub use mark::Mark;
+pub use packs::Whose;
 pub use picture_data::Choice;
 pub use report::{announce, conclude, report};
 pub use runner::{Job, run_members};

@@ -5,87 +5,189 @@ use std::borrow::Cow;
 use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
 use fem_case::engineering::Unit;
-use fem_figure::{Axis, COLOURS, Chart, Curve as Line, GREY, colour_along};
+use fem_figure::{Axis, COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
 
-use super::picture_data::{Choice, Curve, Horizontal, curves};
+use super::picture_curves::{Curve, curves};
+use super::picture_data::Choice;
 use super::picture_points::PicturePoint;
+use super::picture_words::{plain, role, role_of_all};
 
 /// Hertz in the legend.
 const HERTZ: &str = "Hertz";
-/// Curves that a legend has room for beside Hertz.
-const LONGEST_LEGEND: usize = 14;
+/// Lines of a legend beside curves: Hertz, what failed, how many are not named.
+const NOTES: usize = 3;
+/// Steps between the entries of a colour map.
+const MAP_ENTRIES: usize = 8;
+/// Letters below a panel.
+const LONGEST_LABEL: usize = 60;
 /// Free space above and below the data over their range.
 const MARGIN: f64 = 0.06;
 /// Data that are less than this share of the range with Hertz are shown without Hertz.
 const LEAST_SHARE: f64 = 0.2;
 /// No axis shows less than this share of its values: what differs by less is noise.
 const NOISE: f64 = 1e-4;
-/// Keys, and what an axis calls them.
-const ROLES: [(&str, &str); 12] = [
-    ("approach_speed", "impact speed v"),
-    ("diameter", "diameter D"),
-    ("density", "density ρ"),
-    ("youngs_modulus", "Young's modulus E"),
-    ("shear_modulus", "shear modulus G"),
-    ("bulk_modulus", "bulk modulus K"),
-    ("poissons_ratio", "Poisson's ratio ν"),
-    ("weight", "relaxation weight g"),
-    ("decay_rate", "decay rate β"),
-    ("relaxation_time", "relaxation time τ"),
-    ("contact_element_size", "element size h"),
-    ("penalty_factor", "penalty factor f"),
-];
 /// Values that span this ratio go on a logarithmic axis.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
-/// The picture, or none if there is nothing to draw.
-pub fn picture(sweep: &Sweep, points: &[PicturePoint], choice: &Choice) -> Option<String> {
-    let x = choice.x.as_ref()?;
+/// The picture, or none if there is nothing to draw; so many members failed.
+pub fn picture(
+    sweep: &Sweep,
+    points: &[PicturePoint],
+    choice: &Choice,
+    n_failed: usize,
+) -> Option<String> {
+    let room = legend_room(choice.y.len()).saturating_sub(NOTES);
     let panel = |(k, column): (usize, &&'static str)| {
-        chart(sweep, x, column, &curves(sweep, points, choice, x, k))
+        let chart = chart(sweep, choice, column, &curves(sweep, points, choice, k), room);
+        match n_failed {
+            0 => chart,
+            1 => chart.with(note("1 member failed")),
+            n => chart.with(note(&format!("{n} members failed"))),
+        }
     };
     fem_figure::svg(&choice.y.iter().enumerate().map(panel).collect::<Vec<_>>())
 }
 
-fn chart(sweep: &Sweep, x: &Horizontal, column: &str, curves: &[Curve]) -> Chart {
-    let all = || curves.iter().flat_map(|curve| curve.points.iter().chain(&curve.hertz));
-    let horizontal = Scale::of(all().map(|point| point.0), x.unit);
-    let vertical = Scale::of(all().map(|point| point.1), Some(column_unit(column)));
+/// A line of the legend that is no curve.
+fn note(text: &str) -> Line {
+    Line::line(text, Vec::new()).coloured("none")
+}
+
+fn chart(sweep: &Sweep, choice: &Choice, column: &str, curves: &[Curve], room: usize) -> Chart {
+    let own = || curves.iter().flat_map(|curve| &curve.points);
+    let reference = || curves.iter().flat_map(|curve| &curve.hertz);
+    let x = own().map(|point| point.0).chain(reference().map(|point| point.0));
+    let horizontal = Scale::of(x, choice.x.unit).linear_if(choice.x.is_counted);
+    let y = own().map(|point| point.1).chain(reference().map(|point| point.1));
+    let vertical = Scale::of(y, Some(column_unit(column)));
     let scaled = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
         points.iter().map(|(x, y)| (horizontal.scaled(*x), vertical.scaled(*y))).collect()
     };
-    let name = sweep.keys().nth(x.key).map_or("", |swept| &swept.key);
-    let own = curves.iter().flat_map(|curve| &curve.points).map(|point| vertical.scaled(point.1));
-    let reference = curves.iter().flat_map(|curve| &curve.hertz);
-    let reference = reference.map(|point| vertical.scaled(point.1));
+    // Bars of many curves cover each other.
+    let has_errors = curves.len() <= COLOURS.len();
+    let bar = |(_, y, error): &(f64, f64, f64)| {
+        let is_drawn = has_errors && !(vertical.is_logarithmic && error >= y);
+        if is_drawn { vertical.scaled(*error) } else { 0.0 }
+    };
+    let own_range = own().map(|point| vertical.scaled(point.1));
+    let bars = own().map(|point| (vertical.scaled(point.1), bar(point)));
     let y = vertical.axis(&column_words(column));
-    let y = match shown(own, reference).filter(|_| !vertical.is_logarithmic) {
+    let of_hertz = reference().map(|point| vertical.scaled(point.1));
+    let y = match shown(with_bars(own_range, bars), of_hertz).filter(|_| !vertical.is_logarithmic) {
         Some((from, to)) => y.from_to(from, to),
         None => y,
     };
-    let mut chart = Chart::new(horizontal.axis(&role(name)), y);
+    let mut chart = Chart::new(horizontal.axis(&along(sweep, choice)), y);
+    // Between what is counted there is nothing.
+    let hertz_line = if choice.x.is_counted { Line::points } else { Line::dashed };
+    let named = Named::of(curves, room);
+    if let Some(heading) = &named.heading {
+        chart = chart.with(note(heading));
+    }
+    let ranks = ranks(curves);
     let colour = |k: usize| match curves.len() {
-        n if n > COLOURS.len() => colour_along(k, n).into(),
+        n if n > COLOURS.len() => colour_along(ranks[k], n).into(),
         _ => Cow::Borrowed(COLOURS[k]),
     };
-    // Of many curves some have names, the first and the last among them; colours run between these.
-    let stride = curves.len().saturating_sub(1).div_ceil(LONGEST_LEGEND - 1).max(1);
+    let is_one = curves.windows(2).all(|pair| pair[0].hertz == pair[1].hertz);
     for (k, curve) in curves.iter().enumerate() {
         let label = match curves.len() {
             1 => "computed",
-            n if k.is_multiple_of(stride) || k + 1 == n => &curve.label,
+            _ if named.has(k) => &curve.label,
             _ => "",
         };
-        let hertz = Line::dashed("", scaled(&curve.hertz));
-        let hertz = hertz.coloured(if curves.len() == 1 { GREY.into() } else { colour(k) });
-        chart = chart
-            .with(Line::points_on_line(label, scaled(&curve.points)).coloured(colour(k)))
-            .with(hertz);
+        let points: Vec<(f64, f64)> = curve.points.iter().map(|(x, y, _)| (*x, *y)).collect();
+        let errors = curve.points.iter().map(bar).collect();
+        let line = match choice.x.is_counted {
+            true => Line::points(label, scaled(&points)),
+            false => Line::points_on_line(label, scaled(&points)),
+        };
+        chart = chart.with(line.coloured(colour(k)).with_errors(errors));
+        let hertz = hertz_line("", scaled(&curve.hertz));
+        chart = match (is_one, k) {
+            (true, 0) => chart.with(hertz.coloured(GREY)),
+            (false, k) if has_errors => chart.with(hertz.coloured(colour(k))),
+            _ => chart,
+        };
     }
-    if curves.iter().any(|curve| !curve.hertz.is_empty()) {
-        chart = chart.with(Line::dashed(HERTZ, Vec::new()).coloured(GREY));
+    if let Some(note_of_rest) = &named.rest {
+        chart = chart.with(note(note_of_rest));
+    }
+    if curves.iter().any(|curve| !curve.hertz.is_empty()) && (is_one || has_errors) {
+        chart = chart.with(hertz_line(HERTZ, Vec::new()).coloured(GREY));
     }
     chart
+}
+
+/// What is along the horizontal, in words; of what is counted what the numbers stand for.
+fn along(sweep: &Sweep, choice: &Choice) -> String {
+    let name = sweep.keys().nth(choice.x.key).map_or("", |swept| &swept.key);
+    if !choice.x.is_counted {
+        let of_all = sweep.axes[choice.x.axis].keys.len() > 1;
+        return if of_all { role_of_all(name) } else { role(name) };
+    }
+    let elements = sweep.axes[choice.x.axis].elements.iter().enumerate();
+    let said = elements.map(|(k, element)| format!("{} {}", k + 1, plain(&element.said(0))));
+    let said = said.collect::<Vec<_>>().join(", ");
+    match said.chars().count() {
+        0..=LONGEST_LABEL => said,
+        _ => format!("{}, in the order of the sweep", role(name)),
+    }
+}
+
+/// Places of the curves by their numbers; in the order of the sweep if they have none.
+fn ranks(curves: &[Curve]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..curves.len()).collect();
+    order.sort_by(|a, b| {
+        let number = |k: &usize| curves[*k].number.unwrap_or(*k as f64);
+        number(a).total_cmp(&number(b))
+    });
+    let mut ranks = vec![0; curves.len()];
+    order.iter().enumerate().for_each(|(rank, k)| ranks[*k] = rank);
+    ranks
+}
+
+/// Which curves the legend names: all that it has room for. Of more that a number tells apart it is a colour
+/// map, some of them evenly from the first to the last.
+struct Named {
+    stride: usize,
+    n: usize,
+    n_curves: usize,
+    heading: Option<String>,
+    rest: Option<String>,
+}
+
+impl Named {
+    fn of(curves: &[Curve], room: usize) -> Self {
+        let n_curves = curves.len();
+        if n_curves <= room {
+            return Self { stride: 1, n: n_curves, n_curves, heading: None, rest: None };
+        }
+        if curves.iter().all(|curve| curve.number.is_some()) {
+            let stride = (n_curves - 1).div_ceil(MAP_ENTRIES);
+            let heading = Some(format!("{n_curves} curves, colours run on between:"));
+            return Self { stride, n: n_curves, n_curves, heading, rest: None };
+        }
+        let rest = Some(format!("… and {} more", n_curves - room));
+        Self { stride: 1, n: room, n_curves, heading: None, rest }
+    }
+
+    fn has(&self, k: usize) -> bool {
+        k < self.n && (k.is_multiple_of(self.stride) || k + 1 == self.n_curves)
+    }
+}
+
+/// Values with the ends of their error bars, which go beyond the values by no more than their range: what is
+/// compared stays apart.
+fn with_bars(
+    own: impl Iterator<Item = f64> + Clone,
+    bars: impl Iterator<Item = (f64, f64)>,
+) -> impl Iterator<Item = f64> {
+    let from = own.clone().fold(f64::INFINITY, f64::min);
+    let to = own.fold(f64::NEG_INFINITY, f64::max);
+    let room = if to > from { to - from } else { f64::INFINITY };
+    bars.flat_map(|(value, bar)| [value - bar, value + bar])
+        .map(move |end: f64| end.max(from - room).min(to + room))
 }
 
 /// What an axis shows of its own values and of what they are compared with: all of the former, and the latter
@@ -113,30 +215,6 @@ fn shown(
     Some((middle - (0.5 + MARGIN) * span, middle + (0.5 + MARGIN) * span))
 }
 
-/// A key as people call what it is, with its symbol.
-fn role(key: &str) -> String {
-    let parts: Vec<&str> = key.split('.').collect();
-    let last = parts.last().copied().unwrap_or_default();
-    let owner = match parts.as_slice() {
-        ["body", number, ..] => match number.parse::<usize>() {
-            Ok(number) => format!(" of body {}", number + 1),
-            Err(_) => String::new(),
-        },
-        ["material", name, ..] => format!(" of {name}"),
-        _ => String::new(),
-    };
-    let role = ROLES.iter().find(|(known, _)| *known == last).map(|(_, role)| *role);
-    match role {
-        Some(role) if last == "approach_speed" => role.to_string(),
-        Some(role) => match role.rsplit_once(' ') {
-            // The symbol stays last: "diameter of body 1 D".
-            Some((words, symbol)) => format!("{words}{owner} {symbol}"),
-            None => format!("{role}{owner}"),
-        },
-        None => format!("{}{owner}", last.replace('_', " ")),
-    }
-}
-
 /// How numbers stand on an axis.
 struct Scale {
     /// None: no unit, or one that takes no prefix.
@@ -158,6 +236,12 @@ impl Scale {
             is_logarithmic: smallest > 0.0 && largest >= LOGARITHMIC_FROM * smallest,
             unit,
         }
+    }
+
+    /// The same, not logarithmic if `linear`.
+    fn linear_if(mut self, linear: bool) -> Self {
+        self.is_logarithmic &= !linear;
+        self
     }
 
     fn scaled(&self, value: f64) -> f64 {
@@ -195,18 +279,12 @@ mod tests {
         let (from, to) = shown(&[1.0 - 2e-6, 1.0 - 1e-6], &[1.0]);
         assert!(to - from > 1e-4, "{from} {to}");
         assert!(super::shown([f64::NAN].into_iter(), [1.0].into_iter()).is_none());
-    }
-
-    #[test]
-    fn keys_are_called_by_their_role() {
-        for (key, expected) in [
-            ("body.0.approach_speed", "impact speed v"),
-            ("body.1.sphere.diameter", "diameter of body 2 D"),
-            ("material.glass.youngs_modulus", "Young's modulus of glass E"),
-            ("mesh.contact_element_size", "element size h"),
-            ("time.step_factor", "step factor"),
-        ] {
-            assert_eq!(role(key), expected);
-        }
+        // A bar that is longer than all the rest is cut off; of one value it is whole.
+        let ends = |own: &[f64], bar: f64| {
+            let own = own.iter().copied();
+            super::with_bars(own.clone(), own.map(move |value| (value, bar))).collect::<Vec<_>>()
+        };
+        assert_eq!(ends(&[1.0, 2.0], 5.0), [0.0, 3.0, 0.0, 3.0]);
+        assert_eq!(ends(&[1.0], 5.0), [-4.0, 6.0]);
     }
 }

@@ -1,24 +1,25 @@
-//! What the picture of a sweep shows: which columns against which key, and the curves.
+//! What the picture of a sweep shows: which columns against which key, and what tells curves apart.
 
 use fem::sweep::{COLUMNS, KeyNumbers};
 use fem_case::{CaseError, Combine, Sweep};
-
-use super::picture_points::PicturePoint;
 
 /// Panels unless the sweep file names others.
 const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
 /// Columns of text or of yes and no.
 const NOT_NUMBERS: [&str; 2] = ["complete", "stopped_because"];
+
 /// Which columns are drawn against which key.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// What is along the horizontal; none if no key has numbers.
-    pub x: Option<Horizontal>,
+    /// What is along the horizontal.
+    pub x: Horizontal,
     /// Columns of the table, one panel each.
     pub y: Vec<&'static str>,
-    /// The key whose values tell curves apart; those of all other axes together if none.
-    pub series: Option<usize>,
+    /// The axes whose values tell curves apart.
+    pub series: Vec<usize>,
+    /// The values of the only one of those, if they are numbers.
+    pub series_values: Option<Vec<f64>>,
 }
 
 /// A varied key along the horizontal of the picture.
@@ -28,10 +29,12 @@ pub struct Horizontal {
     pub key: usize,
     /// The axis that it is on.
     pub axis: usize,
-    /// Its values, SI.
+    /// Its values, SI; counted from 1 if they are no numbers.
     pub values: Vec<f64>,
     /// Their unit.
     pub unit: Option<&'static str>,
+    /// Whether they are counted.
+    pub is_counted: bool,
 }
 
 impl Choice {
@@ -50,23 +53,43 @@ impl Choice {
         };
         let horizontal = |key: usize| {
             let (axis, unit) = (places[key].0, numbers.unit(key).filter(|unit| !unit.is_empty()));
-            Some(Horizontal { key, axis, values: numbers.of_key(key)?, unit })
+            let values = numbers.of_key(key)?;
+            Some(Horizontal { key, axis, values, unit, is_counted: false })
         };
         let x = match &sweep.plot.x {
             Some(key) => {
                 let key = find("plot.x", key)?;
-                Some(horizontal(key).ok_or_else(|| {
+                horizontal(key).ok_or_else(|| {
                     let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[key]));
                     error.with_help("name a varied key whose values are numbers")
-                })?)
+                })?
             }
-            None => (0..keys.len()).find_map(horizontal),
+            None => {
+                let all = (0..keys.len()).filter_map(horizontal);
+                // Of equal ones `max_by_key` takes the last.
+                let longest = all.rev().max_by_key(|x| {
+                    (n_distinct(&x.values), keys[x.key].ends_with("approach_speed"))
+                });
+                longest.unwrap_or_else(|| counted(sweep))
+            }
         };
-        let series = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
-        if series.is_some() && series == x.as_ref().map(|x| x.key) {
+        let named = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
+        if named == Some(x.key) {
             let error = sweep.error_at("plot.series", "x and series are the same key");
             return Err(error.with_help("series tells curves apart; leave it out"));
         }
+        let series = match (named, sweep.combine) {
+            (Some(key), _) => vec![places[key].0],
+            // Paired keys run along with x, as linked ones do.
+            (None, Combine::Paired) => Vec::new(),
+            (None, Combine::All) => (0..sweep.axes.len()).filter(|axis| *axis != x.axis).collect(),
+        };
+        let series_values = match series.as_slice() {
+            [axis] => (0..keys.len())
+                .filter(|key| places[*key].0 == *axis)
+                .find_map(|key| numbers.of_key(key)),
+            _ => None,
+        };
         let y = match &sweep.plot.y {
             None => DEFAULT_COLUMNS.to_vec(),
             Some(names) if names.is_empty() => {
@@ -78,7 +101,7 @@ impl Choice {
                 names.iter().enumerate().map(column).collect::<Result<_, _>>()?
             }
         };
-        Ok(Self { x, y, series })
+        Ok(Self { x, y, series, series_values })
     }
 }
 
@@ -93,58 +116,18 @@ fn column(sweep: &Sweep, k: usize, name: &str) -> Result<&'static str, CaseError
     })
 }
 
-/// Points that belong together.
-#[derive(Clone, Debug)]
-pub struct Curve {
-    /// What tells it apart; empty if it is the only one.
-    pub label: String,
-    /// SI, by increasing x.
-    pub points: Vec<(f64, f64)>,
-    /// The same members by Hertz; empty if Hertz has no such column.
-    pub hertz: Vec<(f64, f64)>,
+/// The longest axis of a sweep that has no numbers, its values counted.
+fn counted(sweep: &Sweep) -> Horizontal {
+    let lengths = sweep.axes.iter().map(|axis| axis.elements.len()).enumerate();
+    let (axis, n) = lengths.rev().max_by_key(|(_, n)| *n).unwrap_or((0, 0));
+    let key = sweep.places().position(|(of_key, _)| of_key == axis).unwrap_or(0);
+    let values = (1..=n).map(|k| k as f64).collect();
+    Horizontal { key, axis, values, unit: None, is_counted: true }
 }
 
-/// One curve a series of the panel that `panel` counts. Curves come in the order of the sweep.
-pub fn curves(
-    sweep: &Sweep,
-    points: &[PicturePoint],
-    choice: &Choice,
-    x: &Horizontal,
-    panel: usize,
-) -> Vec<Curve> {
-    let mut curves: Vec<Curve> = Vec::new();
-    for point in points {
-        let label = label(sweep, point.index, choice, x.axis);
-        let known = curves.iter().position(|curve| curve.label == label);
-        let place = known.unwrap_or_else(|| {
-            curves.push(Curve { label, points: Vec::new(), hertz: Vec::new() });
-            curves.len() - 1
-        });
-        let x = x.values[sweep.choice(point.index)[x.axis]];
-        let [own, hertz] = point.values[panel];
-        curves[place].points.extend(own.map(|y| (x, y)));
-        curves[place].hertz.extend(hertz.map(|y| (x, y)));
-    }
-    for curve in &mut curves {
-        curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        curve.hertz.sort_by(|a, b| a.0.total_cmp(&b.0));
-    }
-    curves
-}
-
-fn label(sweep: &Sweep, member: usize, choice: &Choice, x: usize) -> String {
-    let is_part = |key: usize, axis: usize| match (choice.series, sweep.combine) {
-        (Some(series), _) => key == series,
-        // Paired keys run along with x, as linked ones do.
-        (None, Combine::Paired) => false,
-        (None, Combine::All) => axis != x,
-    };
-    let values = sweep.values(member);
-    let parts = sweep.keys().zip(sweep.places()).enumerate();
-    let parts =
-        parts.filter(|(key, (_, (axis, _)))| is_part(*key, *axis)).map(|(key, (swept, _))| {
-            let name = swept.parts().last().unwrap_or_default();
-            format!("{} {}", name.replace('_', " "), values[key])
-        });
-    parts.collect::<Vec<_>>().join(", ")
+fn n_distinct(values: &[f64]) -> usize {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup();
+    sorted.len()
 }

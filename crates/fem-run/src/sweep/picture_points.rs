@@ -8,12 +8,23 @@ use super::picture_data::Choice;
 const MOST: usize = 4_000;
 
 /// Of a complete member.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PicturePoint {
     /// Its place in the sweep.
     pub index: usize,
-    /// Of each panel, the member's own value and that of Hertz; `None` where there is none.
-    pub values: Vec<[Option<f64>; 2]>,
+    /// Of each panel.
+    pub values: Vec<PanelValues>,
+}
+
+/// What a panel shows of a member; `None` where there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PanelValues {
+    /// The member's own.
+    pub own: Option<f64>,
+    /// How far that may be off, both parts of its error bar.
+    pub error: Option<f64>,
+    /// By Hertz.
+    pub hertz: Option<f64>,
 }
 
 /// Every so manieth member is drawn.
@@ -28,10 +39,15 @@ impl PicturePoint {
             return None;
         }
         let number = |column: &str| row.value(column).as_f64();
+        let there = |column: String| COLUMNS.contains(&column).then(|| number(&column)).flatten();
         let panel = |column: &&str| {
-            let of_hertz = format!("hertz_{column}");
-            let hertz = COLUMNS.contains(&of_hertz).then(|| number(&of_hertz)).flatten();
-            [number(column), hertz]
+            let parts = ["discretisation", "model"]
+                .map(|part| there(format!("uncertainty_{part}_{column}")));
+            let error = parts.iter().flatten().copied().reduce(|a, b| a + b);
+            // Hertz gives all back.
+            let hertz =
+                (*column != "restitution").then(|| there(format!("hertz_{column}"))).flatten();
+            PanelValues { own: number(column), error, hertz }
         };
         Some(Self { index: row.index, values: choice.y.iter().map(panel).collect() })
     }

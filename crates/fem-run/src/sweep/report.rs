@@ -5,17 +5,20 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::sweep::{Checked, Row, SWEEP_FILE};
-use fem_case::Sweep;
 use fem_case::engineering::show;
+use fem_case::{Keep, Sweep};
+use indicatif::DecimalBytes;
 
 use super::collect::Collected;
 use super::duration::duration;
+use super::packs::LINE_BYTES;
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 use crate::tables::table;
 
 /// One line on stderr about what begins and what it takes.
-pub fn announce(name: &str, checked: &Checked, n_members: usize, n_own: usize, n_threads: usize) {
+pub fn announce(name: &str, sweep: &Sweep, checked: &Checked, n_own: usize, n_threads: usize) {
+    let n_members = sweep.n_members();
     let n_left = checked.left.len();
     let shard = if n_own == n_members { String::new() } else { format!(", {n_own} in this shard") };
     let name = one_line(name);
@@ -26,14 +29,25 @@ pub fn announce(name: &str, checked: &Checked, n_members: usize, n_own: usize, n
             duration(checked.seconds / n_threads as f64)
         ),
     };
+    let kept = match sweep.keep {
+        Keep::Packed if n_left > 0 => {
+            format!("; one file of summaries, some {}", packed_bytes(n_left))
+        }
+        _ => String::new(),
+    };
     let _ = writeln!(
         stderr(),
-        "{name}: {n_members} members{shard}; {} done before, {n_left} to run{time}",
+        "{name}: {n_members} members{shard}; {} done before, {n_left} to run{time}{kept}",
         n_own - n_left
     );
     if let Some(advice) = checked.advice {
         let _ = writeln!(stderr(), "hint: {advice}");
     }
+}
+
+/// What the summaries of so many members take, packed.
+pub fn packed_bytes(n_members: usize) -> DecimalBytes {
+    DecimalBytes(LINE_BYTES * n_members as u64)
 }
 
 /// The main results of each member, and where the rest is.
@@ -42,7 +56,8 @@ pub fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &P
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
-        let mut cells: Vec<String> = row.values.iter().map(|value| one_line(value)).collect();
+        let said = sweep.said(row.index);
+        let mut cells: Vec<String> = said.iter().map(|value| one_line(value)).collect();
         cells.extend(result_cells(row));
         cells
     };

@@ -12,6 +12,8 @@ use rayon::ThreadPool;
 
 use super::board::{Board, MemberWatch};
 use super::folder::SweepFolder;
+use super::packs::Pack;
+use super::shard::Shard;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_files::{longest_name, write_result};
@@ -26,6 +28,8 @@ pub struct Job<'a> {
     pub members: &'a [Member],
     /// Where results go.
     pub folder: &'a SweepFolder,
+    /// Which of them are this process's.
+    pub shard: Shard,
     /// Threads that they run on.
     pub pool: &'a ThreadPool,
     /// Show no progress.
@@ -49,10 +53,11 @@ impl Job<'_> {
 /// A result that cannot be written. The other members end early.
 pub fn run_members(job: &Job<'_>, left: &[usize]) -> Result<(), Failure> {
     let board = Board::new(job.interrupt.clone(), left.len(), job.quiet);
-    let keeper = Keeper { job, board: &board, first_failure: Mutex::new(None) };
+    let pack = job.folder.pack(job.shard);
+    let keeper = Keeper { job, board: &board, pack, first_failure: Mutex::new(None) };
     let shared = Shared::default();
     let runner = Runner::new(job.sweep, &shared);
-    let runner = if job.sweep.keep == Keep::Summary { runner.without_fields() } else { runner };
+    let runner = if job.sweep.keep == Keep::All { runner } else { runner.without_fields() };
     job.pool.install(|| runner.run_all(left, &keeper));
     board.finish();
     keeper.first_failure.into_inner().ok().flatten().map_or(Ok(()), Err)
@@ -62,6 +67,7 @@ pub fn run_members(job: &Job<'_>, left: &[usize]) -> Result<(), Failure> {
 struct Keeper<'a> {
     job: &'a Job<'a>,
     board: &'a Board,
+    pack: Pack,
     first_failure: Mutex<Option<Failure>>,
 }
 
@@ -111,6 +117,9 @@ impl Keeper<'_> {
     fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
         let Job { sweep, folder, .. } = self.job;
         let stem = &self.job.identity(index);
+        if sweep.keep == Keep::Packed {
+            return self.append(stem, ran, stopwatch);
+        }
         let out = folder.member(stem);
         let place = ResultFolder::claim_swept(&out, &longest_name(stem), Replaces::Any)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;
@@ -122,6 +131,17 @@ impl Keeper<'_> {
         }
         place.publish(true)?;
         Ok(written.summary)
+    }
+
+    fn append(&self, identity: &str, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
+        let Ran { simulation, collision } = ran;
+        let warnings = simulation.warnings(collision);
+        let summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, Vec::new());
+        self.pack.append(identity, &summary).map_err(|error| {
+            Failure::failed(format!("a summary cannot be written: {error}"))
+                .with_help("the members before it are kept; is the disk full?")
+        })?;
+        Ok(summary)
     }
 }
 

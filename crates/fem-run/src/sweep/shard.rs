@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 /// `K/N`: members K − 1, K − 1 + N, …
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     first: usize,
     step: usize,
@@ -12,6 +12,16 @@ pub struct Shard {
 impl Shard {
     /// All members.
     pub const WHOLE: Self = Self { first: 0, step: 1 };
+
+    /// K.
+    pub fn number(&self) -> usize {
+        self.first + 1
+    }
+
+    /// N.
+    pub fn step(&self) -> usize {
+        self.step
+    }
 
     /// Whether it has the member at this place.
     pub fn has(&self, index: usize) -> bool {

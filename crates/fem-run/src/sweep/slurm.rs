@@ -12,10 +12,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use fem::sweep::Checked;
-use fem_case::Sweep;
+use fem_case::{Keep, Sweep};
 
 use super::duration::duration;
 use super::folder::SweepFolder;
+use super::report::packed_bytes;
 use crate::case_arguments::stem_of;
 use crate::failure::Failure;
 use crate::standard_output::one_line;
@@ -59,6 +60,7 @@ pub struct Batch {
     n_shards: usize,
     n_left: usize,
     seconds: f64,
+    is_packed: bool,
 }
 
 impl Batch {
@@ -97,7 +99,13 @@ impl Batch {
             None => wanted.clamp(1, most),
         };
         let seconds = checked.seconds / (n_shards as f64 * threads);
-        Ok(Self { options: text, n_shards, n_left: checked.left.len(), seconds })
+        Ok(Self {
+            options: text,
+            n_shards,
+            n_left: checked.left.len(),
+            seconds,
+            is_packed: sweep.keep == Keep::Packed,
+        })
     }
 
     /// Writes the script into the sweep's folder and says where it is.
@@ -159,13 +167,19 @@ impl Batch {
     pub fn report(&self, script: &Path, submitted: Option<&str>) -> String {
         let script = one_line(&script.display().to_string());
         let Self { n_shards, n_left, seconds, .. } = self;
+        let files = match self.is_packed {
+            true => {
+                format!("each with a file of some {}, ", packed_bytes(n_left.div_ceil(*n_shards)))
+            }
+            false => String::new(),
+        };
         let task = if *n_shards == 1 { "1 task" } else { &format!("{n_shards} tasks") };
         let next = match submitted {
             Some(said) => format!("Submitted: {said}"),
             None => format!("Submit it with: sh {}", quoted(&script)),
         };
         format!(
-            "{n_left} members in {task} of some {}, and a task that merges them.\n{next}\n\nResult: {script}\n",
+            "{n_left} members in {task} of some {}, {files}and a task that merges them.\n{next}\n\nResult: {script}\n",
             duration(*seconds)
         )
     }

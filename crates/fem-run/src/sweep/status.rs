@@ -1,15 +1,18 @@
 //! `fem-run sweep --status FOLDER`: how far a sweep is, told by its folder alone.
 
-use std::fs;
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::results::PROGRAM;
 use serde::Deserialize;
-use serde::de::IgnoredAny;
+use serde::Deserializer;
+use serde::de::{Error, IgnoredAny};
 
 use super::duration::duration;
 use super::folder::{MARK_FILE, SweepFolder};
+use super::packs::Whose;
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 use crate::tables::table;
@@ -24,9 +27,15 @@ struct Mark {
 
 #[derive(Deserialize)]
 struct MarkedMember {
-    member: String,
+    #[serde(deserialize_with = "digest")]
+    member: u64,
     #[serde(rename = "values")]
     _values: IgnoredAny,
+}
+
+/// An identity as a number: of a million members less than their names.
+fn digest<'de, D: Deserializer<'de>>(from: D) -> Result<u64, D::Error> {
+    u64::from_str_radix(&String::deserialize(from)?, 16).map_err(D::Error::custom)
 }
 
 /// How far the sweep in a folder is.
@@ -40,15 +49,15 @@ pub fn status(folder: &Path) -> Result<String, Failure> {
         let help = "name the folder of a sweep, such as fem-run sweep --status runs/sweep_speed";
         Failure::bad_input(format!("{name}: {found}")).with_help(help)
     };
-    let bytes = fs::read(&place).map_err(|error| refuse(format!("{MARK_FILE}: {error}")))?;
-    let mark = serde_json::from_slice::<Mark>(&bytes);
+    let file = File::open(&place).map_err(|error| refuse(format!("{MARK_FILE}: {error}")))?;
+    let mark = serde_json::from_reader::<_, Mark>(BufReader::new(file));
     let mark = mark.ok().filter(|mark| mark.program == PROGRAM);
     let mark = mark.ok_or_else(|| refuse(format!("{MARK_FILE} is not a sweep's")))?;
 
-    let there = SweepFolder::at(folder);
+    let there = SweepFolder::at(folder, Whose::All);
     let (mut n_done, mut n_failed, mut spent) = (0_usize, 0_usize, 0.0);
-    for member in &mark.members {
-        let Some(summary) = there.summary(&member.member) else { continue };
+    let identities = mark.members.iter().map(|member| format!("{:016x}", member.member));
+    for summary in there.summaries(identities).flatten() {
         n_done += 1;
         n_failed += usize::from(summary["complete"] == false);
         spent += summary["cost"]["wall_s"].as_f64().unwrap_or(0.0);

@@ -22,5 +22,6 @@ mod stopping;
 mod streams;
 mod sweep;
 mod sweep_input;
+mod sweep_packed;
 mod terminal;
 mod validate;

@@ -75,7 +75,8 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     for (key, value) in alone.as_object().unwrap() {
         match key.as_str() {
             "cost" | "case" | "bodies" | "effects" | "files" | "program" | "version"
-            | "numerics" | "made_from" | "models_considered" | "elastic_null" => {}
+            | "numerics" | "made_from" | "models_considered" | "coarser_meshes"
+            | "elastic_null" => {}
             "uncertainty" => value.as_object().unwrap().iter().for_each(|(quantity, parts)| {
                 let parts = parts.as_object().unwrap().iter();
                 parts.for_each(|(part, value)| {
@@ -100,7 +101,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     }
     assert!(ran.stderr.contains("[6/6] body.0.approach_speed = "), "{}", ran.stderr);
     let svg = String::from_utf8(place.read("runs/sweep/sweep.svg")).unwrap();
-    for expected in ["[m/s]", "contact time [µs]", "Hertz", "weight 0.5"] {
+    for expected in ["[m/s]", "contact time [µs]", "Hertz", "g = 0.5"] {
         assert!(svg.contains(expected), "{expected}");
     }
 }
@@ -333,6 +334,12 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
         assert!(ran.stderr.contains(&format!("--out {out}")), "{}", ran.stderr);
     }
     assert_eq!(place.list("mine"), ["notes.txt"]);
+    // What a run would say, without one.
+    for more in [&["--dry-run"][..], &["--slurm="], &["--shard", "1/2", "--no-merge"]] {
+        let ran = place.run(&[&["sweep", "sweep.toml", "--out", "mine"], more].concat());
+        assert_eq!(ran.code, Some(2), "{more:?}: {}", ran.stderr);
+        assert!(ran.stderr.contains("something else than a sweep"), "{}", ran.stderr);
+    }
     // Nor does a run take a sweep's place.
     place.succeed(&["sweep", "sweep.toml", "--out", "out", "--shard", "6/6", "--quiet"]);
     assert_eq!(place.run(&["case.toml", "--out", "out"]).code, Some(2));

@@ -38,7 +38,11 @@ fn files_that_are_no_sweep_are_refused() {
         "1:11",
         &["\"all\", \"paired\""],
     );
-    refused(&("keep = 1\n".to_string() + &vary("a = [1]")), "1:8", &["\"summary\", \"all\""]);
+    refused(
+        &("keep = 1\n".to_string() + &vary("a = [1]")),
+        "1:8",
+        &["\"summary\", \"packed\", \"all\""],
+    );
     refused("case = 'case.toml'\n", "1:1", &["varies no key", "[vary]"]);
     refused("case = 'case.toml'\nvary = 3\n", "2:8", &["not a table"]);
     refused(&vary(""), "2:1", &["varies no key"]);
@@ -67,8 +71,7 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = 1, to = 2 }"), "3:27", &["there is no `n`", "log = true"]);
     refused(&range("{ from = 1, to = 2, n = 1 }"), "3:51", &["n is 1", "2 to"]);
     refused(&range("{ from = 1, to = 2, n = 3, logs = true }"), "3:54", &["unknown key", "log"]);
-    refused(&range("{ from = '1 m/s', to = 2, n = 3 }"), "3:50", &["\"m/s\" and \"\"", "one unit"]);
-    refused(&range("{ from = '1 mm', to = '2 m', n = 3 }"), "3:49", &["one unit"]);
+    refused(&range("{ from = '1 mm', to = '2 s', n = 3 }"), "3:49", &["units of one quantity"]);
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", &["furlong"]);
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", &["no end of a range"]);
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", &["greater than 0"]);
@@ -167,4 +170,53 @@ fn faults_of_the_base_case_and_of_overrides_are_told_as_such() {
         assert!(ran.stderr.contains(expected), "{}", ran.stderr);
     }
     assert_eq!(place.list("."), ["case.toml", "sweep.toml"]);
+}
+
+/// All that is wrong is told at once, in the order of the file, each fault once.
+#[test]
+fn all_faults_of_a_sweep_file_are_told_at_once() {
+    let places = |sweep: &str| {
+        let place = Place::new();
+        place.write("sweep.toml", sweep);
+        let ran = place.run(&["sweep", "sweep.toml"]);
+        assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+        let heads = ran.stderr.lines().filter_map(|line| line.split_once("sweep.toml:"));
+        let places = heads.map(|(_, rest)| rest.split(": ").next().unwrap_or_default().to_string());
+        (places.collect::<Vec<_>>(), ran.stderr)
+    };
+    // Of the file itself.
+    let (found, stderr) = places(
+        "case = 'none.toml'\ncombin = 'all'\nkeep = 'some'\n[vary]\n'body.0.approach_speed' = []\n\
+         'body.1.approach_speed' = 3\nbody.0.sphere.diameter = { from = 1, to = 2 }\n[plot]\nz = 1\n",
+    );
+    assert_eq!(found, ["1:8", "2:1", "3:8", "5:27", "6:27", "7:26", "9:1"], "{stderr}");
+    // Of the values: each with sound ones of the other lists.
+    let (found, stderr) = places(&vary(
+        "body.0.sphere.diameter = ['1 cm', '1 kg', -1]\nbody.0.approach_speed = [nan, 1, '2 m']\n\
+         body.1.name = ['a', 'striker']",
+    ));
+    assert_eq!(found, ["3:35", "3:43", "4:26", "4:34", "5:21"], "{stderr}");
+}
+
+/// Ends of a range in two units of one quantity: the ends as written, the others in the unit of the last.
+#[test]
+fn a_range_may_begin_in_another_unit() {
+    let place = Place::new();
+    let range = "'body.0.approach_speed' = { from = '50 mm/s', to = '2 m/s', n = 3, log = true }";
+    place.write("sweep.toml", &vary(range));
+    place.succeed(&["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
+    let table = String::from_utf8(place.read("runs/sweep/sweep.csv")).unwrap();
+    let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert!(texts.len() == 3 && texts[0] == "50 mm/s" && texts[2] == "2 m/s", "{texts:?}");
+    // The middle of a ratio: √(0.05 · 2) m/s.
+    let middle: f64 = texts[1].strip_suffix(" m/s").unwrap().parse().unwrap();
+    assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
+    // A bare number is SI.
+    let range = "'body.0.approach_speed' = { from = '50 mm/s', to = 2, n = 3, log = true }";
+    place.write("sweep.toml", &vary(range));
+    place.succeed(&["sweep", "sweep.toml", "--quiet", "--set", "model.hertz={}"]);
+    let table = String::from_utf8(place.read("runs/sweep/sweep.csv")).unwrap();
+    let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
+    assert!(texts[0] == "50 mm/s" && texts[2] == "2.0", "{texts:?}");
+    assert!(texts[1].parse::<f64>().is_ok_and(|middle| (middle - 0.1f64.sqrt()).abs() < 1e-15));
 }

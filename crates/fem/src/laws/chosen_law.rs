@@ -3,7 +3,7 @@
 
 use fem_case::{Case, ModelChoice, Scene};
 use fem_fit::{FitError, Model, Point, Problem};
-use fem_laws::{EndRule, Family};
+use fem_laws::{EndRule, Family, Role};
 
 use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
@@ -62,6 +62,28 @@ pub struct ChosenLaw {
     known: Vec<Known>,
 }
 
+/// What stands for a parameter that data do not determine and nobody gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StandIn {
+    /// The stiffness with which the spring alone makes Hertz' contact time at the middle speed of the data.
+    HertzTime,
+    /// The middle speed of the data: the law's loss is told at it.
+    MiddleSpeed,
+    /// Poisson's ratio: the material dissipates in the form of its elasticity.
+    PoissonsRatio,
+}
+
+impl StandIn {
+    /// Where it comes from, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::HertzTime => "of Hertz' contact time",
+            Self::MiddleSpeed => "middle of the speeds",
+            Self::PoissonsRatio => "Poisson's ratio",
+        }
+    }
+}
+
 /// Where a parameter's value comes from, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Known {
@@ -111,31 +133,70 @@ impl ChosenLaw {
         self.model.family()
     }
 
-    /// The search for the parameters with these keys, or for the one that stands for the loss if
-    /// there are none; all others have their values.
+    /// The search for the parameters with these keys; if there are none, for the one that stands for the loss
+    /// and, where there are contact times, for a stiffness that no theory gives. All others have their
+    /// values, or what [`StandIn`] says.
     ///
     /// # Errors
-    /// A law without a loss; keys that it does not have; a parameter without a value.
+    /// A law without a loss; keys that it does not have; a stiffness where there are no contact times; a
+    /// parameter without a value.
     pub fn problem<'a>(
         &'a self,
         points: &'a [Point],
         free: &[&str],
     ) -> Result<Problem<'a>, LawFault> {
         let parameters = self.family().parameters();
+        let has_times = points.iter().any(|point| point.contact_time.is_some());
         let mut indices = vec![loss_parameter(self.family())?];
-        if !free.is_empty() {
+        if free.is_empty() && has_times {
+            let of_theory = |index: &usize| self.stand_in(*index) == Some(StandIn::HertzTime);
+            indices.extend((0..parameters.len()).filter(of_theory));
+            indices.sort_unstable();
+        } else if !free.is_empty() {
             let found = free.iter().map(|key| find_parameter(self.family(), key));
             indices = found.collect::<Result<_, _>>()?;
+        }
+        let is_stiffness = |index: &&usize| parameters[**index].role == Role::Stiffness;
+        if let (false, Some(index)) = (has_times, indices.iter().find(is_stiffness)) {
+            let (law, key) = (self.family().name(), parameters[*index].key);
+            return Err(LawFault::NeedsTimes { law, key });
         }
         let keys: Vec<&str> = indices.iter().map(|index| parameters[*index].key).collect();
         let mut problem = Problem::new(&self.model, points, &keys)?;
         problem.values = self.values(&problem.values);
+        let speed = problem.middle_speed();
+        for index in (0..parameters.len()).filter(|index| !indices.contains(index)) {
+            let Some(stand_in) = self.stand_in(index) else { continue };
+            problem.values[index] = match stand_in {
+                StandIn::HertzTime => self.model.stiffness_of_hertz(&problem.values, speed)?,
+                StandIn::MiddleSpeed => speed,
+                StandIn::PoissonsRatio => {
+                    self.model.poissons_ratio().unwrap_or(problem.values[index])
+                }
+            };
+        }
         for free in &mut problem.free {
             free.start = self.start(free.index);
         }
-        match self.missing(|index| indices.contains(&index)) {
+        let has_value = |index| indices.contains(&index) || self.stand_in(index).is_some();
+        match self.missing(has_value) {
             Some(key) => Err(LawFault::Missing { law: self.family().name(), key, free: keys }),
             None => Ok(problem),
+        }
+    }
+
+    /// What stands for a parameter in a fit that has neither a value nor a default, and that restitutions do
+    /// not determine beside the loss.
+    pub fn stand_in(&self, index: usize) -> Option<StandIn> {
+        let parameter = &self.family().parameters()[index];
+        if self.known[index] != Known::Nowhere || parameter.default.is_some() {
+            return None;
+        }
+        match (parameter.role, parameter.key) {
+            (Role::Stiffness, _) => Some(StandIn::HertzTime),
+            (Role::Speed, _) => Some(StandIn::MiddleSpeed),
+            (Role::Number, "eta_2") => Some(StandIn::PoissonsRatio),
+            _ => None,
         }
     }
 

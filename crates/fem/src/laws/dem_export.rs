@@ -2,17 +2,22 @@
 
 use fem_case::{Body, Case, Scene};
 use fem_fit::dem::{
-    Dashpot, Elastic, Export, Snippet, Sphere, drake_snippets, lammps_snippets, liggghts_snippets,
-    mujoco_snippets, yade_snippets,
+    Dashpot, Elastic, Export, Snippet, Sphere, drake_snippets, fit_dissipation, lammps_snippets,
+    lethe_snippets, liggghts_snippets, mercury_snippets, mfix_snippets, mujoco_snippets,
+    restitution_of, yade_snippets,
 };
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
+use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
 use fem_laws::{EndRule, Family, LawError};
 
 use super::chosen_law::model_of;
 use super::impact_curve::ImpactCurve;
 
-/// Level of the intervals of the fits, which nobody reads.
+/// Level of the intervals of the fit, which nobody reads.
 const CONFIDENCE: f64 = 0.95;
+
+/// Restitutions nearer to 0 or 1 show no loss, or nothing but loss.
+const LOSSLESS: f64 = 1e-7;
 
 /// The laws of DEM codes on one curve.
 #[derive(Clone, Debug)]
@@ -75,42 +80,50 @@ impl DemExport {
     /// ```
     pub fn of(case: &Case, curve: ImpactCurve, tolerance: f64) -> Result<Self, FitError> {
         let scene = case.scene();
-        // A restitution that is the same at all speeds does not depend on a stiffness.
-        let timeless = |point: &Point| Point { contact_time: None, ..*point };
-        let only_e: Vec<Point> = curve.points.iter().map(timeless).collect();
-        let fitted = |name, family, points: &[Point], free: &[&str], end_rule| {
-            let model = model_of(scene, family, end_rule)?;
-            let values = Problem::new(&model, points, free)?.fit(CONFIDENCE)?.values;
-            let validity = curve.validity(&model, &values, tolerance)?;
-            Ok::<_, FitError>(FittedLaw { name, model, values, validity })
-        };
+        let n = curve.points.len() as f64;
+        // Of laws that make one e the mean is the best one.
+        let e = curve.points.iter().map(|point| point.restitution).sum::<f64>() / n;
+        if !(LOSSLESS..1.0 - LOSSLESS).contains(&e) {
+            return Err(FitError::Insensitive { key: "alpha" });
+        }
+        let constant_validity = curve.validity(tolerance, |_| Ok(e))?;
         let (force, overlap) = (EndRule::ZeroForce, EndRule::ZeroOverlap);
-        let constant = "one e for all speeds, Hertz";
-        let constant = fitted(constant, Family::Tsuji, &only_e, &["alpha"], overlap)?;
-        let viscoelastic = "viscoelastic (Kuwabara-Kono)";
-        let viscoelastic = fitted(viscoelastic, Family::KuwabaraKono, &only_e, &["a"], force)?;
-        let linear = fitted("linear", Family::Linear, &curve.points, &["k", "c"], overlap)?;
-        let slowest = curve.speeds().0;
-        let of_constant = constant.model.outcome(&constant.values, slowest)?;
-        let of_linear = linear.model.outcome(&linear.values, slowest)?;
+        let constant = FittedLaw {
+            name: "one e for all speeds, Hertz",
+            model: model_of(scene, Family::Tsuji, overlap)?,
+            values: vec![tsuji_coefficient(e)?],
+            validity: constant_validity,
+        };
+        let pair = *constant.model.pair();
+        let contact_time = one_contact_time(&curve.points);
+        let law = linear_from_restitution(&pair, e, contact_time, overlap)?;
+        let linear = FittedLaw {
+            name: "linear",
+            model: model_of(scene, Family::Linear, overlap)?,
+            values: vec![law.stiffness(), law.damping()],
+            validity: constant_validity,
+        };
+        let viscoelastic = viscoelastic(scene, &curve, tolerance, force)?;
+        let mut hunt_crossley = fit_dissipation(&curve.points)?;
+        if let Some(fitted) = &mut hunt_crossley {
+            let made = |speed: f64| Ok(restitution_of(fitted.dissipation * speed));
+            fitted.validity = curve.validity(tolerance, made)?;
+        }
         let export = Export {
             title: scene.title().replace(char::is_control, " "),
             spheres: spheres(scene),
-            pair: *constant.model.pair(),
+            pair,
             speeds: curve.speeds(),
             tolerance,
-            hertz: Elastic { restitution: of_constant.restitution, validity: constant.validity },
+            hertz: Elastic { restitution: e, validity: constant_validity },
             dissipation_time: (viscoelastic.values[0], viscoelastic.validity),
-            linear: Dashpot {
-                restitution: of_linear.restitution,
-                contact_time: of_linear.contact_time.unwrap_or(f64::INFINITY),
-                validity: linear.validity,
-            },
+            linear: Dashpot { restitution: e, contact_time, validity: constant_validity },
+            hunt_crossley,
         };
         Ok(Self { curve, export, laws: [constant, viscoelastic, linear] })
     }
 
-    /// Input of LAMMPS, LIGGGHTS, YADE, Drake and MuJoCo.
+    /// Input of LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo.
     ///
     /// # Errors
     /// Numbers that a code's formula does not take.
@@ -118,22 +131,39 @@ impl DemExport {
         let mut snippets = lammps_snippets(&self.export)?;
         snippets.extend(liggghts_snippets(&self.export)?);
         snippets.extend(yade_snippets(&self.export)?);
+        snippets.extend(mercury_snippets(&self.export));
+        snippets.extend(lethe_snippets(&self.export));
+        snippets.extend(mfix_snippets(&self.export)?);
         snippets.extend(drake_snippets(&self.export));
         snippets.extend(mujoco_snippets(&self.export));
         Ok(snippets)
     }
 }
 
+/// T, s, that makes Σ (T/T_i − 1)² least.
+fn one_contact_time(points: &[Point]) -> f64 {
+    let inverse = || points.iter().filter_map(|point| point.contact_time).map(f64::recip);
+    inverse().sum::<f64>() / inverse().map(|rate| rate * rate).sum::<f64>()
+}
+
+/// Kuwabara & Kono's law, of restitutions alone.
+fn viscoelastic(
+    scene: &Scene,
+    curve: &ImpactCurve,
+    tolerance: f64,
+    end_rule: EndRule,
+) -> Result<FittedLaw, FitError> {
+    let model = model_of(scene, Family::KuwabaraKono, end_rule)?;
+    let timeless = |point: &Point| Point { contact_time: None, ..*point };
+    let points: Vec<Point> = curve.points.iter().map(timeless).collect();
+    let values = Problem::new(&model, &points, &["a"])?.fit(CONFIDENCE)?.values;
+    let validity =
+        curve.validity(tolerance, |speed| Ok(model.outcome(&values, speed)?.restitution))?;
+    Ok(FittedLaw { name: "viscoelastic (Kuwabara-Kono)", model, values, validity })
+}
+
 /// The spheres of a scene: two, or one and a wall.
 fn spheres(scene: &Scene) -> Vec<Sphere> {
-    let sphere = |body: &Body| {
-        let (diameter, material) = (body.diameter()?, body.material()?);
-        Some(Sphere {
-            diameter,
-            density: material.density(),
-            youngs_modulus: material.instantaneous().youngs_modulus(),
-            poissons_ratio: material.instantaneous().poissons_ratio(),
-        })
-    };
+    let sphere = |body: &Body| Some(Sphere::new(body.diameter()?, body.material()?));
     scene.bodies().iter().filter_map(sphere).collect()
 }

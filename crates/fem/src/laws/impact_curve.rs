@@ -2,7 +2,7 @@
 
 use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
-use fem_fit::{FitError, Model, Point};
+use fem_fit::{FitError, Point};
 use fem_laws::{EndRule, Family, HertzImpact, Pair};
 
 use super::chosen_law::model_of;
@@ -71,22 +71,20 @@ impl ImpactCurve {
         (self.points[0].speed, self.points[self.points.len() - 1].speed)
     }
 
-    /// From, to (m/s), and the largest error of a law's e: the longest run of neighbouring speeds at
+    /// From, to (m/s), and the largest error of a law's e, which is given at a speed: the longest run of neighbouring speeds at
     /// which it is within the tolerance. From is above to where there is none.
     ///
     /// # Errors
     /// Collisions that cannot be computed.
     pub fn validity(
         &self,
-        model: &Model,
-        values: &[f64],
         tolerance: f64,
+        restitution: impl Fn(f64) -> Result<f64, FitError>,
     ) -> Result<[f64; 3], FitError> {
         let mut worst = 0.0f64;
         let mut runs: Vec<(usize, usize)> = Vec::new();
         for (index, point) in self.points.iter().enumerate() {
-            let outcome = model.outcome(values, point.speed)?;
-            let error = (outcome.restitution - point.restitution).abs();
+            let error = (restitution(point.speed)? - point.restitution).abs();
             worst = worst.max(error);
             if error > tolerance {
                 continue;

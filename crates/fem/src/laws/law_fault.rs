@@ -40,6 +40,17 @@ pub enum LawFault {
         /// Why it cannot be fitted.
         error: FitError,
     },
+    /// A stiffness that is searched for in restitutions alone.
+    #[error("restitutions do not depend on {key} of {law}: only contact times determine it")]
+    NeedsTimes {
+        /// Name of the law.
+        law: &'static str,
+        /// Key of the parameter.
+        key: &'static str,
+    },
+    /// Materials or sizes that are no spheres: what was found, and what is allowed.
+    #[error("{0}")]
+    Grains(String, String),
     /// A case of finite elements in whose place no reduced model can stand.
     #[error(transparent)]
     NoStandIn(FitError),

@@ -14,7 +14,7 @@
 
 use fem_case::Case;
 use fem_fit::Fit;
-use fem_laws::{EndRule, Family, Role};
+use fem_laws::{EndRule, Family};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
@@ -47,13 +47,15 @@ pub struct RankedLaw {
 pub struct LawRanking {
     /// The best first; laws without evidence last, by their rms.
     pub laws: Vec<RankedLaw>,
-    /// Those that could not be fitted, and why; those that make the curve of another one.
+    /// Those that make the curve of another one, and of which.
+    pub twins: Vec<(String, &'static str)>,
+    /// Those that could not be fitted, and why.
     pub others: Vec<(&'static str, String)>,
 }
 
 impl LawRanking {
-    /// Fits every law that loses energy: its damping free, and what else has neither a value nor a
-    /// default but for stiffnesses, on which restitutions do not depend.
+    /// Fits every law that loses energy: its damping free, and stiffnesses that no theory gives where there are
+    /// contact times; see [`ChosenLaw::problem`].
     ///
     /// # Errors
     /// No law that can be fitted: the reason of the last.
@@ -63,7 +65,7 @@ impl LawRanking {
         end_rule: Option<EndRule>,
     ) -> Result<Self, LawFault> {
         let mut found: Vec<(RankedLaw, Option<f64>)> = Vec::new();
-        let (mut others, mut last) = (Vec::new(), None);
+        let (mut twins, mut others, mut last) = (Vec::new(), Vec::new(), None);
         let is_weighted = data.points.iter().all(|point| point.restitution_uncertainty.is_some());
         for (family, exponent) in candidates() {
             match fitted(case, data, (family, exponent), end_rule) {
@@ -72,7 +74,10 @@ impl LawRanking {
                         law.free.len() == free.len() && (law.rms - fit.rms).abs() < SAME * fit.rms
                     });
                     if let Some((twin, _)) = twin {
-                        others.push((family.name(), format!("the same as {}", twin.family.name())));
+                        let of = twin.family.name();
+                        if twin.family != family {
+                            twins.push((name(family, exponent), of));
+                        }
                         continue;
                     }
                     let criterion = criterion(&fit, is_weighted);
@@ -104,14 +109,19 @@ impl LawRanking {
         });
         match (found.is_empty(), last) {
             (true, Some(fault)) => Err(fault),
-            _ => Ok(Self { laws: found.into_iter().map(|(law, _)| law).collect(), others }),
+            _ => {
+                let laws = found.into_iter().map(|(law, _)| law).collect();
+                Ok(Self { laws, twins, others })
+            }
         }
     }
 }
 
 /// Laws that lose energy, with their damping free, and with an exponent that has a default free, too.
 fn candidates() -> impl Iterator<Item = (Family, Option<&'static str>)> {
-    let lossy = Family::ALL.into_iter().filter(|family| loss_parameter(*family).is_ok());
+    // The general law last: what it makes at its defaults has a name of its own.
+    let named = Family::ALL.into_iter().filter(|family| *family != Family::Power);
+    let lossy = named.chain([Family::Power]).filter(|family| loss_parameter(*family).is_ok());
     lossy.flat_map(|family| {
         let has_default = |key: &&'static str| {
             let mut parameters = family.parameters().iter();
@@ -131,23 +141,31 @@ fn fitted(
 ) -> Result<(Vec<&'static str>, Fit), LawFault> {
     let end_rule = end_rule.filter(|_| family.end_rule().is_none());
     let law = ChosenLaw::of(case, family, &[], end_rule)?;
-    let parameters = family.parameters();
-    let mut free = vec![parameters[loss_parameter(family)?].key];
-    free.extend(exponent);
-    loop {
-        match law.problem(&data.points, &free) {
-            Ok(problem) => return Ok((free, problem.fit(CONFIDENCE)?)),
-            Err(LawFault::Missing { law, key, free: searched }) => {
-                let is_stiffness = parameters
-                    .iter()
-                    .any(|parameter| parameter.key == key && parameter.role == Role::Stiffness);
-                if is_stiffness || free.contains(&key) {
-                    return Err(LawFault::Missing { law, key, free: searched });
-                }
-                free.push(key);
-            }
-            Err(fault) => return Err(fault),
+    let damping = family.parameters()[loss_parameter(family)?].key;
+    let free: Vec<&str> = match exponent {
+        // All that would be free without it, and it.
+        Some(key) => {
+            let alone = law.problem(&data.points, &[])?;
+            let keys = alone.free.iter().map(|free| alone.parameter(free.index).key);
+            keys.chain([key]).collect()
         }
+        None => Vec::new(),
+    };
+    let problem = law.problem(&data.points, &free)?;
+    let mut free: Vec<&'static str> =
+        problem.free.iter().map(|free| problem.parameter(free.index).key).collect();
+    // The damping first.
+    free.sort_by_key(|key| *key != damping);
+    Ok((free, problem.fit(CONFIDENCE)?))
+}
+
+/// A law by its name, and by its exponent where that is held and could be free.
+fn name(family: Family, exponent: Option<&str>) -> String {
+    let exponents = family.parameters().iter().filter(|parameter| parameter.key == "n");
+    match exponents.filter_map(|n| n.default).next() {
+        Some(default) if exponent.is_none() => format!("{} with n = {default}", family.name()),
+        Some(_) => format!("{} with n free", family.name()),
+        None => family.name().to_string(),
     }
 }
 

@@ -5,8 +5,8 @@
 //! parameter ─ law_fault ─ chosen_law ─┬─ law_fit ─ fit_numbers
 //! keys and                a case's    ├─ law_inversion
 //! values as               law, what   ├─ law_ranking
-//! text                    is given    └─ impact_curve ─ dem_export ─ export_numbers
-//!                                        e(v), T(v)
+//! text                    is given    └─ impact_curve ─ dem_export ─┬─ export_numbers
+//!                                        e(v), T(v)                └─ pair_export
 //! ```
 
 mod chosen_law;
@@ -18,9 +18,10 @@ mod law_fault;
 mod law_fit;
 mod law_inversion;
 mod law_ranking;
+mod pair_export;
 mod parameter;
 
-pub use chosen_law::{ChosenLaw, family_of, model_of};
+pub use chosen_law::{ChosenLaw, StandIn, family_of, model_of};
 pub use dem_export::{DemExport, FittedLaw};
 pub use export_numbers::{ExportNumbers, PointNumbers, SnippetNumbers, SphereNumbers};
 pub use fit_numbers::{
@@ -31,6 +32,7 @@ pub use law_fault::LawFault;
 pub use law_fit::LawFit;
 pub use law_inversion::{LawInversion, needs_more};
 pub use law_ranking::{LawRanking, RankedLaw};
+pub use pair_export::{FittedPair, PairExport, PairNumbers};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
 
 pub use fem_fit::FitError;

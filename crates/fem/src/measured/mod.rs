@@ -17,6 +17,8 @@ mod column_units;
 mod cradle_trials;
 mod data_error;
 #[cfg(feature = "csv")]
+mod meanings;
+#[cfg(feature = "csv")]
 mod pair_table;
 mod pairs;
 mod quantity;
@@ -25,6 +27,8 @@ mod restitution_columns;
 #[cfg(feature = "csv")]
 mod restitution_table;
 mod restitutions;
+#[cfg(feature = "csv")]
+mod rows;
 #[cfg(feature = "csv")]
 mod table;
 #[cfg(feature = "csv")]
@@ -36,6 +40,8 @@ pub use data_error::DataError;
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
 pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError};
+#[cfg(feature = "csv")]
+pub use rows::rows_below;
 #[cfg(feature = "csv")]
 pub use table::Table;
 #[cfg(feature = "csv")]

@@ -9,7 +9,7 @@ use super::restitution_table::read_rows;
 use super::table::Table;
 
 /// Columns that tell bodies apart, for the lower and the upper one; a sweep's own names last.
-const DIAMETERS: [[&str; 2]; 2] =
+pub(super) const DIAMETERS: [[&str; 2]; 2] =
     [["diameter_1", "body.0.sphere.diameter"], ["diameter_2", "body.1.sphere.diameter"]];
 const SIDES: [&str; 2] = ["first", "second"];
 const LENGTH: [i32; 3] = [1, 0, 0];

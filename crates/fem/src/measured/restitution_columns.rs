@@ -7,10 +7,11 @@ use super::data_error::DataError;
 use super::restitutions::LARGEST_UNCERTAINTY;
 use super::table::Table;
 
-const SPEEDS: [&str; 6] =
+pub(super) const SPEEDS: [&str; 6] =
     ["speed", "approach_speed", "impact_speed", "relative_speed", "velocity", "v"];
-const RESTITUTIONS: [&str; 4] = ["restitution", "coefficient_of_restitution", "cor", "e"];
-const UNCERTAINTIES: [&str; 5] =
+pub(super) const RESTITUTIONS: [&str; 4] =
+    ["restitution", "coefficient_of_restitution", "cor", "e"];
+pub(super) const UNCERTAINTIES: [&str; 5] =
     ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
 pub(super) const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];
 const SPEED: [i32; 3] = [1, 0, -1];

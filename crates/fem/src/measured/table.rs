@@ -2,7 +2,7 @@
 //!
 //! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`, or have it in
 //! brackets, `speed [cm/s]`; without one a cell is a bare SI number or has its unit, `5 cm/s`. Cells are
-//! parted by commas, semicolons or tabs; with the latter two numbers may have decimal commas.
+//! parted by commas, semicolons, tabs or blanks; with the latter three numbers may have decimal commas.
 
 use std::fmt::Display;
 
@@ -10,7 +10,8 @@ use fem_case::{nearest, parse_quantity};
 
 use super::column_units::{bare, ending_of, readings};
 use super::data_error::{DataError, one_line};
-use super::written::{column_name, is_missing, separator, with_point};
+use super::meanings::meanings;
+use super::written::{column_name, is_missing, separator, tabs_for_blanks, with_point};
 
 /// A table in memory, its cells as they are written.
 ///
@@ -47,6 +48,8 @@ impl Table {
     /// A text that is no CSV, or has no row.
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
         let name = one_line(name);
+        let text = text.trim_start_matches('\u{feff}');
+        let text = &*tabs_for_blanks(text);
         let (separator, below) = separator(text);
         let n_above = text.lines().count() - below.lines().count();
         let mut reader = csv::ReaderBuilder::new()
@@ -59,6 +62,13 @@ impl Table {
         let is_header = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
         let header_line = text.lines().skip(n_above).position(is_header);
         let header_line = (n_above + header_line.unwrap_or(0) + 1) as u64;
+        let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
+        if header.len() > 1 && header.iter().all(is_number) {
+            let error = DataError::new(&name, "the first row is of numbers: there is no header");
+            return Err(error.in_line(header_line).with_help(
+                "write a line above it that names the columns, such as speed_m_s,restitution",
+            ));
+        }
         let header: Vec<String> = header.iter().map(column_name).collect();
         let mut rows = Vec::new();
         for record in reader.records() {
@@ -94,7 +104,7 @@ impl Table {
     /// has no unit takes that of the header.
     ///
     /// # Errors
-    /// A column that the header does not have.
+    /// A column that the header does not have; a name that nothing is read by.
     ///
     /// ```
     /// use fem::measured::Table;
@@ -114,9 +124,20 @@ impl Table {
             });
             let Some(column) = column else {
                 let message = format!("there is no column {old}; found are {}", found.join(", "));
-                return Err(self.header_fault(message));
+                let near = nearest(&wanted, &found, 0.8);
+                let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+                let help = format!("{near}write --columns {name}=COLUMN with one that is there");
+                return Err(self.header_fault(message).with_help(help));
             };
             let name = column_name(name);
+            let known = meanings();
+            if !readings(&name).any(|reading| known.contains(&reading) || reading.contains('.')) {
+                let near = nearest(bare(&name), &known, 0.8);
+                let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+                let help = format!("{near}a column may be {}", known.join(", "));
+                let message = format!("--columns {name}={old}: {name} is no meaning of a column");
+                return Err(DataError::new(&self.name, message).with_help(help));
+            }
             let unit = ending_of(&found[column]).filter(|_| ending_of(&name).is_none());
             self.header[column] = name + unit.map_or("", |unit| unit.text);
             self.named.push(column);
@@ -167,9 +188,16 @@ impl Table {
     /// None that has one of the names.
     pub fn require(&self, names: &[&str], example: &str) -> Result<usize, DataError> {
         self.find(names)?.ok_or_else(|| {
-            let found = self.header.join(", ");
-            self.header_fault(format!("there is no column {}; found are {found}", names[0]))
-                .with_help(format!("name a column {example}"))
+            let (name, found) = (names[0], self.header.join(", "));
+            let one_cell = match self.header.len() {
+                1 => "; cells are parted by commas, semicolons, tabs or blanks",
+                _ => "",
+            };
+            self.header_fault(format!("there is no column {name}; found are {found}")).with_help(
+                format!(
+                    "name a column {example}, or say which it is, --columns {name}=COLUMN{one_cell}"
+                ),
+            )
         })
     }
 
@@ -215,6 +243,11 @@ impl Table {
     /// Whether a cell says that there is no value: empty, `nan`, `n/a`, `-`, ….
     pub fn is_missing(&self, row: usize, column: usize) -> bool {
         is_missing(self.text(row, column))
+    }
+
+    /// Whether numbers may have decimal commas.
+    pub(super) fn has_decimal_commas(&self) -> bool {
+        self.has_decimal_commas
     }
 
     /// The line of a row.

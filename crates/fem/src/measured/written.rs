@@ -6,12 +6,43 @@ use fem_case::parse_quantity;
 
 use super::column_units::ending_like;
 
-/// The text of a file: UTF-8, or else Latin-1, of which every byte is a letter.
+/// The text of a file: UTF-16 by its mark or by its zeros, UTF-8, or else Latin-1, of which every byte is a
+/// letter.
 pub fn decode(bytes: &[u8]) -> String {
+    let of_pairs = |bytes: &[u8], read: fn([u8; 2]) -> u16| {
+        let units = bytes.chunks_exact(2).map(|pair| read([pair[0], pair[1]]));
+        char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+    };
+    match bytes {
+        [0xff, 0xfe, rest @ ..] => return of_pairs(rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => return of_pairs(rest, u16::from_be_bytes),
+        // A text begins with two letters that ASCII has.
+        [a, 0, b, 0, ..] if *a > 0 && *b > 0 => return of_pairs(bytes, u16::from_le_bytes),
+        [0, a, 0, b, ..] if *a > 0 && *b > 0 => return of_pairs(bytes, u16::from_be_bytes),
+        _ => {}
+    }
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_string(),
         Err(_) => bytes.iter().copied().map(char::from).collect(),
     }
+}
+
+/// A text whose columns are parted by blanks alone, with tabs in their place; all else as it is.
+pub(super) fn tabs_for_blanks(text: &str) -> Cow<'_, str> {
+    let is_row = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
+    let mut rows = text.lines().filter(is_row);
+    let (Some(header), Some(first)) = (rows.next(), rows.next()) else { return text.into() };
+    let n_words = |line: &str| line.split_whitespace().count();
+    let has_separator = header.contains([',', ';', '\t']) || header.starts_with("sep=");
+    // A name of two words has one cell below it.
+    if has_separator || n_words(header) < 2 || n_words(first) != n_words(header) {
+        return text.into();
+    }
+    let tabs = |line: &str| match line.starts_with('#') {
+        true => line.to_string(),
+        false => line.split_whitespace().collect::<Vec<_>>().join("\t"),
+    };
+    text.lines().map(|line| tabs(line) + "\n").collect::<String>().into()
 }
 
 /// What parts the cells of a table by its header: semicolons, tabs or commas, whichever it has most
@@ -90,6 +121,18 @@ mod tests {
     }
 
     #[test]
+    fn blanks_part_columns_where_nothing_else_does() {
+        for (text, expected) in [
+            ("# v  e\nv  e\n\n 0,1   0,9\n", "# v  e\nv\te\n\n0,1\t0,9\n"),
+            ("impact speed,e\n1,2\n", "impact speed,e\n1,2\n"),
+            ("impact speed\n1\n", "impact speed\n1\n"),
+            ("v\te x\n1\t2 3\n", "v\te x\n1\t2 3\n"),
+        ] {
+            assert_eq!(tabs_for_blanks(text), expected);
+        }
+    }
+
+    #[test]
     fn names_are_looked_for_in_one_spelling() {
         for (header, expected) in [
             ("Speed_cm_s", "speed_cm_s"),
@@ -116,5 +159,12 @@ mod tests {
     fn bytes_that_are_no_utf_8_are_latin_1() {
         assert_eq!(decode("µ".as_bytes()), "µ");
         assert_eq!(decode(b"t [\xb5s]"), "t [µs]");
+        let units: Vec<u16> = "v;µ\n".encode_utf16().collect();
+        let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        for (mark, bytes) in [([0xff, 0xfe], &little), ([0xfe, 0xff], &big)] {
+            assert_eq!(decode(&[&mark[..], bytes].concat()), "v;µ\n");
+            assert_eq!(decode(bytes), "v;µ\n");
+        }
     }
 }

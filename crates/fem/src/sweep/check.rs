@@ -5,7 +5,7 @@
 //! numbers a member.
 
 use std::cmp::Reverse;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 use fem_case::schema::MeshTable;
 use fem_case::{Case, CaseError, CaseFile};
@@ -29,6 +29,8 @@ pub struct Checked {
     pub left: Vec<usize>,
     /// What those take on one core of 3 GHz, s; an order of magnitude.
     pub seconds: f64,
+    /// What is odd about scenes, such as a size that no ball has; each once.
+    pub oddities: BTreeSet<String>,
     /// What would make it cheaper.
     pub advice: Option<&'static str>,
 }
@@ -39,6 +41,7 @@ struct Seen {
     case: CaseFile,
     /// Of one that is left to do.
     price: Option<u64>,
+    oddities: Vec<String>,
 }
 
 /// Checks all members. To run are those that `is_own` and not `is_done`; `see` is told of each member in
@@ -71,15 +74,20 @@ pub fn check_some(
         let (member, resolved) = Member::resolved(index, case)?;
         let is_left = is_own(index) && !is_done(&member);
         let price = is_left.then(|| Simulation::price(case)).transpose()?;
-        Ok(Seen { member, case: resolved, price })
+        Ok(Seen { member, case: resolved, price, oddities: case.scene().oddities() })
     };
     let mut checked = Checked { members: Vec::with_capacity(places.len()), ..Checked::default() };
+    let mut odd = BTreeSet::new();
     let (mut known, mut prices, mut meshes) = (HashSet::new(), Vec::new(), Meshes::default());
     for some in places.chunks(AT_ONCE) {
         let made = some.par_iter().map(|&index| members.build(index, |case| look(index, &case)));
         let made: Vec<Result<Seen, CaseError>> = made.collect();
         for seen in made {
-            let Seen { member, case, price } = seen?;
+            let seen = seen.map_err(|first| {
+                members.with_other_faults(first, |case| look(usize::MAX, &case).map(drop))
+            });
+            let Seen { member, case, price, oddities } = seen?;
+            odd.extend(oddities);
             see(&member, &case);
             checked.members.push(member);
             if let Some(price) = price
@@ -93,6 +101,7 @@ pub fn check_some(
     }
     prices.sort_unstable();
     checked.left = prices.into_iter().map(|(_, index)| index).collect();
+    checked.oddities = odd;
     checked.advice = meshes.advice(members)?;
     Ok(checked)
 }

@@ -21,6 +21,16 @@ pub trait Members: Sync {
         make: impl Fn(Case) -> Result<T, CaseError>,
     ) -> Result<T, CaseError>;
 
+    /// The first fault of the members with what else is wrong with their source, where that is text; `make` is
+    /// what was to be made of each.
+    fn with_other_faults<T>(
+        &self,
+        first: CaseError,
+        _make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> CaseError {
+        first
+    }
+
     /// A member's case.
     ///
     /// # Errors
@@ -41,6 +51,14 @@ impl Members for Sweep {
         make: impl Fn(Case) -> Result<T, CaseError>,
     ) -> Result<T, CaseError> {
         Sweep::build(self, index, make)
+    }
+
+    fn with_other_faults<T>(
+        &self,
+        first: CaseError,
+        make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> CaseError {
+        Sweep::with_other_faults(self, first, make)
     }
 }
 

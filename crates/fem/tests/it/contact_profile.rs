@@ -54,8 +54,12 @@ fn the_contact_is_that_of_hertz() {
         let approach = hertz.max_approach();
         let is_textbook = set.contains(&"contact.method='node_to_surface'");
         // Six elements; node to surface is there for comparison: where meshes do not match, its single nodes
-        // swing.
-        let (pressure, radius) = if is_textbook { (0.2, 0.04) } else { (0.02, 0.015) };
+        // swing, and those of springs with mass some per cent. A profile that ends a hundredth farther out is by 2 % higher at 0.8 of the radius.
+        let (pressure, radius) = match set {
+            _ if is_textbook => (0.2, 0.04),
+            ["contact.method='penalty'"] => (0.05, 0.015),
+            _ => (0.025, 0.015),
+        };
         assert!((contact.radius / a - 1.0).abs() < radius, "{set:?} {}", contact.radius / a);
         assert!(contact.places.iter().filter(|place| place.radius < a).count() >= 5, "{set:?}");
         for place in &contact.places {
@@ -93,7 +97,19 @@ fn a_profile_carries_the_force_of_its_instant() {
     let soft: Vec<&str> = rubber.iter().chain(&fast).copied().collect();
     let slip_condensed = ["effects.surface_slip='on'", "body.1.material='steel'", STEEL, CONDENSED];
     let slip = [&slip_condensed[..3], &["mesh.contact_element_size='60 um'"]].concat();
-    for set in [&[][..], &[CONDENSED], &[TWIN], &soft, &slip, &slip_condensed] {
+    let coarse = ["mesh.contact_element_size='100 um'"];
+    for set in [
+        &[][..],
+        &[CONDENSED],
+        &[TWIN],
+        &coarse,
+        &[coarse[0], CONDENSED],
+        &[WALL, MOVES],
+        &[BLOCK, MOVES, CONDENSED],
+        &soft,
+        &slip,
+        &slip_condensed,
+    ] {
         let (_, collision) = run(set);
         assert!(!collision.snapshots.is_empty());
         for snapshot in &collision.snapshots {
@@ -109,10 +125,17 @@ fn a_profile_carries_the_force_of_its_instant() {
             ];
             let finite = !snapshot.bodies[1].stress.is_empty();
             assert_eq!(finite, set.contains(&rubber[0]), "{set:?}");
-            // Straight lines between six elements; rows are a thousandth of the contact apart.
-            assert!((ratios[0] - 1.0).abs() < 0.03, "{set:?} {ratios:?}");
+            // Straight lines between places lose 0.1 %; rows are a thousandth of the contact apart.
+            assert!((ratios[0] - 1.0).abs() < 0.005, "{set:?} {ratios:?}");
             assert!((ratios[1] - 1.0).abs() < 0.005, "{set:?} {ratios:?}");
             assert!((ratios[2] - 1.0).abs() < 0.01, "{set:?} {ratios:?}");
+            // The curve ends where the radius says, and what is open presses nothing.
+            let contact = &snapshot.contact;
+            let edge = contact.places.iter().position(|place| place.radius == contact.radius);
+            let (inside, outside) = contact.places.split_at(edge.expect("a place at the edge"));
+            assert!(inside.iter().all(|place| place.pressure > 0.0), "{set:?}");
+            assert!(outside.iter().all(|place| place.pressure == 0.0), "{set:?}");
+            assert!(outside[1..].iter().filter(|place| place.is_node).count() >= 3, "{set:?}");
         }
     }
 }
@@ -131,7 +154,7 @@ fn load(snapshot: &Snapshot) -> f64 {
     snapshot.contact.places.windows(2).map(part).sum()
 }
 
-/// The file has the places out to 1.2 radii of each snapshot, digit for digit.
+/// The file has the places out to 1.2 radii of each snapshot and three nodes beyond it, digit for digit.
 #[test]
 fn the_file_has_a_row_a_place() {
     let (simulation, collision) = run(&[]);
@@ -139,18 +162,23 @@ fn the_file_has_a_row_a_place() {
     contact_csv(&mut text, &simulation, &collision).unwrap();
     let text = String::from_utf8(text).unwrap();
     let mut lines = text.lines();
-    let header = "time_s,label,r_m,pressure_pa,gap_m,u_r_striker_m,u_r_target_m";
+    let header = "time_s,label,r_m,pressure_pa,gap_m,u_r_striker_m,u_r_target_m,slip_m,is_node";
     assert_eq!(lines.next(), Some(header));
     for snapshot in &collision.snapshots {
         let contact = &snapshot.contact;
-        let n = contact.places.iter().filter(|p| p.radius <= 1.2 * contact.radius).count();
+        let beyond = |p: &&ContactPlace| p.is_node && p.radius > contact.radius;
+        let third = contact.places.iter().filter(beyond).nth(2).unwrap().radius;
+        let reach = third.max(1.2 * contact.radius);
+        let n = contact.places.iter().filter(|place| place.radius <= reach).count();
         assert!(n < contact.places.len(), "rows beyond the contact are left out");
         for place in &contact.places[..n] {
             let row: Vec<&str> = lines.next().unwrap().split(',').collect();
             assert_eq!(row[1], snapshot.label.unwrap().name());
-            let numbers = [0, 2, 3, 4, 5, 6].map(|k: usize| row[k].parse::<f64>().unwrap());
-            let ContactPlace { radius, pressure, gap, radial } = *place;
-            let expected = [snapshot.time, radius, pressure, gap, radial[0], radial[1]];
+            let numbers = [0, 2, 3, 4, 5, 6, 7, 8].map(|k: usize| row[k].parse::<f64>().unwrap());
+            let ContactPlace { is_node, radius, pressure, gap, radial } = *place;
+            let (slip, is_node) = (radial[1] - radial[0], f64::from(u8::from(is_node)));
+            let [lower, upper] = radial;
+            let expected = [snapshot.time, radius, pressure, gap, lower, upper, slip, is_node];
             assert_eq!(numbers, expected);
         }
     }

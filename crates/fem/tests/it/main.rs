@@ -45,4 +45,5 @@ mod stress;
 mod surface_slip;
 mod sweep;
 mod together;
+mod tolerance;
 mod uncertainty;

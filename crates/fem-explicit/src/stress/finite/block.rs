@@ -192,26 +192,6 @@ impl Blocks {
         h
     }
 
-    /// Largest component (1/s) of the rate Ḟ F⁻¹ of any element; no number where one is none.
-    pub fn strain_rate(&self, u: &Field, v: &Field) -> f64 {
-        let mut largest = 0.0;
-        for element in 0..self.n_elements {
-            let (h, rate) = (self.gradient(element, u), self.gradient(element, v));
-            // Row by row: of Ḟ with F⁻ᵀ.
-            let turned = |r: f64, y: f64| {
-                let inverse = 1.0 / ((1.0 + h.rr) * (1.0 + h.yy) - h.ry * h.yr);
-                let (along_r, along_y) = ((1.0 + h.yy) * r - h.yr * y, (1.0 + h.rr) * y - h.ry * r);
-                (inverse * along_r).abs().max((inverse * along_y).abs())
-            };
-            let hoop = (rate.tt / (1.0 + h.tt)).abs();
-            let own = turned(rate.rr, rate.ry).max(turned(rate.yr, rate.yy)).max(hoop);
-            if own > largest || own.is_nan() {
-                largest = own;
-            }
-        }
-        largest
-    }
-
     /// The element that is compressed most, or whose displacement is no number.
     pub fn most_compressed(&self, u: &Field) -> Collapse {
         let mut most = Collapse { element: 0, volume_ratio: f64::INFINITY };

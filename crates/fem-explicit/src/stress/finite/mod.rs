@@ -18,8 +18,10 @@
 //! past        what elements that relax remember
 //! relaxing    how that changes in a step and what forces follow, what it stores and dissipates
 //! hourglass   energy of the hourglass shape in a deformed element, and its derivatives
+//! rates       how fast elements are strained
 //! kernel      the element loops: forces, energy
 //! bound       the largest eigenvalue of deformed elements
+//! stability   whether the law of an element still bears every wave
 //! ```
 
 mod block;
@@ -29,7 +31,9 @@ mod hourglass;
 mod kernel;
 mod law;
 mod past;
+mod rates;
 mod relaxing;
+mod stability;
 
 use std::fmt;
 
@@ -41,7 +45,7 @@ use fem_material::finite::{
 };
 use fem_mesh::SphereMesh;
 
-use super::port::{Collapse, Stress};
+use super::port::{Collapse, Stress, Unstable};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use block::{Blocks, Slots};
 use bound::Metrics;
@@ -63,6 +67,9 @@ trait Response: fmt::Debug + Send + Sync + 'static {
     type Law: Law;
 
     fn law(&self) -> &Self::Law;
+
+    /// Its name.
+    fn law_name(&self) -> HyperelasticLaw;
 
     /// Number of fields of history of the elements, and behind them of the nodes.
     fn n_history(&self) -> [usize; 2] {
@@ -183,11 +190,23 @@ impl<R: Response> Stress for FiniteStrain<R> {
     }
 
     fn strain_rate(&self, motion: &Motion<'_>) -> f64 {
-        self.blocks.strain_rate(motion.displacement, motion.velocity)
+        rates::strain_rate(&self.blocks, motion.displacement, motion.velocity)
+    }
+
+    fn urgency(&self, motion: &Motion<'_>, room: &[f64]) -> f64 {
+        rates::urgency(&self.blocks, motion.displacement, motion.velocity, room)
     }
 
     fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {
         Some(self.blocks.most_compressed(displacement))
+    }
+
+    fn can_lose_stability(&self) -> bool {
+        !self.response.law_name().is_always_elliptic()
+    }
+
+    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<Unstable> {
+        stability::unstable_element(&self.blocks, &self.response, u, history)
     }
 
     fn update_cauchy_stress(&self, u: &Field, history: &[NodalField], stress: &mut Vec<[f64; 4]>) {

@@ -14,7 +14,7 @@ use fem_collision::{
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
-use fem_material::PronySeries;
+use fem_material::{ActsOn, PronySeries};
 use fem_mesh::SphereMesh;
 
 use self::pace::{Foretold, n_steps};
@@ -117,7 +117,11 @@ impl Condensed {
         check_memory(&plan, &sources)?;
         // Only the collision reads relaxations.
         let bodies = sources.map(BodySource::without_relaxation);
-        let key = PairKey { bodies, settings: settings(scene, &plan, options) };
+        let settings = PairSettings {
+            keeps_factors: !shared.is_of_companions || needs_factors(scene, options),
+            ..settings(scene, &plan, options)
+        };
+        let key = PairKey { bodies, settings };
         let pair = shared.pairs.pair(key, |key| {
             CondensedPair::new(inputs(key)?, key.settings)
                 .map_err(|error| Refusal::new(scene.model().path(), error.to_string()))
@@ -379,6 +383,12 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
         }),
         ..PairSettings::new(candidate_radius(plan, &plan.estimate))
     }
+}
+
+/// Whether a collision needs more of the bodies than their compliance, even if no fields are asked for.
+fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
+    let mut series = scene.bodies().iter().filter_map(|body| body.material()?.relaxation());
+    options.vibration_modes > 0 || series.any(|series| series.acts_on() == ActsOn::Shear)
 }
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {

@@ -1,0 +1,239 @@
+//! The order in which the nodes of a mesh are eliminated: nested dissection (George 1973).
+//!
+//! A set of nodes is parted by a thin set that no element spans, which is eliminated after both of its
+//! sides; and so are the sides. Fill stays within the sides and what parts them, and pieces of some nodes
+//! are dense. Where to cut is read from two numbers of a node, counted in elements: how far it is from the
+//! ground, which is the ring that it lies in, and how much farther it is from the axis than from the surface,
+//! which is its place in that ring. From node to node of an element the first changes by at most one, the
+//! second by at most two, so that all nodes of one ring, or of two successive places, part a set, whatever
+//! the mesh is.
+
+use fem_mesh::SphereMesh;
+
+/// Nodes of a piece that is not parted any more: about so many make products of dense matrices worth it.
+const SMALLEST: usize = 14;
+/// Marks a node that is not reached yet.
+const UNREACHED: u32 = u32::MAX;
+
+/// Nodes in the order of elimination, in pieces.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Dissection {
+    pub nodes: Vec<u32>,
+    /// Where each piece ends.
+    pub ends: Vec<usize>,
+}
+
+/// Where a node lies, in elements.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    node: u32,
+    ring: i64,
+    along: i64,
+}
+
+impl Dissection {
+    /// Of the nodes of a mesh for which `is_interior` says so.
+    pub fn new(mesh: &SphereMesh, is_interior: impl Fn(usize) -> bool) -> Self {
+        let neighbours = Neighbours::new(mesh);
+        let ground = &mesh.axis()[mesh.axis().len() - 1..];
+        let far = if mesh.is_half_space() { mesh.far_boundary() } else { ground };
+        let rings = neighbours.distances(mesh, far);
+        let from_axis = neighbours.distances(mesh, mesh.axis());
+        let from_surface = neighbours.distances(mesh, mesh.surface());
+        let mut places: Vec<Place> = (0..mesh.nodes().len())
+            .filter(|&node| is_interior(node))
+            .map(|node| Place {
+                node: node as u32,
+                ring: i64::from(rings[node]),
+                along: i64::from(from_axis[node]) - i64::from(from_surface[node]),
+            })
+            .collect();
+        let mut dissection = Self { nodes: Vec::with_capacity(places.len()), ends: Vec::new() };
+        let mut scratch = Vec::with_capacity(places.len());
+        dissection.part(&mut places, &mut scratch, &mut Vec::new());
+        dissection
+    }
+
+    /// Adds a set of nodes, parted as long as that helps.
+    fn part(&mut self, places: &mut [Place], scratch: &mut Vec<Place>, counts: &mut Vec<u32>) {
+        if places.len() > SMALLEST {
+            let [ring, along]: [fn(&Place) -> i64; 2] = [|place| place.ring, |place| place.along];
+            let mut directions =
+                [Direction::new(places, ring, 1), Direction::new(places, along, 2)];
+            // Across the longer extent.
+            directions.sort_by_key(|direction| -direction.extent());
+            if let Some(cut) = directions.iter().find_map(|direction| direction.cut(places, counts))
+            {
+                scratch.clear();
+                let mut sizes = [0; 3];
+                for (which, size) in sizes.iter_mut().enumerate() {
+                    let before = scratch.len();
+                    scratch.extend(places.iter().filter(|place| cut.side(place) == which));
+                    *size = scratch.len() - before;
+                }
+                places.copy_from_slice(scratch);
+                let (sides, between) = places.split_at_mut(sizes[0] + sizes[1]);
+                let (below, above) = sides.split_at_mut(sizes[0]);
+                self.part(below, scratch, counts);
+                self.part(above, scratch, counts);
+                self.end(between);
+                return;
+            }
+        }
+        self.end(places);
+    }
+
+    fn end(&mut self, piece: &[Place]) {
+        self.nodes.extend(piece.iter().map(|place| place.node));
+        self.ends.push(self.nodes.len());
+    }
+}
+
+/// A number of nodes by which a set may be parted.
+#[derive(Debug, Clone, Copy)]
+struct Direction {
+    number: fn(&Place) -> i64,
+    /// By what it changes within an element at most.
+    width: i64,
+    least: i64,
+    greatest: i64,
+}
+
+impl Direction {
+    fn new(places: &[Place], number: fn(&Place) -> i64, width: i64) -> Self {
+        let numbers = || places.iter().map(number);
+        let (least, greatest) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
+        Self { number, width, least, greatest }
+    }
+
+    /// In elements.
+    fn extent(&self) -> i64 {
+        (self.greatest - self.least) / self.width
+    }
+
+    /// At the median; `None` where one side would be empty. `counts` is room to work.
+    fn cut(&self, places: &[Place], counts: &mut Vec<u32>) -> Option<Cut> {
+        counts.clear();
+        counts.resize((self.greatest - self.least) as usize + 1, 0);
+        places.iter().for_each(|place| counts[((self.number)(place) - self.least) as usize] += 1);
+        let mut below = 0;
+        let median = counts.iter().position(|&count| {
+            below += count as usize;
+            2 * below > places.len()
+        })?;
+        let from = self.least + median as i64;
+        let cut = Cut { number: self.number, from, to: from + self.width };
+        (self.least < cut.from && cut.to <= self.greatest).then_some(cut)
+    }
+}
+
+/// What parts a set: all nodes whose number is at least `from` and less than `to`.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    number: fn(&Place) -> i64,
+    from: i64,
+    to: i64,
+}
+
+impl Cut {
+    /// 0 below, 1 above, 2 between.
+    fn side(&self, place: &Place) -> usize {
+        match (self.number)(place) {
+            number if number < self.from => 0,
+            number if number >= self.to => 1,
+            _ => 2,
+        }
+    }
+}
+
+/// The elements of each node.
+struct Neighbours {
+    starts: Vec<usize>,
+    elements: Vec<u32>,
+}
+
+impl Neighbours {
+    fn new(mesh: &SphereMesh) -> Self {
+        let mut starts = vec![0; mesh.nodes().len() + 1];
+        mesh.quads().iter().flatten().for_each(|&node| starts[node as usize + 1] += 1);
+        for node in 1..starts.len() {
+            starts[node] += starts[node - 1];
+        }
+        let mut next = starts.clone();
+        let mut elements = vec![0; 4 * mesh.quads().len()];
+        for (element, quad) in mesh.quads().iter().enumerate() {
+            for &node in quad {
+                elements[next[node as usize]] = element as u32;
+                next[node as usize] += 1;
+            }
+        }
+        Self { starts, elements }
+    }
+
+    /// Elements on the shortest way from each node to one of some nodes; 0 where there is none.
+    fn distances(&self, mesh: &SphereMesh, from: &[u32]) -> Vec<u32> {
+        let mut distances = vec![UNREACHED; mesh.nodes().len()];
+        let mut front = from.to_vec();
+        front.iter().for_each(|&node| distances[node as usize] = 0);
+        let (mut next, mut distance) = (Vec::new(), 0);
+        while !front.is_empty() {
+            distance += 1;
+            for &node in &front {
+                let own = self.starts[node as usize]..self.starts[node as usize + 1];
+                for &element in &self.elements[own] {
+                    for corner in mesh.quads()[element as usize] {
+                        if distances[corner as usize] == UNREACHED {
+                            distances[corner as usize] = distance;
+                            next.push(corner);
+                        }
+                    }
+                }
+            }
+            std::mem::swap(&mut front, &mut next);
+            next.clear();
+        }
+        for distance in &mut distances {
+            *distance = if *distance == UNREACHED { 0 } else { *distance };
+        }
+        distances
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_mesh::{HalfDisc, QuarterDisc};
+
+    use super::*;
+
+    fn sphere(size: f64) -> SphereMesh {
+        let disc =
+            HalfDisc { radius: 1.0, contact_element_size: size, refined_radius: 0.3, growth: None };
+        disc.build().unwrap()
+    }
+
+    fn half_space() -> SphereMesh {
+        let (contact_element_size, refined_radius) = (0.02, 0.3);
+        QuarterDisc { far_radius: 30.0, contact_element_size, refined_radius, growth: None }
+            .build()
+            .unwrap()
+    }
+
+    /// Every node once; and what is eliminated in two pieces neither of which is in a later one of both has no
+    /// element in common: the columns of the factor that a piece has are few.
+    #[test]
+    fn pieces_are_small_and_know_little_of_each_other() {
+        for (mesh, most) in [(sphere(0.02), 2.0), (half_space(), 2.0)] {
+            let n_nodes = mesh.nodes().len();
+            let Dissection { nodes, ends } = Dissection::new(&mesh, |node| node != 0);
+            let mut sorted = nodes.clone();
+            sorted.sort_unstable();
+            assert!(sorted.iter().copied().eq(1..n_nodes as u32));
+            assert_eq!(ends.last(), Some(&nodes.len()));
+            // A cut of a ring mesh is at most two of its shorter extent long.
+            let widest = ends.windows(2).map(|ends| ends[1] - ends[0]).max().unwrap();
+            let across = 2.0 * (0.3_f64 / 0.02).ceil() + 1.0;
+            assert!(widest as f64 <= most * across, "{widest}");
+            assert!(ends.len() > n_nodes / 40 && ends.len() < n_nodes, "{}", ends.len());
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! Inputs for all pairs of some grains at once: one e for all speeds of each pair, on Hertz' spring.
+//!
+//! A code's type, or phase, is a material at a size. E* of a pair is made of both in LIGGGHTS and MFIX;
+//! LAMMPS takes E = 2(1−ν²)E* of an explicit `pair_coeff`.
+
+use fem_laws::Pair;
+
+use super::mfix::mfix_entry;
+use super::snippet::{Sphere, short};
+
+/// A material at a size: a type, or phase, of a code.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grain {
+    /// Name of the material.
+    pub material: String,
+    /// The sphere.
+    pub sphere: Sphere,
+}
+
+/// Two grains and their restitution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairOfGrains {
+    /// Places of the grains, the first not above the second.
+    pub grains: [usize; 2],
+    /// The pair.
+    pub pair: Pair,
+    /// One e for all speeds.
+    pub restitution: f64,
+}
+
+/// Files and their texts; pairs in the order 11, 12, …, 22, ….
+pub fn grain_snippets(grains: &[Grain], pairs: &[PairOfGrains]) -> Vec<(&'static str, String)> {
+    let mut files = vec![
+        ("lammps_pairs.in", lammps(grains, pairs)),
+        ("liggghts_pairs.in", liggghts(grains, pairs)),
+    ];
+    // What cannot be entered is left out.
+    files.extend(mfix(grains, pairs).map(|text| ("mfix_pairs.dat", text)));
+    files
+}
+
+fn heading(code: &str, kind: &str, grains: &[Grain]) -> String {
+    let mut text = format!(
+        "# {code}; one restitution a pair, for all speeds, SI units; where it is good: pairs.csv.\n"
+    );
+    for (index, Grain { material, sphere }) in grains.iter().enumerate() {
+        let material = material.replace(char::is_control, " ");
+        text += &format!("# {kind} {}: {material}, {} m\n", index + 1, short(sphere.diameter));
+    }
+    text
+}
+
+fn lammps(grains: &[Grain], pairs: &[PairOfGrains]) -> String {
+    let mut text = heading("LAMMPS, granular hertz/material", "type", grains);
+    text += "pair_style granular\n";
+    for PairOfGrains { grains: [first, second], pair, restitution } in pairs {
+        let poissons_ratio = grains[*first].sphere.poissons_ratio;
+        text += &format!(
+            "pair_coeff {} {} hertz/material {} {} {} tangential linear_nohistory 0.0 0.0 damping \
+             coeff_restitution\n",
+            first + 1,
+            second + 1,
+            short(2.0 * (1.0 - poissons_ratio.powi(2)) * pair.contact_modulus()),
+            short(*restitution),
+            short(poissons_ratio)
+        );
+    }
+    text
+}
+
+fn liggghts(grains: &[Grain], pairs: &[PairOfGrains]) -> String {
+    let n = grains.len();
+    let all = |of: &dyn Fn(&Sphere) -> f64| -> String {
+        grains.iter().map(|grain| " ".to_string() + &short(of(&grain.sphere))).collect()
+    };
+    let restitution = |first: usize, second: usize| {
+        let wanted = [first.min(second), first.max(second)];
+        pairs.iter().find(|pair| pair.grains == wanted).map_or(1.0, |pair| pair.restitution)
+    };
+    let matrix = |of: &dyn Fn(usize, usize) -> f64| -> String {
+        let rows = (0..n).flat_map(|first| (0..n).map(move |second| (first, second)));
+        rows.map(|(first, second)| " ".to_string() + &short(of(first, second))).collect()
+    };
+    heading("LIGGGHTS, gran model hertz", "type", grains)
+        + &format!(
+            "fix m1 all property/global youngsModulus peratomtype{}\n\
+             fix m2 all property/global poissonsRatio peratomtype{}\n\
+             fix m3 all property/global coefficientRestitution peratomtypepair {n}{}\n\
+             fix m4 all property/global coefficientFriction peratomtypepair {n}{}\n\
+             pair_style gran model hertz tangential history\npair_coeff * *\n",
+            all(&|sphere| sphere.youngs_modulus),
+            all(&|sphere| sphere.poissons_ratio),
+            matrix(&restitution),
+            matrix(&|_, _| 0.0)
+        )
+}
+
+fn mfix(grains: &[Grain], pairs: &[PairOfGrains]) -> Option<String> {
+    let mut text = heading("MFIX-DEM, Hertzian", "phase", grains);
+    text += "  des_coll_model = 'HERTZIAN'\n";
+    for (index, Grain { sphere, .. }) in grains.iter().enumerate() {
+        let phase = index + 1;
+        let Sphere { diameter, density, youngs_modulus, poissons_ratio } = sphere;
+        text += &format!(
+            "  d_p0({phase}) = {}\n  ro_s0({phase}) = {}\n",
+            short(*diameter),
+            short(*density)
+        );
+        text += &format!(
+            "  e_young({phase}) = {}\n  v_poisson({phase}) = {}\n",
+            short(*youngs_modulus),
+            short(*poissons_ratio)
+        );
+    }
+    text += "  # Entered for what comes out: HERTZIAN damps too little.\n";
+    for (index, pair) in pairs.iter().enumerate() {
+        let (place, [first, second]) = (index + 1, pair.grains.map(|grain| grain + 1));
+        let entry = mfix_entry(pair.restitution)?;
+        text += &format!(
+            "  des_en_input({place}) = {}   # {first} with {second}, makes {:.4}\n  \
+             des_et_input({place}) = 1.0\n",
+            short(entry),
+            pair.restitution
+        );
+    }
+    Some(text)
+}

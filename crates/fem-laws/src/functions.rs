@@ -1,0 +1,60 @@
+//! Elementary functions with the same bits on every machine.
+//!
+//! A system's own library may differ from another's in the last digit; a browser's does. [`crate::Ting`]
+//! chooses its steps by their error: there a last digit moves all steps that follow, and the results by as
+//! much as the steps are off, some 1e-10 and with waves 1e-6. Arithmetic and square roots are the same
+//! everywhere.
+
+/// eˣ.
+pub(crate) fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// eˣ − 1, also of a small x.
+pub(crate) fn exp_m1(x: f64) -> f64 {
+    libm::expm1(x)
+}
+
+/// Of x > 0, to the base e.
+pub(crate) fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
+/// xʸ of x ≥ 0.
+pub(crate) fn power(x: f64, y: f64) -> f64 {
+    libm::pow(x, y)
+}
+
+/// Of an angle in radians.
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Both are off by less than a unit of the last place each.
+    #[test]
+    fn functions_are_those_of_the_system_but_for_the_last_digit() {
+        let same = |own: f64, system: f64| {
+            assert!((own - system).abs() <= 2.0 * f64::EPSILON * system.abs(), "{own} {system}");
+        };
+        for k in -300..=300 {
+            let x = 0.1 * f64::from(k);
+            same(exp(x), x.exp());
+            same(ln(1e-3 + x.abs()), (1e-3 + x.abs()).ln());
+            same(exp_m1(1e-3 * x), (1e-3 * x).exp_m1());
+            same(power(x.abs(), 0.4), x.abs().powf(0.4));
+            same(sin_cos(x).0, x.sin());
+            same(sin_cos(x).1, x.cos());
+        }
+        assert_eq!((exp(-800.0), exp(0.0), power(0.0, 0.2)), (0.0, 1.0, 0.0));
+    }
+
+    /// The system's library usually rounds this one to the nearest, one digit lower: it is not asked.
+    #[test]
+    fn the_last_digit_is_not_the_systems() {
+        assert_eq!(exp(1.0), std::f64::consts::E + 2.0 * f64::EPSILON);
+    }
+}

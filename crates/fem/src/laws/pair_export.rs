@@ -1,0 +1,278 @@
+//! From materials and sizes to the laws of DEM codes for every pair of them.
+
+use std::collections::BTreeMap;
+
+use fem_case::schema::SphereTable;
+use fem_case::{Case, library, nearest};
+use fem_fit::FitError;
+use fem_fit::dem::{Grain, PairOfGrains, Sphere};
+use fem_laws::Pair;
+use serde::Serialize;
+
+use super::dem_export::DemExport;
+use super::impact_curve::ImpactCurve;
+use super::law_fault::LawFault;
+
+/// Pairs that are more than a table should hold: 45 grains.
+const MOST_GRAINS: usize = 45;
+
+/// What has no value in a table.
+type Cell = Option<f64>;
+
+/// All pairs of some grains, each with laws of its own.
+#[derive(Clone, Debug)]
+pub struct PairExport {
+    /// Materials at their sizes, in the order of the codes' types.
+    pub grains: Vec<Grain>,
+    /// 1 with 1, 1 with 2, …, 2 with 2, ….
+    pub pairs: Vec<FittedPair>,
+    /// Error of e up to which one e for all speeds is called good.
+    pub tolerance: f64,
+}
+
+/// Two grains and their laws.
+#[derive(Clone, Debug)]
+pub struct FittedPair {
+    /// Places of the grains.
+    pub grains: [usize; 2],
+    /// The pair.
+    pub pair: Pair,
+    /// Its laws; none of a pair that loses nothing.
+    pub export: Option<DemExport>,
+}
+
+/// A row of the table, SI.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PairNumbers {
+    /// Name of the first material.
+    pub first_material: String,
+    /// Its diameter.
+    pub first_diameter_m: f64,
+    /// Name of the second material.
+    pub second_material: String,
+    /// Its diameter.
+    pub second_diameter_m: f64,
+    /// Slowest speed of the fit; none where nothing is lost.
+    pub slowest_m_s: Cell,
+    /// Fastest speed of the fit.
+    pub fastest_m_s: Cell,
+    /// One e for all speeds.
+    pub restitution: f64,
+    /// Where it is good, from; none if nowhere.
+    pub good_from_m_s: Cell,
+    /// Where it is good, to.
+    pub good_to_m_s: Cell,
+    /// Largest error of it.
+    pub worst_error: f64,
+    /// What each code is told: `lammps_viscoelastic_eta`, ….
+    pub entries: BTreeMap<String, f64>,
+}
+
+impl PairExport {
+    /// Spheres of all materials at all diameters, m, against each other, at the case's speed and with its
+    /// model. Without materials or diameters, those of the case's own spheres.
+    ///
+    /// # Errors
+    /// Unknown materials; diameters that are not positive; too many of both; see [`DemExport::of`].
+    ///
+    /// ```
+    /// # use std::path::Path;
+    /// # let text = "[[body]]
+    /// # name = 'floor'
+    /// # wall = {}
+    /// # [[body]]
+    /// # name = 'ball'
+    /// # sphere.diameter = 0.02
+    /// # material = 'lib:pmma'
+    /// # approach_speed = 0.1
+    /// # [model.law.kuwabara_kono]
+    /// # a = 1e-6";
+    /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
+    /// use fem::laws::PairExport;
+    ///
+    /// let unknown = PairExport::of(&case, &["lib:glas".into()], &[1e-3, 2e-3], None, 0.01);
+    /// assert_eq!(unknown.unwrap_err().to_string(), "there is no material lib:glas");
+    /// let all = PairExport::of(&case, &[], &[1e-3, 2e-3], None, 0.01)?;
+    /// assert_eq!(all.numbers().len(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(
+        case: &Case,
+        materials: &[String],
+        diameters: &[f64],
+        speeds: Option<(f64, f64)>,
+        tolerance: f64,
+    ) -> Result<Self, LawFault> {
+        let kinds = kinds(case, materials, diameters)?;
+        let mut grains: Vec<Option<Grain>> = vec![None; kinds.len()];
+        let mut pairs = Vec::new();
+        for (first, second) in all_pairs(kinds.len()) {
+            let collision = collision_of(case, [&kinds[first], &kinds[second]])?;
+            for (place, body) in [first, second].into_iter().zip(collision.scene().bodies()) {
+                let (Some(diameter), Some(material)) = (body.diameter(), body.material()) else {
+                    continue;
+                };
+                let sphere = Sphere::new(diameter, material);
+                grains[place] = Some(Grain { material: kinds[place].0.clone(), sphere });
+            }
+            let (grains, pair) =
+                ([first, second], collision.scene().pair().map_err(FitError::from)?);
+            let export = fitted(&collision, speeds, tolerance)?;
+            pairs.push(FittedPair { grains, pair, export });
+        }
+        Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
+    }
+
+    /// The pairs as codes' inputs are made of them.
+    pub fn of_codes(&self) -> Vec<PairOfGrains> {
+        let of = |fitted: &FittedPair| PairOfGrains {
+            grains: fitted.grains,
+            pair: fitted.pair,
+            restitution: fitted.export.as_ref().map_or(1.0, |of| of.export.hertz.restitution),
+        };
+        self.pairs.iter().map(of).collect()
+    }
+
+    /// The table, a row a pair; what a code's formula does not take is left out.
+    pub fn numbers(&self) -> Vec<PairNumbers> {
+        self.pairs.iter().map(|fitted| self.row(fitted)).collect()
+    }
+
+    fn row(&self, fitted: &FittedPair) -> PairNumbers {
+        let [first, second] = fitted.grains.map(|place| &self.grains[place]);
+        let laws = fitted.export.as_ref();
+        let speeds = laws.map(|of| of.export.speeds);
+        let validity = laws.map(|of| of.export.hertz.validity);
+        let good = validity.filter(|[from, to, _]| from <= to);
+        PairNumbers {
+            first_material: first.material.clone(),
+            first_diameter_m: first.sphere.diameter,
+            second_material: second.material.clone(),
+            second_diameter_m: second.sphere.diameter,
+            slowest_m_s: speeds.map(|speeds| speeds.0),
+            fastest_m_s: speeds.map(|speeds| speeds.1),
+            restitution: laws.map_or(1.0, |of| of.export.hertz.restitution),
+            good_from_m_s: good.map(|good| good[0]),
+            good_to_m_s: good.map(|good| good[1]),
+            worst_error: validity.map_or(0.0, |validity| validity[2]),
+            entries: laws.map(entries).unwrap_or_default(),
+        }
+    }
+}
+
+/// `lammps_viscoelastic_eta`, …: the file's stem and the entry's name.
+fn entries(of: &DemExport) -> BTreeMap<String, f64> {
+    let snippets = of.snippets().unwrap_or_default();
+    let named = snippets.iter().flat_map(|snippet| {
+        let stem = snippet.name.split('.').next().unwrap_or(snippet.name);
+        snippet.entries.iter().map(move |(key, value)| (format!("{stem}_{key}"), *value))
+    });
+    named.map(|(key, value)| (key.replace(' ', "_"), value)).collect()
+}
+
+/// 1 with 1, 1 with 2, …, 2 with 2, ….
+fn all_pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |first| (first..n).map(move |second| (first, second)))
+}
+
+/// Materials at their diameters.
+fn kinds(
+    case: &Case,
+    materials: &[String],
+    diameters: &[f64],
+) -> Result<Vec<(String, f64)>, LawFault> {
+    let bodies = || case.file().body.iter().zip(case.scene().bodies());
+    let once = |mut all: Vec<(String, f64)>| {
+        let mut seen: Vec<(String, f64)> = Vec::new();
+        all.retain(|kind| {
+            !seen.contains(kind) && {
+                seen.push(kind.clone());
+                true
+            }
+        });
+        all
+    };
+    if let Some(diameter) = diameters.iter().find(|d| !(**d > 0.0 && d.is_finite())) {
+        return Err(LawFault::Grains(
+            format!("a diameter is {diameter:?}"),
+            "it must be greater than 0".into(),
+        ));
+    }
+    for material in materials {
+        check_material(case, material)?;
+    }
+    let own_materials: Vec<String> =
+        bodies().filter_map(|(table, _)| table.material.clone()).collect();
+    let own_diameters: Vec<f64> = bodies().filter_map(|(_, body)| body.diameter()).collect();
+    let all = if materials.is_empty() && diameters.is_empty() {
+        let sphere = |(table, body): (&fem_case::schema::BodyTable, &fem_case::Body)| {
+            Some((table.material.clone()?, body.diameter()?))
+        };
+        bodies().filter_map(sphere).collect()
+    } else {
+        let materials = if materials.is_empty() { &own_materials } else { materials };
+        let diameters = if diameters.is_empty() { &own_diameters } else { diameters };
+        let of = |material: &String| {
+            diameters.iter().map(|diameter| (material.clone(), *diameter)).collect::<Vec<_>>()
+        };
+        materials.iter().flat_map(of).collect()
+    };
+    let all = once(all);
+    if all.len() > MOST_GRAINS {
+        let message = format!(
+            "{} materials and sizes are {} pairs",
+            all.len(),
+            all.len() * (all.len() + 1) / 2
+        );
+        let help = format!("name {MOST_GRAINS} or fewer");
+        return Err(LawFault::Grains(message, help));
+    }
+    Ok(all)
+}
+
+fn check_material(case: &Case, name: &str) -> Result<(), LawFault> {
+    let own = &case.file().material;
+    let in_library = |name: &str| library::materials().contains_key(name);
+    if own.contains_key(name) || name.strip_prefix("lib:").is_some_and(in_library) {
+        return Ok(());
+    }
+    let library = library::nearest_to(name.trim_start_matches("lib:"));
+    let names: Vec<&String> = own.keys().collect();
+    let near = nearest(name, &names, 0.8)
+        .map(str::to_string)
+        .or_else(|| library.map(|name| format!("lib:{name}")));
+    let near = near.map_or(String::new(), |near| format!("did you mean {near}? "));
+    let own = own.keys().cloned().collect::<Vec<_>>().join(", ");
+    let help = format!("{near}the case has {own}; fem-run materials lists the library's");
+    Err(LawFault::Grains(format!("there is no material {name}"), help))
+}
+
+/// The case with spheres of two kinds.
+fn collision_of(case: &Case, kinds: [&(String, f64); 2]) -> Result<Case, LawFault> {
+    let edited = case.edited(|file| {
+        for (body, (material, diameter)) in file.body.iter_mut().zip(kinds) {
+            body.material = Some(material.clone());
+            body.sphere = Some(SphereTable::new(*diameter));
+            (body.wall, body.half_space, body.held) = (None, None, None);
+        }
+        file.gravity = None;
+    });
+    Ok(edited?)
+}
+
+/// The laws of a pair; none of one that loses nothing.
+fn fitted(
+    case: &Case,
+    speeds: Option<(f64, f64)>,
+    tolerance: f64,
+) -> Result<Option<DemExport>, LawFault> {
+    let curve = match ImpactCurve::computed(case, speeds) {
+        Err(LawFault::NoStandIn(FitError::NoRelaxation)) => return Ok(None),
+        curve => curve?,
+    };
+    match DemExport::of(case, curve, tolerance) {
+        Ok(export) => Ok(Some(export)),
+        Err(FitError::Insensitive { .. }) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
+}
