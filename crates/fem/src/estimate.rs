@@ -29,7 +29,7 @@ pub struct Estimate {
     /// Approach speed over the slowest shear wave speed.
     pub mach: f64,
     /// What bulk waves that are slower than those of shear are worth as such a share: 0 of bodies without, of
-    /// which Poisson's ratio is not negative ([`ringing`]).
+    /// which Poisson's ratio is not negative.
     pub ringing: f64,
     /// Σ g (1 − exp(−T/τ)) of the body that relaxes most: the share of its
     /// modulus that is lost over the contact.

@@ -9,6 +9,7 @@
 
 mod axis;
 mod endurance;
+mod fed;
 mod imported;
 mod random;
 mod reference;
@@ -97,6 +98,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     });
     let now: Vec<Now> = now.collect();
     seen::tabulate(&laboratory.claim().folder, &now, parameters.quick, &mut findings)?;
+    fed::tabulate(&laboratory.claim().folder, &mut findings)?;
     for (name, (axis, file)) in parameters.axes.iter().zip(axes.iter().enumerate()) {
         let own = || entries.iter().zip(&tried).filter(|(entry, _)| entry.axis == axis);
         findings.measure(format!("{name}.unexpected"), 0.0);
