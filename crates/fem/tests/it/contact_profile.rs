@@ -126,7 +126,10 @@ fn a_profile_carries_the_force_of_its_instant() {
             let finite = !snapshot.bodies[1].stress.is_empty();
             assert_eq!(finite, set.contains(&rubber[0]), "{set:?}");
             // Straight lines between places lose 0.1 %; rows are a thousandth of the contact apart.
-            assert!((ratios[0] - 1.0).abs() < 0.005, "{set:?} {ratios:?}");
+            // While surfaces close, the dashpots of what touches push too: by a tenth where an element does.
+            let is_closing = finite && snapshot.label == Some(Label::MidCompression);
+            let tolerance = if is_closing { 0.15 } else { 0.005 };
+            assert!((ratios[0] - 1.0).abs() < tolerance, "{set:?} {ratios:?}");
             assert!((ratios[1] - 1.0).abs() < 0.005, "{set:?} {ratios:?}");
             assert!((ratios[2] - 1.0).abs() < 0.01, "{set:?} {ratios:?}");
             // The curve ends where the radius says, and what is open presses nothing.
