@@ -28,6 +28,7 @@ pub struct Scene {
     pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
     pub(crate) limits: Limits,
+    pub(crate) refinement: f64,
 }
 
 impl Scene {
@@ -200,6 +201,18 @@ impl Scene {
     /// This scene, computed by another model.
     pub fn with_model(mut self, model: ModelChoice) -> Self {
         self.model = model;
+        self
+    }
+
+    /// Elements across a length that the plan chooses, over those that it takes at first: more than one
+    /// where a result has shown that these do not do. No key of a case: a resolved case has the length.
+    pub fn refinement(&self) -> f64 {
+        self.refinement
+    }
+
+    /// This scene with so many times the elements across a length that the plan chooses.
+    pub fn with_refinement(mut self, refinement: f64) -> Self {
+        self.refinement = refinement;
         self
     }
 

@@ -71,7 +71,15 @@ pub(crate) fn update_step(
     state: &mut State,
     scratch: &mut Scratch,
 ) -> Result<Option<f64>, Fault> {
-    let Some(pace) = state.pace.filter(|pace| pace.is_due(state.step)) else { return Ok(None) };
+    let Some(pace) = state.pace.filter(|pace| pace.is_look_due(state.step)) else {
+        return Ok(None);
+    };
+    if !pace.is_due(state.step)
+        && let Some(same) = pace.looked_at(model, state.step, model.strain_rate(state))
+    {
+        state.pace = Some(same);
+        return Ok(None);
+    }
     let outlook = model.outlook(state, scratch);
     let now = (state.step, state.time);
     let Some(next) = pace.after(model, now, outlook) else {

@@ -124,7 +124,7 @@ impl Case {
                 simulation.skip_snapshots();
             }
             let mut timed = Timed::since(started, RunWatch(watch));
-            let collision = simulation.run(&mut timed);
+            let (simulation, collision) = simulation.run_within_tolerance(&mut timed);
             Ok::<_, Failure>((simulation, collision, timed.stop().0))
         })?;
         let (simulation, collision, stopwatch) = ran.or_raise(py)?;

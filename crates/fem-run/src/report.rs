@@ -122,8 +122,11 @@ fn balances(summary: &Summary) -> String {
         format!("; {} {}", account.name().replace('_', " "), show(energy, "J"))
     });
     let raw = summary.peak_force_raw_n.map(|force| {
-        let text =
-            format!("means over 1/64 of the pulse; force of a single step {}", show(force, "N"));
+        let text = format!(
+            "means over 1/64 of the pulse, radius and pressure {}; force of a single step {}",
+            summary.radius_and_pressure,
+            show(force, "N")
+        );
         ["peaks".to_string(), text]
     });
     let null = summary.elastic_null.map(|null| {

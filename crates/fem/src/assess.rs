@@ -31,6 +31,7 @@ impl Simulation {
         warnings.extend(self.decisions(collision).warnings);
         warnings.extend(self.setup().unread.iter().cloned());
         warnings.extend(assess(self, collision));
+        warnings.extend(self.miss_warning(collision));
         warnings.extend(collision.warnings.iter().cloned());
         warnings
     }

@@ -89,7 +89,8 @@ impl Plan {
         let finer_body = finer_body(scene);
         let fineness = Fineness::of(scene, &estimate, finer_body.is_some());
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
-            (divided_radius(&estimate) / fineness.across).min(estimate.smallest_radius / 12.0),
+            (divided_radius(&estimate) / fineness.across)
+                .min(estimate.smallest_radius / (12.0 * scene.refinement())),
         );
         let refined_radius = scene.mesh().refined_radius.unwrap_or(
             (REFINED_OVER_CONTACT * estimate.contact_radius).min(estimate.smallest_radius),

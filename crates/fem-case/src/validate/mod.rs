@@ -107,6 +107,7 @@ pub(crate) fn validate(
                 .optional("limits.memory", limits.memory.as_ref(), COUNT)?
                 .map(|bytes| bytes as u64),
         },
+        refinement: 1.0,
     })
 }
 

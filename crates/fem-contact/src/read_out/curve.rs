@@ -23,6 +23,7 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.339_981_043_584_856_26, 0.652_145_154_862_546_1],
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
 ];
+
 /// How often an interval between neighbours is halved for integrals: kinks are at their ends alone.
 const PARTS: usize = 4;
 

@@ -40,6 +40,16 @@ impl Model {
         [0, 1].into_iter().filter_map(rate).fold(0.0, f64::max)
     }
 
+    /// Largest rate (1/s) at which an element of a body whose stiffness changes is strained now.
+    pub(crate) fn strain_rate(&self, state: &State) -> f64 {
+        let motions = state.motions(self);
+        let rates = self.bodies.iter().zip(&motions).filter_map(|(body, motion)| {
+            let stress = body.stress.as_ref().filter(|_| body.bound.is_some())?;
+            Some(stress.part.strain_rate(motion))
+        });
+        rates.fold(0.0, f64::max)
+    }
+
     /// Critical time step of the deformed bodies, and how fast they are strained; what it is made of goes
     /// to `scratch`.
     pub(crate) fn outlook(&self, state: &State, scratch: &mut Scratch) -> Outlook {
@@ -49,11 +59,7 @@ impl Model {
     /// The same, and body and node that ask for the critical step.
     fn outlook_and_node(&self, state: &State, scratch: &mut Scratch) -> (Outlook, [usize; 2]) {
         let motions = state.motions(self);
-        let rates = self.bodies.iter().zip(&motions).filter_map(|(body, motion)| {
-            let stress = body.stress.as_ref().filter(|_| body.bound.is_some())?;
-            Some(stress.part.strain_rate(motion))
-        });
-        let strain_rate = rates.fold(0.0, f64::max);
+        let strain_rate = self.strain_rate(state);
         let within = Outlook::reaches(self, strain_rate);
         let (mut critical, mut node) = (f64::INFINITY, [0, 0]);
         for (side, body) in self.bodies.iter().enumerate() {

@@ -9,10 +9,9 @@ use fem::schema::{
 };
 use fem::sweep::{
     COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, check, column_unit,
-    column_words, columns, dearest_first, sweep_csv,
+    column_words, columns, dearest_first, load, sweep_csv,
 };
 use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
-use fem_case::Sweep;
 
 const SPEEDS: [f64; 3] = [0.3, 0.1, 0.2];
 
