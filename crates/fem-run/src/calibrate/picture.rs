@@ -30,7 +30,7 @@ fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
         |x: f64, sign: f64| (1.0 - (1.0 - level) * (x / middle).powf(sign * power)).max(0.0);
     let band = best.iter().map(|&(x, _)| (x, limit(x, 1.0), limit(x, -1.0))).collect();
     let errors = found.measured.data.points.iter();
-    let errors = errors.filter_map(|point| point.restitution_uncertainty).collect();
+    let errors = errors.map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
     let axis = Axis::new(format!("{name} [{}]", unit.symbol())).logarithmic();
     Ok(Chart::new(axis, Axis::new("restitution"))
         .with_band("slopes of any Prony series", band, GREY)

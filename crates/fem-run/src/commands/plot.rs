@@ -2,10 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fem_figure::contour::{Contour, Panel, Section};
-
 use crate::failure::Failure;
-use crate::page::{Plotted, Record, contour, energies, over_time, pressures};
+use crate::page::{Plotted, Record, contour, energies, over_time, pressures, whole};
 use crate::standard_output::{self, one_line};
 use crate::whole_file::write_whole;
 
@@ -86,13 +84,4 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     standard_output::print(&format!("Picture: {shown}\n"))
-}
-
-/// With the mirror images of its half sections.
-fn whole(contour: Contour) -> Contour {
-    let panel = |panel: Panel| Panel {
-        sections: panel.sections.iter().map(Section::mirrored).collect(),
-        ..panel
-    };
-    Contour { panels: contour.panels.into_iter().map(panel).collect(), ..contour }
 }

@@ -47,7 +47,7 @@ pub fn fit_picture(fitted: &LawFit<'_>) -> String {
         });
     }
     let data = points.iter().map(|point| (unit.scaled(point.speed), point.restitution)).collect();
-    let errors = points.iter().filter_map(|point| point.restitution_uncertainty).collect();
+    let errors = points.iter().map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
     let mut charts =
         vec![chart.with(Curve::points("data", data).with_errors(errors).like_curve(1))];
     if let Some(profile) = &fitted.profile {

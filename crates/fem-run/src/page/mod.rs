@@ -13,6 +13,7 @@ mod curves;
 mod effects;
 mod hertz;
 mod record;
+mod view;
 
 use askama::Template;
 use fem_case::engineering::{Unit, show};
@@ -29,6 +30,7 @@ pub use comparison::comparison;
 pub use contours::contour;
 pub use curves::{Quantity as Plotted, energies, over_time, pressures};
 pub use record::Record;
+pub use view::{centred, nearness, picture, whole};
 
 /// The name of the page in a result folder.
 pub const REPORT_FILE: &str = "report.html";
@@ -82,7 +84,7 @@ pub fn page(record: &Record) -> Result<String, Failure> {
         stopped: record.text("stopped_because"),
         cards: cards::cards(record),
         price: price(record),
-        warnings: texts(record.list("warnings")),
+        warnings: warnings(record),
         charts: drawn(charts),
         frames: contour.as_ref().map(shots).unwrap_or_default(),
         opening: opening(record),
@@ -172,8 +174,12 @@ fn grouped(count: f64) -> String {
     text
 }
 
-fn texts(values: &[Value]) -> Vec<String> {
-    values.iter().filter_map(Value::as_str).map(String::from).collect()
+/// All but that the run is incomplete, which stands above.
+fn warnings(record: &Record) -> Vec<String> {
+    let stopped = record.text("stopped_because");
+    let warnings = record.list("warnings").iter().filter_map(Value::as_str);
+    let others = warnings.filter(|warning| stopped.is_empty() || !warning.contains(stopped));
+    others.map(String::from).collect()
 }
 
 fn bounce(bounce: &Value) -> [String; 5] {
