@@ -16,7 +16,7 @@ folder=${CARGO_TARGET_DIR:-target}
 module=$folder/$target/page/fem_page.wasm
 
 # Scripts in the order in which they stand on each other.
-scripts=(units effects materials scene runner results controls stories telling page)
+scripts=(units effects materials scene links runner results picture controls stories telling taking page)
 
 script() {
   local name
@@ -34,6 +34,7 @@ while IFS= read -r line; do
       gzip -9 -n -c "$module" | base64 -w 0
       printf '</script>\n' ;;
     '<!-- inline: worker -->') printf '<script type="text/plain" id="worker">\n'; cat "$here/web/worker.js"; printf '</script>\n' ;;
+    '<!-- inline: boot -->') printf '<script>\n'; cat "$here/web/boot.js"; printf '</script>\n' ;;
     '<!-- inline: script -->') printf '<script type="module">\n'; script; printf '</script>\n' ;;
     *) printf '%s\n' "$line" ;;
   esac

@@ -273,13 +273,23 @@ fn fill_in(file: &mut CaseFile, scene: &Scene) {
 /// # Errors
 /// A file that is not there or cannot be read, is too large for a case, or is no UTF-8.
 pub fn text_at(path: &Path, name: &str) -> Result<String, CaseError> {
-    let fail = |message: &str| CaseError::new(name, message);
-    let file = fs::File::open(path).map_err(|error| match error.kind() {
-        ErrorKind::NotFound => fail("there is no such file")
+    text_of(open(path, name)?, name)
+}
+
+/// The bytes of a file that a case or a sweep names.
+pub(crate) fn bytes_at(path: &Path, name: &str) -> Result<Vec<u8>, CaseError> {
+    let mut bytes = Vec::new();
+    let read = open(path, name)?.read_to_end(&mut bytes);
+    read.map_err(|error| unreadable(name, &error))?;
+    Ok(bytes)
+}
+
+fn open(path: &Path, name: &str) -> Result<fs::File, CaseError> {
+    fs::File::open(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => CaseError::new(name, "there is no such file")
             .with_help("name a case file: fem-run cases/glass_0.5ms.toml"),
         _ => unreadable(name, &error),
-    })?;
-    text_of(file, name)
+    })
 }
 
 fn text_of(source: impl Read, name: &str) -> Result<String, CaseError> {

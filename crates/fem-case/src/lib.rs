@@ -100,8 +100,9 @@ pub use quantity::{
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,
 };
 pub use scene::{Accuracy, Limits, MeshSettings, Probe, Scene, Snapshots};
-pub use schema::{CaseFile, ContactMethod, EffectsTable, SnapshotLabel, Switch};
+pub use schema::{CaseFile, ContactMethod, EffectsTable, Field, SnapshotLabel, Switch};
 pub use sweep::Sweep;
 pub use sweep_axes::{Axis, Element, SweptKey};
 pub use sweep_file::{Combine, Keep, PlotTable};
+pub use sweep_values::{ReadRows, RowsFault};
 pub use units::{Dimension, UnitError, parse_quantity};

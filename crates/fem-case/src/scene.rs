@@ -6,7 +6,7 @@ use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip, compliance_shares}
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};
 use crate::model::ModelChoice;
-use crate::schema::{ContactMethod, EffectsTable, SnapshotLabel};
+use crate::schema::{ContactMethod, EffectsTable, Field, SnapshotLabel};
 
 /// A validated case. Only this crate makes one, so every value keeps the limits stated here.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,11 +22,13 @@ pub struct Scene {
     pub(crate) mass_scaling: Option<f64>,
     pub(crate) snapshots: Option<Snapshots>,
     pub(crate) probes: Vec<Probe>,
+    pub(crate) fields: Option<Vec<Field>>,
     pub(crate) wants_report: bool,
     pub(crate) model: ModelChoice,
     pub(crate) accuracy: Accuracy,
     pub(crate) effects: EffectsTable,
     pub(crate) limits: Limits,
+    pub(crate) refinement: f64,
 }
 
 impl Scene {
@@ -79,6 +81,11 @@ impl Scene {
     /// Which instants are drawn.
     pub fn snapshots(&self) -> Option<&Snapshots> {
         self.snapshots.as_ref()
+    }
+
+    /// Whether files of snapshots have an array.
+    pub fn wants_field(&self, field: Field) -> bool {
+        self.fields.as_ref().is_none_or(|fields| fields.contains(&field))
     }
 
     /// Places of which is told what happens there over time.
@@ -194,6 +201,18 @@ impl Scene {
     /// This scene, computed by another model.
     pub fn with_model(mut self, model: ModelChoice) -> Self {
         self.model = model;
+        self
+    }
+
+    /// Elements across a length that the plan chooses, over those that it takes at first: more than one
+    /// where a result has shown that these do not do. No key of a case: a resolved case has the length.
+    pub fn refinement(&self) -> f64 {
+        self.refinement
+    }
+
+    /// This scene with so many times the elements across a length that the plan chooses.
+    pub fn with_refinement(mut self, refinement: f64) -> Self {
+        self.refinement = refinement;
         self
     }
 

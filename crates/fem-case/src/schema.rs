@@ -182,6 +182,9 @@ pub struct OutputTable {
     /// The instants at which fields are written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots: Option<SnapshotsValue>,
+    /// The arrays that the files of snapshots have beside the body's number; all unless told otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fields: Option<Vec<Field>>,
     /// `[[output.probe]]`: places of which is told what happens there over time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub probe: Vec<ProbeTable>,
@@ -197,6 +200,30 @@ pub enum SnapshotsValue {
     Count(f64),
     /// Labels (texts that are among [`SnapshotLabel::WORDS`]) or times.
     List(Vec<Quantity<Time>>),
+}
+
+keywords! {
+    /// An array in the files of snapshots, by its name there.
+    Field {
+        /// Displacement of the points.
+        Displacement = "displacement",
+        /// Velocity of the points.
+        Velocity = "velocity",
+        /// Radial stress.
+        SigmaRr = "sigma_rr",
+        /// Stress along the axis.
+        SigmaYy = "sigma_yy",
+        /// Hoop stress.
+        SigmaTt = "sigma_tt",
+        /// Shear stress.
+        SigmaRy = "sigma_ry",
+        /// Minus the mean of the normal stresses.
+        Pressure = "pressure",
+        /// Equivalent stress of von Mises.
+        VonMises = "von_mises",
+        /// Contact pressure on the surfaces.
+        ContactPressure = "contact_pressure",
+    }
 }
 
 keywords! {
@@ -356,5 +383,5 @@ pub struct LimitsTable {
 /// reads `sphere = ["22.2 mm"]` as its fields in order.
 pub(crate) fn is_list(path: &str) -> bool {
     let is_terms = path.starts_with("material.") && path.ends_with(".relaxation.terms");
-    is_terms || matches!(path, "body" | "output.snapshots" | "output.probe")
+    is_terms || matches!(path, "body" | "output.snapshots" | "output.fields" | "output.probe")
 }

@@ -14,6 +14,7 @@ use crate::quantity::{Count, Quantity};
 use crate::sweep_axes::{Axis, SweptKey, read_axes};
 use crate::sweep_faults::{first_of, read_file};
 use crate::sweep_file::{Combine, Keep, PlotTable};
+use crate::sweep_values::ReadRows;
 
 /// Members that a sweep may have unless it says otherwise.
 const MAX_MEMBERS: u64 = 10_000;
@@ -48,12 +49,17 @@ struct Base {
 }
 
 impl Sweep {
-    /// Reads a sweep file and its base case; `overrides` are those of the base case.
+    /// Reads a sweep file, the tables that it names by `read_rows`, and its base case; `overrides` are those of
+    /// the base case.
     ///
     /// # Errors
     /// What is wrong with the sweep file, all of it: [`CaseError::others`]; a base case that cannot be read; an
     /// override of a varied key; too many members.
-    pub fn load(path: &Path, overrides: &[String]) -> Result<Self, CaseError> {
+    pub fn load(
+        path: &Path,
+        overrides: &[String],
+        read_rows: &ReadRows,
+    ) -> Result<Self, CaseError> {
         let name = path.display().to_string();
         let text = text_at(path, &name).map_err(|error| match error.help() {
             Some(_) if error.span().is_none() => {
@@ -64,7 +70,7 @@ impl Sweep {
         let (document, tree) = Document::parse(&name, &text, &[], None, &[])?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut faults = Vec::new();
-        let axes = read_axes(&document, &text, folder, tree.get_ref(), &mut faults);
+        let axes = read_axes(&document, &text, (folder, read_rows), tree.get_ref(), &mut faults);
         let file = read_file(&document, tree, &mut faults);
         let given = file.as_ref().and_then(|file| file.max_members.as_ref());
         let mut found = |fault| faults.push(fault);

@@ -14,7 +14,7 @@ use crate::document::Document;
 use crate::error::CaseError;
 use crate::key_path::quote_key;
 use crate::overrides::{Assignment, parse_path};
-use crate::sweep_values::{Values, is_values, rounded};
+use crate::sweep_values::{ReadRows, Values, is_values, rounded};
 use crate::toml_text::shift;
 
 /// The parts of a key and their places.
@@ -158,15 +158,15 @@ fn canonical_part(part: &str) -> &str {
     }
 }
 
-/// Reads `[vary]` of the sweep file `text`; `folder` is where it lies. What is wrong goes to `faults`.
+/// Reads `[vary]` of the sweep file `text`; tables lie in a folder and are read so. What is wrong goes to `faults`.
 pub(crate) fn read_axes(
     document: &Document,
     text: &str,
-    folder: &Path,
+    tables: (&Path, &ReadRows),
     root: &DeTable<'_>,
     faults: &mut Vec<CaseError>,
 ) -> Vec<Axis> {
-    let reader = Reader { document, text, folder };
+    let reader = Reader { document, text, tables };
     let (mut axes, n_before) = (Vec::new(), faults.len());
     match root.get("vary").map(Spanned::get_ref) {
         Some(DeValue::Table(table)) => {
@@ -200,7 +200,7 @@ const EXAMPLE: &str =
 struct Reader<'a> {
     document: &'a Document,
     text: &'a str,
-    folder: &'a Path,
+    tables: (&'a Path, &'a ReadRows),
 }
 
 impl Reader<'_> {
@@ -242,7 +242,7 @@ impl Reader<'_> {
         let keys: Vec<_> = paths.iter().cloned().map(SweptKey::new).collect();
         let axis = |elements| Axis { keys: keys.clone(), elements, span: span.clone() };
         let name = axis(Vec::new()).name();
-        let values = Values { document: self.document, folder: self.folder, name: &name };
+        let values = Values { document: self.document, tables: self.tables, name: &name };
         match value.get_ref() {
             DeValue::Table(table) if is_values(table) => {
                 let names: Vec<&str> = keys.iter().map(|key| key.key.as_str()).collect();

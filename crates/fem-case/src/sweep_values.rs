@@ -13,10 +13,10 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use crate::case::text_at;
+use crate::case::bytes_at;
 use crate::document::Document;
 use crate::error::CaseError;
-use crate::explain::{explain, listed};
+use crate::explain::explain;
 use crate::quantity::{Number, Quantity};
 use crate::sweep_axes::Element;
 use crate::units::{Dimension, parse_quantity};
@@ -24,6 +24,18 @@ use crate::units::{Dimension, parse_quantity};
 /// Values of one range.
 const MOST_VALUES: u64 = 10_000_000;
 const RANGE: &str = "write { from = \"0.1 m/s\", to = \"2 m/s\", n = 10 }, perhaps with log = true";
+
+/// What is wrong with a table of values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowsFault {
+    /// What was found, and in which line.
+    pub message: String,
+    /// What is allowed, or what to do.
+    pub help: String,
+}
+
+/// Reads a table, of which messages have the name: of each row the cells of these columns.
+pub type ReadRows = dyn Fn(&str, &[u8], &[String]) -> Result<Vec<Vec<String>>, RowsFault>;
 
 /// Whether a table under `[vary]` makes values: no key of a case is called so.
 pub(crate) fn is_values(table: &DeTable<'_>) -> bool {
@@ -50,8 +62,8 @@ struct RowsTable {
 /// Reads the values of the keys of an axis.
 pub(crate) struct Values<'a> {
     pub(crate) document: &'a Document,
-    /// Where the sweep file lies.
-    pub(crate) folder: &'a Path,
+    /// Where the sweep file lies, and how tables are read.
+    pub(crate) tables: (&'a Path, &'a ReadRows),
     /// The keys in words.
     pub(crate) name: &'a str,
 }
@@ -164,42 +176,16 @@ impl Values<'_> {
                 ));
             }
         };
-        let path = self.folder.join(rows.table.get_ref());
+        let (folder, read_rows) = self.tables;
+        let path = folder.join(rows.table.get_ref());
         let name = path.display().to_string();
-        let text = text_at(&path, &name).map_err(|error| {
+        let bytes = bytes_at(&path, &name).map_err(|error| {
             let help = "table names a CSV file, relative to the sweep file";
             fault(format!("{name}: {}", error.message()), help)
         })?;
-        let bad = |error: csv::Error| {
-            let help = "the table is a CSV file with a header; every row has as many cells";
-            fault(format!("{name}: {error}"), help)
-        };
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let header: Vec<String> =
-            reader.headers().map_err(bad)?.iter().map(str::to_string).collect();
-        let place = |column: &String| {
-            let found = header.iter().position(|known| known == column);
-            found.ok_or_else(|| {
-                let columns: Vec<&str> = header.iter().map(String::as_str).collect();
-                let help =
-                    format!("its columns are {}; columns = […] names others", listed(&columns));
-                fault(format!("{name} has no column {column:?}"), &help)
-            })
-        };
-        let places = wanted.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-        let mut elements = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(bad)?;
-            let texts = places.iter().map(|place| record[*place].to_string()).collect();
-            elements.push(Element::made(texts, span.clone()));
-        }
-        match elements.is_empty() {
-            true => Err(fault(format!("{name} has no row"), "a row is a value of each key")),
-            false => Ok(elements),
-        }
+        let read = read_rows(&name, &bytes, &wanted);
+        let read = read.map_err(|RowsFault { message, help }| fault(message, &help))?;
+        Ok(read.into_iter().map(|texts| Element::made(texts, span.clone())).collect())
     }
 }
 

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::account::Book;
 use crate::approach::Approach;
 use crate::bounce::{Bounce, Rest};
+use crate::deepest::Deepest;
 use crate::ending::Ending;
 use crate::moment::Moment;
 use crate::row::Row;
@@ -51,6 +52,8 @@ pub struct Collision {
     pub force_scatter: Option<f64>,
     /// When it scatters most.
     pub noisiest: Option<Moment>,
+    /// Where springs let the surfaces overlap most; none of a contact without.
+    pub deepest: Option<Deepest>,
     /// Where contact was looked for in the end, of a model that does not look everywhere.
     pub searched: Option<Searched>,
     /// Kinetic energy at the start, walls and half-spaces not counted, J.
@@ -63,6 +66,10 @@ pub struct Collision {
     pub residual_relative: Option<f64>,
     /// When that was first above [`LARGEST_RESIDUAL`], of a model that steps in time.
     pub residual_since: Option<Moment>,
+    /// Most energy that the bodies have held above what they had and were given, at any step, over the initial
+    /// kinetic energy in the frame of the mass centre; of a ball that bounces that of its worst contact. `None`
+    /// of one degree of freedom.
+    pub energy_growth: Option<f64>,
     /// Worst drift of momentum over Σ m|v| at the start, or of the momentum that the bodies have
     /// exchanged from the impulse of the contact force. `None` of one degree of freedom, from which
     /// both velocities follow because momentum is kept: that cannot fail.
@@ -132,12 +139,14 @@ impl Collision {
             peak_pressure: None,
             force_scatter: None,
             noisiest: None,
+            deepest: None,
             searched: None,
             initial_energy: None,
             energies: Book::EMPTY,
             residual: None,
             residual_relative: None,
             residual_since: None,
+            energy_growth: None,
             momentum_residual_relative: None,
             bodies: [BodyResult::default(); 2],
             time_step: None,

@@ -31,8 +31,12 @@ pub enum Stop {
     },
     /// A surface folds where the bodies touch: beyond, contact is not looked for.
     #[error(
-        "at {time:.4e} s (step {step}) a surface turns over at the radius {radius:.4e} m, where the \
-         other body touches it"
+        "at {time:.4e} s (step {step}) the surface of the {} body turns over at the radius {radius:.4e} m, \
+         where the other body touches it: node {node} has come as near to the axis as the one inside of it; \
+         undeformed it lies at r = {:.4e} m, y = {:.4e} m",
+        side_of(*body),
+        place[0],
+        place[1]
     )]
     SurfaceTurnsOver {
         /// Since the start of the case, s.
@@ -41,6 +45,12 @@ pub enum Stop {
         step: u64,
         /// Distance of the place from the axis, m.
         radius: f64,
+        /// 0 of the lower body, 1 of the upper.
+        body: usize,
+        /// Number of the node.
+        node: usize,
+        /// Where it lies before the collision (r, y), m.
+        place: [f64; 2],
     },
     /// Even the whole near hemisphere is too small for the contact.
     #[error(
@@ -124,6 +134,34 @@ pub enum Stop {
         place: [f64; 2],
         /// Its volume over that of the undeformed element; not positive of one that is inside out.
         volume_ratio: f64,
+    },
+    /// The law of an element has lost its stability, and the energy stopped adding up.
+    #[error(
+        "at {time:.4e} s (step {step}) element {element} of the {} body has lost its stability: {law}, its \
+         law, gives way at stretches of {:.3} and {:.3} in the meridian plane and {:.3} around the axis; \
+         undeformed it lies at r = {:.4e} m, y = {:.4e} m",
+        side_of(*body),
+        stretches[0],
+        stretches[1],
+        stretches[2],
+        place[0],
+        place[1]
+    )]
+    StabilityLost {
+        /// When it was first seen, since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// 0 of the lower body, 1 of the upper.
+        body: usize,
+        /// Number of the element.
+        element: usize,
+        /// Its centre (r, y) before the collision, m.
+        place: [f64; 2],
+        /// Two of the meridian plane, the larger first, and that of the hoop.
+        stretches: [f64; 3],
+        /// Its name in cases.
+        law: String,
     },
     /// Something has become so stiff that no time step is short enough for it.
     #[error(
@@ -227,6 +265,7 @@ impl Stop {
             | Self::EnergyGrowth { time, .. }
             | Self::NoNumber { time, .. }
             | Self::ElementCollapsed { time, .. }
+            | Self::StabilityLost { time, .. }
             | Self::NoStepShortEnough { time, .. }
             | Self::EnergyImbalance { time, .. }
             | Self::NoSeparation { time, .. }

@@ -5,6 +5,11 @@ pub fn worst(so_far: f64, value: f64) -> f64 {
     if so_far.is_nan() || value.abs() <= so_far { so_far } else { value.abs() }
 }
 
+/// The larger number; NaN wins and stays.
+pub fn highest(so_far: f64, value: f64) -> f64 {
+    if so_far.is_nan() || value <= so_far { so_far } else { value }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -16,5 +21,8 @@ mod tests {
         assert_eq!(of(&[0.1, f64::NEG_INFINITY, 0.2]), f64::INFINITY);
         assert!(of(&[0.1, f64::NAN, 0.2]).is_nan());
         assert!(of(&[0.1, f64::NAN]).is_nan());
+        let of = |values: &[f64]| values.iter().fold(0.0, |so_far, &value| highest(so_far, value));
+        assert_eq!(of(&[0.1, -0.3, 0.2]), 0.2);
+        assert!(of(&[0.1, f64::NAN, 0.2]).is_nan());
     }
 }

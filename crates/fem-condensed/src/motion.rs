@@ -148,6 +148,18 @@ impl<'a> Motion<'a> {
         self.overlap[0]
     }
 
+    /// Overlap that springs leave at the point where that is largest, and its distance from the axis, m; none of
+    /// exact contact.
+    pub fn deepest_overlap(&self) -> Option<(f64, f64)> {
+        let CondensedPair { spring_compliance, points, .. } = self.pair;
+        let closed = self.forces[..self.contact.n_closed].iter();
+        let overlaps = closed.zip(spring_compliance).zip(points);
+        overlaps
+            .map(|((force, compliance), point)| (force * compliance, point.radius))
+            .filter(|(overlap, _)| *overlap > 0.0)
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     /// One step.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Aftermath, Book, Collision, Ending, FLIGHT_AFTER, Frame, Held, History, LARGEST_RESIDUAL,
-    Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, Scatter, Standstill,
-    Stop, Want, worst,
+    Aftermath, Book, Collision, Deepest, Ending, FLIGHT_AFTER, Frame, Held, History,
+    LARGEST_RESIDUAL, Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS,
+    Scatter, Standstill, Stop, Want, highest, worst,
 };
 
 use crate::instants::Trace;
@@ -41,11 +41,13 @@ pub(crate) struct Run<'a> {
     impulse: f64,
     worst_residual: f64,
     residual_since: Option<Moment>,
+    growth: f64,
     /// What the momentum that was exchanged is off the impulse, N s.
     worst_momentum: f64,
     approach: Peak,
     force: Peak,
     scatter: Scatter,
+    deepest: Option<Deepest>,
     pulse: Pulse,
     aftermath: Aftermath,
     standstill: Standstill,
@@ -92,10 +94,12 @@ impl<'a> Run<'a> {
             impulse: 0.0,
             worst_residual: 0.0,
             residual_since: None,
+            growth: 0.0,
             worst_momentum: 0.0,
             approach: Peak::default(),
             force: Peak::default(),
             scatter: Scatter::default(),
+            deepest: None,
             pulse: Pulse::default(),
             aftermath: Aftermath::default(),
             standstill: Standstill::new(frame),
@@ -201,6 +205,9 @@ impl<'a> Run<'a> {
         let now =
             Moment { time: self.frame.approach.first_touch() + time, step: motion.step as u64 };
         self.scatter.observe(motion.force, now);
+        if let Some((overlap, radius)) = motion.deepest_overlap() {
+            self.deepest = Deepest::of(self.deepest, Deepest { overlap, radius, at: now });
+        }
         if rate > 0.0 {
             self.turned = time;
         }
@@ -225,6 +232,7 @@ impl<'a> Run<'a> {
         let potential = self.frame.potential(motion.approach).unwrap_or(0.0);
         let residual = kinetic + stored + contact + lost + potential - self.initial_energy;
         self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
+        self.growth = highest(self.growth, (residual - lost) / self.initial_energy);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
             self.residual_since = Some(now);
         }
@@ -319,6 +327,7 @@ impl<'a> Run<'a> {
             max_contact_radius: Some(peaks.radius),
             peak_pressure: Some(peaks.pressure),
             force_scatter: self.scatter.force(),
+            deepest: self.deepest,
             noisiest: self.scatter.noisiest(),
             searched: Some(self.pair.searched()),
             initial_energy: Some(frame.kinetic(frame.speed())),
@@ -326,6 +335,7 @@ impl<'a> Run<'a> {
             residual: self.last.map(|end| end.residual),
             residual_relative: Some(self.worst_residual),
             residual_since: self.residual_since,
+            energy_growth: Some(self.growth),
             momentum_residual_relative: Some(self.worst_momentum / frame.momentum_scale()),
             bodies,
             time_step: Some(motion.time_step),

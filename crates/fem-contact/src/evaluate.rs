@@ -12,11 +12,35 @@ pub struct ContactForces {
     pub energy: f64,
     /// Number of closed points.
     pub n_closed: usize,
+    /// Largest overlap of a closed point, m.
+    pub overlap: f64,
+    /// Distance of that point from the axis, m.
+    pub overlap_radius: f64,
     /// Whether the outermost candidate point is closed.
     pub at_limit: bool,
-    /// Distance from the axis (m) at which a surface turns over where the other one touches it, so
-    /// that it is not a graph over the radius any more; only of moved surfaces.
-    pub turned_at: Option<f64>,
+    /// Where a surface turns over that the other one touches there, so that it is not a graph over the
+    /// radius any more; only of moved surfaces.
+    pub turn: Option<Turn>,
+}
+
+/// Where a surface turns over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Turn {
+    /// 0 of the lower body, 1 of the upper.
+    pub side: usize,
+    /// Node of that body that has come as near to the axis as the one before it.
+    pub node: u32,
+    /// Distance from the axis, m.
+    pub radius: f64,
+}
+
+impl ContactForces {
+    /// Notes the gap (m) of a closed point at a distance from the axis, m.
+    pub(crate) fn note_overlap(&mut self, gap: f64, radius: f64) {
+        if -gap > self.overlap {
+            (self.overlap, self.overlap_radius) = (-gap, radius);
+        }
+    }
 }
 
 impl Foot {
@@ -64,6 +88,7 @@ impl ContactInterface {
                 total.force += force;
                 total.energy -= 0.5 * force * gap;
                 total.n_closed += 1;
+                total.note_overlap(gap, point.radius);
                 total.at_limit = k + 1 == self.points.len();
             }
         }

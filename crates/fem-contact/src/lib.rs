@@ -36,7 +36,7 @@ mod slip;
 mod surface;
 
 pub use error::ContactError;
-pub use evaluate::ContactForces;
+pub use evaluate::{ContactForces, Turn};
 pub use interface::{ContactInterface, ContactPoint};
 pub use moved::MovedInterface;
 pub use nodal::NodalContact;

@@ -140,6 +140,7 @@ impl SlippingInterface {
                 total.force += force;
                 total.energy -= 0.5 * force * gap;
                 total.n_closed += 1;
+                total.note_overlap(gap, point.radius);
                 total.at_limit = k + 1 == self.interface.points.len();
             }
         }

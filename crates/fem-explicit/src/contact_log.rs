@@ -1,6 +1,6 @@
 //! What a run remembers of the contact so far.
 
-use fem_collision::{FLIGHT_AFTER, worst};
+use fem_collision::{Deepest, FLIGHT_AFTER, Moment, worst};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +24,8 @@ pub(crate) struct ContactLog {
     pub force: f64,
     /// Largest contact force, N.
     pub peak_force: f64,
+    /// Where springs gave way most.
+    pub deepest: Option<Deepest>,
     /// Largest approach, m.
     pub max_approach: f64,
     was_closed: bool,
@@ -51,14 +53,15 @@ impl ContactLog {
             episodes: 0,
             force: 0.0,
             peak_force: 0.0,
+            deepest: None,
             max_approach: 0.0,
             was_closed: false,
             has_receded: false,
         }
     }
 
-    /// Notes the contact of the configuration at a time, s.
-    pub fn observe(&mut self, time: f64, contact: &ContactForces) {
+    /// Notes the contact of the configuration at a time (s) and step.
+    pub fn observe(&mut self, time: f64, step: u64, contact: &ContactForces) {
         let is_closed = contact.n_closed > 0;
         self.force = contact.force;
         if is_closed {
@@ -66,6 +69,9 @@ impl ContactLog {
             self.last_contact = Some(time);
             self.episodes += u64::from(!self.was_closed);
             self.peak_force = worst(self.peak_force, contact.force);
+            let (overlap, radius, at) =
+                (contact.overlap, contact.overlap_radius, Moment { time, step });
+            self.deepest = Deepest::of(self.deepest, Deepest { overlap, radius, at });
         }
         self.was_closed = is_closed;
         // Bodies that are farther apart than at first touch do not count; what is no number does.

@@ -10,17 +10,19 @@
 //! so that is the form in which kinetic energy is reported. What the bodies store,
 //! are given and dissipate, their parts tell of the state; what does not add up is
 //! the residual, which can fail. Powers are integrated by the trapezoidal rule over
-//! the instants that are observed.
+//! the instants that are observed. Between them the contact alone is followed ([`ContactWork`]),
+//! where energy comes from if any does.
 //!
 //! A half-space has infinite mass and keeps its velocity V far away, as a wall does: its kinetic energy
 //! and momentum are those of its nodes relative to V, and what holds its far boundary gives it momentum
 //! and, seen from there, no energy.
 
-use fem_collision::{Account, LARGEST_RESIDUAL, Losses, Moment, Row, worst};
+use fem_collision::{Account, LARGEST_RESIDUAL, Losses, Moment, Row, Side, highest, worst};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
+use crate::contact_work::ContactWork;
 use crate::model::Model;
 use crate::part::Accounts;
 use crate::state::{BodyState, Scratch, State};
@@ -37,7 +39,9 @@ pub(crate) struct Ledger {
     pub initial_relative: f64,
     /// Worst imbalance of energy over `initial_relative`.
     pub worst_residual: f64,
-    /// When that was first above what a sound run has.
+    /// Most that the bodies have held above what they had and were given, at any step, over `initial_relative`.
+    pub growth: f64,
+    /// When the imbalance was first above what a sound run has.
     pub beyond: Option<Moment>,
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
@@ -51,9 +55,24 @@ pub(crate) struct Ledger {
     losses: Losses,
     /// Time of the last balance, s.
     last_time: f64,
+    /// What the last balance has shown.
+    shown: Shown,
+    /// What has become of it since.
+    since: ContactWork,
 }
 
-/// A row whose energy is not finite or has grown.
+/// What a balance shows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+struct Shown {
+    /// J.
+    residual: f64,
+    /// What was lost until then, J.
+    lost: f64,
+    /// Drift of momentum, N s.
+    drift: f64,
+}
+
+/// A state whose energy is not finite or has grown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Grown {
     /// Since the start of the case, s.
@@ -96,6 +115,7 @@ impl Ledger {
             initial: sum(&kinetic_before),
             initial_relative: 0.5 * model.approach().speed().powi(2) / inverse_mass,
             worst_residual: 0.0,
+            growth: 0.0,
             beyond: None,
             worst_momentum: 0.0,
             given_momentum: moved.map(momentum_before).sum(),
@@ -103,7 +123,60 @@ impl Ledger {
             impulse: 0.0,
             losses: Losses::default(),
             last_time: model.approach().first_touch(),
+            shown: Shown::default(),
+            since: ContactWork::default(),
         }
+    }
+
+    /// Told every state with its forces in `scratch`, whether or not it is balanced: what the contact has
+    /// added since the last balance.
+    ///
+    /// # Errors
+    /// The energy is not finite or has grown.
+    pub fn follow(
+        &mut self,
+        model: &Model,
+        state: &State,
+        scratch: &Scratch,
+        contact: &ContactForces,
+    ) -> Result<(), Grown> {
+        self.since.end_step(model, state, scratch, contact);
+        self.note(state);
+        self.check_energy(self.residual(), state.time, state.step)
+    }
+
+    /// What the energies do not account for now, as far as the contact tells, J.
+    pub fn residual(&self) -> f64 {
+        self.shown.residual + self.since.energy
+    }
+
+    /// Told the forces of a step (s) that the nodes have just done, that of the contact (N), and what that
+    /// held before (J).
+    pub fn begin_step(
+        &mut self,
+        model: &Model,
+        held: f64,
+        time_step: f64,
+        state: &State,
+        scratch: &Scratch,
+        force: f64,
+    ) {
+        self.since.begin_step(model, held, time_step, state, scratch, force);
+    }
+
+    /// Notes how far energy and momentum are off now.
+    fn note(&mut self, state: &State) {
+        let Shown { lost, drift, .. } = self.shown;
+        let residual = self.residual();
+        self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
+        self.growth = highest(self.growth, (residual - lost) / self.initial_relative);
+        // What is no number is above every limit.
+        let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
+        if self.beyond.is_none() && !is_sound {
+            self.beyond = Some(Moment { time: state.time, step: state.step });
+        }
+        let drift = (drift + self.since.momentum) / self.momentum_scale;
+        self.worst_momentum = worst(self.worst_momentum, drift);
     }
 
     /// Counts the impulses of forces that last for a time (s), those in `scratch` and that of the
@@ -162,13 +235,10 @@ impl Ledger {
             }
             None => energies.residual(self.initial),
         };
-        self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
-        // What is no number is above every limit.
-        let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
-        if self.beyond.is_none() && !is_sound {
-            self.beyond = Some(Moment { time: state.time, step: state.step });
-        }
-        self.balance_momentum(model, lower.momentum + upper.momentum);
+        let drift = self.drift(model, lower.momentum + upper.momentum);
+        self.shown = Shown { residual, lost: energies.total(Side::Lost).unwrap_or(0.0), drift };
+        self.since.restart();
+        self.note(state);
 
         let history = state.contact_history(model);
         Row {
@@ -186,12 +256,15 @@ impl Ledger {
 
     /// Refuses a row whose energy is not finite or has grown.
     pub fn check(&self, row: &Row, step: u64) -> Result<(), Grown> {
-        let ratio =
-            row.residual.map_or(f64::NAN, |residual| 1.0 + residual / self.initial_relative);
+        self.check_energy(row.residual.unwrap_or(f64::NAN), row.time, step)
+    }
+
+    fn check_energy(&self, residual: f64, time: f64, step: u64) -> Result<(), Grown> {
+        let ratio = 1.0 + residual / self.initial_relative;
         if ratio.is_finite() && ratio <= ENERGY_LIMIT {
             Ok(())
         } else {
-            Err(Grown { time: row.time, step, ratio })
+            Err(Grown { time, step, ratio })
         }
     }
 
@@ -235,16 +308,15 @@ impl Ledger {
         Some((side, 0.5 * gained))
     }
 
-    /// Balances the momentum of the bodies, walls not counted, at t_n − Δt/2, N s.
-    fn balance_momentum(&mut self, model: &Model, momentum: f64) {
+    /// What the momentum of the bodies (N s), walls not counted, at t_n − Δt/2 is off.
+    fn drift(&self, model: &Model, momentum: f64) -> f64 {
         let [lower, upper] = model.bodies();
         let from_wall = match (lower.is_wall(), upper.is_wall()) {
             (true, _) => self.impulse,
             (_, true) => -self.impulse,
             _ => 0.0,
         };
-        let drift = (momentum - (self.given_momentum + from_wall)) / self.momentum_scale;
-        self.worst_momentum = worst(self.worst_momentum, drift);
+        momentum - (self.given_momentum + from_wall)
     }
 }
 

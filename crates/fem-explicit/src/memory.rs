@@ -11,6 +11,7 @@ use crate::observed::Observed;
 use crate::probing;
 use crate::recorder::Recorder;
 use crate::sound::LastSound;
+use crate::stability::Stability;
 use crate::state::State;
 
 /// The memory of a run between two steps. A run that is resumed from it goes on to the same bits.
@@ -27,6 +28,8 @@ pub struct Memory {
     pub(crate) probes: Vec<Snapshot>,
     /// Of a run that has not come to its end.
     pub(crate) sound: LastSound,
+    /// Of laws that can lose it.
+    pub(crate) stability: Stability,
     /// Of a run that has ended.
     pub(crate) ending: Option<Ending>,
     /// What closed forms expect.
@@ -56,6 +59,7 @@ impl Memory {
             recorder: Recorder::new(&want.snapshots, model, expected),
             probes: Vec::new(),
             sound: LastSound::of(want),
+            stability: Stability::default(),
             ending: None,
             expected,
             want: want.clone(),
@@ -126,6 +130,7 @@ impl Memory {
             && self.recorder.fits(model, &self.want.snapshots)
             && probing::fits(&self.probes, &self.want, state.time)
             && self.sound.fits(model, state, &self.want)
+            && self.stability.fits(model, state)
     }
 }
 

@@ -7,7 +7,9 @@ use crate::model::Model;
 
 /// The collision of a run that ended like this.
 pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collision {
-    let Memory { state, log, ledger, observed, history, recorder, probes, sound, .. } = memory;
+    let Memory {
+        state, log, ledger, observed, history, recorder, probes, sound, stability, ..
+    } = memory;
     let (is_complete, is_parted) =
         (!matches!(ending, Ending::Stopped(_)), ending == Ending::Parted);
     let bodies = model.bodies();
@@ -44,6 +46,8 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
     if has_failed {
         sound.put_among(&mut snapshots);
     }
+    let is_of_stability = matches!(&ending, Ending::Stopped(Stop::StabilityLost { .. }));
+    warnings.extend(stability.warning().filter(|_| !is_of_stability));
     if is_complete && !is_parted {
         warnings.push(STAY_TOGETHER.to_string());
     }
@@ -73,6 +77,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         max_contact_radius: Some(peaks.radius),
         peak_pressure: Some(peaks.pressure),
         force_scatter: observed.scatter.force(),
+        deepest: log.deepest,
         noisiest: observed.scatter.noisiest(),
         searched: Some(model.searched()),
         initial_energy: Some(ledger.initial),
@@ -80,6 +85,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         residual: observed.last.and_then(|row| row.residual),
         residual_relative: Some(ledger.worst_residual),
         residual_since: ledger.beyond,
+        energy_growth: Some(ledger.growth),
         momentum_residual_relative: Some(ledger.worst_momentum),
         bodies,
         time_step: Some(model.time_step()),

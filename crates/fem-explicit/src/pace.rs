@@ -3,7 +3,7 @@
 //! Steps are shorter than the model's by powers of the sixteenth root of two, which a level counts. The
 //! critical step of the deformed bodies is bounded anew after some steps, the sooner the faster it
 //! changes and the elements that decide on it are strained; the level follows it down at once, and up where the longer step
-//! leaves room. No element is strained by more than [`STRAIN_A_STEP`] in a step: within the critical step
+//! leaves room; how fast elements are strained is looked at in between. No element is strained by more than [`STRAIN_A_STEP`] in a step: within the critical step
 //! leapfrog is stable, but what it keeps is the energy of a body whose stiffness does not change in a step,
 //! and it errs by the square of the strain there.
 //!
@@ -36,6 +36,8 @@ const CHANGE_BETWEEN_BOUNDS: f64 = 0.02;
 /// about as much: less than the step factor and the bound leave. Elements whose nodes could bear a longer step
 /// take so much more.
 const STRAIN_BETWEEN_BOUNDS: f64 = 0.05;
+/// Most strain of any element from one bound to the next: laws that soften give way all at once.
+const MOST_STRAIN_BETWEEN_BOUNDS: f64 = 0.15;
 /// By so much a longer step has to be below what is allowed.
 const ROOM_ABOVE: f64 = 1.01;
 /// The step that was chosen for the undeformed bodies is allowed, whatever rounding says.
@@ -62,6 +64,8 @@ pub(crate) struct Pace {
     last: (u64, f64),
     /// Step of the next bound.
     next: u64,
+    /// Step at which the strain rate is looked at again.
+    look: u64,
 }
 
 impl Outlook {
@@ -87,6 +91,7 @@ impl Pace {
             since: (0, model.approach().first_touch()),
             last: (0, model.time_step() / model.step_factor()),
             next: FIRST_PAUSE,
+            look: FIRST_PAUSE,
         })
     }
 
@@ -104,6 +109,19 @@ impl Pace {
     /// Whether the critical step is to be bounded at this step.
     pub fn is_due(&self, step: u64) -> bool {
         step >= self.next
+    }
+
+    /// Whether the strain rate is to be looked at at this step.
+    pub fn is_look_due(&self, step: u64) -> bool {
+        step >= self.look
+    }
+
+    /// This pace where elements are strained no faster than its steps can follow, by the largest rate now, 1/s;
+    /// `None` where they are.
+    pub fn looked_at(self, model: &Model, step: u64, strain_rate: f64) -> Option<Self> {
+        let is_slow = level_of_strain(model, strain_rate, 1.0) <= self.level;
+        let look = self.next.min(step + looks_after(strain_rate * self.time_step(model)));
+        is_slow.then_some(Self { look, ..self })
     }
 
     /// Whether it can be of a run at this step.
@@ -136,10 +154,18 @@ impl Pace {
         let change = ratio.max(ratio.recip()) - 1.0;
         let as_before = CHANGE_BETWEEN_BOUNDS / change * n_steps;
         let time_step = model.time_step() * share(level);
-        let until_strained = 1.0 / (urgency * time_step);
+        let until_strained =
+            (1.0 / urgency).min(MOST_STRAIN_BETWEEN_BOUNDS / strain_rate) / time_step;
         let pause = as_before.min(until_strained).clamp(1.0, LONGEST_PAUSE);
-        Some(Self { level, since, last: (step, critical), next: step + pause as u64 })
+        let next = step + pause as u64;
+        let look = next.min(step + looks_after(strain_rate * time_step));
+        Some(Self { level, since, last: (step, critical), next, look })
     }
+}
+
+/// Steps until strain rates are looked at again, of so much strain in a step.
+fn looks_after(strain_a_step: f64) -> u64 {
+    (STRAIN_BETWEEN_BOUNDS / strain_a_step).clamp(1.0, LONGEST_PAUSE) as u64
 }
 
 /// The longest steps that with some room to spare are within a time, s; `None` if no level is.

@@ -7,6 +7,7 @@ use fem_collision::{
     STEPS_BETWEEN_REPORTS, Stop, Want,
 };
 
+use crate::contact_work::held_by;
 use crate::error::ModelError;
 use crate::memory::Memory;
 use crate::model::Model;
@@ -173,10 +174,13 @@ fn step(
     probing: &mut Probing,
 ) -> Result<Option<Ending>, Stop> {
     let (max_time, most_updates) = (memory.max_time(), memory.want().most_element_updates);
-    let Memory { state, log, ledger, observed, history, recorder, probes, sound, .. } = memory;
+    let Memory {
+        state, log, ledger, observed, history, recorder, probes, sound, stability, ..
+    } = memory;
     let stop = |fault: Fault, state: &State| model.stop(fault, state);
     let contact = update_forces(model, state, scratch)
         .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
+    ledger.follow(model, state, scratch, &contact).map_err(|grown| model.stop_of(grown, state))?;
     if let Some(shorter) = update_step(model, state, scratch).map_err(|at| stop(at, state))? {
         ledger.push(model, scratch, contact.force, shorter);
         log.force = contact.force;
@@ -188,14 +192,14 @@ fn step(
     let is_last_contact = is_closed
         && contact.force < 0.5 * log.peak_force
         && !is_closed_next(model, state, scratch, &contact);
-    log.observe(time, &contact);
+    log.observe(time, step, &contact);
     if is_closed {
         observed.touch();
     }
     let has_separated = log.has_separated(time, model.gravity());
     // At the limit too: a run that blows up throws its nodes about, which is not a large contact, and
     // its balance tells.
-    let is_beyond = contact.at_limit || contact.turned_at.is_some();
+    let is_beyond = contact.at_limit || contact.turn.is_some();
     let kind = match (is_last_contact, is_first_contact || has_separated || is_beyond) {
         (_, true) => RowKind::Landmark,
         (true, _) => RowKind::LastContact,
@@ -212,6 +216,7 @@ fn step(
         if ledger.adds_up() {
             sound.observe(model, state, scratch, log.approach);
         }
+        stability.observe(model, state, ledger.adds_up())?;
         if let Some(history) = &mut history {
             history.push(row, kind);
         }
@@ -239,8 +244,8 @@ fn step(
     if stays_together {
         return Ok(Some(Ending::Together));
     }
-    if let Some(radius) = contact.turned_at {
-        return Err(Stop::SurfaceTurnsOver { time, step, radius });
+    if let Some(turn) = contact.turn {
+        return Err(model.stop_of_turn(turn, state));
     }
     if contact.at_limit {
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });
@@ -255,7 +260,9 @@ fn step(
     let time_step = state.time_step(model);
     ledger.push(model, scratch, contact.force, time_step);
     log.advance(model, scratch, time_step);
+    let held = held_by(model, state, &contact);
     advance(model, state, scratch);
+    ledger.begin_step(model, held, time_step, state, scratch, contact.force);
     Ok(None)
 }
 

@@ -6,6 +6,7 @@ use fem_collision::Snapshot;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
+use crate::contact_work::Pushed;
 use crate::model::Model;
 use crate::pace::Pace;
 use crate::part::{Motion, MotionMut, NodalField};
@@ -52,6 +53,8 @@ pub(crate) struct Scratch {
     pub forces: [NodalField; 2],
     /// What the forces on nodes beside stress and contact add up to along +y, N.
     pub resultants: [f64; 2],
+    /// What of the forces is of the contact.
+    pub pushed: [Pushed; 2],
     /// Bounds of the stiffness at the nodes of bodies of which it changes, N/m.
     pub stiffness: [Vec<f64>; 2],
     /// What the bounds of the contact's damping at those nodes have grown by, N s/m.
@@ -200,6 +203,8 @@ impl Scratch {
             None => Vec::new(),
         });
         let (damping, contact) = (stiffness.clone(), model.contact().buffers());
-        Self { forces, resultants: [0.0; 2], stiffness, damping, pool: Vec::new(), contact }
+        let pushed = [Pushed::new(model, 0), Pushed::new(model, 1)];
+        let pool = Vec::new();
+        Self { forces, resultants: [0.0; 2], pushed, stiffness, damping, pool, contact }
     }
 }

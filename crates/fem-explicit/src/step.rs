@@ -48,9 +48,13 @@ pub(crate) fn update_forces(
             .map_err(|collapse| Collapsed { side, collapse })?;
         scratch.resultants[side] = body.add_node_forces(motion, history, forces);
     }
+    let sides = scratch.pushed.iter_mut().zip(&scratch.forces);
+    sides.for_each(|(pushed, forces)| pushed.begin(forces));
     let [lower, upper] = &mut scratch.forces;
     let contact =
         model.contact().add_forces(&motions, state.contact_history(model), [lower, upper]);
+    let sides = scratch.pushed.iter_mut().zip(&scratch.forces);
+    sides.for_each(|(pushed, forces)| pushed.end(forces));
     for (side, body) in model.bodies().iter().enumerate().filter(|(_, body)| body.held) {
         scratch.resultants[side] += body.hold(&mut scratch.forces[side]);
     }
@@ -67,7 +71,15 @@ pub(crate) fn update_step(
     state: &mut State,
     scratch: &mut Scratch,
 ) -> Result<Option<f64>, Fault> {
-    let Some(pace) = state.pace.filter(|pace| pace.is_due(state.step)) else { return Ok(None) };
+    let Some(pace) = state.pace.filter(|pace| pace.is_look_due(state.step)) else {
+        return Ok(None);
+    };
+    if !pace.is_due(state.step)
+        && let Some(same) = pace.looked_at(model, state.step, model.strain_rate(state))
+    {
+        state.pace = Some(same);
+        return Ok(None);
+    }
     let outlook = model.outlook(state, scratch);
     let now = (state.step, state.time);
     let Some(next) = pace.after(model, now, outlook) else {

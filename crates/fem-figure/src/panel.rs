@@ -10,7 +10,7 @@ use std::fmt::Write;
 use crate::chart::{Chart, Curve, Mark};
 use crate::scale::Scale;
 use crate::simplify::simplify;
-use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, number, words};
+use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, LETTER, number, words};
 
 const WIDTH: f64 = 440.0;
 const HEIGHT: f64 = 190.0;
@@ -19,8 +19,6 @@ const RIGHT: f64 = 14.0;
 const BOTTOM: f64 = 44.0;
 /// Height of a line of the heading.
 const LINE: f64 = 19.0;
-/// Width of a letter over the size of the font, about.
-const LETTER: f64 = 0.56;
 const FONT_SIZE: f64 = 12.5;
 const SWATCH: f64 = 20.0;
 /// Farther from the drawn curve is no point, pixels.

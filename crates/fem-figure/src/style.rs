@@ -51,6 +51,9 @@ pub(crate) const GRID: &str = "#dfe3e8";
 /// Fonts of what is drawn here.
 pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
 
+/// Width of a letter over the size of the font, about.
+pub(crate) const LETTER: f64 = 0.56;
+
 /// Text that is safe in SVG.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
@@ -61,24 +64,48 @@ pub(crate) fn number(value: f64) -> String {
     tick(value).replace('-', "\u{2212}")
 }
 
-/// Text for SVG; letters after `_` are set below the line.
+/// Longest subscript of a symbol.
+const LONGEST_BELOW: usize = 3;
+
+/// Text for SVG; letters after the `_` of a symbol of one letter, p_0 or σ_yy, are set below the line. Names
+/// such as glass_on_wall stay as they are.
 pub(crate) fn words(text: &str) -> String {
-    let mut parts = text.split('_');
-    let mut words = escaped(parts.next().unwrap_or_default());
-    for part in parts {
-        let end = part.find(|c: char| !c.is_alphanumeric()).unwrap_or(part.len());
-        let (below, rest) = part.split_at(end);
+    let mut words = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find('_') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let end = after.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(after.len());
+        let below = &after[..end];
+        let mut last = before.chars().rev();
+        let is_symbol = last.next().is_some_and(char::is_alphabetic)
+            && last.next().is_none_or(|c| !(c.is_alphanumeric() || c == '_' || c == '-'))
+            && (1..=LONGEST_BELOW).contains(&below.chars().count())
+            && !below.contains('_');
+        words += &escaped(before);
+        if !is_symbol {
+            let _ = write!(words, "_{}", escaped(below));
+            rest = &after[end..];
+            continue;
+        }
         // A first space in a span is dropped; an empty span would not bring the line back up.
-        let (gap, rest) = rest.strip_prefix(' ').map_or((0, rest), |rest| (4, rest));
-        let rest = if rest.is_empty() { "\u{200b}".to_string() } else { escaped(rest) };
+        let (gap, onward) = after[end..].strip_prefix(' ').map_or((0, &after[end..]), |on| (4, on));
+        let next = onward.find('_').map_or(onward.len(), |next| word_start(onward, next));
+        let (line, onward) = onward.split_at(next);
+        let line = if line.is_empty() { "\u{200b}".to_string() } else { escaped(line) };
         let _ = write!(
             words,
             "<tspan dy=\"3.5\" font-size=\"0.75em\">{}</tspan><tspan dx=\"{gap}\" \
-             dy=\"-3.5\">{rest}</tspan>",
+             dy=\"-3.5\">{line}</tspan>",
             escaped(below)
         );
+        rest = onward;
     }
-    words
+    words + &escaped(rest)
+}
+
+/// Where the word that a place is in begins.
+fn word_start(text: &str, place: usize) -> usize {
+    text[..place].rfind(char::is_whitespace).map_or(0, |space| space + 1)
 }
 
 #[cfg(test)]
@@ -93,6 +120,23 @@ mod tests {
             assert_eq!(colours.len(), n);
         }
         assert_eq!((colour_along(0, 9), colour_along(8, 9)), ("#440154".into(), "#9fda3a".into()));
+    }
+
+    #[test]
+    fn only_symbols_have_subscripts() {
+        let set = |text: &str| words(text).replace("\u{200b}", "");
+        for name in
+            ["glass_on_wall", "glass_0.5ms", "run_2", "a_long_name", "x-a_1b_2", "_", "run_a_1"]
+        {
+            assert_eq!(set(name), name);
+        }
+        for (text, below) in
+            [("σ_yy [MPa]", "yy"), ("Pressure on the axis p_0", "0"), ("(E_kin)", "kin")]
+        {
+            assert!(set(text).contains(&format!("0.75em\">{below}</tspan>")), "{}", set(text));
+        }
+        assert_eq!(words("p_0 of a_b").matches("font-size").count(), 2);
+        assert!(words("p_0 of glass_on_wall").contains("glass_on_wall"));
     }
 
     #[test]

@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 
 /// What the reference is called in legends.
 const HERTZ: &str = "Hertz";
+/// Of the largest energy, what an account has to reach to have a curve.
+const LEAST: f64 = 1e-3;
 
 /// Pictures over time, as SVG; none where there is nothing to draw.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -20,12 +22,13 @@ pub struct Charts {
 }
 
 impl Charts {
-    /// A run beside Hertz' theory of the same bodies.
-    pub(crate) fn of(run: &[Row], hertz: &[Row]) -> Self {
+    /// A run beside Hertz' theory of the same bodies; `common` is the energy (J) of their common motion, which
+    /// is not drawn, if it is known.
+    pub(crate) fn of(run: &[Row], hertz: &[Row], common: Option<f64>) -> Self {
         Self {
             force: compared(run, hertz, ("contact force", "N"), |row| row.contact_force),
             approach: compared(run, hertz, ("approach", "m"), |row| row.approach),
-            energy: energy(run),
+            energy: energy(run, common),
         }
     }
 }
@@ -59,17 +62,62 @@ fn compared(
     fem_figure::panel(&chart)
 }
 
-fn energy(run: &[Row]) -> Option<String> {
-    let largest = run.iter().flat_map(|row| row.energies.entries().map(|(_, energy)| energy));
-    let (time, own) = (time_unit(run), unit(largest, "J"));
+/// An account over the rows, J.
+struct Course {
+    name: String,
+    colour: usize,
+    energies: Vec<Option<f64>>,
+}
+
+fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
+    let courses = courses(run, common);
+    let all = || courses.iter().flat_map(|course| course.energies.iter().flatten().copied());
+    let largest = all().fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
+    let (time, own) = (time_unit(run), unit(all(), "J"));
     let mut chart = Chart::new(axis("time", &time), axis("energy", &own));
-    for account in Account::all().filter(|account| has_something(run, *account)) {
-        let point = |row: &Row| Some((time.scaled(row.time), own.scaled(row.energy(account)?)));
-        let points = run.iter().filter_map(point).collect();
-        let curve = Curve::line(account.name().replace('_', " "), points);
-        chart = chart.with(curve.like_curve(colour(account)));
+    let is_seen = |course: &&Course| {
+        course.energies.iter().flatten().any(|energy| energy.abs() > LEAST * largest)
+    };
+    for course in courses.iter().filter(is_seen) {
+        let point = |(row, energy): (&Row, &Option<f64>)| {
+            Some((time.scaled(row.time), own.scaled((*energy)?)))
+        };
+        let points = run.iter().zip(&course.energies).filter_map(point).collect();
+        chart = chart.with(Curve::line(course.name.clone(), points).like_curve(course.colour));
     }
     fem_figure::panel(&chart)
+}
+
+/// Motion without the common one, and the other accounts; deformation and heat as one where the model does not tell
+/// them apart on the way.
+fn courses(run: &[Row], common: Option<f64>) -> Vec<Course> {
+    let motion = |row: &Row| Some(row.energy(Account::Kinetic)? - common.unwrap_or_default());
+    let named = |name: &str, colour: usize, get: &dyn Fn(&Row) -> Option<f64>| Course {
+        name: name.to_string(),
+        colour,
+        energies: run.iter().map(get).collect(),
+    };
+    let name = if common.is_some() { "relative motion" } else { "motion" };
+    let mut courses = vec![named(name, colour(Account::Kinetic), &motion)];
+    let is_split = run.iter().all(|row| row.energy(Account::Strain).is_some());
+    let is_apart = |account: Account| {
+        !is_split && matches!(account, Account::Strain | Account::ViscousDissipation)
+    };
+    for account in Account::all().filter(|account| *account != Account::Kinetic) {
+        if !is_apart(account) {
+            let name = account.name().replace('_', " ");
+            courses.push(named(&name, colour(account), &|row| row.energy(account)));
+        }
+    }
+    if let (false, Some(whole)) = (is_split, run.first().and_then(motion)) {
+        let rest = |row: &Row| {
+            let known = row.energies.entries().filter(|(account, _)| !is_apart(*account));
+            let known = known.filter(|(account, _)| *account != Account::Kinetic);
+            Some(whole - motion(row)? - known.map(|(_, energy)| energy).sum::<f64>())
+        };
+        courses.push(named("deformation and heat", colour(Account::Strain), &rest));
+    }
+    courses
 }
 
 /// Which colour of charts an account has: the page's bar of energies has the same.
@@ -83,14 +131,6 @@ fn colour(account: Account) -> usize {
         Account::ContactDamping | Account::LeftBefore => 5,
         Account::Radiated | Account::WallWork => 6,
     }
-}
-
-/// Whether a run puts more than a thousandth of its energy into an account.
-fn has_something(run: &[Row], account: Account) -> bool {
-    const LEAST: f64 = 1e-3;
-    let all = || run.iter().flat_map(|row| row.energies.entries());
-    let largest = all().fold(0.0, |largest: f64, (_, energy)| largest.max(energy.abs()));
-    all().any(|(other, energy)| other == account && energy.abs() > LEAST * largest)
 }
 
 /// A chart that a page asks for: of many collisions, of measured points.

@@ -5,6 +5,8 @@ use fem_case::engineering::{Unit, show};
 use fem_figure::contour::{Contour, Levels, Panel, Section, Window};
 use serde::Serialize;
 
+use crate::outline::between;
+
 /// σ_yy among (σ_rr, σ_yy, σ_θθ, σ_ry).
 const AXIAL: usize = 1;
 /// Bands below zero, about.
@@ -37,14 +39,15 @@ pub fn picture(
 ) -> Option<Picture> {
     let snapshot = collision.snapshots.get(index)?;
     let radius = collision.max_contact_radius.filter(|radius| *radius > 0.0)?;
-    let length = Unit::fitting(radius, "m");
+    let reach = (half_width * radius).min(extent(simulation));
+    let length = Unit::fitting(reach, "m");
     let stress = Unit::fitting(collision.peak_pressure?, "Pa");
     let [lower, upper] = [0, 1].map(|side| section(simulation, snapshot, side, &length, &stress));
     let sections: Vec<Section> = lower.into_iter().chain(upper).collect();
     if sections.is_empty() {
         return None;
     }
-    let reach = length.scaled((half_width * radius).min(extent(simulation)));
+    let reach = length.scaled(reach);
     let range = sections.iter().filter_map(Section::range);
     let range = range.fold((0.0, 0.0), |(a, b): (f64, f64), (c, d)| (a.min(c), b.max(d)));
     let largest = stress.scaled(collision.peak_pressure?);
@@ -94,12 +97,41 @@ fn section(
     let gap = simulation.case().scene().gap().unwrap_or_default();
     let shift = if side == 0 { -0.5 * gap } else { 0.5 * gap };
     let nodes = body.mesh.nodes().iter().zip(snapshot.displacement(side));
-    Some(Section {
+    let section = Section {
         points: nodes
             .map(|([r, y], [u, w])| [length.scaled(r + u), length.scaled(y + w + shift)])
             .collect(),
         values: body.field.points.iter().map(|point| stress.scaled(point[AXIAL])).collect(),
         quads: body.mesh.quads().to_vec(),
         outline: body.mesh.surface().to_vec(),
-    })
+    };
+    Some(with_smooth_outline(section))
+}
+
+/// With points between those of the outline where that turns: they belong to no quad.
+fn with_smooth_outline(mut section: Section) -> Section {
+    let chain: Vec<[f64; 2]> =
+        section.outline.iter().map(|point| section.points[*point as usize]).collect();
+    let n = chain.len();
+    // Beyond an end on the axis the chain goes on as its mirror image.
+    let beyond = |end: usize, next: usize| {
+        let is_on_axis = chain[end][0] == 0.0;
+        if is_on_axis { [-chain[next][0], chain[next][1]] } else { chain[end] }
+    };
+    let mut outline = Vec::with_capacity(n);
+    for k in 0..n {
+        outline.push(section.outline[k]);
+        if k + 1 == n {
+            break;
+        }
+        let before = if k == 0 { beyond(0, 1) } else { chain[k - 1] };
+        let after = if k + 2 == n { beyond(n - 1, n - 2) } else { chain[k + 2] };
+        for point in between([before, chain[k], chain[k + 1], after]) {
+            outline.push(section.points.len() as u32);
+            section.points.push(point);
+            section.values.push(f64::NAN);
+        }
+    }
+    section.outline = outline;
+    section
 }

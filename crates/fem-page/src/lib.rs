@@ -15,7 +15,9 @@ mod fault;
 mod library_entry;
 pub mod module;
 mod outcome;
+mod outline;
 mod session;
+mod sharing;
 
 pub use charts::{ChartSpec, Charts, CurveSpec, MarkSpec};
 pub use contour::Picture;
@@ -23,3 +25,4 @@ pub use fault::Fault;
 pub use library_entry::LibraryEntry;
 pub use outcome::{Begun, Frame, Outcome, Price};
 pub use session::{Ask, Session};
+pub use sharing::Sharing;

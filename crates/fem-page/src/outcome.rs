@@ -4,6 +4,7 @@ use fem::{CaseFile, Collision, Cost, Row, Summary};
 use serde::Serialize;
 
 use crate::charts::Charts;
+use crate::sharing::Sharing;
 
 /// A case that is ready to run.
 #[derive(Clone, Debug, Serialize)]
@@ -50,6 +51,8 @@ impl From<Cost> for Price {
 pub struct Outcome {
     /// As the command writes it.
     pub summary: Summary,
+    /// Where the energy went; none where it comes from outside, too, or is not known.
+    pub sharing: Option<Sharing>,
     /// Over contact and separation.
     pub charts: Charts,
     /// Instants whose fields can be drawn, in the order of time.

@@ -13,6 +13,7 @@ use fem::{
 use crate::charts::Charts;
 use crate::contour::{Picture, picture};
 use crate::outcome::{Begun, Frame, Outcome};
+use crate::sharing::{Sharing, common_of};
 
 /// What faults call the text.
 const SOURCE: &str = "the case";
@@ -105,7 +106,8 @@ impl Session {
         let hertz = self.hertz(simulation, &collision).unwrap_or_default();
         let outcome = Outcome {
             summary: Summary::of(simulation, &collision, spent, warnings, Vec::new()),
-            charts: Charts::of(&collision.history, &hertz),
+            sharing: Sharing::of(&collision),
+            charts: Charts::of(&collision.history, &hertz, common_of(&collision)),
             frames: Frame::all(&collision, simulation.case().scene().first_touch()),
         };
         self.collision = Some(collision);

@@ -80,9 +80,14 @@ function slice(own) {
   job = null;
   page.page_finish((performance.now() - own.started) / 1000);
   const outcome = answer();
-  const index = Math.round(own.share * (outcome.frames.length - 1));
+  const index = own.share === null ? strongest(outcome.frames) : Math.round(own.share * (outcome.frames.length - 1));
   const seconds = (performance.now() - own.started) / 1000;
   postMessage({ id: own.id, kind: 'done', outcome, picture: drawn(index, own.halfWidth), index, seconds });
+}
+
+// The instant of the largest force; −1 without one.
+function strongest(frames) {
+  return frames.reduce((best, frame, k) => (best < 0 || frame.contact_force_n > frames[best].contact_force_n ? k : best), -1);
 }
 
 function drawn(index, halfWidth) {

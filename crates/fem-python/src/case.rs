@@ -45,10 +45,10 @@ impl Case {
     /// Reads a file.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf, overrides: Vec<String>) -> PyResult<Self> {
-        fem::Case::load(&path, &overrides).or_raise(py)?;
-        let text = std::fs::read_to_string(&path)?;
+        let name = path.display().to_string();
+        let text = fem_case::text_at(&path, &name).or_raise(py)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
-        Self::made(py, path.display().to_string(), text, folder, overrides)
+        Self::made(py, name, text, folder, overrides)
     }
 
     /// Reads a text.
@@ -124,7 +124,7 @@ impl Case {
                 simulation.skip_snapshots();
             }
             let mut timed = Timed::since(started, RunWatch(watch));
-            let collision = simulation.run(&mut timed);
+            let (simulation, collision) = simulation.run_within_tolerance(&mut timed);
             Ok::<_, Failure>((simulation, collision, timed.stop().0))
         })?;
         let (simulation, collision, stopwatch) = ran.or_raise(py)?;

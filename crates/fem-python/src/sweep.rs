@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use fem::results::Summary;
-use fem::sweep::{Checked, Columns, Observer, Row, Runner, check};
+use fem::sweep::{Checked, Columns, Member, Observer, Ran, Row, Runner, check};
 use fem::{Case as FemCase, CaseError, Shared};
 use fem_collision::{Monitor, Progress};
 use fem_command::{Failure, Stopwatch, Timed};
@@ -14,14 +15,25 @@ use serde_json::Value;
 
 use crate::case::Case;
 use crate::failure::Raise;
-use crate::watch::{Watched, watched};
+use crate::watch::{Watched, watched_apart};
+
+/// What has been found so far, for whoever does not wait for the end.
+#[derive(Default)]
+struct Found {
+    /// What each case is known by.
+    identities: Mutex<Vec<String>>,
+    /// Summaries as JSON, by identity.
+    texts: Mutex<HashMap<String, String>>,
+}
 
 /// Looks on while members run.
 struct Members<'a> {
     watch: &'a Watched,
+    members: &'a [Member],
     n_members: usize,
     n_done: AtomicUsize,
-    stopwatches: std::sync::Mutex<HashMap<usize, Stopwatch>>,
+    found: &'a Found,
+    failure: Mutex<Option<Failure>>,
 }
 
 struct MemberWatch<'a>(&'a Watched);
@@ -36,59 +48,71 @@ impl<'a> Observer for Members<'a> {
     type Watch = Timed<MemberWatch<'a>>;
 
     fn admits(&self, _: usize) -> bool {
-        !self.watch.is_stopped()
+        !self.watch.is_stopped() && locked(&self.failure).is_none()
     }
 
     fn begin(&self, _: usize) -> Self::Watch {
         Timed::since(std::time::Instant::now(), MemberWatch(self.watch))
     }
 
-    fn end(&self, index: usize, watch: Self::Watch, _: Result<&fem::sweep::Ran, &CaseError>) {
+    fn end(&self, index: usize, watch: Self::Watch, ran: Result<&Ran, &CaseError>) {
         let n_done = self.n_done.fetch_add(1, Ordering::Relaxed) + 1;
         self.watch.set(n_done as f64 / self.n_members as f64);
-        if let Ok(mut stopwatches) = self.stopwatches.lock() {
-            stopwatches.insert(index, watch.stop().0);
+        let text = match ran {
+            Ok(ran) if ran.collision.is_interrupted() => return,
+            Ok(ran) => text_of(ran, &watch.stop().0),
+            Err(error) => Err(error.clone().into()),
+        };
+        match text {
+            Ok(text) => {
+                locked(&self.found.texts).insert(self.members[index].identity(), text);
+            }
+            Err(failure) => {
+                locked(&self.failure).get_or_insert(failure);
+            }
         }
     }
+}
+
+/// A lock whose holder may have panicked: what it holds is whole at any time.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The summary of a member as JSON.
+fn text_of(ran: &Ran, stopwatch: &Stopwatch) -> Result<String, Failure> {
+    let warnings = ran.simulation.warnings(&ran.collision);
+    let (spent, files) = (stopwatch.spent(), Vec::new());
+    let summary = Summary::of(&ran.simulation, &ran.collision, spent, warnings, files);
+    serde_json::to_string(&summary).map_err(|error| Failure::failed(error.to_string()))
+}
+
+fn run(cases: &[FemCase], n_threads: usize, watch: &Watched, found: &Found) -> Result<(), Failure> {
+    let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
+    let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
+    let Checked { members, left, .. } =
+        pool.install(|| check(cases, |_| true, |_| false, |_, _| ()))?;
+    *locked(&found.identities) = members.iter().map(Member::identity).collect();
+    let shared = Shared::default();
+    let runner = Runner::new(cases, &shared).without_fields();
+    let observer = Members {
+        watch,
+        members: &members,
+        n_members: left.len(),
+        n_done: AtomicUsize::new(0),
+        found,
+        failure: Mutex::default(),
+    };
+    pool.install(|| runner.run_all(&left, &observer));
+    let failure = observer.failure.into_inner().unwrap_or_else(PoisonError::into_inner);
+    failure.map_or(Ok(()), Err)
 }
 
 /// What each case is known by, and its summary as JSON, none of a case that an interrupt left out.
 type Summaries = Vec<(String, Option<String>)>;
 
-fn run(cases: &[FemCase], n_threads: usize, watch: &Watched) -> Result<Summaries, Failure> {
-    let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
-    let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
-    let Checked { members, left, .. } =
-        pool.install(|| check(cases, |_| true, |_| false, |_, _| ()))?;
-    let shared = Shared::default();
-    let runner = Runner::new(cases, &shared).without_fields();
-    let observer = Members {
-        watch,
-        n_members: left.len(),
-        n_done: AtomicUsize::new(0),
-        stopwatches: Default::default(),
-    };
-    let ran = pool.install(|| runner.run(&left, &observer, |ran| ran));
-    let mut stopwatches = observer.stopwatches.into_inner().unwrap_or_default();
-    let mut texts = HashMap::new();
-    for (index, ran) in ran {
-        let ran = ran?;
-        let Some(stopwatch) = stopwatches.remove(&index) else { continue };
-        if ran.collision.is_interrupted() {
-            continue;
-        }
-        let warnings = ran.simulation.warnings(&ran.collision);
-        let (spent, files) = (stopwatch.spent(), Vec::new());
-        let summary = Summary::of(&ran.simulation, &ran.collision, spent, warnings, files);
-        let text = serde_json::to_string(&summary);
-        let text = text.map_err(|error| Failure::failed(error.to_string()))?;
-        texts.insert(members[index].identity(), text);
-    }
-    let text = |identity: String| (identity.clone(), texts.get(&identity).cloned());
-    Ok(members.iter().map(|member| text(member.identity())).collect())
-}
-
-/// Computes cases on so many threads, 0 for one a processor.
+/// Computes cases on so many threads, 0 for one a processor. What ends it early is given beside what was computed
+/// until then, nothing if that was before all cases were looked at.
 #[pyfunction]
 pub fn run_members(
     py: Python<'_>,
@@ -97,8 +121,17 @@ pub fn run_members(
     report: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Summaries, Option<PyErr>)> {
     let cases: Vec<FemCase> = cases.iter().map(|case| case.case.clone()).collect();
-    let (ran, error) = watched(py, report, |watch| run(&cases, threads, watch))?;
-    Ok((ran.or_raise(py)?, error))
+    let found = Arc::new(Found::default());
+    let own = Arc::clone(&found);
+    let work = move |watch: &Watched| run(&cases, threads, watch, &own);
+    let (ran, error) = watched_apart(py, report, work)?;
+    if let Some(ran) = ran {
+        ran.or_raise(py)?;
+    }
+    let identities = std::mem::take(&mut *locked(&found.identities));
+    let texts = std::mem::take(&mut *locked(&found.texts));
+    let text = |identity: String| (identity.clone(), texts.get(&identity).cloned());
+    Ok((identities.into_iter().map(text).collect(), error))
 }
 
 /// The columns of a table of these summaries, as JSON: names and values in order.

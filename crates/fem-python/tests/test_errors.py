@@ -113,3 +113,25 @@ def test_ctrl_c_keeps_what_there_is_and_other_threads_go_on(glass):
 
     with pytest.raises(LookupError):
         case.run(progress=fault)
+
+
+@pytest.mark.parametrize("element", ["40 um", "4 um"])
+def test_ctrl_c_ends_a_sweep_at_once_with_the_members_that_are_done(glass, element):
+    # Of the fine mesh no factor is done within a second.
+    changes = {"model": {"condensed": {}}, "mesh.contact_element_size": element, "mesh.refined_radius": "0.3 mm"}
+    case = fem_run.Case.load(glass).with_(changes)
+    sent = []
+
+    def report(fraction):
+        if not sent and (fraction > 0.1 or element == "4 um"):
+            sent.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with pytest.raises(KeyboardInterrupt) as raised:
+        fem_run.sweep(case, {"body.0.approach_speed": [0.1 + 1e-3 * k for k in range(200)]}, threads=2, progress=report)
+    assert time.monotonic() - sent[0] < 3
+    error = raised.value
+    assert isinstance(error, fem_run.Interrupted)
+    n_done = len(error.result["restitution"])
+    assert f"{n_done} of 200 members are done" in str(error)
+    assert (n_done > 0 and (error.result["restitution"] > 0.5).all()) or element == "4 um"

@@ -1,5 +1,7 @@
 """Whatever computes a sweep, the table is the same."""
 
+import os
+import signal
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
@@ -39,3 +41,14 @@ def test_processes(case, local):
         table = fem_run.sweep(case, VARY, executor=executor, progress=fractions.append)
     assert table.to_csv() == local
     assert fractions[-1] == 1.0 and len(fractions) == 10
+
+
+def test_ctrl_c_leaves_the_members_that_are_done(case, local):
+    def report(fraction):
+        if fraction > 0.3:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    with ThreadPoolExecutor(2) as executor, pytest.raises(fem_run.Interrupted) as raised:
+        fem_run.sweep(case, VARY, executor=executor, progress=report)
+    done = raised.value.result.to_csv().splitlines()
+    assert 1 < len(done) < 11 and set(done) < set(local.splitlines())

@@ -122,8 +122,11 @@ fn balances(summary: &Summary) -> String {
         format!("; {} {}", account.name().replace('_', " "), show(energy, "J"))
     });
     let raw = summary.peak_force_raw_n.map(|force| {
-        let text =
-            format!("means over 1/64 of the pulse; force of a single step {}", show(force, "N"));
+        let text = format!(
+            "means over 1/64 of the pulse, radius and pressure {}; force of a single step {}",
+            summary.radius_and_pressure,
+            show(force, "N")
+        );
         ["peaks".to_string(), text]
     });
     let null = summary.elastic_null.map(|null| {
@@ -157,7 +160,7 @@ fn price(summary: &Summary) -> String {
         return format!("{}{memory}", show(cost.solve_s, "s"));
     };
     let (solve, each) = match cost.ns_per_element_update {
-        Some(ns) => (format!("{:.2} s", cost.solve_s), format!("{ns:.1} ns an element update, ")),
+        Some(ns) => (show(cost.solve_s, "s"), format!("{ns:.1} ns an element update, ")),
         None => (show(cost.solve_s, "s"), format!("after {} of setup, ", show(cost.setup_s, "s"))),
     };
     let factors = cost.factor_bytes.map(|bytes| format!(", {} of it factors", DecimalBytes(bytes)));

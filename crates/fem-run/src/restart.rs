@@ -5,7 +5,9 @@ use std::io::{Read, Write, stderr};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use fem::{CheckpointHead, Course, Identity, Memory, checkpoint, checkpoint_head, memory_of};
+use fem::{
+    CheckpointHead, Course, Identity, Memory, Simulation, checkpoint, checkpoint_head, memory_of,
+};
 use fem_case::engineering::show;
 
 use crate::failure::Failure;
@@ -97,12 +99,12 @@ impl<'a> Keeper<'a> {
     }
 
     /// Writes the file anew if it is time.
-    pub fn look_at(&mut self, course: &dyn Course) {
+    pub fn look_at(&mut self, simulation: &Simulation, course: &dyn Course) {
         let every = self.arguments.checkpoint_every;
         if every.is_none_or(|every| self.last.elapsed() < every) {
             return;
         }
-        let Some(memory) = course.memory() else { return };
+        let Some(memory) = simulation.memory_of(course) else { return };
         let written = self.folder.write_ahead(RESTART_FILE, &checkpoint(self.identity, &memory));
         self.last = Instant::now();
         if let Err(error) = written
@@ -115,8 +117,8 @@ impl<'a> Keeper<'a> {
     }
 
     /// Puts the file among those of an interrupted run; whether there is one.
-    pub fn leave(&self, course: &dyn Course) -> bool {
-        let Some(memory) = course.memory() else { return false };
+    pub fn leave(&self, simulation: &Simulation, course: &dyn Course) -> bool {
+        let Some(memory) = simulation.memory_of(course) else { return false };
         let path = self.folder.path().join(RESTART_FILE);
         fs::write(path, checkpoint(self.identity, &memory)).is_ok()
     }

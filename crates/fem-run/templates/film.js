@@ -9,7 +9,7 @@ if (shots.length > 1) {
     slider.setAttribute("aria-valuetext", shots[slider.value].querySelector("figcaption").textContent);
   };
   slider.addEventListener("input", show);
-  slider.value = Math.floor((shots.length - 1) / 2);
+  slider.value = film.dataset.opening;
   film.prepend(slider);
   film.classList.add("playing");
   show();

@@ -31,6 +31,7 @@ impl Simulation {
         warnings.extend(self.decisions(collision).warnings);
         warnings.extend(self.setup().unread.iter().cloned());
         warnings.extend(assess(self, collision));
+        warnings.extend(self.miss_warning(collision));
         warnings.extend(collision.warnings.iter().cloned());
         warnings
     }
@@ -145,10 +146,11 @@ impl<'a> Run<'a> {
         let excess = of_approach / LARGEST_PENETRATION;
         (excess > 1.0).then(|| {
             format!(
-                "the surfaces overlap by about {:.1} % of the approach and {:.1} % of an element; above {} \
+                "the surfaces overlap by about {:.1} % of the approach and {:.1} % of an element{}; above {} \
                  % of the approach, write contact.penalty_factor = {}, or use {}",
                 100.0 * of_approach,
                 100.0 * of_element,
+                self.collision.deepest.map_or(String::new(), |deepest| format!(", deepest {deepest}")),
                 100.0 * LARGEST_PENETRATION,
                 two_digits(ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor),
                 match self.plan.makes_meshes {

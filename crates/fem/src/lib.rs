@@ -12,7 +12,7 @@
 //!
 //! Without the feature `files` (on by default) nothing here touches a file: a mesh of a case's own is
 //! refused, and what writes result files is not there. Only [`Case::load`] and
-//! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given.
+//! [`Sweep::load`](sweep::Sweep::load) read files then, those that they are given or that these name.
 
 pub mod accuracy;
 mod approach;
@@ -44,6 +44,7 @@ mod plan;
 mod probes;
 mod quasi_static;
 mod quieter;
+mod refinement;
 mod refusal;
 mod remedy;
 mod resolution;
@@ -73,6 +74,7 @@ pub use pair_cache::PairCache;
 pub use plan::Plan;
 pub use quasi_static::ting_impact;
 pub use quieter::Quieter;
+pub use refinement::Level;
 pub use refusal::Refusal;
 pub use remedy::{Remedy, remedy_of};
 pub use results::Summary;

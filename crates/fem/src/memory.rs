@@ -4,6 +4,7 @@ use fem_collision::Approach;
 use serde::{Deserialize, Serialize};
 
 use crate::models::Bounces;
+use crate::refinement::Level;
 
 /// The memory of a [`Course`](crate::Course) between two advances. A course that goes on from it ends
 /// with the same bits.
@@ -15,6 +16,10 @@ pub struct Memory {
     pub(crate) bounces: Option<Box<Bounces>>,
     /// How the bodies met in the contact under way; they are computed in the frame of their mass centre.
     pub(crate) met: Approach,
+    /// Elements across a length over those that the plan takes at first.
+    pub(crate) refinement: f64,
+    /// Coarser meshes with which the collision was computed before.
+    pub(crate) levels: Vec<Level>,
 }
 
 impl Memory {

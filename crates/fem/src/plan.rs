@@ -89,7 +89,8 @@ impl Plan {
         let finer_body = finer_body(scene);
         let fineness = Fineness::of(scene, &estimate, finer_body.is_some());
         let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
-            (divided_radius(&estimate) / fineness.across).min(estimate.smallest_radius / 12.0),
+            (divided_radius(&estimate) / fineness.across)
+                .min(estimate.smallest_radius / (12.0 * scene.refinement())),
         );
         let refined_radius = scene.mesh().refined_radius.unwrap_or(
             (REFINED_OVER_CONTACT * estimate.contact_radius).min(estimate.smallest_radius),
@@ -194,14 +195,14 @@ impl Plan {
             step_factor: Some(Quantity::from_si(self.step_factor)),
             mass_scaling: Some(Quantity::from_si(self.mass_scaling)),
         });
-        let OutputTable { snapshots: given, probe, report } =
+        let OutputTable { snapshots: given, fields, probe, report } =
             file.output.take().unwrap_or_default();
         let labels = || {
             let text = |label: Label| Quantity::from_text(label.name());
             SnapshotsValue::List(Label::ALL.into_iter().map(text).collect())
         };
         let snapshots = Some(given.unwrap_or_else(labels));
-        file.output = Some(OutputTable { snapshots, probe, report });
+        file.output = Some(OutputTable { snapshots, fields, probe, report });
         file.effects = Some(file.effects.unwrap_or_default().filled());
         file.model = Some(ModelTable { fem: Some(EmptyTable {}), ..ModelTable::default() });
         file.limits = Some(LimitsTable {

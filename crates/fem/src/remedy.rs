@@ -23,6 +23,12 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
              larger; if it stays, set time.step_factor = 0.5 and time.mass_scaling = 0, name another \
              material.NAME.hyperelastic, or send us the case: the step is meant to be stable",
         ),
+        Stop::StabilityLost { .. } => (
+            "the law does not bear so much strain: a band of elements gives way, which one the mesh decides, and a \
+             shorter step or a finer mesh does not help",
+            "name another material.NAME.hyperelastic: \"neo-hooke\" is stable at any deformation; or lower \
+             body.N.approach_speed",
+        ),
         Stop::ElementCollapsed { .. } => (
             "the impact is faster than this material can be compressed, or an element is far too \
              distorted: at the rim of a contact, or of an imported mesh",
@@ -46,10 +52,9 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
             "lower body.N.approach_speed, or check the moduli and their units",
         ),
         Stop::SurfaceTurnsOver { .. } => (
-            "the body folds under the load, or its elements are too few or too distorted to carry it: \
-             the impact is too fast or the material too soft",
-            "lower body.N.approach_speed or mesh.contact_element_size, or check the moduli and their \
-             units",
+            "the flank of the body folds onto the other one: the impact is faster than the shear waves of the body, \
+             \u{221a}(G/\u{3c1}); no element size, penalty, step or law keeps it from that",
+            "lower body.N.approach_speed below the speed of these waves, or check the moduli and their units",
         ),
         Stop::NoSeparation { .. } => (
             "the material has relaxed so far that nothing is left to push the bodies apart, or a \

@@ -1,7 +1,7 @@
 //! A case with the model that computes it, whichever that is.
 
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use fem_case::engineering::show;
 use fem_case::schema::StartTable;
@@ -9,16 +9,19 @@ use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
 use crate::course::{Course, begun};
-use crate::effects::{Decisions, EFFECTS, Effect, LeftOut, Verdict, decide};
+use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
 use crate::identity::identity_of;
 use crate::memory::Memory;
 use crate::method::{Cost, Model, Setup, Shared};
 use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 use crate::probes::probes_of;
+use crate::refinement::Level;
+use crate::refusal::Refusal;
 use crate::resolution::Resolution;
+use crate::uncertainty::Seen;
 
-/// The collision of a case, by the model that it asks for.
+/// The collision of a case, by the model that it asks for, within its tolerance.
 ///
 /// # Errors
 /// What the model refuses, at its place in the case.
@@ -43,7 +46,7 @@ use crate::resolution::Resolution;
 /// # Ok::<(), fem::CaseError>(())
 /// ```
 pub fn collide(case: &Case) -> Result<Collision, CaseError> {
-    Ok(Simulation::new(case.clone())?.run(&mut ()))
+    Ok(Simulation::new(case.clone())?.run_within_tolerance(&mut ()).1)
 }
 
 /// A case that is ready to run.
@@ -55,6 +58,14 @@ pub struct Simulation {
     want: Want,
     resolved: CaseFile,
     shared: Shared,
+    /// Elements across a length over those that the plan takes at first.
+    pub(crate) refinement: f64,
+    /// Coarser meshes that did not do.
+    pub(crate) levels: Vec<Level>,
+    /// Why a finer mesh could not go through the collision.
+    pub(crate) stopped_finer: Option<String>,
+    /// Of the last collision that was looked at.
+    pub(crate) errors: Mutex<Option<(Seen, Doubt)>>,
 }
 
 impl Simulation {
@@ -72,14 +83,63 @@ impl Simulation {
     /// # Errors
     /// As [`Simulation::new`].
     pub fn sharing(case: Case, shared: &Shared) -> Result<Self, CaseError> {
-        let model = model_of(case.scene(), shared).map_err(|refusal| refusal.in_case(&case))?;
-        let model: Arc<dyn Model> = Arc::from(model);
-        let resolved = Self::resolve(&case)?;
-        let chosen = chosen(case.scene()).map_err(|refusal| refusal.in_case(&case))?;
+        Self::at(case, shared, 1.0, Vec::new())
+    }
+
+    /// The case with so many times the elements across a length, which these meshes were too coarse for.
+    fn at(
+        case: Case,
+        shared: &Shared,
+        refinement: f64,
+        levels: Vec<Level>,
+    ) -> Result<Self, CaseError> {
+        let scene = case.scene().clone().with_refinement(refinement);
+        let of_case = |refusal: Refusal| refusal.in_case(&case);
+        let model: Arc<dyn Model> = Arc::from(model_of(&scene, shared).map_err(of_case)?);
+        let resolved = resolved(&scene, case.file().clone()).map_err(of_case)?;
+        let chosen = chosen(&scene).map_err(of_case)?;
         let mut want = model.setup().want.clone();
-        want.probes =
-            probes_of(case.scene(), model.meshes()).map_err(|refusal| refusal.in_case(&case))?;
-        Ok(Self { case, model, chosen, want, resolved, shared: shared.clone() })
+        want.probes = probes_of(&scene, model.meshes()).map_err(of_case)?;
+        Ok(Self {
+            case,
+            model,
+            chosen,
+            want,
+            resolved,
+            shared: shared.clone(),
+            refinement,
+            levels,
+            stopped_finer: None,
+            errors: Mutex::default(),
+        })
+    }
+
+    /// The same on a finer mesh, asked for the same.
+    pub(crate) fn refined(&self, refinement: f64, levels: Vec<Level>) -> Result<Self, CaseError> {
+        let mut finer = Self::at(self.case.clone(), &self.shared, refinement, levels)?;
+        let probes = std::mem::take(&mut finer.want.probes);
+        finer.want = self.want.clone();
+        if !self.want.probes.is_empty() {
+            finer.want.probes = probes;
+        }
+        Ok(finer)
+    }
+
+    /// As it was when a course of its case left this memory: on the mesh that it had then.
+    ///
+    /// # Errors
+    /// What the model refuses.
+    pub fn as_in(self, memory: &Memory) -> Result<Self, CaseError> {
+        match memory.levels.is_empty() {
+            true => Ok(self),
+            false => self.refined(memory.refinement, memory.levels.clone()),
+        }
+    }
+
+    /// What a course of it knows, with the mesh that it has.
+    pub fn memory_of(&self, course: &dyn Course) -> Option<Memory> {
+        let (refinement, levels) = (self.refinement, self.levels.clone());
+        Some(Memory { refinement, levels, ..course.memory()? })
     }
 
     /// The case with every default filled in, without the cost of building its model.

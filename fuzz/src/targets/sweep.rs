@@ -3,7 +3,7 @@
 use std::fs;
 use std::io::Write;
 
-use fem_case::Sweep;
+use fem::sweep::load;
 use tempfile::{NamedTempFile, TempDir, tempdir};
 
 use super::{cases, files};
@@ -76,7 +76,7 @@ impl Target for SweepText {
             Ok(file)
         });
         let file = file.map_err(|error| error.to_string())?;
-        let sweep = match Sweep::load(file.path(), &[]) {
+        let sweep = match load(file.path(), &[]) {
             Err(error) => return refused(&error.to_string()),
             Ok(sweep) => sweep,
         };

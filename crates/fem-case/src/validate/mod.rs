@@ -95,6 +95,7 @@ pub(crate) fn validate(
         )?,
         snapshots: snapshots.map(|value| check.snapshots(value)).transpose()?,
         probes,
+        fields: file.output.as_ref().and_then(|output| output.fields.clone()),
         wants_report: file.output.as_ref().and_then(|output| output.report).unwrap_or(true),
         model: check.model(file.model.as_ref())?,
         accuracy: check.accuracy(file.accuracy.as_ref())?,
@@ -106,6 +107,7 @@ pub(crate) fn validate(
                 .optional("limits.memory", limits.memory.as_ref(), COUNT)?
                 .map(|bytes| bytes as u64),
         },
+        refinement: 1.0,
     })
 }
 

@@ -19,8 +19,8 @@ impl MovedInterface {
                 total.at_limit = add_point(&piece, gauss, &mut f, &mut total);
             }
         }
-        if let Some((radius, overlaps)) = pieces.turn() {
-            total.turned_at = (overlaps || total.at_limit).then_some(radius);
+        if let Some((turn, overlaps)) = pieces.turn() {
+            total.turn = (overlaps || total.at_limit).then_some(turn);
             total.at_limit = false;
         }
         total
@@ -73,6 +73,7 @@ fn add_spring(
     total.force += force;
     total.energy += energy_per_area * point.area;
     total.n_closed += 1;
+    total.note_overlap(point.gap, point.radius);
 }
 
 impl Piece<'_> {

@@ -2,6 +2,7 @@
 
 use super::MovedInterface;
 use super::segment::{Place, Segment};
+use crate::evaluate::Turn;
 use crate::interface::mean_length;
 
 /// Gauss points of a piece: shares of the half length from its middle, and weights.
@@ -103,12 +104,13 @@ impl<'a> Piece<'a> {
 }
 
 impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
-    /// Where the walk has ended because a surface turns over, m, and whether it overlaps the other
+    /// Where the walk has ended because a surface turns over, and whether it overlaps the other
     /// one further on: nodes beyond are compared with the other surface where they have come back to.
-    pub fn turn(&self) -> Option<(f64, bool)> {
+    pub fn turn(&self) -> Option<(Turn, bool)> {
         let side = self.turned?;
-        let Some(segments) = self.segments else { return Some((0.0, true)) };
         let surface = &self.interface.surfaces[side];
+        let at = |first: usize| Turn { side, node: surface.nodes[first], radius: self.radius };
+        let Some(segments) = self.segments else { return Some((at(1), true)) };
         let first = segments[side].index + 2;
         let overlaps = (first..self.interface.n_nodes[side]).any(|k| {
             let [u_r, u_y] = self.displacement[side](surface.nodes[k]);
@@ -120,7 +122,7 @@ impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
             });
             upper <= lower
         });
-        Some((self.radius, overlaps))
+        Some((at(first), overlaps))
     }
 
     /// Height (m) of a side at a radius (m) up to the last segment in which the walk was.

@@ -178,18 +178,20 @@ mod tests {
         rows.windows(2).map(|w| PI * (w[1][0] - w[0][0]) * (w[0][1] + w[1][1])).sum()
     }
 
-    /// Hertz' profile, one that relaxation has flattened and one that it has made steeper, from 2.2 elements on.
+    /// One that relaxation has flattened and one that it has made steeper, each by half, from 2.2 elements on; the
+    /// ratio of Hertz' is constant, and that of the others bends most within the last element.
     #[test]
     fn profiles_come_back_from_the_means_of_their_hats() {
         for bend in [0.0, 0.5, -0.6] {
             let profile = |x: f64| (1.0 - x).sqrt() * (1.0 + bend * x);
-            for (across, tolerance) in [(2.2, 0.05), (3.75, 0.045), (10.3, 0.01)] {
+            for (across, tolerance) in [(2.2, 0.08), (3.75, 0.06), (10.3, 0.015)] {
                 let size = 1.0 / across;
                 let (nodes, force) = means(profile, size, across as usize + 3);
                 let curve = PressureCurve::new(&nodes, 1.0, force).unwrap();
                 assert_eq!((curve.at(0.0), curve.at(1.0)), (1.0, 0.0));
                 for r in places_inside(1.0, 50) {
                     let error = curve.at(r) - profile(r * r);
+                    let tolerance = if bend == 0.0 { 0.02 * tolerance } else { tolerance };
                     assert!(error.abs() < tolerance, "{bend} {across} {r}: {error}");
                 }
                 let places = [0.0].into_iter().chain(places_inside(1.0, 2000)).chain([1.0]);

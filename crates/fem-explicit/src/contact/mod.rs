@@ -66,6 +66,9 @@ pub trait Contact: Part {
         forces: [&mut Field; 2],
     ) -> ContactForces;
 
+    /// Nodes of a side, 0 lower, 1 upper, on which [`Contact::add_forces`] can change the force, in any order.
+    fn pushed_nodes(&self, side: usize) -> Vec<u32>;
+
     /// Whether it can be, once it knows the time step.
     ///
     /// # Errors

@@ -158,6 +158,10 @@ impl Contact for MovedContact {
         accounts.energies.add(Account::ContactDamping, work);
     }
 
+    fn pushed_nodes(&self, side: usize) -> Vec<u32> {
+        self.interface.candidate_nodes(side).collect()
+    }
+
     fn is_closed_next(
         &self,
         _: &ContactForces,

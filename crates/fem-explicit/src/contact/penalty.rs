@@ -28,6 +28,10 @@ impl Contact for ContactInterface {
         self.add_forces(motions.each_ref().map(|motion| motion.displacement), forces)
     }
 
+    fn pushed_nodes(&self, side: usize) -> Vec<u32> {
+        self.points().iter().flat_map(|point| point.feet[side].nodes).collect()
+    }
+
     fn is_closed_next(
         &self,
         _: &ContactForces,

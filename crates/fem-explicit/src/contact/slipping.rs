@@ -26,6 +26,10 @@ impl Contact for SlippingInterface {
         self.add_forces(motions.each_ref().map(|motion| motion.displacement), forces)
     }
 
+    fn pushed_nodes(&self, side: usize) -> Vec<u32> {
+        self.interface().pushed_nodes(side)
+    }
+
     fn is_closed_next(
         &self,
         _: &ContactForces,

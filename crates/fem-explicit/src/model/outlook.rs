@@ -3,6 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use fem_collision::Stop;
+use fem_contact::Turn;
 use fem_material::Material;
 
 use super::Model;
@@ -39,6 +40,16 @@ impl Model {
         [0, 1].into_iter().filter_map(rate).fold(0.0, f64::max)
     }
 
+    /// Largest rate (1/s) at which an element of a body whose stiffness changes is strained now.
+    pub(crate) fn strain_rate(&self, state: &State) -> f64 {
+        let motions = state.motions(self);
+        let rates = self.bodies.iter().zip(&motions).filter_map(|(body, motion)| {
+            let stress = body.stress.as_ref().filter(|_| body.bound.is_some())?;
+            Some(stress.part.strain_rate(motion))
+        });
+        rates.fold(0.0, f64::max)
+    }
+
     /// Critical time step of the deformed bodies, and how fast they are strained; what it is made of goes
     /// to `scratch`.
     pub(crate) fn outlook(&self, state: &State, scratch: &mut Scratch) -> Outlook {
@@ -48,11 +59,7 @@ impl Model {
     /// The same, and body and node that ask for the critical step.
     fn outlook_and_node(&self, state: &State, scratch: &mut Scratch) -> (Outlook, [usize; 2]) {
         let motions = state.motions(self);
-        let rates = self.bodies.iter().zip(&motions).filter_map(|(body, motion)| {
-            let stress = body.stress.as_ref().filter(|_| body.bound.is_some())?;
-            Some(stress.part.strain_rate(motion))
-        });
-        let strain_rate = rates.fold(0.0, f64::max);
+        let strain_rate = self.strain_rate(state);
         let within = Outlook::reaches(self, strain_rate);
         let (mut critical, mut node) = (f64::INFINITY, [0, 0]);
         for (side, body) in self.bodies.iter().enumerate() {
@@ -148,10 +155,26 @@ impl Model {
         Stop::EnergyGrowth { time, step, ratio, body, node, place: self.place(body, node) }
     }
 
+    /// Why a run ends of which a surface has turned over.
+    pub(crate) fn stop_of_turn(&self, turn: Turn, state: &State) -> Stop {
+        let Turn { side, node, radius } = turn;
+        let (time, step, node) = (state.time, state.step, node as usize);
+        let place = self.place(side, node);
+        Stop::SurfaceTurnsOver { time, step, radius, body: side, node, place }
+    }
+
     /// Where a node lies before the collision (r, y), m; of a rigid body its only one.
     fn place(&self, side: usize, node: usize) -> [f64; 2] {
         let place = self.bodies[side].mesh().map(|mesh| mesh.nodes()[node]);
         place.unwrap_or([0.0; 2])
+    }
+
+    /// Centre (r, y) of an element of a side before the collision, m.
+    pub(crate) fn centre(&self, side: usize, element: usize) -> [f64; 2] {
+        let corners = self.bodies[side].mesh().map(|mesh| mesh.corners(element));
+        corners.map_or([f64::NAN; 2], |corners| {
+            [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0)
+        })
     }
 
     /// Why a run ends that cannot go on.
@@ -159,10 +182,7 @@ impl Model {
         let (time, step) = (state.time, state.step);
         match fault {
             Fault::Collapsed(Collapsed { side, collapse: Collapse { element, volume_ratio } }) => {
-                let corners = self.bodies[side].mesh().map(|mesh| mesh.corners(element));
-                let place = corners.map_or([f64::NAN; 2], |corners| {
-                    [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0)
-                });
+                let place = self.centre(side, element);
                 Stop::ElementCollapsed { time, step, body: side, element, place, volume_ratio }
             }
             Fault::TooStiff { side, node, is_of_contact } => {

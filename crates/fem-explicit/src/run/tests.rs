@@ -4,9 +4,9 @@ use fem_collision::{Approach, BodyInput, Label, Row, SnapshotRequest};
 use fem_mesh::Side;
 
 use super::*;
-use crate::Settings;
-use crate::state::State;
+use crate::state::{Scratch, State};
 use crate::test_support::{settings, sphere, unit_glass};
+use crate::{ContactMethod, Parts, Settings};
 
 /// Unit spheres at a hundredth of the wave's speed, two elements a block's side.
 fn model() -> Model {
@@ -185,4 +185,78 @@ fn the_next_contact_is_foreseen() {
     // Rounding; a step moves the threshold by orders more.
     assert!((foreseen - found).abs() < 1e-14, "{foreseen:e} {found:e}");
     assert!((foreseen - now).abs() > 1e-6, "{foreseen:e} {now:e}");
+}
+
+/// Tens of steps from one balance to the next.
+const LONG: Expectation = Expectation { contact_time: 1200.0, ..EXPECTED };
+
+/// Between two balances the contact tells what a balance would, at every step: of bodies that do not relax
+/// to rounding, of springs that ring between masses as of a boundary without.
+#[test]
+fn every_step_has_the_energy_of_a_balance() {
+    for (method, stiffness) in [
+        (ContactMethod::Penalty, 5.0),
+        (ContactMethod::Penalty, 500.0),
+        (ContactMethod::Massless, 500.0),
+        (ContactMethod::NodeToSurface, 50.0),
+    ] {
+        for wall in [false, true] {
+            let sphere =
+                |side| BodyInput::Sphere { mesh: sphere(0.05, 0.1, side), material: unit_glass() };
+            let lower = if wall { BodyInput::Wall } else { sphere(Side::Below) };
+            let settings = Settings { contact_stiffness: stiffness, ..settings() };
+            let parts = Parts { method, ..Parts::default() };
+            let approach = Approach::at(0.01).unwrap();
+            let model = Model::with_parts([lower, sphere(Side::Above)], approach, &settings, parts)
+                .unwrap();
+            let mut run = Run::new(&model, LONG, &want(SnapshotRequest::none()));
+            let mut scratch = Scratch::new(&model);
+            let (mut worst, mut largest, mut n_closed): (f64, f64, u32) = (0.0, 0.0, 0);
+            while run.advance(1).is_none() {
+                let state = &run.memory.state;
+                let contact = update_forces(&model, state, &mut scratch).unwrap();
+                let [mut followed, mut balanced] = [(); 2].map(|()| run.memory.ledger.clone());
+                followed.follow(&model, state, &scratch, &contact).unwrap();
+                let row = balanced.balance(&model, state, &scratch, &contact);
+                let off = (followed.residual() - row.residual.unwrap()) / balanced.initial_relative;
+                (worst, largest) = (worst.max(off.abs()), largest.max(followed.worst_residual));
+                n_closed += u32::from(contact.n_closed > 0);
+            }
+            assert!(n_closed > 100, "{method:?}: {n_closed}");
+            // Rounding of sums of a thousand terms.
+            assert!(worst < 1e-12, "{method:?} {stiffness}: {worst:e}");
+            // There is something to be seen: springs that open and close within a step.
+            let seen = run.memory.ledger.worst_residual;
+            assert!(
+                seen >= largest && (seen > 1e-10 || method == ContactMethod::Massless),
+                "{seen:e}"
+            );
+        }
+    }
+}
+
+/// Energy and momentum that a contact adds between two balances do not wait for the next one.
+#[test]
+fn a_contact_that_adds_energy_is_seen_in_the_step() {
+    let model = model();
+    let mut run = Run::new(&model, LONG, &want(SnapshotRequest::none()));
+    assert_eq!(run.advance(128), None);
+    // Two steps that are none of a balance, in the contact.
+    let is_due =
+        |run: &Run<&Model>, ahead: u64| run.memory.observed.is_due(run.memory.state.step + ahead);
+    for _ in 0..20 {
+        if (0..3).any(|ahead| is_due(&run, ahead)) {
+            run.advance(1);
+        }
+    }
+    assert!((0..3).all(|ahead| !is_due(&run, ahead)));
+    let worst_before = run.memory.ledger.worst_residual;
+    // A node at the pole of the lower body is pushed into the other.
+    let pole = model.contact().pushed_nodes(0)[0] as usize;
+    run.advance(1);
+    run.memory.state.bodies[0].displacement[pole][1] += 1e-3;
+    run.advance(1);
+    let ledger = &run.memory.ledger;
+    assert!(ledger.worst_residual > 10.0 * worst_before + 1e-6, "{:e}", ledger.worst_residual);
+    assert!(ledger.growth > 1e-6 && ledger.growth <= ledger.worst_residual);
 }

@@ -35,7 +35,7 @@ use elements::Elements;
 pub use finite::MOST_FINITE_STRAIN_TERMS;
 pub(crate) use finite::finite_strain;
 pub(crate) use kernel::Moduli;
-pub use port::{Collapse, Stress};
+pub use port::{Collapse, Stress, Unstable};
 use prony::Relaxing;
 use relaxing_shear::RelaxingShear;
 

@@ -13,6 +13,17 @@ pub struct Collapse {
     pub volume_ratio: f64,
 }
 
+/// An element whose material does not bear every wave any more: its law has lost ellipticity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unstable {
+    /// Number of the element.
+    pub element: usize,
+    /// Its principal stretches: two of the meridian plane, the larger first, then that of the hoop.
+    pub stretches: [f64; 3],
+    /// Name of the law.
+    pub law: &'static str,
+}
+
 /// The stress of a body: internal forces, what it stores and dissipates, and how stiff it is.
 ///
 /// The place of effects that depend on strain and its past: another material law, finite strain.
@@ -54,6 +65,16 @@ pub trait Stress: Part {
     /// Whether its stiffness changes as the body deforms; then the time step may follow.
     fn changes_stiffness(&self) -> bool {
         false
+    }
+
+    /// Whether its law can lose ellipticity: then it is looked for.
+    fn can_lose_stability(&self) -> bool {
+        false
+    }
+
+    /// The element that is least stable, if it is not stable.
+    fn unstable_element(&self, _displacement: &Field, _: &[NodalField]) -> Option<Unstable> {
+        None
     }
 
     /// Adds a bound of its stiffness at each node (N/m) of the undeformed body, where it changes.

@@ -88,7 +88,7 @@ fn the_account_of_a_force_closes_the_ledger() {
     for n in 0..1000 {
         let contact = update_forces(&model, &state, &mut scratch).unwrap();
         assert_eq!(contact, ContactForces::default());
-        log.observe(state.time, &contact);
+        log.observe(state.time, state.step, &contact);
         let row = ledger.balance(&model, &state, &scratch, &contact);
         let work = row.energy(Account::WallWork).unwrap();
         let residual = row.residual.unwrap();

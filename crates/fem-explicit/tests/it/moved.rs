@@ -196,13 +196,18 @@ fn the_largest_force_is_not_the_ringing_of_springs() {
 #[test]
 fn a_surface_that_folds_is_a_stop() {
     let (bodies, settings) = rubber(2e-3, 0.0149);
-    let model = model(bodies, Approach::at(60.0).unwrap(), &settings, true);
+    let folding = model(bodies, Approach::at(60.0).unwrap(), &settings, true);
     let expected = Expectation { contact_time: 1e-3, approach: 20e-3 };
-    let run: Collision = collide(&model, expected, &Want::history(), &mut ());
+    let run: Collision = collide(&folding, expected, &Want::history(), &mut ());
+    let Ending::Stopped(Stop::SurfaceTurnsOver { radius, body, place, .. }) = run.ending else {
+        panic!("{:?}", run.ending)
+    };
+    // The ball's, on its sphere beside the contact, pushed outward.
+    let on_sphere = place[0].hypot(place[1] - 15e-3);
+    assert_eq!(body, 1);
     assert!(
-        matches!(run.ending, Ending::Stopped(Stop::SurfaceTurnsOver { .. })),
-        "{:?}",
-        run.ending
+        (on_sphere / 15e-3 - 1.0).abs() < 1e-9 && place[0] < 1.2 * radius,
+        "{place:?} {radius}"
     );
     assert!(run.history.iter().all(|row| row.contact_force.is_finite()));
 }

@@ -260,6 +260,10 @@ impl Contact for Counting {
         Contact::add_forces(&self.penalty, motions, [&[]; 2], forces)
     }
 
+    fn pushed_nodes(&self, side: usize) -> Vec<u32> {
+        self.penalty.pushed_nodes(side)
+    }
+
     fn advance(
         &self,
         motions: [MotionMut<'_>; 2],

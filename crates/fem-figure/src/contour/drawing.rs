@@ -8,7 +8,7 @@ use super::paths;
 use super::region::{Cells, Region};
 use super::section::Section;
 use super::window::{PANEL_WIDTH, Window};
-use crate::style::{FONT, INK, number, words};
+use crate::style::{FONT, GRID, INK, number, words};
 
 const LEFT: f64 = 62.0;
 const TOP: f64 = 34.0;
@@ -85,10 +85,12 @@ impl Contour {
             self.draw_bands(svg, &section.within(x, y));
         }
         for section in &panel.sections {
-            let points = section.outline.iter().map(|point| section.points[*point as usize]);
+            let points = section.outline_points();
+            // A body without a field is rigid.
+            let ground = if section.quads.is_empty() { GRID } else { "none" };
             let _ = writeln!(
                 svg,
-                "<path d=\"{}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.1\"/>",
+                "<path d=\"{}\" fill=\"{ground}\" stroke=\"{INK}\" stroke-width=\"1.1\"/>",
                 paths::of_line(points, &self.window)
             );
         }

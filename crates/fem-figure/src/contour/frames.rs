@@ -11,10 +11,10 @@ use super::drawing::{Contour, Panel, bands};
 use super::levels::Levels;
 use super::paths;
 use super::window::{PANEL_WIDTH, Window};
-use crate::style::{DIM, FONT, INK, number, words};
+use crate::style::{DIM, FONT, GRID, INK, LETTER, number, words};
 
-const LEFT: f64 = 50.0;
-const RIGHT: f64 = 10.0;
+const LEFT: f64 = 60.0;
+const RIGHT: f64 = 14.0;
 const TOP: f64 = 8.0;
 const BOTTOM: f64 = 40.0;
 const FONT_SIZE: f64 = 12.5;
@@ -48,13 +48,18 @@ impl Contour {
             });
         }
         for section in &panel.sections {
-            let half = section.outline.iter().map(|point| section.points[*point as usize]);
-            let image = half.clone().rev().map(|[r, y]| [-r, y]);
+            let half: Vec<[f64; 2]> = section.outline_points().collect();
+            let image: Vec<[f64; 2]> = half.iter().rev().map(|[r, y]| [-r, *y]).collect();
+            // A body without a field is rigid.
+            let (class, ground) = match section.quads.is_empty() {
+                true => ("rigid ink", GRID),
+                false => ("ink", "none"),
+            };
             let _ = writeln!(
                 svg,
-                "<path class=\"ink stroke\" stroke=\"{INK}\" stroke-width=\"1.1\" fill=\"none\" \
-                 d=\"{}\"/>",
-                paths::of_line(image.chain(half), &self.window)
+                "<path class=\"{class} stroke\" stroke=\"{INK}\" stroke-width=\"1.1\" \
+                 fill=\"{ground}\" d=\"{}\"/>",
+                paths::of_line(image.into_iter().chain(half), &self.window)
             );
         }
         svg += "</svg>\n";
@@ -91,7 +96,7 @@ impl Contour {
         let _ = writeln!(
             svg,
             "<text x=\"{PANEL_WIDTH}\" y=\"{:.1}\" text-anchor=\"end\">{x}</text><text \
-             transform=\"translate(-38 {:.1}) rotate(-90)\" text-anchor=\"middle\">{y}</text>\n</g>",
+             transform=\"translate(-48 {:.1}) rotate(-90)\" text-anchor=\"middle\">{y}</text>\n</g>",
             height + 34.0,
             0.5 * height
         );
@@ -121,12 +126,14 @@ impl Contour {
         // Counted from zero, which is between the edges of the neutral band.
         let first = self.levels.neutral() % stride;
         for (k, edge) in edges.iter().enumerate().skip(first).step_by(stride) {
-            let x = LEFT + k as f64 * size;
+            let text = number(*edge);
+            // Within the picture, however long it is.
+            let reach = 0.5 * LETTER * FONT_SIZE * text.chars().count() as f64;
+            let x = (LEFT + k as f64 * size).min(width - reach);
             let _ = writeln!(
                 svg,
                 "<text class=\"dim\" fill=\"{DIM}\" x=\"{x:.1}\" y=\"50\" \
-                 text-anchor=\"middle\">{}</text>",
-                number(*edge)
+                 text-anchor=\"middle\">{text}</text>"
             );
         }
         svg += "</svg>\n";

@@ -17,6 +17,7 @@ mod frames;
 mod levels;
 mod paths;
 mod region;
+mod rounded;
 mod section;
 mod window;
 

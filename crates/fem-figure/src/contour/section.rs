@@ -40,6 +40,11 @@ impl Section {
         both
     }
 
+    /// Where the outline runs.
+    pub fn outline_points(&self) -> impl Iterator<Item = [f64; 2]> + Clone + '_ {
+        self.outline.iter().map(|point| self.points[*point as usize])
+    }
+
     /// Without the quads that lie outside of a rectangle (horizontal range, vertical range).
     pub(crate) fn within(&self, x: (f64, f64), y: (f64, f64)) -> Self {
         let is_near = |quad: &&[u32; 4]| {

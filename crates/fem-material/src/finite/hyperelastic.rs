@@ -1,5 +1,6 @@
 //! A law beyond Hooke by its name, and the stress of a point.
 
+use super::ellipticity::least_acoustic_stiffness;
 use super::hencky::Hencky;
 use super::kinematics::{Strain, first_piola};
 use super::neo_hooke::NeoHooke;
@@ -37,6 +38,12 @@ impl HyperelasticLaw {
             Self::Hencky => "hencky",
             Self::SaintVenantKirchhoff => "saint-venant-kirchhoff",
         }
+    }
+
+    /// Whether it is elliptic however it is deformed, of any moduli: polyconvex with the growth of neo-Hooke's
+    /// (Hartmann & Neff 2003).
+    pub fn is_always_elliptic(self) -> bool {
+        self == Self::NeoHooke
     }
 }
 
@@ -150,6 +157,17 @@ impl Hyperelastic {
         upright(h)?;
         let axes = PrincipalAxes::of(h);
         Ok(self.principal_stiffness(axes.stretches).tangent(&axes))
+    }
+
+    /// The least stiffness of a wave on top of a deformation, Pa: [`least_acoustic_stiffness`]. Where it is not
+    /// positive the law is not elliptic.
+    ///
+    /// # Errors
+    /// det F is not positive.
+    pub fn least_acoustic_stiffness(&self, h: &AxisymmetricTensor) -> Result<f64, Inverted> {
+        let tangent = self.tangent(h)?;
+        let plane = std::array::from_fn(|i| std::array::from_fn(|j| tangent[i][j]));
+        Ok(least_acoustic_stiffness(&plane))
     }
 
     /// The largest eigenvalue of ∂P/∂F from above, to 1e-6, Pa.

@@ -9,6 +9,7 @@
 //! with P the first Piola-Kirchhoff stress, τ Kirchhoff's, σ Cauchy's; tension is positive.
 
 mod branches;
+mod ellipticity;
 mod hencky;
 mod hyperelastic;
 mod kinematics;
@@ -23,6 +24,7 @@ mod viscoelastic;
 mod viscous;
 
 pub use branches::Branches;
+pub use ellipticity::least_acoustic_stiffness;
 pub use hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted};
 pub use neo_hooke::NeoHooke;
 pub use number::{

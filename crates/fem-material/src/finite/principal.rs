@@ -58,6 +58,14 @@ impl PrincipalAxes {
     }
 }
 
+impl AxisymmetricTensor {
+    /// Principal stretches of a displacement gradient with a positive J: the two of the meridian plane, the larger
+    /// first, then that of the hoop.
+    pub fn principal_stretches(&self) -> [f64; 3] {
+        PrincipalAxes::of(self).stretches
+    }
+}
+
 fn product([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
     [a * c - b * d, a * d + b * c]
 }

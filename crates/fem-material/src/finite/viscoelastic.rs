@@ -25,7 +25,7 @@
 //! viscosity of rubber that depends on the stress is not in it.
 
 use super::branches::Branches;
-use super::hyperelastic::{Hyperelastic, Inverted, upright};
+use super::hyperelastic::{Hyperelastic, HyperelasticLaw, Inverted, upright};
 use super::kinematics::{Strain, push_forward};
 use super::number::{Number, inverse_cube_root_change};
 use super::tensor::{AxisymmetricTensor, SymmetricTensor};
@@ -76,6 +76,11 @@ impl Viscoelastic {
             volume_flows,
             together,
         }
+    }
+
+    /// The law that all branches have.
+    pub fn law(&self) -> HyperelasticLaw {
+        self.equilibrium.law()
     }
 
     /// The stress of all branches, for lanes.

@@ -45,6 +45,46 @@ fn numbers_are_those_of_the_front_door_whatever_came_before() {
     }
 }
 
+/// By König's theorem the rebound is e² of the motion towards each other, and the common motion is what the
+/// mass centre has: of unequal spheres by hand, of a wall none. All that was there is somewhere.
+#[test]
+fn the_rebound_is_the_square_of_the_restitution() {
+    for (text, common) in [(GLASS, 13.691_639 / 18.721_870), (WALL, 0.0)] {
+        for model in ["condensed", "fem", "ting"] {
+            let text = format!("{text}\n[model]\n{model} = {{}}\n");
+            let Outcome { summary, sharing, .. } = run(&mut Session::default(), &text, ASK);
+            let sharing = sharing.expect("two bodies and nothing else");
+            let (name, rebound) = sharing.parts[0];
+            assert_eq!(name, "rebound");
+            let restitution = summary.collision.restitution.unwrap();
+            let whole = sharing.common_j + sharing.relative_j;
+            assert!((rebound / sharing.relative_j / restitution.powi(2) - 1.0).abs() < 1e-9);
+            // Masses as written, of seven digits.
+            assert!((sharing.common_j / whole - common).abs() < 1e-7, "{sharing:?}");
+            let parts: f64 = sharing.parts.iter().map(|(_, energy)| energy).sum();
+            // What balances leave of contacts by penalty, explicit: 1e-4.
+            assert!((parts / sharing.relative_j - 1.0).abs() < 1e-3, "{model}: {sharing:?}");
+        }
+    }
+}
+
+/// Glass that relaxes within a microsecond does not come back. All that could be lost is heat, and nothing is said of
+/// a contact time that there is not.
+#[test]
+fn bodies_that_stay_together_have_no_contact_time() {
+    let text = GLASS.replace("2708 1/s", "1e6 1/s") + CONDENSED;
+    let Outcome { summary, sharing, .. } = run(&mut Session::default(), &text, ASK);
+    assert_eq!(
+        (summary.collision.restitution, summary.collision.contact_time_s),
+        (Some(0.0), None)
+    );
+    assert!(summary.warnings.iter().any(|warning| warning.contains("stay together")));
+    let of_time = summary.warnings.iter().find(|warning| warning.contains("contact time"));
+    assert_eq!(of_time, None);
+    let sharing = sharing.unwrap();
+    assert!(sharing.parts[0].1 < 1e-6 * sharing.relative_j, "{sharing:?}");
+}
+
 #[test]
 fn faults_say_where_and_what_is_allowed() {
     let negative = fault(&GLASS.replace("22.2 mm\" }", "-1 mm\" }"));

@@ -16,6 +16,9 @@ fn every_effect_and_account_has_plain_words() {
     for account in Account::all().filter(|account| *account != Account::WallWork) {
         assert!(WORDS.contains(&format!("  {}: '", account.name())), "{}", account.name());
     }
+    for part in ["rebound", "ringing"] {
+        assert!(WORDS.contains(&format!("  {part}: '")), "{part}");
+    }
 }
 
 /// The page cuts a relaxation off at its table, and begins with a material of the library.

@@ -20,32 +20,47 @@ export function buildSlider(box, { moved, set, refuse }) {
   const { from, to, unit } = SLIDERS[key];
   const id = `slider-${key.replace('.', '-')}`;
   const slider = element('input', '', { type: 'range', id, min: 0, max: 1000, step: 1 });
-  const number = element('input', '', { type: 'number', min: from, max: to, step: 'any', 'aria-label': unit ? `${label} in ${unit}` : label });
-  box.append(element('label', label, { for: id }), slider, number, element('span', unit, { class: 'unit' }));
+  const number = element('input', '', { type: 'number', min: from, max: to, step: 'any', inputmode: 'decimal', 'aria-label': unit ? `${label} in ${unit}` : label, 'aria-describedby': `${id}-fault` });
+  const fault = element('p', '', { class: 'field-fault', id: `${id}-fault`, hidden: '' });
+  box.append(element('label', label, { for: id }), slider, number, element('span', unit, { class: 'unit' }), fault);
   slider.addEventListener('input', () => moved({ [key]: valueAt(key, slider.value) }));
   slider.addEventListener('change', () => set({ [key]: valueAt(key, slider.value) }));
   number.addEventListener('change', () => {
     const value = Number(number.value);
     const isWithin = number.value !== '' && value >= from && value <= to;
-    number.setAttribute('aria-invalid', String(!isWithin));
-    if (isWithin) set({ [key]: value });
-    else refuse({ message: `${label}: ${number.value || 'nothing'} is given`, help: `Between ${from} and ${to} ${unit}. A case of your own may go further: see below.` });
+    if (isWithin) {
+      markFault(box, null);
+      set({ [key]: value });
+      return;
+    }
+    const range = `Between ${from} and ${to} ${unit}`.trim();
+    markFault(box, `${range}.`);
+    refuse({ message: `${label}: ${number.value || 'nothing'} is given`, help: `${range}. A case of your own may go further: see below.` });
   });
 }
 
-// Puts a state into the controls.
-export function refreshControls(state) {
+function markFault(box, text) {
+  const fault = box.querySelector('.field-fault');
+  fault.textContent = text ?? '';
+  fault.hidden = text === null;
+  box.querySelector('input[type="number"]').setAttribute('aria-invalid', String(text !== null));
+  if (text !== null) fault.scrollIntoView({ block: 'nearest' });
+}
+
+// Puts a state into the controls; they rest while a case of the reader's own is shown.
+export function refreshControls(state, isOwn) {
   for (const box of document.querySelectorAll('.slider')) {
     const { key } = box.dataset;
     const [slider, number] = box.querySelectorAll('input');
     slider.value = placeOf(key, state[key]);
     slider.setAttribute('aria-valuetext', `${state[key]} ${SLIDERS[key].unit}`.trim());
-    if (document.activeElement !== number || number.getAttribute('aria-invalid') !== 'true') number.value = state[key];
-    number.setAttribute('aria-invalid', 'false');
+    number.value = state[key];
+    markFault(box, null);
     box.hidden = !isMeant(key, state);
   }
   for (const select of document.querySelectorAll('select[data-key]')) {
     select.value = state[select.dataset.key];
     select.parentElement.hidden = !isMeant(select.dataset.key, state);
   }
+  for (const fieldset of document.querySelectorAll('#controls fieldset')) fieldset.disabled = isOwn;
 }

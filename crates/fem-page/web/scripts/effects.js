@@ -19,10 +19,15 @@ export const EFFECT_WORDS = {
   'mass scaling': 'The smallest elements are made a little heavier, so that steps may be longer.',
 };
 
+// Those that are means of the computation, not of the bodies.
+export const OF_COMPUTATION = ['mirror symmetry', 'hourglass control', 'bulk viscosity', 'penalty springs', 'contact search', 'mass scaling'];
+
 // What each account of energy is.
 export const ACCOUNT_WORDS = {
+  rebound: 'motion away from each other: the rebound',
+  ringing: 'motion within the bodies: they ring',
   kinetic: 'motion',
-  strain: 'deformation that is still there (ringing)',
+  strain: 'deformation that is still there',
   contact: 'springs of the contact',
   viscous_dissipation: 'heat, by relaxation',
   bulk_viscosity: 'smoothed shocks',

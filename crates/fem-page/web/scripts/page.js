@@ -1,52 +1,63 @@
 // Sliders, runs, pictures.
-import { show } from './units.js';
 import { allMaterials, setMaterials } from './materials.js';
-import { FIRST, caseOf, commandOf, fragmentOf, read, sound } from './scene.js';
+import { FIRST, caseOf, commandOf, sound } from './scene.js';
+import { fragmentOf, read } from './links.js';
 import { Runner, lastOnly } from './runner.js';
-import { at, element, showCharts, showEffects, showEnergy, showFault, showNumbers, showPicture } from './results.js';
+import { at, element, headline, showCharts, showEffects, showEnergy, showFault, showMade, showNumbers } from './results.js';
+import { buildPicture, followForce, halfWidth, redraw, share, showPicture } from './picture.js';
 import { buildSlider, refreshControls } from './controls.js';
 import { buildStories, storyText } from './telling.js';
+import { buildTaking } from './taking.js';
 
 // While a slider moves: fewer instants. At rest: as the command has it.
 const MOVING = { rows: 250, frames: 9 };
 const AT_REST = { rows: 1000, frames: 25 };
-const LEAST_VIEW = 1.5;
-const PLAY_MS = 120;
 // After which a reader is told that something is under way.
 const LATE_MS = 700;
 
 const runner = new Runner();
+const main = document.querySelector('main');
 let state = { ...FIRST };
 let ownText = null;
-let shown = { outcome: null, index: 0, text: '' };
-let playing = null;
+let shownSummary = null;
 
 // ---- what the page asks for
 
 const textNow = () => ownText ?? caseOf(state);
-const share = () => at('instant').value / 1000;
 const isSlow = () => ownText === null && state.model === 'fem';
-
-// Half of the window over the contact radius, from the contact to the whole of a small body.
-const halfWidth = () => LEAST_VIEW * 200 ** (at('zoom').value / 1000);
 
 function refreshTexts() {
   const text = textNow();
   at('case').textContent = text;
   at('command').textContent = commandOf(text);
   at('pasted').hidden = ownText === null;
-  history.replaceState(null, '', fragmentOf({ state, text: ownText }) || '#');
+}
+
+// Where a slider has come to rest: browsers bear only so many changes of the address, or so long a one.
+function refreshAddress() {
+  try {
+    history.replaceState(null, '', fragmentOf({ state, text: ownText }) || '#');
+  } catch {
+    // The case stands below all the same.
+  }
+}
+
+function sayOfOwn(words) {
+  at('pasted-text').textContent = words;
 }
 
 const compute = lastOnly(async (text, ask) => {
   const began = performance.now();
   const request = { text, ...ask, share: share(), halfWidth: halfWidth() };
-  const onway = ({ kind, begun, done }) => {
-    if (kind === 'begun') at('progress-text').textContent = progressText(begun);
-    else {
+  let begun = null;
+  const onway = (heard) => {
+    if (heard.kind === 'begun') {
+      begun = heard.begun;
+      at('progress-text').textContent = progressText(begun);
+    } else {
       at('status').textContent = '';
       at('progress').hidden = false;
-      at('progress-bar').value = done;
+      at('progress-bar').value = heard.done;
     }
   };
   at('progress-text').textContent = 'Computing';
@@ -57,13 +68,12 @@ const compute = lastOnly(async (text, ask) => {
   at('progress-bar').value = 0;
   if (answer.kind === 'dropped') return;
   if (answer.kind === 'ended') {
-    at('status').textContent = 'Ended before there was anything to show; the numbers are those of the case before.';
-    at('results').classList.add('stale');
+    standBack('Ended before there was anything to show');
     return;
   }
-  tell(text, answer, performance.now() - began, ask === MOVING);
+  tell(text, answer, { begun, milliseconds: performance.now() - began, isMoving: ask === MOVING });
   // The reader may have moved on while it was computed.
-  if (request.share !== share() || request.halfWidth !== halfWidth()) drawPicture();
+  if (request.share !== share() || request.halfWidth !== halfWidth()) redraw();
 }, (isBusy) => at('results').setAttribute('aria-busy', String(isBusy)));
 
 function progressText({ model, price }) {
@@ -71,71 +81,64 @@ function progressText({ model, price }) {
   return `Computing: ${model}${steps}`;
 }
 
-function tell(text, answer, milliseconds, isMoving) {
-  const place = ownText === null ? at('fault') : at('paste-fault');
+// The numbers shown, if there are any, are not those that were asked for.
+function standBack(words) {
+  const of = shownSummary ? '; the numbers are those of the case before.' : '; there are no numbers yet.';
+  main.classList.add('stale');
+  at('status').textContent = words + of;
+  sayOfOwn(`Your own case could not be computed${of}`);
+}
+
+function clearFaults() {
   showFault(at('fault'), null);
   showFault(at('paste-fault'), null);
+}
+
+function tell(text, answer, { begun, milliseconds, isMoving }) {
+  clearFaults();
   if (answer.kind !== 'done') {
-    const fault = answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message };
-    showFault(place, fault);
-    at('results').classList.add('stale');
-    at('status').textContent = 'Something is wrong with the case; the numbers are those of the case before.';
+    tellFault(text, answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message });
     return;
   }
-  at('results').classList.remove('stale');
+  main.classList.remove('stale', 'empty');
   const { outcome, picture, index } = answer;
-  const { summary } = outcome;
-  shown = { outcome, index, text };
+  const { summary, sharing } = outcome;
+  shownSummary = summary;
   showNumbers(summary);
+  showMade(summary, begun, milliseconds);
   showCharts(outcome.charts, summary);
-  showEnergy(summary);
+  showEnergy(summary, sharing);
   showEffects(summary);
-  showPicture(picture, outcome.frames[index], summary);
+  showPicture(outcome, picture, index);
   at('version').textContent = `Version ${summary.version}.`;
-  const headline = `Restitution ${show(summary.restitution, '')}, contact time ${show(summary.contact_time_s, 's')}, peak force ${show(summary.peak_force_n, 'N')}.`;
-  at('status').textContent = `${headline} Computed in ${Math.round(milliseconds)} ms.`;
+  const words = headline(summary);
+  at('status').textContent = words;
+  sayOfOwn('A case of your own is shown; the sliders rest.');
   // Read out where a slider has come to rest, not on its way.
-  if (!isMoving) at('announced').textContent = headline;
+  if (!isMoving) at('announced').textContent = words;
   // For whoever opens the console, and for tests.
-  window.collision = { summary, text, frames: outcome.frames, milliseconds };
+  window.collision = { summary, sharing, text, frames: outcome.frames, milliseconds };
   document.documentElement.dataset.runs = Number(document.documentElement.dataset.runs ?? 0) + 1;
-  storyText(text, summary);
+  storyText(text, summary, sharing);
+}
+
+// Of a case of one's own at its place, and in a line above.
+function tellFault(text, fault) {
+  standBack('Something is wrong with the case');
+  if (ownText === null) {
+    showFault(at('fault'), fault);
+    return;
+  }
+  showFault(at('paste-fault'), fault, text);
+  const { line, column, message } = fault;
+  showFault(at('fault'), { line, column, message, help: 'The case stands below, under “Run a case of your own”.' });
 }
 
 function run(ask) {
   refreshTexts();
+  if (ask === AT_REST) refreshAddress();
   runner.drop();
   compute(textNow(), ask);
-}
-
-// ---- the picture
-
-const drawPicture = lastOnly(async () => {
-  const { outcome } = shown;
-  if (!outcome || outcome.frames.length === 0 || at('picture-controls').hidden) return;
-  const index = Math.round(share() * (outcome.frames.length - 1));
-  const answer = await runner.ask('picture', { index, halfWidth: halfWidth() });
-  // None: another run has begun since, and will draw its own.
-  if (answer.picture && outcome === shown.outcome) showPicture(answer.picture, outcome.frames[index], outcome.summary);
-});
-
-function stopPlaying() {
-  clearInterval(playing);
-  playing = null;
-  at('play').textContent = 'Play';
-}
-
-function play() {
-  if (playing) return stopPlaying();
-  const step = 1000 / Math.max(1, shown.outcome.frames.length - 1);
-  if (Number(at('instant').value) >= 1000) at('instant').value = 0;
-  at('play').textContent = 'Stop';
-  playing = setInterval(() => {
-    const next = Number(at('instant').value) + step;
-    at('instant').value = next;
-    drawPicture();
-    if (next >= 1000) stopPlaying();
-  }, PLAY_MS);
 }
 
 // ---- controls
@@ -143,13 +146,23 @@ function play() {
 function change(changes, ask) {
   state = sound({ ...state, ...changes });
   ownText = null;
-  refreshControls(state);
+  showFault(at('link-fault'), null);
+  refreshControls(state, false);
   if (isSlow() && ask === MOVING) {
     refreshTexts();
+    main.classList.add('stale');
     at('status').textContent = 'Let go to compute: this model takes its time.';
     return;
   }
   run(ask);
+}
+
+function runOwn(text) {
+  ownText = text;
+  showFault(at('link-fault'), null);
+  sayOfOwn('Your own case is being computed.');
+  refreshControls(state, true);
+  run(AT_REST);
 }
 
 function buildControls() {
@@ -159,50 +172,25 @@ function buildControls() {
   const hear = {
     moved: (changes) => change(changes, MOVING),
     set: (changes) => change(changes, AT_REST),
-    refuse: (fault) => showFault(at('fault'), fault),
+    refuse: (fault) => {
+      showFault(at('fault'), fault);
+      standBack('Not computed');
+    },
   };
   document.querySelectorAll('.slider').forEach((box) => buildSlider(box, hear));
   for (const select of document.querySelectorAll('select[data-key]')) {
     select.addEventListener('change', () => change({ [select.dataset.key]: select.value }, AT_REST));
   }
   at('controls').addEventListener('submit', (event) => event.preventDefault());
-  at('reset').addEventListener('click', () => change({ ...FIRST }, AT_REST));
+  at('reset').addEventListener('click', () => {
+    followForce();
+    change({ ...FIRST }, AT_REST);
+  });
   at('sliders-back').addEventListener('click', () => change({}, AT_REST));
+  at('take-elements').addEventListener('click', () => change({ model: 'condensed' }, AT_REST));
   at('cancel').addEventListener('click', () => runner.cancel());
-  at('instant').addEventListener('input', drawPicture);
-  at('zoom').addEventListener('input', drawPicture);
-  at('play').addEventListener('click', play);
   const sources = allMaterials().flatMap(({ title, source, range }) => [element('dt', title), element('dd', `${source}. ${range}.`)]);
   at('materials').replaceChildren(...sources);
-}
-
-// ---- to take along
-
-async function copy(text, what) {
-  try {
-    await navigator.clipboard.writeText(text);
-    at('copied').textContent = `${what} copied.`;
-  } catch {
-    at('copied').textContent = `The browser does not let this page copy; the ${what.toLowerCase()} stands below or in the address.`;
-  }
-}
-
-function buildSharing() {
-  at('copy-link').addEventListener('click', () => copy(location.href, 'Link'));
-  at('copy-case').addEventListener('click', () => copy(textNow(), 'Case'));
-  at('copy-command').addEventListener('click', () => copy(commandOf(textNow()), 'Command'));
-  at('save-summary').addEventListener('click', () => {
-    const text = JSON.stringify(shown.outcome?.summary ?? null, null, 2);
-    const address = URL.createObjectURL(new Blob([text], { type: 'application/json' }));
-    element('a', '', { href: address, download: 'summary.json' }).click();
-  });
-  at('paste-fill').addEventListener('click', () => {
-    at('paste').value = textNow();
-  });
-  at('paste-run').addEventListener('click', () => {
-    ownText = at('paste').value;
-    run(AT_REST);
-  });
 }
 
 // ---- light and dark
@@ -212,6 +200,7 @@ function buildTheme() {
   const set = (isDark) => {
     document.documentElement.dataset.theme = isDark ? 'dark' : 'light';
     at('theme').textContent = isDark ? 'Light' : 'Dark';
+    at('theme').setAttribute('aria-label', `Colours: change to ${isDark ? 'light' : 'dark'}`);
   };
   set(dark.matches);
   dark.addEventListener('change', () => set(dark.matches));
@@ -222,29 +211,35 @@ function buildTheme() {
 // ---- begin
 
 function takeAddress() {
-  const given = read(location.hash);
-  state = sound(given?.state ?? FIRST);
-  ownText = given?.text ?? null;
+  const { state: given, text, faults } = read(location.hash);
+  state = sound(given);
+  ownText = text;
+  const [first, ...others] = faults.map((message) => ({ message }));
+  showFault(at('link-fault'), first ? { message: 'Not all of this link can be used.', others: [first, ...others].map(({ message }) => ({ message: '', help: message })) } : null);
   if (ownText !== null) {
     at('paste').value = ownText;
     at('paste-details').open = true;
+    sayOfOwn('The case of this link is being computed.');
   }
-  refreshControls(state);
+  refreshControls(state, ownText !== null);
   run(AT_REST);
 }
 
 async function begin() {
   buildTheme();
+  if (document.documentElement.dataset.missing) return;
   at('status').textContent = 'Unpacking the solver…';
   const answer = await runner.ready;
   if (answer.kind !== 'done') {
-    showFault(at('fault'), { message: 'The solver does not start in this browser.', help: `It needs WebAssembly, module workers and DecompressionStream, which browsers have since 2023. ${answer.message}` });
+    showFault(at('fault'), { message: 'The solver does not start in this browser.', help: `It needs WebAssembly, workers and DecompressionStream, which browsers have since 2023. ${answer.message}` });
     at('status').textContent = '';
+    document.documentElement.dataset.missing = 'solver';
     return;
   }
   setMaterials(answer.materials);
   buildControls();
-  buildSharing();
+  buildPicture((request) => runner.ask('picture', request));
+  buildTaking({ textNow, summaryNow: () => shownSummary, runOwn });
   buildStories((told) => change(told, AT_REST));
   addEventListener('hashchange', takeAddress);
   takeAddress();

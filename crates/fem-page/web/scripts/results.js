@@ -1,6 +1,6 @@
 // What a collision came to, on the page.
-import { percent, show } from './units.js';
-import { ACCOUNT_WORDS, EFFECT_WORDS } from './effects.js';
+import { NOTHING, percent, plain, show, showBeside } from './units.js';
+import { ACCOUNT_WORDS, EFFECT_WORDS, OF_COMPUTATION } from './effects.js';
 
 const QUANTITIES = [
   ['restitution', 'Restitution', ''],
@@ -31,6 +31,15 @@ export function draw(place, svg, label) {
   picture.setAttribute('aria-label', label);
 }
 
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+export function headline(summary) {
+  const force = `peak force ${show(summary.peak_force_n, 'N')}`;
+  if (!summary.complete) return `Not complete: ${force} so far.`;
+  if (summary.contact_time_s === null && summary.restitution === 0) return `They stay together: restitution 0, ${force}.`;
+  return `Restitution ${show(summary.restitution, '')}, contact time ${show(summary.contact_time_s, 's')}, ${force}.`;
+}
+
 export function showNumbers(summary) {
   const rows = QUANTITIES.map(([key, name, unit]) => {
     const [own, hertz] = [summary[key], summary.hertz[key]];
@@ -38,14 +47,22 @@ export function showNumbers(summary) {
     const off = discretisation === null && model === null ? null : (discretisation ?? 0) + (model ?? 0);
     const row = element('tr');
     const ratio = own === null || hertz === null ? '–' : (own / hertz).toFixed(4);
-    const number = element('td', show(own, unit, 4, hertz ?? own), { 'data-key': key });
+    const number = element('td', show(own, unit), { 'data-key': key });
     if (own !== null) number.dataset.value = own;
-    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit)), element('td', ratio), element('td', off === null ? '–' : `± ${show(off, unit, 2)}`));
+    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), element('td', off === null ? '–' : `± ${showBeside(off, own, unit)}`));
     return row;
   });
   at('numbers').tBodies[0].replaceChildren(...rows);
   const warnings = summary.stopped_because === null ? summary.warnings : [`Not complete: ${summary.stopped_because}`, ...summary.warnings];
-  at('warnings').replaceChildren(...warnings.map((text) => element('li', text)));
+  at('warnings').replaceChildren(...warnings.map((text) => element('li', sentence(plain(text)))));
+}
+
+// By what it was computed, and why by that if the program chose.
+export function showMade(summary, begun, milliseconds) {
+  const chosen = (summary.models_considered ?? []).find((model) => model.chosen);
+  const choice = chosen ? ` Auto has chosen ${chosen.model.replace(' = {}', '')}: ${plain(chosen.reason)}.` : '';
+  const elements = begun.price.elements ? `, ${begun.price.elements.toLocaleString('en')} elements` : '';
+  at('made').textContent = `Computed by ${begun.model}${elements}, in ${Math.round(milliseconds)} ms.${choice}`;
 }
 
 export function showCharts(charts, summary) {
@@ -55,29 +72,43 @@ export function showCharts(charts, summary) {
   draw(at('chart-energy'), charts.energy, 'Where the energy is, over time.');
 }
 
-// Shares of the energy at the end; what is given to the bodies counts with what they had.
-export function energyShares(energy) {
+// Shares of the energy at the end where the common motion cannot be told apart; what is given to the bodies counts
+// with what they had.
+function wholeSharing(energy) {
   const entries = Object.entries(energy)
     .filter(([key, value]) => key.endsWith('_j') && value !== null)
     .map(([key, value]) => [key.slice(0, -2), value]);
   const book = Object.fromEntries(entries);
   const whole = (book.initial ?? 0) + (book.wall_work ?? 0);
-  const parts = entries.filter(([name]) => !['initial', 'residual', 'wall_work'].includes(name));
-  return { whole, parts: parts.map(([name, value]) => ({ name, share: value / whole })) };
+  return { common_j: 0, relative_j: whole, parts: entries.filter(([name]) => !['initial', 'residual', 'wall_work'].includes(name)) };
 }
 
-export function showEnergy(summary) {
-  const { whole, parts } = energyShares(summary.energy);
-  const shown = parts.filter(({ share }) => Math.abs(share) >= 5e-7);
+function energyText({ common_j, relative_j }, summary) {
+  const whole = common_j + relative_j;
+  if (!summary.complete) return `The run was ended. Of ${show(relative_j, 'J', 3)} of motion towards each other there are so far:`;
+  if (common_j / whole < 1e-3) return `The bodies met with ${show(whole, 'J', 3)}. In the end there are of it:`;
+  return `The bodies met with ${show(whole, 'J', 3)}. ${percent(common_j / whole)} of it is the motion of both together, which no collision changes. The other ${show(relative_j, 'J', 3)}, of the motion towards each other, became:`;
+}
+
+// A part in words; of the rebound how it follows from the restitution.
+function partWords(name, { restitution, complete, case: { model } }) {
+  if (name === 'viscous_dissipation' && model?.law) return 'heat, in the dashpot of the law';
+  const words = ACCOUNT_WORDS[name] ?? name.replaceAll('_', ' ');
+  if (name !== 'rebound' || !complete || restitution === null) return words;
+  return restitution > 0 ? `${words}, the square of the restitution, ${show(restitution, '')}²` : `${words}; the restitution is 0`;
+}
+
+export function showEnergy(summary, sharing) {
+  const shared = sharing ?? wholeSharing(summary.energy);
+  const whole = shared.relative_j;
+  const shown = shared.parts.map(([name, energy]) => ({ name, share: energy / whole })).filter(({ name, share }) => name === 'rebound' || Math.abs(share) >= NOTHING);
   const known = whole > 0 && shown.length > 0;
-  at('energy-text').textContent = known
-    ? `Of the ${show(whole, 'J', 3)} that the bodies met with, there are in the end:`
-    : 'This model keeps no account of energy here.';
+  at('energy-text').textContent = known ? energyText(shared, summary) : 'This model keeps no account of energy here.';
   const bar = shown.map(({ name, share }) => element('span', '', { class: `energy-${name}`, style: `flex-grow:${Math.max(0, share)}` }));
   at('energy-bar').replaceChildren(...(known ? bar : []));
   const lines = shown.map(({ name, share }) => {
     const line = element('li');
-    line.append(element('i', '', { class: `energy-${name}` }), ` ${percent(share)} ${ACCOUNT_WORDS[name] ?? name.replaceAll('_', ' ')}`);
+    line.append(element('i', '', { class: `energy-${name}` }), ` ${percent(share)} ${partWords(name, summary)}`);
     return line;
   });
   at('energy-shares').replaceChildren(...(known ? lines : []));
@@ -100,42 +131,38 @@ function worth(leftOut, summary) {
 }
 
 export function showEffects(summary) {
-  const { effects } = summary;
   const line = (effect) => {
     const made = element('li', '', { 'data-effect': effect.name });
-    made.append(element('strong', effect.name), ` – ${EFFECT_WORDS[effect.name] ?? ''}${worth(effect.error_if_left_out, summary)} `, element('span', effect.reason, { class: 'reason' }));
+    made.append(element('strong', effect.name), ` – ${EFFECT_WORDS[effect.name] ?? ''}${worth(effect.error_if_left_out, summary)} `, element('span', plain(effect.reason), { class: 'reason' }));
     return made;
   };
-  at('effects-on').replaceChildren(...effects.filter((effect) => effect.active).map(line));
-  at('effects-off').replaceChildren(...effects.filter((effect) => !effect.active).map(line));
+  const isMeans = (effect) => OF_COMPUTATION.includes(effect.name);
+  const physical = summary.effects.filter((effect) => !isMeans(effect));
+  const on = physical.filter((effect) => effect.active);
+  at('effects-on').replaceChildren(...on.map(line));
+  at('effects-none').hidden = on.length > 0;
+  at('effects-off').replaceChildren(...physical.filter((effect) => !effect.active).map(line));
+  const means = summary.effects.filter((effect) => isMeans(effect) && effect.active);
+  at('effects-means').replaceChildren(...means.map(line));
+  at('means-details').hidden = means.length === 0;
 }
 
-export function showPicture(picture, frame, summary) {
-  const has = Boolean(picture);
-  at('picture-controls').hidden = !has;
-  at('picture-bar').hidden = !has;
-  if (!has) {
-    draw(at('picture-svg'), null, '');
-    at('picture-caption').textContent = 'This model has no elements, and so no stress to draw: take a finite-element model.';
-    return;
-  }
-  at('bands').textContent = `[data-theme="dark"] { ${picture.dark_rules} }`;
-  const [low, high] = picture.range_pa;
-  const words = `${show(frame.time_s, 's', 3)} after first touch: force ${show(frame.contact_force_n, 'N', 3)}, approach ${show(frame.approach_m, 'm', 3)}; stress from ${show(low, 'Pa', 3)} to ${show(high, 'Pa', 3)}, compression negative.${summary.bodies.some((body) => !body.elements) ? ' The rigid partner is not drawn.' : ''}`;
-  draw(at('picture-svg'), picture.svg, `Section through both bodies at the contact, ${words}`);
-  draw(at('picture-bar'), picture.bar, 'Colours of the stress, from compression to tension.');
-  at('picture-caption').textContent = words;
-  at('instant').setAttribute('aria-valuetext', `${show(frame.time_s, 's', 3)} after first touch`);
+// The lines of a text around one, and a mark below the column.
+function excerpt(text, line, column) {
+  const lines = text.split('\n');
+  const shown = lines.slice(Math.max(0, line - 2), line).map((words, k, all) => `${String(line - all.length + 1 + k).padStart(4)} | ${words}`);
+  return [...shown, `     | ${' '.repeat(Math.max(0, column - 1))}^`].join('\n');
 }
 
-export function showFault(place, fault) {
+// `source`: the text that lines and columns are of, to be shown with them.
+export function showFault(place, fault, source = null) {
   place.hidden = !fault;
   place.replaceChildren();
   if (!fault) return;
-  for (const { line, column, message, help, text } of [fault, ...(fault.others ?? [])]) {
+  for (const { line, column, message, help } of [fault, ...(fault.others ?? [])]) {
     const where = line ? `Line ${line}, column ${column}: ` : '';
-    place.append(element('strong', `${where}${message}`));
-    if (help) place.append(element('p', help));
-    if (text) place.append(element('pre', text));
+    place.append(element('strong', `${where}${plain(message)}`));
+    if (help) place.append(element('p', plain(help)));
+    if (source !== null && line) place.append(element('pre', excerpt(source, line, column)));
   }
 }

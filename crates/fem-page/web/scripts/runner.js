@@ -15,8 +15,12 @@ export class Runner {
   // A worker made of the page's own text, with the module in it.
   #begin() {
     const source = document.getElementById('worker').textContent;
-    const address = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
-    this.#worker = new Worker(address);
+    try {
+      this.#worker = new Worker(URL.createObjectURL(new Blob([source], { type: 'text/javascript' })));
+    } catch (error) {
+      this.ready = Promise.resolve({ kind: 'failed', message: String(error) });
+      return;
+    }
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onerror = (event) => this.#fail(event.message || 'the worker did not start');
     this.ready = this.ask('start', { packed: document.getElementById('module').textContent.trim() });

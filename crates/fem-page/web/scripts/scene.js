@@ -1,5 +1,4 @@
-// What the sliders say, as a case, as a command and as a link.
-import { rounded } from './units.js';
+// What the sliders say, as a case and as a command.
 import { materialNames, materialTable } from './materials.js';
 
 // Each slider: range, unit as people write it, whether it is logarithmic.
@@ -13,12 +12,30 @@ export const SLIDERS = {
   'law.e': { from: 0.05, to: 1, unit: '', isLogarithmic: false },
 };
 
-const CHOICES = {
+export const CHOICES = {
   'partner.shape': ['sphere', 'wall', 'half_space'],
   'relaxation.kind': ['library', 'none', 'term'],
   'relaxation.acts_on': ['all', 'shear'],
   'model': ['condensed', 'fem', 'ting', 'hertz', 'law', 'auto'],
   'law.kind': ['kuwabara_kono', 'tsuji'],
+};
+
+// What each setting is called.
+export const LABELS = {
+  'striker.diameter': 'Diameter of the striker',
+  'striker.material': 'Material of the striker',
+  'partner.shape': 'Shape of the partner',
+  'partner.diameter': 'Diameter of the partner',
+  'partner.material': 'Material of the partner',
+  'speed': 'Approach speed',
+  'relaxation.kind': 'Relaxation',
+  'relaxation.time': 'Relaxation time',
+  'relaxation.weight': 'Share that relaxes',
+  'relaxation.acts_on': 'What relaxation acts on',
+  'model': 'Model',
+  'law.kind': 'Contact law',
+  'law.a': 'Dissipation time',
+  'law.e': 'Restitution wanted',
 };
 
 // The pair of the paper.
@@ -45,7 +62,7 @@ export function sound(given) {
   for (const key of Object.keys(FIRST)) {
     const value = given[key];
     const slider = SLIDERS[key];
-    if (slider && Number.isFinite(value)) state[key] = rounded(Math.min(slider.to, Math.max(slider.from, value)), 4);
+    if (slider && Number.isFinite(value)) state[key] = Math.min(slider.to, Math.max(slider.from, value));
     else if (CHOICES[key]?.includes(value)) state[key] = value;
     else if (key.endsWith('.material') && materialNames().includes(value)) state[key] = value;
   }
@@ -126,37 +143,4 @@ ${text.trimEnd()}
 ${end}
 fem-run case.toml
 `;
-}
-
-function packed(text) {
-  const bytes = Array.from(new TextEncoder().encode(text), (byte) => String.fromCharCode(byte));
-  return btoa(bytes.join('')).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
-}
-
-function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (letter) => letter.charCodeAt(0));
-  return new TextDecoder('utf-8', { fatal: true }).decode(bytes);
-}
-
-// The part of an address behind #: what the sliders say, or a text.
-export function fragmentOf({ state, text }) {
-  if (text !== null) return `#case=${packed(text)}`;
-  const changed = Object.entries(state).filter(([key, value]) => value !== FIRST[key]);
-  return changed.length === 0 ? '' : `#${new URLSearchParams(changed)}`;
-}
-
-// What such a part says; null if it is none.
-export function read(fragment) {
-  const rest = fragment.replace(/^#/, '');
-  if (rest === '') return null;
-  const words = new URLSearchParams(rest);
-  if (words.has('case')) {
-    try {
-      return { state: { ...FIRST }, text: unpacked(words.get('case')) };
-    } catch {
-      return null;
-    }
-  }
-  const given = Object.fromEntries([...words].map(([key, value]) => [key, key in SLIDERS ? Number(value) : value]));
-  return { state: sound(given), text: null };
 }

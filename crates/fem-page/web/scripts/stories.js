@@ -16,15 +16,15 @@ export const STORIES = [
     steps: [
       {
         set: { 'relaxation.kind': 'none' },
-        text: ({ restitution }) => `First glass without any relaxation. It comes back with ${show(restitution, '', 6)} of its speed: all that was stored is given back. (Ringing keeps next to nothing: a wave crosses the sphere a dozen times while it is in contact, so the body follows as a spring does. The model here leaves ringing out; explicit elements, which have it, lose less than a ten-thousandth.)`,
+        text: ({ restitution, crossings }) => `First glass without any relaxation. The spheres part with ${show(restitution, '', 6)} of the speed at which they met: all that was stored is given back. (Do they not ring? Sound crosses the striker ${Math.round(crossings)} times during the contact, so the body follows as a spring does, and keeps next to nothing. This model leaves ringing out; take explicit elements under Model, which have it, and compare.)`,
       },
       {
         set: {},
-        text: ({ restitution, heat }) => `Now the glass relaxes: a stress that is held decays with a time of 369 µs. The contact lasts only a sixth of that, but on the way out the glass pushes a little less than it did on the way in. ${percent(heat)} of the striker’s energy turns to heat, and the restitution is ${show(restitution, '')}. Compare the force with Hertz: its peak comes earlier, and its tail is weaker.`,
+        text: ({ restitution, heat, time, relaxationTime }) => `Now the glass relaxes: a stress that is held decays with a time of ${show(relaxationTime, 's', 3)}. The contact lasts only ${percent(time / relaxationTime)} of that, but on the way out the glass pushes a little less than it did on the way in. ${percent(heat)} of the energy of the motion towards each other turns to heat. What is left is the square of the restitution: ${show(restitution, '')}² = ${percent(restitution ** 2)}. Compare the force with Hertz: its peak comes earlier, and its tail is weaker.`,
       },
       {
         set: { 'relaxation.kind': 'term', 'relaxation.time': 100 },
-        text: ({ restitution }) => `Quicker relaxation, 100 µs: ${show(restitution, '')}. What counts is the contact time over the relaxation time. Far to the right of the chart the glass has no time to relax; to the left it has more than enough.`,
+        text: ({ restitution, relaxationTime }) => `Quicker relaxation, ${show(relaxationTime, 's', 3)}: the restitution falls to ${show(restitution, '')}. What counts is the contact time over the relaxation time. Far to the right of the chart the glass has no time to relax; to the left it has more than enough.`,
         chart: {
           x: 'relaxation time [µs]',
           y: 'restitution',
@@ -46,7 +46,7 @@ export const STORIES = [
       },
       {
         set: { 'relaxation.kind': 'none', 'speed': 1 },
-        text: ({ time }) => `Ten times faster: ${show(time, 's')}. Pressed harder, the spheres touch over a larger circle, and so get stiffer: the contact is shorter, but only by the fifth root of the speed. A tenfold speed leaves 63 % of the time.`,
+        text: ({ time }) => `Ten times faster: ${show(time, 's')}. Pressed harder, the spheres touch over a larger circle, and so get stiffer: the contact is shorter, but only by the fifth root of the speed. A tenfold speed leaves ${percent(10 ** -0.2)} of the time.`,
         chart: {
           x: 'speed [m/s]',
           y: 'contact time [µs]',
@@ -68,7 +68,7 @@ export const STORIES = [
       },
       {
         set: { 'striker.diameter': 100, 'partner.diameter': 100 },
-        text: ({ restitution, time }) => `Of 100 mm they touch for ${show(time, 's')}. The glass has the same clock as before, 369 µs, and now the time to use it: ${show(restitution, '')}. An elastic pair would give the same at any size: without a clock in the material there is nothing to compare the contact time with.`,
+        text: ({ restitution, time, relaxationTime }) => `Of 100 mm they touch for ${show(time, 's')}. The glass has the same clock as before, ${show(relaxationTime, 's', 3)}, and now the time to use it: the restitution is ${show(restitution, '')}. An elastic pair would give the same at any size: without a clock in the material there is nothing to compare the contact time with.`,
         chart: {
           x: 'diameter of both [mm]',
           y: 'restitution',

@@ -52,12 +52,34 @@ function goTo(story, step) {
 }
 
 // A step's text, once its own case has been computed; it stays while the reader plays on.
-export function storyText(text, summary) {
+export function storyText(text, summary, sharing) {
   if (!told || text !== told.text) return;
-  const heat = (summary.energy.viscous_dissipation_j ?? 0) / summary.energy.initial_j;
-  const numbers = { restitution: summary.restitution, time: summary.contact_time_s, heat };
+  const heat = sharing?.parts.find(([name]) => name === 'viscous_dissipation')?.[1] ?? 0;
+  const numbers = {
+    restitution: summary.restitution,
+    time: summary.contact_time_s,
+    heat: sharing ? heat / sharing.relative_j : 0,
+    relaxationTime: relaxationTime(summary),
+    crossings: crossings(summary),
+    hertz: summary.hertz,
+  };
   at('story-text').textContent = STORIES[told.story].steps[told.step].text(numbers);
 }
+
+// Of the striker's material, s; null without relaxation.
+function relaxationTime(summary) {
+  const [term] = materialOf(summary).relaxation?.terms ?? [];
+  return term?.relaxation_time ?? (term?.decay_rate ? 1 / term.decay_rate : null);
+}
+
+// How often sound of a rod passes the striker while it is in contact.
+function crossings(summary) {
+  const { youngs_modulus, density } = materialOf(summary);
+  return (summary.contact_time_s * Math.sqrt(youngs_modulus / density)) / striker(summary).sphere.diameter;
+}
+
+const striker = (summary) => summary.case.body.find((body) => body.approach_speed > 0);
+const materialOf = (summary) => summary.case.material[striker(summary).material];
 
 async function tellChart(own, step) {
   sweeps ??= new Runner();

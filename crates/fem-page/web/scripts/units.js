@@ -1,35 +1,65 @@
 // SI numbers as people read them: 65.12 µs, 2.31 GPa.
 
 const PREFIXES = ['a', 'f', 'p', 'n', 'µ', 'm', '', 'k', 'M', 'G', 'T'];
+const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
-// A number with a prefixed unit, so many digits; with the prefix and the decimals of another number, if one
-// is given.
+// A number with a prefixed unit, so many digits; with the prefix and the decimals of another number of about its
+// size, if one is given.
 export function show(value, unit, digits = 4, like = value) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return `0 ${unit}`.trim();
   if (unit === '') return withMinus(trimmed(value, digits));
-  const exponent = Math.floor(Math.log10(Math.abs(like || value)));
+  const own = Number(value.toPrecision(digits));
+  const { power, decimals } = scaleOf(like !== value && isLike(value, like) ? like : own, digits);
+  return `${withMinus((own / 10 ** (3 * power)).toFixed(decimals))} ${PREFIXES[power + 6]}${unit}`;
+}
+
+// How far a number may be off, two digits, in its unit and with no more than its decimals where that says anything.
+export function showBeside(off, value, unit) {
+  if (!value || !off) return show(off, unit, 2);
+  const { power, decimals } = unit === '' ? { power: 0, decimals: 4 } : scaleOf(value, 4);
+  const scaled = Number(off.toPrecision(2)) / 10 ** (3 * power);
+  const text = scaled.toFixed(Math.min(decimals, Math.max(0, 1 - Math.floor(Math.log10(scaled)))));
+  return Number(text) === 0 ? show(off, unit, 1) : `${text} ${PREFIXES[power + 6]}${unit}`.trim();
+}
+
+function isLike(value, like) {
+  return Number.isFinite(like) && Math.abs(value / like) >= 0.1 && Math.abs(value / like) <= 10;
+}
+
+// The prefix in which a number, rounded, has one to three digits before the point, and its decimals.
+function scaleOf(value, digits) {
+  const exponent = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(digits)))));
   const power = Math.min(4, Math.max(-6, Math.floor(exponent / 3)));
-  const scaled = value / 10 ** (3 * power);
-  const number = like === value ? trimmed(scaled, digits) : scaled.toFixed(Math.max(0, digits - 1 - exponent + 3 * power));
-  return `${withMinus(number)} ${PREFIXES[power + 6]}${unit}`;
+  return { power, decimals: Math.max(0, digits - 1 - exponent + 3 * power) };
 }
 
 // So many digits, without an exponent where the number is of the size that people write.
 function trimmed(value, digits) {
-  const text = value.toPrecision(digits);
-  return text.includes('e') ? Number(text).toString() : text;
+  const text = Number(value.toPrecision(digits)).toString();
+  if (!text.includes('e')) return value.toPrecision(digits).includes('e') ? text : value.toPrecision(digits);
+  const [mantissa, exponent] = text.split('e');
+  const raised = [...String(Number(exponent))].map((letter) => (letter === '-' ? '⁻' : SUPERSCRIPTS[letter])).join('');
+  return `${mantissa} × 10${raised}`;
 }
 
 function withMinus(text) {
   return text.replace('-', '−');
 }
 
+// A sentence with the numbers that programs write, 2.8647e-4 m, as people do.
+export function plain(text) {
+  return text.replace(/(?<![\w.])(-?\d+(?:\.\d+)?e[-+]?\d+)(?: (m\/s|Pa|kg|[msNJ])(?![\w/]))?/g, (_, number, unit) => show(Number(number), unit ?? '', 3));
+}
+
+// A share below this is none.
+export const NOTHING = 5e-7;
+
 // A share as a percentage.
 export function percent(share) {
-  const value = 100 * share;
+  const value = Math.abs(share) < NOTHING ? 0 : 100 * share;
   if (Math.abs(value) >= 0.0995) return `${value.toFixed(1)} %`.replace('-', '−');
-  return value === 0 ? '0 %' : `${value.toPrecision(1)} %`.replace('-', '−');
+  return value === 0 ? '0 %' : `${trimmed(value, 1)} %`.replace('-', '−');
 }
 
 // Rounded to what a slider shows and a case says.

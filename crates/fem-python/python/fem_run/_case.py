@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from . import _native, _toml
+from ._errors import shown
 from ._progress import reporter
 from ._result import Result
 
@@ -31,12 +32,13 @@ class Case:
         Raises:
             InputError: the first thing that is wrong with it, with file, line, column and key.
         """
-        case = cls(_native.Case.load(os.fspath(path), []))
-        return case.with_(overrides) if overrides else case
+        return cls(_native.Case.load(os.fspath(path), _overrides(overrides)))
 
     @classmethod
     def from_toml(cls, text: str, name: str = "<text>") -> Case:
         """Reads the text of a case; ``name`` stands for it in messages. Mesh files are looked for here."""
+        if not isinstance(text, str):
+            raise TypeError(f"the text of a case is a str, not {shown(text)}")
         return cls(_native.Case.parse(name, text, ".", []))
 
     @classmethod
@@ -48,6 +50,8 @@ class Case:
         Raises:
             InputError: the first thing that is wrong with it, with its key.
         """
+        if not isinstance(tables, Mapping):
+            raise TypeError(f"a case is a dict of tables, as a case file has them, not {shown(tables)}")
         return cls(_native.Case.parse("<dict>", _toml.document(tables), ".", []))
 
     def with_(self, changes: Mapping[str, Any]) -> Case:
@@ -59,8 +63,7 @@ class Case:
         Raises:
             InputError: a key that is none, a value that does not fit.
         """
-        overrides = [f"{key}={_toml.value(value)}" for key, value in changes.items()]
-        return Case(self._native.overridden(overrides))
+        return Case(self._native.overridden(_overrides(changes)))
 
     def run(
         self,
@@ -100,6 +103,8 @@ class Case:
 
     def number(self, key: str) -> tuple[float, str] | None:
         """The number at a dotted key in SI and its unit; ``None`` where the case gives none."""
+        if not isinstance(key, str):
+            raise TypeError(f"a key is a dotted path, such as 'body.0.approach_speed', not {shown(key)}")
         return self._native.number_at(_toml.parts(key))
 
     @property
@@ -127,6 +132,15 @@ class Case:
 
     def _repr_html_(self) -> str:
         return f"<details><summary>{html.escape(self.title)}</summary><pre>{html.escape(self.to_toml())}</pre></details>"
+
+
+def _overrides(changes: Mapping[str, Any]) -> list[str]:
+    if not isinstance(changes, Mapping):
+        raise TypeError(f"changes are a dict of dotted keys and values, not {shown(changes)}")
+    for key in changes:
+        if not isinstance(key, str):
+            raise TypeError(f"a key is a dotted path, such as 'body.0.approach_speed', not {shown(key)}")
+    return [f"{key}={_toml.value(value)}" for key, value in changes.items()]
 
 
 def _unpickled(name: str, text: str, folder: str, overrides: list[str]) -> Case:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ._result import Result
+    from ._sweep import Table
 
 _Place = tuple[str | None, int | None, int | None, str | None]
 
@@ -46,6 +47,18 @@ class RunError(Error, RuntimeError):
 
 
 class Interrupted(Error, KeyboardInterrupt):
-    """A run that Ctrl-C ended; ``result`` is what was computed so far, marked incomplete."""
+    """A run or a sweep that Ctrl-C ended; ``result`` is what was computed so far: a result that is marked
+    incomplete, or the table of the members that are done."""
 
-    result: Result | None = None
+    result: Result | Table | None = None
+
+
+def bad_input(message: str, help: str) -> InputError:
+    """What is wrong and what is right, as the command words it."""
+    return InputError(f"{message}\n  help: {help}\n", help)
+
+
+def shown(value: object) -> str:
+    """A value in a few words, for messages."""
+    text = repr(value)
+    return text if len(text) <= 40 else f"a {type(value).__name__}"

@@ -12,8 +12,11 @@ import os
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from . import _native
 from ._case import Case
+from ._errors import bad_input, shown
 from ._sweep import Table, _array
 
 #: Options that take a list in one word; others are repeated.
@@ -29,7 +32,7 @@ def fit(case: Case, data: Any, **options: Any) -> dict[str, Any]:
     Raises:
         InputError: options or data that do not fit.
     """
-    return json.loads(_native.fit(case._native, _data(data), _words(options)))
+    return json.loads(_native.fit(_native_of(case), _data(data), _words(options)))
 
 
 def invert(case: Case, restitution: float, **options: Any) -> dict[str, Any]:
@@ -39,7 +42,7 @@ def invert(case: Case, restitution: float, **options: Any) -> dict[str, Any]:
     ``parameter``, ``value`` and ``contact_time_s``, SI, and ``unsolved``, laws and why.
     """
     words = _words({"restitution": restitution, **options})
-    return json.loads(_native.invert(case._native, None, words))
+    return json.loads(_native.invert(_native_of(case), None, words))
 
 
 def export(case: Case, data: Any = None, **options: Any) -> dict[str, Any]:
@@ -49,7 +52,7 @@ def export(case: Case, data: Any = None, **options: Any) -> dict[str, Any]:
     ``tolerance``, and ``materials`` and ``diameters`` for a table of all pairs. Returns the keys of
     ``export.json``, and ``texts``: the files by name.
     """
-    return json.loads(_native.export(case._native, _data(data), _words(options)))
+    return json.loads(_native.export(_native_of(case), _data(data), _words(options)))
 
 
 def calibrate(case: Case, data: Any, **options: Any) -> dict[str, Any]:
@@ -58,7 +61,7 @@ def calibrate(case: Case, data: Any, **options: Any) -> dict[str, Any]:
     Options: ``terms``, ``times``, ``acts_on``, ``material``, ``regularisation``, ``uncertainty``, ``model``,
     ``confidence``. Returns the keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case.
     """
-    return json.loads(_native.calibrate(case._native, _data(data), _words(options)))
+    return json.loads(_native.calibrate(_native_of(case), _data(data), _words(options)))
 
 
 def cradle(data: Any = None, **options: Any) -> Any:
@@ -77,6 +80,7 @@ def cradle(data: Any = None, **options: Any) -> Any:
 
 def check(case: Case) -> str:
     """What ``fem-run check`` prints: the case with all defaults, and what to expect of a run."""
+    _native_of(case)
     return case.check()
 
 
@@ -105,16 +109,45 @@ def _text(value: Any) -> str:
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
+def _native_of(case: Any) -> _native.Case:
+    if not isinstance(case, Case):
+        raise TypeError(f"case is a fem_run.Case, not {shown(case)}; fem_run.Case.load(path) reads one")
+    return case._native
+
+
 def _data(data: Any) -> tuple[str, bytes] | None:
     """Name and bytes of data."""
     if data is None:
         return None
     if isinstance(data, (str, os.PathLike)):
-        with open(data, "rb") as file:
-            return os.fspath(data), file.read()
+        return _file(os.fspath(data))
     if isinstance(data, Table):
         return "<table>", data.to_csv().encode()
     if hasattr(data, "to_dict") and hasattr(data, "columns"):
         data = {name: data[name].to_numpy() for name in data.columns}
-    columns = {str(name): _array(list(values)) for name, values in data.items()}
+    if not isinstance(data, Mapping):
+        raise TypeError(f"data are a CSV file's path, a table, a data frame or a dict of columns, not {shown(data)}")
+    columns = {str(name): _column(str(name), values) for name, values in data.items()}
+    lengths = {name: len(values) for name, values in columns.items()}
+    if len(set(lengths.values())) > 1:
+        told = ", ".join(f"{name} has {n}" for name, n in lengths.items())
+        raise bad_input(f"<data>: the columns are not of one length: {told}", "a row is a value of each column")
     return "<data>", Table(columns, []).to_csv().encode()
+
+
+def _file(path: str) -> tuple[str, bytes]:
+    try:
+        with open(path, "rb") as file:
+            return path, file.read()
+    except FileNotFoundError as error:
+        raise bad_input(f"{path}: there is no such file", "data are a CSV file's path, a table, a data frame or a dict of columns") from error
+    except OSError as error:
+        raise bad_input(f"{path}: {error.strerror}", "name a file that can be read") from error
+
+
+def _column(name: str, values: Any) -> np.ndarray[Any, Any]:
+    if isinstance(values, (str, bytes)) or not hasattr(values, "__iter__") or getattr(values, "ndim", 1) != 1:
+        shape = getattr(values, "shape", None)
+        found = f"an array of shape {shape}" if shape is not None else shown(values)
+        raise bad_input(f"<data>: {name} is {found}", "a column is a list or an array of shape (n,)")
+    return _array(list(values))

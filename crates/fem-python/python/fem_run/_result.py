@@ -70,7 +70,14 @@ class Result:
         self._outcome.save(os.fspath(folder), self._stem, force)
 
     def uncertainty(self, key: str) -> float | None:
-        """How far a quantity, such as ``restitution``, may be off nature: both parts of its error bar, SI."""
+        """How far a quantity, such as ``restitution``, may be off nature: both parts of its error bar, SI.
+
+        Raises:
+            KeyError: a quantity without an error bar.
+        """
+        if key not in self.summary["uncertainty"]:
+            there = ", ".join(self.summary["uncertainty"])
+            raise KeyError(f"{key!r} has no error bar; there are: {there}")
         parts = [part for part in self.summary["uncertainty"][key].values() if part is not None]
         return sum(parts) if parts else None
 

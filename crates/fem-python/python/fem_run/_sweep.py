@@ -11,13 +11,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _native
+from . import _native, _toml
 from ._case import Case
-from ._errors import Interrupted
+from ._errors import Interrupted, bad_input, shown
 from ._progress import reporter
 
 if TYPE_CHECKING:
     import pandas
+
+#: Of each member what it is known by, and its summary as JSON if it was computed.
+_Found = list[tuple[str, "str | None"]]
 
 #: Tasks that an executor is given at most, each a share of the members.
 _MOST_TASKS = 1000
@@ -94,33 +97,105 @@ def sweep(
 
     Raises:
         InputError: the first member that is no valid case, before any is computed.
-        Interrupted: Ctrl-C.
+        Interrupted: Ctrl-C; its ``result`` is the table of the members that are done.
     """
-    keys = [key if isinstance(key, tuple) else (key,) for key in vary]
-    values = [list(of_key) for of_key in vary.values()]
-    changes = [_changes(keys, chosen) for chosen in itertools.product(*values)]
-    cases = [case.with_(change) for change in changes]
-    with reporter(progress, f"{len(cases)} members") as report:
-        if executor is None:
-            found, error = _native.run_members([one._native for one in cases], threads or 0, report)
-            if error is not None:
-                raise error
-            if any(text is None for _, text in found):
-                raise Interrupted("interrupted")
-        else:
-            found = _on(executor, cases, report)
-    return _table(cases, [key for linked in keys for key in linked], changes, found)
+    axes = _axes(case, vary)
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise TypeError(f"executor is a concurrent.futures.Executor, such as client.get_executor() of Dask, not {shown(executor)}")
+    n_threads = _n_threads(threads)
+    keys = [key for linked, _ in axes for key in linked]
+    changes = [_changes(axes, chosen) for chosen in itertools.product(*(values for _, values in axes))]
+    cases: list[Case] = []
+    found: _Found = []
+    try:
+        cases += (case.with_(change) for change in changes)
+        with reporter(progress, f"{len(cases)} members") as report:
+            if executor is not None:
+                error = _on(executor, cases, report, found)
+            else:
+                native = [one._native for one in cases]
+                some, error = _native.run_members(native, n_threads, report)
+                found += some
+    except KeyboardInterrupt as interrupt:
+        error = interrupt
+    if isinstance(error, KeyboardInterrupt):
+        raise _interrupted(keys, cases, changes, found)
+    if error is not None:
+        raise error
+    return _table(cases, keys, changes, found)
 
 
-def _changes(keys: Sequence[tuple[str, ...]], chosen: Sequence[Any]) -> dict[str, Any]:
+def _axes(case: Case, vary: Mapping[str | tuple[str, ...], Iterable[Any]]) -> list[tuple[tuple[str, ...], list[Any]]]:
+    """Keys and values of each axis, looked at as the command looks at a sweep file."""
+    if not isinstance(case, Case):
+        raise TypeError(f"case is a fem_run.Case, not {shown(case)}; fem_run.Case.load(path) reads one")
+    example = '{"body.0.approach_speed": [0.1, 1.0]}'
+    if not isinstance(vary, Mapping):
+        raise TypeError(f"vary is a dict of keys and lists of values, such as {example}, not {shown(vary)}")
+    if not vary:
+        raise bad_input("the sweep varies no key", f"vary={example}")
+    axes = []
+    known: list[tuple[str, list[str]]] = []
+    for key, of_key in vary.items():
+        linked = key if isinstance(key, tuple) else (key,)
+        if not linked or not all(isinstance(one, str) for one in linked):
+            raise TypeError(f"a key of vary is a dotted path or a tuple of some, not {shown(key)}")
+        name = ", ".join(linked)
+        if isinstance(of_key, (str, bytes, Mapping)) or not isinstance(of_key, Iterable) or _is_scalar(of_key):
+            raise bad_input(f"{name} is not a list: {shown(of_key)}", f"put the values in brackets: [{shown(of_key)}]")
+        if isinstance(of_key, (set, frozenset)):
+            raise bad_input(f"{name}: a set has no order", "give a list")
+        values = list(of_key)
+        if not values:
+            raise bad_input(f"{name}: no values", "a list holds at least one value")
+        for value in values:
+            if isinstance(value, tuple) and len(linked) > 1 and len(value) != len(linked):
+                raise bad_input(f"{name}: {shown(value)} has {len(value)} values", f"a tuple has one for each of the {len(linked)} keys")
+        for one in linked:
+            parts = _toml.parts(one)
+            for other, path in known:
+                n = min(len(parts), len(path))
+                if parts[:n] == path[:n]:
+                    twice = f"{one} is varied twice" if len(parts) == len(path) else f"one of {one} and {other} is part of the other"
+                    raise bad_input(twice, "vary each of them alone, or only the outer one with whole tables as values")
+            known.append((one, parts))
+        axes.append((linked, values))
+    return axes
+
+
+def _is_scalar(found: Any) -> bool:
+    """An array of no dimension can be taken for a list until it is read."""
+    return isinstance(found, np.ndarray) and found.ndim == 0
+
+
+def _n_threads(threads: int | None) -> int:
+    if threads is None:
+        return 0
+    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
+        raise TypeError(f"threads is a whole number or None, not {shown(threads)}")
+    if threads < 1:
+        raise bad_input(f"threads is {threads}", "at least one thread; None takes one a processor")
+    return int(threads)
+
+
+def _changes(axes: Sequence[tuple[tuple[str, ...], list[Any]]], chosen: Sequence[Any]) -> dict[str, Any]:
     changes: dict[str, Any] = {}
-    for linked, value in zip(keys, chosen):
+    for (linked, _), value in zip(axes, chosen):
         each = value if isinstance(value, tuple) and len(linked) > 1 else (value,) * len(linked)
         changes.update(zip(linked, each, strict=True))
     return changes
 
 
-def _share(cases: list[Case]) -> list[tuple[str, str | None]]:
+def _interrupted(keys: list[str], cases: list[Case], changes: list[dict[str, Any]], found: _Found) -> Interrupted:
+    """With a table of the members that are done."""
+    done = [k for k, (_, text) in enumerate(found) if text is not None]
+    help = "the table of those is the exception's result"
+    error = Interrupted(f"interrupted: {len(done)} of {len(changes)} members are done\n  help: {help}\n", help)
+    error.result = _table([cases[k] for k in done], keys, [changes[k] for k in done], [found[k] for k in done])
+    return error
+
+
+def _share(cases: list[Case]) -> _Found:
     """What a worker does."""
     found, error = _native.run_members([case._native for case in cases], 1, None)
     if error is not None:
@@ -129,21 +204,30 @@ def _share(cases: list[Case]) -> list[tuple[str, str | None]]:
 
 
 def _on(
-    executor: Executor, cases: list[Case], report: Callable[[float], object] | None
-) -> list[tuple[str, str | None]]:
+    executor: Executor, cases: list[Case], report: Callable[[float], object] | None, found: _Found
+) -> BaseException | None:
+    """Fills `found`; what ends it early is returned."""
     size = -(-len(cases) // _MOST_TASKS)
-    starts = range(0, len(cases), size or 1)
-    futures = {executor.submit(_share, cases[start : start + size]): start for start in starts}
-    shares: dict[int, list[tuple[str, str | None]]] = {}
+    starts = range(0, len(cases), size)
+    futures: dict[Any, int] = {}
+    shares: dict[int, _Found] = {}
+    error: BaseException | None = None
     try:
+        for start in starts:
+            futures[executor.submit(_share, cases[start : start + size])] = start
         for future in _as_completed(futures):
             shares[futures[future]] = future.result()
             if report is not None:
-                report(len(shares) / len(futures))
+                report(len(shares) / len(starts))
+    except BaseException as raised:  # noqa: BLE001 - Ctrl-C, too: it is told with what there is
+        error = raised
     finally:
         for future in futures:
             future.cancel()
-    return [member for start in starts for member in shares[start]]
+    for start in starts:
+        none: _Found = [("", None)] * len(cases[start : start + size])
+        found += shares.get(start, none)
+    return error
 
 
 def _as_completed(futures: Mapping[Any, int]) -> Iterable[Any]:

@@ -50,9 +50,7 @@ pub enum Figure {
 
 /// Writes a picture and says where it is.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let records: Result<Vec<Record>, Failure> =
-        arguments.folders.iter().map(|folder| Record::read(folder)).collect();
-    let (records, figure) = (records?, arguments.what);
+    let (records, figure) = (Record::read_all(&arguments.folders)?, arguments.what);
     let of_one = |name: &str| match records.as_slice() {
         [record] => Ok(record),
         _ => Err(Failure::bad_input(format!("--what {name}: this figure is of one result"))

@@ -34,9 +34,7 @@ pub struct Arguments {
 
 /// Writes a page and says where it is.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let records: Result<Vec<Record>, Failure> =
-        arguments.folders.iter().map(|folder| Record::read(folder)).collect();
-    let records = records?;
+    let records = Record::read_all(&arguments.folders)?;
     let (text, usual) = match (records.as_slice(), arguments.folders.as_slice()) {
         ([record], [folder]) => (page(record)?, folder.join(REPORT_FILE)),
         _ => (comparison(&records)?, PathBuf::from("comparison.html")),

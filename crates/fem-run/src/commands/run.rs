@@ -75,8 +75,21 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     }
 
     let mut watch = Timed::since(started, Watch::new(interrupt, options.quiet));
-    let keeper = Keeper::new(&folder, &identity, options.restart);
-    let (collision, left) = compute(&simulation, memory, keeper, &mut watch)?;
+    let mut keeper = Keeper::new(&folder, &identity, options.restart);
+    let simulation = match &memory {
+        Some(memory) => simulation.as_in(memory)?,
+        None => simulation,
+    };
+    let mut memory = memory;
+    let mut left: &[&str] = &[];
+    let (simulation, collision) = simulation.within_tolerance(|simulation| {
+        if memory.is_none() && !options.quiet {
+            tell_finer(simulation);
+        }
+        let (collision, kept) = compute(simulation, memory.take(), &mut keeper, &mut watch)?;
+        left = kept;
+        Ok::<_, Failure>(collision)
+    })?;
     let (stopwatch, watch) = watch.stop();
     watch.finish();
 
@@ -123,7 +136,7 @@ fn memory(place: &ResultPlace, identity: &Identity) -> Result<Option<Memory>, Fa
 fn compute(
     simulation: &Simulation,
     memory: Option<Memory>,
-    mut keeper: Keeper<'_>,
+    keeper: &mut Keeper<'_>,
     monitor: &mut dyn Monitor,
 ) -> Result<(Collision, &'static [&'static str]), Failure> {
     let mut course = match memory {
@@ -135,13 +148,14 @@ fn compute(
     monitor.enter(Phase::Collision);
     loop {
         if !monitor.report(course.progress()) {
-            let left: &[&str] = if keeper.leave(course.as_ref()) { &[RESTART_FILE] } else { &[] };
+            let left: &[&str] =
+                if keeper.leave(simulation, course.as_ref()) { &[RESTART_FILE] } else { &[] };
             return Ok((course.finish(), left));
         }
         if !course.advance(monitor) {
             return Ok((course.finish(), &[]));
         }
-        keeper.look_at(course.as_ref());
+        keeper.look_at(simulation, course.as_ref());
     }
 }
 
@@ -156,6 +170,13 @@ fn announce(simulation: &Simulation, case: &str, place: &ResultPlace) {
     standard_output::warn(odd.into_iter().chain(simulation.mesh_warning()));
     if let Some(hint) = simulation.cheaper() {
         let _ = writeln!(stderr(), "hint: {}", one_line(&hint));
+    }
+}
+
+/// A word on stderr on a mesh that is made finer, if it is.
+fn tell_finer(simulation: &Simulation) {
+    if let Some(why) = simulation.refined_because() {
+        let _ = writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation))));
     }
 }
 

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some};
+use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
 use fem_case::{CaseFile, Sweep};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -79,7 +79,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return standard_output::print(&status(&arguments.sweep)?);
     }
     let interrupt = Interrupt::listen();
-    let sweep = Sweep::load(&arguments.sweep, &arguments.set)?;
+    let sweep = load(&arguments.sweep, &arguments.set)?;
     let out = match &arguments.out {
         Some(out) => out.clone(),
         None => Path::new("runs").join(stem_of(&arguments.sweep)),

@@ -7,7 +7,7 @@ use super::record::Record;
 
 /// One number.
 pub struct Card {
-    pub name: &'static str,
+    pub name: String,
     /// With its error, if anything tells it.
     pub value: String,
     pub unit: String,
@@ -25,30 +25,79 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     let value = record.number(&[key])?;
     let hertz = record.number(&["hertz", key]);
     let part = |part: &str| record.number(&["uncertainty", key, part]);
-    let parts = [("mesh", part("discretisation")), ("effects left out", part("model"))];
+    let numerics = if record.has_elements() { "mesh" } else { "numerics" };
+    let parts = [(numerics, part("discretisation")), ("effects left out", part("model"))];
     let error = parts.iter().filter_map(|(_, size)| *size).reduce(|a, b| a + b);
+    // What rounding does is no error bar.
+    let is_told = |size: f64| size > EXACT * value.abs();
+    let error = error.filter(|error| is_told(*error));
     let unit = (!headline.unit().is_empty()).then(|| Unit::fitting(value, headline.unit()));
     let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
     let mut notes = Vec::new();
     if error.is_some() {
-        let told = parts.iter().map(|(name, size)| match size {
-            Some(size) => format!("{name} {}", rounded(scaled(*size))),
-            None => format!("{name} not known"),
+        let told = parts.iter().filter_map(|(name, size)| match size {
+            Some(size) if is_told(*size) => Some(format!("{name} {}", rounded(scaled(*size)))),
+            Some(_) => None,
+            None => Some(format!("{name} not known")),
         });
         notes.push(told.collect::<Vec<_>>().join(" + "));
     }
     if let Some(hertz) = hertz.filter(|_| headline != Headline::Restitution) {
         notes.push(format!("Hertz {} (× {:.4})", show(hertz, headline.unit()), value / hertz));
     }
-    if headline == Headline::Restitution && (1.0 - value).abs() < 0.1 {
-        notes.push(format!("1 − e = {:.3e}", 1.0 - value).replace("e-", "e\u{2212}"));
+    if headline == Headline::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
+        notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
     }
     Some(Card {
-        name: headline.name(),
+        name: name(record, headline),
         value: with_error(scaled(value), error.map(scaled)),
         unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
     })
+}
+
+/// What a number is called: of radius and pressure, of which shape they are.
+pub fn name(record: &Record, headline: Headline) -> String {
+    let shape = match headline {
+        Headline::MaxContactRadius | Headline::PeakPressure if record.is_finite_strain() => {
+            ", true"
+        }
+        Headline::MaxContactRadius | Headline::PeakPressure => ", nominal",
+        _ => "",
+    };
+    format!("{}{shape}", headline.name())
+}
+
+/// Shares of a number up to which its error is none.
+const EXACT: f64 = 1e-9;
+
+/// Three digits: `0.0718`, `9.09 × 10⁻⁵`.
+pub fn power_of_ten(value: f64) -> String {
+    with_digits(&format!("{value:.2e}"))
+}
+
+/// Digits with an exponent as people write them.
+fn with_digits(text: &str) -> String {
+    let parts =
+        text.split_once('e').and_then(|(digits, power)| Some((digits, power.parse::<i32>().ok()?)));
+    match parts {
+        Some((digits, power)) if !(-4..=3).contains(&power) => {
+            let power = power.to_string();
+            let raised = power.chars().map(|digit| match digit {
+                '-' => '⁻',
+                '1' => '¹',
+                '2' => '²',
+                '3' => '³',
+                '4'..='9' => {
+                    char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit)
+                }
+                _ => '⁰',
+            });
+            format!("{digits}\u{a0}×\u{a0}10{}", raised.collect::<String>())
+                .replace('-', "\u{2212}")
+        }
+        _ => text.parse().map_or(text.to_string(), fem_figure::tick).replace('-', "\u{2212}"),
+    }
 }
 
 /// Digits of a number whose error is known: so many that the error has two.
@@ -75,13 +124,26 @@ pub fn with_error(value: f64, error: Option<f64>) -> String {
 
 /// Two digits.
 pub fn rounded(size: f64) -> String {
-    let rounded: f64 = format!("{size:.1e}").parse().unwrap_or(size);
-    fem_figure::tick(rounded)
+    with_digits(&format!("{size:.1e}"))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn powers_of_ten_are_written_out() {
+        for (value, expected) in [
+            (0.0718, "0.0718"),
+            (9.087e-5, "9.09\u{a0}×\u{a0}10⁻⁵"),
+            (9.087e-4, "0.000909"),
+            (-3.8e-17, "−3.80\u{a0}×\u{a0}10⁻¹⁷"),
+            (0.0, "0"),
+            (12_345.0, "1.23\u{a0}×\u{a0}10⁴"),
+        ] {
+            assert_eq!(power_of_ten(value), expected);
+        }
+    }
 
     #[test]
     fn a_number_has_the_digits_of_its_error() {
@@ -92,7 +154,7 @@ mod tests {
             (969.801, Some(0.0), "969.8"),
             (62.459_09, None, "62.46"),
             (0.927_891_2, None, "0.9279"),
-            (62.459_09, Some(1e-9), "62.4591 ± 1e-9"),
+            (62.459_09, Some(1e-9), "62.4591 ± 1.0\u{a0}×\u{a0}10⁻⁹"),
         ] {
             assert_eq!(with_error(value, error), expected);
         }

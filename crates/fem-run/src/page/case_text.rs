@@ -38,13 +38,40 @@ pub fn differences(cases: &[&Value]) -> Vec<(String, Vec<String>)> {
     };
     let row = |path: &String| (path.clone(), all.iter().map(|case| value(case, path)).collect());
     let rows = paths.into_iter().map(row);
-    rows.filter(|(_, values): &(String, Vec<String>)| values.iter().any(|v| *v != values[0]))
-        .collect()
+    let differ = |values: &[String]| values.iter().any(|value| *value != values[0]);
+    let rows = rows.filter(|(_, values): &(String, Vec<String>)| differ(values));
+    rows.map(|(path, values)| {
+        let short: Vec<String> = values.iter().map(|value| shortened(value)).collect();
+        let values = if differ(&short) { short } else { values };
+        (path, values)
+    })
+    .collect()
+}
+
+/// Six digits of a number that was computed, anything else as it is.
+fn shortened(value: &str) -> String {
+    let digits = value.chars().filter(char::is_ascii_digit).count();
+    match value.parse::<f64>() {
+        Ok(number) if digits > 8 => {
+            let rounded = format!("{number:.5e}").parse().unwrap_or(number);
+            fem_figure::tick(rounded)
+        }
+        _ => value.to_string(),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Twenty digits bury what differs, six do not, unless all there is to tell is beyond them.
+    #[test]
+    fn computed_numbers_are_short() {
+        let of = |size: f64| serde_json::json!({ "size": size });
+        let row = |a: f64, b: f64| differences(&[&of(a), &of(b)]).remove(0).1;
+        assert_eq!(row(0.0000557680508041031, 0.02), ["5.57681e-5", "0.02"]);
+        assert_eq!(row(0.123456789, 0.123456788), ["0.123456789", "0.123456788"]);
+    }
 
     #[test]
     fn cases_differ_where_they_do() {

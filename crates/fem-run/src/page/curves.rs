@@ -10,6 +10,8 @@ use super::record::Record;
 const MOST_PROFILES: usize = 4;
 /// What is less than this share of the largest energy is no curve.
 const FAINT: f64 = 2e-3;
+/// Where a profile's axis ends over the largest pressure, wherever Hertz is.
+const MOST_OVER_DATA: f64 = 1.2;
 /// How far beyond the contact time goes.
 const BEYOND: f64 = 0.06;
 
@@ -178,21 +180,24 @@ pub fn pressures(records: &[Record]) -> Option<Chart> {
     }
     let (length, stress) = (Unit::fitting(reach, "m"), Unit::fitting(peak, "Pa"));
     let x = Axis::new(format!("distance from the axis r [{}]", length.symbol()));
-    let mut chart = Chart::new(x, Axis::new(format!("Contact pressure p [{}]", stress.symbol())));
+    let y = Axis::new(format!("Contact pressure p [{}]", stress.symbol()));
+    let mut chart = Chart::new(x, y.from_to(0.0, MOST_OVER_DATA * stress.scaled(peak)));
     let mut curves = Vec::new();
-    for record in records {
+    for (k, record) in records.iter().enumerate() {
         let time = Unit::fitting(record.last_touch() - record.first_touch(), "s").with_digits(3);
         if records.len() > 1 {
-            curves.extend(highest(record).map(|contact| (record, contact, record.name.clone())));
+            let of_record = |contact| (k, record, contact, record.name.clone());
+            curves.extend(highest(record).map(of_record));
             continue;
         }
         for contact in some(&record.contacts, MOST_PROFILES) {
             let since = time.show(contact.time - record.first_touch());
-            curves.push((record, contact, format!("{}, {since}", instant(&contact.label))));
+            let label = format!("{}, {since}", instant(&contact.label));
+            curves.push((curves.len(), record, contact, label));
         }
     }
     let mut of_hertz = Vec::new();
-    for (k, (record, contact, label)) in curves.into_iter().enumerate() {
+    for (k, record, contact, label) in curves {
         let scaled = |(r, p): &(f64, f64)| (length.scaled(*r), stress.scaled(*p));
         let own = contact.pressure.iter().map(scaled).collect();
         chart = chart.with(Curve::line(label, own).like_curve(k));

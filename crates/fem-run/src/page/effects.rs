@@ -35,8 +35,12 @@ pub struct Effect {
     pub worth: String,
 }
 
-/// Those that are on and those that are off.
-pub fn effects(record: &Record) -> (Vec<Effect>, Vec<Effect>) {
+/// Effects of the numbers alone.
+const NUMERICAL: [&str; 5] =
+    ["contact search", "mass scaling", "hourglass control", "mirror symmetry", "bulk viscosity"];
+
+/// Those that are on, those of the numbers alone that are, and those that are off.
+pub fn effects(record: &Record) -> [Vec<Effect>; 3] {
     let effect = |value: &Value| {
         let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default();
         let name = text("name").to_string();
@@ -45,7 +49,11 @@ pub fn effects(record: &Record) -> (Vec<Effect>, Vec<Effect>) {
         let worth = value.get("error_if_left_out").map(worth).unwrap_or_default();
         Effect { name, is_on, words, reason: text("reason").to_string(), worth }
     };
-    record.list("effects").iter().map(effect).partition(|effect| effect.is_on)
+    let (on, off): (Vec<Effect>, Vec<Effect>) =
+        record.list("effects").iter().map(effect).partition(|effect| effect.is_on);
+    let is_physical = |effect: &Effect| !NUMERICAL.contains(&effect.name.as_str());
+    let (physical, numerical) = on.into_iter().partition(is_physical);
+    [physical, numerical, off]
 }
 
 /// `e by 0.072, T by 0.39 µs, F by 3.5 N`; nothing of what changes nothing.

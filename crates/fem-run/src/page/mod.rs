@@ -7,6 +7,7 @@
 mod cards;
 mod case_text;
 mod columns;
+mod comparison;
 mod contours;
 mod curves;
 mod effects;
@@ -15,7 +16,6 @@ mod record;
 
 use askama::Template;
 use fem_case::engineering::{Unit, show};
-use fem_collision::Headline;
 use fem_figure::Chart;
 use fem_figure::contour::Contour;
 use serde_json::Value;
@@ -25,6 +25,7 @@ use cards::Card;
 use curves::Quantity;
 use effects::Effect;
 
+pub use comparison::comparison;
 pub use contours::contour;
 pub use curves::{Quantity as Plotted, energies, over_time, pressures};
 pub use record::Record;
@@ -45,10 +46,13 @@ struct Page<'a> {
     warnings: Vec<String>,
     charts: Vec<String>,
     frames: Vec<Shot>,
+    /// The frame that is seen at first.
+    opening: usize,
     bar: String,
     dark_rules: String,
     bounces: Vec<[String; 5]>,
     on: Vec<Effect>,
+    numerical: Vec<Effect>,
     off: Vec<Effect>,
     profile: String,
     case: Vec<(String, String)>,
@@ -61,17 +65,6 @@ struct Shot {
     svg: String,
 }
 
-#[derive(Template)]
-#[template(path = "comparison.html")]
-struct Comparison {
-    names: Vec<String>,
-    titles: Vec<String>,
-    charts: Vec<String>,
-    numbers: Vec<(String, Vec<String>)>,
-    differences: Vec<(String, Vec<String>)>,
-    cite: Vec<String>,
-}
-
 /// The page of one result.
 ///
 /// # Errors
@@ -82,7 +75,7 @@ pub fn page(record: &Record) -> Result<String, Failure> {
     let [force, approach, radius, _] = of_time;
     let charts = [force, approach, radius, energies(record)];
     let profile = drawn([pressures(std::slice::from_ref(record))]).pop().unwrap_or_default();
-    let (on, off) = effects::effects(record);
+    let [on, numerical, off] = effects::effects(record);
     let page = Page {
         title: record.title(),
         subtitle: subtitle(record),
@@ -92,33 +85,16 @@ pub fn page(record: &Record) -> Result<String, Failure> {
         warnings: texts(record.list("warnings")),
         charts: drawn(charts),
         frames: contour.as_ref().map(shots).unwrap_or_default(),
+        opening: opening(record),
         bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),
         dark_rules: contour.as_ref().map(Contour::dark_rules).unwrap_or_default(),
         bounces: record.list("bounces").iter().map(bounce).collect(),
         on,
+        numerical,
         off,
         profile,
         case: record.summary.get("case").map(case_text::keys).unwrap_or_default(),
         cite: vec![citation(record)],
-    };
-    page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
-}
-
-/// The page of several results.
-///
-/// # Errors
-/// None that depend on the results.
-pub fn comparison(records: &[Record]) -> Result<String, Failure> {
-    let charts = Quantity::ALL.map(|quantity| over_time(records, quantity));
-    let charts = charts.into_iter().chain([pressures(records)]);
-    let cases: Vec<&Value> = records.iter().map(|record| &record.summary["case"]).collect();
-    let page = Comparison {
-        names: records.iter().map(|record| record.name.clone()).collect(),
-        titles: records.iter().map(Record::title).collect(),
-        charts: drawn(charts),
-        numbers: Headline::ALL.iter().map(|headline| numbers(records, *headline)).collect(),
-        differences: case_text::differences(&cases),
-        cite: records.iter().map(citation).collect(),
     };
     page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
 }
@@ -133,26 +109,15 @@ fn shots(contour: &Contour) -> Vec<Shot> {
     frames.map(|(caption, svg)| Shot { caption, svg }).collect()
 }
 
-/// A number of all results, each with its difference from the first.
-fn numbers(records: &[Record], headline: Headline) -> (String, Vec<String>) {
-    let of = |record: &Record| record.number(&[headline.key()]);
-    let first = records.first().and_then(of);
-    let cell = |(k, record): (usize, &Record)| {
-        let Some(value) = of(record) else { return "\u{2013}".to_string() };
-        let shown = match headline.unit() {
-            "" => format!("{value:.5}"),
-            unit => show(value, unit),
-        };
-        match first.filter(|_| k > 0) {
-            // A difference of restitutions is told as it is, of all else as a share.
-            Some(first) if headline == Headline::Restitution => {
-                format!("{shown} ({:+.5})", value - first)
-            }
-            Some(first) => format!("{shown} ({:+.2} %)", 100.0 * (value / first - 1.0)),
-            None => shown,
-        }
+/// The frame at the largest force.
+fn opening(record: &Record) -> usize {
+    let n = record.frames.len().min(MOST_FRAMES);
+    let peak = record.peak_time();
+    let distance = |k: &usize| {
+        let frame = &record.frames[k * (record.frames.len() - 1) / (n - 1).max(1)];
+        (frame.time - peak).abs()
     };
-    (headline.name().to_string(), records.iter().enumerate().map(cell).collect())
+    (0..n).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }
 
 fn subtitle(record: &Record) -> String {
@@ -188,7 +153,8 @@ fn price(record: &Record) -> String {
         parts.push(format!("{} steps of {}", grouped(steps), show(step, "s")));
     }
     if let Some(residual) = record.number(&["energy", "residual_relative"]) {
-        parts.push(format!("energy adds up to {} of the initial", cards::rounded(residual)));
+        let residual = cards::power_of_ten(residual);
+        parts.push(format!("energy adds up to {residual} of the initial"));
     }
     parts.join(" · ")
 }

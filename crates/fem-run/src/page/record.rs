@@ -32,6 +32,8 @@ pub struct ContactAt {
     pub label: String,
     /// (r in m, p in Pa) from the axis outward, as far as there is pressure and a row further.
     pub pressure: Vec<(f64, f64)>,
+    /// Of the surfaces on the axis, m.
+    pub gap: f64,
     /// Those of them that are at nodes of the mesh.
     pub at_nodes: Vec<(f64, f64)>,
 }
@@ -77,6 +79,32 @@ impl Record {
         })
     }
 
+    /// Reads several, each once; those whose folders are called alike are called by their paths.
+    ///
+    /// # Errors
+    /// As [`Record::read`], and a folder that is named twice.
+    pub fn read_all(folders: &[PathBuf]) -> Result<Vec<Self>, Failure> {
+        let mut records: Vec<Self> = Vec::with_capacity(folders.len());
+        let mut places: Vec<PathBuf> = Vec::with_capacity(folders.len());
+        for folder in folders {
+            records.push(Self::read(folder)?);
+            let place = folder.canonicalize().unwrap_or_else(|_| folder.clone());
+            if places.contains(&place) {
+                let shown = one_line(&folder.display().to_string());
+                let message = format!("{shown}: this result is named twice");
+                return Err(Failure::bad_input(message).with_help("name each folder once"));
+            }
+            places.push(place);
+        }
+        let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
+        for (record, folder) in records.iter_mut().zip(folders) {
+            if names.iter().filter(|name| **name == record.name).count() > 1 {
+                record.name = one_line(&folder.display().to_string());
+            }
+        }
+        Ok(records)
+    }
+
     /// Of a folder whose summary is this text; files that are not there, or not whole, are left out.
     ///
     /// # Errors
@@ -120,6 +148,28 @@ impl Record {
         title.unwrap_or(&self.name).to_string()
     }
 
+    /// Whether forces and places are those of the deformed shape.
+    pub fn is_finite_strain(&self) -> bool {
+        let text = |effect: &Value, key: &str| effect.get(key).cloned();
+        self.list("effects").iter().any(|effect| {
+            text(effect, "name") == Some("finite strain".into())
+                && text(effect, "active") == Some(true.into())
+        })
+    }
+
+    /// Whether bodies have elements.
+    pub fn has_elements(&self) -> bool {
+        let elements = |body: &Value| body.get("elements").and_then(Value::as_u64);
+        self.list("bodies").iter().filter_map(elements).any(|n| n > 0)
+    }
+
+    /// Time of the largest contact force, s; that of the first touch without any.
+    pub fn peak_time(&self) -> f64 {
+        let (times, forces) = (self.history.get("time_s"), self.history.get("contact_force_n"));
+        let finite = times.iter().zip(forces).filter(|(_, force)| force.is_finite());
+        finite.max_by(|a, b| a.1.total_cmp(b.1)).map_or(self.first_touch(), |(time, _)| *time)
+    }
+
     /// First touch, s: the last row before the first one with a force.
     pub fn first_touch(&self) -> f64 {
         let (times, forces) = (self.history.get("time_s"), self.history.get("contact_force_n"));
@@ -152,7 +202,9 @@ fn contacts_of(columns: &Columns) -> Vec<ContactAt> {
     for (k, (&time, label)) in rows.enumerate() {
         if contacts.last().is_none_or(|last| last.time != time) {
             let (pressure, at_nodes) = (Vec::new(), Vec::new());
-            contacts.push(ContactAt { time, label: label.clone(), pressure, at_nodes });
+            let (label, gap) = (label.clone(), columns.get("gap_m").get(k).copied());
+            let gap = gap.unwrap_or(0.0);
+            contacts.push(ContactAt { time, label, gap, pressure, at_nodes });
         }
         let Some(last) = contacts.last_mut() else { continue };
         // The first row without pressure ends the curve.

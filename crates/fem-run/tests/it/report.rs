@@ -100,10 +100,78 @@ fn several_results_are_compared() {
     // By 2^(6/5) less what relaxes: the difference is told as a share.
     let force = |name: &str| place.json(&format!("{name}/summary.json"))["peak_force_n"].as_f64();
     let change = 100.0 * (force("fast").unwrap() / force("slow").unwrap() - 1.0);
-    assert!(page.contains(&format!("({change:+.2} %)")), "{change}");
+    assert!(page.contains(&format!("{change:+.2} %")), "{change}");
     assert!(page.contains("<td class=\"path\">body.0.approach_speed</td><td>0.5</td><td>1.0</td>"));
     assert!(!page.contains("<td class=\"path\">title</td>"));
     assert_eq!(place.list("slow"), ["history.csv", "report.html", "summary.json"]);
+}
+
+/// What a stranger compares: names as they are, numbers with their bars, the one key that differs before all that
+/// follows from it; each result once.
+#[test]
+fn a_comparison_tells_what_differs_first() {
+    let place = Place::new();
+    let condensed = ["case.toml", "--set", "model.condensed={}", "--quiet"];
+    place.succeed(&[&condensed[..], &["--out", "glass_on_glass"]].concat());
+    let fast = ["--set", "body.0.approach_speed='1 m/s'", "--out", "glass_fast_0.5"];
+    place.succeed(&[&condensed[..], &fast].concat());
+    place.succeed(&["report", "glass_on_glass", "glass_fast_0.5", "--out", "both.html"]);
+    let page = text(&place, "both.html");
+    assert_eq!(page.matches(">glass_fast_0.5</text>").count(), 5, "in the legend of each chart");
+    let (before, rest) = page.split_once("<details>").unwrap();
+    let (folded, _) = rest.split_once("</details>").unwrap();
+    assert!(before.contains("body.0.approach_speed") && folded.contains("mesh.refined_radius"));
+    assert!(!before.contains("mesh.") && before.contains(" ± "));
+    // No number of twenty digits.
+    let longest = page.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(str::len).max();
+    assert!(longest.is_some_and(|n| n <= 12), "{longest:?}");
+    for folders in [["glass_on_glass", "glass_on_glass"], ["glass_on_glass", "./glass_on_glass/"]] {
+        let ran = place.run(&["report", folders[0], folders[1]]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.contains("named twice"), "{}", ran.stderr);
+    }
+}
+
+/// Only the arrays that are asked for, and the film where it has what it needs.
+#[test]
+fn snapshots_have_the_fields_that_are_asked_for() {
+    let place = Place::new();
+    let run = |fields: &str, out: &str| {
+        let set = format!("output.fields={fields}");
+        let condensed = ["case.toml", "--set", "model.condensed={}", "--quiet", "--out", out];
+        place.succeed(&[&condensed[..], &["--set", &set]].concat());
+        let snapshot = place.list(out).into_iter().find(|name| name.ends_with("maximum.vtu"));
+        let file = fem_vtk::VtuFile::open(place.path(out).join(snapshot.unwrap())).unwrap();
+        let has = |name: &str| [file.point_data(name).is_ok(), file.cell_data(name).is_ok()];
+        let page = text(&place, &format!("{out}/report.html"));
+        (["displacement", "velocity", "sigma_yy", "von_mises", "body"].map(has), page)
+    };
+    let (arrays, page) = run("['displacement', 'sigma_yy']", "some");
+    let expected = [[true, false], [false; 2], [true; 2], [false; 2], [true; 2]];
+    assert_eq!(arrays, expected);
+    assert_eq!(page.matches("<figure>").count(), 4);
+    let (arrays, page) = run("[]", "none");
+    assert_eq!(arrays, [[false; 2], [false; 2], [false; 2], [false; 2], [true; 2]]);
+    assert!(!page.contains("<figure>") && page.contains("Contact pressure p ["));
+    let ran = place.run(&["case.toml", "--set", "output.fields=['sigma_zz']"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("sigma_yy"), "{}", ran.stderr);
+}
+
+/// A ball on a wall fills its picture: the wall is a strip, and the body above it is what is seen.
+#[test]
+fn the_frame_follows_what_is_there() {
+    let place = Place::new();
+    let wall = ["--set", "body.0={ name = 'floor', wall = {} }", "--set", "model.condensed={}"];
+    let moves = ["--set", "body.1.approach_speed='0.5 m/s'", "--quiet"];
+    place.succeed(&[&["case.toml"][..], &wall, &moves].concat());
+    let page = text(&place, "runs/case/report.html");
+    assert_eq!(page.matches("class=\"rigid ink stroke\"").count(), 4);
+    // Heights over widths of frames: 0.625, where as much was seen of the wall as of the ball it was 0.85.
+    let frame = page.split_once("<figure>").unwrap().1;
+    let height = frame.split_once("width=\"400\" height=\"").unwrap().1;
+    let height: f64 = height.split_once('"').unwrap().0.parse().unwrap();
+    assert!((height / 400.0 - 0.625).abs() < 1e-3, "{height}");
 }
 
 #[test]

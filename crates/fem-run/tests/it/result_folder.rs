@@ -3,7 +3,7 @@
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
 
-const KEYS: [&str; 30] = [
+const KEYS: [&str; 32] = [
     "restitution",
     "contact_time_s",
     "peak_force_n",
@@ -11,6 +11,7 @@ const KEYS: [&str; 30] = [
     "max_contact_radius_m",
     "peak_pressure_pa",
     "peak_force_raw_n",
+    "radius_and_pressure",
     "elastic_null",
     "contact_episodes",
     "hertz",
@@ -25,6 +26,7 @@ const KEYS: [&str; 30] = [
     "cost",
     "effects",
     "uncertainty",
+    "coarser_meshes",
     "models_considered",
     "warnings",
     "complete",

@@ -3,7 +3,8 @@
 //!
 //! Of each run all that the study `summary` measures, and of its [`Pulse`] `NAME.pulse_time` and
 //! `NAME.pulse_force`, and by how much the peak force that the program prints is above it,
-//! `NAME.printed_force`.
+//! `NAME.printed_force`. As other codes' pulses are told by, its width at a tenth of its largest force,
+//! `NAME.width_at_tenth`, and the largest mean over a hundredth of that, `NAME.mean_force`.
 //!
 //! For each pair of `against` what changes from the partner to the run: `NAME.time_change` (first to
 //! last contact), `NAME.width_change` (of `pulse_time`) and `NAME.force_change` as shares,
@@ -18,7 +19,7 @@ use super::summary;
 use crate::error::StudyError;
 use crate::findings::{Findings, Table};
 use crate::laboratory::Laboratory;
-use crate::pulse::Pulse;
+use crate::pulse::{Pulse, largest_mean, width_at_tenth};
 use crate::run::Run;
 
 #[derive(Deserialize)]
@@ -56,6 +57,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         findings.measure(format!("{name}.pulse_force"), measured.pulse.force);
         let printed = run.peak_force() / measured.pulse.force - 1.0;
         findings.measure(format!("{name}.printed_force"), printed);
+        let (rows, width) = (&run.collision.history, width_at_tenth(&run.collision.history));
+        findings.measure(format!("{name}.width_at_tenth"), width);
+        findings.measure(format!("{name}.mean_force"), largest_mean(rows, 0.01 * width));
         pulses.insert(name.clone(), measured);
     }
     let pulse_of = |name: &String| {

@@ -16,7 +16,7 @@ use fem_case::Scene;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
-use super::need::Need;
+use super::need::{Need, short};
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
@@ -46,7 +46,8 @@ impl Effect for Gravity {
         let hertz = &estimate.hertz;
         let weight = gravity.acceleration * hertz.pair().effective_mass() / hertz.peak_force();
         let fall = (gravity.acceleration * hertz.max_approach()).sqrt() / hertz.approach_speed();
-        let mut number = format!("weight / peak force = {weight:.1e}, √(g δ)/v = {fall:.1e}");
+        let mut number =
+            format!("weight / peak force = {}, √(g δ)/v = {}", short(weight), short(fall));
         if weight.max(fall * fall) < NEGLIGIBLE {
             number += "; in the contact it changes nothing, the flight needs it";
         }

@@ -5,6 +5,7 @@ use fem_collision::Collision;
 
 use super::answer::Answer;
 use super::effect::Effect;
+use super::need::percent;
 use crate::estimate::Estimate;
 
 /// Moved mass over a body's mass: of 1 % the peak force is off by up to half of that.
@@ -24,8 +25,9 @@ impl MassScaling {
     /// step is so many times longer for it. A wall's share is no number.
     pub(crate) fn of<'a>(shares: impl Iterator<Item = (&'a str, f64)>, longer: f64) -> Answer {
         let added = shares.filter(|(_, share)| *share > ROUNDING);
-        let added: Vec<String> =
-            added.map(|(name, share)| format!("{share:.1e} of the mass of {name}")).collect();
+        let added: Vec<String> = added
+            .map(|(name, share)| format!("{} of the mass of {name}", percent(share)))
+            .collect();
         match added.is_empty() {
             true => Answer::is(false, "no mass is moved"),
             false => {

@@ -189,6 +189,15 @@ fn lacking(scene: &Scene, effect: &dyn Effect) -> Refusal {
 fn inherent(scene: &Scene, effect: &dyn Effect, reason: &str) -> Refusal {
     let key = key_of(effect);
     let model = scene.model().name();
+    if effect.name() == SurfaceSlip::NAME && *scene.model() == ModelChoice::Fem {
+        // Explicit elements have it inherent nowhere else.
+        let message = format!(
+            "finite strain is on, whose contact is between the surfaces where they have moved to: they slip, \
+             and effect `{key}` cannot be left out ({reason})"
+        );
+        let help = "write \"auto\" or \"on\", leave it out, or write effects.finite_strain = \"off\" beside it";
+        return Refusal::new(format!("effects.{key}"), message).with_help(help);
+    }
     let message = format!("model {model} cannot leave out effect `{key}` ({reason})");
     Refusal::new(format!("effects.{key}"), message)
         .with_help("write \"auto\" or \"on\", or leave it out")

@@ -1,6 +1,6 @@
 //! The approach speed next to that of shear waves: the number that several effects go by.
 
-use super::need::percent;
+use super::need::{percent, short};
 use crate::estimate::Estimate;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
@@ -11,7 +11,7 @@ pub(super) const MACH_LIMIT: f64 = 0.02;
 
 /// The number that decides, in words.
 pub(super) fn number(estimate: &Estimate) -> String {
-    format!("approach speed / shear wave speed = {:.1e}", estimate.mach)
+    format!("approach speed / shear wave speed = {}", short(estimate.mach))
 }
 
 /// What the approach speed is next to that of shear waves, and above which share something follows.

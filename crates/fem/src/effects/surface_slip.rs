@@ -15,7 +15,7 @@ use fem_material::{ElasticModuli, Material};
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
-use super::need::{Need, percent};
+use super::need::{Need, percent, short};
 use crate::estimate::Estimate;
 
 /// Below this κβR* materials are alike but for the rounding of their moduli.
@@ -69,7 +69,10 @@ impl Effect for SurfaceSlip {
         });
         Some(Need {
             is_called_for: is_called_for(scene),
-            number: format!("slope of the interface × mismatch of the materials = {slope:.1e}"),
+            number: format!(
+                "slope of the interface × mismatch of the materials = {}",
+                short(slope)
+            ),
             otherwise: "facing points move alike".to_string(),
             left_open: format!("{time} of the contact time is open"),
             warning,

@@ -9,7 +9,7 @@ use fem_collision::Collision;
 use super::answer::Answer;
 use super::effect::Effect;
 use super::left_out::LeftOut;
-use super::need::Need;
+use super::need::{Need, percent};
 use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
 
@@ -24,6 +24,10 @@ const LARGEST_VIBRATION: f64 = 0.01;
 const LOSS: f64 = 0.05;
 const LENGTHENING: f64 = 0.4;
 const WEAKENING: f64 = 0.5;
+/// The same of bodies that ring because their bulk waves are slow, over [`Estimate::ringing`]: of the glass pair with
+/// ν = −0.99, elements against none.
+const RINGING_LENGTHENING: f64 = 0.035;
+const RINGING_WEAKENING: f64 = 0.25;
 
 /// Inertia of the bodies' own deformation.
 #[derive(Clone, Copy, Debug)]
@@ -41,8 +45,11 @@ impl Effect for Vibration {
 
     fn need(&self, _: &Scene, estimate: &Estimate) -> Option<Need> {
         Some(Need {
-            is_called_for: estimate.mach > QUASI_STATIC_LIMIT,
-            number: number(estimate),
+            is_called_for: estimate.mach.max(estimate.ringing) > QUASI_STATIC_LIMIT,
+            number: match estimate.ringing > estimate.mach {
+                true => "bulk waves are slow, Poisson's ratio is negative".to_string(),
+                false => number(estimate),
+            },
             ..Need::default()
         })
     }
@@ -50,8 +57,13 @@ impl Effect for Vibration {
     fn left_out(&self, _: &Scene, estimate: &Estimate) -> Option<LeftOut> {
         // No body is faster than its waves.
         let mach = estimate.mach.min(1.0);
-        let lengths = LeftOut::shares(estimate, LENGTHENING * mach, WEAKENING * mach);
-        Some(LeftOut { restitution: Some(LOSS * mach), ..lengths })
+        let ringing = estimate.ringing;
+        let lengths = LeftOut::shares(
+            estimate,
+            LENGTHENING * mach + RINGING_LENGTHENING * ringing,
+            WEAKENING * mach + RINGING_WEAKENING * ringing,
+        );
+        Some(LeftOut { restitution: Some(LOSS * (mach + ringing)), ..lengths })
     }
 
     fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
@@ -106,6 +118,13 @@ impl Vibration {
                 "{} the inertia of the bodies counts: set model.condensed.vibration_modes = \
                  {ENOUGH_MODES}, or use model fem",
                 above(estimate, QUASI_STATIC_LIMIT)
+            ));
+        }
+        if estimate.ringing > QUASI_STATIC_LIMIT {
+            warnings.push(format!(
+                "bulk waves are so slow in a body of negative Poisson's ratio that it rings, and the contact so \
+                 short that few modes do not follow: about {} of the restitution; use model fem",
+                percent(LOSS * estimate.ringing)
             ));
         }
         if estimate.mach > MACH_LIMIT {

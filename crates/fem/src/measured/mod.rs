@@ -28,6 +28,8 @@ mod restitution_columns;
 mod restitution_table;
 mod restitutions;
 #[cfg(feature = "csv")]
+mod rows;
+#[cfg(feature = "csv")]
 mod table;
 #[cfg(feature = "csv")]
 mod written;
@@ -38,6 +40,8 @@ pub use data_error::DataError;
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
 pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError};
+#[cfg(feature = "csv")]
+pub use rows::rows_below;
 #[cfg(feature = "csv")]
 pub use table::Table;
 #[cfg(feature = "csv")]

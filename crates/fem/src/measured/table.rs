@@ -245,6 +245,11 @@ impl Table {
         is_missing(self.text(row, column))
     }
 
+    /// Whether numbers may have decimal commas.
+    pub(super) fn has_decimal_commas(&self) -> bool {
+        self.has_decimal_commas
+    }
+
     /// The line of a row.
     pub fn line(&self, row: usize) -> u64 {
         self.rows[row].0

@@ -243,7 +243,7 @@ impl Model for Explicit {
 
     fn resume(&self, memory: Memory) -> Result<Box<dyn Course>, Refusal> {
         let refused = |error: ModelError| Refusal::new("model.fem", error.to_string());
-        let Memory { contact: memory, bounces, met } = memory;
+        let Memory { contact: memory, bounces, met, .. } = memory;
         let frame = self.made.own_frame(&met).map_err(refused)?;
         let (approach, expected) = (*memory.approach(), memory.expected());
         if bounces.is_some() || approach != *frame.own() {
@@ -303,7 +303,8 @@ impl Course for ExplicitCourse {
 
     fn memory(&self) -> Option<Memory> {
         let contact = self.run.memory().clone();
-        Some(Memory { contact, bounces: None, met: *self.frame.met() })
+        let (met, refinement, levels) = (*self.frame.met(), 1.0, Vec::new());
+        Some(Memory { contact, bounces: None, met, refinement, levels })
     }
 
     fn finish(self: Box<Self>) -> Collision {

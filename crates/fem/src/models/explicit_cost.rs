@@ -4,6 +4,7 @@ use fem_case::{Body, Scene};
 use fem_explicit::Model as Bodies;
 use fem_material::{Material, PronySeries};
 
+use crate::accuracy::companion_updates;
 use crate::duration::expected_duration;
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
@@ -18,12 +19,16 @@ use crate::soft_springs::lengthening;
 const SECONDS_AN_UPDATE: f64 = 6e-9;
 /// ... of each of its Prony terms, ...
 const SECONDS_A_BRANCH: f64 = 1e-9;
-/// ... at finite strain, ...
-const SECONDS_AT_FINITE_STRAIN: f64 = 15e-9;
+/// ... at finite strain, with the bounds of its step, ...
+const SECONDS_AT_FINITE_STRAIN: f64 = 20e-9;
 /// ... of each Prony term there, ...
 const SECONDS_A_BRANCH_AT_FINITE_STRAIN: f64 = 7e-9;
 /// ... and of bulk viscosity. Other machines differ by a factor.
 const SECONDS_OF_BULK_VISCOSITY: f64 = 5e-9;
+/// Seconds of a step that springs between moved surfaces take, and what is read of them.
+const SECONDS_OF_MOVED_CONTACT: f64 = 6e-6;
+/// Seconds of condensed companions for each element.
+const SECONDS_OF_CONDENSED_COMPANIONS: f64 = 30e-6;
 
 /// What a run takes, within the limits.
 pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, Refusal> {
@@ -44,11 +49,21 @@ pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, R
         nodes,
         steps: steps as u64,
         element_updates,
-        seconds: steps * seconds_a_step(scene, model, plan),
+        seconds: with_companions(scene, plan, elements, steps * seconds_a_step(scene, model, plan)),
         memory,
         time_step: model.time_step(),
         plain_time_step: model.plain_time_step(),
     })
+}
+
+/// Seconds of a run that takes so long, with the companions that tell what it is off by.
+fn with_companions(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) -> f64 {
+    let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+    match companion_updates(plan.estimate.mach, is_finite) {
+        _ if !plan.makes_meshes => seconds,
+        Some(share) => (1.0 + share) * seconds,
+        None => seconds + SECONDS_OF_CONDENSED_COMPANIONS * elements as f64,
+    }
 }
 
 /// Seconds that a step of both bodies takes.
@@ -67,7 +82,8 @@ fn seconds_a_step(scene: &Scene, model: &Bodies, plan: &Plan) -> f64 {
         };
         body.n_elements() as f64 * (each + viscous)
     });
-    seconds.sum()
+    let of_contact = if is_finite { SECONDS_OF_MOVED_CONTACT } else { 0.0 };
+    seconds.sum::<f64>() + of_contact
 }
 
 /// Prony terms whose history is kept of a body.

@@ -4,7 +4,7 @@
 use fem_case::Scene;
 use fem_collision::{
     Account, Approach, BodyFields, BodyResult, Book, Collision, ContactPlace, ContactProfile,
-    Monitor, Progress, Row, Snapshot, StaticContact, Stop, Want,
+    Deepest, Monitor, Progress, Row, Snapshot, StaticContact, Stop, Want,
 };
 use fem_mesh::{Side, SphereMesh};
 
@@ -171,6 +171,9 @@ impl Whole {
             approach: self.approach,
             energies,
             residual: half.residual.map(|residual| 2.0 * residual),
+            deepest: half
+                .deepest
+                .map(|deepest| Deepest { overlap: 2.0 * deepest.overlap, ..deepest }),
             max_approach: half.max_approach.map(|approach| 2.0 * approach),
             initial_energy: half.initial_energy.map(|energy| 2.0 * energy + of_centre),
             bodies: [after(0), after(1)],

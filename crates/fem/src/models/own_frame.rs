@@ -87,6 +87,7 @@ impl OwnFrame {
             first_contact: own.first_contact.map(later),
             last_contact: own.last_contact.map(later),
             noisiest: own.noisiest.map(|at| at.later_by(self.delay())),
+            deepest: own.deepest.map(|deepest| deepest.later_by(self.delay())),
             residual_since: own.residual_since.map(|at| at.later_by(self.delay())),
             initial_energy: initial,
             energies: self.energies(own.energies, masses, last),

@@ -5,6 +5,7 @@
 
 use std::path::Path;
 
+use fem_case::Field;
 use fem_collision::{Collision, Snapshot, StressRecovery, invariants};
 use fem_material::Material;
 use fem_mesh::SphereMesh;
@@ -13,9 +14,15 @@ use fem_vtk::{VtuGrid, VtuWriter, pad_vectors, write_collection};
 use super::shown::{Shown, shown};
 use crate::simulation::Simulation;
 
-/// Names of the stress arrays, in the order of [`GridStress`]; readers show the first at first.
-const STRESSES: [&str; 6] =
-    ["sigma_yy", "sigma_rr", "sigma_tt", "sigma_ry", "pressure", "von_mises"];
+/// The stress arrays, in the order of [`GridStress`]; readers show the first at first.
+const STRESSES: [Field; 6] = [
+    Field::SigmaYy,
+    Field::SigmaRr,
+    Field::SigmaTt,
+    Field::SigmaRy,
+    Field::Pressure,
+    Field::VonMises,
+];
 
 /// What is drawn of a collision.
 struct Drawing<'a> {
@@ -62,6 +69,7 @@ struct GridArrays {
 struct Scene<'a> {
     grid: VtuGrid<'a>,
     arrays: &'a GridArrays,
+    case: &'a fem_case::Scene,
     /// Of the bodies with a mesh.
     recoveries: Vec<StressRecovery<'a>>,
 }
@@ -90,6 +98,7 @@ pub fn write_snapshots(
     let scene = Scene {
         grid: VtuGrid::new(&arrays.points, &arrays.quads),
         arrays: &arrays,
+        case: simulation.case().scene(),
         recoveries: drawing.meshed().map(|(_, mesh, _)| StressRecovery::new(mesh)).collect(),
     };
     let mut series: Vec<(f64, String)> = Vec::new();
@@ -134,15 +143,22 @@ fn write_snapshot(
         append_stress(&mut cells, &stress.cells);
         append_stress(&mut points, &stress.points);
     }
-    let mut writer = VtuWriter::on(&scene.grid)
-        .time(snapshot.time)
-        .point_data("displacement", 3, &displacement)
-        .point_data("velocity", 3, &velocity);
-    for (k, name) in STRESSES.into_iter().enumerate() {
+    let mut writer = VtuWriter::on(&scene.grid).time(snapshot.time);
+    let wants = |field: Field| scene.case.wants_field(field);
+    if wants(Field::Displacement) {
+        writer = writer.point_data(Field::Displacement.word(), 3, &displacement);
+    }
+    if wants(Field::Velocity) {
+        writer = writer.point_data(Field::Velocity.word(), 3, &velocity);
+    }
+    for (k, field) in STRESSES.into_iter().enumerate().filter(|(_, field)| wants(*field)) {
+        let name = field.word();
         writer = writer.point_data(name, 1, &points[k]).cell_data(name, 1, &cells[k]);
     }
+    if wants(Field::ContactPressure) {
+        writer = writer.point_data(Field::ContactPressure.word(), 1, &pressure);
+    }
     writer
-        .point_data("contact_pressure", 1, &pressure)
         .point_data("body", 1, &scene.arrays.body_of_points)
         .cell_data("body", 1, &scene.arrays.body)
         .write(path)

@@ -9,7 +9,7 @@ use super::summary::{
     BodySummary, BounceSummary, CostSummary, EffectSummary, PROGRAM, Quantities, RestSummary,
     Summary,
 };
-use crate::effects::Verdict;
+use crate::effects::{FiniteStrain, Verdict};
 use crate::estimate::Estimate;
 use crate::numerics::NUMERICS;
 use crate::simulation::Simulation;
@@ -47,6 +47,7 @@ impl Summary {
             uncertainty: simulation.uncertainty(collision, &quantities, &effects),
             collision: quantities,
             peak_force_raw_n: numbers.finite_if_any("peak_force_raw_n", collision.peak_force_raw),
+            radius_and_pressure: radius_and_pressure(&effects),
             elastic_null: elastic_null(simulation, collision),
             contact_episodes: collision.contact_episodes,
             hertz: hertz(simulation.estimate(collision), &mut numbers),
@@ -69,6 +70,7 @@ impl Summary {
                 factor_bytes: collision.factor_bytes,
             },
             effects,
+            coarser_meshes: Some(simulation.levels().to_vec()).filter(|levels| !levels.is_empty()),
             models_considered: Some(simulation.considered().to_vec())
                 .filter(|considered| !considered.is_empty()),
             complete: collision.is_complete(),
@@ -99,6 +101,13 @@ fn effects(simulation: &Simulation, collision: &Collision) -> Vec<EffectSummary>
         EffectSummary { verdict, error_if_left_out: left_out }
     };
     simulation.decisions(collision).verdicts.into_iter().map(worth).collect()
+}
+
+/// Which radius and pressure a run has that decided so.
+fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
+    let is_finite =
+        |effect: &EffectSummary| effect.verdict.name == FiniteStrain::NAME && effect.verdict.active;
+    if effects.iter().any(is_finite) { "true" } else { "nominal" }
 }
 
 /// Keeps numbers that are not finite out of the summary.

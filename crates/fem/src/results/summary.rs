@@ -8,6 +8,7 @@ use super::elastic_null::ElasticNull;
 use super::energy::Energy;
 use crate::effects::{LeftOut, Verdict};
 use crate::models::Considered;
+use crate::refinement::Level;
 
 /// The name of the file.
 pub const SUMMARY_FILE: &str = "summary.json";
@@ -22,6 +23,8 @@ pub struct Summary {
     pub collision: Quantities,
     /// Largest contact force of a single step, in models that step.
     pub peak_force_raw_n: Option<f64>,
+    /// `"true"`, of the deformed bodies, at finite strain; else `"nominal"`, of undeformed area.
+    pub radius_and_pressure: &'static str,
     /// Of a relaxing run, what its mesh and settings lose with relaxation off.
     pub elastic_null: Option<ElasticNull>,
     /// Closed contacts, openings in between not counted.
@@ -50,6 +53,9 @@ pub struct Summary {
     pub effects: Vec<EffectSummary>,
     /// How far the quantities may be off.
     pub uncertainty: UncertaintySummary,
+    /// Meshes that were too coarse for the tolerance of the case, the first one first; none where the first
+    /// one does.
+    pub coarser_meshes: Option<Vec<Level>>,
     /// Where the case leaves the model open: which were considered, from the cheapest to the dearest.
     pub models_considered: Option<Vec<Considered>>,
     /// What the user should know.

@@ -17,6 +17,8 @@ mod expense;
 mod identity;
 mod in_code;
 mod key_numbers;
+#[cfg(feature = "csv")]
+mod load;
 mod members;
 mod observer;
 mod order;
@@ -31,6 +33,8 @@ pub use columns::{COLUMNS, Columns, column_unit, column_words, columns, key_colu
 pub use identity::Member;
 pub use in_code::sweep;
 pub use key_numbers::{KeyNumbers, NumberColumn};
+#[cfg(feature = "csv")]
+pub use load::load;
 pub use members::Members;
 pub use observer::{Observer, Ran};
 pub use order::dearest_first;

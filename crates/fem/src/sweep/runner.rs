@@ -39,7 +39,7 @@ impl<'a, M: Members + ?Sized> Runner<'a, M> {
         if !self.has_fields {
             simulation.skip_snapshots();
         }
-        let collision = simulation.run(monitor);
+        let (simulation, collision) = simulation.run_within_tolerance(monitor);
         Ok(Ran { simulation, collision })
     }
 

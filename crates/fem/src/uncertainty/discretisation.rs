@@ -1,10 +1,11 @@
 //! What mesh, springs, added mass and steps may be off by.
 
-use fem_collision::{Collision, Headline};
+use std::sync::PoisonError;
+
+use fem_collision::{Approach, Collision, Headline};
 
 use crate::accuracy::discretisation_errors;
-use crate::effects::{Doubt, FiniteStrain};
-use crate::results::EffectSummary;
+use crate::effects::{Doubt, FiniteStrain, Verdict};
 use crate::simulation::Simulation;
 
 /// What closed forms are off by: rounding.
@@ -13,27 +14,58 @@ const ROUNDING: f64 = 1e-12;
 /// the instants of a history.
 const OF_HISTORY: f64 = 20.0;
 
-/// Of the quantities of a collision: of elements by companions, of one degree of freedom by its tolerance.
-pub(super) fn of(
-    simulation: &Simulation,
-    collision: &Collision,
-    effects: &[EffectSummary],
-) -> Doubt {
+/// What tells a collision of a case from another one.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Seen {
+    approach: Approach,
+    values: [Option<f64>; 6],
+    element_updates: Option<u64>,
+    is_complete: bool,
+}
+
+impl Seen {
+    fn of(collision: &Collision) -> Self {
+        Self {
+            approach: collision.approach,
+            values: Headline::ALL.map(|headline| headline.of(collision)),
+            element_updates: collision.element_updates,
+            is_complete: collision.is_complete(),
+        }
+    }
+}
+
+impl Simulation {
+    /// Of the quantities of a collision: of elements by companions, of one degree of freedom by its
+    /// tolerance. Companions take time: what they told of the last collision is kept.
+    pub(crate) fn discretisation(&self, collision: &Collision) -> Doubt {
+        let now = Seen::of(collision);
+        // Who panicked has left nothing half written.
+        let mut errors = self.errors.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*errors {
+            Some((seen, doubt)) if *seen == now => *doubt,
+            _ => {
+                let doubt = of(self, collision);
+                *errors = Some((now, doubt));
+                doubt
+            }
+        }
+    }
+}
+
+fn of(simulation: &Simulation, collision: &Collision) -> Doubt {
     use fem_case::ModelChoice::{Auto, Condensed, Fem, Hertz, Law, Ting};
     match *simulation.scene_of_model().model() {
         Fem | Condensed(_) => {
-            discretisation_errors(simulation, collision, is_at_finite_strain(effects))
+            let verdicts = simulation.decisions(collision).verdicts;
+            let is_finite =
+                |verdict: &Verdict| verdict.name == FiniteStrain::NAME && verdict.active;
+            discretisation_errors(simulation, collision, verdicts.iter().any(is_finite))
         }
         Hertz { .. } => of_tolerance(collision, ROUNDING),
         Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),
         // Its choice is one of the others.
         Auto => Doubt::default(),
     }
-}
-
-/// Whether a collision was computed with large strains.
-fn is_at_finite_strain(effects: &[EffectSummary]) -> bool {
-    effects.iter().any(|effect| effect.verdict.name == FiniteStrain::NAME && effect.verdict.active)
 }
 
 fn of_tolerance(collision: &Collision, tolerance: f64) -> Doubt {

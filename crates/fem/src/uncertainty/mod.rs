@@ -8,6 +8,8 @@
 
 mod discretisation;
 
+pub(crate) use discretisation::Seen;
+
 use fem_collision::Collision;
 
 use crate::effects::{Doubt, EFFECTS, Standing};
@@ -23,7 +25,7 @@ impl Simulation {
         numbers: &Quantities,
         effects: &[EffectSummary],
     ) -> UncertaintySummary {
-        let discretisation = discretisation::of(self, collision, effects);
+        let discretisation = self.discretisation(collision);
         let model = self.model_doubt(collision, effects);
         UncertaintySummary::by(|headline| {
             let of = |doubt: &Doubt| numbers.number(headline).and(doubt.size(headline));

@@ -42,7 +42,7 @@ const ON: &str = "effects.finite_strain='on'";
 const BLOCK: &str = "body.0={ name = 'wall', half_space = {}, material = 'rubber' }";
 const NEO_HOOKE: &str = "material.rubber.hyperelastic='neo-hooke'";
 const FLAT: &str = "body.1.approach_speed='4 m/s'";
-const STIFF: &str = "material.rubber.poissons_ratio=0.499";
+const STIFF: &str = "material.rubber.poissons_ratio=0.49995";
 
 fn simulation(set: &[&str]) -> Result<Simulation, fem::CaseError> {
     let set: Vec<String> = set.iter().map(ToString::to_string).collect();
@@ -121,9 +121,9 @@ fn models_without_it_say_what_they_leave_out() {
 fn a_volume_that_hardly_gives_way_is_refused_by_force_and_told_of_otherwise() {
     let error = simulation(&[STIFF, ON]).unwrap_err();
     assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
-    assert!(error.message().contains("0.499 of ball is above 0.495"), "{error}");
+    assert!(error.message().contains("0.49995 of ball is above 0.4999"), "{error}");
     let warnings = simulation(&[STIFF]).unwrap().setup().warnings().join("\n");
-    assert!(warnings.contains("0.499 of ball") && warnings.contains("leaves out"), "{warnings}");
+    assert!(warnings.contains("0.49995 of ball") && warnings.contains("leaves out"), "{warnings}");
     assert!(simulation(&[STIFF, OFF]).is_ok());
 }
 
@@ -140,4 +140,95 @@ fn more_terms_than_elements_bear_stay_at_small_strain() {
     assert!(warnings.contains("ball relaxes with 40 terms"), "{warnings}");
     let error = self::simulation(&[&many, ON]).unwrap_err();
     assert_eq!(error.key(), Some("effects.finite_strain"), "{error}");
+}
+
+const SVK: &str = "material.rubber.hyperelastic='saint-venant-kirchhoff'";
+
+/// Runs that a body does not bear: each says where and what helps, which does, and leaves the last state that was
+/// sound.
+#[test]
+fn what_stops_a_run_is_named_and_the_remedy_helps() {
+    let labels = "output.snapshots=['maximum']";
+    let run = |set: &[&str]| {
+        let simulation = simulation(&[&[labels][..], set].concat()).unwrap();
+        simulation.run(&mut ())
+    };
+    // Shear waves of 17.7 m/s.
+    let (folding, slower) = ("body.1.approach_speed='40 m/s'", "body.1.approach_speed='17 m/s'");
+    let three = "body.1.approach_speed='3 m/s'";
+    for (stopped, words, helped) in [
+        (
+            vec![SVK, three],
+            ["element ", "lost its stability", "saint-venant-kirchhoff"],
+            vec![NEO_HOOKE, three],
+        ),
+        (
+            vec![NEO_HOOKE, folding],
+            ["node ", "of the upper body turns over", "undeformed it lies at"],
+            vec![NEO_HOOKE, slower],
+        ),
+    ] {
+        let collision = run(&stopped);
+        let Some(stop) = collision.stop() else {
+            panic!("{stopped:?} {:?}", collision.residual_relative)
+        };
+        let text = stop.to_string();
+        assert!(words.iter().all(|word| text.contains(word)), "{text}");
+        let remedy = fem::remedy_of(stop).unwrap().remedy;
+        let key = if stopped.contains(&SVK) { "hyperelastic" } else { "approach_speed" };
+        assert!(remedy.contains(key), "{remedy}");
+        let kept = collision.snapshots.last().unwrap();
+        assert_eq!(kept.label, Some(fem::Label::LastSound));
+        let after = run(&helped);
+        assert!(after.is_complete(), "{helped:?} {:?}", after.ending);
+        assert!(after.residual_relative.unwrap() < 1e-3, "{helped:?}");
+    }
+}
+
+/// What is foretold of a law comes, and of a speed at which nothing is foretold nothing does.
+#[test]
+fn a_law_that_will_not_bear_the_contact_is_told_before() {
+    for (speed, expected) in [("'3 m/s'", true), ("'0.3 m/s'", false)] {
+        let speed = format!("body.1.approach_speed={speed}");
+        let simulation = simulation(&[SVK, &speed]).unwrap();
+        let foretold = simulation.setup().warnings().join("\n");
+        assert_eq!(foretold.contains("lose its stability"), expected, "{speed} {foretold}");
+        let collision = simulation.run(&mut ());
+        let found = collision.warnings.join("\n")
+            + &collision.stop().map(ToString::to_string).unwrap_or_default();
+        assert_eq!(found.contains("lost its stability"), expected, "{speed} {found}");
+    }
+}
+
+/// Natural rubber of the library, ν = 0.49989, is computed at finite strain by the law that it names, and next to
+/// what ν = 0.495 gives: E* is 0.6 % larger, which is 0.26 % of the contact time, and as much again for its step.
+#[test]
+fn natural_rubber_is_borne_at_finite_strain() {
+    let ball = |material: &str| {
+        let body = format!(
+            "body.1={{ name = 'ball', sphere = {{ diameter = '30 mm' }}, material = '{material}', \
+             approach_speed = '3 m/s' }}"
+        );
+        let like = "material.like={ density='970 kg/m^3', shear_modulus='0.43 MPa', poissons_ratio=0.495, \
+                    hyperelastic='neo-hooke' }";
+        let set = ["mesh.contact_element_size='2 mm'", &body, like];
+        let simulation = simulation(&set[..if material == "like" { 3 } else { 2 }]).unwrap();
+        let verdict = verdict(&simulation);
+        assert!(verdict.active && verdict.reason.ends_with("law neo-hooke"), "{verdict:?}");
+        simulation.run(&mut ())
+    };
+    let (rubber, like) = (ball("lib:natural-rubber"), ball("like"));
+    assert!(rubber.is_complete() && rubber.residual_relative.unwrap() < 1e-3);
+    let change = rubber.contact_time.unwrap() / like.contact_time.unwrap() - 1.0;
+    assert!((-6e-3..0.0).contains(&change), "{change}");
+}
+
+/// Moved surfaces slip of themselves: whoever forbids it is told why, and of what.
+#[test]
+fn slip_that_finite_strain_has_of_itself_is_not_blamed_on_the_model() {
+    let error = simulation(&[STEEL_BALL, "effects.surface_slip='off'"]).unwrap_err();
+    assert_eq!(error.key(), Some("effects.surface_slip"));
+    assert!(error.message().contains("finite strain is on"), "{error}");
+    let both = ["effects.finite_strain='off'", "effects.surface_slip='off'"];
+    assert!(simulation(&[&[STEEL_BALL][..], &both].concat()).is_ok());
 }

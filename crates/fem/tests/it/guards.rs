@@ -62,9 +62,9 @@ fn assert_helped(case: &str, overrides: &[&str], word: &str) -> String {
 }
 
 const COARSE: &str = "mesh.contact_element_size='90 um'";
-/// Eight elements across the contact, and nodes that stay light: springs between them ring.
-const FINE: &str = "accuracy.tolerance='0.3 %'";
+/// Elements that are small, and nodes that stay light: springs between them ring.
 const SLIPPING_FINE: &str = "mesh.contact_element_size='0.163 mm'";
+const SOFT_FINE: &str = "mesh.contact_element_size='0.55 mm'";
 const LITTLE_MASS: &str = "time.mass_scaling=2e-4";
 
 #[test]
@@ -102,7 +102,7 @@ fn springs_that_cannot_be_without_mass_are_told_how_soft_to_be() {
     for factor in [10.0, 100.0] {
         let factor = format!("contact.penalty_factor={factor}");
         let message =
-            assert_helped(SOFT, &[&factor, "model.fem={}", FINE, LITTLE_MASS], "scatters");
+            assert_helped(SOFT, &[&factor, "model.fem={}", SOFT_FINE, LITTLE_MASS], "scatters");
         assert_eq!(written(&message), "contact.penalty_factor=1");
     }
 }
@@ -155,7 +155,17 @@ fn springs_that_are_too_soft_are_told_how_stiff_to_be() {
     for factor in [0.02, 0.1] {
         let factor = format!("contact.penalty_factor={factor}");
         let message = assert_helped(GLASS, &[COARSE, &factor], "overlap");
-        assert!(message.contains("% of an element"), "{message}");
+        assert!(message.contains("% of an element, deepest "), "{message}");
+        // On the axis, at the largest force.
+        let (_, collision) = run(GLASS, &[COARSE, &factor]);
+        let deepest = collision.deepest.unwrap();
+        assert!(message.contains(&deepest.to_string()), "{message}");
+        let ends = [collision.first_contact, collision.last_contact].map(Option::unwrap);
+        let middle = 0.5 * (ends[0] + ends[1]);
+        assert!((deepest.at.time - middle).abs() < 0.1 * (ends[1] - ends[0]), "{deepest}");
+        assert!(deepest.radius < 0.3 * collision.max_contact_radius.unwrap(), "{deepest}");
+        // F = k ∫ overlap dA, of a paraboloid at most twice its mean.
+        assert!(deepest.overlap < 0.5 * collision.max_approach.unwrap(), "{deepest}");
     }
 }
 

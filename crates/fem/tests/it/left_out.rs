@@ -55,8 +55,9 @@ fn is_as_foretold(text: &str, set: &[&str], effect: &str) {
     assert!(told.iter().flatten().all(|change| change.is_finite() && *change >= 0.0));
     assert!(foretold.restitution.is_some() && foretold.peak_force_n.is_some());
     let what = |number: &str| format!("{number} of {effect} of {set:?}");
-    // What is left in vibrations depends on bodies that the foretold ones were not.
-    let vibration = if effect == "finite strain" { 1e-3 } else { 1e-4 };
+    // What is left in vibrations depends on bodies that the foretold ones were not, and on how much of them
+    // bulk viscosity takes, which falls with the elements: foretold from meshes twice as coarse.
+    let vibration = if effect == "finite strain" { 2e-3 } else { 1e-4 };
     agree(foretold.restitution, with.restitution, without.restitution, vibration, &what("e"));
     // Steps of a history, and the instant at which a relaxed force ends.
     let time = 1e-3 * with.contact_time.unwrap();

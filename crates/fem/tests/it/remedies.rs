@@ -14,7 +14,7 @@ fn stops() -> Vec<Stop> {
     let stops = vec![
         Stop::Interrupted { time, step },
         Stop::ContactBeyondCandidates { time, step, radius: 1e-3 },
-        Stop::SurfaceTurnsOver { time, step, radius: 1e-3 },
+        Stop::SurfaceTurnsOver { time, step, radius: 1e-3, body: 1, node: 3, place: [1e-3; 2] },
         Stop::ContactTooLarge { ratio: 0.9 },
         Stop::EnergyGrowth { time, step, ratio: 2.0, body: 0, node: 3, place: [1e-3; 2] },
         Stop::NoNumber { time, step, body: 0, node: 3, place: [1e-3; 2] },
@@ -25,6 +25,15 @@ fn stops() -> Vec<Stop> {
             element: 7,
             place: [1e-3; 2],
             volume_ratio: -0.1,
+        },
+        Stop::StabilityLost {
+            time,
+            step,
+            body: 1,
+            element: 7,
+            place: [1e-3; 2],
+            stretches: [1.0, 0.9, 1.0],
+            law: "hencky".to_string(),
         },
         Stop::NoStepShortEnough { time, step, body: 0, place: [1e-3; 2], of_contact: true },
         Stop::NoStepShortEnough { time, step, body: 1, place: [1e-3; 2], of_contact: false },
@@ -48,6 +57,7 @@ fn stops() -> Vec<Stop> {
             | Stop::EnergyGrowth { .. }
             | Stop::NoNumber { .. }
             | Stop::ElementCollapsed { .. }
+            | Stop::StabilityLost { .. }
             | Stop::NoStepShortEnough { .. }
             | Stop::EnergyImbalance { .. }
             | Stop::NoSeparation { .. }

@@ -9,10 +9,9 @@ use fem::schema::{
 };
 use fem::sweep::{
     COLUMNS, Member, Members, Observer, Ran, Row, Runner, Variations, check, column_unit,
-    column_words, columns, dearest_first, sweep_csv,
+    column_words, columns, dearest_first, load, sweep_csv,
 };
 use fem::{Account, Case, CaseError, CaseFile, Monitor, Progress, Shared, Simulation, sweep};
-use fem_case::Sweep;
 
 const SPEEDS: [f64; 3] = [0.3, 0.1, 0.2];
 
@@ -81,7 +80,7 @@ fn members_of_a_file_are_those_of_code() {
     let path = folder.path().join("sweep.toml");
     let vary = "case = 'case.toml'\n[vary]\nbody.0.approach_speed = ['30 cm/s', 0.1, 0.2]\n";
     std::fs::write(&path, vary).unwrap();
-    let file = Sweep::load(&path, &[]).unwrap();
+    let file = load(&path, &[]).unwrap();
     let code = Variations::of(&case, SPEEDS, set_speed);
     let cases = SPEEDS.map(|speed| case.edited(|file| set_speed(file, speed)).unwrap());
 

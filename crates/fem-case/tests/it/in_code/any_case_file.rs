@@ -191,6 +191,14 @@ impl Random {
             }),
             output: self.maybe(|random| OutputTable {
                 snapshots: random.maybe(Self::snapshots),
+                fields: random.maybe(|random| match random.below(3) {
+                    0 => Vec::new(),
+                    n => Field::WORDS
+                        .iter()
+                        .filter_map(|word| Field::from_word(word))
+                        .take(n)
+                        .collect(),
+                }),
                 probe: (0..random.below(3).saturating_sub(1)).map(|_| random.probe()).collect(),
                 report: random.maybe(|random| random.below(2) == 0),
             }),

@@ -89,6 +89,7 @@ pub fn made() -> CaseFile {
         contact: Some(ContactTable { penalty_factor: Some(1.0.into()), ..Default::default() }),
         time: Some(TimeTable { step_factor: Some(0.9.into()), mass_scaling: Some(2e-4.into()) }),
         output: Some(OutputTable {
+            fields: None,
             snapshots: Some(SnapshotsValue::List(labels)),
             report: None,
             probe: Vec::new(),

@@ -27,7 +27,7 @@ fn force_is_minus_the_gradient_of_the_energy() {
     for (scene, along_r) in scenes() {
         let u = scene.ragged(along_r, 20e-6);
         let (total, f) = scene.forces(&u);
-        assert!(total.n_closed >= 5 && total.turned_at.is_none(), "{total:?}");
+        assert!(total.n_closed >= 5 && total.turn.is_none(), "{total:?}");
         let step = 1e-11;
         let mut worst = [0.0f64; 2];
         for side in 0..2 {

@@ -74,12 +74,16 @@ fn a_surface_that_turns_over_is_told_where_it_touches() {
     let depth = 1e-3;
     let bowl = |r: f64| 1.0 * r * r - depth;
     let beside = folded(bowl);
-    assert!(beside.n_closed > 2 && beside.turned_at.is_none() && !beside.at_limit);
+    assert!(beside.n_closed > 2 && beside.turn.is_none() && !beside.at_limit);
     let up_to_it = folded(|r| if r < 0.065 { -depth } else { depth });
-    assert_eq!(up_to_it.turned_at.map(|r| (r * 1e6).round()), Some(60e3));
+    assert_eq!(up_to_it.turn.map(|turn| (turn.radius * 1e6).round()), Some(60e3));
     assert!(!up_to_it.at_limit);
+    // The eighth node, which would be at 0.07.
+    let turn = up_to_it.turn.unwrap();
+    let mesh = flat(0.01, Side::Above);
+    assert_eq!((turn.side, turn.node), (1, mesh.surface()[7]));
     let behind = folded(|r| if r > 0.075 { -depth } else { bowl(r) });
-    assert_eq!(behind.turned_at.map(|r| (r * 1e6).round()), Some(60e3));
+    assert_eq!(behind.turn.map(|turn| (turn.radius * 1e6).round()), Some(60e3));
     // Displacements that are no numbers give no force.
     let blown_up = folded(|_| f64::NAN);
     assert_eq!(blown_up.n_closed, 0);
@@ -103,14 +107,14 @@ fn a_flank_that_comes_back_touches_nothing() {
         displace(&scene, &meshes[1], 1, barrel(1.0, 0.15)),
     ];
     let (total, _) = scene.forces(&u);
-    assert!(total.n_closed > 20 && total.turned_at.is_none() && !total.at_limit, "{total:?}");
+    assert!(total.n_closed > 20 && total.turn.is_none() && !total.at_limit, "{total:?}");
     // Back into the flat part of the other one.
     let touches = |r: f64| {
         let [at, y] = barrel(1.0, 0.15)(r);
         [at, if r > 0.085 { -2e-4 } else { y }]
     };
     let u = [u[0].clone(), displace(&scene, &meshes[1], 1, touches)];
-    assert!(scene.forces(&u).0.turned_at.is_some());
+    assert!(scene.forces(&u).0.turn.is_some());
 }
 
 #[test]

@@ -103,6 +103,11 @@ impl Boundary {
         self.stress.shift(node, change, motion.stress_history);
     }
 
+    /// Those that [`Boundary::hand_over`] changes.
+    pub fn pushed_nodes(&self) -> Vec<u32> {
+        [&self.nodes[..], &self.neighbours].concat()
+    }
+
     /// What rounding leaves of the balance of a node without mass acts on its neighbour: forces (N) of
     /// both bodies stay opposite and equal.
     pub fn hand_over(&self, forces: &mut Field) {

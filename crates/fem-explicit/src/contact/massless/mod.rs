@@ -279,6 +279,13 @@ impl Contact for Massless {
         self.sides[side].as_ref().map_or(&[], |boundary| &boundary.nodes)
     }
 
+    fn pushed_nodes(&self, side: usize) -> Vec<u32> {
+        match &self.sides[side] {
+            Some(boundary) => boundary.pushed_nodes(),
+            None => self.interface().pushed_nodes(side),
+        }
+    }
+
     fn buffers(&self) -> Box<dyn Any + Send + Sync> {
         let field =
             |side: &Option<Boundary>| vec![[0.0; 2]; side.as_ref().map_or(0, Boundary::n_nodes)];

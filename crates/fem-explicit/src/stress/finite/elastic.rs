@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use fem_material::finite::{AxisymmetricTensor, Hyperelastic, Inverted, SymmetricTensor};
+use fem_material::finite::{
+    AxisymmetricTensor, Hyperelastic, HyperelasticLaw, Inverted, SymmetricTensor,
+};
 
 use super::Response;
 use super::block::{Blocks, Slots};
@@ -27,6 +29,10 @@ impl<W: ElasticLaw> Response for Elastic<W> {
 
     fn law(&self) -> &W {
         &self.law
+    }
+
+    fn law_name(&self) -> HyperelasticLaw {
+        self.solid.law()
     }
 
     fn subtract_forces(

@@ -21,6 +21,7 @@
 //! rates       how fast elements are strained
 //! kernel      the element loops: forces, energy
 //! bound       the largest eigenvalue of deformed elements
+//! stability   whether the law of an element still bears every wave
 //! ```
 
 mod block;
@@ -32,6 +33,7 @@ mod law;
 mod past;
 mod rates;
 mod relaxing;
+mod stability;
 
 use std::fmt;
 
@@ -43,7 +45,7 @@ use fem_material::finite::{
 };
 use fem_mesh::SphereMesh;
 
-use super::port::{Collapse, Stress};
+use super::port::{Collapse, Stress, Unstable};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use block::{Blocks, Slots};
 use bound::Metrics;
@@ -65,6 +67,9 @@ trait Response: fmt::Debug + Send + Sync + 'static {
     type Law: Law;
 
     fn law(&self) -> &Self::Law;
+
+    /// Its name.
+    fn law_name(&self) -> HyperelasticLaw;
 
     /// Number of fields of history of the elements, and behind them of the nodes.
     fn n_history(&self) -> [usize; 2] {
@@ -194,6 +199,14 @@ impl<R: Response> Stress for FiniteStrain<R> {
 
     fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {
         Some(self.blocks.most_compressed(displacement))
+    }
+
+    fn can_lose_stability(&self) -> bool {
+        !self.response.law_name().is_always_elliptic()
+    }
+
+    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<Unstable> {
+        stability::unstable_element(&self.blocks, &self.response, u, history)
     }
 
     fn update_cauchy_stress(&self, u: &Field, history: &[NodalField], stress: &mut Vec<[f64; 4]>) {

@@ -9,8 +9,8 @@ use std::borrow::Cow;
 use std::fmt;
 
 use fem_material::finite::{
-    AxisymmetricTensor, Hyperelastic, InverseMetric, Inverted, Shape, SymmetricTensor,
-    Viscoelastic, ViscousStep, ViscousStrain,
+    AxisymmetricTensor, Hyperelastic, HyperelasticLaw, InverseMetric, Inverted, Shape,
+    SymmetricTensor, Viscoelastic, ViscousStep, ViscousStrain,
 };
 use fem_material::{PronySeries, RelaxationStep};
 
@@ -88,6 +88,10 @@ impl Response for RelaxingStrain {
 
     fn law(&self) -> &Relaxing {
         &self.law
+    }
+
+    fn law_name(&self) -> HyperelasticLaw {
+        self.solid.law()
     }
 
     /// Of the nodes the internal forces.

@@ -1,7 +1,7 @@
 //! The elements at finite strain: derivatives, objectivity, patches, the limit of small strain.
 
-use fem_material::ElasticModuli;
 use fem_material::finite::{AxisymmetricTensor, Number};
+use fem_material::{ActsOn, ElasticModuli, PronySeries, PronyTerm};
 use fem_mesh::Side;
 
 use super::super::lanes::{Lanes, Plain, WIDE};
@@ -270,6 +270,45 @@ fn a_collapsed_element_is_named() {
             assert!(mesh.quads()[collapse.element].contains(&mesh.quads()[5][2]), "{law:?}");
         }
     }
+}
+
+/// Pressed alike from all sides St Venant-Kirchhoff's law gives way at λ² = 1/(1 + 2G/3K), to shear: every
+/// element is unstable from there on and none before, also one that has just begun to relax. An element that is
+/// pressed more than the others is the one that is told. Neo-Hooke's law is not asked.
+#[test]
+fn the_element_that_has_lost_its_stability_is_named() {
+    let mesh = mesh();
+    let material = unit_glass();
+    let moduli = material.instantaneous();
+    let term = PronyTerm { weight: 0.5, relaxation_time: 1.0 };
+    let series = PronySeries::new(vec![term], ActsOn::All).unwrap();
+    let relaxing = Material::new(material.density(), *moduli, Some(series)).unwrap();
+    let limit = (1.0 + 2.0 * moduli.shear_modulus() / (3.0 * moduli.bulk_modulus())).sqrt().recip();
+    for material in [&material, &relaxing] {
+        let stress = stress(&mesh, material, HyperelasticLaw::SaintVenantKirchhoff);
+        let at = |stretch: f64, more: f64| {
+            let of = |[r, y]: &[f64; 2]| [(stretch - 1.0) * r, (stretch - 1.0) * y - more * y * y];
+            let u: Vec<_> = mesh.nodes().iter().map(of).collect();
+            let n_fields = stress.n_element_history();
+            let mut history = vec![vec![[0.0; 2]; mesh.quads().len()]; n_fields];
+            history.extend(vec![vec![[0.0; 2]; u.len()]; stress.n_history()]);
+            stress.start_deformed(&u, &mut history);
+            stress.unstable_element(&u, &history)
+        };
+        assert!(stress.can_lose_stability());
+        // Differences of the stress over 1e-6 know the slope to 1e-6 of it.
+        assert_eq!(at(limit + 1e-4, 0.0), None);
+        let found = at(limit - 1e-4, 0.0).unwrap();
+        assert_eq!(found.law, "saint-venant-kirchhoff");
+        assert!(found.stretches.iter().all(|x| (x - limit + 1e-4).abs() < 1e-9), "{found:?}");
+        // Pressed most where y is largest.
+        let found = at(limit + 1e-4, 1e-2).unwrap();
+        let height =
+            |element: usize| mesh.corners(element).iter().map(|x| 0.25 * x[1]).sum::<f64>();
+        let top = (0..mesh.quads().len()).map(height).fold(f64::NEG_INFINITY, f64::max);
+        assert!(height(found.element) > 0.9 * top, "{found:?}");
+    }
+    assert!(!stress(&mesh, &material, HyperelasticLaw::NeoHooke).can_lose_stability());
 }
 
 /// Every law, on registers that the processor has.

@@ -3,7 +3,7 @@
 
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 
-use super::{Random, components, gradient_of, moduli, solid, tensor};
+use super::{Random, components, gradient_of, moduli, product, rotation, solid, tensor};
 
 fn differences(solid: &Hyperelastic, h: &AxisymmetricTensor) -> [[f64; 5]; 5] {
     let delta = 1e-5;
@@ -56,6 +56,19 @@ fn the_tangent_is_the_derivative_of_the_stress() {
     }
 }
 
+/// F = R diag(1.3, 0.8) Q of the plane: rotations leave stretches as they are.
+#[test]
+fn principal_stretches_are_those_without_rotations() {
+    for [first, second] in [[0.0, 0.0], [0.3, -1.1], [2.8, 0.4]] {
+        let stretched =
+            product(rotation(first), product([0.8, 0.0, 0.0, 1.3, 0.9], rotation(second)));
+        let found = gradient_of(stretched).principal_stretches();
+        for (found, expected) in found.iter().zip([1.3, 0.8, 0.9]) {
+            assert!((found - expected).abs() < 1e-14, "{first} {second}: {found}");
+        }
+    }
+}
+
 /// Equal stretches in the plane, and stretches on both sides of where the quotient gives way to
 /// the derivative.
 #[test]
@@ -97,26 +110,35 @@ fn the_largest_stiffness_is_the_largest_eigenvalue_from_above() {
     }
 }
 
-/// The smallest n ⊗ m : A : n ⊗ m over unit vectors of the plane, which an elliptic law keeps
-/// positive.
-fn smallest_of_rank_one(a: &[[f64; 5]; 5]) -> f64 {
-    let directions = (0..90).map(|k| (f64::from(k) * 2f64.to_radians()).sin_cos());
-    directions
-        .map(|(s, c)| {
-            // m·Q m of the acoustic tensor Q of the direction (c, s): its smaller eigenvalue.
-            let q = |i: usize, j: usize| {
-                let of = |i: usize, n: usize| a[2 * i + n];
-                let pairs = [(0, 0, c * c), (0, 1, c * s), (1, 0, s * c), (1, 1, s * s)];
-                pairs.iter().map(|&(k, l, weight)| weight * of(i, k)[2 * j + l]).sum::<f64>()
-            };
-            let (mean, half) = (0.5 * (q(0, 0) + q(1, 1)), 0.5 * (q(0, 0) - q(1, 1)));
-            mean - (half * half + q(0, 1) * q(0, 1)).sqrt()
-        })
-        .fold(f64::INFINITY, f64::min)
+fn margin(law: HyperelasticLaw, nu: f64, f: [f64; 5]) -> f64 {
+    solid(law, nu).least_acoustic_stiffness(&gradient_of(f)).unwrap()
 }
 
-fn margin(law: HyperelasticLaw, nu: f64, f: [f64; 5]) -> f64 {
-    smallest_of_rank_one(&solid(law, nu).tangent(&gradient_of(f)).unwrap())
+/// Undeformed it is that of a shear wave, G; and no m ⊗ N of any angles has less than the least found, but
+/// for the angles that lie between.
+#[test]
+fn the_least_acoustic_stiffness_is_that_of_the_softest_wave() {
+    let mut random = Random(10);
+    for law in HyperelasticLaw::ALL {
+        let solid = solid(law, 0.3);
+        let rest = solid.least_acoustic_stiffness(&tensor([0.0; 5])).unwrap();
+        assert!((rest / solid.shear_modulus() - 1.0).abs() < 1e-12, "{law:?}");
+        for _ in 0..50 {
+            let h = random.gradient(0.4);
+            let (least, a) =
+                (solid.least_acoustic_stiffness(&h).unwrap(), solid.tangent(&h).unwrap());
+            let mut found = f64::INFINITY;
+            for k in 0..100 * 100 {
+                let angle = |k: i32| (std::f64::consts::PI * f64::from(k) / 100.0).sin_cos();
+                let ((s, c), (big_s, big_c)) = (angle(k % 100), angle(k / 100));
+                let wave = [c * big_c, c * big_s, s * big_c, s * big_s];
+                let row = |i: usize| (0..4).map(|j| wave[i] * a[i][j] * wave[j]).sum::<f64>();
+                found = found.min((0..4).map(row).sum());
+            }
+            let range = solid.largest_stiffness(&h).unwrap() - least;
+            assert!((found - least).abs() < 2e-3 * range, "{law:?}: {found} {least}");
+        }
+    }
 }
 
 /// Under pressure the stiffness S + G λ² of a shear, with S = 3K (λ² − 1)/2, is zero at

@@ -2,13 +2,14 @@
 //!
 //! Two models may differ by what the tolerances of the claim say, and by what the effects that one has
 //! and the other lacks are worth by the plan's own closed forms, which are good within a factor of
-//! three, and by a share of what waves take that a model has as a term only. What is beyond is `unexplained`, unless the cheaper model warned of its result. `NAME.median`
+//! three, and by a share of what waves take that a model has as a term only. Scenes of `default_seeds` have the
+//! default settings, and what two models may differ by are both error bars. What is beyond is `unexplained`, unless the cheaper model warned of its result. `NAME.median`
 //! is the median |Δe| of a pair of models.
 
 use fem::effects::{LeftOut, PartnerWaves, Verdict};
 use fem::{Estimate, Simulation};
 use fem_case::{Case, CaseError};
-use fem_collision::Collision;
+use fem_collision::{Collision, Headline};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -31,6 +32,8 @@ const N_SHOWN: usize = 5;
 #[serde(deny_unknown_fields)]
 struct Parameters {
     seeds: Vec<u64>,
+    /// Of scenes with the default settings.
+    default_seeds: Vec<u64>,
     /// Of each seed.
     scenes: usize,
     /// Of two pairs of models: explicit and condensed, condensed and Ting's.
@@ -45,6 +48,19 @@ struct Tolerance {
     restitution: f64,
     contact_time: f64,
     peak_force: f64,
+}
+
+/// Where mesh and steps of a scene come from.
+#[derive(Clone, Copy)]
+enum Settings {
+    Claim,
+    Default,
+}
+
+impl Tolerance {
+    fn shares(self) -> [f64; 3] {
+        [self.restitution, self.contact_time, self.peak_force]
+    }
 }
 
 /// A collision of one model.
@@ -66,16 +82,17 @@ struct Difference {
 /// Runs random scenes.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let scenes: Vec<(String, Vec<String>)> = parameters
-        .seeds
-        .iter()
-        .flat_map(|&seed| {
+    let of_seeds = |seeds: &[u64], settings: Settings| {
+        let scenes = seeds.iter().flat_map(|&seed| {
             let mut random = Random::new(seed);
-            (0..parameters.scenes).map(move |k| (format!("{seed}.{k}"), overrides(&mut random)))
-        })
-        .collect();
-    let runs = scenes.par_iter().map(|(_, set)| {
-        let runs = MODELS.map(|model| run(laboratory, set, model));
+            (0..parameters.scenes).map(move |_| (settings, overrides(&mut random)))
+        });
+        scenes.collect::<Vec<_>>()
+    };
+    let mut scenes = of_seeds(&parameters.seeds, Settings::Claim);
+    scenes.extend(of_seeds(&parameters.default_seeds, Settings::Default));
+    let runs = scenes.par_iter().map(|(settings, set)| {
+        let runs = MODELS.map(|model| run(laboratory, *settings, set, model));
         let [fem, condensed, ting] = runs;
         Ok::<_, StudyError>([fem?, condensed?, ting?])
     });
@@ -88,9 +105,14 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         let mut differences: Vec<Difference> = scenes
             .iter()
             .zip(&runs)
-            .filter_map(|((_, set), runs)| {
+            .filter_map(|((settings, set), runs)| {
                 let [ours, theirs] = pair.map(|k| runs[k].as_ref().ok());
-                difference(set, ours?, theirs?, tolerance)
+                let (ours, theirs) = (ours?, theirs?);
+                let base = match settings {
+                    Settings::Claim => tolerance.shares(),
+                    Settings::Default => bars(ours, theirs),
+                };
+                Some(difference(set, ours, theirs, base))
             })
             .collect();
         findings.measure(format!("{name}.compared"), differences.len() as f64);
@@ -133,6 +155,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 /// A collision, or what the user is told instead.
 fn run(
     laboratory: &Laboratory,
+    settings: Settings,
     set: &[String],
     model: &str,
 ) -> Result<Result<Ran, String>, StudyError> {
@@ -140,6 +163,9 @@ fn run(
         StudyError::parameters("the claim has no [run.base], which the study needs")
     })?;
     let mut all = base.set.clone();
+    if let Settings::Default = settings {
+        all.push("accuracy={}".to_string());
+    }
     all.extend_from_slice(set);
     all.push(format!("model={{{model}}}"));
     let file = RunFile { case: base.case.clone(), set: all };
@@ -163,12 +189,7 @@ fn collide(case: Case) -> Result<Result<Ran, String>, CaseError> {
 }
 
 /// What the cheaper model (`theirs`) is off, over what is allowed.
-fn difference(
-    set: &[String],
-    ours: &Ran,
-    theirs: &Ran,
-    tolerance: Tolerance,
-) -> Option<Difference> {
+fn difference(set: &[String], ours: &Ran, theirs: &Ran, base: [f64; 3]) -> Difference {
     let hertz = &ours.simulation.setup().estimate.hertz;
     let numbers = |ran: &Ran| {
         let collision = &ran.collision;
@@ -178,7 +199,6 @@ fn difference(
     };
     let (a, b) = (numbers(ours), numbers(theirs));
     let (explained, waves) = (explained(ours, theirs), waves(theirs));
-    let base = [tolerance.restitution, tolerance.contact_time, tolerance.peak_force];
     let off = [0, 1, 2].map(|k| match (a[k], b[k]) {
         (Some(ours), Some(theirs)) => theirs - ours,
         // A contact without an end has none; whether it has one the restitution tells.
@@ -187,7 +207,20 @@ fn difference(
     let share =
         [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k] + waves[k]));
     let share = share.into_iter().fold(0.0, fem_collision::worst);
-    Some(Difference { scene: set.join(" "), off, share, warns: theirs.warns })
+    Difference { scene: set.join(" "), off, share, warns: theirs.warns }
+}
+
+/// What both models say that mesh and steps leave open; shares as of Hertz.
+fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
+    let hertz = &ours.simulation.setup().estimate.hertz;
+    let of = |ran: &Ran| {
+        let bars = ran.simulation.summary(&ran.collision).uncertainty;
+        let scales = [1.0, hertz.contact_time(), hertz.peak_force()];
+        let headlines = [Headline::Restitution, Headline::ContactTime, Headline::PeakForce];
+        [0, 1, 2].map(|k: usize| bars.parts(headlines[k]).discretisation.unwrap_or(0.0) / scales[k])
+    };
+    let (ours, theirs) = (of(ours), of(theirs));
+    [0, 1, 2].map(|k: usize| ours[k] + theirs[k])
 }
 
 /// What a model without fields of waves may be off by in what they take; shares as of Hertz.

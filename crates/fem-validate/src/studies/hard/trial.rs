@@ -74,10 +74,13 @@ impl Trial {
         bounces.or(collision.restitution)
     }
 
-    /// By how much the energy that the bodies hold is above what they had and were given, at any row,
-    /// over what they had.
+    /// By how much the energy that the bodies hold is above what they had and were given, at any step, over
+    /// what they had; of one degree of freedom, which steps as it pleases, at any row.
     pub fn growth(&self) -> Option<f64> {
         let collision = self.collision()?;
+        if let Some(growth) = collision.energy_growth {
+            return Some(growth);
+        }
         let initial = collision.initial_energy?;
         let held = |row: &Row| {
             let held = row.energies.total(Side::Held)?;

@@ -27,7 +27,7 @@ use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_collision::{Collision, Headline};
 use fem_explicit::MOST_FINITE_STRAIN_TERMS;
 use fem_material::Material;
-use fem_material::finite::HyperelasticLaw;
+use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 
 use self::departure::{Deformation, Departure};
 use super::answer::Answer;
@@ -40,11 +40,13 @@ use crate::estimate::Estimate;
 use crate::expected::Expected;
 use crate::refusal::Refusal;
 
-/// Contact radius over the effective radius beyond which nothing is foretold.
-const LARGEST_STRAIN: f64 = 1.0;
-/// Largest Poisson's ratio that the elements bear at large strain: beyond it the volume is nearly
-/// fixed and the step of time next to nothing.
-const LARGEST_POISSONS_RATIO: f64 = 0.495;
+/// Contact radius over the radius of a body, or its strain if that is more, beyond which nothing is foretold:
+/// collisions were computed up to 0.7.
+const FLATTEST: f64 = 1.0;
+/// Largest Poisson's ratio that the elements bear at large strain: a step there is a seventh of that at 0.495,
+/// with K = 5000 G, as of natural rubber. Beyond it the volume is nearly fixed and the step of time next to
+/// nothing.
+const LARGEST_POISSONS_RATIO: f64 = 0.4999;
 /// Share of the tolerance below which a body's own strain is left small.
 const OWN_SHARE: f64 = 0.1;
 /// What laws differ by is said from this share of the contact time on.
@@ -98,13 +100,38 @@ impl FiniteStrain {
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
         let is_asked = is_open && is_called_for(scene, estimate);
         let Some(strained) = unborne.next().filter(|_| is_asked) else {
-            return Answer::Computes { idle: "" };
+            return Self::of_stability(scene, estimate).unwrap_or(Answer::Computes { idle: "" });
         };
         let why = format!("called for, but {}", strained.not_borne());
         let left_out = FiniteStrain.left_out(scene, estimate).unwrap_or_default();
         let warning = format!("{} is {why}; small strain leaves out {left_out}", Self::NAME);
         let active = Self::laws(scene, estimate).iter().any(Option::is_some);
         Answer::is(active, why).warning([warning])
+    }
+}
+
+impl FiniteStrain {
+    /// Of a scene that calls for it, and whose laws are foretold not to bear it.
+    fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
+        let computed = Self::laws(scene, estimate);
+        if !is_called_for(scene, estimate) || computed == [None; 2] {
+            return None;
+        }
+        let pressure = estimate.hertz.peak_pressure();
+        let both = Strained::of_both(scene, estimate).into_iter().zip(computed);
+        let mut unstable = both.filter_map(|(body, law)| {
+            law?;
+            body.filter(|body| body.gives_way(pressure))
+        });
+        let Strained { name, material, .. } = unstable.next()?;
+        let warning = format!(
+            "{}, the law of {name}, is foretold to lose its stability under the contact's pressure: elements give \
+             way, and the run may stop; name another material.NAME.hyperelastic, as neo-hooke, which is stable at \
+             any deformation",
+            material.law().name()
+        );
+        let number = FiniteStrain.need(scene, estimate)?.number;
+        Some(Answer::is(true, number).warning([warning]))
     }
 }
 
@@ -158,6 +185,23 @@ impl<'a> Strained<'a> {
         let laws = self.possible_laws().into_iter();
         let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.deformation));
         self.share * each.fold(Departure::default(), Departure::or)
+    }
+
+    /// Whether its law loses ellipticity at the strain that Hooke's law has under the middle of Hertz' contact, σ_yy =
+    /// −p and σ_rr = σ_θθ = −(½ + ν) p (Johnson 1985, section 3.4).
+    fn gives_way(&self, pressure: f64) -> bool {
+        if self.material.law().is_always_elliptic() {
+            return false;
+        }
+        let moduli = self.material.instantaneous();
+        let (nu, pressed) = (moduli.poissons_ratio(), pressure / moduli.youngs_modulus());
+        let beside = (0.5 + nu) * pressed;
+        let (yy, rr) = (2.0 * nu * beside - pressed, nu * (pressed + beside) - beside);
+        let strain = AxisymmetricTensor { rr, yy, tt: rr, ry: 0.0, yr: 0.0 };
+        let stiffness =
+            Hyperelastic::new(self.material.law(), moduli).least_acoustic_stiffness(&strain);
+        // What is pressed beyond nothing gives way, too.
+        !stiffness.is_ok_and(|stiffness| stiffness > 0.0)
     }
 
     /// Whether elements bear it at large strain.
@@ -235,9 +279,15 @@ fn is_called_for(scene: &Scene, estimate: &Estimate) -> bool {
     departure(scene, estimate).over(&scene.accuracy()) > 1.0
 }
 
+/// Whether a body is flatter than anything is foretold of.
+fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
+    let both = Strained::of_both(scene, estimate);
+    both.iter().flatten().any(|strained| strained.deformation.flatness > FLATTEST)
+}
+
 /// What leaving it out changes, in words.
 fn in_words(scene: &Scene, estimate: &Estimate) -> String {
-    match estimate.strain > LARGEST_STRAIN {
+    match is_beyond(scene, estimate) {
         true => "an amount that nothing foretells".to_string(),
         false => departure(scene, estimate).in_words(),
     }
@@ -281,9 +331,13 @@ impl Effect for FiniteStrain {
         Some(Need {
             is_called_for,
             number: format!(
-                "contact radius / effective radius = {:.3}, law {}",
+                "contact radius / effective radius = {:.3}, law {}{}",
                 estimate.strain,
-                laws_in_words(scene, estimate)
+                laws_in_words(scene, estimate),
+                match is_beyond(scene, estimate) {
+                    true => ", flatter than closed forms foretell anything of",
+                    false => "",
+                }
             ),
             otherwise: format!("small strain leaves out {open}"),
             left_open: format!("{open} is left out"),
@@ -292,7 +346,7 @@ impl Effect for FiniteStrain {
     }
 
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        if estimate.strain > LARGEST_STRAIN {
+        if is_beyond(scene, estimate) {
             return Some(LeftOut::default());
         }
         let change = with_relaxation(scene, estimate, departure(scene, estimate));
@@ -303,7 +357,7 @@ impl Effect for FiniteStrain {
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
-        if estimate.strain > LARGEST_STRAIN {
+        if is_beyond(scene, estimate) {
             return Doubt::default();
         }
         let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
@@ -340,7 +394,9 @@ impl Effect for FiniteStrain {
             )
         });
         let spread = spread(scene, &found);
-        let law = (spread > scene.accuracy().contact_time).then(|| {
+        // A contact that does not end has no time to change.
+        let has_end = collision.contact_time.is_some();
+        let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
             format!(
                 "how the materials go on beyond Hooke's law changes the contact time by up to {}, and \
                  the case does not say: name a law (material.NAME.hyperelastic)",

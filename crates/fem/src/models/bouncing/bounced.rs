@@ -210,6 +210,7 @@ impl Bounced {
             energies: self.chain.energies(),
             residual: self.chain.residual(),
             residual_relative: self.chain.worst_residual().or(first.residual_relative),
+            energy_growth: self.chain.growth(),
             steps: self.steps,
             element_updates: self.element_updates,
             bounces: self.bounces,

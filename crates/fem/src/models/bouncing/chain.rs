@@ -4,7 +4,7 @@
 //! lost goes on to count as lost, and what they have left in the bodies stands in an account of its own,
 //! so that all energy since the first touch is in the ledger.
 
-use fem_collision::{Account, Book, Collision, Row, Side, worst};
+use fem_collision::{Account, Book, Collision, Row, Side, highest, worst};
 use serde::{Deserialize, Serialize};
 
 /// Rows of a flight.
@@ -36,6 +36,7 @@ pub(super) struct Chain {
     /// Kinetic energy at first touch of all, J.
     initial: Option<f64>,
     worst_residual: Option<f64>,
+    growth: Option<f64>,
     /// At the end of the contact under way.
     energies: Book,
     residual_at_end: Option<f64>,
@@ -54,6 +55,7 @@ impl Chain {
             handed_on: None,
             initial: None,
             worst_residual: None,
+            growth: None,
             energies: Book::EMPTY,
             residual_at_end: None,
             rows: Vec::new(),
@@ -81,6 +83,7 @@ impl Chain {
             let here = (self.residual.abs() + relative * scale) / initial;
             self.worst_residual = Some(worst(self.worst_residual.unwrap_or(0.0), here));
         }
+        self.growth = [self.growth, collision.energy_growth].into_iter().flatten().reduce(highest);
         let end = rows.last().map_or(collision.energies, |row| row.energies);
         self.energies = self.carried(&end);
         self.residual_at_end = collision.residual.map(|residual| residual + self.residual);
@@ -209,6 +212,11 @@ impl Chain {
     /// Worst imbalance over the kinetic energy at first touch of all.
     pub fn worst_residual(&self) -> Option<f64> {
         self.worst_residual
+    }
+
+    /// The growth of energy in the worst contact.
+    pub fn growth(&self) -> Option<f64> {
+        self.growth
     }
 
     /// All rows, in the order of time.

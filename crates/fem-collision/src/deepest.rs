@@ -1,0 +1,60 @@
+//! Where springs let the surfaces overlap most.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::moment::Moment;
+
+/// The deepest overlap of a run, and where and when it was.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Deepest {
+    /// m.
+    pub overlap: f64,
+    /// Distance from the axis, m.
+    pub radius: f64,
+    /// When.
+    pub at: Moment,
+}
+
+impl Deepest {
+    /// The deeper of what was seen so far and a contact with this overlap; none of one without.
+    pub fn of(so_far: Option<Self>, now: Self) -> Option<Self> {
+        // What is no number is no overlap: the balance tells of it.
+        let is_deeper = now.overlap > so_far.map_or(0.0, |deepest| deepest.overlap);
+        if is_deeper { Some(now) } else { so_far }
+    }
+
+    /// So much later, s: of a run that counts its time from another instant.
+    #[must_use]
+    pub fn later_by(self, delay: f64) -> Self {
+        Self { at: self.at.later_by(delay), ..self }
+    }
+}
+
+impl fmt::Display for Deepest {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "{:.1e} m at r = {:.1e} m at {}", self.overlap, self.radius, self.at)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_deepest_stays_and_the_first_of_equals() {
+        let of = |overlap: f64, step: u64| {
+            let at = Moment { time: 1e-6 * step as f64, step };
+            Deepest { overlap, radius: 0.0, at }
+        };
+        let seen = [of(0.0, 0), of(1e-9, 1), of(3e-9, 2), of(f64::NAN, 3), of(3e-9, 4), of(0.0, 5)];
+        let found = seen.into_iter().fold(None, Deepest::of).unwrap();
+        assert_eq!(found.at.step, 2);
+        assert_eq!(
+            found.later_by(1.0).to_string(),
+            "3.0e-9 m at r = 0.0e0 m at 1.0000e0 s (step 2)"
+        );
+        assert_eq!(Deepest::of(None, of(0.0, 0)), None);
+    }
+}

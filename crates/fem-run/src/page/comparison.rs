@@ -1,0 +1,125 @@
+//! Several results beside each other.
+
+use askama::Template;
+use fem_case::engineering::{Unit, show};
+use fem_collision::Headline;
+use serde_json::Value;
+
+use super::case_text::differences;
+use super::curves::{Quantity, over_time, pressures};
+use super::record::Record;
+use super::{cards, citation, drawn};
+use crate::failure::Failure;
+
+/// What makes cases different ones; all else is how they are computed and what is kept of them.
+const OF_THE_SCENE: [&str; 7] = ["title", "material", "body", "start", "model", "gravity", "stop"];
+
+#[derive(Template)]
+#[template(path = "comparison.html")]
+struct Comparison {
+    names: Vec<String>,
+    titles: Vec<String>,
+    charts: Vec<String>,
+    numbers: Vec<(String, Vec<Cell>)>,
+    /// Keys of the scene, and of how it is computed.
+    differences: [Vec<(String, Vec<String>)>; 2],
+    cite: Vec<String>,
+}
+
+/// A number of a result.
+struct Cell {
+    value: String,
+    /// What it differs by from that of the first result.
+    difference: String,
+}
+
+/// The page of several results.
+///
+/// # Errors
+/// None that depend on the results.
+pub fn comparison(records: &[Record]) -> Result<String, Failure> {
+    let charts = Quantity::ALL.map(|quantity| over_time(records, quantity));
+    let charts = charts.into_iter().chain([pressures(records)]);
+    let cases: Vec<&Value> = records.iter().map(|record| &record.summary["case"]).collect();
+    let is_of_scene = |(path, _): &(String, Vec<String>)| {
+        OF_THE_SCENE.contains(&path.split('.').next().unwrap_or_default())
+    };
+    let (of_scene, of_numbers) = differences(&cases).into_iter().partition(is_of_scene);
+    let page = Comparison {
+        names: records.iter().map(|record| record.name.clone()).collect(),
+        titles: records.iter().map(Record::title).collect(),
+        charts: drawn(charts),
+        numbers: Headline::ALL.iter().map(|headline| numbers(records, *headline)).collect(),
+        differences: [of_scene, of_numbers],
+        cite: records.iter().map(citation).collect(),
+    };
+    page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
+}
+
+/// A number of all results with its error, each with its difference from the first.
+fn numbers(records: &[Record], headline: Headline) -> (String, Vec<Cell>) {
+    let of = |record: &Record| {
+        let value = record.number(&[headline.key()])?;
+        let part = |part: &str| record.number(&["uncertainty", headline.key(), part]);
+        let error =
+            [part("discretisation"), part("model")].into_iter().flatten().reduce(|a, b| a + b);
+        Some((value, error))
+    };
+    let first = records.first().and_then(of);
+    let cell = |(k, record): (usize, &Record)| {
+        let (value, difference) = match of(record) {
+            None => ("\u{2013}".to_string(), String::new()),
+            Some(own) => {
+                let from = first.filter(|_| k > 0);
+                (
+                    shown(own, headline),
+                    from.map_or(String::new(), |from| apart(own, from, headline)),
+                )
+            }
+        };
+        Cell { value, difference }
+    };
+    let name = match records.iter().map(|record| cards::name(record, headline)).reduce(|a, b| {
+        // Nominal of one and true of another: each is what it is.
+        if a == b { a } else { headline.name().to_string() }
+    }) {
+        Some(name) => name,
+        None => headline.name().to_string(),
+    };
+    (name, records.iter().enumerate().map(cell).collect())
+}
+
+/// `62.46 ± 0.21 µs`.
+fn shown((value, error): (f64, Option<f64>), headline: Headline) -> String {
+    let error = error.filter(|error| *error > 1e-9 * value.abs());
+    match headline.unit() {
+        "" => match error {
+            None => format!("{value:.5}"),
+            error => cards::with_error(value, error),
+        },
+        si => match error {
+            None => show(value, si),
+            error => {
+                let unit = Unit::fitting(value, si);
+                let error = error.map(|error| unit.scaled(error));
+                format!("{} {}", cards::with_error(unit.scaled(value), error), unit.symbol())
+            }
+        },
+    }
+}
+
+/// A difference of restitutions as it is, of all else as a share; and whether the error bars tell it.
+fn apart(own: (f64, Option<f64>), from: (f64, Option<f64>), headline: Headline) -> String {
+    let difference = own.0 - from.0;
+    if difference == 0.0 {
+        return "the same".to_string();
+    }
+    let size = match headline {
+        Headline::Restitution => format!("{difference:+.5}"),
+        _ => format!("{:+.2} %", 100.0 * difference / from.0),
+    };
+    let bars = own.1.zip(from.1).map(|(a, b)| a + b);
+    let within =
+        if bars.is_some_and(|bars| difference.abs() < bars) { ", within the bars" } else { "" };
+    format!("{size}{within}").replace('-', "\u{2212}")
+}

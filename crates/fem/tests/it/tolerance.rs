@@ -1,0 +1,134 @@
+//! The tolerance of a case is kept, or it is said that it is not: by meshes that are made finer where the errors
+//! of a result are more than is allowed.
+
+use std::path::Path;
+
+use fem::results::Summary;
+use fem::{Case, Collision, Headline, Simulation};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
+const RUBBER: &str =
+    "material.rubber = { density = 1100, youngs_modulus = '1 MPa', poissons_ratio = 0.45, hyperelastic = 'neo-hooke' }
+    body = [{ name = 'wall', wall = {} },
+            { name = 'ball', sphere.diameter = '3 cm', material = 'rubber', approach_speed = '1 m/s' }]";
+const FEM: &str = "model.fem={}";
+const NO_SNAPSHOTS: &str = "output.snapshots=[]";
+/// Speed of the rubber ball, which calls for finite strain.
+const FAST: &str = "body.1.approach_speed='3 m/s'";
+/// A mesh that is finer than any that is chosen here.
+const FINE: &str = "mesh.contact_element_size='0.35 mm'";
+
+fn simulation(text: &str, set: &[&str]) -> Simulation {
+    let set: Vec<String> = set.iter().chain([&NO_SNAPSHOTS]).map(ToString::to_string).collect();
+    let case = Case::parse("case.toml", text, Path::new("."), &set).unwrap();
+    Simulation::new(case).unwrap()
+}
+
+fn computed(text: &str, set: &[&str]) -> (Simulation, Collision) {
+    simulation(text, set).run_within_tolerance(&mut ())
+}
+
+/// Bars over what is allowed, of the quantities of which something is.
+fn excesses(summary: &Summary) -> [f64; 4] {
+    let allowed = [
+        (Headline::Restitution, 0.01),
+        (Headline::ContactTime, 0.01),
+        (Headline::PeakForce, 0.01),
+        (Headline::PeakPressure, 0.03),
+    ];
+    allowed.map(|(headline, tolerance)| {
+        let value = summary.collision.number(headline).unwrap();
+        let bar = summary.uncertainty.parts(headline).discretisation.unwrap();
+        bar / headline.scale(value) / tolerance
+    })
+}
+
+fn warning(simulation: &Simulation, collision: &Collision) -> Option<String> {
+    let warnings = simulation.warnings(collision);
+    warnings.into_iter().find(|warning| warning.contains("because of the mesh"))
+}
+
+/// Rubber that a mesh of the plan leaves outside of 1 %: finer ones bring it within, and a much finer one is
+/// within the tolerance of it.
+#[test]
+fn a_mesh_that_does_not_do_is_made_finer() {
+    let (simulation, collision) = computed(RUBBER, &[FEM, FAST]);
+    let summary = simulation.summary(&collision);
+    assert!(!simulation.levels().is_empty());
+    assert!(excesses(&summary).iter().all(|excess| *excess <= 1.0), "{:?}", excesses(&summary));
+    assert_eq!(warning(&simulation, &collision), None);
+    // Every level is finer, dearer, and told with what it missed.
+    let levels = summary.coarser_meshes.as_ref().unwrap();
+    let last = simulation.setup().elements.as_ref().unwrap().plan.contact_element_size;
+    let sizes: Vec<f64> = levels.iter().map(|level| level.contact_element_size_m).collect();
+    let sizes = [&sizes[..], &[last]].concat();
+    assert!(sizes.is_sorted_by(|a, b| 1.24 * b < *a), "{sizes:?}");
+    assert!(levels.iter().all(|level| level.error > level.tolerance));
+    // The resolved case has the finer mesh, and gives the same again without another.
+    let resolved = Case::of(summary.case.clone()).unwrap();
+    let again = Simulation::new(resolved).unwrap().run_within_tolerance(&mut ());
+    assert_eq!(again.0.levels(), []);
+    assert_eq!(again.1, collision);
+    // What a fine mesh says is as near as was asked.
+    let fine = self::simulation(RUBBER, &[FEM, FAST, FINE]).run(&mut ());
+    for (headline, tolerance) in
+        [(Headline::Restitution, 0.01), (Headline::ContactTime, 0.01), (Headline::PeakForce, 0.01)]
+    {
+        let (ours, exact) = (headline.of(&collision).unwrap(), headline.of(&fine).unwrap());
+        let error = (ours - exact).abs() / headline.scale(exact);
+        assert!(error < tolerance, "{headline:?} {error}");
+    }
+}
+
+/// Where the mesh of the plan does, it stays: of glass by all models with meshes.
+#[test]
+fn a_mesh_that_does_stays() {
+    for model in [FEM, "model.condensed={}", "model.auto={}"] {
+        let (simulation, collision) = computed(GLASS, &[model]);
+        assert_eq!(simulation.levels(), [], "{model}");
+        assert_eq!(warning(&simulation, &collision), None, "{model}");
+        assert!(simulation.summary(&collision).coarser_meshes.is_none());
+    }
+}
+
+/// What the case says stays, and what that costs is said: with the quantity, what it may be off by, what is
+/// allowed and what to write.
+#[test]
+fn a_mesh_that_has_to_stay_is_warned_of() {
+    for (set, words) in [
+        (&["mesh.contact_element_size='2 mm'"][..], &["write mesh.contact_element_size = \""][..]),
+        (
+            &["limits.element_updates=2000000"],
+            &["element updates", "raise limits.element_updates", "accuracy.tolerance"],
+        ),
+    ] {
+        let set = [&[FEM, FAST], set].concat();
+        let (simulation, collision) = computed(RUBBER, &set);
+        let warning = warning(&simulation, &collision).unwrap();
+        for words in words.iter().chain([&"may be off by", &"% is asked"]) {
+            assert!(warning.contains(words), "{set:?}: {warning}");
+        }
+    }
+    // More allowed, nothing said.
+    let wide = ["mesh.contact_element_size='2 mm'", "accuracy.tolerance='30 %'"];
+    let (simulation, collision) = computed(RUBBER, &[&[FEM, FAST], &wide[..]].concat());
+    assert_eq!(warning(&simulation, &collision), None);
+}
+
+/// A run that was put away on a finer mesh goes on there, to the same bits.
+#[test]
+fn a_finer_mesh_goes_on_from_its_memory() {
+    let first = simulation(RUBBER, &[FEM, FAST]);
+    let collision = first.run(&mut ());
+    let finer = first.finer(&collision).unwrap();
+    let mut course = finer.start();
+    while course.progress().fraction < 0.3 && course.advance(&mut ()) {}
+    let memory = finer.memory_of(course.as_ref()).unwrap();
+    let memory = postcard::to_stdvec(&memory).unwrap();
+    let memory = postcard::from_bytes(&memory).unwrap();
+    let again = simulation(RUBBER, &[FEM, FAST]).as_in(&memory).unwrap();
+    assert_eq!(again.levels(), finer.levels());
+    let mut resumed = again.resume(memory).unwrap();
+    while resumed.advance(&mut ()) {}
+    assert_eq!(resumed.finish(), finer.run(&mut ()));
+}
