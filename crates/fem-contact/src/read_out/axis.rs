@@ -79,7 +79,9 @@ pub fn centre_pressure(
     }
     let inside = |reach: f64| {
         let end = (reach * contact_radius).powi(2);
-        &room[..room[..n_inside].partition_point(|node| node.weight.square < end)]
+        let inside = &room[..n_inside];
+        let n_near = inside.iter().position(|node| node.weight.square >= end);
+        &inside[..n_near.unwrap_or(n_inside)]
     };
     for (terms, reach, fewest) in FITS {
         if inside(reach).len() >= fewest
