@@ -6,7 +6,7 @@ use std::path::Path;
 use comfy_table::CellAlignment::{Left, Right};
 use fem::sweep::{Checked, Row, SWEEP_FILE};
 use fem_case::Sweep;
-use fem_case::engineering::show;
+use fem_case::engineering::{shortened, show};
 
 use super::collect::Collected;
 use super::duration::duration;
@@ -42,7 +42,8 @@ pub fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &P
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
     let row = |row: &Row| {
-        let mut cells: Vec<String> = row.values.iter().map(|value| one_line(value)).collect();
+        let mut cells: Vec<String> =
+            row.values.iter().map(|value| one_line(&shortened(value))).collect();
         cells.extend(result_cells(row));
         cells
     };

@@ -1,6 +1,7 @@
 //! Contact is looked for near the axis only, and free flight is not stepped: a decision of the plan.
 
 use fem_case::Scene;
+use fem_case::engineering::show;
 use fem_collision::{Collision, Searched};
 
 use super::answer::Answer;
@@ -21,7 +22,10 @@ impl ContactSearch {
         let Searched { radius, n_points, at_nodes } = searched;
         let points = if *at_nodes { "points" } else { "integration points" };
         let flight = "free flight is not stepped";
-        Answer::is(true, format!("{n_points} {points} within {radius:.4e} m of the axis; {flight}"))
+        Answer::is(
+            true,
+            format!("{n_points} {points} within {} of the axis; {flight}", show(*radius, "m")),
+        )
     }
 }
 

@@ -13,6 +13,7 @@
 //! the balance of energy at the largest approach.
 
 use fem_case::Scene;
+use fem_case::engineering::number;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
@@ -46,7 +47,8 @@ impl Effect for Gravity {
         let hertz = &estimate.hertz;
         let weight = gravity.acceleration * hertz.pair().effective_mass() / hertz.peak_force();
         let fall = (gravity.acceleration * hertz.max_approach()).sqrt() / hertz.approach_speed();
-        let mut number = format!("weight / peak force = {weight:.1e}, √(g δ)/v = {fall:.1e}");
+        let ratios = [weight, fall].map(|ratio| number(ratio, 2));
+        let mut number = format!("weight / peak force = {}, √(g δ)/v = {}", ratios[0], ratios[1]);
         if weight.max(fall * fall) < NEGLIGIBLE {
             number += "; in the contact it changes nothing, the flight needs it";
         }

@@ -1,6 +1,7 @@
 //! Mass moved to the lightest nodes for a longer time step: a decision of the plan.
 
 use fem_case::Scene;
+use fem_case::engineering::number;
 use fem_collision::Collision;
 
 use super::answer::Answer;
@@ -24,8 +25,9 @@ impl MassScaling {
     /// step is so many times longer for it. A wall's share is no number.
     pub(crate) fn of<'a>(shares: impl Iterator<Item = (&'a str, f64)>, longer: f64) -> Answer {
         let added = shares.filter(|(_, share)| *share > ROUNDING);
-        let added: Vec<String> =
-            added.map(|(name, share)| format!("{share:.1e} of the mass of {name}")).collect();
+        let added: Vec<String> = added
+            .map(|(name, share)| format!("{} of the mass of {name}", number(share, 2)))
+            .collect();
         match added.is_empty() {
             true => Answer::is(false, "no mass is moved"),
             false => {

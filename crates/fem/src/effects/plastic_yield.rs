@@ -4,6 +4,7 @@
 //! strength the strength that would be reached is told, and a peak pressure that few materials bear
 //! is warned about.
 
+use fem_case::engineering::show;
 use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
 
@@ -62,16 +63,16 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
     let (low, high) = first.restitutions();
     let warning = is_called_for.then(|| {
         format!(
-            "{name} yields from {:.2e} m/s on, and meets at {:.2e} m/s: closed forms of plastic \
+            "{name} yields from {} on, and meets at {}: closed forms of plastic \
              impact give a restitution from {low:.2} to {high:.2}, and no model here flows",
-            first.speed,
-            estimate.hertz.approach_speed(),
+            show(first.speed, "m/s"),
+            show(estimate.hertz.approach_speed(), "m/s"),
         )
     });
     Need {
         is_called_for,
         number: format!("peak pressure / pressure of first yield of {name} = {ratio:.2}"),
-        otherwise: format!("it yields from {:.2e} m/s on", first.speed),
+        otherwise: format!("it yields from {} on", show(first.speed, "m/s")),
         left_open: format!("the restitution is from {low:.2} to {high:.2}"),
         warning,
     }
@@ -82,7 +83,7 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
     let share = peak / estimate.hertz.pair().contact_modulus();
     let reached = |body: &Body| {
         let nu = body.material()?.instantaneous().poissons_ratio();
-        Some(format!("{} {:.2e} Pa", body.name(), largest_von_mises(nu) * peak))
+        Some(format!("{} {}", body.name(), show(largest_von_mises(nu) * peak, "Pa")))
     };
     let reached: Vec<String> = scene.bodies().iter().filter_map(reached).collect();
     let reached = reached.join(", ");

@@ -9,6 +9,7 @@
 //! 0.32 aκβ of the peak force. Above a/R* = 0.2 what explicit elements have of the second order may be
 //! larger where β is small, as of rubber.
 
+use fem_case::engineering::number;
 use fem_case::{Body, EffectsTable, Scene, Shape, Switch};
 use fem_laws::{Face, RelativeError, SurfaceSlip as Slip};
 use fem_material::{ElasticModuli, Material};
@@ -69,7 +70,10 @@ impl Effect for SurfaceSlip {
         });
         Some(Need {
             is_called_for: is_called_for(scene),
-            number: format!("slope of the interface × mismatch of the materials = {slope:.1e}"),
+            number: format!(
+                "slope of the interface × mismatch of the materials = {}",
+                number(slope, 2)
+            ),
             otherwise: "facing points move alike".to_string(),
             left_open: format!("{time} of the contact time is open"),
             warning,

@@ -57,7 +57,7 @@ const ROWS: [Row; 14] = [
         why: &[
             ("rigid partner", "steel has 3.4e-5 of the compliance"),
             // β = (1 − 2ν)/(2 − 2ν) = 0.02, which makes steel's slope on rubber nothing to speak of.
-            ("surface slip", "= 1.5e-3"),
+            ("surface slip", "= 0.0015"),
         ],
         warnings: &[],
     },
@@ -81,7 +81,7 @@ const ROWS: [Row; 14] = [
         model: "fem",
         active: &["finite strain", "bulk viscosity"],
         why: &[
-            ("bulk viscosity", "approach speed / shear wave speed = 1.5e-1"),
+            ("bulk viscosity", "approach speed / shear wave speed = 0.15"),
             ("finite strain", "law neo-hooke"),
         ],
         warnings: &[],
