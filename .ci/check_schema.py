@@ -51,6 +51,14 @@ def faults(command, cases):
         broken(lambda case: case.update(model="tinge")),
         broken(lambda case: case.update(effects={"gravity": "on"})),
         broken(lambda case: case.update(accuracy={"tolerance": {"force": 0.1}})),
+        broken(lambda case: body(case).update(sphere={"diameter": "22.2 s"})),
+        broken(lambda case: body(case).update(sphere={"diameter": -1})),
+        broken(lambda case: body(case).update(wall={})),
+        broken(lambda case: body(case).update(material="lib:stel")),
+        broken(lambda case: material(case).update(density="2390 kg/m^2")),
+        broken(lambda case: material(case).update(shear_modulus="25 GPa")),
+        broken(lambda case: case.update(model={"ting": {}, "hertz": {}})),
+        broken(lambda case: case.update(model={"law": {"tsuji": {"e": 1.1}}})),
     ]
 
 

@@ -4,6 +4,7 @@ use toml::de::Error;
 
 use crate::document::Document;
 use crate::error::CaseError;
+use crate::model_tables::{LawTable, ModelTable};
 use crate::toml_text::first_line;
 
 /// Required keys, as a user may write them.
@@ -19,6 +20,15 @@ const EXAMPLES: &[(&str, &str)] = &[
          stays elastic)",
     ),
 ];
+
+/// The names that stand for tables at a place.
+fn names_at(path: &str) -> Option<&'static [&'static str]> {
+    match path {
+        "model" => Some(ModelTable::NAMES),
+        "model.law" => Some(LawTable::NAMES),
+        _ => None,
+    }
+}
 
 /// The error of deserializing the tree of `document`.
 pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
@@ -66,6 +76,12 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
         // serde sees a date as a table.
         let is_date =
             found == "map" && document.text_on(&span).starts_with(|c: char| c.is_ascii_digit());
+        if let (Some(names), Some(word)) = (names_at(path), found.strip_prefix("string ")) {
+            let word = word.trim_matches('"');
+            return at(format!("{path} is \"{word}\", which is none of its values")).with_help(
+                format!("{}it is one of {}, or a table", near(word, names), names.join(", ")),
+            );
+        }
         let found = if is_date { "a date or time".to_string() } else { with_article(found) };
         return at(format!("{} is {found}", name(path)))
             .with_help(format!("it wants {}", with_article(wanted)));

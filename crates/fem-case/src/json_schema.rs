@@ -1,8 +1,8 @@
 //! JSON schemas of case and sweep files, of the very structs that read them: for editors that complete
 //! keys and mark faults as they are typed.
 //!
-//! A schema knows keys, types, words and what a key is for. Units, ranges and what keys ask of each
-//! other only the reader knows: what a schema takes may still be refused.
+//! A schema knows keys, types, words, units, most ranges and which keys exclude each other. What spans the
+//! case, such as bodies that do not meet, only the reader knows: what a schema takes may still be refused.
 
 use std::borrow::Cow;
 
@@ -12,13 +12,16 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use crate::accuracy_table::{ToleranceTable, ToleranceValue};
+use crate::json_rules;
 use crate::quantity::{Kind, Number, Quantity, QuantityKind, Time};
+use crate::quantity_pattern::pattern;
 use crate::schema::{CaseFile, LawTable, ModelTable, SnapshotLabel, SnapshotsValue};
 use crate::sweep_file::SweepFile;
 
 /// Of a case file.
 pub fn of_cases() -> Value {
     let mut schema = schema_of::<CaseFile>("A case of fem-run");
+    json_rules::add_to(&mut schema, LawTable::NAMES);
     or_name(&mut schema, "/properties/model", ModelTable::NAMES);
     or_name(&mut schema, "/definitions/ModelTable/properties/law", LawTable::NAMES);
     schema
@@ -93,7 +96,7 @@ impl<K: QuantityKind> JsonSchema for Quantity<K> {
         };
         json_schema!({
             "description": bare,
-            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": "^\\s*[-+]?\\.?[0-9]" }],
+            "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern(K::KIND.dimension.0) }],
         })
     }
 }

@@ -57,12 +57,13 @@ mod body_tables;
 mod case;
 mod document;
 mod empty_table;
-pub mod engineering;
 mod error;
 mod explain;
 mod faults;
 mod gravity;
 mod gravity_tables;
+#[cfg(feature = "schema")]
+mod json_rules;
 #[cfg(feature = "schema")]
 pub mod json_schema;
 mod key_path;
@@ -77,6 +78,8 @@ mod overrides;
 mod positions;
 mod probe_table;
 mod quantity;
+#[cfg(feature = "schema")]
+mod quantity_pattern;
 mod scene;
 pub mod schema;
 mod sweep;
@@ -93,6 +96,7 @@ pub use body::{Body, Shape};
 pub use case::{Case, text_at};
 pub use error::CaseError;
 pub use explain::nearest;
+pub use fem_material::engineering;
 pub use gravity::{Gravity, impact_speed};
 pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
 pub use quantity::{

@@ -2,6 +2,7 @@
 //! never refused.
 
 use crate::body::Shape;
+use crate::engineering::{number, show};
 use crate::scene::Scene;
 
 /// Larger than what is thrown at each other; a bare number is in metres.
@@ -26,15 +27,18 @@ impl Scene {
             if let Some(diameter) = diameters[k] {
                 if diameter > LARGEST_DIAMETER {
                     found.push(format!(
-                        "the diameter of {name} is {diameter} m ({key}); a bare number is in metres"
+                        "the diameter of {name} is {} ({key}); a bare number is in metres",
+                        show(diameter, "m")
                     ));
                 } else if let Some(other) = other
                     && diameter >= LARGE
                     && diameter > LARGEST_RATIO * other
                 {
                     found.push(format!(
-                        "the diameter of {name} is {diameter} m ({key}), beside one of {other} m; a \
-                         bare number is in metres"
+                        "the diameter of {name} is {} ({key}), beside one of {}; a \
+                         bare number is in metres",
+                        show(diameter, "m"),
+                        show(other, "m")
                     ));
                 }
             }
@@ -45,15 +49,17 @@ impl Scene {
             let density = material.density();
             if !DENSITIES.contains(&density) {
                 found.push(format!(
-                    "the density of {name} is {density} kg/m^3; solids have 10 to 25000, and a bare \
-                     number is in kg/m^3"
+                    "the density of {name} is {} kg/m^3; solids have 10 to 25000, and a bare \
+                     number is in kg/m^3",
+                    number(density, 5)
                 ));
             }
             let modulus = material.instantaneous().youngs_modulus();
             if !YOUNGS_MODULI.contains(&modulus) {
                 found.push(format!(
-                    "Young's modulus of {name} is {modulus:e} Pa; solids have 100 Pa to 2e12 Pa, and a \
-                     bare number is in Pa"
+                    "Young's modulus of {name} is {}; solids have 100 Pa to 2 TPa, and a \
+                     bare number is in Pa",
+                    show(modulus, "Pa")
                 ));
             }
         }

@@ -148,6 +148,26 @@ pub(crate) fn find_unit(symbol: &str) -> Option<Scale> {
     None
 }
 
+/// An expression of all symbols whose dimension (metre, kilogram, second, byte) is one of those; empty of none.
+#[cfg(feature = "schema")]
+pub(crate) fn symbols(is_one: impl Fn([i32; 4]) -> bool) -> String {
+    let of = |prefixable: bool| {
+        let units = UNITS.iter().filter(|unit| is_one(unit.scale.dimension));
+        let symbols: Vec<_> =
+            units.filter(|unit| unit.prefixable == prefixable).map(|unit| unit.symbol).collect();
+        symbols.join("|")
+    };
+    let prefixes: Vec<_> = PREFIXES.iter().map(|(prefix, _)| *prefix).collect();
+    let (plain, prefixable) = (of(false), of(true));
+    let prefixed = format!("({})?({prefixable})", prefixes.join("|"));
+    match (plain.is_empty(), prefixable.is_empty()) {
+        (true, true) => String::new(),
+        (false, true) => format!("({plain})"),
+        (true, false) => format!("({prefixed})"),
+        (false, false) => format!("({plain}|{prefixed})"),
+    }
+}
+
 /// The unit that an unknown symbol may mean: the same letters in another case ("Gpa" → "GPa"),
 /// or a full English name.
 pub(crate) fn suggest_unit(symbol: &str) -> Option<String> {

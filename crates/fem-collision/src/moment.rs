@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
 
 /// When something was seen.
@@ -23,6 +24,6 @@ impl Moment {
 
 impl fmt::Display for Moment {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(to, "{:.4e} s (step {})", self.time, self.step)
+        write!(to, "{} (step {})", show(self.time, "s"), self.step)
     }
 }

@@ -1,5 +1,6 @@
 //! Why a run ends before the bodies have parted.
 
+use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -9,7 +10,7 @@ use crate::want::WantError;
 #[derive(Clone, Debug, PartialEq, Error, Serialize, Deserialize)]
 pub enum Stop {
     /// The caller asked for it.
-    #[error("interrupted at {time:.4e} s (step {step})")]
+    #[error("interrupted at {at} (step {step})", at = show(*time, "s"))]
     Interrupted {
         /// Since the start of the case, s.
         time: f64,
@@ -18,9 +19,8 @@ pub enum Stop {
     },
     /// The contact grew out of the part of the boundary in which it is looked for.
     #[error(
-        "at {time:.4e} s (step {step}) the contact reached the radius {radius:.4e} m, \
-         the end of the region in which it is looked for"
-    )]
+        "at {at} (step {step}) the contact reached the radius {wide}, \
+         the end of the region in which it is looked for", at = show(*time, "s"), wide = show(*radius, "m"))]
     ContactBeyondCandidates {
         /// Since the start of the case, s.
         time: f64,
@@ -31,13 +31,12 @@ pub enum Stop {
     },
     /// A surface folds where the bodies touch: beyond, contact is not looked for.
     #[error(
-        "at {time:.4e} s (step {step}) the surface of the {} body turns over at the radius {radius:.4e} m, \
-         where the other body touches it: node {node} has come as near to the axis as the one inside of it; \
-         undeformed it lies at r = {:.4e} m, y = {:.4e} m",
+        "at {at} (step {step}) the surface of the {} body turns over at the radius {wide}, where the other \
+         body touches it: node {node} has come as near to the axis as the one inside of it; undeformed it \
+         lies at r = {}, y = {}",
         side_of(*body),
-        place[0],
-        place[1]
-    )]
+        show(place[0], "m"),
+        show(place[1], "m"), at = show(*time, "s"), wide = show(*radius, "m"))]
     SurfaceTurnsOver {
         /// Since the start of the case, s.
         time: f64,
@@ -63,13 +62,12 @@ pub enum Stop {
     },
     /// The energy has grown.
     #[error(
-        "at {time:.4e} s (step {step}) the energy is {ratio:.4} times the initial: the time integration \
-         is unstable; node {node} of the {} body is fastest, undeformed it lies at r = {:.4e} m, \
-         y = {:.4e} m",
+        "at {at} (step {step}) the energy is {ratio:.4} times the initial: the time integration \
+         is unstable; node {node} of the {} body is fastest, undeformed it lies at r = {}, \
+         y = {}",
         side_of(*body),
-        place[0],
-        place[1]
-    )]
+        show(place[0], "m"),
+        show(place[1], "m"), at = show(*time, "s"))]
     EnergyGrowth {
         /// Since the start of the case, s.
         time: f64,
@@ -86,12 +84,11 @@ pub enum Stop {
     },
     /// The motion is no number any more.
     #[error(
-        "at {time:.4e} s (step {step}) the motion of node {node} of the {} body is no number; undeformed \
-         it lies at r = {:.4e} m, y = {:.4e} m",
+        "at {at} (step {step}) the motion of node {node} of the {} body is no number; undeformed \
+         it lies at r = {}, y = {}",
         side_of(*body),
-        place[0],
-        place[1]
-    )]
+        show(place[0], "m"),
+        show(place[1], "m"), at = show(*time, "s"))]
     NoNumber {
         /// Since the start of the case, s.
         time: f64,
@@ -105,7 +102,7 @@ pub enum Stop {
         place: [f64; 2],
     },
     /// Energy came from nowhere or went there.
-    #[error("at {time:.4e} s the energy does not add up by {relative:.1e} of the initial")]
+    #[error("at {at} the energy does not add up by {relative:.1e} of the initial", at = show(*time, "s"))]
     EnergyImbalance {
         /// Since the start of the case, s.
         time: f64,
@@ -114,13 +111,12 @@ pub enum Stop {
     },
     /// An element of a body at finite strain has lost its volume.
     #[error(
-        "at {time:.4e} s (step {step}) element {element} of the {} body is {}; undeformed it lies at \
-         r = {:.4e} m, y = {:.4e} m",
+        "at {at} (step {step}) element {element} of the {} body is {}; undeformed it lies at \
+         r = {}, y = {}",
         side_of(*body),
         fate(*volume_ratio),
-        place[0],
-        place[1]
-    )]
+        show(place[0], "m"),
+        show(place[1], "m"), at = show(*time, "s"))]
     ElementCollapsed {
         /// Since the start of the case, s.
         time: f64,
@@ -137,16 +133,15 @@ pub enum Stop {
     },
     /// The law of an element has lost its stability, and the energy stopped adding up.
     #[error(
-        "at {time:.4e} s (step {step}) element {element} of the {} body has lost its stability: {law}, its \
+        "at {at} (step {step}) element {element} of the {} body has lost its stability: {law}, its \
          law, gives way at stretches of {:.3} and {:.3} in the meridian plane and {:.3} around the axis; \
-         undeformed it lies at r = {:.4e} m, y = {:.4e} m",
+         undeformed it lies at r = {}, y = {}",
         side_of(*body),
         stretches[0],
         stretches[1],
         stretches[2],
-        place[0],
-        place[1]
-    )]
+        show(place[0], "m"),
+        show(place[1], "m"), at = show(*time, "s"))]
     StabilityLost {
         /// When it was first seen, since the start of the case, s.
         time: f64,
@@ -165,12 +160,11 @@ pub enum Stop {
     },
     /// Something has become so stiff that no time step is short enough for it.
     #[error(
-        "at {time:.4e} s (step {step}) {} is too stiff for any time step; undeformed it lies at \
-         r = {:.4e} m, y = {:.4e} m",
+        "at {at} (step {step}) {} is too stiff for any time step; undeformed it lies at \
+         r = {}, y = {}",
         place_at_fault(*body, *of_contact),
-        place[0],
-        place[1]
-    )]
+        show(place[0], "m"),
+        show(place[1], "m"), at = show(*time, "s"))]
     NoStepShortEnough {
         /// Since the start of the case, s.
         time: f64,
@@ -184,7 +178,7 @@ pub enum Stop {
         of_contact: bool,
     },
     /// The bodies stayed together too long.
-    #[error("at {time:.4e} s (step {step}) the bodies have not separated")]
+    #[error("at {at} (step {step}) the bodies have not separated", at = show(*time, "s"))]
     NoSeparation {
         /// Since the start of the case, s.
         time: f64,
@@ -193,10 +187,9 @@ pub enum Stop {
     },
     /// The run has taken as much as it was allowed.
     #[error(
-        "at {time:.4e} s (step {step}) the run had taken {updates:.1e} element updates, as many as it \
+        "at {at} (step {step}) the run had taken {updates:.1e} element updates, as many as it \
          may, and the bodies had not separated",
-        updates = *element_updates as f64
-    )]
+        updates = *element_updates as f64, at = show(*time, "s"))]
     TooManyUpdates {
         /// Since the start of the case, s.
         time: f64,
@@ -206,7 +199,7 @@ pub enum Stop {
         element_updates: u64,
     },
     /// The contact problem of a step has no solution within reach.
-    #[error("at {time:.4e} s no contact state without tension and overlap was found")]
+    #[error("at {at} no contact state without tension and overlap was found", at = show(*time, "s"))]
     NoContactState {
         /// Since the start of the case, s.
         time: f64,

@@ -1,6 +1,7 @@
 //! What can be wrong with a fit, an inverse problem or a cradle.
 
 use fem_laws::LawError;
+use fem_material::engineering::number;
 use thiserror::Error;
 
 /// Data that do not determine what is asked for, or a collision that cannot be computed.
@@ -56,8 +57,8 @@ pub enum FitError {
 
     /// No value of the parameter gives the restitution.
     #[error(
-        "no {key} gives a restitution of {wanted} at {speed} m/s: from {:.3e} to {:.3e} it runs from \
-         {} to {}", range.0, range.1, near_one(*least), near_one(*most)
+        "no {key} gives a restitution of {wanted} at {} m/s: from {} to {} it runs from \
+         {} to {}", number(*speed, 4), number(range.0, 4), number(range.1, 4), near_one(*least), near_one(*most)
     )]
     NoSolution {
         /// The parameter.

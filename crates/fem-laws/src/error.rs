@@ -1,5 +1,6 @@
 //! What can be wrong with the data of a collision.
 
+use fem_material::engineering::number;
 use thiserror::Error;
 
 /// A collision that cannot happen, or that f64 cannot hold.
@@ -51,9 +52,7 @@ pub enum LawError {
     },
 
     /// A model asked for what it does not describe.
-    #[error(
-        "{quantity} must be at most {limit}, found {value:?}: outside the validity of the model"
-    )]
+    #[error("{quantity} must be at most {limit}, found {}: outside the validity of the model", number(*value, 4))]
     OutsideValidity {
         /// Name of the quantity.
         quantity: &'static str,

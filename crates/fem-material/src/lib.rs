@@ -18,6 +18,7 @@
 //! ```
 
 mod elastic;
+pub mod engineering;
 mod error;
 pub mod finite;
 mod hooke;

@@ -7,7 +7,7 @@ use comfy_table::CellAlignment::{Left, Right};
 use fem::Considered;
 use fem::effects::{LeftOut, Verdict};
 use fem::results::{BodySummary, Quantities, Summary};
-use fem_case::engineering::{Unit, show};
+use fem_case::engineering::{Unit, number, show};
 use fem_collision::{Headline, Shown, Side};
 use indicatif::{DecimalBytes, HumanCount};
 
@@ -89,7 +89,7 @@ fn quantities(ours: &Quantities, hertz: &Quantities) -> String {
 
 fn elastic_deficit(restitution: Option<f64>) -> Option<String> {
     let deficit = 1.0 - restitution?;
-    (deficit.abs() < NEARLY_ELASTIC).then(|| format!("{deficit:.2e}"))
+    (deficit.abs() < NEARLY_ELASTIC).then(|| number(deficit, 3))
 }
 
 fn bodies(bodies: &[BodySummary]) -> String {
@@ -114,7 +114,7 @@ fn bodies(bodies: &[BodySummary]) -> String {
 }
 
 fn balances(summary: &Summary) -> String {
-    let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.1e}"));
+    let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| number(value, 2));
     let book = summary.energy.accounts.0;
     let dissipated = book.total(Side::Lost);
     let of_effects = book.entries().filter(|(account, _)| account.shown() == Shown::WhereFilled);
@@ -132,7 +132,8 @@ fn balances(summary: &Summary) -> String {
     let null = summary.elastic_null.map(|null| {
         let lost = null.one_minus_restitution;
         let text = format!(
-            "with relaxation off these settings lose {lost:.0e} of the restitution (estimated)"
+            "with relaxation off these settings lose {} of the restitution (estimated)",
+            number(lost, 1)
         );
         ["elastic null".to_string(), text]
     });
@@ -196,7 +197,7 @@ pub fn changes(changes: &LeftOut) -> [String; 3] {
         Some(change) => show(change),
     };
     [
-        text(restitution, &|change| format!("{change:.1e}")),
+        text(restitution, &|change| number(change, 2)),
         text(contact_time_s, &|change| show(change, "s")),
         text(peak_force_n, &|change| show(change, "N")),
     ]

@@ -1,7 +1,7 @@
 //! By how much a result may be off, on one line.
 
 use fem::results::UncertaintySummary;
-use fem_case::engineering::Unit;
+use fem_case::engineering::{Unit, number};
 use fem_collision::Headline;
 
 /// Shown for what nothing tells.
@@ -28,7 +28,7 @@ pub fn may_be_off_by(uncertainty: &UncertaintySummary) -> String {
 fn sized(size: f64, unit: &str) -> String {
     match (size, unit) {
         (0.0, _) => "0".to_string(),
-        (_, "") => format!("{size:.1e}"),
+        (_, "") => number(size, 2),
         _ => Unit::fitting(size, unit).with_digits(2).show(size),
     }
 }

@@ -3,6 +3,7 @@
 use fem_laws::laws::{ContactLaw, linear_from_restitution};
 use fem_laws::{EndRule, LawError, Pair};
 use fem_material::Material;
+use fem_material::engineering::number;
 
 /// A sphere, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -189,20 +190,10 @@ pub(crate) fn short(value: f64) -> String {
 
 /// A speed as comments say it.
 pub(crate) fn speed(value: f64) -> String {
-    format!("{} m/s", digits(value, 4))
+    format!("{} m/s", number(value, 4))
 }
 
 /// A time as comments say it.
 pub(crate) fn time(value: f64) -> String {
-    format!("{} s", digits(value, 4))
-}
-
-/// So many digits, with an exponent where zeros would be more.
-fn digits(value: f64, n: usize) -> String {
-    let rounded: f64 = format!("{value:.*e}", n - 1).parse().unwrap_or(value);
-    if (1e-3..1e5).contains(&rounded.abs()) || rounded == 0.0 {
-        rounded.to_string()
-    } else {
-        format!("{rounded:e}")
-    }
+    format!("{} s", number(value, 4))
 }

@@ -3,7 +3,7 @@
 use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use fem_fit::FitError;
 use fem_laws::Family;
 use serde_json::{Value, json};
@@ -169,7 +169,7 @@ fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
             solved.model.family().name().to_string(),
             parameter.key.to_string(),
             show_value(value, parameter.unit),
-            format!("{value:.6e}"),
+            number(value, 7),
             time.map_or("-".to_string(), |time| show(time, "s")),
         ]
     };

@@ -66,14 +66,24 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     let name = one_line(&path.display().to_string());
+    let word = shell_word(&name);
     let beside = match wrote_schema {
         true => format!(", and beside it {SCHEMA_FILE} for your editor"),
         false => String::new(),
     };
     standard_output::print(&format!(
-        "{name} is written{beside}.\n\n  fem-run {name}         runs it\n  fem-run check {name}   says what that \
+        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   says what that \
          takes, and what it will consider\n"
     ))
+}
+
+/// A name as one word of a shell.
+fn shell_word(name: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./,:+@%".contains(c);
+    match name.chars().all(is_plain) {
+        true => name.to_string(),
+        false => format!("'{}'", name.replace('\'', r"'\''")),
+    }
 }
 
 trait WithToml {

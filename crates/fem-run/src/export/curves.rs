@@ -2,7 +2,7 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::{DemExport, FittedLaw};
-use fem_case::engineering::{Unit, show};
+use fem_case::engineering::{Unit, number, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, Mark};
 use fem_fit::dem::{Export, Snippet};
 use fem_laws::Family;
@@ -48,8 +48,7 @@ pub fn good(from: Option<f64>, to: Option<f64>) -> String {
 
 /// A number without a unit in five digits.
 fn entry(value: f64) -> String {
-    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
-    if (0.001..1e5).contains(&rounded) { rounded.to_string() } else { format!("{rounded:e}") }
+    number(value, 5)
 }
 
 /// e(v) and T(v): data and the three kinds of law.

@@ -245,8 +245,8 @@ fn a_case_gives_its_law() {
         "{}",
         ran.stdout
     );
-    let cell = |word: &str| word.contains("e-").then(|| word.parse::<f64>().ok()).flatten();
-    let alpha = ran.stdout.split_whitespace().find_map(cell).unwrap();
+    let row = ran.stdout.lines().find(|line| line.starts_with("zhang_whiten")).unwrap();
+    let alpha: f64 = row.split_whitespace().nth(3).unwrap().parse().unwrap();
     let law = format!("model.law={{zhang_whiten={{alpha={alpha}}}}}");
     glass.succeed(&["case.toml", "--set", &law, "--out", "run"]);
     let e = glass.json("run/summary.json")["restitution"].as_f64().unwrap();

@@ -11,11 +11,13 @@ mod full_disk;
 mod house;
 mod leftovers;
 mod models;
+mod numbers;
 mod repeatability;
 mod replacing;
 mod report;
 mod restart;
 mod result_folder;
+mod schema;
 #[cfg(unix)]
 mod slurm;
 mod stopping;

@@ -57,7 +57,7 @@ fn quiet_means_silent_but_for_errors_and_warnings() {
         let ran = place.succeed(&[command, &odd].concat());
         assert_eq!(ran.stdout, "");
         assert!(
-            ran.stderr.contains("warning: the diameter of striker is 22.2 m"),
+            ran.stderr.contains("warning: the diameter of striker is 22.20 m"),
             "{}",
             ran.stderr
         );
@@ -118,4 +118,19 @@ fn a_case_named_like_a_command_runs_with_its_folder() {
     place.write("check", crate::common::CASE);
     place.succeed(&["./check"]);
     assert!(place.path("runs/check/check.pvd").exists());
+}
+
+/// A model's name that is nearly right is asked about; a new case with blanks in its name is one word of a shell.
+#[test]
+fn words_are_asked_about_and_names_are_quoted() {
+    let place = Place::new();
+    let ran = place.run(&["check", "case.toml", "--set", "model=tingg"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("did you mean `ting`?"), "{}", ran.stderr);
+    let ran = place.run(&["check", "case.toml", "--set", "model.law=tsujii"]);
+    assert!(ran.stderr.contains("did you mean `tsuji`?"), "{}", ran.stderr);
+    let ran = place.succeed(&["new", "wei rd2"]);
+    assert!(ran.stdout.contains("fem-run check 'wei rd2.toml'"), "{}", ran.stdout);
+    let ran = place.succeed(&["new", "plain"]);
+    assert!(ran.stdout.contains("fem-run check plain.toml"), "{}", ran.stdout);
 }

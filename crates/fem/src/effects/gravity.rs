@@ -13,10 +13,11 @@
 //! the balance of energy at the largest approach.
 
 use fem_case::Scene;
+use fem_case::engineering::number;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
-use super::need::{Need, short};
+use super::need::Need;
 use crate::estimate::Estimate;
 
 /// ∂ ln T and ∂ ln F over g δ/v² in Hertz' contact.
@@ -46,8 +47,8 @@ impl Effect for Gravity {
         let hertz = &estimate.hertz;
         let weight = gravity.acceleration * hertz.pair().effective_mass() / hertz.peak_force();
         let fall = (gravity.acceleration * hertz.max_approach()).sqrt() / hertz.approach_speed();
-        let mut number =
-            format!("weight / peak force = {}, √(g δ)/v = {}", short(weight), short(fall));
+        let ratios = [weight, fall].map(|ratio| number(ratio, 2));
+        let mut number = format!("weight / peak force = {}, √(g δ)/v = {}", ratios[0], ratios[1]);
         if weight.max(fall * fall) < NEGLIGIBLE {
             number += "; in the contact it changes nothing, the flight needs it";
         }

@@ -15,13 +15,6 @@ pub struct Need {
     pub warning: Option<String>,
 }
 
-/// Two digits of a number that is compared with one, without an exponent where it needs none.
-pub(crate) fn short(number: f64) -> String {
-    let text = format!("{number:.1e}");
-    let is_plain = number == 0.0 || (1e-3..1e3).contains(&number.abs());
-    text.parse::<f64>().ok().filter(|_| is_plain).map_or(text, |rounded| rounded.to_string())
-}
-
 /// A share in per cent.
 pub(crate) fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)

@@ -5,6 +5,7 @@
 //! Decided by the contact time over the time that shear waves take through a body, T c_s/D. The loss is
 //! that of a half-space ([`radiated_share`]).
 
+use fem_case::engineering::number;
 use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
 use fem_laws::{Ting, radiated_share};
 use fem_material::Material;
@@ -166,9 +167,10 @@ impl Effect for PartnerWaves {
             format!(
                 "{name} is so large that waves from the contact do not come back within it (contact \
                  time × shear wave speed / diameter = {least:.2}, below {RETURN_LIMIT}): they take \
-                 {} of the energy, {lost:.1e} of the restitution, which this model leaves out; {} \
+                 {} of the energy, {} of the restitution, which this model leaves out; {} \
                  them",
                 percent(share),
+                number(lost, 2),
                 if term { "models fem and ting have" } else { "model fem has" }
             )
         });
@@ -176,7 +178,7 @@ impl Effect for PartnerWaves {
             is_called_for: least < RETURN_LIMIT,
             number: format!("contact time × shear wave speed / diameter of {name} = {least:.2}"),
             otherwise: "waves come back within the contact".to_string(),
-            left_open: format!("they take {lost:.1e} of the restitution"),
+            left_open: format!("they take {} of the restitution", number(lost, 2)),
             warning,
         })
     }

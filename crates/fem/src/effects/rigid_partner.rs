@@ -6,6 +6,7 @@
 //! ([`fem_laws::rigid_partner`]); what the body relaxes and radiates goes with it. A half-space that hardly
 //! gives way is a wall.
 
+use fem_case::engineering;
 use fem_case::{Body, EffectsTable, Scene, Switch};
 
 use super::answer::Answer;
@@ -131,6 +132,6 @@ impl Stiffer<'_> {
 
     /// The number that decides, in words.
     fn number(&self) -> String {
-        format!("{} has {:.1e} of the compliance", self.body.name(), self.share)
+        format!("{} has {} of the compliance", self.body.name(), engineering::number(self.share, 2))
     }
 }

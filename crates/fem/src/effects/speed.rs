@@ -1,7 +1,8 @@
 //! The approach speed next to that of shear waves: the number that several effects go by.
 
-use super::need::{percent, short};
+use super::need::percent;
 use crate::estimate::Estimate;
+use fem_case::engineering;
 
 /// Approach speed over shear wave speed above which inertia shortens the contact by more than
 /// 0.15 %: 0.05 % at 1.5e-3 and 0.45 % at 1.5e-2 were measured on the glass pair.
@@ -11,7 +12,7 @@ pub(super) const MACH_LIMIT: f64 = 0.02;
 
 /// The number that decides, in words.
 pub(super) fn number(estimate: &Estimate) -> String {
-    format!("approach speed / shear wave speed = {}", short(estimate.mach))
+    format!("approach speed / shear wave speed = {}", engineering::number(estimate.mach, 2))
 }
 
 /// What the approach speed is next to that of shear waves, and above which share something follows.

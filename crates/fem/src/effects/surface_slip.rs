@@ -9,13 +9,14 @@
 //! 0.32 aκβ of the peak force. Above a/R* = 0.2 what explicit elements have of the second order may be
 //! larger where β is small, as of rubber.
 
+use fem_case::engineering::number;
 use fem_case::{Body, EffectsTable, Scene, Shape, Switch};
 use fem_laws::{Face, RelativeError, SurfaceSlip as Slip};
 use fem_material::{ElasticModuli, Material};
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
-use super::need::{Need, percent, short};
+use super::need::{Need, percent};
 use crate::estimate::Estimate;
 
 /// Below this κβR* materials are alike but for the rounding of their moduli.
@@ -71,7 +72,7 @@ impl Effect for SurfaceSlip {
             is_called_for: is_called_for(scene),
             number: format!(
                 "slope of the interface × mismatch of the materials = {}",
-                short(slope)
+                number(slope, 2)
             ),
             otherwise: "facing points move alike".to_string(),
             left_open: format!("{time} of the contact time is open"),

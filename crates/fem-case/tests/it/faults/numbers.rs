@@ -96,9 +96,9 @@ fn what_is_seldom_meant_is_told_and_not_refused() {
     };
     assert!(parse(VALID).unwrap().scene().oddities().is_empty());
     for (part, replacement, told) in [
-        ("\"22.2 mm\"", "5", "diameter of striker is 5 m"),
+        ("\"22.2 mm\"", "5", "diameter of striker is 5.000 m"),
         ("\"15.9 mm\"", "\"3 m\"", "beside"),
-        ("\"22.2 mm\"", "\"101 m\"", "diameter of striker is 101 m"),
+        ("\"22.2 mm\"", "\"101 m\"", "diameter of striker is 101.0 m"),
         ("\"2390 kg/m^3\"", "2.39", "density of striker is 2.39"),
         ("\"2390 kg/m^3\"", "\"26 g/cm^3\"", "density of"),
         ("\"63 GPa\"", "63", "Young's modulus of striker is"),

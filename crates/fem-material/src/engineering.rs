@@ -56,6 +56,32 @@ pub fn show(value: f64, symbol: &str) -> String {
     Unit::fitting(value, symbol).show(value)
 }
 
+/// A number without a unit in so many digits: `0`, `0.034`, `5.4e-5`.
+pub fn number(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
+    if rounded == 0.0 {
+        "0".to_string()
+    } else if (1e-3..1e5).contains(&rounded.abs()) || !rounded.is_finite() {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// A text that begins with a number of more than seven digits, `5.49602204001348 cm/s`, with five of them; all
+/// else as it is.
+pub fn shortened(text: &str) -> String {
+    let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e');
+    let end = text.find(|c: char| !is_part(c)).unwrap_or(text.len());
+    let (digits, rest) = text.split_at(end);
+    let n_digits =
+        digits.split('e').next().unwrap_or("").matches(|c: char| c.is_ascii_digit()).count();
+    match digits.parse::<f64>() {
+        Ok(value) if n_digits > 7 => number(value, 5) + rest,
+        _ => text.to_string(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,5 +101,35 @@ mod tests {
             assert_eq!(show(value, symbol), expected);
         }
         assert_eq!(Unit::fitting(62.8212e-6, "s").with_digits(5).show(62.8212e-6), "62.821 µs");
+    }
+
+    #[test]
+    fn long_numbers_are_shortened_and_words_are_not() {
+        for (text, expected) in [
+            ("5.49602204001348 cm/s", "5.496 cm/s"),
+            ("0.00012345678901", "1.2346e-4"),
+            ("22.2 mm", "22.2 mm"),
+            ("1000000", "1000000"),
+            ("end", "end"),
+            ("{ ting = {} }", "{ ting = {} }"),
+        ] {
+            assert_eq!(shortened(text), expected);
+        }
+    }
+
+    #[test]
+    fn plain_numbers_have_no_needless_exponent() {
+        for (value, digits, expected) in [
+            (0.0, 2, "0"),
+            (-0.0, 2, "0"),
+            (3.772_058, 7, "3.772058"),
+            (0.034_21, 2, "0.034"),
+            (5.432e-5, 2, "5.4e-5"),
+            (99_999.0, 2, "1e5"),
+            (-12.345, 3, "-12.3"),
+            (f64::INFINITY, 2, "inf"),
+        ] {
+            assert_eq!(number(value, digits), expected);
+        }
     }
 }
