@@ -38,7 +38,7 @@ const ROWS: [Row; 12] = [
     row(
         SOFT,
         &[COARSE, "body.1.approach_speed='40 m/s'", "material.rubber.hyperelastic='hencky'"],
-        "a surface turns over",
+        "turns over at the radius",
         &[("body.N.approach_speed", "body.1.approach_speed='20 m/s'")],
     ),
     row(
