@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::path::Path;
 use std::time::Instant;
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser};
 use fem_case::nearest;
 
@@ -55,6 +55,19 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
         Ok(arguments) => return arguments,
         Err(error) => error,
     };
+    if error.kind() == ErrorKind::InvalidSubcommand {
+        // Of `help exprt`: everything else that is no command is taken for a case.
+        let word = match error.get(ContextKind::InvalidSubcommand) {
+            Some(ContextValue::String(word)) => word.clone(),
+            _ => String::new(),
+        };
+        let mut command = Arguments::command();
+        let names = names_of(&command).join(", ");
+        let near =
+            near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let text = format!("{word:?} is no command; the commands are {names}{near}");
+        command.error(error.kind(), text).exit()
+    }
     // clap's own message takes the second of two cases for a command.
     let is_of_commands = error.to_string().contains("the subcommand");
     if error.kind() != ErrorKind::ArgumentConflict || !is_of_commands {

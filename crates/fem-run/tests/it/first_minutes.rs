@@ -127,6 +127,7 @@ fn a_word_that_is_nearly_a_command_is_asked_about() {
         (&["chek"][..], "did you mean fem-run check?"),
         (&["swep", "sweep.toml"], "did you mean sweep?"),
         (&["mateirals"], "did you mean fem-run materials?"),
+        (&["help", "exprt"], "did you mean export?"),
     ] {
         let ran = place.run(arguments);
         assert_eq!(ran.code, Some(2));
