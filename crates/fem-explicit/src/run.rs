@@ -177,7 +177,10 @@ fn step(
     let Memory {
         state, log, ledger, observed, history, recorder, probes, sound, stability, ..
     } = memory;
-    let stop = |fault: Fault, state: &State| model.stop(fault, state);
+    let mut stop = |fault: Fault, state: &State| {
+        let of_law = matches!(fault, Fault::Collapsed(_)).then(|| stability.why(model, state));
+        of_law.flatten().unwrap_or_else(|| model.stop(fault, state))
+    };
     let contact = update_forces(model, state, scratch)
         .map_err(|collapsed| stop(Fault::Collapsed(collapsed), state))?;
     ledger.follow(model, state, scratch, &contact).map_err(|grown| model.stop_of(grown, state))?;

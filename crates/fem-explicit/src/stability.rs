@@ -52,6 +52,14 @@ impl Stability {
         }
     }
 
+    /// Why an element has collapsed, if a law had lost its stability.
+    pub fn why(&mut self, model: &Model, state: &State) -> Option<Stop> {
+        if self.lost.is_none() && can_be_lost(model) {
+            self.lost = look(model, state);
+        }
+        self.lost.as_ref().map(Lost::stop)
+    }
+
     /// What a run has to say that came through it, or ended for another reason.
     pub fn warning(&self) -> Option<String> {
         let stop = self.lost.as_ref()?.stop();

@@ -57,14 +57,15 @@ fn the_number_of_allocations_does_not_depend_on_the_number_of_steps() {
             let (n, steps) = count(&pair);
             let (n_twice, steps_twice) = count(&Pair { step_factor: 0.45, ..pair });
             assert!(steps_twice as f64 > 1.9 * steps as f64);
-            // State, forces, those of the contact, history, the pulse, the last sound state, rows of the lanes, and up to eight
-            // fields a snapshot kept, twice over for lists that grow.
-            assert!(n < 140 + 16 * n_kept, "{n}");
+            // State, forces, those of the contact, history, the pulse, rows of the lanes, ten or so for each of
+            // some thirty sound states, and up to eight fields and forty lists of the contact's profile a
+            // snapshot kept.
+            assert!(n < 480 + 60 * n_kept, "{n} {relaxation:?} {law:?} {n_kept}");
             if n_kept == 0 {
                 assert_eq!(n, n_twice);
             } else {
-                // A rung more or less.
-                assert!(n.abs_diff(n_twice) <= 16, "{n} {n_twice}");
+                // Some rungs more or less.
+                assert!(n.abs_diff(n_twice) <= 180, "{n} {n_twice}");
             }
         }
     }

@@ -108,7 +108,7 @@ fn faults_in_the_value() {
     fault("title", "title=«{glass»", "no TOML value");
     fault("title", "title=«[1, 2»", "no TOML value");
     fault("title", "title=«a = 2»", "no TOML value");
-    fault("model", "model=«tng»", "model is a string");
+    fault("model", "model=«tng»", "model is \"tng\", which is none of its values");
     fault("title", "title=«\"glass»", "no TOML value");
     fault("title", "title=«'a' b»", "no TOML value");
     fault("start.gap", "start.gap=«1\ntitle = 2»", "no TOML value");

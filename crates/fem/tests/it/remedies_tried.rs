@@ -48,7 +48,7 @@ const ROWS: [Row; 12] = [
             "body.1.approach_speed='15 m/s'",
             "material.rubber.hyperelastic='saint-venant-kirchhoff'",
         ],
-        "of its volume",
+        "lost its stability",
         &[
             ("body.N.approach_speed", "body.1.approach_speed='3 m/s'"),
             ("material.NAME.hyperelastic", "material.rubber.hyperelastic='neo-hooke'"),
