@@ -53,7 +53,26 @@ check('what is too large is refused, and a worker that does not hear is replaced
   await paste(page, fine(2, ''));
   await page.locator('#paste-fault').waitFor();
   assert.match(await page.locator('#paste-fault').innerText(), /limits.memory/);
+  // A limit that is raised beyond what a browser has: said by the run, and by a module that trapped.
   await paste(page, fine(0.8, '[limits]\nelements = 1e8\nmemory = 1e12'));
+  await page.waitForFunction(() => /not enough memory[^]*4 GB at most/.test(document.getElementById('paste-fault').textContent), null, { timeout: 120_000 });
+  await page.evaluate(() => {
+    const post = Worker.prototype.postMessage;
+    Worker.prototype.postMessage = function trapped(data) {
+      if (data.kind !== 'begin') {
+        post.call(this, data);
+        return;
+      }
+      Worker.prototype.postMessage = post;
+      this.onmessage({ data: { id: data.id, kind: 'failed', message: 'panicked: AllocError { size: 312532992 } (RuntimeError: unreachable)' } });
+    };
+  });
+  await paste(page, glass);
+  await page.waitForFunction(() => /not enough memory for this case[^]*4 GB at most/.test(document.getElementById('paste-fault').textContent));
+  assert.doesNotMatch(await page.locator('#paste-fault').innerText(), /panicked|AllocError/);
+  // It fits in a browser and takes several seconds before its first step: a finer mesh is at fault for want
+  // of memory, and that as early as a busy machine clicks.
+  await paste(page, fine(1.5, '[limits]\nelements = 1e8\nmemory = 1e12'));
   await page.locator('#progress').waitFor();
   await page.click('#cancel');
   await page.waitForFunction(() => /^Ended/.test(document.getElementById('status').textContent), null, { timeout: 30_000 });

@@ -102,11 +102,20 @@ pub(crate) fn near<S: AsRef<str>>(found: &str, allowed: &[S]) -> String {
 }
 
 /// The allowed word that is nearest to what was found, if it is more than so similar (Jaro and
-/// Winkler's, 0 to 1).
+/// Winkler's, 0 to 1). Two neighbours in the wrong order are next to the same word, in a short one too: `nwe`.
 pub fn nearest<'w, S: AsRef<str>>(found: &str, allowed: &'w [S], least: f64) -> Option<&'w str> {
-    let similarity = |word: &S| strsim::jaro_winkler(&found.to_lowercase(), word.as_ref());
+    let found = found.to_lowercase();
+    let similarity = |word: &S| {
+        let jaro_winkler = strsim::jaro_winkler(&found, word.as_ref());
+        if is_swapped(&found, word.as_ref()) { jaro_winkler.max(0.95) } else { jaro_winkler }
+    };
     let nearest = allowed.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     nearest.filter(|word| similarity(word) > least).map(AsRef::as_ref)
+}
+
+/// Whether two letters beside each other have changed places, and nothing else.
+fn is_swapped(found: &str, word: &str) -> bool {
+    strsim::osa_distance(found, word) == 1 && strsim::levenshtein(found, word) == 2
 }
 
 fn name(path: &str) -> &str {

@@ -62,7 +62,7 @@ macro_rules! kinds {
 }
 
 kinds! {
-    Number, "a plain number", [0, 0, 0, 0], "", "1.0";
+    Number, "a plain number", [0, 0, 0, 0], "", "0.2";
     Length, "a length", [1, 0, 0, 0], "m", "\"22.2 mm\"";
     Speed, "a speed", [1, 0, -1, 0], "m/s", "\"0.5 m/s\"";
     Acceleration, "an acceleration", [1, 0, -2, 0], "m/s^2", "\"9.81 m/s^2\"";
@@ -181,7 +181,7 @@ impl<K: QuantityKind> Quantity<K> {
         let Kind { name, si, example, is_count, .. } = K::KIND;
         let bare = match si {
             _ if is_count => format!("write {name}, such as {example}"),
-            "" => format!("write a number, such as {example}"),
+            "" => format!("write a number, such as {example} or \"20 %\""),
             si => format!("write {name} with its unit, {example}, or a bare number in {si}"),
         };
         match error {

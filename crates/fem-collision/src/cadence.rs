@@ -23,6 +23,12 @@ impl Cadence {
         Self { stride, n: 0, most: EXCESS.saturating_mul(n_instants.max(FEWEST)) }
     }
 
+    /// The same at the nearest stride: two thirds to three halves of the instants, where there are so many steps.
+    pub fn nearest(n_instants: usize, expected_steps: f64) -> Self {
+        let stride = (expected_steps / n_instants.max(1) as f64).round().max(1.0) as u64;
+        Self { stride, ..Self::new(n_instants, expected_steps) }
+    }
+
     /// Whether this step is due.
     pub fn is_due(&self, step: u64) -> bool {
         step.is_multiple_of(self.stride)
@@ -81,6 +87,18 @@ mod tests {
             let expected: Vec<u64> = (0..30).step_by(stride).collect();
             assert_eq!(due, expected);
         }
+    }
+
+    /// About as many instants as asked for, however many steps there are of them.
+    #[test]
+    fn the_nearest_stride_keeps_about_as_many() {
+        for n_steps in [700_u64, 1000, 1400, 1499, 1500, 1999, 2999, 7600, 123_456] {
+            let cadence = Cadence::nearest(1000, n_steps as f64);
+            assert!(cadence.is_sound());
+            let n = (0..n_steps).filter(|&step| cadence.is_due(step)).count();
+            assert!((667..1500).contains(&n), "{n} of {n_steps}");
+        }
+        assert_eq!(Cadence::nearest(10, f64::NAN).stride(), 1);
     }
 
     /// Whatever the length of the run: between two and four times as many as asked for.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use fem_material::engineering::show;
+use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
 use crate::moment::Moment;
@@ -35,7 +35,8 @@ impl Deepest {
 
 impl fmt::Display for Deepest {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [overlap, radius] = [self.overlap, self.radius].map(|length| show(length, "m"));
+        let two_digits = |size: f64| Unit::fitting(size, "m").with_digits(2).show(size);
+        let [overlap, radius] = [self.overlap, self.radius].map(two_digits);
         write!(to, "{overlap} at r = {radius} at {}", self.at)
     }
 }
@@ -53,7 +54,7 @@ mod tests {
         let seen = [of(0.0, 0), of(1e-9, 1), of(3e-9, 2), of(f64::NAN, 3), of(3e-9, 4), of(0.0, 5)];
         let found = seen.into_iter().fold(None, Deepest::of).unwrap();
         assert_eq!(found.at.step, 2);
-        assert_eq!(found.later_by(1.0).to_string(), "3.000 nm at r = 0.000 m at 1.000 s (step 2)");
+        assert_eq!(found.later_by(1.0).to_string(), "3.0 nm at r = 0.0 m at 1.000 s (step 2)");
         assert_eq!(Deepest::of(None, of(0.0, 0)), None);
     }
 }

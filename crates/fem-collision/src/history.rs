@@ -37,7 +37,7 @@ pub struct History {
 impl History {
     /// For about `n_rows` rows over `expected_steps` steps; at most four times as many.
     pub fn new(n_rows: usize, expected_steps: f64) -> Self {
-        let cadence = Cadence::new(n_rows, expected_steps);
+        let cadence = Cadence::nearest(n_rows, expected_steps);
         let capacity = cadence.most().saturating_add(1).min(MOST_RESERVED);
         Self {
             rows: Vec::with_capacity(capacity),

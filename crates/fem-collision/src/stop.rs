@@ -1,6 +1,6 @@
 //! Why a run ends before the bodies have parted.
 
-use fem_material::engineering::show;
+use fem_material::engineering::{number, show};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -235,7 +235,7 @@ fn place_at_fault(body: usize, of_contact: bool) -> String {
 /// What has become of an element with so much of its volume.
 fn fate(volume_ratio: f64) -> String {
     if volume_ratio > 0.0 {
-        format!("compressed to {volume_ratio:.2e} of its volume")
+        format!("compressed to {} of its volume", number(volume_ratio, 3))
     } else {
         "turned inside out".to_string()
     }

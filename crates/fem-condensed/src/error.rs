@@ -2,6 +2,7 @@
 
 use fem_collision::{ApproachError, Stop};
 use fem_contact::ContactError;
+use fem_material::engineering::show;
 use thiserror::Error;
 
 /// What went wrong, and where the condensed model ends.
@@ -34,7 +35,7 @@ pub enum CondensedError {
     OutOfMemory,
     /// The contact grew out of the nodes that were condensed already without relaxation.
     #[error(
-        "the contact reached the radius {radius:.4e} m, the end of the region that was condensed"
+        "the contact reached the radius {}, the end of the region that was condensed", show(*radius, "m")
     )]
     ContactBeyondCandidates {
         /// Candidate radius, m.

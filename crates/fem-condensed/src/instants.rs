@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use fem_collision::{Ending, Label, SnapshotRequest, did_not_occur, evenly, fewer_than_asked};
+use fem_material::engineering::show;
 
 /// What is remembered of every step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -98,8 +99,9 @@ pub(crate) fn choose(
                 times.into_iter().partition(|&time| time >= first_touch && time <= end);
             for time in beyond {
                 missing.push(format!(
-                    "{time:.4e} s lies outside of the contact and the flight that is computed; \
-                     its snapshot is left out"
+                    "{} lies outside of the contact and the flight that is computed; \
+                     its snapshot is left out",
+                    show(time, "s")
                 ));
             }
             within.into_iter().map(|time| (since_touch(time - first_touch), None)).collect()

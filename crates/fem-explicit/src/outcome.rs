@@ -1,6 +1,7 @@
 //! What a run leaves, as a collision.
 
 use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER, Stop};
+use fem_material::engineering::show;
 
 use crate::memory::Memory;
 use crate::model::Model;
@@ -57,8 +58,9 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         && lasted > time
     {
         warnings.push(format!(
-            "{time:.4e} s after first touch waves were back at the contact from the end of the \
-             half-space's mesh, as they never are from a half-space; a larger far radius keeps them away"
+            "{} after first touch waves were back at the contact from the end of the \
+             half-space's mesh, as they never are from a half-space; a larger far radius keeps them away",
+            show(time, "s")
         ));
     }
     Collision {

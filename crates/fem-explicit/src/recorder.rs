@@ -9,6 +9,7 @@
 use fem_collision::{
     Expectation, Label, Snapshot, SnapshotRequest, Want, did_not_occur, evenly, fewer_than_asked,
 };
+use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
@@ -222,7 +223,8 @@ impl Recorder {
             SnapshotRequest::Times(times) => {
                 for time in &times[self.next_time..] {
                     missing.push(format!(
-                        "the run ended before {time:.4e} s; its snapshot is left out"
+                        "the run ended before {}; its snapshot is left out",
+                        show(*time, "s")
                     ));
                 }
                 self.kept

@@ -1,7 +1,7 @@
 //! A law on the command line: `--law bordbar_hyppanen --param n=0.65 --end zero_overlap`.
 
 use fem::laws::{ChosenLaw, ParameterError, find_parameter, parse_value};
-use fem_case::{Case, parse_quantity};
+use fem_case::{Case, nearest, parse_quantity};
 use fem_laws::{EndRule, Family};
 
 use crate::failure::Failure;
@@ -67,7 +67,9 @@ impl LawArguments {
 pub fn parse_family(name: &str) -> Result<Family, String> {
     Family::from_name(name).ok_or_else(|| {
         let names: Vec<_> = Family::ALL.iter().map(|family| family.name()).collect();
-        format!("the laws are {}", names.join(", "))
+        let near = nearest(name, &names, 0.8);
+        let asked = near.map_or(String::new(), |law| format!("did you mean {law}? "));
+        format!("{asked}the laws are {}", names.join(", "))
     })
 }
 
@@ -109,8 +111,19 @@ pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Fail
 /// # Errors
 /// None, in words.
 pub fn parse_confidence(text: &str) -> Result<f64, String> {
-    let level = text.parse::<f64>().ok().filter(|level| *level > 0.0 && *level < 1.0);
+    let level = parse_share(text).ok().filter(|level| *level > 0.0 && *level < 1.0);
     level.ok_or_else(|| "it must be between 0 and 1, such as 0.95 for 95 %".to_string())
+}
+
+/// A number without a unit, `0.9` or `90 %`; whether it is too large is for the command to say.
+///
+/// # Errors
+/// What is no number, or has a unit.
+pub fn parse_share(text: &str) -> Result<f64, String> {
+    match parse_quantity(text) {
+        Ok((value, dimension)) if dimension.0 == [0; 4] => Ok(value),
+        _ => Err("this is not a number, such as 0.9 or '90 %'".to_string()),
+    }
 }
 
 /// A speed, m/s.

@@ -3,6 +3,7 @@
 use fem_case::{Body, Scene, Shape};
 use fem_collision::Expectation;
 use fem_laws::{HertzImpact, LawError, Pair, Partner};
+use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
 use crate::refusal::Refusal;
@@ -50,8 +51,9 @@ impl Estimate {
         let mut masses = scene.bodies().iter().filter_map(|body| Some((body, body.mass()?)));
         if let Some((body, mass)) = masses.find(|(_, mass)| !(mass * mass).is_normal()) {
             return Err(refused(format!(
-                "the mass of {} is {mass:e} kg; its square must be a number",
-                body.name()
+                "the mass of {} is {} kg; its square must be a number",
+                body.name(),
+                number(mass, 4)
             )));
         }
         Self::of(scene).map_err(|error| refused(error.to_string()))

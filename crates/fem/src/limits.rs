@@ -2,6 +2,7 @@
 
 use fem_case::{Scene, Shape};
 use fem_explicit::n_states;
+use fem_material::engineering::show;
 
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
@@ -82,8 +83,8 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
     }
     let key = blamed(scene, "limits.elements", scene.limits().elements);
     let found = format!(
-        "the meshes would have {elements} elements, {:.3e} m long at the contact",
-        plan.contact_element_size
+        "the meshes would have {elements} elements, {} long at the contact",
+        show(plan.contact_element_size, "m")
     );
     Err(Refusal::new(key, found).with_help(format!(
         "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",

@@ -17,6 +17,7 @@ use std::convert::Infallible;
 
 use fem_case::{Body, CaseError, Shape};
 use fem_collision::{Collision, Headline, Monitor, Stop};
+use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
 use crate::effects::percent;
@@ -138,9 +139,10 @@ impl Simulation {
         let miss = Miss { headline, error: level.error, tolerance: level.tolerance };
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
         Some(format!(
-            "{}: again with elements of {size:.2e} m in place of {:.2e} m",
+            "{}: again with elements of {} in place of {}",
             miss.in_words(),
-            level.contact_element_size_m
+            length(size),
+            length(level.contact_element_size_m)
         ))
     }
 
@@ -167,7 +169,7 @@ impl Simulation {
         let plan = &self.setup().elements.as_ref()?.plan;
         let Some(miss) = self.missed(collision) else { return self.untold(collision) };
         let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
-        let write = format!("write mesh.contact_element_size = \"{size:.2e} m\"");
+        let write = format!("write mesh.contact_element_size = \"{}\"", length(size));
         let remedy = match self.finer_or_kept(&miss, collision) {
             // Who has the course decides.
             Ok(_) => write,
@@ -263,6 +265,11 @@ fn is_wanted(stop: &Stop) -> bool {
 /// By how much elements become smaller where an error is so many times what is allowed.
 fn step(excess: f64, most: f64) -> f64 {
     (ROOM * excess).powf(1.0 / ORDER).max(STEPS[0]).min(most)
+}
+
+/// An element's edge, m, in three digits, as a case takes it, too.
+fn length(size: f64) -> String {
+    Unit::fitting(size, "m").with_digits(3).show(size)
 }
 
 /// One digit.

@@ -128,7 +128,7 @@ fn times_give_the_nearest_steps() {
         assert!((time - asked).abs() <= 0.5 * model.time_step() * (1.0 + 1e-9));
     }
     assert_eq!(run.warnings.len(), 1);
-    assert!(run.warnings[0].contains("1.0000e0"), "{:?}", run.warnings);
+    assert!(run.warnings[0].contains("1.000 s"), "{:?}", run.warnings);
 }
 
 #[test]

@@ -14,6 +14,8 @@ const MOVING = { rows: 250, frames: 9 };
 const AT_REST = { rows: 1000, frames: 25 };
 // After which a reader is told that something is under way.
 const LATE_MS = 700;
+// A module of 32 bits has no more, whatever limits.memory says.
+const MEMORY_HELP = 'A browser gives a page 4 GB at most: take a larger mesh.contact_element_size, or run the case with the command.';
 
 const runner = new Runner();
 const main = document.querySelector('main');
@@ -97,7 +99,7 @@ function clearFaults() {
 function tell(text, answer, { begun, milliseconds, isMoving }) {
   clearFaults();
   if (answer.kind !== 'done') {
-    tellFault(text, answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message });
+    tellFault(text, withMemory(answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message }));
     return;
   }
   main.classList.remove('stale', 'empty');
@@ -120,6 +122,13 @@ function tell(text, answer, { begun, milliseconds, isMoving }) {
   window.collision = { summary, sharing, text, frames: outcome.frames, milliseconds };
   document.documentElement.dataset.runs = Number(document.documentElement.dataset.runs ?? 0) + 1;
   storyText(text, summary, sharing);
+}
+
+// What ran out of memory, in a run or in the module, says what to do; the words of a panic help nobody.
+function withMemory(fault) {
+  if (!/not enough memory/.test(fault.message) && !/AllocError|no memory left/.test(fault.help ?? '')) return fault;
+  const message = /not enough memory/.test(fault.message) ? fault.message : 'there is not enough memory for this case';
+  return { ...fault, message, help: MEMORY_HELP };
 }
 
 // Of a case of one's own at its place, and in a line above.

@@ -2,7 +2,7 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::calibrate::{Calibration, CalibrationModel};
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use fem_case::schema::ActsOn;
 use fem_fit::spectrum::Range;
 
@@ -17,8 +17,8 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     text += "\n";
     let fit = &found.fit;
     text += &format!(
-        "rms error: {:.2e}; that of a single Maxwell term (weight 1, {}): {:.2e}\n",
-        fit.rms,
+        "rms error: {}; that of a single Maxwell term (weight 1, {}): {}\n",
+        number(fit.rms, 3),
         match found.maxwell.beyond {
             None => format!("{} with the same mean", show(found.maxwell.time, "s")),
             Some(beyond) => format!(
@@ -27,7 +27,7 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
                 beyond.word()
             ),
         },
-        found.maxwell.rms
+        number(found.maxwell.rms, 3)
     );
     if let Some(exponent) = found.loss_exponent() {
         let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
@@ -60,7 +60,7 @@ fn heading(found: &Calibration) -> String {
         "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
         counted(found.times.len(), "term"),
         found.target.material,
-        fem_figure::tick(found.regularisation),
+        number(found.regularisation, 3),
         counted(found.measured.data.points.len(), "point"),
         found.measured.data.name,
         counted(found.experiments.len(), "pair"),
@@ -123,12 +123,12 @@ fn combinations(found: &Calibration) -> String {
         });
         let words = words.collect::<Vec<_>>().join(" ");
         let error = match combination.is_determined {
-            true => format!("{:.1e}", combination.standard_error),
+            true => number(combination.standard_error, 2),
             false => "-".to_string(),
         };
         [
             words.trim_start_matches("+ ").to_string(),
-            format!("{:.1e}", combination.singular_value),
+            number(combination.singular_value, 2),
             format!("{:.4}", combination.value),
             error,
             if combination.is_determined { "determined" } else { "not determined" }.to_string(),

@@ -15,7 +15,7 @@ use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
 use crate::jobs::value_of;
-use crate::law_arguments::parse_confidence;
+use crate::law_arguments::{parse_confidence, parse_share};
 use crate::output::OutputArguments;
 use crate::standard_output;
 
@@ -56,7 +56,7 @@ pub struct Arguments {
     #[arg(long, value_name = "LAMBDA", allow_negative_numbers = true, value_parser = parse_ridge)]
     regularisation: Option<f64>,
     /// Standard uncertainty of the restitutions, where the file has none
-    #[arg(long, value_name = "U", allow_negative_numbers = true)]
+    #[arg(long, value_name = "U", allow_negative_numbers = true, value_parser = parse_share)]
     uncertainty: Option<f64>,
     /// What computes a collision
     #[arg(long, value_name = "MODEL", value_enum, default_value_t = ModelName::Condensed)]

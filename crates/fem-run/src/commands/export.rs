@@ -15,7 +15,7 @@ use crate::data_file::ColumnArguments;
 use crate::export::{export_picture, export_text, pairs_csv, pairs_json, pairs_text};
 use crate::failure::Failure;
 use crate::jobs::value_of;
-use crate::law_arguments::{parse_length, parse_speed};
+use crate::law_arguments::{parse_length, parse_share, parse_speed};
 use crate::output::OutputArguments;
 use crate::standard_output;
 
@@ -45,7 +45,7 @@ pub struct Arguments {
         conflicts_with = "data")]
     diameters: Vec<f64>,
     /// Error of the restitution up to which a snippet is called good
-    #[arg(long, value_name = "E", default_value_t = 0.01)]
+    #[arg(long, value_name = "E", default_value_t = 0.01, value_parser = parse_share)]
     tolerance: f64,
     #[command(flatten)]
     output: OutputArguments,

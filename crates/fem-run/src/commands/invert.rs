@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::case_arguments::CaseArguments;
 use crate::failure::Failure;
-use crate::law_arguments::{LawArguments, find_key, parse_family, parse_speed};
+use crate::law_arguments::{LawArguments, find_key, parse_family, parse_share, parse_speed};
 use crate::standard_output;
 use crate::tables::{show_value, table};
 
@@ -23,8 +23,8 @@ use crate::tables::{show_value, table};
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
-    /// The restitution that is wanted, between 0 and 1
-    #[arg(long, value_name = "E")]
+    /// The restitution that is wanted, between 0 and 1, or in %
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_share)]
     restitution: f64,
     /// The law [default: that of the case's model, or else all]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]

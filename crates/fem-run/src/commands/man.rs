@@ -30,6 +30,7 @@ pub fn execute(arguments: &Arguments, mut whole: Command) -> Result<(), Failure>
     let mut text = Vec::new();
     Man::new(page)
         .title(title)
+        .source(concat!("fem-run ", env!("CARGO_PKG_VERSION")))
         .render(&mut text)
         .map_err(|error| Failure::failed(format!("the manual page: {error}")))?;
     standard_output::print(&String::from_utf8_lossy(&text))

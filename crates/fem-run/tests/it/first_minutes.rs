@@ -125,6 +125,7 @@ fn a_word_that_is_nearly_a_command_is_asked_about() {
     let place = Place::new();
     for (arguments, meant) in [
         (&["chek"][..], "did you mean fem-run check?"),
+        (&["nwe"], "did you mean fem-run new?"),
         (&["swep", "sweep.toml"], "did you mean sweep?"),
         (&["mateirals"], "did you mean fem-run materials?"),
         (&["help", "exprt"], "did you mean export?"),

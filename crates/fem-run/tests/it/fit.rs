@@ -404,6 +404,30 @@ fn cradle_of_one_trial_and_of_a_file() {
     refused(&["--masses", "1 g,1 g", "--data", "trials.csv"], "trials.csv:3: release angle");
 }
 
+/// What a hand writes first: a law with two letters in the wrong order, thousands that are parted.
+#[test]
+fn slips_of_the_hand_are_answered() {
+    let place = Place::new();
+    place.write("parted.csv", "speed_m_s;restitution\n1.000,5;0,95\n3,0;0,93\n");
+    for (law, told) in [
+        ("tsuij", "did you mean tsuji?"),
+        ("mishra", "did you mean mishra_murty?"),
+        ("tsuji", "take out what parts the thousands"),
+    ] {
+        let ran = place.run(&["fit", "case.toml", "--data", "parted.csv", "--law", law]);
+        assert_eq!(ran.code, Some(2));
+        assert!(ran.stderr.contains(told), "{}", ran.stderr);
+    }
+    let invert =
+        |e: &str| place.run(&["invert", "case.toml", "--law", "tsuji", "--restitution", e]);
+    assert_eq!(invert("90%").stdout, invert("0.9").stdout);
+    assert_eq!(invert("90%").code, Some(0));
+    for e in ["-0.9", "0.9 m", "much"] {
+        assert_eq!(invert(e).code, Some(2));
+    }
+    assert!(invert("0.9 m").stderr.contains("such as 0.9 or '90 %'"), "{}", invert("0.9 m").stderr);
+}
+
 /// A spreadsheet's file: Latin-1, semicolons, decimal commas, names of its own, an empty row.
 #[test]
 fn columns_of_other_names_are_told() {

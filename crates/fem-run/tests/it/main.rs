@@ -26,4 +26,5 @@ mod sweep;
 mod sweep_input;
 mod sweep_packed;
 mod terminal;
+mod texts;
 mod validate;

@@ -265,8 +265,13 @@ impl Table {
             self.fault(row, format!("{header} is \"{text}\", {found}")).in_column(header)
         };
         let cell = if self.has_decimal_commas { with_point(text) } else { text.into() };
-        let (value, found) =
-            parse_quantity(&cell).map_err(|_| fault("which is not a number".to_string()))?;
+        let (value, found) = parse_quantity(&cell).map_err(|_| {
+            let fault = fault("which is not a number".to_string());
+            match text.contains('.') && text.contains(',') {
+                true => fault.with_help("take out what parts the thousands: 1000,5 or 1000.5"),
+                false => fault,
+            }
+        })?;
         let [m, kg, s] = dimension;
         let is_bare = found.0 == [0; 4];
         match ending_of(header) {

@@ -4,6 +4,7 @@ use fem_case::schema::{End, LawTable, ModelTable};
 use fem_case::{CaseFile, Dissipation, Law, ModelChoice, Quantity, Scene};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{EndRule, Impact, LawError, LawImpact, Pair, PairRelaxation};
+use fem_material::engineering::number;
 
 use super::law_numbers::{Setting, Unmade};
 use super::reduced::effects::{Relaxation, Traits};
@@ -108,10 +109,10 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
         },
         dashpot: (law.damping() > 0.0).then(|| {
             format!(
-                "C = {:.4e} N s/m^{:.4} at the exponent n = {:.4}",
-                law.damping(),
-                law.damping_exponent() + 1.0,
-                law.damping_exponent()
+                "C = {} N s/m^{} at the exponent n = {}",
+                number(law.damping(), 5),
+                number(law.damping_exponent() + 1.0, 5),
+                number(law.damping_exponent(), 5)
             )
         }),
         finite_size: (false, "a law's stiffness is given"),

@@ -14,6 +14,7 @@ use fem_collision::{
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
+use fem_material::engineering::Unit;
 use fem_material::{ActsOn, PronySeries};
 use fem_mesh::SphereMesh;
 
@@ -397,10 +398,10 @@ fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
     if bytes <= plan.max_memory {
         return Ok(());
     }
-    let message = format!("the factors would take about {:.1e} bytes", bytes as f64);
+    let shown = |bytes: u64| Unit::fitting(bytes as f64, "B").with_digits(2).show(bytes as f64);
+    let message = format!("the factors would take about {} of memory", shown(bytes));
     Err(Refusal::new("limits.memory", message).with_help(format!(
-        "at most {:.1e} are allowed; use a larger mesh.contact_element_size, or raise \
-         limits.memory",
-        plan.max_memory as f64
+        "at most {} are allowed; use a larger mesh.contact_element_size, or raise limits.memory",
+        shown(plan.max_memory)
     )))
 }

@@ -1,0 +1,62 @@
+//! What the words of the program look like, wherever in its sources they stand.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The source of a crate, without what is tested below in the same file.
+fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("a folder of sources").flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|end| end == "rs") {
+            let text = fs::read_to_string(&path).expect("a source");
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default().to_string();
+            found.push((path, code));
+        }
+    }
+    found
+}
+
+/// What a text has of numbers like `2.79e-5 m`: an exponent before a unit that takes a prefix.
+fn exponents_before_units(text: &str) -> Vec<&str> {
+    const UNITS: [&str; 10] = ["m", "s", "m/s", "Pa", "N", "J", "kg", "Hz", "bytes", "V"];
+    let after = text.match_indices("e} ").filter(|(end, _)| {
+        let format = text[..*end].rsplit('{').next().unwrap_or_default();
+        format.split_once(':').is_some_and(|(_, digits)| {
+            digits.chars().all(|c| c.is_ascii_digit() || ['.', '+'].contains(&c))
+        })
+    });
+    after
+        .filter_map(|(end, found)| {
+            let rest = text[end + found.len()..].trim_start_matches(['\\', '\n', ' ']);
+            let word = rest.split(|c: char| !c.is_ascii_alphabetic() && c != '/').next()?;
+            UNITS.contains(&word).then(|| &text[text[..end].rfind('{').unwrap_or(0)..end + 2])
+        })
+        .collect()
+}
+
+/// People read 27.9 µm, not 2.79e-5 m: `engineering::show` has the prefixes. What codes read, and
+/// studies write as arguments, has no words around it.
+#[test]
+fn no_text_has_an_exponent_before_a_unit() {
+    assert_eq!(
+        exponents_before_units("{size:.2e} m in place of {:.2e} m"),
+        ["{size:.2e}", "{:.2e}"]
+    );
+    assert!(exponents_before_units("{x:.1e} element updates, {name} m, {e} m").is_empty());
+    let mut faults = Vec::new();
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("");
+    let mut n = 0;
+    for own in fs::read_dir(crates).expect("crates").flatten() {
+        for (path, code) in sources(&own.path().join("src")) {
+            n += 1;
+            for found in exponents_before_units(&code) {
+                faults.push(format!("{}: {found}", path.display()));
+            }
+        }
+    }
+    assert!(n > 100, "{n} sources");
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
