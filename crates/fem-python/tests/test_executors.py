@@ -3,6 +3,7 @@
 import os
 import signal
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 
 import numpy as np
@@ -52,3 +53,21 @@ def test_ctrl_c_leaves_the_members_that_are_done(case, local):
         fem_run.sweep(case, VARY, executor=executor, progress=report)
     done = raised.value.result.to_csv().splitlines()
     assert 1 < len(done) < 11 and set(done) < set(local.splitlines())
+
+
+def test_a_killed_process_leaves_the_members_that_are_done(case, local):
+    """The standard library gives up then."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as executor:
+
+        def report(fraction):
+            if fraction > 0.3:
+                for process in list(executor._processes.values()):
+                    process.kill()
+
+        slow = {"body.0.approach_speed": [*VARY["body.0.approach_speed"], *np.geomspace(1.1, 2, 60)]}
+        with pytest.raises(fem_run.RunError, match="the executor broke, BrokenProcessPool.* of 65 members") as raised:
+            fem_run.sweep(case, slow, executor=executor, progress=report)
+    done = raised.value.result.to_csv().splitlines()
+    whole = fem_run.sweep(case, slow).to_csv().splitlines()
+    assert 20 <= len(done) < 66 and set(done) < set(whole)
+    assert isinstance(raised.value.__cause__, BrokenProcessPool)

@@ -1,7 +1,9 @@
 """Numbers are the command's, to the bit."""
 
 import csv
+import html
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -9,7 +11,7 @@ import pyvista
 
 import fem_run
 
-from conftest import COARSE
+from conftest import COARSE, ROOT
 
 #: What differs from run to run, or between memory and folder.
 OWN = {"cost", "files", "case", "made_from"}
@@ -169,3 +171,20 @@ def test_pictures_for_notebooks(glass):
     assert "restitution" in result._repr_html_() and "±" in result._repr_html_()
     table = fem_run.sweep(fem_run.Case.load(glass).with_({"model.ting": {}}), {"body.0.approach_speed": [0.5]})
     assert "<table" in table._repr_html_()
+    assert "Warnings" not in result._repr_html_() and "complete" not in repr(result)
+
+
+def test_a_table_without_pandas_is_shown_as_text(glass, monkeypatch):
+    table = fem_run.sweep(fem_run.Case.load(glass).with_({"model.ting": {}}), {"body.0.approach_speed": [0.5]})
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    assert table._repr_html_() is None
+
+
+def test_a_notebook_is_warned_where_the_terminal_is():
+    """Ting's half-spaces do not know how far they are off so soft a ball."""
+    result = fem_run.Case.load(ROOT / "cases" / "soft_sphere.toml").with_({"model.ting": {}}).run()
+    assert result.summary["uncertainty"]["restitution"]["model"] is None
+    assert result.uncertainty("restitution") is None
+    page = result._repr_html_()
+    assert "±" not in page and "off by more than 1e-08" in page
+    assert all(html.escape(warning) in page for warning in result.warnings) and len(result.warnings) > 1

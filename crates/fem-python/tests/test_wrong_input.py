@@ -56,6 +56,7 @@ def test_what_a_sweep_cannot_vary(case, vary, words):
         (lambda case: case.run(progress=3), TypeError, "progress is True, False"),
         (lambda case: case.with_([KEY]), TypeError, "changes are a dict"),
         (lambda case: case.with_({KEY: float("inf")}), fem_run.InputError, "inf"),
+        (lambda case: case.with_({KEY: None}), TypeError, "holds no None; leave the key out"),
         (lambda case: case.with_({3: 1}), TypeError, "dotted path"),
         (lambda case: fem_run.Case.load("none.toml"), fem_run.InputError, "no such file"),
         (lambda case: fem_run.Case.load(3), TypeError, "int"),

@@ -41,9 +41,10 @@ class InputError(Error, ValueError):
 
 
 class RunError(Error, RuntimeError):
-    """A run that failed; ``result`` is what was computed so far, marked incomplete."""
+    """A run that failed; ``result`` is what was computed so far, marked incomplete. Of a sweep whose executor broke
+    it is the table of the members that are done."""
 
-    result: Result | None = None
+    result: Result | Table | None = None
 
 
 class Interrupted(Error, KeyboardInterrupt):

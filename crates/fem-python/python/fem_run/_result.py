@@ -72,14 +72,21 @@ class Result:
     def uncertainty(self, key: str) -> float | None:
         """How far a quantity, such as ``restitution``, may be off nature: both parts of its error bar, SI.
 
+        ``None`` where one of them is not known: ``summary["uncertainty"]`` has the other one.
+
         Raises:
             KeyError: a quantity without an error bar.
         """
         if key not in self.summary["uncertainty"]:
             there = ", ".join(self.summary["uncertainty"])
             raise KeyError(f"{key!r} has no error bar; there are: {there}")
-        parts = [part for part in self.summary["uncertainty"][key].values() if part is not None]
-        return sum(parts) if parts else None
+        known, is_whole = self._error_bar(key)
+        return known if is_whole else None
+
+    def _error_bar(self, key: str) -> tuple[float, bool]:
+        """The sum of the parts that are known, and whether those are all."""
+        parts = self.summary["uncertainty"][key].values()
+        return sum(part for part in parts if part is not None), None not in parts
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_") and name in self.summary:
@@ -90,19 +97,23 @@ class Result:
         return sorted({*super().__dir__(), *self.summary})
 
     def __repr__(self) -> str:
-        shown = (f"{key}={self.summary[key]!r}" for key in _SHOWN)
+        shown = [f"{key}={self.summary[key]!r}" for key in _SHOWN]
+        shown += [] if self.summary["complete"] else ["complete=False"]
         return f"<fem_run.Result {', '.join(shown)}>"
 
     def _repr_html_(self) -> str:
         def row(key: str, name: str, unit: str) -> str:
-            value, bar = self.summary[key], self.uncertainty(key)
+            value, (bar, is_whole) = self.summary[key], self._error_bar(key)
             shown = "–" if value is None else f"{value:.6g}"
-            error = "" if value is None or bar is None else f"± {bar:.1g}"
+            sign = "±" if is_whole else "off by more than"
+            error = "" if value is None or not bar else f"{sign} {bar:.1g}"
             return f"<tr><td>{name}</td><td>{shown}</td><td>{error}</td><td>{unit}</td></tr>"
 
         rows = "".join(row(key, *names) for key, names in _SHOWN.items())
         title = html.escape(self.summary["case"].get("title") or "")
-        return f"<table><caption>{title}</caption>{rows}</table>"
+        warnings = "".join(f"<li>{html.escape(text)}</li>" for text in self.summary["warnings"])
+        told = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
+        return f"<table><caption>{title}</caption>{rows}</table>{told}"
 
 
 class Snapshot:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import _native, _toml
 from ._case import Case
-from ._errors import Interrupted, bad_input, shown
+from ._errors import Error, Interrupted, RunError, bad_input, shown
 from ._progress import reporter
 
 if TYPE_CHECKING:
@@ -68,8 +68,12 @@ class Table(Mapping[str, "NDArray[Any]"]):
     def __repr__(self) -> str:
         return f"<fem_run.Table of {len(self.summaries)} members, columns {', '.join(self._columns)}>"
 
-    def _repr_html_(self) -> str:
-        return self.to_pandas().to_html(max_rows=20)
+    def _repr_html_(self) -> str | None:
+        """``None`` without pandas: a notebook shows the text then."""
+        try:
+            return self.to_pandas().to_html(max_rows=20)
+        except ImportError:
+            return None
 
 
 def sweep(
@@ -97,6 +101,8 @@ def sweep(
 
     Raises:
         InputError: the first member that is no valid case, before any is computed.
+        RunError: an executor that broke, of a process that was killed; its ``result`` is the table of the members
+            that are done.
         Interrupted: Ctrl-C; its ``result`` is the table of the members that are done.
     """
     axes = _axes(case, vary)
@@ -119,7 +125,9 @@ def sweep(
     except KeyboardInterrupt as interrupt:
         error = interrupt
     if isinstance(error, KeyboardInterrupt):
-        raise _interrupted(keys, cases, changes, found)
+        raise _ended(Interrupted, "interrupted", keys, cases, changes, found)
+    if isinstance(error, _Broken):
+        raise _ended(RunError, str(error), keys, cases, changes, found) from error.__cause__
     if error is not None:
         raise error
     return _table(cases, keys, changes, found)
@@ -186,11 +194,22 @@ def _changes(axes: Sequence[tuple[tuple[str, ...], list[Any]]], chosen: Sequence
     return changes
 
 
-def _interrupted(keys: list[str], cases: list[Case], changes: list[dict[str, Any]], found: _Found) -> Interrupted:
+class _Broken(Exception):
+    """An executor that gave something else than its members, told by the cause."""
+
+
+def _ended(
+    kind: type[Interrupted] | type[RunError],
+    why: str,
+    keys: list[str],
+    cases: list[Case],
+    changes: list[dict[str, Any]],
+    found: _Found,
+) -> Interrupted | RunError:
     """With a table of the members that are done."""
     done = [k for k, (_, text) in enumerate(found) if text is not None]
     help = "the table of those is the exception's result"
-    error = Interrupted(f"interrupted: {len(done)} of {len(changes)} members are done\n  help: {help}\n", help)
+    error = kind(f"{why}: {len(done)} of {len(changes)} members are done\n  help: {help}\n", help)
     error.result = _table([cases[k] for k in done], keys, [changes[k] for k in done], [found[k] for k in done])
     return error
 
@@ -216,7 +235,7 @@ def _on(
         for start in starts:
             futures[executor.submit(_share, cases[start : start + size])] = start
         for future in _as_completed(futures):
-            shares[futures[future]] = future.result()
+            shares[futures[future]] = _result(future)
             if report is not None:
                 report(len(shares) / len(starts))
     except BaseException as raised:  # noqa: BLE001 - Ctrl-C, too: it is told with what there is
@@ -224,10 +243,23 @@ def _on(
     finally:
         for future in futures:
             future.cancel()
+    for future, start in futures.items():
+        if hasattr(future, "_condition") and future.done() and not future.cancelled() and future.exception() is None:
+            shares[start] = future.result()
     for start in starts:
         none: _Found = [("", None)] * len(cases[start : start + size])
         found += shares.get(start, none)
     return error
+
+
+def _result(future: Any) -> _Found:
+    try:
+        return future.result()
+    except (Error, KeyboardInterrupt):
+        raise
+    except Exception as cause:
+        name = type(cause).__name__
+        raise _Broken(f"the executor broke, {name}: {cause}") from cause
 
 
 def _as_completed(futures: Mapping[Any, int]) -> Iterable[Any]:

@@ -30,6 +30,8 @@ def value(found: Any) -> str:
         return value(found.tolist())
     if isinstance(found, (list, tuple)):
         return "[" + ", ".join(map(value, found)) + "]"
+    if found is None:
+        raise TypeError("a case holds no None; leave the key out, or write its default")
     raise TypeError(f"a case holds no {type(found).__name__}")
 
 

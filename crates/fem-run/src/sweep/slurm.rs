@@ -153,13 +153,14 @@ impl Batch {
     /// # Errors
     /// No shell, or no Slurm, or a Slurm that refuses.
     pub fn submit(&self, script: &Path) -> Result<String, Failure> {
-        let help = format!("the script is kept; submit it with: sh {}", script.display());
+        let path = quoted(&script.display().to_string());
+        let help = format!("the script is kept; submit it with: sh {path}");
         let fault = |found: String| Failure::failed(format!("--submit: {found}")).with_help(&help);
         let ran = Command::new("sh").arg(script).stdin(Stdio::null()).output();
         let ran = ran.map_err(|error| fault(format!("sh: {error}")))?;
         match ran.status.success() {
-            true => Ok(one_line(String::from_utf8_lossy(&ran.stdout).trim())),
-            false => Err(fault(one_line(String::from_utf8_lossy(&ran.stderr).trim()))),
+            true => Ok(told(&ran.stdout)),
+            false => Err(fault(told(&ran.stderr))),
         }
     }
 
@@ -203,6 +204,14 @@ fn cpus_per_task(options: &str) -> usize {
     given.unwrap_or(1).max(1)
 }
 
+/// What a program said, its lines in one.
+fn told(output: &[u8]) -> String {
+    let text = String::from_utf8_lossy(output);
+    let lines: Vec<String> =
+        text.lines().map(str::trim).filter(|line| !line.is_empty()).map(one_line).collect();
+    lines.join("; ")
+}
+
 /// A word as a shell takes it.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+%@".contains(c);
@@ -228,6 +237,14 @@ mod tests {
                 Command::new("sh").args(["-c", &format!("printf %s {}", quoted(word))]).output();
             assert_eq!(String::from_utf8_lossy(&ran.unwrap().stdout), word);
         }
+    }
+
+    #[test]
+    fn what_slurm_says_is_one_line_that_can_be_read() {
+        assert_eq!(
+            told(b" sbatch: error: no host\r\n\nsbatch: fatal: \x1b[2J\n"),
+            "sbatch: error: no host; sbatch: fatal: \u{fffd}[2J"
+        );
     }
 
     #[test]

@@ -156,7 +156,7 @@ impl Session {
         for (line, files) in self.page.first_columns("file") {
             let folder = self.folder_above(line);
             if self.place.path(&folder).exists() {
-                // Of what lies in a folder of the folder, that one's name.
+                // Of what lies in a folder of the folder, that one's name, once.
                 let top = |file: &String| file.split('/').next().unwrap().to_string();
                 let mut listed: Vec<String> = files.iter().map(top).collect();
                 listed.sort();
