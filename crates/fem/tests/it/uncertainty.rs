@@ -101,6 +101,26 @@ fn an_unnamed_law_is_a_doubt() {
     assert!(parts(&small.uncertainty).iter().all(|parts| parts.discretisation > Some(0.0)));
 }
 
+/// A material that relaxes loses more or less at large strain, and not as its contact time changes: small strain
+/// has it in its bar, which is no more than three times as wide.
+#[test]
+fn what_a_relaxing_material_loses_at_large_strain_is_a_doubt() {
+    let ball = "material.rubber = { density = 1100, youngs_modulus = '1 MPa', poissons_ratio = 0.3,
+            hyperelastic = 'neo-hooke', relaxation = { acts_on = 'shear',
+            terms = [{ weight = 0.35, relaxation_time = '2.3 ms' }] } }
+        body = [{ name = 'wall', wall = {} },
+            { name = 'ball', sphere.diameter = '3 cm', material = 'rubber', approach_speed = 1.155 }]
+        mesh.contact_element_size = '0.6 mm'";
+    let [small, finite] =
+        [SMALL, FINITE].map(|set| summary(ball, &[&set[..], &[NO_SNAPSHOTS]].concat()));
+    let [ours, exact] =
+        [&small, &finite].map(|summary| summary.collision.number(Headline::Restitution).unwrap());
+    let [told, mesh] = [model(&small)[0], parts(&small.uncertainty)[0].discretisation.unwrap()];
+    let off = (ours - exact).abs();
+    assert!(off > 4e-3 && mesh < 1.5e-3, "{off:e} {mesh:e}");
+    assert!(off < told && told < 3.0 * off, "{off:e} {told:e}");
+}
+
 /// Sums, not roots of squares: what a cheaper model lacks beside what another one lacks.
 #[test]
 fn what_is_left_out_adds_up() {

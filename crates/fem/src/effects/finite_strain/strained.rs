@@ -1,0 +1,120 @@
+//! What large strains do to one body of a collision.
+
+use fem_case::Scene;
+use fem_explicit::MOST_FINITE_STRAIN_TERMS;
+use fem_material::Material;
+use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
+
+use super::departure::{Deformation, Departure};
+use crate::estimate::Estimate;
+
+/// Largest Poisson's ratio that the elements bear at large strain: a step there is a seventh of that at 0.495,
+/// with K = 5000 G, as of natural rubber. Beyond it the volume is nearly fixed and the step of time next to
+/// nothing.
+const LARGEST_POISSONS_RATIO: f64 = 0.4999;
+/// Share of the tolerance below which a body's own strain is left small.
+const OWN_SHARE: f64 = 0.1;
+
+/// A body that gives way, of which finite strain changes something.
+pub(super) struct Strained<'a> {
+    pub name: &'a str,
+    pub material: &'a Material,
+    /// Of the compliance of the contact.
+    pub share: f64,
+    pub deformation: Deformation,
+    /// What its own strain changes of the collision, elastic and without waves.
+    pub departure: Departure,
+}
+
+impl<'a> Strained<'a> {
+    /// Both bodies of a scene; `None` of a rigid one.
+    pub fn of_both(scene: &'a Scene, estimate: &Estimate) -> [Option<Self>; 2] {
+        let shares = scene.compliance_shares();
+        let radius = estimate.strain * estimate.hertz.pair().effective_radius();
+        [0, 1].map(|side: usize| {
+            let (body, share) = (&scene.bodies()[side], shares[side]);
+            let material = body.material()?;
+            let flatness = body.diameter().map_or(0.0, |diameter| 2.0 * radius / diameter);
+            let strain = share * estimate.strain;
+            let deformation = Deformation { strain, flatness: flatness.max(strain) };
+            let nu = material.instantaneous().poissons_ratio();
+            let laws = [Some(material.law()), None];
+            let departure = share * Departure::up_to(laws, nu, deformation);
+            Some(Self { name: body.name(), material, share, deformation, departure })
+        })
+    }
+
+    /// The laws that it may follow for all that the case says.
+    pub fn possible_laws(&self) -> Vec<HyperelasticLaw> {
+        self.material.named_law().map_or(HyperelasticLaw::ALL.to_vec(), |law| vec![law])
+    }
+
+    /// How far the laws that it may follow are apart in what it changes of the contact time, as a share.
+    pub fn spread(&self) -> f64 {
+        let nu = self.material.instantaneous().poissons_ratio();
+        let times = self.possible_laws().into_iter();
+        let times = times.map(|law| Departure::of(law, nu, self.deformation).contact_time);
+        let (least, most) =
+            times.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), t| (a.min(t), b.max(t)));
+        self.share * (most - least)
+    }
+
+    /// How far any law that it may follow is from the one that was computed; none is small strain.
+    pub fn doubt(&self, computed: Option<HyperelasticLaw>) -> Departure {
+        let nu = self.material.instantaneous().poissons_ratio();
+        let laws = self.possible_laws().into_iter();
+        let each = laws.map(|law| Departure::up_to([Some(law), computed], nu, self.deformation));
+        self.share * each.fold(Departure::default(), Departure::or)
+    }
+
+    /// Whether its law loses ellipticity at the strain that Hooke's law has under the middle of Hertz' contact, σ_yy =
+    /// −p and σ_rr = σ_θθ = −(½ + ν) p (Johnson 1985, section 3.4).
+    pub fn gives_way(&self, pressure: f64) -> bool {
+        if self.material.law().is_always_elliptic() {
+            return false;
+        }
+        let moduli = self.material.instantaneous();
+        let (nu, pressed) = (moduli.poissons_ratio(), pressure / moduli.youngs_modulus());
+        let beside = (0.5 + nu) * pressed;
+        let (yy, rr) = (2.0 * nu * beside - pressed, nu * (pressed + beside) - beside);
+        let strain = AxisymmetricTensor { rr, yy, tt: rr, ry: 0.0, yr: 0.0 };
+        let stiffness =
+            Hyperelastic::new(self.material.law(), moduli).least_acoustic_stiffness(&strain);
+        // What is pressed beyond nothing gives way, too.
+        !stiffness.is_ok_and(|stiffness| stiffness > 0.0)
+    }
+
+    /// Whether elements bear it at large strain.
+    pub fn is_borne(&self) -> bool {
+        // Made of two moduli it is rounded.
+        let nu = self.material.instantaneous().poissons_ratio();
+        nu <= LARGEST_POISSONS_RATIO + 1e-9 && self.n_terms() <= MOST_FINITE_STRAIN_TERMS
+    }
+
+    /// Prony terms whose history would be kept.
+    pub fn n_terms(&self) -> usize {
+        self.material.relaxation().map_or(0, |series| series.terms().len())
+    }
+
+    pub fn not_borne(&self) -> String {
+        let n_terms = self.n_terms();
+        if n_terms > MOST_FINITE_STRAIN_TERMS {
+            return format!(
+                "{} relaxes with {n_terms} terms, of which elements bear {MOST_FINITE_STRAIN_TERMS} at \
+                 large strain",
+                self.name
+            );
+        }
+        let nu = (self.material.instantaneous().poissons_ratio() * 1e9).round() / 1e9;
+        format!(
+            "Poisson's ratio {nu} of {} is above {LARGEST_POISSONS_RATIO}, the largest that elements \
+             bear at large strain",
+            self.name
+        )
+    }
+
+    /// Whether its own strain is worth its price.
+    pub fn matters(&self, scene: &Scene) -> bool {
+        self.departure.over(&scene.accuracy()) > OWN_SHARE
+    }
+}
