@@ -80,7 +80,7 @@ def test_what_a_sweep_cannot_vary(case, vary, words):
         (lambda case: fem_run.fit(case, "none.csv"), fem_run.InputError, "no such file"),
         (lambda case: fem_run.fit(case, "."), fem_run.InputError, ".: "),
         (lambda case: fem_run.invert(case, "much"), fem_run.InputError, "much"),
-        (lambda case: fem_run.invert(case, float("nan")), fem_run.InputError, "NaN"),
+        (lambda case: fem_run.invert(case, float("nan")), fem_run.InputError, "not a number"),
         (lambda case: fem_run.invert(case, None), fem_run.InputError, "restitution"),
         (lambda case: fem_run.export(case, speeds="fast"), fem_run.InputError, "fast"),
         (lambda case: fem_run.calibrate(case, None), fem_run.InputError, "data"),
