@@ -45,7 +45,8 @@ fn variation(run: &Collision, value: impl Fn(&Row) -> f64) -> f64 {
 
 #[test]
 fn a_fast_impact_rings_less_and_balances() {
-    let (bare, viscous) = (fast().run(), viscous(&fast()));
+    let often = Pair { history_rows: 2000, ..fast() };
+    let (bare, viscous) = (often.run(), viscous(&often));
     let ups_and_downs = [&bare, &viscous].map(|run| {
         let pressure = variation(run, |row| row.centre_pressure.unwrap());
         [pressure, variation(run, |row| row.contact_force)]

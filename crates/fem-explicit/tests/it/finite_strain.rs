@@ -236,12 +236,13 @@ fn the_time_step_follows_and_resumes() {
 /// A law that softens in compression, at a speed at which it gives way before its energy is looked at, is a stop
 /// that names body, element and time.
 #[test]
-fn an_element_that_collapses_stops_the_run() {
+fn an_element_that_collapses_stops_the_run_and_says_why() {
     let law = Some(HyperelasticLaw::SaintVenantKirchhoff);
     let ball = Ball { nu: 0.3, speed: 60.0, law, ..Ball::default() };
     let run = ball.run();
     let Ending::Stopped(stop) = &run.ending else { panic!("{:?}", run.ending) };
-    let Stop::ElementCollapsed { time, step, body, element, place, .. } = *stop else {
+    // Its law had lost its stability before.
+    let Stop::StabilityLost { time, step, body, element, place, .. } = *stop else {
         panic!("{stop:?}")
     };
     assert_eq!(body, 1);
@@ -253,9 +254,9 @@ fn an_element_that_collapses_stops_the_run() {
     for word in [format!("element {element} of the upper body"), format!("step {step}")] {
         assert!(text.contains(&word), "{text}");
     }
-    // Rows up to there are sound.
+    // It was seen before the element collapsed; rows up to there are numbers.
     let last = run.history.last().unwrap();
-    assert!(last.time <= time && last.residual.unwrap().is_finite(), "{last:?}");
+    assert!(time <= last.time && last.residual.unwrap().is_finite(), "{last:?}");
 }
 
 /// St Venant-Kirchhoff's law gives way to waves at J = 0.90 for ν = 0.45. A ball that comes there stops once its
