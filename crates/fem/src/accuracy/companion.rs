@@ -159,6 +159,11 @@ fn of_few_strained(mach: f64) -> [f64; 6] {
     of_few
 }
 
+/// What the mass that is moved changes of a number of a collision, as errors of it are told.
+pub(crate) fn of_moved_mass(collision: &Collision, headline: Headline) -> f64 {
+    added_share(collision) * OF_ADDED_MASS[headline as usize]
+}
+
 /// The largest share of mass that is added to a body.
 fn added_share(collision: &Collision) -> f64 {
     let share = |body: &fem_collision::BodyResult| Some(body.added_mass? / body.mass?);

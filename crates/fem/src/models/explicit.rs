@@ -86,6 +86,8 @@ struct Made {
     /// m.
     contact_element_size: f64,
     method: ContactMethod,
+    /// How many times as stiff as usual its springs are.
+    penalty_factor: f64,
     /// See [`Plan::speed_share`].
     speed_share: f64,
     inputs: [BodyInput; 2],
@@ -116,6 +118,7 @@ impl Explicit {
             settings: settings(&plan),
             contact_element_size: plan.contact_element_size,
             method: method(plan.contact_method),
+            penalty_factor: plan.penalty_factor,
             speed_share: plan.speed_share,
             inputs: inputs(scene, &plan)?,
         };
@@ -211,7 +214,7 @@ impl Made {
             approach.speed(),
             approach.speed() / self.speed_share,
         )?;
-        let parts = Parts { method: self.method, ..parts };
+        let parts = Parts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
