@@ -3,7 +3,7 @@
 use fem_collision::{
     Aftermath, Book, Collision, Deepest, Ending, FLIGHT_AFTER, Frame, Held, History,
     LARGEST_RESIDUAL, Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS,
-    Scatter, Standstill, Stop, Want, highest, worst,
+    Scatter, Standstill, Stop, Want, highest, longest_at_pole, worst,
 };
 
 use crate::instants::Trace;
@@ -12,7 +12,7 @@ use crate::pair::CondensedPair;
 use crate::peak::Peak;
 use crate::sample::Sample;
 
-/// Energy that does not add up over the initial: the run is no longer one.
+/// Energy that does not add up, over what is at stake: the run is no longer one.
 const LARGEST_IMBALANCE: f64 = 0.1;
 /// Rate of the approach over its first below which bodies creep; those have more time than was given.
 const CREEPING: f64 = 0.1;
@@ -170,8 +170,7 @@ impl<'a> Run<'a> {
             return Ok(Some(Ending::Together));
         }
         // An imbalance that is no number is above every limit.
-        let fallen = self.frame.weight() * self.approach.highest / self.initial_energy;
-        let is_sound = self.worst_residual <= LARGEST_IMBALANCE * (1.0 + fallen);
+        let is_sound = self.worst_residual <= LARGEST_IMBALANCE;
         let time_of_case = self.time_of_case();
         if !is_sound {
             let relative = self.worst_residual;
@@ -231,8 +230,9 @@ impl<'a> Run<'a> {
         let lost = radiated.map_or(dissipated, |radiated| dissipated + radiated);
         let potential = self.frame.potential(motion.approach).unwrap_or(0.0);
         let residual = kinetic + stored + contact + lost + potential - self.initial_energy;
-        self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
-        self.growth = highest(self.growth, (residual - lost) / self.initial_energy);
+        let at_stake = self.frame.energy_at_stake(self.approach.highest);
+        self.worst_residual = worst(self.worst_residual, residual / at_stake);
+        self.growth = highest(self.growth, (residual - lost) / at_stake);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
             self.residual_since = Some(now);
         }
@@ -301,7 +301,8 @@ impl<'a> Run<'a> {
             body.vibration_energy =
                 vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }
-        let peaks = self.pulse.peaks(self.force.highest);
+        let meshes = self.pair.inputs().each_ref().map(|input| input.mesh());
+        let peaks = self.pulse.peaks(self.force.highest, longest_at_pole(meshes));
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
         let mut history = self.history.map(History::into_rows).unwrap_or_default();

@@ -34,6 +34,8 @@ const ORDER: f64 = 1.5;
 const STEPS: [f64; 2] = [1.25, 2.0];
 /// Finer meshes after the first.
 const MOST_LEVELS: usize = 4;
+/// Element updates of a mesh over those of one of twice as long elements, at most.
+const DEAREST: u64 = 8;
 /// Element updates of a finer mesh, where the case gives no limit: some seconds.
 const MOST_UPDATES: u64 = 150_000_000;
 /// Elements of a finer mesh of condensed bodies, which take no updates: a second.
@@ -150,6 +152,28 @@ impl Simulation {
         self.finer_or_kept(&self.missed(collision)?, collision).ok()
     }
 
+    /// Most element updates that finer meshes take in all, beyond those of this one, should its result miss the
+    /// tolerance; `None` where its elements stay.
+    pub fn most_of_finer_meshes(&self) -> Option<u64> {
+        let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
+        let scene = self.case().scene();
+        let is_given = scene.mesh().contact_element_size.is_some();
+        if is_given || self.has_mesh_file() || scene.gravity().is_some() {
+            return None;
+        }
+        let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
+        let levels = 1..=MOST_LEVELS as u32;
+        let dearest = levels.map(|level| element_updates.saturating_mul(DEAREST.pow(level)));
+        // Of meshes up to the dearest that is allowed each takes half of the next, or less.
+        let all = dearest.fold(0, u64::saturating_add);
+        Some(all.min(most.saturating_mul(2)))
+    }
+
+    fn has_mesh_file(&self) -> bool {
+        let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
+        self.case().scene().bodies().iter().any(is_file)
+    }
+
     /// Coarser meshes that did not do, the first one first.
     pub fn levels(&self) -> &[Level] {
         &self.levels
@@ -261,8 +285,7 @@ impl Simulation {
         if let Some(cause) = self.other_cause(miss, collision) {
             return Err(Kept::Setting(cause));
         }
-        let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
-        if scene.bodies().iter().any(is_file) {
+        if self.has_mesh_file() {
             return Err(Kept::FromFile);
         }
         if scene.mesh().contact_element_size.is_some() {

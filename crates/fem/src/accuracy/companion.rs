@@ -164,10 +164,11 @@ pub(crate) fn of_moved_mass(collision: &Collision, headline: Headline) -> f64 {
     added_share(collision) * OF_ADDED_MASS[headline as usize]
 }
 
-/// The largest share of mass that is added to a body.
+/// The most mass that is moved in a body over that of the lighter one.
 fn added_share(collision: &Collision) -> f64 {
-    let share = |body: &fem_collision::BodyResult| Some(body.added_mass? / body.mass?);
-    collision.bodies.iter().filter_map(share).fold(0.0, f64::max)
+    let added = collision.bodies.iter().filter_map(|body| body.added_mass).fold(0.0, f64::max);
+    let masses = collision.bodies.iter().filter_map(|body| body.mass);
+    masses.reduce(f64::min).map_or(0.0, |lightest| added / lightest)
 }
 
 /// Cheaper collisions of the same bodies.

@@ -63,7 +63,14 @@ impl Method for ExplicitMethod {
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-        Ok(Plan::of(scene)?.resolve(file))
+        let plan = Plan::of(scene)?;
+        let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+        let mut file = plan.resolve(file);
+        // Surfaces that are where they have moved have springs of their own.
+        if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
+            contact.method = None;
+        }
+        Ok(file)
     }
 }
 
@@ -133,7 +140,10 @@ impl Explicit {
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
+            unread: {
+                let said = unread(scene, bodies.changes_stiffness());
+                plan.warnings.iter().cloned().chain(said).collect()
+            },
             cost,
             elements: Some(ElementSetup {
                 quieter: Quieter::of_elements(scene, &plan),

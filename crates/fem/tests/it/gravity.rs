@@ -166,6 +166,22 @@ fn no_energy_comes_from_nowhere() {
     }
 }
 
+/// A ball that is laid down has next to no energy at first touch; what does not add up is measured by what its
+/// weight gives on the way.
+#[test]
+fn a_ball_that_is_laid_down_balances() {
+    for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
+        for gap in ["start.gap='1 pm'", "start.gap='1 nm'"] {
+            let laid = simulation(&[model, ELASTIC, COARSE, gap, "stop.bounces=1"]);
+            let ball = laid.run(&mut ());
+            assert_eq!(ball.stop(), None, "{model} {gap}");
+            assert!(ball.residual_relative.unwrap() < 1e-3, "{model} {gap}");
+            let warnings = laid.warnings(&ball);
+            assert!(!warnings.iter().any(|text| text.contains("add up")), "{warnings:?}");
+        }
+    }
+}
+
 #[test]
 fn a_ball_that_loses_nothing_never_rests_and_says_so() {
     for model in ["model.hertz={}", "model.ting={}", "model.condensed={}", "model.law.hertz={}"] {
