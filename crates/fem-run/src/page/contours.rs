@@ -6,7 +6,7 @@ use fem_case::engineering::Unit;
 use fem_figure::contour::{Contour, Section};
 use fem_vtk::{Numbers, VtuFile};
 
-use super::curves::instant;
+use super::profile::instant;
 use super::record::{Frame, Record};
 use super::view::{View, WHOLE, centred, nearness, picture};
 

@@ -12,6 +12,7 @@ mod contours;
 mod curves;
 mod effects;
 mod hertz;
+mod profile;
 mod record;
 mod view;
 
@@ -28,7 +29,8 @@ use effects::Effect;
 
 pub use comparison::comparison;
 pub use contours::contour;
-pub use curves::{Quantity as Plotted, energies, over_time, pressures};
+pub use curves::{Quantity as Plotted, energies, over_time};
+pub use profile::pressures;
 pub use record::Record;
 pub use view::{centred, nearness, picture, whole};
 
@@ -146,7 +148,11 @@ fn price(record: &Record) -> String {
         .filter_map(|body| body.get("elements").and_then(Value::as_f64))
         .sum();
     let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
-    let seconds = Unit::fitting(seconds, "s").with_digits(3).show(seconds);
+    let seconds = match seconds {
+        // No clock is that fine.
+        seconds if seconds < 1e-3 => "less than 1 ms".to_string(),
+        seconds => Unit::fitting(seconds, "s").with_digits(3).show(seconds),
+    };
     let mut parts = vec![format!("computed in {seconds}")];
     if elements > 0.0 {
         parts.push(format!("{} elements", grouped(elements)));
