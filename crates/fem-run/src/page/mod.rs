@@ -19,7 +19,7 @@ mod view;
 use askama::Template;
 use fem_case::engineering::{Unit, show};
 use fem_figure::Chart;
-use fem_figure::contour::Contour;
+use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
 use crate::failure::Failure;
@@ -108,9 +108,12 @@ fn drawn(charts: impl IntoIterator<Item = Option<Chart>>) -> Vec<String> {
 }
 
 fn shots(contour: &Contour) -> Vec<Shot> {
-    let captions = contour.panels.iter().map(|panel| panel.title.clone());
-    let frames = captions.zip(contour.frames());
-    frames.map(|(caption, svg)| Shot { caption, svg }).collect()
+    let shot = |panel: &Panel| Shot { caption: panel.title.clone(), svg: contour.frame(panel) };
+    std::thread::scope(|scope| {
+        let drawers: Vec<_> =
+            contour.panels.iter().map(|panel| scope.spawn(move || shot(panel))).collect();
+        drawers.into_iter().filter_map(|drawer| drawer.join().ok()).collect()
+    })
 }
 
 /// The frame at the largest force.
