@@ -39,6 +39,9 @@ pub(crate) struct Run<'a> {
     /// What waves have taken out of each body, J, if any leave it.
     radiated: Option<[f64; 2]>,
     impulse: f64,
+    /// The same of the force less what is the nodes' of it ([`Motion::swing`]), and that force now, N.
+    even_impulse: f64,
+    even_force: f64,
     worst_residual: f64,
     residual_since: Option<Moment>,
     growth: f64,
@@ -92,6 +95,8 @@ impl<'a> Run<'a> {
             dissipated: 0.0,
             radiated: None,
             impulse: 0.0,
+            even_impulse: 0.0,
+            even_force: 0.0,
             worst_residual: 0.0,
             residual_since: None,
             growth: 0.0,
@@ -210,12 +215,15 @@ impl<'a> Run<'a> {
         if rate > 0.0 {
             self.turned = time;
         }
+        let even_force = motion.force - motion.swing();
         let Energies { stored, contact, power, vibration, radiated_power } = motion.energies();
         if let Some(before) = &self.last {
             let over_step = |before: f64, now: f64| 0.5 * (before + now) * motion.time_step;
             self.dissipated += over_step(before.power, power);
             self.impulse += over_step(before.contact_force, motion.force);
+            self.even_impulse += over_step(self.even_force, even_force);
         }
+        self.even_force = even_force;
         if let Some(now) = radiated_power {
             let gone = self.radiated.get_or_insert([0.0; 2]);
             let before = self.last.and_then(|last| last.radiated_power).unwrap_or_default();
@@ -241,7 +249,7 @@ impl<'a> Run<'a> {
         self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
             self.pair.radius_and_pressure(&motion.contact, &motion.forces, motion.slipped());
-        self.pulse.observe(time, self.impulse, contact_radius, centre_pressure);
+        self.pulse.observe(time, self.even_impulse, contact_radius, centre_pressure);
         if self.episodes > 0 {
             self.aftermath.observe(self.was_closed, vibration);
         }

@@ -385,10 +385,12 @@ fn late_contacts_have_elements_of_their_own() {
     let alone = |size: &str| run(&["model.condensed={}", size, "stop.bounces=25"]);
     let coarse = alone(&format!("mesh.contact_element_size={first:?}"));
     let fine = alone("mesh={contact_element_size='20 um', refined_radius='0.8 mm'}");
-    let time = |of: &Collision| of.bounces[24].contact_time.unwrap();
-    let error = |of: &Collision| (time(of) / time(&fine) - 1.0).abs();
+    // The worst of some: where the edge of the contact falls well between two nodes there is hardly any.
+    let time = |of: &Collision, k: usize| of.bounces[k].contact_time.unwrap();
+    let of_one = |of: &Collision, k| (time(of, k) / time(&fine, k) - 1.0).abs();
+    let error = |of: &Collision| (15..25).map(|k| of_one(of, k)).fold(0.0, f64::max);
     let errors = [error(&ball), error(&coarse)];
-    assert!(errors[0] < 2e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
+    assert!(errors[0] < 3e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
 }
 
 /// A ball that is let down so softly that it never leaves sinks in all the same: its largest force is more
