@@ -61,7 +61,7 @@ const BOUNDS: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
 pub(crate) struct Fineness {
     /// Elements across the contact radius.
     pub across: f64,
-    /// Largest moved mass over a body's mass.
+    /// Largest moved mass over the lighter body's mass.
     pub mass_scaling: f64,
     /// The tolerance that these serve, where that of the case is out of reach.
     pub reached: Option<f64>,

@@ -146,7 +146,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     }
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     if has_steps && open("time.mass_scaling") {
-        let text = format!("{:.2} % of a body's mass", 100.0 * plan.mass_scaling);
+        let text = format!("{:.2} % of the lighter body's mass", 100.0 * plan.mass_scaling);
         rows.push(["time.mass_scaling".to_string(), text]);
     }
     if rows.is_empty() {

@@ -133,7 +133,7 @@ pub(crate) fn discretisation_errors(
         (true, None) => (SCATTER, OF_FEW),
         (false, _) => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
     };
-    let added = added_share(collision);
+    let added = collision.added_shares().into_iter().flatten().fold(0.0, f64::max);
     let coarse = (FEW / across).max(1.0).powi(2);
     Doubt::by(|headline| {
         let k = headline as usize;
@@ -157,12 +157,6 @@ fn of_few_strained(mach: f64) -> [f64; 6] {
     let mut of_few = OF_FEW_STRAINED;
     of_few[Headline::ContactTime as usize] *= (mach / SLOW).min(1.0);
     of_few
-}
-
-/// The largest share of mass that is added to a body.
-fn added_share(collision: &Collision) -> f64 {
-    let share = |body: &fem_collision::BodyResult| Some(body.added_mass? / body.mass?);
-    collision.bodies.iter().filter_map(share).fold(0.0, f64::max)
 }
 
 /// Cheaper collisions of the same bodies.
