@@ -123,6 +123,12 @@ pub struct BodyResult {
 }
 
 impl Collision {
+    /// What mass scaling adds to light nodes of each body, over the mass of the lighter one of both.
+    pub fn added_shares(&self) -> [Option<f64>; 2] {
+        let lightest = self.bodies.iter().filter_map(|body| body.mass).reduce(f64::min);
+        self.bodies.each_ref().map(|body| Some(body.added_mass? / lightest?))
+    }
+
     /// Nothing of bodies that were to meet like this, and why.
     pub fn stopped(approach: Approach, stop: Stop) -> Self {
         Self {

@@ -25,8 +25,8 @@ pub struct Settings {
     pub candidate_radius: f64,
     /// Time step over critical time step, in (0, 1].
     pub step_factor: f64,
-    /// Largest mass that is moved in a body, as a fraction of that of the lighter body, in [0, 1); a half-space and
-    /// a wall have none.
+    /// Largest mass that is added in a body, as a fraction of the mass of the lighter one of both, in [0, 1):
+    /// at the contact of a large body with a small one nodes move as the small one does.
     pub mass_scaling: f64,
 }
 
@@ -125,11 +125,11 @@ impl Model {
             movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
         };
         let plain = smallest(&LumpedBody::critical_time_step);
-        // What is moved counts beside the lighter body, which it may be moved to the contact with; a half-space
-        // has no mass.
+        // What is moved to the contact goes with it, and so with the lighter body.
         let masses = movable.each_ref().map(|body| body.as_ref().and_then(LumpedBody::mass));
-        let lightest = masses.into_iter().flatten().reduce(f64::min).unwrap_or(0.0);
-        let critical = smallest(&|body| body.scaled_time_step(settings.mass_scaling * lightest));
+        let lightest = masses.into_iter().flatten().reduce(f64::min).unwrap_or_default();
+        let budget = settings.mass_scaling * lightest;
+        let critical = smallest(&|body| body.scaled_time_step(budget));
         let time_step = settings.step_factor * critical;
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(ModelError::NoStep { time_step });

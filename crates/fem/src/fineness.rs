@@ -72,7 +72,7 @@ const BOUNDS_AT_NODES: [f64; 4] = [1.0, 1.0, 0.2, 2.4];
 pub(crate) struct Fineness {
     /// Elements across the contact radius.
     pub across: f64,
-    /// Largest moved mass over a body's mass.
+    /// Largest moved mass over the lighter body's mass.
     pub mass_scaling: f64,
     /// The tolerance that these serve, where that of the case is out of reach.
     pub reached: Option<f64>,

@@ -166,9 +166,7 @@ pub(crate) fn of_moved_mass(collision: &Collision, headline: Headline) -> f64 {
 
 /// The most mass that is moved in a body over that of the lighter one.
 fn added_share(collision: &Collision) -> f64 {
-    let added = collision.bodies.iter().filter_map(|body| body.added_mass).fold(0.0, f64::max);
-    let masses = collision.bodies.iter().filter_map(|body| body.mass);
-    masses.reduce(f64::min).map_or(0.0, |lightest| added / lightest)
+    collision.added_shares().into_iter().flatten().fold(0.0, f64::max)
 }
 
 /// Cheaper collisions of the same bodies.

@@ -402,7 +402,7 @@ fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) 
             Answer::is(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
-        MassScaling::NAME => mass_scaling(model, scene.bodies()),
+        MassScaling::NAME => mass_scaling(scene, model),
         PartnerWaves::NAME | Gravity::NAME => Answer::Inherent { idle: "" },
         BulkViscosity::NAME => Answer::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
@@ -417,8 +417,8 @@ fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) 
 }
 
 /// Whether mass is added, and to whom.
-fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> Answer {
-    let both = model.bodies().iter().zip(bodies);
-    let shares = both.map(|(body, named)| (named.name(), body.added_mass() / body.mass()));
-    MassScaling::of(shares, model.time_step() / model.plain_time_step())
+fn mass_scaling(scene: &Scene, model: &Bodies) -> Answer {
+    let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
+    let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));
+    MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
 }

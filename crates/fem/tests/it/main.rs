@@ -47,3 +47,4 @@ mod sweep;
 mod together;
 mod tolerance;
 mod uncertainty;
+mod unequal_bodies;
