@@ -184,7 +184,11 @@ impl<'a> Run<'a> {
         let creeps = self.motion.rate.abs() < CREEPING * self.frame.speed()
             && time <= (1.0 + SLOWEST_PARTING) * self.turned;
         if time > self.give_up && !creeps {
-            return Err(Stop::NoSeparation { time: time_of_case, step });
+            let (time, approach) = (time_of_case, self.motion.approach);
+            return Err(match self.episodes {
+                0 => Stop::NoContact { time, step, approach },
+                _ => Stop::NoSeparation { time, step },
+            });
         }
         if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
             let progress = Progress {
