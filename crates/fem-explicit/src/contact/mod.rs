@@ -130,11 +130,13 @@ pub trait Contact: Part {
         history: [&[NodalField]; 2],
     ) -> bool;
 
-    /// Radius at which the contact pressure falls to zero, m; 0 without contact.
-    fn contact_radius(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64;
-
-    /// Contact pressure on the axis, Pa; 0 without contact there.
-    fn centre_pressure(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64;
+    /// Radius at which the contact pressure falls to zero, m, and pressure on the axis, Pa; 0 without contact
+    /// there.
+    fn radius_and_pressure(
+        &self,
+        motions: &[Motion<'_>; 2],
+        history: [&[NodalField]; 2],
+    ) -> (f64, f64);
 
     /// The contact from the axis outward, as snapshots show it.
     fn profile(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> Profile;

@@ -4,8 +4,9 @@ use std::sync::PoisonError;
 
 use fem_collision::{Approach, Collision, Headline};
 
-use crate::accuracy::discretisation_errors;
+use crate::accuracy::{companion_updates, discretisation_errors};
 use crate::effects::{Doubt, FiniteStrain, Verdict};
+use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 
 /// What closed forms are off by: rounding.
@@ -35,6 +36,16 @@ impl Seen {
 }
 
 impl Simulation {
+    /// Whether what a mesh is off by is known before a collision like this one is computed on it, from condensed
+    /// bodies alone.
+    pub(crate) fn is_foretold(&self, collision: &Collision) -> bool {
+        let of = |estimate: Estimate| {
+            let is_finite = is_at_finite_strain(self, collision);
+            companion_updates([estimate.mach, estimate.strain], is_finite).is_none()
+        };
+        collision.element_updates.is_some() && self.estimate(collision).is_some_and(of)
+    }
+
     /// Of the quantities of a collision: of elements by companions, of one degree of freedom by its
     /// tolerance. Companions take time: what they told of the last collision is kept.
     pub(crate) fn discretisation(&self, collision: &Collision) -> Doubt {
@@ -52,14 +63,18 @@ impl Simulation {
     }
 }
 
+/// Whether a collision was computed at finite strain.
+fn is_at_finite_strain(simulation: &Simulation, collision: &Collision) -> bool {
+    let verdicts = simulation.decisions(collision).verdicts;
+    verdicts.iter().any(|verdict: &Verdict| verdict.name == FiniteStrain::NAME && verdict.active)
+}
+
 fn of(simulation: &Simulation, collision: &Collision) -> Doubt {
     use fem_case::ModelChoice::{Auto, Condensed, Fem, Hertz, Law, Ting};
     match *simulation.scene_of_model().model() {
         Fem | Condensed(_) => {
-            let verdicts = simulation.decisions(collision).verdicts;
-            let is_finite =
-                |verdict: &Verdict| verdict.name == FiniteStrain::NAME && verdict.active;
-            discretisation_errors(simulation, collision, verdicts.iter().any(is_finite))
+            let is_finite = is_at_finite_strain(simulation, collision);
+            discretisation_errors(simulation, collision, is_finite)
         }
         Hertz { .. } => of_tolerance(collision, ROUNDING),
         Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),
