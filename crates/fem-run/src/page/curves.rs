@@ -9,7 +9,7 @@ use super::record::Record;
 /// Of one result no more profiles of the pressure than eyes tell apart.
 pub const MOST_PROFILES: usize = 4;
 /// What is less than this share of the largest energy is no curve.
-const FAINT: f64 = 2e-3;
+const FAINT: f64 = 5e-3;
 /// How far beyond the contact time goes.
 const BEYOND: f64 = 0.06;
 /// How far time goes over the longest contact time of the results where Hertz' is longer.
