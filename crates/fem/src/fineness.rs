@@ -23,7 +23,7 @@
 //! k = 4 to 17: force 0.03/k², time 0.047, restitution 0.005, pressure 0.11.
 //!
 //! Where the swing is not taken away, the place of the edge of elastic bodies is chosen where it passes
-//! through zero: k = n + 0.35 with springs at points between nodes, n + 0.45 without overlap at nodes.
+//! through zero: k = n + 0.35 with springs at points between nodes.
 
 use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
 
@@ -56,12 +56,12 @@ const AT_FINITE_STRAIN: f64 = 0.5;
 const QUIET: f64 = 0.03;
 /// Fewer elements do not carry a pressure: with 3.5 the radius is off by 8 % where bodies relax.
 const FEWEST: f64 = 4.0;
-/// Of nodes that touch exactly: with 4.5 the radius is off by 1 %, with 5.5 by half of that.
-const FEWEST_AT_NODES: f64 = 5.0;
+/// Of nodes that touch exactly: with 4.5 the radius is off by up to 1.2 %, with 5.5 by 0.7 %.
+const FEWEST_AT_NODES: f64 = 5.45;
 /// Nodes that touch exactly of later contacts under gravity have this share of the elements at least: the mesh stays.
 const LATE: f64 = 0.75;
-/// Where between two nodes the swing passes through zero: springs, nodes that touch.
-const LUCKY: [f64; 2] = [0.35, 0.45];
+/// Where between two nodes the swing of springs passes through zero.
+const LUCKY: f64 = 0.35;
 /// Bounds of the errors of force, contact time, restitution and peak pressure over that of the force.
 const BOUNDS: [f64; 4] = [1.0, 0.4, 0.3, 3.0];
 /// The same of nodes that touch exactly.
@@ -85,10 +85,7 @@ impl Fineness {
         let is_finite =
             *scene.model() == ModelChoice::Fem && FiniteStrain::laws(scene, estimate) != [None; 2];
         let share = if is_finite && !is_staggered { AT_FINITE_STRAIN } else { 1.0 };
-        let at_nodes = matches!(
-            scene.model(),
-            ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. })
-        );
+        let at_nodes = touches_at_nodes(scene.model());
         let (bounds, fewest) = match at_nodes {
             true => (&BOUNDS_AT_NODES, FEWEST_AT_NODES),
             false => (&BOUNDS, FEWEST),
@@ -105,9 +102,9 @@ impl Fineness {
         };
         let asked_for = (error / (OF_MESH * tolerance)).sqrt() / late;
         let asked_for = scene.refinement() * of_waves(estimate.mach) * asked_for.max(fewest);
-        let lucky = LUCKY[usize::from(at_nodes)];
         let across = asked_for.min(MOST);
-        let across = if is_staggered { across } else { (across - lucky).ceil() + lucky };
+        let has_luck = !is_staggered && !at_nodes;
+        let across = if has_luck { (across - LUCKY).ceil() + LUCKY } else { across };
         let reached = error / (OF_MESH * MOST * MOST);
         Self {
             across,
@@ -128,6 +125,11 @@ impl Fineness {
 fn mass_scaling(error: f64, tolerance: f64) -> f64 {
     let of_elements = (error / (FEWEST * FEWEST)).min(OF_MESH * tolerance);
     ((tolerance - of_elements) / OF_MASS).min(MOST_MASS)
+}
+
+/// Whether bodies touch exactly, at their nodes.
+pub(crate) fn touches_at_nodes(model: &ModelChoice) -> bool {
+    matches!(model, ModelChoice::Condensed(CondensedOptions { penalty_springs: false, .. }))
 }
 
 /// By how much elements are smaller beside waves that the impact is so many times slower than.
@@ -164,7 +166,7 @@ mod tests {
     }
 
     /// From a tolerance to k and µ by hand: √(0.05/0.75τ) staggered, the next place without swing above
-    /// √(0.15/0.75τ) on a wall and √(0.05/0.75τ) at nodes, five at least; of mass half of τ, or where four
+    /// √(0.15/0.75τ) on a wall and √(0.05/0.75τ) at nodes, 5.45 at least; of mass half of τ, or where four
     /// elements are more than is asked for, 2τ − 0.1/16.
     #[test]
     fn a_tolerance_becomes_elements_and_mass() {
@@ -176,7 +178,7 @@ mod tests {
             (&[WALL, "body.1.approach_speed=0.5"], "0.1 %", 14.35, 5e-4),
             (&["mesh.staggered=false"], "1 %", 5.35, 5e-3),
             (&["model.condensed={}"], "1 %", 5.45, 5e-3),
-            (&["model.condensed={}"], "0.1 %", 8.45, 5e-4),
+            (&["model.condensed={}"], "0.1 %", 8.165, 5e-4),
             (&["model.condensed.penalty_springs=true"], "1 %", 4.0, 1e-2),
             (&[], "20 %", 4.0, 1e-2),
         ] {

@@ -11,7 +11,7 @@ use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius
 
 use crate::contact_method::contact_method;
 use crate::estimate::Estimate;
-use crate::fineness::Fineness;
+use crate::fineness::{Fineness, touches_at_nodes};
 use crate::flow;
 use crate::refusal::Refusal;
 use crate::stagger::{finer_body, staggered};
@@ -25,6 +25,8 @@ const CANDIDATES_OVER_CONTACT: f64 = 1.5;
 /// contact time, 20 costs 0.02 %, 40 adds noise to the force.
 const PENALTY_OVER_MODULUS: f64 = 20.0;
 const STEP_FACTOR: f64 = 0.9;
+/// Lengths of elements of condensed bodies in an octave: a ninth more elements across the contact at most.
+const LENGTHS: f64 = 8.0;
 /// Default limits of `[limits]`.
 const MAX_ELEMENTS: u64 = 2_000_000;
 const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
@@ -88,13 +90,20 @@ impl Plan {
         flow::check(scene, &estimate)?;
         let finer_body = finer_body(scene);
         let fineness = Fineness::of(scene, &estimate, finer_body.is_some());
-        let contact_element_size = scene.mesh().contact_element_size.unwrap_or(
-            (divided_radius(&estimate) / fineness.across)
-                .min(estimate.smallest_radius / (12.0 * scene.refinement())),
-        );
-        let refined_radius = scene.mesh().refined_radius.unwrap_or(
-            (REFINED_OVER_CONTACT * estimate.contact_radius).min(estimate.smallest_radius),
-        );
+        let is_shared = touches_at_nodes(scene.model());
+        let contact_element_size = scene.mesh().contact_element_size.unwrap_or_else(|| {
+            let length = (divided_radius(&estimate) / fineness.across)
+                .min(estimate.smallest_radius / (12.0 * scene.refinement()));
+            if is_shared { shared_length(length, estimate.smallest_radius) } else { length }
+        });
+        let refined_radius = scene.mesh().refined_radius.unwrap_or_else(|| {
+            let radius = REFINED_OVER_CONTACT * estimate.contact_radius;
+            let radius = match is_shared {
+                true => (radius / contact_element_size).ceil() * contact_element_size,
+                false => radius,
+            };
+            radius.min(estimate.smallest_radius)
+        });
         let candidate_radius = candidate_radius(&estimate, contact_element_size);
         let penalty_factor = scene.penalty_factor().unwrap_or(1.0);
         let made_here = |body: &Body| {
@@ -212,6 +221,13 @@ impl Plan {
         });
         file
     }
+}
+
+/// The largest length (m) that is none larger than this and a whole power of [`LENGTHS`] of the smallest radius: scenes
+/// that differ in speed, relaxation or modulus have the same meshes, and condensed bodies are eliminated once.
+fn shared_length(length: f64, smallest_radius: f64) -> f64 {
+    let n = (LENGTHS * (smallest_radius / length).log2() * (1.0 - 1e-12)).ceil();
+    smallest_radius * (-n / LENGTHS).exp2()
 }
 
 /// The contact radius (m) that elements divide: they are made no larger for a contact that is wider than half

@@ -67,13 +67,13 @@ const SCATTER: [f64; 6] = [2e-5, 1e-4, 2e-4, 5e-5, 1e-3, 1e-3];
 /// The same at finite strain: springs between moved surfaces ring.
 const SCATTER_AT_FINITE_STRAIN: [f64; 6] = [2e-5, 2e-4, 2e-4, 5e-5, 1e-3, 1e-3];
 /// The same of condensed bodies: steps, and the place of the contact's edge.
-const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 2e-4, 1.5e-4, 2e-3, 1e-3];
+const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 2e-4, 1.5e-4, 3e-3, 1e-3];
 /// What both grow by where elements are few, times the square of h/a: where the edge of the contact lies between
 /// nodes shows in radius and pressure.
 const OF_FEW: [f64; 6] = [1.6e-3, 0.0, 4e-3, 0.013, 0.05, 0.056];
 /// The same at finite strain.
 const OF_FEW_AT_FINITE_STRAIN: [f64; 6] = [1.6e-3, 0.02, 0.02, 0.013, 0.05, 0.056];
-const OF_FEW_CONDENSED: [f64; 6] = [1e-3, 6e-3, 0.012, 0.0, 0.1, 0.1];
+const OF_FEW_CONDENSED: [f64; 6] = [1e-3, 0.01, 0.012, 0.008, 0.3, 0.1];
 /// Over the shear wave speed the speed of an impact of which condensed bodies tell what meshes do: rubber on a
 /// wall at twice that is off by 1.4 % of the contact time where they find 0.3 %.
 const SLOW: f64 = 0.02;
@@ -86,6 +86,8 @@ const OF_FEW_STRAINED: [f64; 6] = [1.6e-3, 0.0, 0.0, 0.013, 0.05, 0.056];
 /// Steps of condensed companions of explicit elements over the elastic contact time: a restitution to 4e-5,
 /// and the same of all three, of which differences are taken.
 const STEPS: f64 = 200.0;
+/// The same of condensed companions of condensed bodies, which may have more: a restitution to 1e-5, its scatter.
+const OWN_STEPS: f64 = 400.0;
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
 const FEW: f64 = 4.5;
 /// Relative change for each share of mass that is moved.
@@ -293,8 +295,14 @@ impl Companions<'_> {
                 spheres.for_each(|sphere| sphere.mesh = None);
             }
             let condensed = file.model.as_mut().and_then(|model| model.condensed.as_mut());
-            if let Some(table) = condensed.filter(|_| is_condensed) {
-                table.steps = Some(Quantity::from_si(STEPS));
+            if let Some(table) = condensed {
+                let own = table.steps.as_ref().and_then(|steps| steps.si().ok());
+                let steps = if is_condensed {
+                    STEPS
+                } else {
+                    own.map_or(OWN_STEPS, |own| own.min(OWN_STEPS))
+                };
+                table.steps = Some(Quantity::from_si(steps));
             }
         });
         let shared = self.simulation.shared().of_companions();

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fem::{Condensed, Model, PairCache, Shared, Simulation};
 use fem_case::{Case, CondensedOptions, ModelChoice};
-use fem_collision::{Account, Collision};
+use fem_collision::{Account, Collision, Headline};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
@@ -198,6 +198,38 @@ fn nine_pairings_take_nine_factors_in_any_order() {
     assert_eq!((tight.pairs.n_made(), tight.pairs.n_kept()), (9, 1));
     assert_eq!(run(true, &tight), by_speed);
     assert_eq!(tight.pairs.n_made(), 9 + 18);
+}
+
+/// Elements are chosen from lengths that scenes share: over a third of a decade in speed and a decade in relaxation
+/// thirty members eliminate some bodies, with their companions, and not thirty times; and what is shared changes no bit.
+#[test]
+fn speeds_and_relaxations_share_meshes() {
+    let members = || {
+        (0..30).map(|k| {
+            let speed = 0.25 * 2.0_f64.powf(f64::from(k % 6) / 5.0);
+            let rate = 500.0 * 10.0_f64.powf(f64::from(k / 6) / 4.0);
+            let speed = format!("body.0.approach_speed={speed:?}");
+            let rate = format!("material.glass.relaxation.terms.0.decay_rate={rate:?}");
+            parse(&[CONDENSED, &speed, &rate]).unwrap()
+        })
+    };
+    let shared = Shared::default();
+    for (k, case) in members().enumerate() {
+        let simulation = Simulation::sharing(case.clone(), &shared).unwrap();
+        let collision = simulation.run(&mut ());
+        let bar = |of: &Simulation| {
+            let bars = of.summary(&collision).uncertainty;
+            bars.parts(Headline::PeakForce).discretisation.unwrap()
+        };
+        let shared = bar(&simulation);
+        if k % 7 == 0 {
+            let alone = Simulation::new(case).unwrap();
+            assert_eq!((alone.run(&mut ()), bar(&alone)), (collision.clone(), shared));
+        }
+    }
+    // a ∝ v^(2/5): 3.2 of eight lengths an octave.
+    let (pairs, companions) = (shared.pairs.n_made(), shared.companions.n_made());
+    assert!((4..=8).contains(&pairs) && companions <= 2 * pairs, "{pairs} {companions}");
 }
 
 /// Threads that want the same pair wait for the one that makes it.

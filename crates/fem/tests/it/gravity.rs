@@ -137,7 +137,8 @@ fn what_is_left_of_the_shear_modulus_alone_bears_it_too() {
     let radius = (0.75 * weight * 0.01 / modulus).cbrt();
     let relaxation = relaxing(0.7, "1 ms", "shear");
     for model in ["model.ting={}", "model.condensed={}"] {
-        let ball = run(&[model, &relaxation, "stop.bounces=100"]);
+        // At 1 % the edge may fall anywhere between nodes: 0.7 % of the radius.
+        let ball = run(&[model, &relaxation, "stop.bounces=100", "accuracy.tolerance='0.1 %'"]);
         let found = ball.rest.unwrap().contact.contact_radius.unwrap();
         // As above, and ν = 0.47 of what is left, with which the edge is read 0.4 % too wide.
         assert!((found / radius - 1.0).abs() < 8e-3, "{model}: {found} {radius}");
