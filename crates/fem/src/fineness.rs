@@ -177,7 +177,7 @@ mod tests {
             (&[WALL, "body.1.approach_speed=0.5"], "1 %", 5.35, 5e-3),
             (&[WALL, "body.1.approach_speed=0.5"], "0.1 %", 14.35, 5e-4),
             (&["mesh.staggered=false"], "1 %", 5.35, 5e-3),
-            (&["model.condensed={}"], "1 %", 5.45, 5e-3),
+            (&["model.condensed={}"], "1 %", 5.45, 1e-2),
             (&["model.condensed={}"], "0.1 %", 8.165, 5e-4),
             (&["model.condensed.penalty_springs=true"], "1 %", 4.0, 1e-2),
             (&[], "20 %", 4.0, 1e-2),
