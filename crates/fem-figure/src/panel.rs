@@ -14,7 +14,7 @@ use crate::curve::Mark;
 use crate::line_style::LineStyle;
 use crate::scale::Scale;
 use crate::simplify::simplify;
-use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, LETTER, number, words};
+use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, LETTER, escaped, number, words};
 
 const WIDTH: f64 = 440.0;
 const HEIGHT: f64 = 190.0;
@@ -192,7 +192,7 @@ impl Entry<'_> {
             svg,
             "<text class=\"ink\" fill=\"{INK}\" x=\"{:.1}\" y=\"{y:.1}\">{}</text>",
             left + SWATCH + 6.0,
-            words(self.label)
+            escaped(self.label)
         );
     }
 }

@@ -55,7 +55,7 @@ pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
 pub(crate) const LETTER: f64 = 0.56;
 
 /// Text that is safe in SVG.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

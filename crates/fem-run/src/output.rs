@@ -25,7 +25,7 @@ pub struct OutputArguments {
     /// Replace the result of another case or other data
     #[arg(long)]
     pub force: bool,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use fem::results::Spent;
+use fem_case::engineering::Unit;
 use fem_collision::{Monitor, Phase, Progress};
 
 use crate::peak_memory::peak_memory;
@@ -66,5 +67,13 @@ impl Stopwatch {
             threads: THREADS,
             peak_memory: peak_memory(),
         }
+    }
+}
+
+/// What something took, s; no clock is so fine as to say less.
+pub fn seconds_taken(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 1e-3 => "less than 1 ms".to_string(),
+        seconds => Unit::fitting(seconds, "s").with_digits(3).show(seconds),
     }
 }

@@ -14,3 +14,4 @@ if (shots.length > 1) {
   film.classList.add("playing");
   show();
 }
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((one) => { one.open = true; }));

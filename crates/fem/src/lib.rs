@@ -55,6 +55,7 @@ mod stagger;
 mod stress;
 pub mod sweep;
 mod uncertainty;
+mod warning_kinds;
 
 pub use approach::approach_of;
 pub use assess::assess;
@@ -96,3 +97,4 @@ pub use fem_explicit::{Model as ExplicitBodies, ModelError};
 pub use fem_laws::{HertzImpact, Impact, LawError, Pair};
 pub use fem_material::{Material, PronySeries};
 pub use fem_mesh::SphereMesh;
+pub use warning_kinds::{WarningKind, WarningKinds};

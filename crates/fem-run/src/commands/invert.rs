@@ -37,7 +37,7 @@ pub struct Arguments {
     /// The approach speed [default: that of the case]
     #[arg(long, value_name = "SPEED", value_parser = parse_speed)]
     speed: Option<f64>,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }

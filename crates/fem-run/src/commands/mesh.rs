@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Existing files are replaced only if this command wrote them.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }

@@ -38,7 +38,7 @@ pub struct Arguments {
     /// What the sphere collides with
     #[arg(long, value_enum, default_value_t = Partner::Sphere)]
     partner: Partner,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }

@@ -22,7 +22,7 @@ pub struct Arguments {
     /// The picture [default: FIGURE.svg]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }

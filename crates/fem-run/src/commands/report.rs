@@ -27,7 +27,7 @@ pub struct Arguments {
     /// An existing file is replaced only if it is such a page.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }

@@ -10,7 +10,8 @@ use crate::standard_output;
 ///
 /// An editor that knows TOML (Even Better TOML, Taplo, Zed, Helix) completes and checks keys by it: save
 /// it as fem-run.schema.json and begin a case with the line #:schema ./fem-run.schema.json, as fem-run
-/// new does. It knows keys, types and words; fem-run check knows units and ranges, too.
+/// new does. It knows keys, types, words, units and ranges; what keys have to do with each other,
+/// fem-run check knows.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     /// Of which files

@@ -131,6 +131,7 @@ impl Work<'_> {
         let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
         let collected = collector.collect(|index| shard.has(index))?;
         ran?;
+        standard_output::warn(collected.warnings(sweep));
         if !arguments.quiet {
             let text = report(sweep, &collected, members.len(), folder.path());
             standard_output::print(&text)?;

@@ -51,7 +51,7 @@ pub struct Arguments {
     /// List the claims and run none
     #[arg(long)]
     list: bool,
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(long, short)]
     quiet: bool,
 }

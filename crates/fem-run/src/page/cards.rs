@@ -28,6 +28,8 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     let numerics = if record.has_elements() { "mesh" } else { "numerics" };
     let parts = [(numerics, part("discretisation")), ("effects left out", part("model"))];
     let error = parts.iter().filter_map(|(_, size)| *size).reduce(|a, b| a + b);
+    // A part that nobody knows may be the larger one.
+    let is_whole = parts.iter().all(|(_, size)| size.is_some());
     // What rounding does is no error bar.
     let whole = whole(value, headline);
     let is_told = |size: f64| size > EXACT * whole;
@@ -52,7 +54,10 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     Some(Card {
         name: name(record, headline),
         // Smaller errors are a note's, and have no digits of the number.
-        value: with_error(scaled(value), error.filter(|e| *e > SEEN * whole).map(scaled)),
+        value: with_error(
+            scaled(value),
+            error.filter(|e| is_whole && *e > SEEN * whole).map(scaled),
+        ),
         unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
     })

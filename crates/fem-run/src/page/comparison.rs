@@ -92,8 +92,7 @@ fn numbers(records: &[Record], headline: Headline) -> (String, Vec<Cell>) {
     let of = |record: &Record| {
         let value = record.number(&[headline.key()])?;
         let part = |part: &str| record.number(&["uncertainty", headline.key(), part]);
-        let error =
-            [part("discretisation"), part("model")].into_iter().flatten().reduce(|a, b| a + b);
+        let error = part("discretisation").zip(part("model")).map(|(a, b)| a + b);
         Some((value, error))
     };
     let first = records.first().and_then(of);

@@ -27,9 +27,8 @@ struct Body {
 /// The picture, one panel a frame, at most so many evenly over the snapshots, of half sections; `None` of a
 /// result without fields.
 pub fn contour(record: &Record, most_frames: usize) -> Option<Contour> {
-    let n = record.frames.len().min(most_frames);
-    let chosen = (0..n).map(|k| k * (record.frames.len() - 1) / (n - 1).max(1));
-    let chosen: Vec<&Frame> = chosen.filter_map(|k| record.frames.get(k)).collect();
+    let chosen: Vec<&Frame> =
+        chosen(record, most_frames).into_iter().filter_map(|k| record.frames.get(k)).collect();
     let radius = record.number(&["max_contact_radius_m"]).unwrap_or(0.0);
     let near = nearness(radius, record.number(&["max_approach_m"]).unwrap_or(0.0))?;
     let first = VtuFile::open(&chosen.first()?.path).ok()?;
@@ -48,6 +47,22 @@ pub fn contour(record: &Record, most_frames: usize) -> Option<Contour> {
     let titles = chosen.iter().map(title).collect();
     let rigid = |k: usize, side: usize, view: &View| rigid(record, side, chosen[k], view);
     Some(picture(sections?, titles, near, rigid))
+}
+
+/// At most so many frames evenly, that nearest to the largest force among them.
+pub fn chosen(record: &Record, most: usize) -> Vec<usize> {
+    let n = record.frames.len().min(most);
+    let mut chosen: Vec<usize> =
+        (0..n).map(|k| k * (record.frames.len() - 1) / (n - 1).max(1)).collect();
+    let peak = record.peak_time();
+    let distance = |k: &usize| (record.frames[*k].time - peak).abs();
+    let fullest = (0..record.frames.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    if let Some(fullest) = fullest
+        && let Some(nearest) = chosen.iter_mut().min_by_key(|k| k.abs_diff(fullest))
+    {
+        *nearest = fullest;
+    }
+    chosen
 }
 
 /// The surface of a rigid body where the other body's pole is at 0, with its inside as far as it is seen;

@@ -4,10 +4,10 @@ use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::hertz::{Hertz, HertzInstant};
-use super::record::Record;
+use super::record::{ContactAt, Record};
 
 /// Of one result no more profiles of the pressure than eyes tell apart.
-pub const MOST_PROFILES: usize = 4;
+const MOST_PROFILES: usize = 4;
 /// What is less than this share of the largest energy is no curve.
 const FAINT: f64 = 5e-3;
 /// How far beyond the contact time goes.
@@ -161,7 +161,7 @@ pub fn over_time(records: &[Record], quantity: Quantity) -> Option<Chart> {
         if records.len() == 1 {
             let start = record.first_touch();
             let at = |time: f64| (time - start, record.history.at(quantity.column(), time));
-            let times = some(&record.contacts, MOST_PROFILES).map(|contact| contact.time);
+            let times = telling(record).into_iter().map(|contact| contact.time);
             let dots: Vec<_> = times.map(at).filter(|(_, value)| value.is_finite()).collect();
             chart = chart.with(Curve::points("", clock.scaled(&dots, &unit)).like_curve(k));
         }
@@ -215,8 +215,26 @@ pub fn energies(record: &Record) -> Option<Chart> {
     Some(chart)
 }
 
-/// Of several instants so many, the first and the last among them.
-pub fn some<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
-    let n = all.len().min(most);
-    (0..n).filter_map(move |k| all.get(k * (all.len() - 1) / (n - 1).max(1)))
+/// The contacts that tell most: all of a few, else those nearest to half of the approach, to the largest force, to
+/// half again and to the last touch.
+pub fn telling(record: &Record) -> Vec<&ContactAt> {
+    if record.contacts.len() <= MOST_PROFILES {
+        return record.contacts.iter().collect();
+    }
+    let (times, approach) = (record.history.get("time_s"), record.history.get("approach_m"));
+    let peak = record.peak_time();
+    let half = 0.5 * approach.iter().copied().filter(|a| a.is_finite()).fold(0.0, f64::max);
+    let rows = || times.iter().copied().zip(approach.iter().copied());
+    let before = rows().find(|(_, a)| *a >= half).map_or(peak, |(time, _)| time);
+    let after = rows().find(|(time, a)| *time > peak && *a <= half);
+    let after = after.map_or(peak, |(time, _)| time);
+    let nearest = |time: f64| {
+        let distance = |k: &usize| (record.contacts[*k].time - time).abs();
+        (0..record.contacts.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    let mut chosen: Vec<usize> =
+        [before, peak, after, record.last_touch()].into_iter().filter_map(nearest).collect();
+    chosen.sort_unstable();
+    chosen.dedup();
+    chosen.into_iter().map(|k| &record.contacts[k]).collect()
 }

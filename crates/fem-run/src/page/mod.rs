@@ -17,12 +17,13 @@ mod record;
 mod view;
 
 use askama::Template;
-use fem_case::engineering::{Unit, show};
+use fem_case::engineering::show;
 use fem_figure::Chart;
 use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::stopwatch::seconds_taken;
 use cards::Card;
 use curves::Quantity;
 use effects::Effect;
@@ -118,13 +119,10 @@ fn shots(contour: &Contour) -> Vec<Shot> {
 
 /// The frame at the largest force.
 fn opening(record: &Record) -> usize {
-    let n = record.frames.len().min(MOST_FRAMES);
     let peak = record.peak_time();
-    let distance = |k: &usize| {
-        let frame = &record.frames[k * (record.frames.len() - 1) / (n - 1).max(1)];
-        (frame.time - peak).abs()
-    };
-    (0..n).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
+    let shown = contours::chosen(record, MOST_FRAMES);
+    let distance = |k: &usize| (record.frames[shown[*k]].time - peak).abs();
+    (0..shown.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }
 
 fn subtitle(record: &Record) -> String {
@@ -151,12 +149,7 @@ fn price(record: &Record) -> String {
         .filter_map(|body| body.get("elements").and_then(Value::as_f64))
         .sum();
     let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
-    let seconds = match seconds {
-        // No clock is that fine.
-        seconds if seconds < 1e-3 => "less than 1 ms".to_string(),
-        seconds => Unit::fitting(seconds, "s").with_digits(3).show(seconds),
-    };
-    let mut parts = vec![format!("computed in {seconds}")];
+    let mut parts = vec![format!("computed in {}", seconds_taken(seconds))];
     if elements > 0.0 {
         parts.push(format!("{} elements", grouped(elements)));
     }

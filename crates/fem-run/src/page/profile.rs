@@ -3,7 +3,7 @@
 use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
-use super::curves::{MOST_PROFILES, some};
+use super::curves::telling;
 use super::hertz::Hertz;
 use super::record::{ContactAt, Record};
 
@@ -31,7 +31,7 @@ pub fn pressures(records: &[Record]) -> Option<Chart> {
             curves.extend(highest(record).map(of_record));
             continue;
         }
-        for contact in some(&record.contacts, MOST_PROFILES) {
+        for contact in telling(record) {
             let since = time.show(contact.time - record.first_touch());
             let label = format!("{}, {since}", instant(&contact.label));
             curves.push((curves.len(), record, contact, label));

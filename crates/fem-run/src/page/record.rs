@@ -67,7 +67,10 @@ impl Record {
     /// No summary of a run there, or one that is no JSON.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let shown = one_line(&folder.display().to_string());
-        let help = "name the folder of a run, such as runs/glass_0.5ms";
+        let help = match folder.join("members").is_dir() {
+            true => "this is a sweep: its picture is sweep.svg; name folders below its members",
+            false => "name the folder of a run, such as runs/glass_0.5ms",
+        };
         let path = folder.join(SUMMARY_FILE);
         let text = std::fs::read_to_string(&path).map_err(|error| {
             Failure::bad_input(format!("{shown}: {SUMMARY_FILE} cannot be read: {error}"))

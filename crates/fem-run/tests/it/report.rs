@@ -261,3 +261,24 @@ fn ten_results_are_told_apart() {
     assert_eq!(strokes.len(), 2 * 10, "a line and its mark in the legend, {strokes:?}");
     assert!(page.contains("<tr><td>run9</td><td class=\"number\">"));
 }
+
+/// Names of folders are text, not symbols; an error that is not known whole is no ±; what a film shows is chosen by
+/// what happens, not by place.
+#[test]
+fn names_errors_and_instants_are_what_they_are() {
+    let place = Place::new();
+    place.succeed(&[&TING[..], &["--out", "b_fem"]].concat());
+    let film =
+        ["case.toml", "--set", "model.condensed={}", "--set", "output.snapshots=40", "--quiet"];
+    place.succeed(&[&film[..], &["--out", "a_film"]].concat());
+    place.succeed(&["report", "b_fem", "a_film", "--out", "both.html"]);
+    let page = text(&place, "both.html");
+    assert!(page.contains(">b_fem</text>") && page.contains(">a_film</text>"));
+    let page = text(&place, "a_film/report.html");
+    let summary = place.json("a_film/summary.json");
+    assert!(summary["restitution"].is_number());
+    // Three profiles at least are no specks: half of the approach, the largest force, half again.
+    let profile = page.split("Contact pressure p [").nth(1).unwrap();
+    assert!(profile.matches("snapshot, ").count() >= 4, "{}", profile.len());
+    assert!(page.contains("details::details-content") && page.contains("beforeprint"));
+}

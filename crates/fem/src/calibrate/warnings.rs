@@ -7,6 +7,7 @@ use super::calibration::{Calibration, UNUSED_STEPS};
 use super::pair_model::STEPS;
 use super::settings::SettingNames;
 use crate::effects::QUASI_STATIC_LIMIT;
+use crate::warning_kinds::{WarningKind, WarningKinds};
 
 /// Fewer elements across a contact radius than this do not follow it.
 const FEWEST_ELEMENTS: f64 = 3.0;
@@ -49,19 +50,15 @@ impl Calibration {
 
     /// Those of the pairs; of several that differ in their numbers alone the first, with how many there are.
     fn of_pairs(&self) -> Vec<String> {
-        let mut kinds: Vec<(String, &String, usize)> = Vec::new();
-        for warning in self.experiments.iter().flat_map(|experiment| &experiment.warnings) {
-            let kind = without_numbers(warning);
-            match kinds.iter_mut().find(|(known, ..)| *known == kind) {
-                Some((.., count)) => *count += 1,
-                None => kinds.push((kind, warning, 1)),
-            }
+        let mut kinds = WarningKinds::default();
+        for (place, experiment) in self.experiments.iter().enumerate() {
+            experiment.warnings.iter().for_each(|warning| kinds.see(place, warning));
         }
-        let told = |(_, warning, count): (String, &String, usize)| match count {
-            1 => warning.clone(),
-            n => format!("{warning} (so of {n} pairs, each with its own numbers)"),
+        let told = |kind: &WarningKind| match kind.count {
+            1 => kind.first.clone(),
+            n => format!("{} (so of {n} pairs, each with its own numbers)", kind.first),
         };
-        kinds.into_iter().map(told).collect()
+        kinds.all().iter().map(told).collect()
     }
 
     /// Pairs in the same unit are in doubt together.
@@ -140,20 +137,6 @@ impl Calibration {
     }
 }
 
-/// A text without its numbers and the units behind them.
-fn without_numbers(text: &str) -> String {
-    const LONGEST_UNIT: usize = 4;
-    let (mut words, mut is_behind_number) = (Vec::new(), false);
-    for word in text.split_whitespace() {
-        let is_unit = is_behind_number && word.chars().count() <= LONGEST_UNIT;
-        is_behind_number = word.contains(|c: char| c.is_ascii_digit());
-        if !is_unit && !is_behind_number {
-            words.push(word);
-        }
-    }
-    words.join(" ")
-}
-
 /// Whether the best series does not make the data.
 fn misses(fit: &SpectrumFit) -> bool {
     fit.misfit.map_or(fit.rms > LARGE_ERROR, |misfit| misfit > LARGE_MISFIT)
@@ -181,16 +164,4 @@ fn falling(found: &SpeedExponent, fit: &SpectrumFit) -> Option<String> {
          contact beside an equilibrium modulus can"
     };
     Some(format!("{start}: {verdict}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::without_numbers;
-
-    #[test]
-    fn warnings_that_differ_in_their_numbers_alone_are_one() {
-        let [a, b] = ["a step of 12.3 µm is 4 % too long", "a step of 1.1 mm is 12 % too long"];
-        assert_eq!(without_numbers(a), without_numbers(b));
-        assert_ne!(without_numbers(a), without_numbers("a step of 12.3 µm is 4 % too short"));
-    }
 }

@@ -1,0 +1,73 @@
+//! Warnings of many runs, each kind once.
+
+/// Kinds that are kept.
+const MOST: usize = 100;
+
+/// Warnings that differ in their numbers alone.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WarningKind {
+    kind: String,
+    /// The first of them.
+    pub first: String,
+    /// Whose it is.
+    pub place: usize,
+    /// How many there are.
+    pub count: usize,
+}
+
+/// All kinds that were seen, in the order of their first ones.
+///
+/// ```
+/// let mut kinds = fem::WarningKinds::default();
+/// kinds.see(0, "a step of 12.3 µm is 4 % too long");
+/// kinds.see(1, "a step of 1.1 mm is 12 % too long");
+/// assert_eq!((kinds.all().len(), kinds.all()[0].count), (1, 2));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct WarningKinds {
+    kinds: Vec<WarningKind>,
+}
+
+impl WarningKinds {
+    /// Takes a warning of one of many.
+    pub fn see(&mut self, place: usize, warning: &str) {
+        let kind = without_numbers(warning);
+        if let Some(known) = self.kinds.iter_mut().find(|known| known.kind == kind) {
+            known.count += 1;
+        } else if self.kinds.len() < MOST {
+            let first = warning.to_string();
+            self.kinds.push(WarningKind { kind, first, place, count: 1 });
+        }
+    }
+
+    /// What was seen.
+    pub fn all(&self) -> &[WarningKind] {
+        &self.kinds
+    }
+}
+
+/// A text without its numbers and the units behind them.
+fn without_numbers(text: &str) -> String {
+    const LONGEST_UNIT: usize = 4;
+    let (mut words, mut is_behind_number) = (Vec::new(), false);
+    for word in text.split_whitespace() {
+        let is_unit = is_behind_number && word.chars().count() <= LONGEST_UNIT;
+        is_behind_number = word.contains(|c: char| c.is_ascii_digit());
+        if !is_unit && !is_behind_number {
+            words.push(word);
+        }
+    }
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_numbers;
+
+    #[test]
+    fn warnings_that_differ_in_their_numbers_alone_are_one() {
+        let [a, b] = ["a step of 12.3 µm is 4 % too long", "a step of 1.1 mm is 12 % too long"];
+        assert_eq!(without_numbers(a), without_numbers(b));
+        assert_ne!(without_numbers(a), without_numbers("a step of 12.3 µm is 4 % too short"));
+    }
+}
