@@ -1,9 +1,9 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Aftermath, Book, Collision, Deepest, Ending, FLIGHT_AFTER, Frame, Held, History,
+    Aftermath, BodyInput, Book, Collision, Deepest, Ending, FLIGHT_AFTER, Frame, Held, History,
     LARGEST_RESIDUAL, Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS,
-    Scatter, Standstill, Stop, Want, highest, worst,
+    Scatter, Standstill, Stop, Want, carried_radius, highest, worst,
 };
 
 use crate::instants::Trace;
@@ -301,7 +301,8 @@ impl<'a> Run<'a> {
             body.vibration_energy =
                 vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }
-        let peaks = self.pulse.peaks(self.force.highest);
+        let meshes = self.pair.inputs().each_ref().map(BodyInput::mesh);
+        let peaks = self.pulse.peaks(self.force.highest, carried_radius(meshes));
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
         let mut history = self.history.map(History::into_rows).unwrap_or_default();
@@ -326,6 +327,7 @@ impl<'a> Run<'a> {
             max_approach: Some(self.approach.highest),
             max_contact_radius: Some(peaks.radius),
             peak_pressure: Some(peaks.pressure),
+            peak_pressure_radius: Some(peaks.pressure_radius),
             force_scatter: self.scatter.force(),
             deepest: self.deepest,
             noisiest: self.scatter.noisiest(),

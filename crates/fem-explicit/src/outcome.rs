@@ -1,8 +1,11 @@
 //! What a run leaves, as a collision.
 
-use fem_collision::{BodyResult, Book, Collision, Ending, History, STAY_TOGETHER, Stop};
+use fem_collision::{
+    BodyResult, Book, Collision, Ending, History, STAY_TOGETHER, Stop, carried_radius,
+};
 use fem_material::engineering::show;
 
+use crate::body::Body;
 use crate::memory::Memory;
 use crate::model::Model;
 
@@ -40,7 +43,9 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         }
     });
     let ends = log.first_contact.zip(log.last_contact);
-    let peaks = observed.pulse.peaks(log.peak_force);
+    let peaks = observed
+        .pulse
+        .peaks(log.peak_force, carried_radius(model.bodies().each_ref().map(Body::mesh)));
     let (mut snapshots, mut warnings) = recorder.finish();
     let has_failed =
         matches!(&ending, Ending::Stopped(stop) if !matches!(stop, Stop::Interrupted { .. }));
@@ -78,6 +83,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         max_approach: Some(log.max_approach),
         max_contact_radius: Some(peaks.radius),
         peak_pressure: Some(peaks.pressure),
+        peak_pressure_radius: Some(peaks.pressure_radius),
         force_scatter: observed.scatter.force(),
         deepest: log.deepest,
         noisiest: observed.scatter.noisiest(),

@@ -5,6 +5,7 @@ use fem_case::Scene;
 use super::answer::Answer;
 use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
+use super::finite_strain::relaxed_loss;
 use super::left_out::LeftOut;
 use super::need::percent;
 use super::transformed::Computed;
@@ -50,9 +51,20 @@ impl FiniteSizeEffect {
         Answer::is(is_there, reason).warning(warning)
     }
 
-    /// What the spheres' own compliance adds to Hertz' approach, over it.
+    /// What it changes where its first order does not go through the collision, as of contacts that relaxation makes
+    /// wide: a share s of the approach makes a contact stiffer or softer by (1 − s)^(−3/2), of which contact time and
+    /// force follow with the power 2/5. Spheres that relax to 3 % and less are 5 to 10 % off without it where this
+    /// has 6 to 12 %. What relaxation takes of the restitution changes with the time it has.
+    fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
+        let change = 0.6 * Self::share(scene, estimate)?;
+        let restitution = Some(change * relaxed_loss(scene, estimate));
+        Some(LeftOut { restitution, ..LeftOut::shares(estimate, change, change) })
+    }
+
+    /// What the spheres' own compliance adds to Hertz' approach, over it, with the moduli that the contact meets.
     fn share(scene: &Scene, estimate: &Estimate) -> Option<f64> {
-        let (size, hertz) = (scene.finite_size().ok()?, &estimate.hertz);
+        let hertz = &estimate.softened.hertz;
+        let size = estimate.softened.twin(scene).finite_size().ok()?;
         let added = size.added_approach(hertz.peak_force(), hertz.max_contact_radius());
         Some((added / hertz.max_approach()).abs())
     }
@@ -67,7 +79,10 @@ impl Effect for FiniteSizeEffect {
         let scene = Computed::quiet(scene)?;
         let speed = estimate.hertz.approach_speed();
         let [with, without] = [true, false].map(|size| Expected::of(&scene, speed, size).ok());
-        Some(LeftOut::difference(&with?, &without?))
+        match with.zip(without) {
+            Some((with, without)) => Some(LeftOut::difference(&with, &without)),
+            None => Self::by_stiffness(&scene, estimate),
+        }
     }
 
     /// Where it is a term it is its first order.
