@@ -169,7 +169,7 @@ pub struct TimeTable {
     /// Times the critical time step, > 0 and at most 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_factor: Option<Quantity<Number>>,
-    /// Largest mass that is moved to light nodes, as a fraction of a body's mass, 0 to 0.1; 0 forbids it.
+    /// Largest mass that is moved to light nodes, as a fraction of the lighter body's mass, 0 to 0.1; 0 forbids it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_scaling: Option<Quantity<Number>>,
 }

@@ -64,7 +64,8 @@ pub struct Collision {
     pub energies: Book,
     /// What the energies do not account for at the end, J.
     pub residual: Option<f64>,
-    /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre.
+    /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre, with gravity
+    /// over that and what the weight has given while the bodies came closer.
     pub residual_relative: Option<f64>,
     /// When that was first above [`LARGEST_RESIDUAL`], of a model that steps in time.
     pub residual_since: Option<Moment>,
@@ -124,6 +125,12 @@ pub struct BodyResult {
 }
 
 impl Collision {
+    /// What mass scaling adds to light nodes of each body, over the mass of the lighter one of both.
+    pub fn added_shares(&self) -> [Option<f64>; 2] {
+        let lightest = self.bodies.iter().filter_map(|body| body.mass).reduce(f64::min);
+        self.bodies.each_ref().map(|body| Some(body.added_mass? / lightest?))
+    }
+
     /// Nothing of bodies that were to meet like this, and why.
     pub fn stopped(approach: Approach, stop: Stop) -> Self {
         Self {

@@ -12,11 +12,9 @@
 //! windows scatter as much and cut what is no noise, 3 % of a rubber ball's peak at 10 m/s.
 //!
 //! When contact begins the flat facet of the first elements strikes: a shock on a small area, whose
-//! pressure is the mesh's. Pressure counts from where the contact has a quarter of its largest radius, or is some
-//! elements wide if that is less: bodies that relax to little press hardest when the contact is a tenth as wide as it
-//! gets, in a time that is short beside w. There the window is an eighth of the time since first touch, as long as
-//! that is less than w: it takes 0.1 % off the peak of a fluid, and elastic bodies, which press hardest half-way, know
-//! nothing of it.
+//! pressure is the mesh's. Pressure counts from where the contact has a quarter of its largest radius, or two
+//! elements if that is less and what strikes is no front. Bodies that relax long before they part press hardest
+//! early, so what is early is averaged over an eighth of its age where that is shorter.
 
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
@@ -29,11 +27,10 @@ pub const PEAK_WINDOW: f64 = 1.0 / 64.0;
 const FULLNESS: f64 = 1.75;
 /// Share of the largest radius from which pressure counts.
 const RESOLVED: f64 = 0.25;
-/// Elements across a contact from which its pressure is no longer that of the facet of the first touch: spheres
-/// that relax to a hundredth and less are then within 10 % of Ting's pressure, and within 1.3 % with five.
-const CARRIED: f64 = 3.0;
-/// Of a short window, over the time since first touch.
-const SHARE_OF_TIME: f64 = 0.125;
+/// Elements from which a contact resolves a pressure.
+pub const RESOLVING_ELEMENTS: f64 = 2.0;
+/// Window of a pressure over the time since contact began, at most.
+const YOUNG: f64 = 1.0 / 8.0;
 /// Instants that are kept; of more every second one is forgotten.
 const MOST: usize = 4096;
 /// Instants may lie so many windows apart; farther ones tell less than the largest of all steps.
@@ -70,21 +67,6 @@ pub struct Peaks {
     pub pressure_radius: f64,
 }
 
-/// Radius (m) of a contact of these meshes from which its pressure is its own: of three of the longer elements at
-/// their poles. None of bodies without meshes.
-pub fn carried_radius(meshes: [Option<&SphereMesh>; 2]) -> Option<f64> {
-    Some(CARRIED * longest_at_poles(meshes)?)
-}
-
-/// Length of the longer one of the elements at the poles of two meshes, m; none of bodies without meshes.
-pub fn longest_at_poles(meshes: [Option<&SphereMesh>; 2]) -> Option<f64> {
-    let length = |mesh: &SphereMesh| {
-        let next = *mesh.surface().get(1)? as usize;
-        Some(mesh.nodes().get(next)?[0])
-    };
-    meshes.into_iter().flatten().filter_map(length).reduce(f64::max)
-}
-
 impl Default for Pulse {
     fn default() -> Self {
         Self { beats: Vec::with_capacity(MOST), told: 0, stride: 1 }
@@ -113,15 +95,16 @@ impl Pulse {
         self.beats.push(Beat { time, impulse, radius, pressure });
     }
 
-    /// The peaks, of a pulse whose largest force at any step is this, N, on meshes that carry a pressure from this
-    /// radius on ([`carried_radius`]), m.
-    pub fn peaks(&self, largest_force: f64, carried: Option<f64>) -> Peaks {
+    /// The peaks, of a pulse whose largest force at any step is this (N), of meshes whose elements at the contact
+    /// are no longer than this, m.
+    pub fn peaks(&self, largest_force: f64, element: f64) -> Peaks {
         let highest = |value: fn(&Beat) -> f64| {
             self.beats.iter().fold(0.0, |so_far: f64, beat| worst(so_far, value(beat)))
         };
         let largest_radius = highest(|beat| beat.radius);
         let impulse = self.beats.last().map_or(0.0, |beat| beat.impulse);
         let window = PEAK_WINDOW * FULLNESS * impulse / largest_force;
+        let resolved = (RESOLVED * largest_radius).min(RESOLVING_ELEMENTS * element);
         let mut peaks = Peaks { force: 0.0, radius: 0.0, pressure: 0.0, pressure_radius: 0.0 };
         let mut sums = Sums::default();
         let mut end = 0;
@@ -141,13 +124,15 @@ impl Pulse {
             peaks.force = worst(peaks.force, (last.impulse - beat.impulse) / lasts);
             let n = (end - k) as f64;
             peaks.radius = worst(peaks.radius, sums.radius / n);
-            if beat.radius.min(last.radius) >= RESOLVED * largest_radius {
-                peaks.press(sums.pressure / n, sums.radius / n);
+            if beat.radius.min(last.radius) >= resolved {
+                let pressure = self.young(k, window).unwrap_or(sums.pressure / n);
+                if pressure > peaks.pressure {
+                    peaks.pressure_radius = beat.radius;
+                }
+                peaks.pressure = worst(peaks.pressure, pressure);
             }
             sums.remove(beat);
         }
-        let resolved = RESOLVED * largest_radius;
-        self.press_early(&mut peaks, window, carried.map_or(resolved, |own| own.min(resolved)));
         // Too few instants for a window, or what is no number.
         let or = |peak: f64, largest: f64| match peak > 0.0 && largest.is_finite() {
             true => peak,
@@ -161,24 +146,13 @@ impl Pulse {
         }
     }
 
-    /// Pressures from a radius (m) on as long as the short window is shorter than the usual one, s.
-    fn press_early(&self, peaks: &mut Peaks, window: f64, from: f64) {
-        let Some(first) = self.beats.iter().position(|beat| beat.radius > 0.0) else { return };
-        let touch = self.beats[first.saturating_sub(1)].time;
-        for (k, beat) in self.beats.iter().enumerate().skip(first) {
-            let own = SHARE_OF_TIME * (beat.time - touch);
-            if own >= window {
-                break;
-            }
-            let last = self.beats[k..].partition_point(|later| later.time < beat.time + own);
-            let within = &self.beats[k..k + last.max(1)];
-            if within.iter().all(|beat| beat.radius >= from) {
-                let mean = |value: fn(&Beat) -> f64| {
-                    within.iter().map(value).sum::<f64>() / within.len() as f64
-                };
-                peaks.press(mean(|beat| beat.pressure), mean(|beat| beat.radius));
-            }
-        }
+    /// Mean pressure (Pa) from an instant on, whose age asks for a shorter window than this, s.
+    fn young(&self, k: usize, window: f64) -> Option<f64> {
+        let later = &self.beats[k..];
+        let now = later.first()?.time;
+        let window = Some(YOUNG * (now - self.beats[0].time)).filter(|young| *young < window)?;
+        let n = later.partition_point(|beat| beat.time - now < window).max(1);
+        Some(later[..n].iter().map(|beat| beat.pressure).sum::<f64>() / n as f64)
     }
 
     /// Whether a run can have left it like this: instants in the order of time, and no more than there can be.
@@ -191,17 +165,6 @@ impl Pulse {
     /// Time of the last instant that is kept, s.
     pub fn last_time(&self) -> Option<f64> {
         self.beats.last().map(|beat| beat.time)
-    }
-}
-
-impl Peaks {
-    /// Takes a pressure (Pa) at a radius, m.
-    fn press(&mut self, pressure: f64, radius: f64) {
-        let before = self.pressure;
-        self.pressure = worst(before, pressure);
-        if self.pressure > before {
-            self.pressure_radius = radius;
-        }
     }
 }
 
@@ -222,6 +185,12 @@ impl Sums {
         self.radius -= beat.radius;
         self.pressure -= beat.pressure;
     }
+}
+
+/// The longer of the first edges of surfaces, from the axis, m; 0 without any.
+pub fn longest_at_pole(meshes: [Option<&SphereMesh>; 2]) -> f64 {
+    let first = |mesh: &SphereMesh| Some(mesh.nodes()[*mesh.surface().get(1)? as usize][0]);
+    meshes.into_iter().flatten().filter_map(first).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -247,7 +216,7 @@ mod tests {
             impulse += force / n_steps as f64;
         }
         assert!(pulse.is_sound());
-        (pulse.peaks(largest, None), largest)
+        (pulse.peaks(largest, 1.0), largest)
     }
 
     /// Means over 1/64 are 1e-4 low: (1.75/1.78 π/64)² 3/2 / 24.
@@ -278,28 +247,25 @@ mod tests {
         assert!((peaks.pressure - 1.0).abs() < 3e-4, "{peaks:?}");
     }
 
-    /// Of a fluid the pressure rises and falls while the contact grows as √t to many times that radius: here as t e^(1−t)
-    /// with its peak at 0.3 % of the duration, on meshes that carry it from there, or not yet.
+    /// A body that flows: pressed hardest, at 1, after a hundredth of the contact, where it has a twentieth of its
+    /// largest radius. Elements of an eightieth of that resolve it, longer ones do not.
     #[test]
-    fn a_pressure_that_comes_early_is_the_peak() {
-        let (n, peak) = (4_000, 3e-3);
-        let mut fluid = Pulse::default();
-        let mut impulse = 0.0;
+    fn what_is_pressed_hardest_early_is_seen() {
+        let (mut pulse, n) = (Pulse::default(), 4000);
+        let early = 0.01;
         for k in 0..=n {
-            let time = f64::from(k) / f64::from(n);
-            let early = time / peak;
-            let radius = time.sqrt();
-            let facet = if radius < 0.02 { 9.0 } else { 0.0 };
-            fluid.observe(time, impulse, radius, early * (1.0 - early).exp() + facet);
-            impulse += (PI * time).sin() / f64::from(n);
+            let time = k as f64 / n as f64;
+            let age = time / early;
+            // t e^{1 − t}, largest at its unit of time.
+            let pressure = age * (1.0 - age).exp();
+            pulse.observe(time, time, 0.05 * age, pressure);
         }
-        let peaks = fluid.peaks(1.0, Some(0.03));
-        // A window of an eighth over the top, and the instants themselves.
-        assert!((peaks.pressure - 1.0).abs() < 5e-3, "{peaks:?}");
-        assert!((peaks.pressure_radius / peak.sqrt() - 1.0).abs() < 0.1, "{peaks:?}");
-        let coarse = fluid.peaks(1.0, Some(0.1));
-        let late = 0.01 / peak * (1.0 - 0.01 / peak).exp();
-        assert!((coarse.pressure / late - 1.0).abs() < 0.15, "{coarse:?} {late}");
+        // A mean over an eighth of the age: 1/8² / 24.
+        let peaks = pulse.peaks(1.0, 0.0125);
+        assert!((peaks.pressure - 1.0).abs() < 1e-3);
+        // Where it was: over an eighth of its age.
+        assert!((peaks.pressure_radius / 0.05 - 1.0).abs() < 0.13, "{peaks:?}");
+        assert!(pulse.peaks(1.0, 1.0).pressure < 0.2);
     }
 
     /// A pulse that is over between two instants has the largest of its steps.
@@ -309,11 +275,11 @@ mod tests {
         for (time, impulse) in [(0.0, 0.0), (1.0, 0.01), (2.0, 0.01)] {
             short.observe(time, impulse, 0.5, 2.0);
         }
-        let peaks = short.peaks(1.0, None);
+        let peaks = short.peaks(1.0, 1.0);
         let of =
             |force, radius, pressure| Peaks { force, radius, pressure, pressure_radius: radius };
         assert_eq!(peaks, of(1.0, 0.5, 2.0));
-        assert_eq!(Pulse::default().peaks(0.0, None), of(0.0, 0.0, 0.0));
+        assert_eq!(Pulse::default().peaks(0.0, 1.0), of(0.0, 0.0, 0.0));
     }
 
     #[test]
@@ -323,7 +289,7 @@ mod tests {
             let value = if k == 50 { f64::NAN } else { 1.0 };
             broken.observe(k as f64, k as f64, value, value);
         }
-        let peaks = broken.peaks(f64::NAN, None);
+        let peaks = broken.peaks(f64::NAN, 1.0);
         assert!([peaks.force, peaks.radius, peaks.pressure].iter().all(|peak| peak.is_nan()));
     }
 
@@ -341,6 +307,6 @@ mod tests {
         assert!(long.is_sound() && long.beats.len() > MOST / 2 - 1, "{}", long.beats.len());
         let strides = long.beats.windows(2).map(|two| (two[1].time - two[0].time) * n as f64);
         assert!(strides.into_iter().all(|stride| (stride - long.stride as f64).abs() < 1e-6));
-        assert!((long.peaks(1.0, None).force - 1.0).abs() < 3e-4);
+        assert!((long.peaks(1.0, 1.0).force - 1.0).abs() < 3e-4);
     }
 }

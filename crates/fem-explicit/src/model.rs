@@ -25,8 +25,8 @@ pub struct Settings {
     pub candidate_radius: f64,
     /// Time step over critical time step, in (0, 1].
     pub step_factor: f64,
-    /// Largest added mass as a fraction of a body's mass, in [0, 1); of a half-space, as a fraction of
-    /// the mass of the sphere that meets it.
+    /// Largest mass that is added in a body, as a fraction of the mass of the lighter one of both, in [0, 1):
+    /// at the contact of a large body with a small one nodes move as the small one does.
     pub mass_scaling: f64,
 }
 
@@ -51,6 +51,9 @@ pub struct Parts {
     pub contact: Option<Box<dyn Contact>>,
     /// How springs keep the bodies apart at small strain, where their surfaces do not slip.
     pub method: ContactMethod,
+    /// How many times as stiff as usual the springs are: where they pull at nodes with mass, stiffer ones ask
+    /// for a shorter step than is stable, [`ContactMethod::shorter_steps`].
+    pub penalty_factor: f64,
 }
 
 /// Two bodies, their contact and the time step. The first body lies below.
@@ -98,7 +101,11 @@ impl Model {
             None if parts.finite_strain.iter().any(Option::is_some) => {
                 Box::new(MovedContact::new(&inputs, approach.gap(), settings)?)
             }
-            None => springs(&inputs, approach.gap(), settings, parts.method, parts.surface_slip)?,
+            None => {
+                let times = parts.method.shorter_steps(parts.penalty_factor);
+                let (gap, slips) = (approach.gap(), parts.surface_slip);
+                springs(&inputs, gap, settings, parts.method, slips, times)?
+            }
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
@@ -118,13 +125,11 @@ impl Model {
             movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
         };
         let plain = smallest(&LumpedBody::critical_time_step);
-        // A half-space may take as much as its partner.
+        // What is moved to the contact goes with it, and so with the lighter body.
         let masses = movable.each_ref().map(|body| body.as_ref().and_then(LumpedBody::mass));
-        let largest = masses.into_iter().flatten().fold(0.0, f64::max);
-        let critical = smallest(&|body| {
-            let mass = body.mass().unwrap_or(largest);
-            body.scaled_time_step(settings.mass_scaling * mass)
-        });
+        let lightest = masses.into_iter().flatten().reduce(f64::min).unwrap_or_default();
+        let budget = settings.mass_scaling * lightest;
+        let critical = smallest(&|body| body.scaled_time_step(budget));
         let time_step = settings.step_factor * critical;
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(ModelError::NoStep { time_step });
@@ -251,6 +256,7 @@ fn springs(
     settings: &Settings,
     method: ContactMethod,
     surface_slip: bool,
+    shorter_steps: f64,
 ) -> Result<Box<dyn Contact>, ModelError> {
     let [lower, upper] = inputs;
     let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
@@ -265,6 +271,7 @@ fn springs(
         Some(ratio) => interface.with_rigid_mass(ratio),
         None => interface,
     };
+    let interface = interface.with_shorter_steps(shorter_steps);
     Ok(match method {
         ContactMethod::Massless if surface_slip => {
             Box::new(Massless::slipping(inputs, SlippingInterface::new(interface))?)

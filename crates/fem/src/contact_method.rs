@@ -25,8 +25,15 @@ pub(crate) fn massless_is_possible(scene: &Scene) -> bool {
     scene.effects().bulk_viscosity != Some(Switch::On)
 }
 
-/// What is said of a method that a case names and its scene does not allow.
-pub(crate) fn unread(scene: &Scene) -> Option<String> {
+/// What is said of a method that a case names and its scene does not allow, at large strain or small.
+pub(crate) fn unread(scene: &Scene, is_at_finite_strain: bool) -> Option<String> {
+    if is_at_finite_strain {
+        let word = scene.contact_method()?.word();
+        return Some(format!(
+            "contact.method = \"{word}\" has no effect at finite strain: springs between the surfaces where they have \
+             moved to are taken"
+        ));
+    }
     let named = scene.contact_method().filter(|named| *named != contact_method(scene))?;
     let why = match named {
         ContactMethod::NodeToSurface => "where surfaces slip, with which its springs do not turn",

@@ -62,7 +62,7 @@ pub struct Plan {
     pub contact_stiffness: f64,
     /// Time step over critical time step.
     pub step_factor: f64,
-    /// Largest added mass as a fraction of a body's mass.
+    /// Largest added mass as a fraction of the lighter body's mass.
     pub mass_scaling: f64,
     /// Snapshots to keep.
     pub snapshots: SnapshotRequest,

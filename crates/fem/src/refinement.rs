@@ -10,7 +10,8 @@
 //!
 //! between the first order of bulk viscosity and the second of elements, and the collision is computed
 //! again; at most [`MOST_LEVELS`] times and with no more element updates than [`MOST_UPDATES`], or what
-//! the case gives as `limits.element_updates`. Where that does not do, or may not be, a warning says so. All of it
+//! the case gives as `limits.element_updates`; nor where mass or springs, as the case gives them, are off by more than
+//! is allowed, which no mesh mends. Where that does not do, or may not be, a warning says so. All of it
 //! is decided by numbers of the case and of the runs: it is the same on all machines.
 
 use std::convert::Infallible;
@@ -20,6 +21,7 @@ use fem_collision::{Collision, Headline, Monitor, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
+use crate::accuracy::of_moved_mass;
 use crate::early_pressure::EarlyPressure;
 use crate::effects::percent;
 use crate::method::Cost;
@@ -33,6 +35,8 @@ const ORDER: f64 = 1.5;
 const STEPS: [f64; 2] = [1.25, 2.0];
 /// Finer meshes after the first.
 const MOST_LEVELS: usize = 4;
+/// Element updates of a mesh over those of one of twice as long elements, at most.
+const DEAREST: u64 = 8;
 /// Element updates of a finer mesh, where the case gives no limit: some seconds.
 const MOST_UPDATES: u64 = 150_000_000;
 /// Elements of a finer mesh of condensed bodies, which take no updates: a second.
@@ -83,9 +87,30 @@ enum Kept {
     Given,
     FromFile,
     Gravity,
-    Dear { updates: Option<u64> },
+    /// What else the case gives is off by more than it allows.
+    Setting(Cause),
+    Dear {
+        updates: Option<u64>,
+    },
     Refused(CaseError),
     Stopped(String),
+}
+
+/// A setting that a case gives, of which a finer mesh is no cure.
+#[derive(Clone, Copy)]
+enum Cause {
+    MovedMass,
+    SoftSprings,
+}
+
+impl Cause {
+    /// What numbers are off by, and what helps.
+    fn in_words(self) -> [&'static str; 2] {
+        match self {
+            Self::MovedMass => ["the mass that is moved", "leave time.mass_scaling out"],
+            Self::SoftSprings => ["springs that give way", "leave contact.penalty_factor out"],
+        }
+    }
 }
 
 impl Simulation {
@@ -126,6 +151,28 @@ impl Simulation {
     /// and a finer mesh may be had.
     pub fn finer(&self, collision: &Collision) -> Option<Self> {
         self.finer_or_kept(&self.missed(collision)?, collision).ok()
+    }
+
+    /// Most element updates that finer meshes take in all, beyond those of this one, should its result miss the
+    /// tolerance; `None` where its elements stay.
+    pub fn most_of_finer_meshes(&self) -> Option<u64> {
+        let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
+        let scene = self.case().scene();
+        let is_given = scene.mesh().contact_element_size.is_some();
+        if is_given || self.has_mesh_file() || scene.gravity().is_some() {
+            return None;
+        }
+        let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
+        let levels = 1..=MOST_LEVELS as u32;
+        let dearest = levels.map(|level| element_updates.saturating_mul(DEAREST.pow(level)));
+        // Of meshes up to the dearest that is allowed each takes half of the next, or less.
+        let all = dearest.fold(0, u64::saturating_add);
+        Some(all.min(most.saturating_mul(2)))
+    }
+
+    fn has_mesh_file(&self) -> bool {
+        let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
+        self.case().scene().bodies().iter().any(is_file)
     }
 
     /// Coarser meshes that did not do, the first one first.
@@ -176,11 +223,17 @@ impl Simulation {
         let plan = &self.setup().elements.as_ref()?.plan;
         let Some(miss) = self.missed(collision) else { return self.untold(collision) };
         let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
+        let mut cause = "the mesh";
         let write = format!("write mesh.contact_element_size = \"{}\"", length(size));
         let remedy = match self.finer_or_kept(&miss, collision) {
             // Who has the course decides.
             Ok(_) => write,
             Err(Kept::Given) => write,
+            Err(Kept::Setting(setting)) => {
+                let [of, remedy] = setting.in_words();
+                cause = of;
+                remedy.to_string()
+            }
             Err(Kept::FromFile) => "use meshes that are finer at the contact".to_string(),
             Err(Kept::Gravity) => {
                 format!("elements of contacts under gravity are not made finer; {write}")
@@ -200,7 +253,7 @@ impl Simulation {
             },
         };
         Some(format!(
-            "{} because of the mesh: {remedy}, or allow more in accuracy.tolerance",
+            "{} because of {cause}: {remedy}, or allow more in accuracy.tolerance",
             miss.in_words()
         ))
     }
@@ -218,12 +271,28 @@ impl Simulation {
         })
     }
 
+    /// The setting of the case that is off by more than is allowed, whatever the mesh.
+    fn other_cause(&self, miss: &Miss, collision: &Collision) -> Option<Cause> {
+        let scene = self.case().scene();
+        let of_mass = of_moved_mass(collision, miss.headline);
+        if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
+            return Some(Cause::MovedMass);
+        }
+        // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
+        let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
+        let of_springs = 0.5 * overlap / collision.max_approach?;
+        let is_soft = scene.penalty_factor().is_some_and(|factor| factor < 1.0);
+        (is_soft && of_springs > miss.tolerance).then_some(Cause::SoftSprings)
+    }
+
     /// The same case on a finer mesh, or why there is none.
     fn finer_or_kept(&self, miss: &Miss, collision: &Collision) -> Result<Self, Kept> {
         let scene = self.case().scene();
         let elements = self.setup().elements.as_ref().ok_or(Kept::Given)?;
-        let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
-        if scene.bodies().iter().any(is_file) {
+        if let Some(cause) = self.other_cause(miss, collision) {
+            return Err(Kept::Setting(cause));
+        }
+        if self.has_mesh_file() {
             return Err(Kept::FromFile);
         }
         if scene.mesh().contact_element_size.is_some() {

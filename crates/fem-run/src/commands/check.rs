@@ -80,7 +80,8 @@ fn expect(simulation: &Simulation, making: f64) -> String {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
             let chosen = by_tolerance(simulation);
-            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
+            let finer = of_finer_meshes(simulation);
+            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}{finer}", of_contacts(simulation))
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
@@ -146,7 +147,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     }
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     if has_steps && open("time.mass_scaling") {
-        let text = format!("{:.2} % of a body's mass", 100.0 * plan.mass_scaling);
+        let text = format!("{:.2} % of the lighter body's mass", 100.0 * plan.mass_scaling);
         rows.push(["time.mass_scaling".to_string(), text]);
     }
     if rows.is_empty() {
@@ -163,6 +164,17 @@ fn of_contacts(simulation: &Simulation) -> String {
         1 => String::new(),
         n => format!(" of the first contact, of up to {n}"),
     }
+}
+
+/// What finer meshes may take, where a result that misses the tolerance is computed again.
+fn of_finer_meshes(simulation: &Simulation) -> String {
+    simulation.most_of_finer_meshes().map_or_else(String::new, |most| {
+        format!(
+            "where a result misses accuracy.tolerance it is computed again on finer meshes, in up to {:.0e} \
+             element updates more\n",
+            most as f64
+        )
+    })
 }
 
 /// How long the making of the bodies took here, and the steps will take.

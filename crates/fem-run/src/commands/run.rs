@@ -12,7 +12,7 @@ use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::case_arguments::{CaseArguments, ToleranceArguments};
+use crate::case_arguments::{CaseArguments, ToleranceArguments, parse_count};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::place::ResultPlace;
@@ -38,7 +38,7 @@ pub struct Options {
     #[arg(long)]
     force: bool,
     /// Most threads to use; a single run uses one, which is the fastest
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
     /// How far results may be off
     #[command(flatten)]

@@ -25,6 +25,9 @@ pub struct FiniteSizeEffect;
 /// to shear than to compress go beyond, at Poisson's ratios below −0.9.
 const LARGEST_SHARE: f64 = 0.1;
 
+/// The same up to which what it changes is told at all: spheres of up to 0.18 were compared.
+const LARGEST_KNOWN: f64 = 0.25;
+
 impl FiniteSizeEffect {
     /// Its name in results.
     pub const NAME: &'static str = "finite size";
@@ -56,7 +59,8 @@ impl FiniteSizeEffect {
     /// force follow with the power 2/5. Spheres that relax to 3 % and less are 5 to 10 % off without it where this
     /// has 6 to 12 %. What relaxation takes of the restitution changes with the time it has.
     fn by_stiffness(scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        let change = 0.6 * Self::share(scene, estimate)?;
+        let share = Self::share(scene, estimate).filter(|share| *share < LARGEST_KNOWN)?;
+        let change = 0.6 * share;
         let restitution = Some(change * relaxed_loss(scene, estimate));
         Some(LeftOut { restitution, ..LeftOut::shares(estimate, change, change) })
     }

@@ -1,6 +1,6 @@
 //! Mass moved to the lightest nodes for a longer time step: a decision of the plan.
 
-use fem_case::Scene;
+use fem_case::{Body, Scene};
 use fem_collision::Collision;
 
 use super::answer::Answer;
@@ -8,10 +8,11 @@ use super::effect::Effect;
 use super::need::percent;
 use crate::estimate::Estimate;
 
-/// Moved mass over a body's mass: of 1 % the peak force is off by up to half of that.
+/// Moved mass over the lighter body's mass: of 1 % the peak force is off by up to half of that.
 const LARGEST_ADDED_MASS: f64 = 1e-2;
-/// Moved mass over a body's mass up to which it is a rounding of the node that decides on the step.
+/// Moved mass over that mass up to which it is a rounding of the node that decides on the step.
 const ROUNDING: f64 = 1e-12;
+const NOTHING: &str = "no mass is moved";
 
 /// Mass moved for a longer time step.
 #[derive(Clone, Copy, Debug)]
@@ -21,18 +22,34 @@ impl MassScaling {
     /// Its name in results.
     pub const NAME: &'static str = "mass scaling";
 
-    /// What a model has of it that moves these shares of the masses of bodies, by name, and whose time
-    /// step is so many times longer for it. A wall's share is no number.
-    pub(crate) fn of<'a>(shares: impl Iterator<Item = (&'a str, f64)>, longer: f64) -> Answer {
-        let added = shares.filter(|(_, share)| *share > ROUNDING);
-        let added: Vec<String> = added
-            .map(|(name, share)| format!("{} of the mass of {name}", percent(share)))
-            .collect();
-        match added.is_empty() {
-            true => Answer::is(false, "no mass is moved"),
+    /// What a model has of it whose bodies have these masses (kg; a wall or a half-space none), in which so
+    /// much is moved, kg, and whose time step is so many times longer for it.
+    pub(crate) fn of(
+        scene: &Scene,
+        masses: [Option<f64>; 2],
+        added: [Option<f64>; 2],
+        longer: f64,
+    ) -> Answer {
+        let names = scene.bodies().each_ref().map(Body::name);
+        let free = masses.into_iter().zip(names);
+        let free = free.filter_map(|(mass, name)| Some((mass?, name)));
+        let Some((lightest, its)) = free.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return Answer::is(false, NOTHING);
+        };
+        let moved = added.into_iter().zip(masses).zip(names).filter_map(|((added, mass), name)| {
+            let share = added.map(|added| added / lightest).filter(|share| *share > ROUNDING)?;
+            let of = percent(share);
+            Some(match mass == Some(lightest) {
+                true => format!("{of} of the mass of {name}"),
+                false => format!("{of} of the mass of {its} in {name}"),
+            })
+        });
+        let moved: Vec<String> = moved.collect();
+        match moved.is_empty() {
+            true => Answer::is(false, NOTHING),
             false => {
-                let added = added.join(" and ");
-                Answer::is(true, format!("moves {added} for a {longer:.1} times longer step"))
+                let moved = moved.join(" and ");
+                Answer::is(true, format!("moves {moved} for a {longer:.1} times longer step"))
             }
         }
     }
@@ -45,25 +62,22 @@ impl Effect for MassScaling {
 
     fn found(&self, scene: &Scene, collision: &Collision) -> Option<Answer> {
         let longer = collision.time_step? / collision.plain_time_step?;
-        let both = collision.bodies.iter().zip(scene.bodies());
-        let shares =
-            both.filter_map(|(body, named)| Some((named.name(), body.added_mass? / body.mass?)));
-        Some(Self::of(shares, longer))
+        let masses = collision.bodies.each_ref().map(|body| body.mass);
+        let added = collision.bodies.each_ref().map(|body| body.added_mass);
+        Some(Self::of(scene, masses, added, longer))
     }
 
     fn after(&self, scene: &Scene, _: &Estimate, collision: &Collision) -> Vec<String> {
-        let bodies = collision.bodies.iter().zip(scene.bodies());
-        let warnings = bodies.filter_map(|(body, named)| {
-            let share = body.added_mass? / body.mass?;
-            (share > LARGEST_ADDED_MASS).then(|| {
-                format!(
-                    "mass scaling moves {:.2} % of the mass of {} to its light nodes; above {} %, use a \
-                     smaller time.mass_scaling",
-                    100.0 * share,
-                    named.name(),
-                    100.0 * LARGEST_ADDED_MASS
-                )
-            })
+        let shares = collision.added_shares().into_iter().zip(scene.bodies());
+        let warnings = shares.filter_map(|(share, named)| {
+            let share = share.filter(|share| *share > LARGEST_ADDED_MASS)?;
+            Some(format!(
+                "mass scaling moves {:.2} % of the lighter body's mass to light nodes of {}; above {} %, use a \
+                 smaller time.mass_scaling",
+                100.0 * share,
+                named.name(),
+                100.0 * LARGEST_ADDED_MASS
+            ))
         });
         warnings.collect()
     }

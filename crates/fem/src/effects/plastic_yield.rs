@@ -98,7 +98,9 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
     Need {
         is_called_for: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
-        otherwise: format!("what yields below its stress would flow: {reached}"),
+        otherwise: format!(
+            "the stress reaches {reached}; a material that yields below that would flow"
+        ),
         left_open: String::new(),
         warning,
     }

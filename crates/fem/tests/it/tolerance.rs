@@ -148,6 +148,25 @@ fn a_mesh_that_has_to_stay_is_warned_of() {
 }
 
 /// A run that was put away on a finer mesh goes on there, to the same bits.
+/// What mass or springs, as the case gives them, are off by is not laid to the mesh, which would be made finer four
+/// times for it; without the key the tolerance is kept.
+#[test]
+fn settings_that_no_mesh_mends_are_named() {
+    for (key, value, cause) in [
+        ("time.mass_scaling", "0.1", "the mass that is moved"),
+        ("contact.penalty_factor", "0.02", "springs that give way"),
+    ] {
+        let set = format!("{key}={value}");
+        let (simulation, collision) = computed(GLASS, &[FEM, &set]);
+        assert!(simulation.levels().is_empty(), "{key}");
+        let warnings = simulation.warnings(&collision);
+        let words = format!("is asked because of {cause}: leave {key} out");
+        assert!(warnings.iter().any(|warning| warning.contains(&words)), "{warnings:?}");
+    }
+    let (simulation, collision) = computed(GLASS, &[FEM]);
+    assert!(!simulation.warnings(&collision).iter().any(|text| text.contains("because of")));
+}
+
 #[test]
 fn a_finer_mesh_goes_on_from_its_memory() {
     let first = simulation(RUBBER, &[FEM, FAST]);

@@ -3,7 +3,8 @@
 //! Two models may differ by what the tolerances of the claim say, and by what the effects that one has
 //! and the other lacks are worth by the plan's own closed forms, which are good within a factor of
 //! three, and by a share of what waves take that a model has as a term only. Scenes of `default_seeds` have the
-//! default settings, and what two models may differ by are both error bars. What is beyond is `unexplained`, of
+//! default settings, and what two models may differ by are both error bars; so have those of `extreme_seeds`, whose
+//! bodies are far from alike. What is beyond is `unexplained`, of
 //! scenes with default settings `beyond_bars`, unless the cheaper model warned of its result. `NAME.median` is
 //! the median |Δe| of a pair of models.
 
@@ -14,7 +15,7 @@ use fem_collision::{Collision, Headline};
 use rayon::prelude::*;
 use serde::Deserialize;
 
-use super::scenes::{Random, overrides};
+use super::scenes::{Random, Ratios, overrides_of};
 use crate::claim::RunFile;
 use crate::error::StudyError;
 use crate::findings::Findings;
@@ -35,8 +36,12 @@ struct Parameters {
     seeds: Vec<u64>,
     /// Of scenes with the default settings.
     default_seeds: Vec<u64>,
+    /// Of scenes with the default settings whose bodies are far from alike.
+    extreme_seeds: Vec<u64>,
     /// Of each seed.
     scenes: usize,
+    /// Of each seed of those that are far from alike.
+    extreme_scenes: usize,
     /// Of two pairs of models: explicit and condensed, condensed and Ting's.
     explicit: Tolerance,
     ting: Tolerance,
@@ -84,15 +89,17 @@ struct Difference {
 /// Runs random scenes.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
-    let of_seeds = |seeds: &[u64], settings: Settings| {
-        let scenes = seeds.iter().flat_map(|&seed| {
+    let mut scenes = Vec::new();
+    for (seeds, settings, ratios, n) in [
+        (&parameters.seeds, Settings::Claim, Ratios::Usual, parameters.scenes),
+        (&parameters.default_seeds, Settings::Default, Ratios::Usual, parameters.scenes),
+        (&parameters.extreme_seeds, Settings::Default, Ratios::Extreme, parameters.extreme_scenes),
+    ] {
+        for &seed in seeds {
             let mut random = Random::new(seed);
-            (0..parameters.scenes).map(move |_| (settings, overrides(&mut random)))
-        });
-        scenes.collect::<Vec<_>>()
-    };
-    let mut scenes = of_seeds(&parameters.seeds, Settings::Claim);
-    scenes.extend(of_seeds(&parameters.default_seeds, Settings::Default));
+            scenes.extend((0..n).map(|_| (settings, overrides_of(&mut random, ratios))));
+        }
+    }
     let runs = scenes.par_iter().map(|(settings, set)| {
         let runs = MODELS.map(|model| run(laboratory, *settings, set, model));
         let [fem, condensed, ting] = runs;

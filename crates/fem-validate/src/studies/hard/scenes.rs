@@ -70,14 +70,45 @@ fn material(random: &mut Random, contact_time: f64, stiffness: f64, density: f64
     Drawn { table, wave_speed: (stiffness / density).sqrt() }
 }
 
+/// How far two bodies are apart in size and stiffness.
+#[derive(Clone, Copy, PartialEq)]
+pub(in crate::studies) enum Ratios {
+    /// Up to thirty.
+    Usual,
+    /// Thirty to two hundred in size, up to 1e4 in stiffness: one of them is often as good as rigid.
+    Extreme,
+}
+
+impl Ratios {
+    fn size(self, random: &mut Random) -> f64 {
+        match self {
+            Self::Usual => random.decades(-1.5, 1.5),
+            Self::Extreme if random.next() < 0.5 => random.decades(-2.3, -1.5),
+            Self::Extreme => random.decades(1.5, 2.3),
+        }
+    }
+
+    fn stiffness(self, random: &mut Random) -> f64 {
+        match self {
+            Self::Usual => random.decades(-1.5, 1.5),
+            Self::Extreme => random.decades(-4.0, 4.0),
+        }
+    }
+}
+
 /// Overrides of a case of two spheres.
 pub(in crate::studies) fn overrides(random: &mut Random) -> Vec<String> {
+    overrides_of(random, Ratios::Usual)
+}
+
+/// The same of two spheres that are so far apart.
+pub(in crate::studies) fn overrides_of(random: &mut Random, ratios: Ratios) -> Vec<String> {
     let diameters = {
         let first = random.decades(-3.0, -1.0);
-        [first, first * random.decades(-1.5, 1.5)]
+        [first, first * ratios.size(random)]
     };
     let (stiffness, density) = (random.decades(7.0, 11.0), random.decades(3.0, 4.0));
-    let stiffnesses = [stiffness, stiffness * random.decades(-1.5, 1.5)];
+    let stiffnesses = [stiffness, stiffness * ratios.stiffness(random)];
     let densities = [density, density * random.decades(-1.5, 1.5)];
     let slowest = [0, 1].map(|k| (stiffnesses[k] / densities[k]).sqrt());
     let slowest = slowest[0].min(slowest[1]);
