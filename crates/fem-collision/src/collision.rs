@@ -48,6 +48,8 @@ pub struct Collision {
     /// Largest contact pressure on the axis, a mean as is the force, Pa: of first touch nothing counts
     /// ([`Pulse`](crate::Pulse)).
     pub peak_pressure: Option<f64>,
+    /// Radius of the contact at that pressure, of a model with meshes, m.
+    pub peak_pressure_radius: Option<f64>,
     /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
     pub force_scatter: Option<f64>,
     /// When it scatters most.
@@ -144,6 +146,7 @@ impl Collision {
             max_approach: None,
             max_contact_radius: None,
             peak_pressure: None,
+            peak_pressure_radius: None,
             force_scatter: None,
             noisiest: None,
             deepest: None,

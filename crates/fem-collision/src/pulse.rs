@@ -28,7 +28,7 @@ const FULLNESS: f64 = 1.75;
 /// Share of the largest radius from which pressure counts.
 const RESOLVED: f64 = 0.25;
 /// Elements from which a contact resolves a pressure.
-const ELEMENTS: f64 = 2.0;
+pub const RESOLVING_ELEMENTS: f64 = 2.0;
 /// Window of a pressure over the time since contact began, at most.
 const YOUNG: f64 = 1.0 / 8.0;
 /// Instants that are kept; of more every second one is forgotten.
@@ -63,6 +63,8 @@ pub struct Peaks {
     pub radius: f64,
     /// Pa.
     pub pressure: f64,
+    /// Radius of the contact when its pressure was largest, m.
+    pub pressure_radius: f64,
 }
 
 impl Default for Pulse {
@@ -102,8 +104,8 @@ impl Pulse {
         let largest_radius = highest(|beat| beat.radius);
         let impulse = self.beats.last().map_or(0.0, |beat| beat.impulse);
         let window = PEAK_WINDOW * FULLNESS * impulse / largest_force;
-        let resolved = (RESOLVED * largest_radius).min(ELEMENTS * element);
-        let mut peaks = Peaks { force: 0.0, radius: 0.0, pressure: 0.0 };
+        let resolved = (RESOLVED * largest_radius).min(RESOLVING_ELEMENTS * element);
+        let mut peaks = Peaks { force: 0.0, radius: 0.0, pressure: 0.0, pressure_radius: 0.0 };
         let mut sums = Sums::default();
         let mut end = 0;
         for (k, beat) in self.beats.iter().enumerate() {
@@ -124,6 +126,9 @@ impl Pulse {
             peaks.radius = worst(peaks.radius, sums.radius / n);
             if beat.radius.min(last.radius) >= resolved {
                 let pressure = self.young(k, window).unwrap_or(sums.pressure / n);
+                if pressure > peaks.pressure {
+                    peaks.pressure_radius = beat.radius;
+                }
                 peaks.pressure = worst(peaks.pressure, pressure);
             }
             sums.remove(beat);
@@ -137,6 +142,7 @@ impl Pulse {
             force: or(peaks.force, largest_force),
             radius: or(peaks.radius, largest_radius),
             pressure: or(peaks.pressure, highest(|beat| beat.pressure)),
+            pressure_radius: or(peaks.pressure_radius, largest_radius),
         }
     }
 
@@ -255,7 +261,10 @@ mod tests {
             pulse.observe(time, time, 0.05 * age, pressure);
         }
         // A mean over an eighth of the age: 1/8² / 24.
-        assert!((pulse.peaks(1.0, 0.0125).pressure - 1.0).abs() < 1e-3);
+        let peaks = pulse.peaks(1.0, 0.0125);
+        assert!((peaks.pressure - 1.0).abs() < 1e-3);
+        // Where it was: over an eighth of its age.
+        assert!((peaks.pressure_radius / 0.05 - 1.0).abs() < 0.13, "{peaks:?}");
         assert!(pulse.peaks(1.0, 1.0).pressure < 0.2);
     }
 
@@ -267,11 +276,10 @@ mod tests {
             short.observe(time, impulse, 0.5, 2.0);
         }
         let peaks = short.peaks(1.0, 1.0);
-        assert_eq!(peaks, Peaks { force: 1.0, radius: 0.5, pressure: 2.0 });
-        assert_eq!(
-            Pulse::default().peaks(0.0, 1.0),
-            Peaks { force: 0.0, radius: 0.0, pressure: 0.0 }
-        );
+        let of =
+            |force, radius, pressure| Peaks { force, radius, pressure, pressure_radius: radius };
+        assert_eq!(peaks, of(1.0, 0.5, 2.0));
+        assert_eq!(Pulse::default().peaks(0.0, 1.0), of(0.0, 0.0, 0.0));
     }
 
     #[test]

@@ -339,6 +339,7 @@ impl<'a> Run<'a> {
             max_approach: Some(self.approach.highest),
             max_contact_radius: Some(peaks.radius),
             peak_pressure: Some(peaks.pressure),
+            peak_pressure_radius: Some(peaks.pressure_radius),
             force_scatter: self.scatter.force(),
             deepest: self.deepest,
             noisiest: self.scatter.noisiest(),

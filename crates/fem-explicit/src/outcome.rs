@@ -87,6 +87,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         max_approach: Some(log.max_approach),
         max_contact_radius: Some(peaks.radius),
         peak_pressure: Some(peaks.pressure),
+        peak_pressure_radius: Some(peaks.pressure_radius),
         force_scatter: observed.scatter.force(),
         deepest: log.deepest,
         noisiest: observed.scatter.noisiest(),

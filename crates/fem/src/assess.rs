@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use fem_collision::{Collision, LARGEST_RESIDUAL};
 use fem_mesh::SphereMesh;
 
+use crate::early_pressure::EarlyPressure;
 use crate::effects::{EFFECTS, Effect};
 use crate::method::ElementSetup;
 use crate::plan::Plan;
@@ -52,7 +53,8 @@ pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
 
 fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
-    let warnings = [run.meshes(simulation), run.penetration(), run.noise()];
+    let early = EarlyPressure::warning(simulation, collision);
+    let warnings = [run.meshes(simulation), run.penetration(), run.noise(), early];
     warnings.into_iter().flatten().collect()
 }
 

@@ -7,10 +7,13 @@ use fem_material::engineering::number;
 use fem_material::{ElasticModuli, Material};
 
 use crate::refusal::Refusal;
+use crate::softened::Softened;
 
 /// Least share of a modulus that the estimate counts with: a body that relaxes
 /// within the contact is stopped by its first, stiff response.
 const LEAST_MODULUS: f64 = 0.05;
+/// Bodies that lose more of their moduli over the contact are met by what Ting's impact tells.
+const MUCH: f64 = 0.5;
 
 /// Closed-form estimates of a collision, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +38,12 @@ pub struct Estimate {
     /// Σ g (1 − exp(−T/τ)) of the body that relaxes most: the share of its
     /// modulus that is lost over the contact.
     pub relaxed: f64,
+    /// The contact as relaxation makes it, by which effects are judged: Hertz' of elastic bodies.
+    pub softened: Softened,
+    /// As [`Estimate::mach`], of the moduli that the contact meets.
+    pub softened_mach: f64,
+    /// As [`Estimate::ringing`], of the moduli that the contact meets.
+    pub softened_ringing: f64,
 }
 
 impl Estimate {
@@ -77,12 +86,13 @@ impl Estimate {
     /// # Errors
     /// As [`Estimate::of`].
     pub fn at(scene: &Scene, speed: f64) -> Result<Self, LawError> {
-        let hertz = HertzImpact::new(&pair(scene, 0.0)?, speed)?;
+        let hertz = HertzImpact::new(&pair_at(scene, 0.0, LEAST_MODULUS)?, speed)?;
         let mut relaxed_impact = hertz;
         // The contact time hardly depends on the moduli; a few passes settle it.
         for _ in 0..8 {
             let half = 0.5 * relaxed_impact.contact_time();
-            match pair(scene, half).and_then(|pair| HertzImpact::new(&pair, speed)) {
+            let pair = pair_at(scene, half, LEAST_MODULUS);
+            match pair.and_then(|pair| HertzImpact::new(&pair, speed)) {
                 Ok(next) => relaxed_impact = next,
                 Err(_) => break,
             }
@@ -96,6 +106,13 @@ impl Estimate {
             .filter_map(|material| material.relaxation())
             .map(|series| 1.0 - series.relaxation(contact_time))
             .fold(0.0, f64::max);
+        let softened = match relaxed > MUCH {
+            true => Softened::much(scene, &hertz).ok(),
+            false => None,
+        };
+        let middle = if relaxed > 0.0 { 0.5 * contact_time } else { 0.0 };
+        let softened = softened.unwrap_or_else(|| Softened::little(&relaxed_impact, middle));
+        let twin = softened.twin(scene);
         Ok(Self {
             hertz,
             contact_time,
@@ -106,6 +123,9 @@ impl Estimate {
             mach: mach(scene, speed),
             ringing: ringing(scene, hertz.contact_time()),
             relaxed,
+            softened,
+            softened_mach: mach(&twin, speed),
+            softened_ringing: ringing(&twin, softened.hertz.contact_time()),
         })
     }
 }
@@ -137,27 +157,30 @@ fn ringing(scene: &Scene, contact_time: f64) -> f64 {
     scene.bodies().iter().filter_map(of_body).fold(0.0, f64::max)
 }
 
-/// The pair with moduli as they are `time` after a sudden load.
-fn pair(scene: &Scene, time: f64) -> Result<Pair, LawError> {
+/// The pair with moduli as they are `time` (s) after a sudden load, and no less than a share of what they are at once.
+///
+/// # Errors
+/// Numbers that make no pair.
+pub(crate) fn pair_at(scene: &Scene, time: f64, least: f64) -> Result<Pair, LawError> {
     let [first, second] = scene.bodies().each_ref().map(|body| match body.shape() {
         Shape::Sphere { diameter, material, .. } => {
             let mass = fem_laws::sphere_mass(*diameter, material.density());
-            let plane_strain_modulus = modulus_at(material, time);
+            let plane_strain_modulus = modulus_at(material, time, least);
             let sphere = Partner::Sphere { radius: 0.5 * diameter, mass, plane_strain_modulus };
             if body.is_held() { sphere.held() } else { sphere }
         }
         Shape::HalfSpace { material } => {
-            Partner::HalfSpace { plane_strain_modulus: modulus_at(material, time) }
+            Partner::HalfSpace { plane_strain_modulus: modulus_at(material, time, least) }
         }
         Shape::Rigid { .. } | Shape::Wall => body.partner(),
     });
     Pair::new(first, second)
 }
 
-/// E/(1 − ν²), Pa, of a material `time` (s) after a sudden load.
-fn modulus_at(material: &Material, time: f64) -> f64 {
+/// E/(1 − ν²), Pa, of a material `time` (s) after a sudden load, of moduli that keep at least a share.
+fn modulus_at(material: &Material, time: f64, least: f64) -> f64 {
     let now = material.instantaneous();
-    let bulk = material.bulk_modulus_at(time).max(LEAST_MODULUS * now.bulk_modulus());
-    let shear = material.shear_modulus_at(time).max(LEAST_MODULUS * now.shear_modulus());
+    let bulk = material.bulk_modulus_at(time).max(least * now.bulk_modulus());
+    let shear = material.shear_modulus_at(time).max(least * now.shear_modulus());
     ElasticModuli::from_bulk_shear(bulk, shear).map_or(0.0, |moduli| moduli.plane_strain_modulus())
 }

@@ -33,7 +33,19 @@ pub(crate) fn foretold_impact(
     estimate: &Estimate,
     speed: f64,
 ) -> Result<Rc<Impact>, LawError> {
-    let ting = ting_of(scene, estimate.hertz.pair(), true, None)?;
+    foretold_on_half_spaces(scene, estimate.hertz.pair(), speed)
+}
+
+/// The same of the scene's pair with instantaneous moduli.
+///
+/// # Errors
+/// Numbers that the law refuses.
+pub(crate) fn foretold_on_half_spaces(
+    scene: &Scene,
+    pair: &Pair,
+    speed: f64,
+) -> Result<Rc<Impact>, LawError> {
+    let ting = ting_of(scene, pair, true, None)?;
     known_impact(ting.with_tolerance(FORECAST)?, speed)
 }
 

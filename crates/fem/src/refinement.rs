@@ -23,6 +23,7 @@ use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
 use crate::accuracy::of_moved_mass;
+use crate::early_pressure::EarlyPressure;
 use crate::effects::percent;
 use crate::method::Cost;
 use crate::simulation::Simulation;
@@ -208,7 +209,13 @@ impl Simulation {
             (Headline::PeakForce, accuracy.peak_force),
             (Headline::PeakPressure, accuracy.peak_pressure),
         ];
-        let missed = all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0);
+        // Of a pressure that comes much too early there is a warning of its own.
+        let early = EarlyPressure::of(self, collision);
+        let is_early = || early.as_ref().is_some_and(EarlyPressure::is_beyond_reach);
+        let is_wanted =
+            |(headline, _): &(Headline, f64)| *headline != Headline::PeakPressure || !is_early();
+        let all = all.into_iter().filter(is_wanted);
+        let missed = all.filter_map(of).filter(|miss| miss.excess() > 1.0);
         missed.max_by(|a, b| a.excess().total_cmp(&b.excess()))
     }
 

@@ -1,7 +1,7 @@
 //! Orders of convergence, in the element size and in the time step; cost in counters.
 
 use crate::common::{GLASS, Scene, glass, material};
-use fem_condensed::CondensedPair;
+use fem_condensed::{CondensedPair, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 
 /// Slope of log error against log size.
@@ -81,7 +81,7 @@ fn blocks_of_the_shear_basis() {
         let relaxing = material(GLASS, Shear, &terms);
         let scene = Scene::paper(relaxing.clone(), relaxing);
         let run = |shear_blocks: usize| {
-            let settings = fem_condensed::PairSettings { shear_blocks, ..scene.settings() };
+            let settings = PairSettings { shear_blocks, ..scene.settings() };
             scene
                 .collide(&CondensedPair::new(scene.inputs(8.0), settings).unwrap())
                 .restitution
@@ -124,4 +124,24 @@ fn cost_in_counters() {
         assert!(run.steps.unwrap() <= 245 && run.repeated_contact_solutions == Some(0), "{run:?}");
     }
     assert!(pair.n_points() <= 14);
+}
+
+/// Bodies that relax much in shear, or that are soft against pressure and relax a good part of it, have as many blocks as
+/// they need without being asked: they are those of eight. Two alone are off by 2e-3 and 6e-3 in the restitution here.
+#[test]
+fn soft_bulk_and_strong_relaxation_have_the_blocks_they_need() {
+    for (nu, left) in [(0.0165, 0.15), (0.0165, 0.06), (0.244, 0.06)] {
+        let [youngs_modulus, _, density] = GLASS;
+        let relaxing = material([youngs_modulus, nu, density], Shear, &[(1.0 - left, 1.2e6)]);
+        let scene = Scene::paper(relaxing.clone(), relaxing);
+        let run = |shear_blocks: usize| {
+            let region = PairSettings::new(3.0 * scene.hertz().max_contact_radius());
+            let settings = PairSettings { shear_blocks, ..region };
+            let run = scene.collide(&CondensedPair::new(scene.inputs(6.0), settings).unwrap());
+            run.restitution.unwrap()
+        };
+        let [usual, eight] = [PairSettings::new(1.0).shear_blocks, 8].map(run);
+        // 2e-7 measured.
+        assert!((usual - eight).abs() < 1e-6, "{nu} {left}: {usual} {eight}");
+    }
 }

@@ -44,20 +44,22 @@ impl Doubt {
     /// Of an effect that changes so much of the numbers of an estimate.
     pub fn of(left_out: &LeftOut, estimate: &Estimate) -> Self {
         let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
-        let hertz = &estimate.hertz;
-        let time = contact_time_s.map(|change| change / hertz.contact_time());
-        let force = peak_force_n.map(|change| change / hertz.peak_force());
+        let sizes = &estimate.softened.sizes;
+        let time = contact_time_s.map(|change| change / sizes.contact_time);
+        let force = peak_force_n.map(|change| change / sizes.peak_force);
         let both = time.zip(force);
+        // Bodies that stay together have no contact time, and come as much closer as they press less.
+        let softer = time.or(force);
         let doubt = Self::by(|headline| match headline {
             Headline::Restitution => restitution,
             Headline::ContactTime => contact_time_s,
             Headline::PeakForce => peak_force_n,
-            Headline::MaxApproach => time.map(|share| share * hertz.max_approach()),
+            Headline::MaxApproach => softer.map(|share| share * sizes.max_approach),
             Headline::MaxContactRadius => {
-                time.map(|share| 0.5 * share * hertz.max_contact_radius())
+                softer.map(|share| 0.5 * share * sizes.max_contact_radius)
             }
             Headline::PeakPressure => {
-                both.map(|(time, force)| (time + force) * hertz.peak_pressure())
+                both.or(force.zip(force)).map(|(time, force)| (time + force) * sizes.peak_pressure)
             }
         });
         doubt.checked()

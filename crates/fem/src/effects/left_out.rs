@@ -34,8 +34,8 @@ impl LeftOut {
     pub(crate) fn shares(estimate: &Estimate, contact_time: f64, peak_force: f64) -> Self {
         Self {
             restitution: Some(0.0),
-            contact_time_s: finite(contact_time * estimate.hertz.contact_time()),
-            peak_force_n: finite(peak_force * estimate.hertz.peak_force()),
+            contact_time_s: finite(contact_time * estimate.softened.sizes.contact_time),
+            peak_force_n: finite(peak_force * estimate.softened.sizes.peak_force),
         }
     }
 

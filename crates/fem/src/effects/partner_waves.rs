@@ -19,6 +19,7 @@ use super::transformed::Computed;
 use super::vibration::ENOUGH_MODES;
 use crate::estimate::Estimate;
 use crate::expected::Expected;
+use crate::softened::{Softened, left_at};
 
 /// Above this T c_s/D waves come back in time and give back what they took.
 const RETURN_LIMIT: f64 = 2.0;
@@ -231,9 +232,13 @@ impl Effect for PartnerWaves {
     }
 }
 
-/// T c_s/D of the bodies that have one.
+/// T c_s/D of the bodies that have one, with the moduli that the contact meets.
 fn passages<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<(&'a Body, f64)> {
-    let passage = |body: &'a Body| Some((body, passage(body, estimate)?));
+    let softened = &estimate.softened;
+    let passage = |body: &'a Body| {
+        let material = left_at(body.material()?, softened.after);
+        Some((body, passage_in(body, &material, softened.hertz.contact_time())))
+    };
     scene.bodies().iter().filter_map(passage).collect()
 }
 
@@ -241,7 +246,8 @@ fn passages<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<(&'a Body, f64)> {
 fn radiated(passages: &[(&Body, f64)], estimate: &Estimate) -> f64 {
     let large = passages.iter().filter(|(_, passage)| *passage < RETURN_LIMIT);
     let share = |(body, passage): &(&Body, f64)| {
-        Some(radiated_share(&estimate.hertz, body.material()?) * kept(*passage))
+        let Softened { after, hertz, .. } = &estimate.softened;
+        Some(radiated_share(hertz, &left_at(body.material()?, *after)) * kept(*passage))
     };
     large.filter_map(share).sum()
 }
@@ -262,6 +268,11 @@ fn lost(share: f64) -> f64 {
 
 /// T c_s/D; nothing comes back from a half-space, and a rigid body has no waves.
 fn passage(body: &Body, estimate: &Estimate) -> Option<f64> {
-    let way = estimate.contact_time * body.material()?.shear_wave_speed();
-    Some(body.diameter().map_or(0.0, |diameter| way / diameter))
+    Some(passage_in(body, body.material()?, estimate.contact_time))
+}
+
+/// The same of a body of a material in a contact of so long, s.
+fn passage_in(body: &Body, material: &Material, contact_time: f64) -> f64 {
+    let way = contact_time * material.shear_wave_speed();
+    body.diameter().map_or(0.0, |diameter| way / diameter)
 }

@@ -79,7 +79,7 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
 }
 
 fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
-    let peak = estimate.hertz.peak_pressure();
+    let peak = estimate.softened.sizes.peak_pressure;
     let share = peak / estimate.hertz.pair().contact_modulus();
     let reached = |body: &Body| {
         let nu = body.material()?.instantaneous().poissons_ratio();

@@ -1,4 +1,5 @@
-//! The approach speed next to that of shear waves: the number that several effects go by.
+//! The approach speed next to that of shear waves, with the moduli that the contact meets: the number that several
+//! effects go by.
 
 use super::need::percent;
 use crate::estimate::Estimate;
@@ -12,14 +13,17 @@ pub(super) const MACH_LIMIT: f64 = 0.02;
 
 /// The number that decides, in words.
 pub(super) fn number(estimate: &Estimate) -> String {
-    format!("approach speed / shear wave speed = {}", engineering::number(estimate.mach, 2))
+    format!(
+        "approach speed / shear wave speed = {}",
+        engineering::number(estimate.softened_mach, 2)
+    )
 }
 
 /// What the approach speed is next to that of shear waves, and above which share something follows.
 pub(super) fn above(estimate: &Estimate, limit: f64) -> String {
     format!(
         "the approach speed is {} of the shear wave speed; above {}",
-        percent(estimate.mach),
+        percent(estimate.softened_mach),
         percent(limit)
     )
 }

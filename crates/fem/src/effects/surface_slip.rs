@@ -12,12 +12,13 @@
 use fem_case::engineering::number;
 use fem_case::{Body, EffectsTable, Scene, Shape, Switch};
 use fem_laws::{Face, RelativeError, SurfaceSlip as Slip};
-use fem_material::{ElasticModuli, Material};
+use fem_material::Material;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use crate::estimate::Estimate;
+use crate::softened::left_at;
 
 /// Below this κβR* materials are alike but for the rounding of their moduli.
 const ROUNDING: f64 = 1e-9;
@@ -136,14 +137,4 @@ fn largest(scene: &Scene, estimate: &Estimate) -> Slip {
         Face::new(curvature, material.as_ref())
     }));
     if relaxed.mismatch().abs() > now.mismatch().abs() { relaxed } else { now }
-}
-
-/// An elastic material of what is left of the moduli at a time, s.
-fn left_at(material: &Material, time: f64) -> Material {
-    let moduli = ElasticModuli::from_bulk_shear(
-        material.bulk_modulus_at(time),
-        material.shear_modulus_at(time),
-    );
-    let left = moduli.and_then(|moduli| Material::new(material.density(), moduli, None));
-    left.unwrap_or_else(|_| material.without_relaxation())
 }

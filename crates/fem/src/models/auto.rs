@@ -213,8 +213,8 @@ impl Candidate {
     }
 
     fn judge(&self, scene: &Scene, estimate: &Estimate) -> Judged {
-        let hertz = &estimate.hertz;
-        let scales = [1.0, hertz.contact_time(), hertz.peak_force()];
+        let sizes = &estimate.softened.sizes;
+        let scales = [1.0, sizes.contact_time, sizes.peak_force];
         let second = if self.is_first_order { SECOND_ORDER * estimate.strain.powi(2) } else { 0.0 };
         let [restitution, contact_time, peak_force, peak_pressure] = self.own;
         let own = [restitution, contact_time + second, peak_force + second];

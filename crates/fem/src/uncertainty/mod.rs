@@ -36,6 +36,7 @@ impl Simulation {
     /// What the effects that the collision lacks would change, all together.
     fn model_doubt(&self, collision: &Collision, effects: &[EffectSummary]) -> Doubt {
         let Some(estimate) = self.estimate(collision) else { return Doubt::default() };
+        let estimate = estimate.as_came(collision);
         let scene = self.scene_of_model();
         effects.iter().fold(Doubt::NOTHING, |sum, EffectSummary { verdict, error_if_left_out }| {
             let standing =

@@ -35,6 +35,7 @@ mod plastic_yield;
 mod probes;
 mod ranges;
 mod refusals_in_code;
+mod relaxed;
 mod remedies;
 mod remedies_tried;
 mod resolution;

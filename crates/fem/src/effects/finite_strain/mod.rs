@@ -153,7 +153,7 @@ fn with_relaxation(scene: &Scene, estimate: &Estimate, change: Departure) -> Dep
 }
 
 /// What relaxation takes of the restitution at small strain.
-fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
+pub(super) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
     let mut materials = scene.bodies().iter().filter_map(Body::material);
     if !materials.any(|material| material.relaxation().is_some()) {
         return 0.0;
@@ -271,13 +271,13 @@ impl Effect for FiniteStrain {
             left_small.map(|(body, _)| body.share * body.deformation.flatness.powi(2)).sum();
         let lost = OF_RELAXED_LOSS * flattened * relaxed_loss(scene, estimate);
         let shares = LeftOut::shares(estimate, contact_time, peak_force);
-        let hertz = &estimate.hertz;
+        let sizes = &estimate.softened.sizes;
         // F = πa² times the mean pressure.
-        let radius = 0.5 * (peak_force + peak_pressure) * hertz.max_contact_radius();
+        let radius = 0.5 * (peak_force + peak_pressure) * sizes.max_contact_radius;
         Doubt::of(&shares, estimate)
             .with(Headline::Restitution, restitution.abs() + lost)
             .with(Headline::MaxContactRadius, radius)
-            .with(Headline::PeakPressure, peak_pressure * hertz.peak_pressure())
+            .with(Headline::PeakPressure, peak_pressure * sizes.peak_pressure)
             .checked()
     }
 

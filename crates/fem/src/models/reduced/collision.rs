@@ -41,6 +41,7 @@ pub(super) fn of_impact(
         max_approach: Some(impact.max_approach),
         max_contact_radius: has_radius.then_some(impact.max_contact_radius),
         peak_pressure: impact.peak_pressure,
+        peak_pressure_radius: None,
         force_scatter: None,
         noisiest: None,
         deepest: None,
