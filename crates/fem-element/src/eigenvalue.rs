@@ -110,7 +110,7 @@ mod tests {
                 for _ in 0..2 {
                     let scaled = ElementMatrix::from_fn(|i, j| {
                         let of = |i: usize| match masses[i / 2] > 0.0
-                            && !(i % 2 == 0 && on_axis[i / 2])
+                            && !(i.is_multiple_of(2) && on_axis[i / 2])
                         {
                             true => masses[i / 2].sqrt().recip(),
                             false => 0.0,

@@ -184,8 +184,9 @@ pub(crate) fn companion_updates(
     is_at_finite_strain: bool,
 ) -> Option<f64> {
     // What is no number is not small.
-    let is_flat = is_at_finite_strain && !(strain < FLAT);
-    (is_flat || mach >= SLOW).then(|| COARSER.into_iter().map(|ratio: f64| ratio.powi(-3)).sum())
+    let is_small = strain < FLAT;
+    ((is_at_finite_strain && !is_small) || mach >= SLOW)
+        .then(|| COARSER.into_iter().map(|ratio: f64| ratio.powi(-3)).sum())
 }
 
 /// What grows where elements are few, with that of the waves of an impact whose speed is so much of that of shear
