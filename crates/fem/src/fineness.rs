@@ -108,7 +108,7 @@ impl Fineness {
         let reached = error / (OF_MESH * MOST * MOST);
         Self {
             across,
-            mass_scaling: mass_scaling(error, tolerance.max(reached)) / scene.refinement().powi(2),
+            mass_scaling: mass_scaling(error, tolerance.max(reached)),
             reached: (asked_for > MOST).then_some(reached),
         }
     }
