@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Input of CalculiX 2.20 for rubber balls that collide: impact.py SCENE CELLS STEPS > NAME.inp
 
-SCENE is wall_3 or wall_10 (ball_on_wall.toml at ν = 0.45 and 3 or 10 m/s) or two_balls (two_balls.toml), whose
+SCENE is wall_3 or wall_10 (ball_on_wall.toml at ν = 0.45 and 3 or 10 m/s), wall_49_3 or wall_20_5 (at ν = 0.49 and
+3 m/s, 0.2 and 5 m/s), or two_balls (two_balls.toml), whose
 contact did not converge beyond 0.5 to 1.1 ms with any step that was tried, so that the claim has none of it.
 Wedges of C3D20R elements about the axis, neo-Hooke, implicit dynamics; units are mm, ms, g (so MPa and N).
 `ccx -i NAME` leaves what holds a driven plate, or the velocities of the balls, in NAME.dat; read.py makes
@@ -75,10 +76,14 @@ class Ball:
 
 
 RUBBER = dict(modulus=1.0, nu=0.45, density=1e-3)
+NEARLY_INCOMPRESSIBLE = dict(modulus=1.0, nu=0.49, density=1e-3)
+COMPRESSIBLE = dict(modulus=1.0, nu=0.2, density=1e-3)
 STIFF = dict(modulus=3.0, nu=0.47, density=1.1e-3)
 SCENES = {
     "wall_3": ([Ball("BALL", 15.0, 1, **RUBBER)], 3.0, 3.9),
     "wall_10": ([Ball("BALL", 15.0, 1, **RUBBER)], 10.0, 2.9),
+    "wall_49_3": ([Ball("BALL", 15.0, 1, **NEARLY_INCOMPRESSIBLE)], 3.0, 3.9),
+    "wall_20_5": ([Ball("BALL", 15.0, 1, **COMPRESSIBLE)], 5.0, 3.9),
     "two_balls": (
         [Ball("LARGE", 15.0, -1, **RUBBER), Ball("SMALL", 10.0, 1, **STIFF)],
         5.0,

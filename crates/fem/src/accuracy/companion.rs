@@ -60,8 +60,9 @@ const MARGIN: [f64; 6] = [1.3; 6];
 const MARGIN_OF_CONDENSED: [f64; 6] = [1.6, 1.0, 0.5, 1.2, 0.7, 0.8];
 /// ... of condensed bodies by a finer one, whose force does not swing, ...
 const MARGIN_OF_FINER: [f64; 6] = [1.3, 1.3, 1.0, 1.3, 1.3, 1.3];
-/// ... and of explicit elements by coarser ones.
-const MARGIN_OF_STRAINED: [f64; 6] = [2.0; 6];
+/// ... and of explicit elements by coarser ones. What a contact with mass takes of the restitution falls with the
+/// first order.
+const MARGIN_OF_STRAINED: [f64; 6] = [3.0, 2.0, 2.0, 2.0, 2.0, 2.0];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
 /// others relative, in the order of [`Headline::ALL`].
 const SCATTER: [f64; 6] = [2e-5, 1e-4, 2e-4, 5e-5, 1e-3, 1e-3];
@@ -84,6 +85,13 @@ const SLOW: f64 = 0.02;
 const OF_WAVES: f64 = 0.3;
 /// And the rest of what grows where elements are few.
 const OF_FEW_STRAINED: [f64; 6] = [1.6e-3, 0.0, 0.0, 0.013, 0.05, 0.056];
+/// How their force, radius and pressure scatter over the speed of the impact in that of shear waves, up to [`FAST`]:
+/// fronts raise the middle of a contact at one instant or another. Of soft balls on a wall at 0.16, 0.3 and 0.33 the
+/// pressure was off by 0.4, 2.0 and 1.4 % (of elements half as long, which may be off by 0.6, 1.9 and 2.8 % themselves)
+/// where coarser meshes told 1.4, 1.0 and 6 %, the force by 0.26 % of 0.28.
+const FRONTS: [f64; 6] = [0.0, 0.0, 5e-3, 0.0, 5e-3, 0.02];
+/// See [`FRONTS`].
+const FAST: f64 = 0.3;
 /// Steps of condensed companions of explicit elements over the elastic contact time: a restitution to 4e-5,
 /// and the same of all three, of which differences are taken.
 const STEPS: f64 = 200.0;
@@ -157,6 +165,10 @@ pub(crate) fn discretisation_errors(
         (true, None) => (SCATTER, OF_FEW),
         (false, _) => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
     };
+    let fronts = match is_explicit && condensed.is_none() {
+        true => FRONTS.map(|scatter| scatter * mach.min(FAST)),
+        false => [0.0; 6],
+    };
     let added = added_share(collision);
     let coarse = (FEW / across).max(1.0).powi(2);
     let early = EarlyPressure::of(simulation, collision);
@@ -168,7 +180,7 @@ pub(crate) fn discretisation_errors(
     };
     Doubt::by(|headline| {
         let k = headline as usize;
-        let scatter = scatter[k] + of_few[k] / (across * across);
+        let scatter = scatter[k] + fronts[k] + of_few[k] / (across * across);
         let share =
             |error: f64| coarse * margin[k] * error.abs() + scatter + added * OF_ADDED_MASS[k];
         let both = errors[k].zip(values[k]);

@@ -9,6 +9,10 @@ use fem_material::finite::HyperelasticLaw;
 
 use super::measured::{CHANGES, POISSONS_RATIOS, STRAINS};
 
+/// Power of the strain by which changes grow beyond the flattest sphere that was computed: that of the force at ν = 0.45
+/// from 0.5 to 0.7. In proportion 8 % of the force were foretold at 0.8 where 14 % were found.
+const GROWTH: f64 = 4.0;
+
 /// What finite strain changes: of the restitution as it is, of the others as shares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Departure {
@@ -65,7 +69,8 @@ impl Departure {
     }
 
     /// Of an elastic sphere on a rigid wall, its contact radius a share of its radius as Hertz foretells it:
-    /// linear between the collisions of [`CHANGES`], and proportional to the strain beyond them.
+    /// linear between the collisions of [`CHANGES`], proportional to less strain, and beyond them growing with
+    /// [`GROWTH`].
     fn on_a_wall(law: HyperelasticLaw, poissons_ratio: f64, strain: f64) -> Self {
         let law = HyperelasticLaw::ALL.iter().position(|one| *one == law).unwrap_or(0);
         let (row, weight) = place(&POISSONS_RATIOS, poissons_ratio);
@@ -76,6 +81,7 @@ impl Departure {
         };
         // Beyond the ends, where `place` stays.
         let beyond = strain / strain.clamp(STRAINS[0], STRAINS[STRAINS.len() - 1]);
+        let beyond = if beyond > 1.0 { beyond.powf(GROWTH) } else { beyond };
         beyond * ((1.0 - weight) * change(row) + weight * change(row + 1))
     }
 
