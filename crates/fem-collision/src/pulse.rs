@@ -14,7 +14,7 @@
 //! When contact begins the flat facet of the first elements strikes: a shock on a small area, whose
 //! pressure is the mesh's. Pressure counts from where the contact has a quarter of its largest radius, or two
 //! elements if that is less and what strikes is no front. Bodies that relax long before they part press hardest
-//! early, so what is early is averaged over an eighth of its age where that is shorter.
+//! early, so what comes before that quarter is averaged over an eighth of its age where that is shorter.
 
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
@@ -125,7 +125,9 @@ impl Pulse {
             let n = (end - k) as f64;
             peaks.radius = worst(peaks.radius, sums.radius / n);
             if beat.radius.min(last.radius) >= resolved {
-                let pressure = self.young(k, window).unwrap_or(sums.pressure / n);
+                let is_early = beat.radius < RESOLVED * largest_radius;
+                let young = is_early.then(|| self.young(k, window)).flatten();
+                let pressure = young.unwrap_or(sums.pressure / n);
                 if pressure > peaks.pressure {
                     peaks.pressure_radius = beat.radius;
                 }
