@@ -12,17 +12,23 @@
 //! again; at most [`MOST_LEVELS`] times and with no more element updates than [`MOST_UPDATES`], or what
 //! the case gives as `limits.element_updates`. Where that does not do, or may not be, a warning says so. All of it
 //! is decided by numbers of the case and of the runs: it is the same on all machines.
+//!
+//! Of explicit elements whose companions are condensed bodies these tell it before anything is run
+//! ([`foresight`](crate::foresight)). A mesh that misses by springs softer than the usual ones stays: finer ones
+//! have stiffer springs only in proportion.
 
 use std::convert::Infallible;
 
 use fem_case::{Body, CaseError, Shape};
-use fem_collision::{Collision, Headline, Monitor, Stop};
+use fem_collision::{Approach, Collision, Headline, Monitor, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
+use crate::assess::overlap_warning;
 use crate::effects::percent;
-use crate::method::Cost;
+use crate::method::{Cost, ElementSetup};
 use crate::simulation::Simulation;
+use crate::soft_springs::softness;
 
 /// Room beyond the error that is seen.
 const ROOM: f64 = 1.1;
@@ -36,13 +42,18 @@ const MOST_LEVELS: usize = 4;
 const MOST_UPDATES: u64 = 150_000_000;
 /// Elements of a finer mesh of condensed bodies, which take no updates: a second.
 const MOST_ELEMENTS: u64 = 60_000;
+/// An error of more than so many times what soft springs change is one of the mesh: what is told has a margin, and
+/// force and pressure change by more than the contact time.
+const OF_SPRINGS: f64 = 4.0;
+/// An error of more is no number any more: it is not resolved at all.
+const LARGEST_TOLD: f64 = 0.5;
 
-/// A mesh that was too coarse.
+/// A mesh that was too coarse, or was foretold to be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// Edge length of its elements at the contact.
     pub contact_element_size_m: f64,
-    /// What it took, of a model that steps.
+    /// What it took, of a model that steps; none where companions alone were computed with it.
     pub element_updates: Option<u64>,
     /// Key of the quantity that missed its tolerance by most.
     pub quantity: String,
@@ -68,12 +79,24 @@ impl Miss {
 
     /// "peak force may be off by 1.7 % where 1 % is asked".
     fn in_words(&self) -> String {
-        let [error, tolerance] = [self.error, self.tolerance].map(|size| match self.headline {
+        let words = |size: f64| match self.headline {
             Headline::Restitution => format!("{size:.1e}"),
             _ => percent(size),
-        });
-        let name = self.headline.name();
-        format!("{name} may be off by {error} where {tolerance} is asked")
+        };
+        let (name, tolerance) = (self.headline.name(), words(self.tolerance));
+        match self.error <= LARGEST_TOLD {
+            true => {
+                format!("{name} may be off by {} where {tolerance} is asked", words(self.error))
+            }
+            false => format!("{name} may be off by more than half where {tolerance} is asked"),
+        }
+    }
+
+    /// Whether springs of these that are softer than the usual ones are at fault, and not the mesh.
+    fn is_of_springs(&self, elements: &ElementSetup) -> bool {
+        let is_theirs = |softness: f64| self.error <= OF_SPRINGS * softness;
+        let is_possible = elements.has_springs && self.headline != Headline::Restitution;
+        is_possible && softness(&elements.plan).is_some_and(is_theirs)
     }
 }
 
@@ -82,6 +105,7 @@ enum Kept {
     Given,
     FromFile,
     Gravity,
+    Springs,
     Dear { updates: Option<u64> },
     Refused(CaseError),
     Stopped(String),
@@ -91,8 +115,10 @@ impl Simulation {
     /// Computes the collision, again on finer meshes where the first does not do; what came, and the
     /// simulation that it came from.
     pub fn run_within_tolerance(self, monitor: &mut dyn Monitor) -> (Self, Collision) {
-        let computed =
-            self.within_tolerance(|simulation| Ok::<_, Infallible>(simulation.run(monitor)));
+        let computed = self
+            .foreseen(|| true)
+            .simulation
+            .within_tolerance(|simulation| Ok::<_, Infallible>(simulation.run(monitor)));
         match computed {
             Ok(both) => both,
             Err(never) => match never {},
@@ -124,7 +150,8 @@ impl Simulation {
     /// The same case on a finer mesh, where a quantity of its collision may be off by more than the case allows
     /// and a finer mesh may be had.
     pub fn finer(&self, collision: &Collision) -> Option<Self> {
-        self.finer_or_kept(&self.missed(collision)?, collision).ok()
+        let Collision { approach, element_updates, .. } = collision;
+        self.finer_or_kept(&self.missed(collision)?, approach, *element_updates).ok()
     }
 
     /// Coarser meshes that did not do, the first one first.
@@ -138,9 +165,13 @@ impl Simulation {
         let headline = Headline::ALL.into_iter().find(|it| it.key() == level.quantity)?;
         let miss = Miss { headline, error: level.error, tolerance: level.tolerance };
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
+        // What was foretold was not run.
+        let is_foretold =
+            level.element_updates.is_none() && matches!(self.setup().cost, Cost::Steps { .. });
         Some(format!(
-            "{}: again with elements of {} in place of {}",
+            "{}: {}elements of {} in place of {}",
             miss.in_words(),
+            if is_foretold { "" } else { "again with " },
             length(size),
             length(level.contact_element_size_m)
         ))
@@ -148,11 +179,17 @@ impl Simulation {
 
     /// The quantity of a collision that may be off by most of what the case allows, if by more than that.
     pub(crate) fn missed(&self, collision: &Collision) -> Option<Miss> {
-        let accuracy = self.case().scene().accuracy();
         let doubt = self.discretisation(collision);
+        self.worst_miss(|headline| {
+            Some(doubt.size(headline)? / headline.scale(headline.of(collision)?))
+        })
+    }
+
+    /// The quantity that is off by most of what the case allows, if by more than that.
+    pub(crate) fn worst_miss(&self, error: impl Fn(Headline) -> Option<f64>) -> Option<Miss> {
+        let accuracy = self.case().scene().accuracy();
         let of = |(headline, tolerance): (Headline, f64)| {
-            let error = doubt.size(headline)? / headline.scale(headline.of(collision)?);
-            Some(Miss { headline, error, tolerance })
+            Some(Miss { headline, error: error(headline)?, tolerance })
         };
         let all = [
             (Headline::Restitution, accuracy.restitution),
@@ -168,9 +205,21 @@ impl Simulation {
     pub(crate) fn miss_warning(&self, collision: &Collision) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
         let Some(miss) = self.missed(collision) else { return self.untold(collision) };
+        // One word a cause.
+        if self.is_unresolved(collision) || overlap_warning(self, collision).is_some() {
+            return None;
+        }
         let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
         let write = format!("write mesh.contact_element_size = \"{}\"", length(size));
-        let remedy = match self.finer_or_kept(&miss, collision) {
+        let Collision { approach, element_updates, .. } = collision;
+        let remedy = match self.finer_or_kept(&miss, approach, *element_updates) {
+            Err(Kept::Springs) => {
+                return Some(format!(
+                    "{} because of the soft springs: write contact.penalty_factor = 1, or allow more in \
+                     accuracy.tolerance",
+                    miss.in_words()
+                ));
+            }
             // Who has the course decides.
             Ok(_) => write,
             Err(Kept::Given) => write,
@@ -211,8 +260,42 @@ impl Simulation {
         })
     }
 
+    /// The same case on the finer mesh that a quantity needs that is going to be off, of bodies that meet as the case
+    /// says; none where there is none.
+    pub(crate) fn finer_for(&self, miss: &Miss) -> Option<Self> {
+        self.finer_or_kept(miss, &self.setup().approach, None).ok()
+    }
+
+    /// Element updates of all finer meshes that may follow a run of so many, of which nothing is known yet.
+    pub(crate) fn most_that_follow(&self, element_updates: u64) -> u64 {
+        let most = self.case().scene().limits().element_updates.unwrap_or(MOST_UPDATES);
+        let least = STEPS[0].powi(3);
+        let (mut one, mut sum) = (element_updates as f64, 0.0);
+        for _ in self.levels.len()..MOST_LEVELS {
+            if least * one > most as f64 {
+                break;
+            }
+            one = (STEPS[1].powi(3) * one).min(most as f64);
+            sum += one;
+        }
+        sum as u64
+    }
+
+    /// Whether meshes of the case may be made finer for its tolerance.
+    pub(crate) fn may_be_refined(&self) -> bool {
+        let scene = self.case().scene();
+        let makes =
+            self.setup().elements.as_ref().is_some_and(|elements| elements.plan.makes_meshes);
+        makes && scene.mesh().contact_element_size.is_none() && scene.gravity().is_none()
+    }
+
     /// The same case on a finer mesh, or why there is none.
-    fn finer_or_kept(&self, miss: &Miss, collision: &Collision) -> Result<Self, Kept> {
+    fn finer_or_kept(
+        &self,
+        miss: &Miss,
+        approach: &Approach,
+        element_updates: Option<u64>,
+    ) -> Result<Self, Kept> {
         let scene = self.case().scene();
         let elements = self.setup().elements.as_ref().ok_or(Kept::Given)?;
         let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
@@ -222,8 +305,11 @@ impl Simulation {
         if scene.mesh().contact_element_size.is_some() {
             return Err(Kept::Given);
         }
-        if scene.gravity().is_some() || collision.approach != self.setup().approach {
+        if scene.gravity().is_some() || *approach != self.setup().approach {
             return Err(Kept::Gravity);
+        }
+        if miss.is_of_springs(elements) {
+            return Err(Kept::Springs);
         }
         if let Some(why) = &self.stopped_finer {
             return Err(Kept::Stopped(why.clone()));
@@ -233,7 +319,7 @@ impl Simulation {
         }
         let level = Level {
             contact_element_size_m: elements.plan.contact_element_size,
-            element_updates: collision.element_updates,
+            element_updates,
             quantity: miss.headline.key().to_string(),
             error: miss.error,
             tolerance: miss.tolerance,

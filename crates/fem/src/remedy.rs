@@ -63,8 +63,8 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
              their units: the weights' sum below 1 leaves a lasting stiffness",
         ),
         Stop::TooManyUpdates { .. } => (
-            "the bodies take far longer to part, or to come to rest, than closed forms expect: the \
-             material relaxes nearly all",
+            "the run takes more than was foretold: the bodies part, or come to rest, later than closed forms expect, \
+             as what relaxes nearly all does, or steps became shorter, as those of elements that are strained do",
             "raise limits.element_updates, use a larger mesh.contact_element_size, or model condensed",
         ),
         Stop::EnergyImbalance { .. } => (

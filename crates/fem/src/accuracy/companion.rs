@@ -30,14 +30,17 @@
 //! Errors are told without their sign and with a margin: the limit is expected within them. Margins and
 //! scatter are measured on random scenes of all kinds (`validation/error_bars`).
 
+use std::sync::PoisonError;
+
 use fem_case::Quantity;
 use fem_case::schema::ContactMethod;
-use fem_collision::{Collision, Headline, Want};
+use fem_collision::{Approach, Collision, Headline, Want};
 use fem_mesh::SphereMesh;
 
 use super::ladder::first_contact;
 use super::setting::Setting;
-use crate::effects::Doubt;
+use crate::effects::{Doubt, FiniteStrain};
+use crate::method::{Cost, ElementSetup};
 use crate::plan::Plan;
 use crate::simulation::Simulation;
 
@@ -100,14 +103,14 @@ pub(crate) fn discretisation_errors(
         false => longest_at_contact(simulation.model().meshes()),
     };
     let Some(size) = size else { return Doubt::default() };
-    let companions = Companions { simulation, collision, plan, size };
+    let companions = Companions { simulation, approach: collision.approach, plan, size };
     let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
     let is_explicit = collision.element_updates.is_some();
     // Condensed bodies know no large strains, nor what keeps such surfaces apart, and no waves.
     let mach = simulation.estimate(collision).map_or(0.0, |estimate| estimate.mach);
     let are_like = companion_updates(mach, is_at_finite_strain).is_none();
     let condensed = match are_like && plan.makes_meshes && is_explicit {
-        true => companions.of_condensed(),
+        true => companions.of_condensed().map(|Beside { errors, .. }| errors),
         false => None,
     };
     let is_few = across < 2.0 * FEW;
@@ -134,15 +137,53 @@ pub(crate) fn discretisation_errors(
         (false, _) => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
     };
     let added = collision.added_shares().into_iter().flatten().fold(0.0, f64::max);
-    let coarse = (FEW / across).max(1.0).powi(2);
+    let told = told(errors, margin, scatter, of_few, across, added);
     Doubt::by(|headline| {
         let k = headline as usize;
-        let scatter = scatter[k] + of_few[k] / (across * across);
-        let share =
-            |error: f64| coarse * margin[k] * error.abs() + scatter + added * OF_ADDED_MASS[k];
-        let both = errors[k].zip(values[k]);
-        both.map(|(error, value)| share(error) * headline.scale(value))
+        told[k].zip(values[k]).map(|(error, value)| error * headline.scale(value))
     })
+}
+
+/// Errors that are told of those that are estimated, with so many elements across the contact and such a share
+/// of mass that is moved.
+fn told(
+    errors: [Option<f64>; 6],
+    margin: [f64; 6],
+    scatter: [f64; 6],
+    of_few: [f64; 6],
+    across: f64,
+    added: f64,
+) -> [Option<f64>; 6] {
+    let coarse = (FEW / across).max(1.0).powi(2);
+    Headline::ALL.map(|headline| {
+        let k = headline as usize;
+        let scatter = scatter[k] + of_few[k] / (across * across);
+        Some(coarse * margin[k] * errors[k]?.abs() + scatter + added * OF_ADDED_MASS[k])
+    })
+}
+
+/// The errors, the restitution's absolute, all others relative, that elements are going to make: before a
+/// collision of them, of those whose companions are condensed bodies. None of others, which only a run tells.
+pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6]> {
+    let setup = simulation.setup();
+    let Cost::Steps { .. } = setup.cost else { return None };
+    let ElementSetup { plan, added_share, .. } = setup.elements.as_ref()?;
+    let is_finite = setup.decisions.is_active(FiniteStrain::NAME);
+    if !plan.makes_meshes || companion_updates(setup.estimate.mach, is_finite).is_some() {
+        return None;
+    }
+    let (approach, size) = (setup.approach, plan.contact_element_size);
+    let Beside { values, errors } =
+        Companions { simulation, approach, plan, size }.of_condensed()?;
+    let across = values[Headline::MaxContactRadius as usize]? / size;
+    Some(told(errors, MARGIN, SCATTER, OF_FEW, across, *added_share))
+}
+
+/// The numbers of condensed bodies with springs, and what they are off by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Beside {
+    values: [Option<f64>; 6],
+    errors: [Option<f64>; 6],
 }
 
 /// Element updates of the companions of explicit elements over those of the collision, whose shear waves the impact
@@ -162,7 +203,8 @@ fn of_few_strained(mach: f64) -> [f64; 6] {
 /// Cheaper collisions of the same bodies.
 struct Companions<'a> {
     simulation: &'a Simulation,
-    collision: &'a Collision,
+    /// How the bodies meet.
+    approach: Approach,
     plan: &'a Plan,
     /// Length of the elements at the contact, m.
     size: f64,
@@ -170,8 +212,21 @@ struct Companions<'a> {
 
 impl Companions<'_> {
     /// Errors of explicit elements, the restitution's absolute, all others relative; none where condensed
-    /// bodies cannot be had.
-    fn of_condensed(&self) -> Option<[Option<f64>; 6]> {
+    /// bodies cannot be had. What they were is kept: they are asked for before a collision and after it.
+    fn of_condensed(&self) -> Option<Beside> {
+        // Who panicked has left nothing half written.
+        let mut known = self.simulation.condensed.lock().unwrap_or_else(PoisonError::into_inner);
+        match *known {
+            Some((approach, beside)) if approach == self.approach => beside,
+            _ => {
+                let beside = self.condensed_anew();
+                *known = Some((self.approach, beside));
+                beside
+            }
+        }
+    }
+
+    fn condensed_anew(&self) -> Option<Beside> {
         let size = self.size;
         let condensed = |penalty_springs, size| {
             self.collide(&[
@@ -181,8 +236,9 @@ impl Companions<'_> {
                 Setting::Staggered(penalty_springs && self.plan.finer_body.is_some()),
             ])
         };
-        let same = condensed(true, size)?;
-        Some(beside_limit(same, condensed(false, size)?, condensed(false, 0.5 * size)?))
+        let values = condensed(true, size)?;
+        let errors = beside_limit(values, condensed(false, size)?, condensed(false, 0.5 * size)?);
+        Some(Beside { values, errors })
     }
 
     /// The numbers of condensed bodies with springs on the mesh of a file.
@@ -265,7 +321,7 @@ impl Companions<'_> {
         let shared = self.simulation.shared().of_companions();
         let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
         let want = Want::quantities();
-        let collision = companion.model().collide(&self.collision.approach, &want, &mut ());
+        let collision = companion.model().collide(&self.approach, &want, &mut ());
         let values = Headline::ALL.map(|headline| headline.of(&collision));
         collision.is_complete().then_some(values)
     }

@@ -16,7 +16,7 @@ mod setting;
 mod stress_places;
 mod study;
 
-pub(crate) use companion::{companion_updates, discretisation_errors};
+pub(crate) use companion::{Beside, companion_updates, discretisation_errors, foretold_errors};
 pub use error_parts::{ErrorPart, ErrorSource};
 pub use ladder::Ladder;
 pub use limit::Limit;
