@@ -46,9 +46,17 @@ pub(crate) fn explain(document: &Document, error: &Error) -> CaseError {
     if let Some(rest) = message.strip_prefix("unknown field ") {
         let (found, allowed) = split_backticked(rest);
         let table = path.rfind('.').map_or("", |dot| &path[..dot]);
-        let help = match allowed.is_empty() {
-            true => "it has no keys: write {}".to_string(),
-            false => format!("{}the keys here are {}", near(found, &allowed), allowed.join(", ")),
+        let keys = || format!("{}the keys here are {}", near(found, &allowed), allowed.join(", "));
+        let help = match (table, found) {
+            _ if allowed.is_empty() => "it has no keys: write {}".to_string(),
+            ("", "vary" | "combine") if allowed.contains(&"material") => {
+                "a file that varies keys of a case is a sweep: fem-run sweep FILE".to_string()
+            }
+            ("", "body" | "material") if allowed.contains(&"vary") => {
+                "a file with bodies is a case: fem-run FILE; a sweep names it, case = \"FILE\""
+                    .to_string()
+            }
+            _ => keys(),
         };
         return at(format!("unknown key `{found}`{}", in_table(table)))
             .labelled("unknown key")

@@ -62,7 +62,8 @@ pub struct Collision {
     pub energies: Book,
     /// What the energies do not account for at the end, J.
     pub residual: Option<f64>,
-    /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre.
+    /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre, with gravity
+    /// over that and what the weight has given while the bodies came closer.
     pub residual_relative: Option<f64>,
     /// When that was first above [`LARGEST_RESIDUAL`], of a model that steps in time.
     pub residual_since: Option<Moment>,

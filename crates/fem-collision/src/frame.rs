@@ -70,6 +70,12 @@ impl Frame {
         (self.gravity > 0.0).then(|| -self.weight() * approach)
     }
 
+    /// Energy (J) that an imbalance is measured by, once bodies have come this close (m): what they had, and what
+    /// weight has given them on that way. A ball that is laid down has next to nothing at first touch.
+    pub fn energy_at_stake(&self, closest: f64) -> f64 {
+        self.initial() + self.weight() * closest
+    }
+
     /// Work that a moving wall has done, J.
     pub fn wall_work(&self, rate: f64) -> f64 {
         let velocities = self.approach.velocities();
@@ -102,6 +108,16 @@ mod tests {
         assert!((frame.impulse(-1.5) - 3.0).abs() < 1e-15);
         assert!((frame.momentum_scale() - 6.0).abs() < 1e-15);
         assert!((frame.kinetic(-1.5) - frame.kinetic(3.0) - frame.gained(-1.5)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn energy_at_stake_grows_by_what_weight_gives() {
+        let approach = Approach::at(2.0).unwrap();
+        let masses = [None, Some(3.0)];
+        let frame = Frame { approach, masses, reduced_mass: 3.0, gravity: 0.0 };
+        // ½ 3 2², and 3 · 10 over a tenth.
+        assert_eq!(frame.energy_at_stake(0.1), 6.0);
+        assert_eq!(Frame { gravity: 10.0, ..frame }.energy_at_stake(0.1), 9.0);
     }
 
     /// A wall keeps its velocity; what it gives is force times way.

@@ -70,7 +70,7 @@ pub use losses::Losses;
 pub use moment::Moment;
 pub use monitor::{Monitor, Phase, Progress, STEPS_BETWEEN_REPORTS};
 pub use probe::{Probe, ProbeRequest, Probes};
-pub use pulse::{PEAK_WINDOW, Peaks, Pulse};
+pub use pulse::{PEAK_WINDOW, Peaks, Pulse, longest_at_pole};
 pub use row::Row;
 pub use scatter::Scatter;
 pub use searched::Searched;

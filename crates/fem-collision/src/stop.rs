@@ -185,6 +185,18 @@ pub enum Stop {
         /// Number of the step.
         step: u64,
     },
+    /// The bodies have overlapped for too long, and none of their springs has closed.
+    #[error(
+        "at {at} (step {step}) the bodies have come {} closer than at first touch, and no spring between \
+         their surfaces has closed", show(*approach, "m"), at = show(*time, "s"))]
+    NoContact {
+        /// Since the start of the case, s.
+        time: f64,
+        /// Number of the step.
+        step: u64,
+        /// m.
+        approach: f64,
+    },
     /// The run has taken as much as it was allowed.
     #[error(
         "at {at} (step {step}) the run had taken {updates:.1e} element updates, as many as it \
@@ -262,6 +274,7 @@ impl Stop {
             | Self::NoStepShortEnough { time, .. }
             | Self::EnergyImbalance { time, .. }
             | Self::NoSeparation { time, .. }
+            | Self::NoContact { time, .. }
             | Self::TooManyUpdates { time, .. }
             | Self::NoContactState { time } => *time += delay,
             Self::ContactTooLarge { .. }

@@ -19,6 +19,7 @@ use crate::disc::{Disc, DiscSolver};
 use crate::error::CondensedError;
 use crate::pair::CondensedPair;
 use crate::radiation::Waves;
+use crate::settings::ContactModel;
 use crate::side::PairSide;
 
 /// What acts on one body beside its elastic compliance.
@@ -146,6 +147,18 @@ impl<'a> Motion<'a> {
     /// Overlap on the axis that the forces of the last step had to undo, m; ≤ 0 without contact.
     pub fn axis_overlap(&self) -> f64 {
         self.overlap[0]
+    }
+
+    /// What of the force is not that of the continuum, since nodes join the contact one by one, N: the elastic
+    /// contact's at this approach, of which waves take a part. As long as a contact grows it is as large as without
+    /// relaxation (Ting 1966), and the force has not long relaxed since the last node joined. 0 of springs,
+    /// which join at points of elements.
+    pub fn swing(&self) -> f64 {
+        if self.contact.n_closed == 0 || self.pair.settings().contact != ContactModel::Exact {
+            return 0.0;
+        }
+        let of_waves = self.waves.as_ref().map_or(0.0, Waves::displacement);
+        self.pair.curve.swing(self.approach - of_waves)
     }
 
     /// Overlap that springs leave at the point where that is largest, and its distance from the axis, m; none of

@@ -98,6 +98,11 @@ impl Waves {
         self.total / self.lag * self.past()
     }
 
+    /// Displacement now, m.
+    pub fn displacement(&self) -> f64 {
+        -self.total * self.rate()
+    }
+
     /// Moves to the end of a step with this force, N.
     pub fn advance(&mut self, force: f64) {
         self.lagging_force = self.past() + self.now * force;
@@ -144,6 +149,7 @@ mod tests {
                 let force = 0.5 * (f64::from(k) * step).powi(2);
                 let displacement = waves.past_displacement() + waves.compliance() * force;
                 waves.advance(force);
+                assert!((displacement - waves.displacement()).abs() < 1e-14);
                 assert!((displacement + 0.3 * waves.rate()).abs() < 1e-14);
             }
             let rate = 2.0 - 0.3 * (1.0 - (-2.0_f64 / 0.3).exp());

@@ -3,7 +3,7 @@
 use fem_collision::{
     Aftermath, Book, Collision, Deepest, Ending, FLIGHT_AFTER, Frame, Held, History,
     LARGEST_RESIDUAL, Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS,
-    Scatter, Standstill, Stop, Want, highest, worst,
+    Scatter, Standstill, Stop, Want, highest, longest_at_pole, worst,
 };
 
 use crate::instants::Trace;
@@ -12,7 +12,7 @@ use crate::pair::CondensedPair;
 use crate::peak::Peak;
 use crate::sample::Sample;
 
-/// Energy that does not add up over the initial: the run is no longer one.
+/// Energy that does not add up, over what is at stake: the run is no longer one.
 const LARGEST_IMBALANCE: f64 = 0.1;
 /// Rate of the approach over its first below which bodies creep; those have more time than was given.
 const CREEPING: f64 = 0.1;
@@ -39,6 +39,9 @@ pub(crate) struct Run<'a> {
     /// What waves have taken out of each body, J, if any leave it.
     radiated: Option<[f64; 2]>,
     impulse: f64,
+    /// The same of the force less what is the nodes' of it ([`Motion::swing`]), and that force now, N.
+    even_impulse: f64,
+    even_force: f64,
     worst_residual: f64,
     residual_since: Option<Moment>,
     growth: f64,
@@ -92,6 +95,8 @@ impl<'a> Run<'a> {
             dissipated: 0.0,
             radiated: None,
             impulse: 0.0,
+            even_impulse: 0.0,
+            even_force: 0.0,
             worst_residual: 0.0,
             residual_since: None,
             growth: 0.0,
@@ -170,8 +175,7 @@ impl<'a> Run<'a> {
             return Ok(Some(Ending::Together));
         }
         // An imbalance that is no number is above every limit.
-        let fallen = self.frame.weight() * self.approach.highest / self.initial_energy;
-        let is_sound = self.worst_residual <= LARGEST_IMBALANCE * (1.0 + fallen);
+        let is_sound = self.worst_residual <= LARGEST_IMBALANCE;
         let time_of_case = self.time_of_case();
         if !is_sound {
             let relative = self.worst_residual;
@@ -180,7 +184,11 @@ impl<'a> Run<'a> {
         let creeps = self.motion.rate.abs() < CREEPING * self.frame.speed()
             && time <= (1.0 + SLOWEST_PARTING) * self.turned;
         if time > self.give_up && !creeps {
-            return Err(Stop::NoSeparation { time: time_of_case, step });
+            let (time, approach) = (time_of_case, self.motion.approach);
+            return Err(match self.episodes {
+                0 => Stop::NoContact { time, step, approach },
+                _ => Stop::NoSeparation { time, step },
+            });
         }
         if step.is_multiple_of(STEPS_BETWEEN_REPORTS) {
             let progress = Progress {
@@ -211,12 +219,15 @@ impl<'a> Run<'a> {
         if rate > 0.0 {
             self.turned = time;
         }
+        let even_force = motion.force - motion.swing();
         let Energies { stored, contact, power, vibration, radiated_power } = motion.energies();
         if let Some(before) = &self.last {
             let over_step = |before: f64, now: f64| 0.5 * (before + now) * motion.time_step;
             self.dissipated += over_step(before.power, power);
             self.impulse += over_step(before.contact_force, motion.force);
+            self.even_impulse += over_step(self.even_force, even_force);
         }
+        self.even_force = even_force;
         if let Some(now) = radiated_power {
             let gone = self.radiated.get_or_insert([0.0; 2]);
             let before = self.last.and_then(|last| last.radiated_power).unwrap_or_default();
@@ -231,8 +242,9 @@ impl<'a> Run<'a> {
         let lost = radiated.map_or(dissipated, |radiated| dissipated + radiated);
         let potential = self.frame.potential(motion.approach).unwrap_or(0.0);
         let residual = kinetic + stored + contact + lost + potential - self.initial_energy;
-        self.worst_residual = worst(self.worst_residual, residual / self.initial_energy);
-        self.growth = highest(self.growth, (residual - lost) / self.initial_energy);
+        let at_stake = self.frame.energy_at_stake(self.approach.highest);
+        self.worst_residual = worst(self.worst_residual, residual / at_stake);
+        self.growth = highest(self.growth, (residual - lost) / at_stake);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
             self.residual_since = Some(now);
         }
@@ -241,7 +253,7 @@ impl<'a> Run<'a> {
         self.worst_momentum = worst(self.worst_momentum, drift);
         let (contact_radius, centre_pressure) =
             self.pair.radius_and_pressure(&motion.contact, &motion.forces, motion.slipped());
-        self.pulse.observe(time, self.impulse, contact_radius, centre_pressure);
+        self.pulse.observe(time, self.even_impulse, contact_radius, centre_pressure);
         if self.episodes > 0 {
             self.aftermath.observe(self.was_closed, vibration);
         }
@@ -301,7 +313,8 @@ impl<'a> Run<'a> {
             body.vibration_energy =
                 vibration_energy.filter(|_| !is_wall).map(|both| both[side] + in_waves);
         }
-        let peaks = self.pulse.peaks(self.force.highest);
+        let meshes = self.pair.inputs().each_ref().map(|input| input.mesh());
+        let peaks = self.pulse.peaks(self.force.highest, longest_at_pole(meshes));
         let first_touch = frame.approach.first_touch();
         let has_touched = self.episodes > 0;
         let mut history = self.history.map(History::into_rows).unwrap_or_default();

@@ -49,7 +49,7 @@ pub struct ContactInterface {
     pub(crate) surfaces: [Surface; 2],
     pub(crate) candidate_radius: f64,
     /// How many times a spring counts at the nodes of the lower and of the upper body, if it is
-    /// always closed; see [`ContactInterface::add_stiffness_bound`].
+    /// always closed, and what a shorter step asks for; see [`ContactInterface::add_stiffness_bound`].
     pub(crate) springs: [f64; 2],
 }
 
@@ -105,6 +105,14 @@ impl ContactInterface {
     #[must_use]
     pub fn with_rigid_mass(mut self, ratio: f64) -> Self {
         share_by_mass(&self.surfaces, ratio, &mut self.springs);
+        self
+    }
+
+    /// With springs that count so many times more in the bound of the stiffness: of a step that is to follow
+    /// them as they open and close, where they are so stiff that little else decides what a node does.
+    #[must_use]
+    pub fn with_shorter_steps(mut self, times: f64) -> Self {
+        self.springs = self.springs.map(|springs| times * springs);
         self
     }
 

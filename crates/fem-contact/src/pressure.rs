@@ -84,19 +84,26 @@ impl ContactInterface {
 
     /// Contact pressure on the axis, Pa; 0 without contact there: see [`centre_pressure`](crate::centre_pressure).
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
-        self.centre_pressure_of(self.signed_pressure(u))
+        self.radius_and_pressure(u).1
+    }
+
+    /// [Radius](Self::contact_radius), m, and [pressure on the axis](Self::centre_pressure), Pa, which asks for the
+    /// radius.
+    pub fn radius_and_pressure(&self, u: [&[[f64; 2]]; 2]) -> (f64, f64) {
+        self.radius_and_pressure_of(self.signed_pressure(u))
     }
 
     /// The same of signed pressures at the points.
-    pub(crate) fn centre_pressure_of(
+    pub(crate) fn radius_and_pressure_of(
         &self,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
-    ) -> f64 {
+    ) -> (f64, f64) {
         let radius = self.radius_of(signed_pressure.clone());
-        reading(&self.surfaces, self.candidate_radius).pressure(|side| {
+        let pressure = reading(&self.surfaces, self.candidate_radius).pressure(|side| {
             let nodes = self.at_nodes(side, signed_pressure.clone());
             read_out::centre_pressure(nodes, radius, Barrier::Springs)
-        })
+        });
+        (radius, pressure)
     }
 }
 

@@ -199,7 +199,12 @@ impl SlippingInterface {
 
     /// As [`ContactInterface::centre_pressure`].
     pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
-        self.interface.centre_pressure_of(self.signed_pressure(u))
+        self.radius_and_pressure(u).1
+    }
+
+    /// As [`ContactInterface::radius_and_pressure`].
+    pub fn radius_and_pressure(&self, u: [&[Displacement]; 2]) -> (f64, f64) {
+        self.interface.radius_and_pressure_of(self.signed_pressure(u))
     }
 
     fn signed_pressure<'a>(

@@ -241,12 +241,14 @@ impl Ledger {
         self.note(state);
 
         let history = state.contact_history(model);
+        let (contact_radius, centre_pressure) =
+            model.contact().radius_and_pressure(&motions, history);
         Row {
             time: state.time,
             contact_force: contact.force,
-            contact_radius: Some(model.contact().contact_radius(&motions, history)),
+            contact_radius: Some(contact_radius),
             approach: lower.displacement - upper.displacement - model.approach().gap(),
-            centre_pressure: Some(model.contact().centre_pressure(&motions, history)),
+            centre_pressure: Some(centre_pressure),
             velocity: [lower.velocity, upper.velocity],
             energies,
             residual: Some(residual),

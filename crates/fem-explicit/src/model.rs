@@ -51,6 +51,9 @@ pub struct Parts {
     pub contact: Option<Box<dyn Contact>>,
     /// How springs keep the bodies apart at small strain, where their surfaces do not slip.
     pub method: ContactMethod,
+    /// How many times as stiff as usual the springs are: where they pull at nodes with mass, stiffer ones ask
+    /// for a shorter step than is stable, [`ContactMethod::shorter_steps`].
+    pub penalty_factor: f64,
 }
 
 /// Two bodies, their contact and the time step. The first body lies below.
@@ -98,7 +101,11 @@ impl Model {
             None if parts.finite_strain.iter().any(Option::is_some) => {
                 Box::new(MovedContact::new(&inputs, approach.gap(), settings)?)
             }
-            None => springs(&inputs, approach.gap(), settings, parts.method, parts.surface_slip)?,
+            None => {
+                let times = parts.method.shorter_steps(parts.penalty_factor);
+                let (gap, slips) = (approach.gap(), parts.surface_slip);
+                springs(&inputs, gap, settings, parts.method, slips, times)?
+            }
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
@@ -249,6 +256,7 @@ fn springs(
     settings: &Settings,
     method: ContactMethod,
     surface_slip: bool,
+    shorter_steps: f64,
 ) -> Result<Box<dyn Contact>, ModelError> {
     let [lower, upper] = inputs;
     let (lower_surface, upper_surface) = (surface(lower)?, surface(upper)?);
@@ -263,6 +271,7 @@ fn springs(
         Some(ratio) => interface.with_rigid_mass(ratio),
         None => interface,
     };
+    let interface = interface.with_shorter_steps(shorter_steps);
     Ok(match method {
         ContactMethod::Massless if surface_slip => {
             Box::new(Massless::slipping(inputs, SlippingInterface::new(interface))?)

@@ -254,7 +254,10 @@ fn step(
         return Err(Stop::ContactBeyondCandidates { time, step, radius: model.candidate_radius() });
     }
     if time - model.approach().first_touch() > max_time {
-        return Err(Stop::NoSeparation { time, step });
+        return Err(match log.first_contact {
+            Some(_) => Stop::NoSeparation { time, step },
+            None => Stop::NoContact { time, step, approach: log.approach },
+        });
     }
     let element_updates = step.saturating_mul(model.n_elements() as u64);
     if element_updates >= most_updates {

@@ -1,11 +1,14 @@
 //! One panel: curves over an axis.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
+use kuva::plot::LineStyle as Strokes;
 use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::prelude::{BandPlot, Layout, LinePlot, Plot, ScatterPlot, TickFormat};
 
+use crate::clip::runs;
+use crate::curve::{Curve, Mark};
+use crate::line_style::LineStyle;
 use crate::style::{COLOURS, tick};
 
 /// Free space beside the data on a logarithmic axis, as a factor.
@@ -14,7 +17,6 @@ const LINE_WIDTH: f64 = 1.5;
 const POINT_SIZE: f64 = 3.5;
 const ERROR_BAR_WIDTH: f64 = 1.0;
 const BAND_OPACITY: f64 = 0.15;
-const DASHES: &str = "8 4";
 
 /// An axis: what it shows, and how.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +45,22 @@ impl Axis {
     }
 
     pub(crate) fn shows(&self, value: f64) -> bool {
-        let inside = self.range.is_none_or(|(from, to)| (from..=to).contains(&value));
-        value.is_finite() && inside && (!self.is_logarithmic || value > 0.0)
+        self.has_place(value) && self.range.is_none_or(|(from, to)| (from..=to).contains(&value))
+    }
+
+    /// Whether it is a number that the axis has, in its range or not.
+    pub(crate) fn has_place(&self, value: f64) -> bool {
+        value.is_finite() && (!self.is_logarithmic || value > 0.0)
+    }
+
+    /// A value as it is measured out along the axis.
+    pub(crate) fn along(&self, value: f64) -> f64 {
+        if self.is_logarithmic { value.ln() } else { value }
+    }
+
+    /// The value of what is measured out along the axis.
+    pub(crate) fn value(&self, along: f64) -> f64 {
+        if self.is_logarithmic { along.exp() } else { along }
     }
 
     /// Given, or of logarithmic data with free space beside it.
@@ -60,73 +76,6 @@ impl Axis {
     }
 }
 
-/// How a curve is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mark {
-    /// A line.
-    Line,
-    /// A dashed line: what the data is compared with.
-    Dashed,
-    /// Points alone.
-    Points,
-    /// Points on a line.
-    PointsOnLine,
-}
-
-/// Points (x, y) with a name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
-    pub(crate) label: String,
-    pub(crate) points: Vec<(f64, f64)>,
-    pub(crate) mark: Mark,
-    colour: Option<Cow<'static, str>>,
-    pub(crate) errors: Vec<f64>,
-}
-
-impl Curve {
-    /// A curve; an empty label keeps it out of the legend.
-    pub fn new(label: impl Into<String>, mark: Mark, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.into(), points, mark, colour: None, errors: Vec::new() }
-    }
-
-    /// A line.
-    pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, Mark::Line, points)
-    }
-
-    /// A dashed line.
-    pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, Mark::Dashed, points)
-    }
-
-    /// Points.
-    pub fn points(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, Mark::Points, points)
-    }
-
-    /// Points on a line.
-    pub fn points_on_line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self::new(label, Mark::PointsOnLine, points)
-    }
-
-    /// With half the height of an error bar at each point, in the order of the points.
-    pub fn with_errors(mut self, errors: Vec<f64>) -> Self {
-        self.errors = errors;
-        self
-    }
-
-    /// In a colour of its own; else the chart gives one.
-    pub fn coloured(mut self, colour: impl Into<Cow<'static, str>>) -> Self {
-        self.colour = Some(colour.into());
-        self
-    }
-
-    /// In the colour that the chart gives its k-th curve, from 0.
-    pub fn like_curve(self, k: usize) -> Self {
-        self.coloured(COLOURS[k % COLOURS.len()])
-    }
-}
-
 /// An area between two curves.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Band {
@@ -134,6 +83,16 @@ pub(crate) struct Band {
     /// (x, one end, the other).
     pub(crate) points: Vec<(f64, f64, f64)>,
     pub(crate) colour: &'static str,
+}
+
+/// What is seen of a curve.
+pub(crate) struct Drawn<'a> {
+    pub(crate) curve: &'a Curve,
+    pub(crate) points: Vec<(f64, f64)>,
+    /// The pieces of its line.
+    pub(crate) runs: Vec<Vec<(f64, f64)>>,
+    pub(crate) colour: &'a str,
+    pub(crate) style: LineStyle,
 }
 
 /// A panel.
@@ -177,15 +136,21 @@ impl Chart {
 
     /// Whether no point can be drawn.
     pub(crate) fn is_empty(&self) -> bool {
-        self.drawn().all(|(_, points, _)| points.is_empty())
+        self.drawn().all(|drawn| drawn.points.is_empty())
     }
 
-    /// Curves with their visible points and colours.
-    pub(crate) fn drawn(&self) -> impl Iterator<Item = (&Curve, Vec<(f64, f64)>, &str)> {
+    /// Curves as they are seen.
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = Drawn<'_>> {
         self.curves.iter().enumerate().map(|(k, curve)| {
             let visible = |(x, y): &&(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
-            let points = curve.points.iter().filter(visible).copied().collect();
-            (curve, points, curve.colour.as_deref().unwrap_or(COLOURS[k % COLOURS.len()]))
+            let style = curve.style.unwrap_or(LineStyle::of_curve(k));
+            Drawn {
+                curve,
+                points: curve.points.iter().filter(visible).copied().collect(),
+                runs: if curve.mark == Mark::Points { Vec::new() } else { runs(self, curve) },
+                colour: curve.colour.as_deref().unwrap_or(COLOURS[k % COLOURS.len()]),
+                style,
+            }
         })
     }
 
@@ -198,23 +163,23 @@ impl Chart {
             let area = BandPlot::new(part(|p| p.0), part(|p| p.1), part(|p| p.2));
             plots.push(area.with_color(band.colour).with_opacity(BAND_OPACITY).into());
         }
-        for (curve, points, colour) in self.drawn() {
+        for Drawn { curve, points, runs, colour, style } in self.drawn() {
             all.extend_from_slice(&points);
             for ((x, y), error) in curve.points.iter().zip(&curve.errors) {
                 let bar = LinePlot::new().with_data(vec![(*x, y - error), (*x, y + error)]);
                 plots.push(bar.with_color(colour).with_stroke_width(ERROR_BAR_WIDTH).into());
             }
-            if curve.mark != Mark::Points && !points.is_empty() {
-                let line = LinePlot::new().with_data(points.clone()).with_color(colour);
+            for run in runs {
+                let line = LinePlot::new().with_data(run).with_color(colour);
                 let line = line.with_stroke_width(LINE_WIDTH);
-                plots.push(match curve.mark {
-                    Mark::Dashed => line.with_dashed().into(),
-                    _ => line.into(),
+                plots.push(match style.dashes(curve.mark) {
+                    Some(dashes) => line.with_line_style(Strokes::Custom(dashes.into())).into(),
+                    None => line.into(),
                 });
             }
             if matches!(curve.mark, Mark::Points | Mark::PointsOnLine) && !points.is_empty() {
                 let points = ScatterPlot::new().with_data(points).with_color(colour);
-                plots.push(points.with_size(POINT_SIZE).into());
+                plots.push(points.with_size(POINT_SIZE).with_marker(style.marker()).into());
             }
         }
         let mut layout = Layout::auto_from_plots(&plots)
@@ -246,12 +211,15 @@ impl Chart {
             shape: LegendShape::Rect,
             dasharray: None,
         });
-        let named = self.drawn().filter(|(curve, ..)| !curve.label.is_empty());
-        let named = named.map(|(curve, _, colour)| LegendEntry {
+        let named = self.drawn().filter(|drawn| !drawn.curve.label.is_empty());
+        let named = named.map(|Drawn { curve, colour, style, .. }| LegendEntry {
             label: curve.label.clone(),
             color: colour.to_string(),
-            shape: if curve.mark == Mark::Points { LegendShape::Circle } else { LegendShape::Line },
-            dasharray: (curve.mark == Mark::Dashed).then(|| DASHES.to_string()),
+            shape: match curve.mark {
+                Mark::Points => LegendShape::Marker(style.marker()),
+                _ => LegendShape::Line,
+            },
+            dasharray: style.dashes(curve.mark).map(String::from),
         });
         named.chain(bands).collect()
     }

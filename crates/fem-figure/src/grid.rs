@@ -10,6 +10,8 @@ const PANEL_WIDTH: f64 = 480.0;
 const PANEL_HEIGHT: f64 = 340.0;
 /// Height of an entry of the legend.
 const ENTRY_HEIGHT: f64 = 18.0;
+/// Letters of the longest label that one blank makes room for.
+const LETTERS_A_BLANK: usize = 10;
 
 /// Entries that the legend beside so many charts has room for.
 pub fn legend_room(n_charts: usize) -> usize {
@@ -36,6 +38,11 @@ pub fn svg(charts: &[Chart]) -> Option<String> {
         if !is_known && legend.len() < room {
             legend.push(entry);
         }
+    }
+    // The box is as wide as its longest label in a type that is smaller than the one drawn.
+    if let Some(longest) = legend.iter_mut().max_by_key(|entry| entry.label.chars().count()) {
+        let n_blanks = longest.label.chars().count() / LETTERS_A_BLANK;
+        longest.label.push_str(&"\u{2002}".repeat(n_blanks));
     }
     let columns = n_columns(charts.len());
     let (plots, layouts): (Vec<_>, Vec<_>) = charts.iter().map(|chart| chart.draw()).unzip();

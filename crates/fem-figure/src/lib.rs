@@ -15,15 +15,19 @@
 //! ```
 
 mod chart;
+mod clip;
 pub mod contour;
+mod curve;
 mod grid;
+mod line_style;
 mod panel;
 mod scale;
 mod simplify;
 mod style;
 mod ticks;
 
-pub use chart::{Axis, Chart, Curve, Mark};
+pub use chart::{Axis, Chart};
+pub use curve::{Curve, Mark};
 pub use grid::{legend_room, svg};
 pub use panel::panel;
 pub use style::{COLOURS, GREY, colour_along, tick};

@@ -7,7 +7,11 @@
 
 use std::fmt::Write;
 
-use crate::chart::{Chart, Curve, Mark};
+use kuva::plot::scatter::MarkerShape;
+
+use crate::chart::{Chart, Drawn};
+use crate::curve::Mark;
+use crate::line_style::LineStyle;
 use crate::scale::Scale;
 use crate::simplify::simplify;
 use crate::style::{COLOURS, DIM, FONT, GREY, GRID, INK, LETTER, number, words};
@@ -33,13 +37,13 @@ pub fn panel(chart: &Chart) -> Option<String> {
     }
     let curves: Vec<_> = chart.drawn().collect();
     let on_axis = |get: fn(&(f64, f64)) -> f64| {
-        curves.iter().flat_map(move |(_, points, _)| points.iter().map(get))
+        curves.iter().flat_map(move |drawn| drawn.points.iter().map(get))
     };
     let bands = || chart.bands.iter().flat_map(|band| &band.points);
     let x = Scale::of(&chart.x, on_axis(|p| p.0).chain(bands().map(|p| p.0)), false)?;
     let y = on_axis(|p| p.1).chain(bands().flat_map(|p| [p.1, p.2]));
     let y = Scale::of(&chart.y, y, true)?;
-    let entries = legend(chart);
+    let entries = legend(chart, &curves);
     let rows = entries.last().map_or(0, |entry| entry.row + 1);
     let top = LINE * (rows as f64 + 1.0) + 8.0;
     let height = top + HEIGHT + BOTTOM;
@@ -61,37 +65,59 @@ pub fn panel(chart: &Chart) -> Option<String> {
         let paint = paint(band.colour, "fill");
         let _ = writeln!(svg, "<path {paint} fill-opacity=\"0.18\" d=\"{}Z\"/>", path_of(&path));
     }
-    for (curve, points, colour) in &curves {
-        let places: Vec<[f64; 2]> = points.iter().map(|point| place(*point)).collect();
-        draw_curve(&mut svg, curve, &places, colour);
-        for ((a, b), error) in curve.points.iter().zip(&curve.errors) {
+    for drawn in &curves {
+        draw_curve(&mut svg, drawn, &place);
+        for ((a, b), error) in drawn.curve.points.iter().zip(&drawn.curve.errors) {
             let ends = [(*a, b - error), (*a, b + error)];
             let ends = ends.map(|(a, b)| place((a, y.held(b))));
-            let _ = writeln!(svg, "<path {} d=\"{}\"/>", paint(colour, "stroke"), path_of(&ends));
+            let paint = paint(drawn.colour, "stroke");
+            let _ = writeln!(svg, "<path {paint} d=\"{}\"/>", path_of(&ends));
         }
     }
     svg += "</svg>\n";
     Some(svg)
 }
 
-fn draw_curve(svg: &mut String, curve: &Curve, places: &[[f64; 2]], colour: &str) {
-    if curve.mark != Mark::Points && !places.is_empty() {
-        let kept: Vec<_> = simplify(places, TOLERANCE).into_iter().map(|k| places[k]).collect();
-        let dashes = if curve.mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" };
-        let _ = writeln!(
-            svg,
-            "<path {} stroke-width=\"1.8\" stroke-linejoin=\"round\"{dashes} \
-             d=\"{}\"/>",
-            paint(colour, "stroke"),
-            path_of(&kept)
-        );
+fn draw_curve(svg: &mut String, drawn: &Drawn<'_>, place: &impl Fn((f64, f64)) -> [f64; 2]) {
+    let mark = drawn.curve.mark;
+    let mut path = String::new();
+    for run in &drawn.runs {
+        let places: Vec<[f64; 2]> = run.iter().map(|point| place(*point)).collect();
+        let kept: Vec<_> = simplify(&places, TOLERANCE).into_iter().map(|k| places[k]).collect();
+        path += &path_of(&kept);
     }
-    if matches!(curve.mark, Mark::Points | Mark::PointsOnLine) {
-        for [x, y] in places {
-            let paint = paint(colour, "fill");
-            let _ = writeln!(svg, "<circle {paint} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.2\"/>");
-        }
+    if !path.is_empty() {
+        let stroke = stroke(drawn.colour, mark, drawn.style);
+        let _ = writeln!(svg, "<path {stroke} stroke-linejoin=\"round\" d=\"{path}\"/>");
     }
+    if matches!(mark, Mark::Points | Mark::PointsOnLine) {
+        drawn.points.iter().for_each(|point| draw_point(svg, place(*point), drawn));
+    }
+}
+
+/// A point in the shape of its curve.
+fn draw_point(svg: &mut String, [x, y]: [f64; 2], drawn: &Drawn<'_>) {
+    let paint = paint(drawn.colour, "fill");
+    let polygon = |corners: &[[f64; 2]]| {
+        let corners: Vec<_> = corners.iter().map(|[a, b]| [x + a, y + b]).collect();
+        format!("<path {paint} d=\"{}Z\"/>", path_of(&corners))
+    };
+    let shape = match drawn.style.marker() {
+        MarkerShape::Square => polygon(&[[-2.9, -2.9], [2.9, -2.9], [2.9, 2.9], [-2.9, 2.9]]),
+        MarkerShape::Triangle => polygon(&[[0.0, -4.0], [3.7, 2.7], [-3.7, 2.7]]),
+        MarkerShape::Diamond => polygon(&[[0.0, -4.2], [4.2, 0.0], [0.0, 4.2], [-4.2, 0.0]]),
+        _ => format!("<circle {paint} cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.2\"/>"),
+    };
+    let _ = writeln!(svg, "{shape}");
+}
+
+/// What a line is drawn with.
+fn stroke(colour: &str, mark: Mark, style: LineStyle) -> String {
+    let dashes = style.dashes(mark);
+    let dashes = dashes.map_or(String::new(), |dashes| format!(" stroke-dasharray=\"{dashes}\""));
+    // What lies under a dashed line is seen through it.
+    let width = if mark == Mark::Dashed { 1.5 } else { 1.8 };
+    format!("{} stroke-width=\"{width}\"{dashes}", paint(colour, "stroke"))
 }
 
 fn draw_axes(svg: &mut String, chart: &Chart, [x, y]: [&Scale; 2], top: f64) {
@@ -130,8 +156,8 @@ fn draw_axes(svg: &mut String, chart: &Chart, [x, y]: [&Scale; 2], top: f64) {
 /// A name beside its mark.
 struct Entry<'a> {
     label: &'a str,
-    mark: Mark,
-    is_area: bool,
+    /// None: an area in the colour.
+    drawn: Option<&'a Drawn<'a>>,
     colour: &'a str,
     row: usize,
     left: f64,
@@ -141,27 +167,27 @@ impl Entry<'_> {
     fn draw(&self, svg: &mut String) {
         let y = LINE * (self.row as f64 + 1.0) + 14.0;
         let (left, middle) = (self.left, y - 4.3);
-        let _ = match (self.is_area, self.mark) {
-            (true, _) => write!(
-                svg,
-                "<rect {} fill-opacity=\"0.25\" x=\"{left}\" y=\"{:.1}\" width=\"{SWATCH}\" \
-                 height=\"9\"/>",
-                paint(self.colour, "fill"),
-                middle - 4.5
-            ),
-            (_, Mark::Points) => write!(
-                svg,
-                "<circle {} cx=\"{:.1}\" cy=\"{middle:.1}\" r=\"3.2\"/>",
-                paint(self.colour, "fill"),
-                left + 0.5 * SWATCH
-            ),
-            (_, mark) => write!(
-                svg,
-                "<path {} stroke-width=\"1.8\"{} d=\"M{left} {middle:.1}h{SWATCH}\"/>",
-                paint(self.colour, "stroke"),
-                if mark == Mark::Dashed { " stroke-dasharray=\"6 4\"" } else { "" }
-            ),
-        };
+        match self.drawn {
+            None => {
+                let _ = write!(
+                    svg,
+                    "<rect {} fill-opacity=\"0.25\" x=\"{left}\" y=\"{:.1}\" width=\"{SWATCH}\" \
+                     height=\"9\"/>",
+                    paint(self.colour, "fill"),
+                    middle - 4.5
+                );
+            }
+            Some(drawn) => {
+                let mark = drawn.curve.mark;
+                if mark != Mark::Points {
+                    let stroke = stroke(drawn.colour, mark, drawn.style);
+                    let _ = write!(svg, "<path {stroke} d=\"M{left} {middle:.1}h{SWATCH}\"/>");
+                }
+                if matches!(mark, Mark::Points | Mark::PointsOnLine) {
+                    draw_point(svg, [left + 0.5 * SWATCH, middle], drawn);
+                }
+            }
+        }
         let _ = writeln!(
             svg,
             "<text class=\"ink\" fill=\"{INK}\" x=\"{:.1}\" y=\"{y:.1}\">{}</text>",
@@ -172,13 +198,12 @@ impl Entry<'_> {
 }
 
 /// Names once each, in rows.
-fn legend(chart: &Chart) -> Vec<Entry<'_>> {
-    let curves =
-        chart.drawn().map(|(curve, _, colour)| (curve.label.as_str(), curve.mark, false, colour));
-    let bands = chart.bands.iter().map(|b| (b.label.as_str(), Mark::Line, true, b.colour));
+fn legend<'a>(chart: &'a Chart, curves: &'a [Drawn<'a>]) -> Vec<Entry<'a>> {
+    let curves = curves.iter().map(|drawn| (drawn.curve.label.as_str(), Some(drawn), drawn.colour));
+    let bands = chart.bands.iter().map(|band| (band.label.as_str(), None, band.colour));
     let mut entries: Vec<Entry<'_>> = Vec::new();
     let (mut row, mut left) = (0, 0.0);
-    for (label, mark, is_area, colour) in curves.chain(bands) {
+    for (label, drawn, colour) in curves.chain(bands) {
         if label.is_empty() || entries.iter().any(|entry| entry.label == label) {
             continue;
         }
@@ -186,7 +211,7 @@ fn legend(chart: &Chart) -> Vec<Entry<'_>> {
         if left > 0.0 && left + width > WIDTH {
             (row, left) = (row + 1, 0.0);
         }
-        entries.push(Entry { label, mark, is_area, colour, row, left });
+        entries.push(Entry { label, drawn, colour, row, left });
         left += width;
     }
     entries

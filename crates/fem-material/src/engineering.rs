@@ -51,9 +51,15 @@ impl Unit {
     }
 }
 
-/// `value` in its own fitting unit.
+/// `value` in its own fitting unit, or with an exponent where there is no prefix for it.
 pub fn show(value: f64, symbol: &str) -> String {
-    Unit::fitting(value, symbol).show(value)
+    let exponent = value.abs().log10();
+    let last_power = FIRST_POWER + PREFIXES.len() as i32;
+    let has_prefix = (f64::from(3 * FIRST_POWER)..f64::from(3 * last_power)).contains(&exponent);
+    match has_prefix || value == 0.0 || !value.is_finite() {
+        true => Unit::fitting(value, symbol).show(value),
+        false => format!("{} {symbol}", number(value, DIGITS as usize)),
+    }
 }
 
 /// A number without a unit in so many digits: `0`, `0.034`, `5.4e-5`.
@@ -95,7 +101,10 @@ mod tests {
             (2.3119e9, "Pa", "2.312 GPa"),
             (0.0, "N", "0.000 N"),
             (-0.5, "m/s", "-500.0 mm/s"),
-            (3e17, "Pa", "300000 TPa"),
+            (3e14, "Pa", "300.0 TPa"),
+            (3e17, "Pa", "3e17 Pa"),
+            (1.000_000_000_000_000_2e300, "Pa", "1e300 Pa"),
+            (-1.234_56e-20, "J", "-1.235e-20 J"),
             (f64::NAN, "N", "NaN N"),
         ] {
             assert_eq!(show(value, symbol), expected);

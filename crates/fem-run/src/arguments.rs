@@ -81,10 +81,13 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
     command
         .error(
             error.kind(),
-            format!(
-                "one case at a time, and a command comes before everything else; the commands \
-                 are {names}{near}"
-            ),
+            match word.as_str() {
+                "run" => "a run needs no command: fem-run CASE.toml".to_string(),
+                _ => format!(
+                    "one case at a time, and a command comes before everything else; the commands \
+                     are {names}{near}"
+                ),
+            },
         )
         .exit()
 }

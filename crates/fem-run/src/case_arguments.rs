@@ -1,5 +1,6 @@
 //! A case on the command line.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -103,4 +104,9 @@ impl CaseArguments {
 pub fn stem_of(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
     stem.replace(|c: char| c.is_control() || c == ':' || c == '\\', "_")
+}
+
+/// A number of threads or shards.
+pub fn parse_count(text: &str) -> Result<NonZeroUsize, String> {
+    text.parse().map_err(|_| "it must be a whole number, at least 1".to_string())
 }

@@ -5,10 +5,9 @@
 //! and beside waves the companions are runs themselves, and of condensed bodies a collision is as cheap as any
 //! forecast: of these only bounds are known.
 
-use fem_collision::Headline;
-
-use crate::accuracy::{companion_updates, foretold_errors};
+use crate::accuracy::companion_updates;
 use crate::effects::FiniteStrain;
+use crate::estimate::Estimate;
 use crate::method::Cost;
 use crate::simulation::Simulation;
 
@@ -30,11 +29,10 @@ impl Simulation {
             if !simulation.may_be_refined() {
                 return Foreseen { simulation, is_open: false };
             }
-            let Some(errors) = goes_on().then(|| foretold_errors(&simulation)).flatten() else {
+            let Some(miss) = goes_on().then(|| simulation.foretold_miss()).flatten() else {
                 let is_open = simulation.setup().elements.is_some();
                 return Foreseen { simulation, is_open };
             };
-            let miss = simulation.worst_miss(|headline: Headline| errors[headline as usize]);
             match miss.and_then(|miss| simulation.finer_for(&miss)) {
                 Some(finer) => simulation = finer,
                 None => return Foreseen { simulation, is_open: false },
@@ -48,14 +46,7 @@ impl Simulation {
         let setup = self.setup();
         let Cost::Steps { .. } = setup.cost else { return None };
         setup.elements.as_ref().filter(|elements| elements.plan.makes_meshes)?;
-        companion_updates(setup.estimate.mach, setup.decisions.is_active(FiniteStrain::NAME))
-    }
-
-    /// Element updates of the finer meshes that may follow, all together, at most; none of what takes no updates.
-    pub fn most_updates_to_follow(&self) -> Option<u64> {
-        match self.setup().cost {
-            Cost::Steps { element_updates, .. } => Some(self.most_that_follow(element_updates)),
-            _ => None,
-        }
+        let Estimate { mach, strain, .. } = setup.estimate;
+        companion_updates([mach, strain], setup.decisions.is_active(FiniteStrain::NAME))
     }
 }

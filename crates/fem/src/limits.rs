@@ -25,8 +25,8 @@ const BYTES_PER_FINITE_BRANCH: u64 = BYTES_PER_BRANCH + 32;
 /// relaxes the deformation at the end of a step and its forces.
 const BYTES_PER_FINITE_ELEMENT: u64 = 120;
 
-/// Bytes that bulk viscosity takes an element: its blocks, force and work.
-const BYTES_PER_VISCOUS_ELEMENT: u64 = 150;
+/// Bytes that bulk viscosity takes an element: its blocks, force, work and means.
+const BYTES_PER_VISCOUS_ELEMENT: u64 = 190;
 
 /// Bytes of a run of explicit finite elements; `branches` is the sum over the elements of the Prony
 /// terms that each has.

@@ -133,7 +133,7 @@ impl Plan {
             far_radius,
             makes_meshes,
             candidate_radius,
-            contact_method: contact_method(scene, &estimate),
+            contact_method: contact_method(scene),
             penalty_factor,
             contact_stiffness: penalty_factor
                 * PENALTY_OVER_MODULUS

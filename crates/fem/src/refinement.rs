@@ -9,21 +9,22 @@
 //! ```
 //!
 //! between the first order of bulk viscosity and the second of elements, and the collision is computed
-//! again; at most [`MOST_LEVELS`] times and with no more element updates than [`MOST_UPDATES`], or what
-//! the case gives as `limits.element_updates`. Where that does not do, or may not be, a warning says so. All of it
-//! is decided by numbers of the case and of the runs: it is the same on all machines.
-//!
-//! Of explicit elements whose companions are condensed bodies these tell it before anything is run
-//! ([`foresight`](crate::foresight)). A mesh that misses by springs softer than the usual ones stays: finer ones
-//! have stiffer springs only in proportion.
+//! again; twice as fine at once where condensed companions, which know the bar of a mesh before the collision is
+//! computed on it, foretell that less does not do; at most [`MOST_LEVELS`] times and with no more element updates
+//! than [`MOST_UPDATES`], or what the case gives as `limits.element_updates`; nor where mass or springs, as the case
+//! gives them, are off by more than is allowed, which no mesh mends. Where that does not do, or may not be, a
+//! warning says so. All of it is decided by numbers of the case and of the runs: it is the same on all machines.
+//! Where condensed companions tell it, the first mesh is chosen so before anything is run
+//! ([`foresight`](crate::foresight)).
 
 use std::convert::Infallible;
 
 use fem_case::{Body, CaseError, Shape};
-use fem_collision::{Approach, Collision, Headline, Monitor, Stop};
+use fem_collision::{Collision, Headline, Monitor, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
+use crate::accuracy::{foretold_errors, of_moved_mass};
 use crate::assess::overlap_warning;
 use crate::effects::percent;
 use crate::method::{Cost, ElementSetup};
@@ -105,10 +106,30 @@ enum Kept {
     Given,
     FromFile,
     Gravity,
-    Springs,
-    Dear { updates: Option<u64> },
+    /// What else the case gives is off by more than it allows.
+    Setting(Cause),
+    Dear {
+        updates: Option<u64>,
+    },
     Refused(CaseError),
     Stopped(String),
+}
+
+/// A setting that a case gives, of which a finer mesh is no cure.
+#[derive(Clone, Copy)]
+enum Cause {
+    MovedMass,
+    SoftSprings,
+}
+
+impl Cause {
+    /// What numbers are off by, and what helps.
+    fn in_words(self) -> [&'static str; 2] {
+        match self {
+            Self::MovedMass => ["the mass that is moved", "leave time.mass_scaling out"],
+            Self::SoftSprings => ["springs that give way", "leave contact.penalty_factor out"],
+        }
+    }
 }
 
 impl Simulation {
@@ -150,8 +171,37 @@ impl Simulation {
     /// The same case on a finer mesh, where a quantity of its collision may be off by more than the case allows
     /// and a finer mesh may be had.
     pub fn finer(&self, collision: &Collision) -> Option<Self> {
-        let Collision { approach, element_updates, .. } = collision;
-        self.finer_or_kept(&self.missed(collision)?, approach, *element_updates).ok()
+        self.finer_or_kept(&self.missed(collision)?, Some(collision)).ok()
+    }
+
+    /// Element updates of the finer meshes that may follow, all together, at most; none of what takes no updates, and
+    /// where the elements stay.
+    pub fn most_of_finer_meshes(&self) -> Option<u64> {
+        let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
+        let most = self.case().scene().limits().element_updates.unwrap_or(MOST_UPDATES) as f64;
+        let least = STEPS[0].powi(3);
+        let (mut one, mut sum) = (element_updates as f64, 0.0);
+        for _ in self.levels.len()..MOST_LEVELS {
+            if least * one > most {
+                break;
+            }
+            one = (STEPS[1].powi(3) * one).min(most);
+            sum += one;
+        }
+        self.may_be_refined().then_some(sum as u64)
+    }
+
+    /// Whether meshes of the case may be made finer for its tolerance.
+    pub(crate) fn may_be_refined(&self) -> bool {
+        let scene = self.case().scene();
+        let is_given = scene.mesh().contact_element_size.is_some();
+        let has_elements = self.setup().elements.is_some();
+        has_elements && !is_given && !self.has_mesh_file() && scene.gravity().is_none()
+    }
+
+    fn has_mesh_file(&self) -> bool {
+        let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
+        self.case().scene().bodies().iter().any(is_file)
     }
 
     /// Coarser meshes that did not do, the first one first.
@@ -210,19 +260,17 @@ impl Simulation {
             return None;
         }
         let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
+        let mut cause = "the mesh";
         let write = format!("write mesh.contact_element_size = \"{}\"", length(size));
-        let Collision { approach, element_updates, .. } = collision;
-        let remedy = match self.finer_or_kept(&miss, approach, *element_updates) {
-            Err(Kept::Springs) => {
-                return Some(format!(
-                    "{} because of the soft springs: write contact.penalty_factor = 1, or allow more in \
-                     accuracy.tolerance",
-                    miss.in_words()
-                ));
-            }
+        let remedy = match self.finer_or_kept(&miss, Some(collision)) {
             // Who has the course decides.
             Ok(_) => write,
             Err(Kept::Given) => write,
+            Err(Kept::Setting(setting)) => {
+                let [of, remedy] = setting.in_words();
+                cause = of;
+                remedy.to_string()
+            }
             Err(Kept::FromFile) => "use meshes that are finer at the contact".to_string(),
             Err(Kept::Gravity) => {
                 format!("elements of contacts under gravity are not made finer; {write}")
@@ -242,7 +290,7 @@ impl Simulation {
             },
         };
         Some(format!(
-            "{} because of the mesh: {remedy}, or allow more in accuracy.tolerance",
+            "{} because of {cause}: {remedy}, or allow more in accuracy.tolerance",
             miss.in_words()
         ))
     }
@@ -260,56 +308,52 @@ impl Simulation {
         })
     }
 
+    /// The setting of the case that is off by more than is allowed, whatever the mesh; of a collision or before one.
+    fn other_cause(&self, miss: &Miss, met: Option<&Collision>) -> Option<Cause> {
+        let (scene, elements) = (self.case().scene(), self.setup().elements.as_ref()?);
+        if miss.is_of_springs(elements) {
+            return Some(Cause::SoftSprings);
+        }
+        let of_mass = of_moved_mass(elements.added_share, miss.headline);
+        if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
+            return Some(Cause::MovedMass);
+        }
+        let collision = met?;
+        // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
+        let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
+        let of_springs = 0.5 * overlap / collision.max_approach?;
+        let is_soft = scene.penalty_factor().is_some_and(|factor| factor < 1.0);
+        (is_soft && of_springs > miss.tolerance).then_some(Cause::SoftSprings)
+    }
+
     /// The same case on the finer mesh that a quantity needs that is going to be off, of bodies that meet as the case
     /// says; none where there is none.
     pub(crate) fn finer_for(&self, miss: &Miss) -> Option<Self> {
-        self.finer_or_kept(miss, &self.setup().approach, None).ok()
+        self.finer_or_kept(miss, None).ok()
     }
 
-    /// Element updates of all finer meshes that may follow a run of so many, of which nothing is known yet.
-    pub(crate) fn most_that_follow(&self, element_updates: u64) -> u64 {
-        let most = self.case().scene().limits().element_updates.unwrap_or(MOST_UPDATES);
-        let least = STEPS[0].powi(3);
-        let (mut one, mut sum) = (element_updates as f64, 0.0);
-        for _ in self.levels.len()..MOST_LEVELS {
-            if least * one > most as f64 {
-                break;
-            }
-            one = (STEPS[1].powi(3) * one).min(most as f64);
-            sum += one;
-        }
-        sum as u64
+    /// The quantity that is foretold to be off by most of what the case allows, if by more than that.
+    pub(crate) fn foretold_miss(&self) -> Option<Option<Miss>> {
+        let errors = foretold_errors(self)?;
+        Some(self.worst_miss(|headline| errors[headline as usize]))
     }
 
-    /// Whether meshes of the case may be made finer for its tolerance.
-    pub(crate) fn may_be_refined(&self) -> bool {
-        let scene = self.case().scene();
-        let makes =
-            self.setup().elements.as_ref().is_some_and(|elements| elements.plan.makes_meshes);
-        makes && scene.mesh().contact_element_size.is_none() && scene.gravity().is_none()
-    }
-
-    /// The same case on a finer mesh, or why there is none.
-    fn finer_or_kept(
-        &self,
-        miss: &Miss,
-        approach: &Approach,
-        element_updates: Option<u64>,
-    ) -> Result<Self, Kept> {
+    /// The same case on a finer mesh, or why there is none; after a collision or before one.
+    fn finer_or_kept(&self, miss: &Miss, met: Option<&Collision>) -> Result<Self, Kept> {
         let scene = self.case().scene();
         let elements = self.setup().elements.as_ref().ok_or(Kept::Given)?;
-        let is_file = |body: &Body| matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. });
-        if scene.bodies().iter().any(is_file) {
+        if let Some(cause) = self.other_cause(miss, met) {
+            return Err(Kept::Setting(cause));
+        }
+        if self.has_mesh_file() {
             return Err(Kept::FromFile);
         }
         if scene.mesh().contact_element_size.is_some() {
             return Err(Kept::Given);
         }
-        if scene.gravity().is_some() || *approach != self.setup().approach {
+        let is_other = |collision: &Collision| collision.approach != self.setup().approach;
+        if scene.gravity().is_some() || met.is_some_and(is_other) {
             return Err(Kept::Gravity);
-        }
-        if miss.is_of_springs(elements) {
-            return Err(Kept::Springs);
         }
         if let Some(why) = &self.stopped_finer {
             return Err(Kept::Stopped(why.clone()));
@@ -319,14 +363,19 @@ impl Simulation {
         }
         let level = Level {
             contact_element_size_m: elements.plan.contact_element_size,
-            element_updates,
+            element_updates: met.and_then(|collision| collision.element_updates),
             quantity: miss.headline.key().to_string(),
             error: miss.error,
             tolerance: miss.tolerance,
         };
-        let refinement = self.refinement * step(miss.excess(), STEPS[1]);
-        let levels = self.levels.iter().cloned().chain([level]).collect();
-        let finer = self.refined(refinement, levels).map_err(Kept::Refused)?;
+        let levels: Vec<Level> = self.levels.iter().cloned().chain([level]).collect();
+        let finer =
+            |by: f64| self.refined(self.refinement * by, levels.clone()).map_err(Kept::Refused);
+        let by = step(miss.excess(), STEPS[1]);
+        let finer = match (finer(by)?, by < STEPS[1]) {
+            (short, true) if short.foretold_miss().flatten().is_some() => finer(STEPS[1])?,
+            (enough, _) => enough,
+        };
         match finer.setup().cost {
             Cost::Steps { element_updates, .. } => {
                 let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);

@@ -62,9 +62,14 @@ pub fn remedy_of(stop: &Stop) -> Option<Remedy> {
             "check the decay rates, relaxation times and weights of material.NAME.relaxation and \
              their units: the weights' sum below 1 leaves a lasting stiffness",
         ),
+        Stop::NoContact { .. } => (
+            "the contact is narrower than the first element, and its springs stand beside it",
+            "use a smaller mesh.contact_element_size, or meshes that are finer at the contact \
+             (body.N.sphere.mesh)",
+        ),
         Stop::TooManyUpdates { .. } => (
-            "the run takes more than was foretold: the bodies part, or come to rest, later than closed forms expect, \
-             as what relaxes nearly all does, or steps became shorter, as those of elements that are strained do",
+            "the limit is near what was announced, or the bodies take longer to part, or to come to rest, than \
+             closed forms expect, as those do that relax nearly all",
             "raise limits.element_updates, use a larger mesh.contact_element_size, or model condensed",
         ),
         Stop::EnergyImbalance { .. } => (

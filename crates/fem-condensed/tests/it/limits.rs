@@ -11,10 +11,10 @@ fn the_glass_pair_is_the_converged_one() {
     let scene = Scene::paper(glass(), glass());
     let pair = scene.condensed(8.0);
     let run = scene.collide(&pair);
-    // The node set grows in steps of an element: ±0.02 % of T, ±0.2 % of F with the place of the
-    // edge between two nodes; pressure 0.8 % low, first order in the element size.
+    // The node set grows in steps of an element: ±0.02 % of T with the place of the edge between two nodes; what
+    // F would swing by that, ±0.2 %, is taken off; pressure 0.8 % low, first order in the element size.
     assert_close("contact time", run.contact_time.unwrap(), 62.818e-6, 1.5e-3);
-    assert_close("peak force", run.peak_force.unwrap(), 107.99, 3e-3);
+    assert_close("peak force", run.peak_force.unwrap(), 107.99, 1e-3);
     assert_close("approach", run.max_approach.unwrap(), 10.681e-6, 1.5e-3);
     let modulus = scene.pair().contact_modulus();
     let radius = scene.pair().effective_radius();
@@ -51,6 +51,27 @@ fn small_contact(acts_on: fem_material::ActsOn, decay: f64) -> Scene {
     let rate = decay * 63.235e-6 / elastic.hertz().contact_time();
     let relaxing = if decay > 0.0 { material(GLASS, acts_on, &[(1.0, rate)]) } else { glass() };
     Scene { speed, ..Scene::paper(relaxing.clone(), relaxing) }
+}
+
+/// Wherever the edge of the contact is between two nodes, the peak force is that of the continuum: Hertz' of elastic
+/// bodies, Ting's of relaxing ones. It is
+/// −0.03 to +0.12 % off; that of a single step swings from −0.46 to +0.38 %.
+#[test]
+fn the_peak_force_does_not_swing_with_the_edge() {
+    for decay in [0.0, 2708.0] {
+        let scene = small_contact(All, decay);
+        let pair = scene.condensed(7.0);
+        let mut raw = 0.0_f64;
+        for k in 0..12 {
+            // a ∝ v^(2/5): from 7 elements down to 5.7.
+            let speed = scene.speed * (1.0 - f64::from(k) / 64.0).powf(2.5);
+            let run = Scene { speed, ..scene.clone() }.collide(&pair);
+            let ting = Scene { speed, ..scene.clone() }.ting(false);
+            assert_close("peak force", run.peak_force.unwrap(), ting.peak_force, 1.5e-3);
+            raw = raw.max((run.peak_force_raw.unwrap() / ting.peak_force - 1.0).abs());
+        }
+        assert!(raw > 3.5e-3, "{raw}");
+    }
 }
 
 /// a/R → 0: a half-space. Contact time to 1e-4, pressure to 1 %.

@@ -70,9 +70,16 @@ impl MovedInterface {
     /// True contact pressure on the axis, Pa; 0 without contact there: see
     /// [`centre_pressure`](crate::centre_pressure), of the nodes where they are now.
     pub fn centre_pressure(&self, u: [&[[f64; 2]]; 2]) -> f64 {
+        self.radius_and_pressure(u).1
+    }
+
+    /// [Radius](Self::contact_radius), m, and [pressure on the axis](Self::centre_pressure), Pa, which asks for the
+    /// radius.
+    pub fn radius_and_pressure(&self, u: [&[[f64; 2]]; 2]) -> (f64, f64) {
         let radius = self.contact_radius(u);
-        reading(&self.surfaces, self.candidate_radius)
-            .pressure(|side| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs))
+        let pressure = reading(&self.surfaces, self.candidate_radius)
+            .pressure(|side| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs));
+        (radius, pressure)
     }
 
     /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and

@@ -39,12 +39,8 @@ impl Contact for SlippingInterface {
         self.is_closed(next)
     }
 
-    fn contact_radius(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        self.contact_radius(motions.each_ref().map(|motion| motion.displacement))
-    }
-
-    fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        self.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    fn radius_and_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> (f64, f64) {
+        self.radius_and_pressure(motions.each_ref().map(|motion| motion.displacement))
     }
 
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {

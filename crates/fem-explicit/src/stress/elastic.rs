@@ -5,7 +5,9 @@
 //! ```
 
 use fem_collision::Account;
-use fem_element::{ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient};
+use fem_element::{
+    ElementMatrix, QuadGeometry, largest_eigenvalue, mean_gradient, mean_gradient_stiffness,
+};
 
 use super::elements::Elements;
 use super::kernel::{Moduli, strain_energy, subtract_internal_forces};
@@ -29,7 +31,9 @@ impl Stress for Elastic {
         masses: &[f64; 4],
         on_axis: [bool; 4],
     ) -> f64 {
-        let matrix = mean_gradient(geometry).combine(self.moduli.bulk, self.moduli.shear);
+        let lower = mean_gradient_stiffness(geometry, self.moduli.bulk, self.moduli.shear);
+        let entry = |row: usize, column: usize| lower[row * (row + 1) / 2 + column];
+        let matrix = ElementMatrix::from_fn(|i, j| entry(i.max(j), i.min(j)));
         largest_eigenvalue(&matrix, masses, on_axis)
     }
 

@@ -285,13 +285,8 @@ impl Contact for Counting {
         self.penalty.is_closed_next(now, next, [&[]; 2])
     }
 
-    fn contact_radius(&self, motions: &[Motion<'_>; 2], history: [&[NodalField]; 2]) -> f64 {
-        self.check(motions, history);
-        Contact::contact_radius(&self.penalty, motions, [&[]; 2])
-    }
-
-    fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        Contact::centre_pressure(&self.penalty, motions, [&[]; 2])
+    fn radius_and_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> (f64, f64) {
+        Contact::radius_and_pressure(&self.penalty, motions, [&[]; 2])
     }
 
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {

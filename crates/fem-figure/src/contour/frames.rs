@@ -30,7 +30,8 @@ impl Contour {
         self.panels.iter().map(|panel| self.frame(panel)).collect()
     }
 
-    fn frame(&self, panel: &Panel) -> String {
+    /// One of them.
+    pub fn frame(&self, panel: &Panel) -> String {
         let height = self.window.height();
         let (width, whole) = (LEFT + PANEL_WIDTH + RIGHT, TOP + height + BOTTOM);
         let mut svg = format!(

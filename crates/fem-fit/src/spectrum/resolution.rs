@@ -1,15 +1,17 @@
 //! Which combinations of weights the data determine.
 //!
 //! With the singular values of the Jacobian, J/ρ = U S Vᵀ, the combination v_i·w is known to σ/s_i.
-//! A weight is between 0 and 1 whatever the data say, so one is worth measuring that is known better
-//! than to 1/2: s_i > 2σ. The ridge keeps s²/(s² + λ²) of it, and R = V S²/(S² + λ²) Vᵀ says how much
+//! Weights are at least 0 and at most 1 in all whatever the data say, so v_i·w is between its least and its
+//! largest coefficient, 0 among them. It is determined where two standard errors on either side are less than
+//! half of that. The ridge keeps s²/(s² + λ²) of it, and R = V S²/(S² + λ²) Vᵀ says how much
 //! of each weight is the data's (its diagonal) and how many weights' worth in all (its trace;
 //! Menke, *Geophysical Data Analysis*, ch. 4).
 
 use nalgebra::{DMatrix, DVector};
 
-/// A combination of known error that is worth so much is determined.
-const WORTH: f64 = 0.5;
+/// A combination is determined whose standard error is less than this share of what it can be: ±2 σ leave
+/// half of it.
+const WORTH: f64 = 1.0 / 8.0;
 
 /// A combination v·w, |v| = 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,8 +25,15 @@ pub struct Combination {
     pub value: f64,
     /// Standard error σ/s of the combination.
     pub standard_error: f64,
-    /// Whether the data know it better than to 1/2.
+    /// Whether the data leave less than half of what weights can make of it, with 95 % confidence.
     pub is_determined: bool,
+}
+
+impl Combination {
+    /// Whether the value is zero as far as its error tells.
+    pub fn may_be_zero(&self) -> bool {
+        self.value.abs() < 2.0 * self.standard_error
+    }
 }
 
 /// What the data determine.
@@ -52,6 +61,7 @@ impl Resolution {
             let mut direction: DVector<f64> = normal.eigenvectors.column(i).into_owned();
             let largest = direction[direction.icamax()];
             direction *= largest.signum();
+            let span = direction.max().max(0.0) - direction.min().min(0.0);
             let kept = singular_value.powi(2);
             let kept = if kept > 0.0 { kept / (kept + ridge * ridge) } else { 0.0 };
             for (share, v) in shares.iter_mut().zip(direction.iter()) {
@@ -61,7 +71,7 @@ impl Resolution {
                 singular_value,
                 value: direction.iter().zip(weights).map(|(v, w)| v * w).sum(),
                 standard_error: error / singular_value,
-                is_determined: error < WORTH * singular_value,
+                is_determined: error < WORTH * span * singular_value,
                 coefficients: direction.iter().copied().collect(),
             });
         }

@@ -149,3 +149,25 @@ fn weights_sum_to_at_most_one() {
     let sum: f64 = found.weights.iter().sum();
     assert!(sum <= 1.0 + 1e-12 && sum > 0.999, "{:?}", found.weights);
 }
+
+/// One restitution tells one sum of weights: known to a hundredth it is determined, to a fifth it is not, and a
+/// value of less than two errors may be zero.
+#[test]
+fn what_the_errors_leave_open_is_not_determined() {
+    let measured = restitutions(&TRUE).unwrap();
+    let of = |uncertainty: f64| {
+        let uncertainties = vec![uncertainty; measured.len()];
+        fit(&measured, Some(&uncertainties), &GRID, 1e-3).unwrap().resolution
+    };
+    let sharp = of(1e-4);
+    for combination in &sharp.combinations {
+        let [least, largest] = [f64::min, f64::max]
+            .map(|fold| combination.coefficients.iter().copied().fold(0.0, fold));
+        // 95 % of what is possible are within two errors on either side.
+        let is_open = 4.0 * combination.standard_error > 0.5 * (largest - least);
+        assert_eq!(combination.is_determined, !is_open, "{combination:?}");
+    }
+    assert!(sharp.n_determined() > of(0.2).n_determined());
+    assert_eq!(of(0.9).n_determined(), 0);
+    assert!(!sharp.combinations[0].may_be_zero() && of(0.9).combinations[0].may_be_zero());
+}

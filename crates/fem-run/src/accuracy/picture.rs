@@ -2,7 +2,7 @@
 
 use fem::accuracy::Series;
 use fem_collision::Headline;
-use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
+use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::findings::{Findings, Line};
 
@@ -57,21 +57,19 @@ fn panel(
         lines.iter().filter(|line| line.rung.series == series).filter_map(point).collect()
     };
     let axis = |label: &str| Axis::new(label).logarithmic();
-    let mut chart = Chart::new(axis("seconds"), axis(label));
-    for (series, colour) in DRAWN.into_iter().zip(COLOURS) {
+    let mut chart = Chart::new(axis("time of a run [s]"), axis(label));
+    for (k, series) in DRAWN.into_iter().enumerate() {
         let points = of(series);
         if !points.is_empty() {
-            chart = chart.with(Curve::points_on_line(series.name(), points).coloured(colour));
+            chart = chart.with(Curve::points_on_line(series.name(), points).like_curve(k));
         }
     }
-    for (series, colour) in [(Series::Hertz, GREY), (Series::Ting, COLOURS[1])] {
+    for (k, series) in [Series::Hertz, Series::Ting, Series::AsWritten].into_iter().enumerate() {
         let points = of(series);
         if !points.is_empty() {
-            chart = chart.with(Curve::points(series.name(), points).coloured(colour));
+            chart = chart.with(Curve::points(series.name(), points).like_curve(DRAWN.len() + k));
         }
     }
-    let own = of(Series::AsWritten);
-    chart = chart.with(Curve::points(Series::AsWritten.name(), own).coloured(COLOURS[3]));
     let seconds = lines.iter().map(|line| line.seconds);
     let (from, to) =
         seconds.fold((f64::INFINITY, 0.0), |(from, to): (f64, f64), s| (from.min(s), to.max(s)));
@@ -88,5 +86,5 @@ fn panel(
         nearest = nearest.min(*error);
         is_nearer
     });
-    chart.with(Curve::dashed("frontier", frontier).coloured(COLOURS[6]))
+    chart.with(Curve::dashed("frontier", frontier).like_curve(2 * DRAWN.len() - 1))
 }

@@ -122,16 +122,24 @@ fn combinations(found: &Calibration) -> String {
             format!("{sign}{:.2} g{}", v.abs(), k + 1)
         });
         let words = words.collect::<Vec<_>>().join(" ");
-        let error = match combination.is_determined {
+        // No number is said of what is larger than anything that weights can make.
+        let is_told = combination.standard_error < 1.0;
+        let error = match is_told {
             true => number(combination.standard_error, 2),
             false => "-".to_string(),
+        };
+        let verdict = match (combination.is_determined, is_told && combination.may_be_zero()) {
+            (true, false) => "determined",
+            (true, true) => "small: 0 within two errors",
+            (false, true) => "not determined: 0 within two errors",
+            (false, false) => "not determined",
         };
         [
             words.trim_start_matches("+ ").to_string(),
             number(combination.singular_value, 2),
             format!("{:.4}", combination.value),
             error,
-            if combination.is_determined { "determined" } else { "not determined" }.to_string(),
+            verdict.to_string(),
         ]
     });
     let text = table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows));

@@ -195,9 +195,9 @@ fn time(simulation: &Simulation, spent: &Making) -> Vec<[String; 2]> {
         rows.push(["finer mesh".to_string(), why]);
     }
     rows.push(["time".to_string(), time]);
-    let follows = simulation.most_updates_to_follow() != Some(0);
+    let follows = simulation.most_of_finer_meshes() != Some(0);
     if spent.is_open && follows {
-        let most = match (&simulation.setup().cost, simulation.most_updates_to_follow(), run) {
+        let most = match (&simulation.setup().cost, simulation.most_of_finer_meshes(), run) {
             (Cost::Steps { element_updates, .. }, Some(most), Some(run)) => {
                 let each = run / *element_updates as f64;
                 format!(

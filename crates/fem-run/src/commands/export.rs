@@ -145,6 +145,7 @@ fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
         output.write(name, text)?;
     }
     let place = output.publish(&pairs_json(&export, &arguments.input.name(), &rows)?)?;
+    standard_output::warn(export.warnings());
     if arguments.output.quiet {
         return Ok(());
     }

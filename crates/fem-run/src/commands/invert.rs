@@ -108,7 +108,11 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
     let wanted = arguments.restitution;
     if !(wanted > 0.0 && wanted < 1.0) {
         let message = format!("--restitution {wanted}: it must be greater than 0 and less than 1");
-        return Err(Failure::bad_input(message));
+        let help = match wanted > 1.2 && wanted < 100.0 {
+            true => format!("{wanted} % is --restitution {}", wanted / 100.0),
+            false => "it is the relative velocity after over before, such as 0.92".to_string(),
+        };
+        return Err(Failure::bad_input(message).with_help(help));
     }
     let law = arguments.law.or_else(|| family_of(case.scene()));
     let options =

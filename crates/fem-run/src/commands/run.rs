@@ -12,7 +12,7 @@ use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::case_arguments::{CaseArguments, ToleranceArguments};
+use crate::case_arguments::{CaseArguments, ToleranceArguments, parse_count};
 use crate::failure::Failure;
 use crate::forecast::seconds;
 use crate::interrupt::Interrupt;
@@ -39,7 +39,7 @@ pub struct Options {
     #[arg(long)]
     force: bool,
     /// Most threads to use; a single run uses one, which is the fastest
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
     /// How far results may be off
     #[command(flatten)]
@@ -164,7 +164,7 @@ fn compute(
 
 /// Some words on stderr about what begins.
 fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlace, is_open: bool) {
-    let more = simulation.most_updates_to_follow().filter(|more| is_open && *more > 0);
+    let more = simulation.most_of_finer_meshes().filter(|more| is_open && *more > 0);
     let more = more.map_or(String::new(), |more| {
         format!(", up to {:.1e} element updates more if finer meshes have to follow", more as f64)
     });

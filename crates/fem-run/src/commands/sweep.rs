@@ -7,7 +7,7 @@ use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
 use fem_case::{CaseFile, Sweep};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::case_arguments::stem_of;
+use crate::case_arguments::{parse_count, stem_of};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output;
@@ -34,7 +34,7 @@ pub struct Arguments {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Members that run at the same time [default: one a processor]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
     /// Run only the K-th of N shards: every N-th member, from the K-th
     ///

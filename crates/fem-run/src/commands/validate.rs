@@ -12,6 +12,7 @@ use fem_validate::{
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
+use crate::case_arguments::parse_count;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_folder::{Replaces, ResultFolder};
@@ -45,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     scenes: Option<PathBuf>,
     /// Threads to use [default: one a processor]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
     /// List the claims and run none
     #[arg(long)]

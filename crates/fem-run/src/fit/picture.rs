@@ -3,7 +3,7 @@
 use fem::laws::LawFit;
 use fem_case::Scene;
 use fem_case::engineering::{Unit, show};
-use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark, colour_along};
+use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawImpact, Role};
@@ -38,13 +38,9 @@ pub fn fit_picture(fitted: &LawFit<'_>) -> String {
     let mut chart = Chart::new(speed_axis, Axis::new("restitution e"))
         .with(Curve::line(label(model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
     // The law and the data have the first two colours.
-    let n = fitted.compared.len();
     for (k, (model, fit)) in fitted.compared.iter().enumerate() {
         let curve = Curve::dashed(label(model, fit), curve(model, fit));
-        chart = chart.with(match COLOURS.get(k + 2) {
-            Some(colour) if n + 2 <= COLOURS.len() => curve.coloured(*colour),
-            _ => curve.coloured(colour_along(k, n)),
-        });
+        chart = chart.with(curve.like_curve(k + 2));
     }
     let data = points.iter().map(|point| (unit.scaled(point.speed), point.restitution)).collect();
     let errors = points.iter().map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();

@@ -29,7 +29,8 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     let parts = [(numerics, part("discretisation")), ("effects left out", part("model"))];
     let error = parts.iter().filter_map(|(_, size)| *size).reduce(|a, b| a + b);
     // What rounding does is no error bar.
-    let is_told = |size: f64| size > EXACT * value.abs();
+    let whole = whole(value, headline);
+    let is_told = |size: f64| size > EXACT * whole;
     let error = error.filter(|error| is_told(*error));
     let unit = (!headline.unit().is_empty()).then(|| Unit::fitting(value, headline.unit()));
     let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
@@ -50,7 +51,8 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     }
     Some(Card {
         name: name(record, headline),
-        value: with_error(scaled(value), error.map(scaled)),
+        // Smaller errors are a note's, and have no digits of the number.
+        value: with_error(scaled(value), error.filter(|e| *e > SEEN * whole).map(scaled)),
         unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
     })
@@ -68,8 +70,14 @@ pub fn name(record: &Record, headline: Headline) -> String {
     format!("{}{shape}", headline.name())
 }
 
-/// Shares of a number up to which its error is none.
+/// What an error of a number is a share of.
+pub fn whole(value: f64, headline: Headline) -> f64 {
+    if headline == Headline::Restitution { 1.0 } else { value.abs() }
+}
+
+/// Shares of a number up to which its error is none, and up to which it is not written beside it.
 const EXACT: f64 = 1e-9;
+pub const SEEN: f64 = 1e-6;
 
 /// Three digits: `0.0718`, `9.09 × 10⁻⁵`.
 pub fn power_of_ten(value: f64) -> String {

@@ -6,13 +6,17 @@ use fem_collision::Headline;
 use serde_json::Value;
 
 use super::case_text::differences;
-use super::curves::{Quantity, over_time, pressures};
+use super::curves::{Quantity, over_time};
+use super::profile::pressures;
 use super::record::Record;
 use super::{cards, citation, drawn};
 use crate::failure::Failure;
 
 /// What makes cases different ones; all else is how they are computed and what is kept of them.
-const OF_THE_SCENE: [&str; 7] = ["title", "material", "body", "start", "model", "gravity", "stop"];
+const OF_THE_SCENE: [&str; 6] = ["material", "body", "start", "model", "gravity", "stop"];
+
+/// Of more results the numbers have a row each, which a page is wide enough for.
+const MOST_COLUMNS: usize = 3;
 
 #[derive(Template)]
 #[template(path = "comparison.html")]
@@ -20,6 +24,8 @@ struct Comparison {
     names: Vec<String>,
     titles: Vec<String>,
     charts: Vec<String>,
+    /// Above the columns of the numbers, and their rows.
+    heads: Vec<String>,
     numbers: Vec<(String, Vec<Cell>)>,
     /// Keys of the scene, and of how it is computed.
     differences: [Vec<(String, Vec<String>)>; 2],
@@ -44,16 +50,41 @@ pub fn comparison(records: &[Record]) -> Result<String, Failure> {
     let is_of_scene = |(path, _): &(String, Vec<String>)| {
         OF_THE_SCENE.contains(&path.split('.').next().unwrap_or_default())
     };
-    let (of_scene, of_numbers) = differences(&cases).into_iter().partition(is_of_scene);
+    // Titles stand above.
+    let differences = differences(&cases).into_iter().filter(|(path, _)| path != "title");
+    let (of_scene, of_numbers) = differences.partition(is_of_scene);
+    let mut cite: Vec<String> = records.iter().map(citation).collect();
+    cite.dedup();
+    let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
+    let numbers = Headline::ALL.iter().map(|headline| numbers(records, *headline)).collect();
+    let (heads, numbers) = match records.len() {
+        0..=MOST_COLUMNS => (names.clone(), numbers),
+        _ => turned(&names, numbers),
+    };
     let page = Comparison {
-        names: records.iter().map(|record| record.name.clone()).collect(),
+        names,
         titles: records.iter().map(Record::title).collect(),
         charts: drawn(charts),
-        numbers: Headline::ALL.iter().map(|headline| numbers(records, *headline)).collect(),
+        heads,
+        numbers,
         differences: [of_scene, of_numbers],
-        cite: records.iter().map(citation).collect(),
+        cite,
     };
     page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
+}
+
+/// Heads and rows of a table whose columns had these names, its rows as columns.
+fn turned(
+    names: &[String],
+    rows: Vec<(String, Vec<Cell>)>,
+) -> (Vec<String>, Vec<(String, Vec<Cell>)>) {
+    let mut turned: Vec<_> = names.iter().map(|name| (name.clone(), Vec::new())).collect();
+    let mut heads = Vec::new();
+    for (head, cells) in rows {
+        heads.push(head);
+        turned.iter_mut().zip(cells).for_each(|(row, cell)| row.1.push(cell));
+    }
+    (heads, turned)
 }
 
 /// A number of all results with its error, each with its difference from the first.
@@ -91,7 +122,7 @@ fn numbers(records: &[Record], headline: Headline) -> (String, Vec<Cell>) {
 
 /// `62.46 ± 0.21 µs`.
 fn shown((value, error): (f64, Option<f64>), headline: Headline) -> String {
-    let error = error.filter(|error| *error > 1e-9 * value.abs());
+    let error = error.filter(|error| *error > cards::SEEN * cards::whole(value, headline));
     match headline.unit() {
         "" => match error {
             None => format!("{value:.5}"),

@@ -1,12 +1,12 @@
 //! σ_yy around the contact at the snapshots, from their files.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{HashMap, HashSet};
 
 use fem_case::engineering::Unit;
 use fem_figure::contour::{Contour, Section};
 use fem_vtk::{Numbers, VtuFile};
 
-use super::curves::instant;
+use super::profile::instant;
 use super::record::{Frame, Record};
 use super::view::{View, WHOLE, centred, nearness, picture};
 
@@ -34,8 +34,13 @@ pub fn contour(record: &Record, most_frames: usize) -> Option<Contour> {
     let near = nearness(radius, record.number(&["max_approach_m"]).unwrap_or(0.0))?;
     let first = VtuFile::open(&chosen.first()?.path).ok()?;
     let bodies = bodies(&first, near)?;
-    let sections: Option<Vec<[Section; 2]>> =
-        chosen.iter().map(|frame| sections(&bodies, frame)).collect();
+    // Files of fine meshes take most of a page's time.
+    let sections: Option<Vec<[Section; 2]>> = std::thread::scope(|scope| {
+        let bodies = &bodies;
+        let readers: Vec<_> =
+            chosen.iter().map(|frame| scope.spawn(move || sections(bodies, frame))).collect();
+        readers.into_iter().map(|reader| reader.join().ok().flatten()).collect()
+    });
     let start = record.first_touch();
     let time = Unit::fitting(record.last_touch() - start, "s").with_digits(3);
     let title =
@@ -88,10 +93,15 @@ fn bodies(file: &VtuFile, near: f64) -> Option<[Body; 2]> {
             })
         };
         let quads: Vec<[u32; 4]> = quads.into_iter().filter(is_near).copied().collect();
-        let points: BTreeSet<u32> = quads.iter().flatten().copied().collect();
-        let number: HashMap<u32, u32> =
-            points.iter().enumerate().map(|(new, old)| (*old, new as u32)).collect();
-        let quads: Vec<[u32; 4]> = quads.iter().map(|quad| quad.map(|k| number[&k])).collect();
+        let mut number = vec![None; mesh.points.len()];
+        quads.iter().flatten().for_each(|point| number[*point as usize] = Some(0));
+        let mut points: Vec<u32> = Vec::new();
+        for (point, own) in number.iter_mut().enumerate().filter(|(_, own)| own.is_some()) {
+            *own = Some(points.len() as u32);
+            points.push(point as u32);
+        }
+        let renumbered = |quad: &[u32; 4]| quad.map(|k| number[k as usize].unwrap_or_default());
+        let quads: Vec<[u32; 4]> = quads.iter().map(renumbered).collect();
         let places: Vec<[f64; 2]> = points.iter().map(|point| place(*point)).collect();
         let outline = outline(&quads, &places, sign);
         Body { points: points.iter().map(|k| *k as usize).collect(), places, quads, outline }
@@ -130,17 +140,20 @@ fn sections(bodies: &[Body; 2], frame: &Frame) -> Option<[Section; 2]> {
 /// The points along the border from the pole on; sides on the axis are no border. `sign` is 1 of the body
 /// whose pole is its highest point, −1 of that whose pole is its lowest.
 fn outline(quads: &[[u32; 4]], points: &[[f64; 2]], sign: f64) -> Vec<u32> {
-    let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| [quad[k], quad[(k + 1) % 4]]);
-    let all: BTreeSet<[u32; 2]> = quads.iter().flat_map(sides).collect();
+    let ends = |a: u32, b: u32| [a.min(b), a.max(b)];
+    let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| ends(quad[k], quad[(k + 1) % 4]));
+    let mut all: Vec<[u32; 2]> = quads.iter().flat_map(sides).collect();
+    all.sort_unstable();
     let is_on_axis = |point: u32| points[point as usize][0] == 0.0;
-    let border = all.iter().filter(|[a, b]| {
-        let is_inside = all.contains(&[*b, *a]);
-        !(is_inside || is_on_axis(*a) && is_on_axis(*b))
+    // A side of one element alone.
+    let border = all.chunk_by(|a, b| a == b).filter_map(|same| match same {
+        [[a, b]] if !(is_on_axis(*a) && is_on_axis(*b)) => Some([*a, *b]),
+        _ => None,
     });
     let mut next: HashMap<u32, Vec<u32>> = HashMap::new();
     for [a, b] in border {
-        next.entry(*a).or_default().push(*b);
-        next.entry(*b).or_default().push(*a);
+        next.entry(a).or_default().push(b);
+        next.entry(b).or_default().push(a);
     }
     let height = |point: u32| sign * points[point as usize][1];
     let on_axis = next.keys().copied().filter(|point| is_on_axis(*point));

@@ -1,19 +1,21 @@
 //! What a result has over time, as charts: of one result beside Hertz, of several over each other.
 
-use fem_case::engineering::Unit;
+use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::hertz::{Hertz, HertzInstant};
 use super::record::Record;
 
 /// Of one result no more profiles of the pressure than eyes tell apart.
-const MOST_PROFILES: usize = 4;
+pub const MOST_PROFILES: usize = 4;
 /// What is less than this share of the largest energy is no curve.
-const FAINT: f64 = 2e-3;
-/// Where a profile's axis ends over the largest pressure, wherever Hertz is.
-const MOST_OVER_DATA: f64 = 1.2;
+const FAINT: f64 = 5e-3;
 /// How far beyond the contact time goes.
 const BEYOND: f64 = 0.06;
+/// How far time goes over the longest contact time of the results where Hertz' is longer.
+const MOST_OF_HERTZ: f64 = 1.5;
+/// Where an axis ends over the largest value of the results where Hertz' is larger.
+const MOST_OVER_DATA: f64 = 1.3;
 
 /// One quantity over time.
 #[derive(Clone, Copy)]
@@ -62,10 +64,21 @@ struct Clock {
 }
 
 impl Clock {
+    /// Hertz has his place as far as he does not leave the results a corner.
     fn of(records: &[Record], hertz: Option<&Hertz>) -> Self {
-        let ends = records.iter().map(|record| record.last_touch() - record.first_touch());
-        let hertz = hertz.and_then(|hertz| Some(hertz.history().last()?.time));
-        let end = (1.0 + BEYOND) * ends.chain(hertz).fold(0.0, f64::max);
+        let longest = |records: &mut dyn Iterator<Item = &Record>| {
+            records.map(|record| record.last_touch() - record.first_touch()).fold(0.0, f64::max)
+        };
+        // Contacts without an end would leave the others a corner.
+        let own = match longest(&mut records.iter().filter(|record| !record.stays_together())) {
+            0.0 => longest(&mut records.iter()),
+            own => own,
+        };
+        let hertz = hertz.and_then(|hertz| Some(hertz.history().last()?.time)).unwrap_or(own);
+        let end = match own > 0.0 {
+            true => (1.0 + BEYOND) * hertz.clamp(own, MOST_OF_HERTZ * own),
+            false => hertz,
+        };
         Self { unit: Unit::fitting(end, "s"), end }
     }
 
@@ -74,15 +87,43 @@ impl Clock {
         Axis::new(format!("time since first touch t [{}]", self.unit.symbol())).from_to(0.0, end)
     }
 
-    /// A column over the time since first touch.
-    fn points(&self, record: &Record, values: &[f64], unit: &Unit) -> Vec<(f64, f64)> {
+    /// A column (SI) over the time since first touch, s.
+    fn within(&self, record: &Record, column: &str) -> Vec<(f64, f64)> {
         let start = record.first_touch();
-        let times = record.history.get("time_s").iter();
-        let points = times.zip(values).map(|(time, value)| (time - start, *value));
-        let within =
-            points.filter(|(time, value)| (0.0..=self.end).contains(time) && value.is_finite());
-        within.map(|(time, value)| (self.unit.scaled(time), unit.scaled(value))).collect()
+        let times = record.history.get("time_s").iter().map(|time| time - start);
+        let points = times.zip(record.history.get(column).iter().copied());
+        points.filter(|(time, _)| (0.0..=self.end).contains(time)).collect()
     }
+
+    /// As its axis and another's has them.
+    fn scaled(&self, points: &[(f64, f64)], unit: &Unit) -> Vec<(f64, f64)> {
+        points.iter().map(|(time, value)| (self.unit.scaled(*time), unit.scaled(*value))).collect()
+    }
+}
+
+/// The least and the largest of values that are numbers, zero among them.
+fn range<'a>(points: impl IntoIterator<Item = &'a (f64, f64)>) -> (f64, f64) {
+    let values = points.into_iter().map(|point| point.1).filter(|value| value.is_finite());
+    values.fold((0.0, 0.0), |(from, to), value| (from.min(value), to.max(value)))
+}
+
+/// The axis of values (SI) in such a range, and what Hertz is called beside them: where he goes far beyond them
+/// the axis does not follow, and his name says how far.
+fn upright(
+    (name, symbol): (&str, &str),
+    unit: &Unit,
+    (from, to): (f64, f64),
+    hertz: &[(f64, f64)],
+    of_hertz: &str,
+) -> (Axis, String) {
+    let axis = Axis::new(format!("{name} [{}]", unit.symbol()));
+    let largest = range(hertz).1;
+    if largest <= MOST_OVER_DATA * to {
+        return (axis, of_hertz.to_string());
+    }
+    let (from, to) = (MOST_OVER_DATA * from, MOST_OVER_DATA * to);
+    let name = format!("{of_hertz}, up to {}", show(largest, symbol));
+    (axis.from_to(unit.scaled(from), unit.scaled(to)), name)
 }
 
 /// Hertz of all of them, if it is the same.
@@ -98,35 +139,36 @@ pub fn over_time(records: &[Record], quantity: Quantity) -> Option<Chart> {
     let hertz = common_hertz(records);
     let clock = Clock::of(records, hertz.as_ref());
     let (name, symbol) = quantity.label();
-    let all = records.iter().flat_map(|record| record.history.get(quantity.column()));
-    let largest = all.filter(|value| value.is_finite()).fold(0.0, |most: f64, v| most.max(v.abs()));
-    if largest == 0.0 {
+    let curves: Vec<_> =
+        records.iter().map(|record| clock.within(record, quantity.column())).collect();
+    let (from, to) = range(curves.iter().flatten());
+    if from == to {
         return None;
     }
-    let unit = Unit::fitting(largest, symbol);
-    let mut chart = Chart::new(clock.axis(), Axis::new(format!("{name} [{}]", unit.symbol())));
-    for (k, record) in records.iter().enumerate() {
+    let unit = Unit::fitting(to.max(-from), symbol);
+    let of_hertz: Vec<(f64, f64)> = hertz
+        .iter()
+        .flat_map(|hertz| {
+            let at = |instant: &HertzInstant| (instant.time, quantity.of_hertz(hertz, instant));
+            hertz.history().iter().map(at).collect::<Vec<_>>()
+        })
+        .collect();
+    let (axis, name_of_hertz) = upright((name, symbol), &unit, (from, to), &of_hertz, "Hertz");
+    let mut chart = Chart::new(clock.axis(), axis);
+    for (k, (record, points)) in records.iter().zip(&curves).enumerate() {
         let label = if records.len() == 1 { "this run" } else { &record.name };
-        let points = clock.points(record, record.history.get(quantity.column()), &unit);
-        chart = chart.with(Curve::line(label, points).like_curve(k));
+        chart = chart.with(Curve::line(label, clock.scaled(points, &unit)).like_curve(k));
         if records.len() == 1 {
             let start = record.first_touch();
-            let at = |time: f64| {
-                let value = record.history.at(quantity.column(), time);
-                (clock.unit.scaled(time - start), unit.scaled(value))
-            };
+            let at = |time: f64| (time - start, record.history.at(quantity.column(), time));
             let times = some(&record.contacts, MOST_PROFILES).map(|contact| contact.time);
             let dots: Vec<_> = times.map(at).filter(|(_, value)| value.is_finite()).collect();
-            chart = chart.with(Curve::points("", dots).like_curve(k));
+            chart = chart.with(Curve::points("", clock.scaled(&dots, &unit)).like_curve(k));
         }
     }
-    if let Some(hertz) = &hertz {
-        let history = hertz.history();
-        let point = |at: &HertzInstant| {
-            (clock.unit.scaled(at.time), unit.scaled(quantity.of_hertz(hertz, at)))
-        };
-        let points = history.iter().map(point).collect();
-        chart = chart.with(Curve::dashed("Hertz", points).coloured(GREY));
+    if !of_hertz.is_empty() {
+        let points = clock.scaled(&of_hertz, &unit);
+        chart = chart.with(Curve::dashed(name_of_hertz, points).coloured(GREY));
     }
     Some(chart)
 }
@@ -135,111 +177,46 @@ pub fn over_time(records: &[Record], quantity: Quantity) -> Option<Chart> {
 pub fn energies(record: &Record) -> Option<Chart> {
     let hertz = Hertz::of(record);
     let clock = Clock::of(std::slice::from_ref(record), hertz.as_ref());
-    let accounts: Vec<&String> = record
-        .history
-        .names()
-        .iter()
-        .filter(|name| name.ends_with("_j") && *name != "residual_j")
-        .collect();
-    let size = |name: &str| {
-        let values = record.history.get(name).iter().filter(|value| value.is_finite());
-        values.fold(0.0, |most: f64, value| most.max(value.abs()))
-    };
-    let largest = accounts.iter().map(|name| size(name)).fold(0.0, f64::max);
-    if largest == 0.0 {
+    let names = record.history.names().iter();
+    let names = names.filter(|name| name.ends_with("_j") && *name != "residual_j");
+    let accounts: Vec<(&String, Vec<(f64, f64)>)> =
+        names.map(|name| (name, clock.within(record, name))).collect();
+    let (from, to) = range(accounts.iter().flat_map(|(_, points)| points));
+    if from == to {
         return None;
     }
-    let unit = Unit::fitting(largest, "J");
-    let mut chart = Chart::new(clock.axis(), Axis::new(format!("Energy E [{}]", unit.symbol())));
-    let shown = accounts.into_iter().filter(|name| size(name) > FAINT * largest);
-    for (k, name) in shown.enumerate() {
+    let unit = Unit::fitting(to.max(-from), "J");
+    let of_hertz: Vec<(f64, f64)> = hertz
+        .iter()
+        .flat_map(|hertz| hertz.history().iter().map(|at| (at.time, at.energy)).collect::<Vec<_>>())
+        .collect();
+    let (axis, name_of_hertz) =
+        upright(("Energy E", "J"), &unit, (from, to), &of_hertz, "strain of Hertz");
+    let mut chart = Chart::new(clock.axis(), axis);
+    let is_shown = |points: &[(f64, f64)]| {
+        let (least, most) = range(points);
+        let n_known = points.iter().filter(|point| point.1.is_finite()).count();
+        // What a model knows at the end alone is no curve.
+        most.max(-least) > FAINT * to.max(-from) && 2 * n_known > points.len()
+    };
+    let shown = accounts.iter().filter(|(_, points)| is_shown(points));
+    for (k, (name, points)) in shown.enumerate() {
         let label = match name.trim_end_matches("_j") {
             "viscous_dissipation" => "dissipated".to_string(),
             "contact" => "contact springs".to_string(),
             other => other.replace('_', " "),
         };
-        let points = clock.points(record, record.history.get(name), &unit);
-        chart = chart.with(Curve::line(label, points).like_curve(k));
+        chart = chart.with(Curve::line(label, clock.scaled(points, &unit)).like_curve(k));
     }
-    if let Some(hertz) = &hertz {
-        let point = |at: &HertzInstant| (clock.unit.scaled(at.time), unit.scaled(at.energy));
-        let points = hertz.history().iter().map(point).collect();
-        chart = chart.with(Curve::dashed("strain of Hertz", points).coloured(GREY));
+    if !of_hertz.is_empty() {
+        let points = clock.scaled(&of_hertz, &unit);
+        chart = chart.with(Curve::dashed(name_of_hertz, points).coloured(GREY));
     }
     Some(chart)
 }
 
-/// The contact pressure over the distance from the axis at some snapshots, each beside Hertz' under the same
-/// force; of several results that at the largest approach.
-pub fn pressures(records: &[Record]) -> Option<Chart> {
-    let contacts = || records.iter().flat_map(|record| &record.contacts);
-    let points = || contacts().flat_map(|contact| &contact.pressure);
-    let (reach, peak) = points().fold((0.0f64, 0.0f64), |(r, p), at| (r.max(at.0), p.max(at.1)));
-    if !(reach > 0.0 && peak > 0.0) {
-        return None;
-    }
-    let (length, stress) = (Unit::fitting(reach, "m"), Unit::fitting(peak, "Pa"));
-    let x = Axis::new(format!("distance from the axis r [{}]", length.symbol()));
-    let y = Axis::new(format!("Contact pressure p [{}]", stress.symbol()));
-    let mut chart = Chart::new(x, y.from_to(0.0, MOST_OVER_DATA * stress.scaled(peak)));
-    let mut curves = Vec::new();
-    for (k, record) in records.iter().enumerate() {
-        let time = Unit::fitting(record.last_touch() - record.first_touch(), "s").with_digits(3);
-        if records.len() > 1 {
-            let of_record = |contact| (k, record, contact, record.name.clone());
-            curves.extend(highest(record).map(of_record));
-            continue;
-        }
-        for contact in some(&record.contacts, MOST_PROFILES) {
-            let since = time.show(contact.time - record.first_touch());
-            let label = format!("{}, {since}", instant(&contact.label));
-            curves.push((curves.len(), record, contact, label));
-        }
-    }
-    let mut of_hertz = Vec::new();
-    for (k, record, contact, label) in curves {
-        let scaled = |(r, p): &(f64, f64)| (length.scaled(*r), stress.scaled(*p));
-        let own = contact.pressure.iter().map(scaled).collect();
-        chart = chart.with(Curve::line(label, own).like_curve(k));
-        if records.len() == 1 {
-            let nodes = contact.at_nodes.iter().map(scaled).collect();
-            chart = chart.with(Curve::points("", nodes).like_curve(k));
-        }
-        let force = record.history.at("contact_force_n", contact.time);
-        if let Some(hertz) = Hertz::of(record).filter(|_| force > 0.0) {
-            let profile = hertz.pressure_under(force);
-            let at = |k: u32| {
-                // Closer together toward the edge, where the profile is steep.
-                let r = (std::f64::consts::FRAC_PI_2 * f64::from(k) / 40.0).sin()
-                    * profile.contact_radius;
-                scaled(&(r, profile.pressure(r)))
-            };
-            of_hertz.push((0..=40).map(at).collect());
-        }
-    }
-    let curve = |points| Curve::dashed("Hertz under the same force", points).coloured(GREY);
-    Some(of_hertz.into_iter().map(curve).fold(chart, Chart::with))
-}
-
-/// What a snapshot is called.
-pub fn instant(label: &str) -> &str {
-    match label {
-        "last-contact" => "last contact",
-        "last-sound" => "last sound state",
-        "even" | "time" => "snapshot",
-        other => other,
-    }
-}
-
 /// Of several instants so many, the first and the last among them.
-fn some<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
+pub fn some<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let n = all.len().min(most);
     (0..n).filter_map(move |k| all.get(k * (all.len() - 1) / (n - 1).max(1)))
-}
-
-/// The contact with the largest pressure on the axis.
-fn highest(record: &Record) -> Option<&super::record::ContactAt> {
-    let on_axis =
-        |contact: &super::record::ContactAt| contact.pressure.first().map_or(0.0, |p| p.1);
-    record.contacts.iter().max_by(|a, b| on_axis(a).total_cmp(&on_axis(b)))
 }

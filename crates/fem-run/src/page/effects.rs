@@ -7,7 +7,7 @@ use super::cards::rounded;
 use super::record::Record;
 
 /// What an effect is, said once and without a number.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 16] = [
     (
         "viscoelasticity",
         "A material that relaxes while it is squeezed gives back less than it took.",
@@ -23,6 +23,10 @@ const WORDS: [(&str, &str); 12] = [
     ("gravity", "Weight acts before, during and after the contact."),
     ("contact search", "Contact is looked for as far out as it can reach."),
     ("mass scaling", "Mass is moved to the lightest nodes, for longer steps."),
+    ("dashpot", "The law's damper resists the speed of the approach and takes energy."),
+    ("finite size", "A sphere gives way as a whole, too, not at its contact alone."),
+    ("vibration", "What is struck goes on ringing, and keeps that energy."),
+    ("penalty springs", "Springs between the surfaces keep them apart, and give way a little."),
 ];
 
 /// An effect of a result.

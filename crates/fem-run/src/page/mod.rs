@@ -12,13 +12,14 @@ mod contours;
 mod curves;
 mod effects;
 mod hertz;
+mod profile;
 mod record;
 mod view;
 
 use askama::Template;
 use fem_case::engineering::{Unit, show};
 use fem_figure::Chart;
-use fem_figure::contour::Contour;
+use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
 use crate::failure::Failure;
@@ -28,7 +29,8 @@ use effects::Effect;
 
 pub use comparison::comparison;
 pub use contours::contour;
-pub use curves::{Quantity as Plotted, energies, over_time, pressures};
+pub use curves::{Quantity as Plotted, energies, over_time};
+pub use profile::pressures;
 pub use record::Record;
 pub use view::{centred, nearness, picture, whole};
 
@@ -106,9 +108,12 @@ fn drawn(charts: impl IntoIterator<Item = Option<Chart>>) -> Vec<String> {
 }
 
 fn shots(contour: &Contour) -> Vec<Shot> {
-    let captions = contour.panels.iter().map(|panel| panel.title.clone());
-    let frames = captions.zip(contour.frames());
-    frames.map(|(caption, svg)| Shot { caption, svg }).collect()
+    let shot = |panel: &Panel| Shot { caption: panel.title.clone(), svg: contour.frame(panel) };
+    std::thread::scope(|scope| {
+        let drawers: Vec<_> =
+            contour.panels.iter().map(|panel| scope.spawn(move || shot(panel))).collect();
+        drawers.into_iter().filter_map(|drawer| drawer.join().ok()).collect()
+    })
 }
 
 /// The frame at the largest force.
@@ -146,7 +151,11 @@ fn price(record: &Record) -> String {
         .filter_map(|body| body.get("elements").and_then(Value::as_f64))
         .sum();
     let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
-    let seconds = Unit::fitting(seconds, "s").with_digits(3).show(seconds);
+    let seconds = match seconds {
+        // No clock is that fine.
+        seconds if seconds < 1e-3 => "less than 1 ms".to_string(),
+        seconds => Unit::fitting(seconds, "s").with_digits(3).show(seconds),
+    };
     let mut parts = vec![format!("computed in {seconds}")];
     if elements > 0.0 {
         parts.push(format!("{} elements", grouped(elements)));

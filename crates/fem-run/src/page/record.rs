@@ -163,6 +163,12 @@ impl Record {
         self.list("bodies").iter().filter_map(elements).any(|n| n > 0)
     }
 
+    /// Whether the bodies stay together, which a complete result without a contact time says.
+    pub fn stays_together(&self) -> bool {
+        let is_null = self.summary.get("contact_time_s").is_some_and(Value::is_null);
+        is_null && self.text("stopped_because").is_empty()
+    }
+
     /// Time of the largest contact force, s; that of the first touch without any.
     pub fn peak_time(&self) -> f64 {
         let (times, forces) = (self.history.get("time_s"), self.history.get("contact_force_n"));

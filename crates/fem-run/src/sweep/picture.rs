@@ -1,7 +1,5 @@
 //! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside.
 
-use std::borrow::Cow;
-
 use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
 use fem_case::engineering::Unit;
@@ -85,9 +83,11 @@ fn chart(sweep: &Sweep, choice: &Choice, column: &str, curves: &[Curve], room: u
         chart = chart.with(note(heading));
     }
     let ranks = ranks(curves);
-    let colour = |k: usize| match curves.len() {
-        n if n > COLOURS.len() => colour_along(ranks[k], n).into(),
-        _ => Cow::Borrowed(COLOURS[k]),
+    // More than there are colours for have a map of them if a number tells them apart; else also other dashes.
+    let is_map = curves.len() > COLOURS.len() && curves.iter().all(|curve| curve.number.is_some());
+    let drawn = |line: Line, k: usize| match is_map {
+        true => line.coloured(colour_along(ranks[k], curves.len())),
+        false => line.like_curve(k),
     };
     let is_one = curves.windows(2).all(|pair| pair[0].hertz == pair[1].hertz);
     for (k, curve) in curves.iter().enumerate() {
@@ -102,11 +102,11 @@ fn chart(sweep: &Sweep, choice: &Choice, column: &str, curves: &[Curve], room: u
             true => Line::points(label, scaled(&points)),
             false => Line::points_on_line(label, scaled(&points)),
         };
-        chart = chart.with(line.coloured(colour(k)).with_errors(errors));
+        chart = chart.with(drawn(line, k).with_errors(errors));
         let hertz = hertz_line("", scaled(&curve.hertz));
         chart = match (is_one, k) {
             (true, 0) => chart.with(hertz.coloured(GREY)),
-            (false, k) if has_errors => chart.with(hertz.coloured(colour(k))),
+            (false, k) if has_errors => chart.with(drawn(hertz, k)),
             _ => chart,
         };
     }

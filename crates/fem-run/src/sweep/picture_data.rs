@@ -7,7 +7,7 @@ use fem_case::{CaseError, Combine, Sweep};
 const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
 /// Columns of text or of yes and no.
-const NOT_NUMBERS: [&str; 2] = ["complete", "stopped_because"];
+const NOT_NUMBERS: [&str; 3] = ["complete", "radius_and_pressure", "stopped_because"];
 
 /// Which columns are drawn against which key.
 #[derive(Clone, Debug)]

@@ -17,7 +17,7 @@ use fem_case::{Keep, Sweep};
 use super::duration::duration;
 use super::folder::SweepFolder;
 use super::report::packed_bytes;
-use crate::case_arguments::stem_of;
+use crate::case_arguments::{parse_count, stem_of};
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 
@@ -43,7 +43,7 @@ pub struct SlurmOptions {
     #[arg(long, requires = "slurm")]
     pub submit: bool,
     /// Shards, each a task of the array [default: as many as take some five minutes each]
-    #[arg(long, value_name = "N", requires = "slurm", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", requires = "slurm", allow_negative_numbers = true, value_parser = parse_count)]
     shards: Option<NonZeroUsize>,
 }
 

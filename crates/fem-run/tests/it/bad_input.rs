@@ -203,3 +203,27 @@ fn places_that_cannot_be_written_are_refused_before_the_run() {
     refused(&place, &["case.toml", "--out", &format!("a/b/{}", "x".repeat(300))]);
     refused(&place, &[&long, "--out", "a/b/c"]);
 }
+
+/// What fingers type that know another program: each is told what to type here.
+#[test]
+fn slips_of_the_command_line_are_answered() {
+    let place = Place::new();
+    for (arguments, expected) in [
+        (&["run", "case.toml"][..], "a run needs no command: fem-run CASE.toml"),
+        (&["case.toml", "--threads", "0"], "it must be a whole number, at least 1"),
+        (&["case.toml", "--threads", "many"], "it must be a whole number, at least 1"),
+        (&["invert", "case.toml", "--restitution", "92"], "92 % is --restitution 0.92"),
+        (&["invert", "case.toml", "--restitution", "1"], "such as 0.92"),
+    ] {
+        let message = refused(&place, arguments);
+        assert!(message.contains(expected), "{message}");
+    }
+    let sweep = "case = \"case.toml\"\n[vary]\n\"body.0.approach_speed\" = [0.1, 0.2]\n";
+    let place = Place::with(sweep);
+    let ran = place.run(&["case.toml"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("is a sweep: fem-run sweep FILE"), "{}", ran.stderr);
+    let ran = Place::new().run(&["sweep", "case.toml"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("is a case: fem-run FILE"), "{}", ran.stderr);
+}

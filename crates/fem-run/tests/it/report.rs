@@ -189,3 +189,75 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
     assert_eq!(text(&place, "mine.html"), "<p>mine</p>");
     place.succeed(&["report", "runs/case"]);
 }
+
+/// Places (x, y) of the first curve of the first chart of a page, in its pixels.
+fn first_curve(page: &str) -> Vec<[f64; 2]> {
+    let path = page.split("<path class=\"c0 stroke\"").nth(2).unwrap();
+    let data = path.split("d=\"").nth(1).unwrap().split('"').next().unwrap();
+    let places = data.split(['M', 'L']).filter(|place| !place.is_empty());
+    let numbers = |place: &str| place.split(' ').map(|n| n.parse().unwrap()).collect::<Vec<f64>>();
+    places.map(numbers).map(|place| [place[0], place[1]]).collect()
+}
+
+/// Widths and heights of the first curve over those of what a chart has for its curves.
+fn share(page: &str) -> [f64; 2] {
+    let curve = first_curve(page);
+    let extent = |k: usize| {
+        let of_axis = || curve.iter().map(|place| place[k]);
+        of_axis().fold(0.0, f64::max) - of_axis().fold(f64::INFINITY, f64::min)
+    };
+    [extent(0) / 370.0, extent(1) / 190.0]
+}
+
+/// A law's spring has nothing to do with Hertz'; the picture is of what was computed.
+#[test]
+fn hertz_far_away_does_not_flatten_the_curves() {
+    for stiffness in ["1e3 N/m", "1e10 N/m"] {
+        let place = Place::new();
+        let law = format!("model.law={{linear={{k=\"{stiffness}\"}}}}");
+        place.succeed(&["case.toml", "--set", &law, "--quiet"]);
+        let page = text(&place, "runs/case/report.html");
+        assert!(page.contains(">Hertz, up to "), "{stiffness}");
+        let [width, height] = share(&page);
+        assert!(width > 0.6 && height > 0.7, "{stiffness}: {width} × {height}");
+    }
+}
+
+/// Balls that stay together have no last contact; the others' curves are not squeezed for them.
+#[test]
+fn a_contact_without_an_end_does_not_squeeze_the_others() {
+    let place = Place::new();
+    place.succeed(&[&TING[..], &["--out", "leaves"]].concat());
+    let stays =
+        "material.glass.relaxation={acts_on='all',terms=[{weight=1.0,relaxation_time='0.1 us'}]}";
+    place.succeed(&[&TING[..], &["--set", stays, "--out", "stays"]].concat());
+    assert!(place.json("stays/summary.json")["contact_time_s"].is_null());
+    place.succeed(&["report", "leaves", "stays", "--out", "both.html"]);
+    let [width, height] = share(&text(&place, "both.html"));
+    assert!(width > 0.8 && height > 0.8, "{width} × {height}");
+    // An error of which no digit is seen beside its number is told below it.
+    let page = text(&place, "stays/report.html");
+    let value = page.split("<small>restitution</small><b>").nth(1).unwrap();
+    assert!(value.starts_with("0.000 <"), "{}", &value[..40]);
+    assert!(page.contains("effects left out not known"));
+}
+
+/// Eight colours there are not: the eighth curve has other dashes. The numbers of many results have rows.
+#[test]
+fn ten_results_are_told_apart() {
+    let place = Place::new();
+    let names: Vec<String> = (0..10).map(|k| format!("run{k}")).collect();
+    for (k, name) in names.iter().enumerate() {
+        let speed = format!("body.0.approach_speed={}", 0.1 * (k + 1) as f64);
+        place.succeed(&[&TING[..], &["--set", &speed, "--out", name]].concat());
+    }
+    let folders: Vec<&str> = names.iter().map(String::as_str).collect();
+    place.succeed(&[&["report"], &folders[..], &["--out", "all.html"]].concat());
+    let page = text(&place, "all.html");
+    let strokes =
+        page.split("<path class=\"c").skip(1).map(|path| path.split(" d=").next().unwrap());
+    let strokes: std::collections::BTreeSet<&str> =
+        strokes.filter(|path| path.contains("stroke=")).collect();
+    assert_eq!(strokes.len(), 2 * 10, "a line and its mark in the legend, {strokes:?}");
+    assert!(page.contains("<tr><td>run9</td><td class=\"number\">"));
+}

@@ -25,23 +25,43 @@ impl Calibration {
         warnings.extend(self.misfit(names));
         warnings.extend(self.scatter(names));
         warnings.extend(self.undetermined());
-        for experiment in &self.experiments {
-            if let Some((least, _)) = experiment.elements_across
-                && least < FEWEST_ELEMENTS
-            {
-                warnings.push(format!(
-                    "{least:.1} elements across the smallest contact radius are too few: lower \
-                     mesh.contact_element_size, or leave it out"
-                ));
-            }
-            for warning in &experiment.warnings {
-                if !warnings.contains(warning) {
-                    warnings.push(warning.clone());
-                }
-            }
-        }
+        warnings.extend(self.coarse());
+        warnings.extend(self.of_pairs());
         warnings.extend(self.unused(names));
         warnings
+    }
+
+    /// The coarsest of the meshes speaks for all that are too coarse.
+    fn coarse(&self) -> Option<String> {
+        let across = self.experiments.iter().filter_map(|experiment| experiment.elements_across);
+        let few: Vec<f64> =
+            across.map(|(least, _)| least).filter(|n| *n < FEWEST_ELEMENTS).collect();
+        let least = few.iter().copied().reduce(f64::min)?;
+        let others = match few.len() {
+            1 => String::new(),
+            n => format!(", of {n} pairs the fewest,"),
+        };
+        Some(format!(
+            "{least:.1} elements across the smallest contact radius{others} are too few: lower \
+             mesh.contact_element_size, or leave it out"
+        ))
+    }
+
+    /// Those of the pairs; of several that differ in their numbers alone the first, with how many there are.
+    fn of_pairs(&self) -> Vec<String> {
+        let mut kinds: Vec<(String, &String, usize)> = Vec::new();
+        for warning in self.experiments.iter().flat_map(|experiment| &experiment.warnings) {
+            let kind = without_numbers(warning);
+            match kinds.iter_mut().find(|(known, ..)| *known == kind) {
+                Some((.., count)) => *count += 1,
+                None => kinds.push((kind, warning, 1)),
+            }
+        }
+        let told = |(_, warning, count): (String, &String, usize)| match count {
+            1 => warning.clone(),
+            n => format!("{warning} (so of {n} pairs, each with its own numbers)"),
+        };
+        kinds.into_iter().map(told).collect()
     }
 
     /// Pairs in the same unit are in doubt together.
@@ -120,6 +140,20 @@ impl Calibration {
     }
 }
 
+/// A text without its numbers and the units behind them.
+fn without_numbers(text: &str) -> String {
+    const LONGEST_UNIT: usize = 4;
+    let (mut words, mut is_behind_number) = (Vec::new(), false);
+    for word in text.split_whitespace() {
+        let is_unit = is_behind_number && word.chars().count() <= LONGEST_UNIT;
+        is_behind_number = word.contains(|c: char| c.is_ascii_digit());
+        if !is_unit && !is_behind_number {
+            words.push(word);
+        }
+    }
+    words.join(" ")
+}
+
 /// Whether the best series does not make the data.
 fn misses(fit: &SpectrumFit) -> bool {
     fit.misfit.map_or(fit.rms > LARGE_ERROR, |misfit| misfit > LARGE_MISFIT)
@@ -147,4 +181,16 @@ fn falling(found: &SpeedExponent, fit: &SpectrumFit) -> Option<String> {
          contact beside an equilibrium modulus can"
     };
     Some(format!("{start}: {verdict}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_numbers;
+
+    #[test]
+    fn warnings_that_differ_in_their_numbers_alone_are_one() {
+        let [a, b] = ["a step of 12.3 µm is 4 % too long", "a step of 1.1 mm is 12 % too long"];
+        assert_eq!(without_numbers(a), without_numbers(b));
+        assert_ne!(without_numbers(a), without_numbers("a step of 12.3 µm is 4 % too short"));
+    }
 }

@@ -35,7 +35,7 @@ use crate::estimate::Estimate;
 /// largest force of a single step it takes 0.6.
 const SMOOTHING: f64 = 0.02;
 /// What it takes of the restitution, over (v/c_s)^(3/5) (c_s/c_p)⁴.
-const LOSS: f64 = 0.04;
+const LOSS: f64 = 0.005;
 
 /// Approach speed over shear wave speed above which these say nothing.
 const LARGEST_MACH: f64 = 0.1;

@@ -48,7 +48,10 @@ impl Effect for Gravity {
         let weight = gravity.acceleration * hertz.pair().effective_mass() / hertz.peak_force();
         let fall = (gravity.acceleration * hertz.max_approach()).sqrt() / hertz.approach_speed();
         let ratios = [weight, fall].map(|ratio| number(ratio, 2));
-        let mut number = format!("weight / peak force = {}, √(g δ)/v = {}", ratios[0], ratios[1]);
+        let mut number = format!(
+            "the weight is {} of the peak force; a fall through the approach makes {} of the speed",
+            ratios[0], ratios[1]
+        );
         if weight.max(fall * fall) < NEGLIGIBLE {
             number += "; in the contact it changes nothing, the flight needs it";
         }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use fem_case::engineering::{Unit, number};
 use fem_case::{ModelChoice, Scene, Switch};
 use serde::Serialize;
 
@@ -94,21 +95,28 @@ fn finite(change: f64) -> Option<f64> {
     change.is_finite().then_some(change.abs())
 }
 
-/// "0.012 of the restitution, 1.3e-6 s of the contact time".
+/// "about 0.012 of the restitution, 1.3 µs of the contact time".
 impl fmt::Display for LeftOut {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let parts = [
-            (self.restitution, "of the restitution"),
-            (self.contact_time_s, "s of the contact time"),
-            (self.peak_force_n, "N of the peak force"),
+            (self.restitution, "", "of the restitution"),
+            (self.contact_time_s, "s", "of the contact time"),
+            (self.peak_force_n, "N", "of the peak force"),
         ];
-        let parts: Vec<String> = parts
-            .into_iter()
-            .filter_map(|(change, what)| Some(format!("{:.1e} {what}", change?)))
-            .collect();
-        match parts.is_empty() {
-            true => write!(f, "an amount that closed forms do not tell"),
-            false => write!(f, "about {}", parts.join(", ")),
+        let known: Vec<_> =
+            parts.into_iter().filter_map(|(change, unit, of)| Some((change?, unit, of))).collect();
+        let told = |(change, unit, of): &(f64, &'static str, &str)| match *unit {
+            "" => format!("{} {of}", number(*change, 2)),
+            unit => {
+                let rounded = format!("{change:.1e}").parse().unwrap_or(*change);
+                format!("{} {of}", Unit::fitting(rounded, unit).with_digits(2).show(rounded))
+            }
+        };
+        let parts: Vec<String> = known.iter().filter(|part| part.0 != 0.0).map(told).collect();
+        match (known.is_empty(), parts.is_empty()) {
+            (true, _) => write!(f, "an amount that closed forms do not tell"),
+            (false, true) => write!(f, "nothing"),
+            (false, false) => write!(f, "about {}", parts.join(", ")),
         }
     }
 }
@@ -119,10 +127,17 @@ mod tests {
 
     #[test]
     fn words_name_what_is_known() {
-        assert_eq!(LeftOut::restitution(-0.0123).to_string(), "about 1.2e-2 of the restitution");
+        assert_eq!(LeftOut::restitution(-0.0123).to_string(), "about 0.012 of the restitution");
         assert_eq!(LeftOut::restitution(f64::NAN), LeftOut::default());
         assert!(LeftOut::default().to_string().contains("do not tell"));
-        let all = LeftOut::NOTHING.to_string();
-        assert!(all.contains("s of the contact time, 0.0e0 N"), "{all}");
+        assert_eq!(LeftOut::NOTHING.to_string(), "nothing");
+        let all = LeftOut {
+            contact_time_s: Some(4.41e-10),
+            peak_force_n: Some(2.83e-4),
+            ..LeftOut::restitution(5.4e-5)
+        };
+        let expected =
+            "about 5.4e-5 of the restitution, 440 ps of the contact time, 280 µN of the peak force";
+        assert_eq!(all.to_string(), expected);
     }
 }

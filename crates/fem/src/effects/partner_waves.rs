@@ -176,7 +176,10 @@ impl Effect for PartnerWaves {
         });
         Some(Need {
             is_called_for: least < RETURN_LIMIT,
-            number: format!("contact time × shear wave speed / diameter of {name} = {least:.2}"),
+            number: format!(
+                "contact time × shear wave speed / diameter of {name} = {least:.2}, the times that a wave \
+                 crosses it within the contact"
+            ),
             otherwise: "waves come back within the contact".to_string(),
             left_open: format!("they take {} of the restitution", number(lost, 2)),
             warning,

@@ -114,10 +114,12 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
         is_called_for: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
         otherwise: match reached.is_empty() {
-            true => {
-                "what is as soft as rubber, has a law beyond Hooke's or is far stiffer than its partner does not yield".to_string()
-            }
-            false => format!("what yields below its stress would flow: {reached}"),
+            true => "what is as soft as rubber, has a law beyond Hooke's or is far stiffer than its partner \
+                     does not yield"
+                .to_string(),
+            false => format!(
+                "the stress reaches {reached}; a material that yields below that would flow"
+            ),
         },
         left_open: String::new(),
         warning,

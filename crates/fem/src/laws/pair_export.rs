@@ -123,6 +123,28 @@ impl PairExport {
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
     }
 
+    /// What a reader should know: which materials lose nothing, for want of a relaxation.
+    pub fn warnings(&self) -> Vec<String> {
+        let lossless = self.pairs.iter().filter(|pair| pair.export.is_none());
+        let mut names: Vec<&str> = Vec::new();
+        for place in lossless.flat_map(|pair| pair.grains) {
+            let name = self.grains[place].material.as_str();
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        match names.as_slice() {
+            [] => Vec::new(),
+            names => vec![format!(
+                "no relaxation is known of {}: pairs of {} have e = 1, which no grains have; give \
+                 [material.NAME.relaxation], of a material of the library in a table with its numbers \
+                 (fem-run materials NAME prints it), or name a law that loses energy in [model]",
+                names.join(", "),
+                if names.len() == 1 { "it" } else { "them" }
+            )],
+        }
+    }
+
     /// The pairs as codes' inputs are made of them.
     pub fn of_codes(&self) -> Vec<PairOfGrains> {
         let of = |fitted: &FittedPair| PairOfGrains {

@@ -39,7 +39,7 @@ pub use cradle_trials::cradle_trials;
 pub use data_error::DataError;
 pub use pairs::{MeasuredPair, MeasuredPairs};
 pub use quantity::{Kind, NotMeasured, parse_measured};
-pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError};
+pub use restitutions::{LARGEST_UNCERTAINTY, Restitutions, UncertaintyError, UnevenUncertainties};
 #[cfg(feature = "csv")]
 pub use rows::rows_below;
 #[cfg(feature = "csv")]

@@ -2,9 +2,11 @@
 
 use fem_case::Scene;
 
+use fem_fit::Point;
+
 use super::data_error::DataError;
 use super::restitution_columns::{CONTACT_TIMES, Columns, Wanted};
-use super::restitutions::Restitutions;
+use super::restitutions::{Restitutions, UnevenUncertainties};
 use super::table::Table;
 use crate::sweep::COLUMNS;
 
@@ -99,19 +101,35 @@ pub(super) fn read_rows(
     if points.is_empty() {
         return Err(DataError::new(table.name(), "no row has a restitution"));
     }
-    let with = points.iter().filter(|point| point.restitution_uncertainty.is_some()).count();
-    if with != 0 && with != points.len() {
-        let message = format!("{with} of {} rows have an uncertainty", points.len());
-        return Err(
-            DataError::new(table.name(), message).with_help("give one in every row, or in none")
-        );
-    }
+    let n_left_out = table.n_rows() - points.len();
+    let uneven = even_out(&mut points, &mut rows);
     let restitutions = Restitutions {
         name: table.name().to_string(),
-        n_left_out: table.n_rows() - points.len(),
+        n_left_out,
+        uneven,
         lines: rows.iter().map(|row| table.line(*row)).collect(),
         points,
         unread,
     };
     Ok((restitutions, rows))
+}
+
+/// Data are weighed all or none: of rows of which most have an uncertainty the others are left out, else
+/// nobody's is looked at.
+fn even_out(points: &mut Vec<Point>, rows: &mut Vec<usize>) -> Option<UnevenUncertainties> {
+    let has = |point: &Point| point.restitution_uncertainty.is_some();
+    let n_with = points.iter().filter(|point| has(point)).count();
+    let n_without = points.len() - n_with;
+    if n_with == 0 || n_without == 0 {
+        return None;
+    }
+    if n_with < n_without {
+        points.iter_mut().for_each(|point| point.restitution_uncertainty = None);
+        return Some(UnevenUncertainties::NotUsed { n_with });
+    }
+    let is_kept: Vec<bool> = points.iter().map(has).collect();
+    let (mut of_points, mut of_rows) = (is_kept.iter(), is_kept.iter());
+    points.retain(|_| of_points.next().is_some_and(|kept| *kept));
+    rows.retain(|_| of_rows.next().is_some_and(|kept| *kept));
+    Some(UnevenUncertainties::LeftOut { n_without })
 }

@@ -26,8 +26,25 @@ pub struct Restitutions {
     pub lines: Vec<u64>,
     /// Rows of a sweep's members that failed, and rows without a speed or a restitution.
     pub n_left_out: usize,
+    /// What became of an uncertainty that some rows have.
+    pub uneven: Option<UnevenUncertainties>,
     /// Columns that nobody reads.
     pub unread: Vec<String>,
+}
+
+/// What became of an uncertainty that some rows have and others lack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnevenUncertainties {
+    /// So few rows lacked it that they were left out.
+    LeftOut {
+        /// Those.
+        n_without: usize,
+    },
+    /// So few rows had it that no row is weighed by it.
+    NotUsed {
+        /// Those.
+        n_with: usize,
+    },
 }
 
 /// Why data do not take an uncertainty.
@@ -46,7 +63,7 @@ impl Restitutions {
     pub fn of(name: &str, points: &[(f64, f64)]) -> Self {
         let points = points.iter().map(|(speed, e)| Point::new(*speed, *e)).collect();
         let name = name.to_string();
-        Self { name, points, lines: Vec::new(), n_left_out: 0, unread: Vec::new() }
+        Self { name, points, lines: Vec::new(), n_left_out: 0, uneven: None, unread: Vec::new() }
     }
 
     /// Gives all points the same standard uncertainty.
@@ -75,10 +92,21 @@ impl Restitutions {
     /// What was not looked at.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
+        let rows = |n: usize| if n == 1 { "1 row".to_string() } else { format!("{n} rows") };
         if self.n_left_out > 0 {
-            let rows =
-                if self.n_left_out == 1 { "1 row" } else { &format!("{} rows", self.n_left_out) };
+            let rows = rows(self.n_left_out);
             warnings.push(format!("{rows} without a speed or a restitution left out"));
+        }
+        match self.uneven {
+            Some(UnevenUncertainties::LeftOut { n_without }) => {
+                warnings.push(format!("{} without an uncertainty left out", rows(n_without)));
+            }
+            Some(UnevenUncertainties::NotUsed { n_with }) => warnings.push(format!(
+                "only {} with an uncertainty, of {}: none is used; give one in most rows",
+                rows(n_with),
+                self.points.len()
+            )),
+            None => {}
         }
         if !self.unread.is_empty() {
             warnings.push(format!("columns that are not read: {}", self.unread.join(", ")));

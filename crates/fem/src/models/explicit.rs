@@ -63,7 +63,14 @@ impl Method for ExplicitMethod {
     }
 
     fn resolve(&self, scene: &Scene, file: CaseFile) -> Result<CaseFile, Refusal> {
-        Ok(Plan::of(scene)?.resolve(file))
+        let plan = Plan::of(scene)?;
+        let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+        let mut file = plan.resolve(file);
+        // Surfaces that are where they have moved have springs of their own.
+        if let Some(contact) = file.contact.as_mut().filter(|_| is_finite) {
+            contact.method = None;
+        }
+        Ok(file)
     }
 }
 
@@ -86,6 +93,8 @@ struct Made {
     /// m.
     contact_element_size: f64,
     method: ContactMethod,
+    /// How many times as stiff as usual its springs are.
+    penalty_factor: f64,
     /// See [`Plan::speed_share`].
     speed_share: f64,
     inputs: [BodyInput; 2],
@@ -116,6 +125,7 @@ impl Explicit {
             settings: settings(&plan),
             contact_element_size: plan.contact_element_size,
             method: method(plan.contact_method),
+            penalty_factor: plan.penalty_factor,
             speed_share: plan.speed_share,
             inputs: inputs(scene, &plan)?,
         };
@@ -130,7 +140,10 @@ impl Explicit {
             want: plan.want(),
             estimate: plan.estimate,
             decisions,
-            unread: plan.warnings.iter().cloned().chain(unread(scene, &plan.estimate)).collect(),
+            unread: {
+                let said = unread(scene, bodies.changes_stiffness());
+                plan.warnings.iter().cloned().chain(said).collect()
+            },
             cost,
             elements: Some(ElementSetup {
                 quieter: Quieter::of_elements(scene, &plan),
@@ -212,7 +225,7 @@ impl Made {
             approach.speed(),
             approach.speed() / self.speed_share,
         )?;
-        let parts = Parts { method: self.method, ..parts };
+        let parts = Parts { method: self.method, penalty_factor: self.penalty_factor, ..parts };
         Bodies::with_parts(self.inputs.clone(), *approach, &settings, parts)
     }
 

@@ -7,7 +7,7 @@ use fem_material::{Material, PronySeries};
 use crate::accuracy::companion_updates;
 use crate::duration::expected_duration;
 use crate::effects::{BulkViscosity, FiniteStrain};
-use crate::estimate::mach;
+use crate::estimate::{Estimate, mach};
 use crate::limits::{check_elements, check_memory, check_updates, explicit_memory};
 use crate::method::Cost;
 use crate::plan::Plan;
@@ -59,7 +59,8 @@ pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, R
 /// Seconds of a run that takes so long, with the companions that tell what it is off by.
 fn with_companions(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) -> f64 {
     let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
-    match companion_updates(plan.estimate.mach, is_finite) {
+    let Estimate { mach, strain, .. } = plan.estimate;
+    match companion_updates([mach, strain], is_finite) {
         _ if !plan.makes_meshes => seconds,
         Some(share) => (1.0 + share) * seconds,
         None => seconds + SECONDS_OF_CONDENSED_COMPANIONS * elements as f64,

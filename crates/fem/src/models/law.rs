@@ -108,12 +108,17 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
             false => Relaxation::Nothing,
         },
         dashpot: (law.damping() > 0.0).then(|| {
-            format!(
-                "C = {} N s/m^{} at the exponent n = {}",
-                number(law.damping(), 5),
-                number(law.damping_exponent() + 1.0, 5),
-                number(law.damping_exponent(), 5)
-            )
+            let exponent = law.damping_exponent();
+            let power = match number(exponent + 1.0, 5).as_str() {
+                "1" => String::new(),
+                power => format!("^{power}"),
+            };
+            let overlap = match exponent {
+                0.0 => String::new(),
+                n => format!(" × overlap^{}", number(n, 5)),
+            };
+            let damping = number(law.damping(), 5);
+            format!("force = C{overlap} × speed against the motion, C = {damping} N s/m{power}")
         }),
         finite_size: (false, "a law's stiffness is given"),
     };

@@ -25,13 +25,14 @@ const FIRST: [&str; 14] = [
     "hertz_peak_pressure_pa",
 ];
 /// After the accounts of energy.
-const LAST: [&str; 9] = [
+const LAST: [&str; 10] = [
     "energy_residual_relative",
     "momentum_residual_relative",
     "elements",
     "time_step_s",
     "steps",
     "element_updates",
+    "radius_and_pressure",
     "complete",
     "stopped_because",
     "warnings",

@@ -52,14 +52,18 @@ impl Simulation {
     }
 }
 
+/// Whether a collision was computed at finite strain.
+fn is_at_finite_strain(simulation: &Simulation, collision: &Collision) -> bool {
+    let verdicts = simulation.decisions(collision).verdicts;
+    verdicts.iter().any(|verdict: &Verdict| verdict.name == FiniteStrain::NAME && verdict.active)
+}
+
 fn of(simulation: &Simulation, collision: &Collision) -> Doubt {
     use fem_case::ModelChoice::{Auto, Condensed, Fem, Hertz, Law, Ting};
     match *simulation.scene_of_model().model() {
         Fem | Condensed(_) => {
-            let verdicts = simulation.decisions(collision).verdicts;
-            let is_finite =
-                |verdict: &Verdict| verdict.name == FiniteStrain::NAME && verdict.active;
-            discretisation_errors(simulation, collision, verdicts.iter().any(is_finite))
+            let is_finite = is_at_finite_strain(simulation, collision);
+            discretisation_errors(simulation, collision, is_finite)
         }
         Hertz { .. } => of_tolerance(collision, ROUNDING),
         Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),

@@ -220,3 +220,47 @@ fn a_pressure_that_is_asked_for_more_finely_is_judged() {
     assert_eq!(asked("0.002"), ("hertz = { finite_size = true }", false));
     assert!(asked("1e-6").1, "no model is as fine");
 }
+
+/// A ball that is laid down: its weight presses it ten times as wide as an impact at its speed, and a model whose first
+/// order ends there is not taken.
+#[test]
+fn what_weight_does_to_the_contact_is_weighed() {
+    let text = r#"
+[material.stuff]
+density = 6744
+youngs_modulus = "5.5 GPa"
+poissons_ratio = 0.0
+relaxation = { acts_on = "all", terms = [{ weight = 0.48, decay_rate = 3 }] }
+
+[material.soft]
+density = 9526
+youngs_modulus = "1 GPa"
+poissons_ratio = 0.0
+
+[[body]]
+name = "floor"
+sphere = { diameter = "2 m" }
+held = true
+material = "soft"
+
+[[body]]
+name = "ball"
+sphere = { diameter = "2.66 m" }
+material = "stuff"
+
+[start]
+gap = "0.2 um"
+
+[gravity]
+acceleration = 13.2
+
+[model]
+auto = {}
+"#;
+    let case = Case::parse("laid.toml", text, Path::new("."), &[]).unwrap();
+    let laid = Simulation::new(case).unwrap();
+    assert_eq!(laid.run(&mut ()).stop(), None);
+    for considered in laid.considered().iter().filter(|it| it.model.contains("finite_size")) {
+        assert!(considered.reason.contains("outside the validity"), "{considered:?}");
+    }
+}

@@ -198,32 +198,28 @@ fn surfaces_that_slip_have_no_mass_either() {
     }
     let [bare, heavy] = [&[][..], &[PENALTY]].map(|more| with(more).run(&mut ()));
     assert_eq!(bare.contact_episodes, 1);
-    // Springs between masses chatter at the last touch: by 3.3e-3 of the contact time.
-    for (bare, heavy, tolerance) in
-        [(bare.restitution, heavy.restitution, 2e-3), (bare.contact_time, heavy.contact_time, 5e-3)]
+    for (bare, heavy) in
+        [(bare.restitution, heavy.restitution), (bare.contact_time, heavy.contact_time)]
     {
-        assert!((bare.unwrap() / heavy.unwrap() - 1.0).abs() < tolerance, "{bare:?} {heavy:?}");
+        // Chatter of the last touch, 3.3e-3 of the contact time on this mesh, 7e-4 on that of the plan.
+        assert!((bare.unwrap() / heavy.unwrap() - 1.0).abs() < 5e-3, "{bare:?} {heavy:?}");
     }
 }
 
-/// At finite strain surfaces that move have springs of their own: what is named beside them is told not to act, and
-/// the case that is kept names what ran.
+/// Surfaces that are where they have moved have springs of their own: who names a method is told, and the resolved
+/// case names none.
 #[test]
-fn at_finite_strain_what_is_named_is_told() {
+fn finite_strain_says_that_it_has_springs_of_its_own() {
     let large = "effects.finite_strain='on'";
-    for (more, is_told) in
-        [(&[][..], false), (&[PENALTY], false), (&[MASSLESS], true), (&[NODES], true)]
-    {
-        let simulation = fem(&[&[large], more].concat());
-        let warnings = simulation.setup().warnings();
-        let told: Vec<_> =
-            warnings.iter().filter(|warning| warning.contains("contact.method")).collect();
-        assert_eq!(told.len(), usize::from(is_told), "{more:?}: {warnings:?}");
-        assert!(told.iter().all(|warning| warning.contains("at finite strain")), "{told:?}");
-        assert_eq!(planned(&simulation), ContactMethod::Penalty);
-        let again = resolved(&simulation);
-        let contact = again.case().file().contact.as_ref().unwrap();
-        assert_eq!(contact.method, Some(ContactMethod::Penalty));
-        assert!(!again.setup().warnings().join("").contains("contact.method"));
+    for method in [MASSLESS, PENALTY, NODES] {
+        let named = fem(&[large, method]);
+        let said = named.setup().warnings().join("\n");
+        let words = format!("{} has no effect at finite strain", method.replace('=', " = "));
+        assert!(said.contains(&words.replace('\'', "\"")), "{said}");
+        assert_eq!(named.resolved().contact.as_ref().unwrap().method, None);
+        assert!(!resolved(&named).setup().warnings().join("\n").contains("has no effect"));
     }
+    assert!(!fem(&[large]).setup().warnings().join("\n").contains("has no effect"));
+    let small = fem(&[MASSLESS]);
+    assert!(small.resolved().contact.as_ref().unwrap().method.is_some());
 }

@@ -124,13 +124,15 @@ fn a_mesh_of_a_file_has_its_bar() {
 }
 
 /// What a bar costs is counted: condensed bodies are condensed once more, on a finer mesh, explicit elements
-/// three times, on their own mesh with springs and without and on a finer one; and collisions of the same
-/// bodies share all of them.
+/// three times, on their own mesh with springs and twice without, where the contact ends at a node; collisions of
+/// the same bodies share all but the last two, which follow the radius.
 #[test]
 fn bars_cost_a_counted_number_of_factors() {
-    for (model, own, of_bars) in [("model.condensed={}", 1, 1), ("model.fem={}", 0, 3)] {
+    for (model, own, of_bars) in
+        [("model.condensed={}", 1, [1, 1, 1]), ("model.fem={}", 0, [3, 5, 7])]
+    {
         let shared = Shared::default();
-        for speed in ["0.2", "0.19", "0.18"] {
+        for (speed, of_bars) in ["0.2", "0.19", "0.18"].into_iter().zip(of_bars) {
             let speed = format!("body.0.approach_speed={speed}");
             let mesh = ["mesh.contact_element_size='60 um'", "mesh.refined_radius='0.5 mm'"];
             let set = [&[model, &speed], &mesh[..]].concat().into_iter().map(str::to_string);

@@ -84,7 +84,7 @@ fn what_is_announced_is_spent() {
         let Foreseen { simulation: foreseen, is_open } = simulation(set).foreseen(|| true);
         assert_eq!(!is_open, is_told, "{set:?}");
         let least = announced(&foreseen) as f64;
-        let follow = foreseen.most_updates_to_follow().unwrap() as f64;
+        let follow = foreseen.most_of_finer_meshes().unwrap() as f64;
         let (simulation, collision) = simulation(set).run_within_tolerance(&mut ());
         let spent = spent(&simulation, &collision) as f64;
         let most = if is_open { least + follow } else { least };
@@ -111,7 +111,7 @@ fn no_run_is_thrown_away() {
 fn what_is_not_waited_for_is_open() {
     let Foreseen { simulation, is_open } = simulation(AUXETIC).foreseen(|| false);
     assert!(is_open && simulation.levels().is_empty());
-    assert!(simulation.most_updates_to_follow().unwrap() > announced(&simulation));
+    assert!(simulation.most_of_finer_meshes().unwrap() > announced(&simulation));
 }
 
 /// A mesh stays too coarse only where a finer one takes more than the limit, whatever Poisson's ratio is: one rule.

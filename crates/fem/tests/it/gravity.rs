@@ -166,6 +166,22 @@ fn no_energy_comes_from_nowhere() {
     }
 }
 
+/// A ball that is laid down has next to no energy at first touch; what does not add up is measured by what its
+/// weight gives on the way.
+#[test]
+fn a_ball_that_is_laid_down_balances() {
+    for model in ["model.fem={}", "model.condensed={}", "model.ting={}"] {
+        for gap in ["start.gap='1 pm'", "start.gap='1 nm'"] {
+            let laid = simulation(&[model, ELASTIC, COARSE, gap, "stop.bounces=1"]);
+            let ball = laid.run(&mut ());
+            assert_eq!(ball.stop(), None, "{model} {gap}");
+            assert!(ball.residual_relative.unwrap() < 1e-3, "{model} {gap}");
+            let warnings = laid.warnings(&ball);
+            assert!(!warnings.iter().any(|text| text.contains("add up")), "{warnings:?}");
+        }
+    }
+}
+
 #[test]
 fn a_ball_that_loses_nothing_never_rests_and_says_so() {
     for model in ["model.hertz={}", "model.ting={}", "model.condensed={}", "model.law.hertz={}"] {
@@ -310,7 +326,10 @@ fn its_numbers_are_in_the_effects() {
     };
     for model in ["model.ting={}", "model.condensed={}", "model.fem={}", "model.hertz={}"] {
         let (active, reason) = verdict(&[model, COARSE, "stop.bounces=1"]);
-        assert!(active && reason.contains("weight / peak force = 0.0025"), "{model}: {reason}");
+        assert!(
+            active && reason.contains("the weight is 0.0025 of the peak force"),
+            "{model}: {reason}"
+        );
         assert!(!reason.contains("changes nothing"), "{reason}");
     }
     let hard = "material.rubber={density=1100, youngs_modulus=20e12, poissons_ratio=0.4}";
@@ -366,10 +385,12 @@ fn late_contacts_have_elements_of_their_own() {
     let alone = |size: &str| run(&["model.condensed={}", size, "stop.bounces=25"]);
     let coarse = alone(&format!("mesh.contact_element_size={first:?}"));
     let fine = alone("mesh={contact_element_size='20 um', refined_radius='0.8 mm'}");
-    let time = |of: &Collision| of.bounces[24].contact_time.unwrap();
-    let error = |of: &Collision| (time(of) / time(&fine) - 1.0).abs();
+    // The worst of some: where the edge of the contact falls well between two nodes there is hardly any.
+    let time = |of: &Collision, k: usize| of.bounces[k].contact_time.unwrap();
+    let of_one = |of: &Collision, k| (time(of, k) / time(&fine, k) - 1.0).abs();
+    let error = |of: &Collision| (15..25).map(|k| of_one(of, k)).fold(0.0, f64::max);
     let errors = [error(&ball), error(&coarse)];
-    assert!(errors[0] < 2e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
+    assert!(errors[0] < 3e-3 && errors[1] > 2.0 * errors[0], "{errors:?}");
 }
 
 /// A ball that is let down so softly that it never leaves sinks in all the same: its largest force is more

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Label, Simulation, Stop, assess, remedy_of};
+use fem::{Case, Collision, Simulation, Stop, assess, remedy_of};
+use fem_collision::Moment;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
@@ -107,47 +108,39 @@ fn springs_that_cannot_be_without_mass_are_told_how_soft_to_be() {
     }
 }
 
+/// Springs that open and close within a few steps are followed by shorter ones, and keep their energy: with the
+/// steps of usual springs these gain 3e-3 to 5e-2 of it, or end with it.
 #[test]
-fn energy_that_does_not_add_up_is_told_with_its_time() {
-    let overrides = [COARSE, "contact.method='penalty'", "contact.penalty_factor=1e4"];
-    let (simulation, collision) = run(GLASS, &overrides);
-    let since = collision.residual_since.expect("a moment");
-    let rows = &collision.history;
-    let worst_before = rows
-        .iter()
-        .filter(|row| row.time < since.time)
-        .map(|row| row.residual.unwrap().abs() / collision.initial_energy.unwrap());
-    // Energies of rows count in the frame of the case, and the imbalance in that of the mass centre.
-    assert!(
-        worst_before.fold(0.0, f64::max) < 1e-3 && since.time > collision.first_contact.unwrap()
-    );
-    let message = assess(&simulation, &collision);
-    let message = message.iter().find(|text| text.contains("add up")).unwrap();
-    assert!(message.contains(&format!("since {since}")), "{message}");
-    assert_helped(GLASS, &overrides, "add up");
+fn springs_that_ring_keep_their_energy() {
+    for (method, factor) in
+        [("penalty", 100.0), ("node_to_surface", 10.0), ("node_to_surface", 300.0)]
+    {
+        let set =
+            [format!("contact.method='{method}'"), format!("contact.penalty_factor={factor}")];
+        for mesh in ["mesh.contact_element_size='40 um'", COARSE] {
+            let (_, collision) = run(GLASS, &[mesh, LITTLE_MASS, &set[0], &set[1]]);
+            assert_eq!(collision.stop(), None);
+            // As the claim on hard scenes has it.
+            assert!(collision.residual_relative.unwrap() < 1e-3, "{set:?} {mesh}");
+            assert!(collision.restitution.unwrap() < 1.0 + 1e-5, "{set:?} {mesh}");
+        }
+    }
 }
 
-/// A run that blows up says where, leaves its last sound state, and ends well by its remedy.
+/// No scene is known whose energy does not add up: a sound collision is said to have lost some.
 #[test]
-fn a_run_that_gains_energy_says_where_and_what_helps() {
-    let overrides = [
-        COARSE,
-        "contact.method='node_to_surface'",
-        "contact.penalty_factor=300",
-        "time.mass_scaling=2e-4",
-    ];
-    let (_, collision) = run(GLASS, &overrides);
-    let Some(stop @ Stop::EnergyGrowth { time, place, .. }) = collision.stop() else {
-        panic!("{:?}", collision.ending)
+fn energy_that_does_not_add_up_is_told_with_its_time() {
+    let (simulation, mut collision) = run(GLASS, &[COARSE, "contact.method='penalty'"]);
+    let about_energy = |collision: &Collision| {
+        let messages = assess(&simulation, collision);
+        messages.into_iter().find(|text| text.contains("add up"))
     };
-    // At the contact, which has a radius of 0.22 mm.
-    assert!(place[0] < 0.4e-3 && place[1].abs() < 0.4e-3, "{place:?}");
-    let sound = collision.snapshot(Label::LastSound).expect("a state").time;
-    assert!(sound < *time && collision.residual_since.unwrap().time > sound);
-    let remedy = remedy_of(stop).unwrap().remedy;
-    assert!(remedy.starts_with("write contact.method = \"massless\""), "{remedy}");
-    let with = [COARSE, "contact.method='massless'", "contact.penalty_factor=300"];
-    assert_eq!(run(GLASS, &with).1.stop(), None);
+    assert_eq!(about_energy(&collision), None);
+    let since = Moment { time: 20e-6, step: 1000 };
+    (collision.residual_relative, collision.residual_since) = (Some(2e-3), Some(since));
+    let message = about_energy(&collision).unwrap();
+    assert!(message.contains(&format!("2.0e-3 of the initial, above 1e-3 since {since}")));
+    assert_eq!(written(&message), "contact.method=\"massless\"");
 }
 
 #[test]

@@ -77,7 +77,6 @@ fn faults_have_name_line_and_column() {
         ("speed,e\n1 kg,0.9\n", "bad.csv:2", Some("speed"), "of another dimension"),
         ("v_m_s,speed_m_s,e\n1,1,0.9\n", "bad.csv:1", None, "mean the same"),
         ("speed_m_s,e,sigma\n1,0.9,5\n", "bad.csv:2", Some("sigma"), "sigma is 5.0"),
-        ("speed_m_s,e,sigma\n1,0.9,\n2,0.9,0.1\n", "bad.csv", None, "1 of 2 rows have"),
         ("diameter_1_mm,speed_m_s,e\n-3,1,0.9\n", "bad.csv:2", Some("diameter_1_mm"), "-0.003"),
         ("speed_m_s,e,uncertanty\n1,0.9,1\n", "bad.csv:1", Some("uncertanty"), "unknown column"),
     ] {
@@ -126,4 +125,30 @@ fn data_are_read_as_people_have_them() {
     let table = Table::parse("e.csv", "v,e\n1,0.9\n").unwrap();
     let error = table.renamed(&[("restitution", "COR")]).unwrap_err();
     assert_eq!(error.to_string(), "e.csv:1: there is no column COR; found are v, e");
+}
+
+/// Cells of an uncertainty that are empty cost their rows, or the uncertainties if most are; what was done is told.
+#[test]
+fn rows_without_an_uncertainty_are_counted() {
+    for (cells, n_points, is_weighed, said) in [
+        (["0.01", "", "0.02"], 2, true, "1 row without an uncertainty left out"),
+        (["", "nan", "0.02"], 3, false, "only 1 row with an uncertainty, of 3: none is used"),
+        (["0.01", "0.01", "0.02"], 3, true, ""),
+    ] {
+        let rows = cells.iter().enumerate().map(|(k, cell)| format!("{},0.9,{cell}\n", k + 1));
+        let text = format!("v,e,u\n{}", rows.collect::<String>());
+        let table = Table::parse("e.csv", &text).unwrap();
+        let table = table.renamed(&[("uncertainty", "u")]).unwrap();
+        let read = Restitutions::read(&table, spheres().scene()).unwrap();
+        assert_eq!((read.points.len(), read.lines.len()), (n_points, n_points), "{text}");
+        let weighed = read.points.iter().filter(|p| p.restitution_uncertainty.is_some()).count();
+        assert_eq!(weighed, if is_weighed { n_points } else { 0 }, "{text}");
+        assert_eq!(read.n_left_out, 0);
+        let told = read.warnings();
+        assert_eq!(
+            told.iter().any(|warning| warning.starts_with(said)),
+            !said.is_empty(),
+            "{told:?}"
+        );
+    }
 }

@@ -39,6 +39,7 @@ fn stops() -> Vec<Stop> {
         Stop::NoStepShortEnough { time, step, body: 1, place: [1e-3; 2], of_contact: false },
         Stop::EnergyImbalance { time, relative: 0.1 },
         Stop::NoSeparation { time, step },
+        Stop::NoContact { time, step, approach: 1e-9 },
         Stop::TooManyUpdates { time, step, element_updates: 1000 },
         Stop::NoContactState { time },
         Stop::NotMade(why()),
@@ -61,6 +62,7 @@ fn stops() -> Vec<Stop> {
             | Stop::NoStepShortEnough { .. }
             | Stop::EnergyImbalance { .. }
             | Stop::NoSeparation { .. }
+            | Stop::NoContact { .. }
             | Stop::TooManyUpdates { .. }
             | Stop::NoContactState { .. }
             | Stop::NotMade(_)

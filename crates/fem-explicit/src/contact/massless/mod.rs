@@ -343,12 +343,8 @@ impl Contact for Massless {
         force > (1.0 - LAST_LOSS) * now.force
     }
 
-    fn contact_radius(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        self.springs.contact_radius(motions.each_ref().map(|motion| motion.displacement))
-    }
-
-    fn centre_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> f64 {
-        self.springs.centre_pressure(motions.each_ref().map(|motion| motion.displacement))
+    fn radius_and_pressure(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> (f64, f64) {
+        self.springs.radius_and_pressure(motions.each_ref().map(|motion| motion.displacement))
     }
 
     fn profile(&self, motions: &[Motion<'_>; 2], _: [&[NodalField]; 2]) -> Profile {

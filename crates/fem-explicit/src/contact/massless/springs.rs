@@ -44,17 +44,10 @@ impl Springs {
         }
     }
 
-    pub fn contact_radius(&self, u: [&[Displacement]; 2]) -> f64 {
+    pub fn radius_and_pressure(&self, u: [&[Displacement]; 2]) -> (f64, f64) {
         match self {
-            Self::Straight(interface) => interface.contact_radius(u),
-            Self::Slipping(slipping) => slipping.contact_radius(u),
-        }
-    }
-
-    pub fn centre_pressure(&self, u: [&[Displacement]; 2]) -> f64 {
-        match self {
-            Self::Straight(interface) => interface.centre_pressure(u),
-            Self::Slipping(slipping) => slipping.centre_pressure(u),
+            Self::Straight(interface) => interface.radius_and_pressure(u),
+            Self::Slipping(slipping) => slipping.radius_and_pressure(u),
         }
     }
 

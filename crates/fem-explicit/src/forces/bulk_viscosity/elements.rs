@@ -1,4 +1,5 @@
-//! The element loop of bulk viscosity.
+//! The element loops of bulk viscosity: one adds up rates of dilatation at nodes, one makes forces of what is
+//! left of them beside their means.
 
 use fem_element::QuadGeometry;
 
@@ -21,6 +22,8 @@ struct Block {
     inertia: Numbers,
     /// l/√V, m^(−1/2): from that rate to a drop of velocity.
     length: Numbers,
+    /// √V, m^(3/2): from a dilatation rate to that rate.
+    root_volume: Numbers,
 }
 
 /// The elements of a body. Every corner number is below `n_nodes`, which lets the loop index without a
@@ -28,6 +31,8 @@ struct Block {
 pub(super) struct Elements {
     blocks: Vec<Block>,
     n_nodes: usize,
+    /// Of each node a quarter of 1/Σ ρ l V (m²/kg) of its elements.
+    shares: Vec<f64>,
     /// b₁ c_d, m/s.
     linear_speed: f64,
     /// b₂².
@@ -45,10 +50,12 @@ impl Elements {
             axial: [[0.0; LANES]; 3],
             inertia: [0.0; LANES],
             length: [0.0; LANES],
+            root_volume: [0.0; LANES],
         };
         let blocks = vec![empty; n_elements.div_ceil(LANES)];
         let [linear_speed, quadratic] = speeds;
-        Self { blocks, n_nodes, linear_speed, quadratic, largest_drop }
+        let shares = vec![0.0; n_nodes];
+        Self { blocks, n_nodes, shares, linear_speed, quadratic, largest_drop }
     }
 
     /// Puts one of those in, of ρ l (kg/m²) and l (m). Lane k takes the k-th stretch of the elements,
@@ -75,18 +82,60 @@ impl Elements {
         }
         block.inertia[lane] = inertia;
         block.length[lane] = length / scale;
+        block.root_volume[lane] = scale;
+        for &node in quad {
+            let share = &mut self.shares[node as usize];
+            let weight = if *share == 0.0 { 0.0 } else { 0.25 / *share };
+            *share = 0.25 / (weight + inertia * geometry.volume);
+        }
     }
 
-    /// Subtracts the forces (N) of velocities (m/s) from `f`.
-    pub fn subtract_forces(&self, velocity: &Field, f: &mut Field) {
+    /// Subtracts the forces (N) of velocities (m/s) from `f`; `means` is room for a pair a node.
+    pub fn subtract_forces(&self, velocity: &Field, means: &mut Field, f: &mut Field) {
         assert!(velocity.len() >= self.n_nodes && f.len() >= self.n_nodes);
-        run_lanes(Forces { elements: self, velocity }, f);
+        assert!(means.len() >= self.n_nodes);
+        means.fill([0.0; 2]);
+        run_lanes(Sums { elements: self, velocity }, means);
+        for (mean, share) in means.iter_mut().zip(&self.shares) {
+            mean[0] *= share;
+        }
+        run_lanes(Forces { elements: self, velocity, means }, f);
+    }
+}
+
+/// Adds up at each node the dilatation rates of its elements times their ρ l V.
+struct Sums<'a> {
+    elements: &'a Elements,
+    velocity: &'a Field,
+}
+
+impl LaneKernel for Sums<'_> {
+    type Output = Field;
+
+    #[inline(always)]
+    fn on<L: Lanes>(self, means: &mut Field) {
+        add_rates::<L>(self.elements, self.velocity, means);
+    }
+}
+
+#[inline(always)]
+pub(super) fn add_rates<L: Lanes>(elements: &Elements, velocity: &Field, means: &mut Field) {
+    let zero = L::splat(0.0);
+    for block in &elements.blocks {
+        let weight = L::load(&block.inertia) * L::load(&block.root_volume);
+        // SAFETY: fields are at least as long as the nodes that the corners were checked against.
+        let sum = unsafe { block.rate::<L>(velocity) } * (zero - weight);
+        for corners in &block.corners {
+            // SAFETY: as above.
+            unsafe { sum.scatter_subtract(zero, means, corners) };
+        }
     }
 }
 
 struct Forces<'a> {
     elements: &'a Elements,
     velocity: &'a Field,
+    means: &'a Field,
 }
 
 impl LaneKernel for Forces<'_> {
@@ -94,35 +143,33 @@ impl LaneKernel for Forces<'_> {
 
     #[inline(always)]
     fn on<L: Lanes>(self, f: &mut Field) {
-        let Self { elements, velocity } = self;
-        subtract_forces::<L>(elements, velocity, f);
+        let Self { elements, velocity, means } = self;
+        subtract_forces::<L>(elements, velocity, means, f);
     }
 }
 
 #[inline(always)]
-pub(super) fn subtract_forces<L: Lanes>(elements: &Elements, velocity: &Field, f: &mut Field) {
+pub(super) fn subtract_forces<L: Lanes>(
+    elements: &Elements,
+    velocity: &Field,
+    means: &Field,
+    f: &mut Field,
+) {
     let zero = L::splat(0.0);
     let linear_speed = L::splat(elements.linear_speed);
     let quadratic = L::splat(elements.quadratic);
     let largest_drop = L::splat(elements.largest_drop);
     for block in &elements.blocks {
         // SAFETY: fields are at least as long as the nodes that the corners were checked against.
-        let ((r0, y0), (r1, y1), (r2, y2), (r3, y3)) = unsafe {
-            (
-                L::gather(velocity, &block.corners[0]),
-                L::gather(velocity, &block.corners[1]),
-                L::gather(velocity, &block.corners[2]),
-                L::gather(velocity, &block.corners[3]),
-            )
-        };
+        let (rate, around) = unsafe { (block.rate::<L>(velocity), block.around::<L>(means)) };
+        let uneven = rate - L::load(&block.root_volume) * around;
+        let drop = (zero - L::load(&block.length) * rate).max(zero).min(largest_drop);
+        let viscous = linear_speed * uneven + quadratic * drop * rate;
+        let tension = L::load(&block.inertia) * viscous;
         let [b0, b1] = [L::load(&block.radial[0]), L::load(&block.radial[1])];
         let [b2, b3] = [L::load(&block.radial[2]), L::load(&block.radial[3])];
         let [a0, a1, a2] =
             [L::load(&block.axial[0]), L::load(&block.axial[1]), L::load(&block.axial[2])];
-        let rate = ((b0 * r0 + b1 * r1) + (b2 * r2 + b3 * r3))
-            + (a0 * (y0 - y3) + a1 * (y1 - y3) + a2 * (y2 - y3));
-        let drop = (zero - L::load(&block.length) * rate).max(zero).min(largest_drop);
-        let tension = L::load(&block.inertia) * (linear_speed + quadratic * drop) * rate;
         let (f0, f1, f2) = (a0 * tension, a1 * tension, a2 * tension);
         // SAFETY: as above.
         unsafe {
@@ -131,5 +178,36 @@ pub(super) fn subtract_forces<L: Lanes>(elements: &Elements, velocity: &Field, f
             (b2 * tension).scatter_subtract(f2, f, &block.corners[2]);
             (b3 * tension).scatter_subtract(zero - (f0 + f1 + f2), f, &block.corners[3]);
         }
+    }
+}
+
+impl Block {
+    /// Dilatation rates times √V.
+    ///
+    /// # Safety
+    /// Every corner is an index of `velocity`.
+    #[inline(always)]
+    unsafe fn rate<L: Lanes>(&self, velocity: &Field) -> L {
+        // SAFETY: the caller's promise.
+        let [(r0, y0), (r1, y1), (r2, y2), (r3, y3)] =
+            [0, 1, 2, 3].map(|a: usize| unsafe { L::gather(velocity, &self.corners[a]) });
+        let [b0, b1] = [L::load(&self.radial[0]), L::load(&self.radial[1])];
+        let [b2, b3] = [L::load(&self.radial[2]), L::load(&self.radial[3])];
+        let [a0, a1, a2] =
+            [L::load(&self.axial[0]), L::load(&self.axial[1]), L::load(&self.axial[2])];
+        ((b0 * r0 + b1 * r1) + (b2 * r2 + b3 * r3))
+            + (a0 * (y0 - y3) + a1 * (y1 - y3) + a2 * (y2 - y3))
+    }
+
+    /// The mean of what four corners hold in quarters.
+    ///
+    /// # Safety
+    /// Every corner is an index of `means`.
+    #[inline(always)]
+    unsafe fn around<L: Lanes>(&self, means: &Field) -> L {
+        // SAFETY: the caller's promise.
+        let [m0, m1, m2, m3] =
+            [0, 1, 2, 3].map(|a: usize| unsafe { L::gather(means, &self.corners[a]).0 });
+        (m0 + m1) + (m2 + m3)
     }
 }

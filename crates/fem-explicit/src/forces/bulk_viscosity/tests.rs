@@ -57,7 +57,7 @@ impl Column {
         let zeros = vec![[0.0; 2]; nodes.len()];
         let mut v = zeros.clone();
         (v[0], v[1]) = ([0.0, piston], [0.0, piston]);
-        let history = vec![zeros.clone(); 2];
+        let history = vec![zeros.clone(); 3];
         Self { matrices, mass, viscosity, time_step, u: zeros, v, history, n_steps: 0 }
     }
 
@@ -147,13 +147,14 @@ fn a_front_keeps_its_speed_and_its_pressure_and_does_not_ring() {
     }
     let [ringing, spread] = [&bare, &viscous].map(|column| column.profile());
     let peak = |profile: &[f64]| profile.iter().copied().fold(0.0, f64::max);
-    // Of a mesh alone it overshoots as a truncated sum of waves does, by some tenths; 1.26 and 4.6 were
-    // found, and 1.010 and 1.03 with viscosity. 1 and 1 are exact.
+    // Of a mesh alone it overshoots as a truncated sum of waves does, by some tenths; 1.25 and 4.8 were
+    // found, and 1.08 and 1.32 with viscosity. 1 and 1 are exact.
     assert!(peak(&ringing) > 1.2 && total_variation(&ringing) > 4.0);
-    assert!(peak(&spread) < 1.02 && total_variation(&spread) < 1.05, "{}", peak(&spread));
+    let variation = total_variation(&spread);
+    assert!(peak(&spread) < 1.1 && variation < 1.4, "{} {variation}", peak(&spread));
     let width = |column: &Column| column.front(0.1) - column.front(0.9);
-    // 3.6 and 7.0 elements were found.
-    assert!(width(&viscous) < 8.0 && width(&viscous) > width(&bare), "{}", width(&viscous));
+    // 3.6 and 5.2 elements were found.
+    assert!(width(&viscous) < 6.0 && width(&viscous) > width(&bare), "{}", width(&viscous));
 }
 
 /// What weaker and weaker viscosity changes goes to nothing in proportion.
@@ -175,17 +176,56 @@ fn no_coefficient_is_no_viscosity() {
     assert!((small / smaller / 10.0 - 1.0).abs() < 1e-2 && smaller > 0.0, "{small} {smaller}");
 }
 
-/// The matrix of a linear viscosity: its forces of unit velocities.
-fn damping(mesh: &SphereMesh, linear: f64) -> DMatrix<f64> {
+/// The forces of a linear viscosity against velocities.
+fn resistance(mesh: &SphereMesh, linear: f64, velocity: &Field) -> Vec<[f64; 2]> {
     let coefficients = ViscosityCoefficients { linear, quadratic: 0.0 };
     let viscosity = BulkViscosity::new(mesh, &unit_glass(), coefficients, 1.0).unwrap();
+    let [mut means, mut force] = [(); 2].map(|()| vec![[0.0; 2]; velocity.len()]);
+    viscosity.elements.subtract_forces(velocity, &mut means, &mut force);
+    force.iter().map(|f| f.map(|f| -f)).collect()
+}
+
+/// The matrix of a linear viscosity.
+fn damping(mesh: &SphereMesh, linear: f64) -> DMatrix<f64> {
     let n = 2 * mesh.nodes().len();
     DMatrix::from_columns(&Vec::from_iter((0..n).map(|j| {
-        let (mut velocity, mut force) = (vec![[0.0; 2]; n / 2], vec![[0.0; 2]; n / 2]);
+        let mut velocity = vec![[0.0; 2]; n / 2];
         velocity[j / 2][j % 2] = 1.0;
-        viscosity.elements.subtract_forces(&velocity, &mut force);
-        -vector(&force)
+        vector(&resistance(mesh, linear, &velocity))
     })))
+}
+
+/// Power that it takes of a motion.
+fn taken(mesh: &SphereMesh, velocity: impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
+    let v = Vec::from_iter(mesh.nodes().iter().map(|&node| velocity(node)));
+    let f = resistance(mesh, 0.06, &v);
+    f.as_flattened().iter().zip(v.as_flattened()).map(|(f, v)| f * v).sum()
+}
+
+/// A uniform rate of dilatation is its own mean, and of a smooth one the power falls with the cube of the
+/// elements' size.
+#[test]
+fn a_smooth_motion_loses_the_third_order() {
+    let meshes = [10.0, 20.0, 40.0].map(|n| unit_sphere(n, Side::Above));
+    let swell = |[r, y]: [f64; 2]| [r, 2.0 * y];
+    let wave = |[_, y]: [f64; 2]| [0.0, (2.0 * y).sin()];
+    let [even, coarse] = [taken(&meshes[0], swell), taken(&meshes[0], wave)];
+    assert!(even.abs() < 1e-12 * coarse, "{even} {coarse}");
+    let order = (taken(&meshes[1], wave) / taken(&meshes[2], wave)).log2();
+    // 2.54, 2.80 and 2.88 were found from 10 to 80 elements a radius; without the mean it is 1.
+    assert!((2.7..3.1).contains(&order), "{order}");
+}
+
+/// It takes energy of every motion.
+#[test]
+fn no_motion_gains_from_the_linear_term() {
+    let mesh = unit_sphere(6.0, Side::Above);
+    let matrix = damping(&mesh, 0.06);
+    let asymmetry = (&matrix - matrix.transpose()).amax() / matrix.amax();
+    // Rounding of sums of a dozen terms.
+    assert!(asymmetry < 1e-14, "{asymmetry}");
+    let values = matrix.symmetric_eigenvalues();
+    assert!(values.min() > -1e-14 * values.max(), "{} {}", values.min(), values.max());
 }
 
 /// Δt² K + 2 Δt C ≤ 4 M with assembled matrices, and not by far.
@@ -273,11 +313,16 @@ fn numbers_that_are_none_are_refused() {
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn plain_and_avx2_lanes_give_the_same_bits() {
-    use super::elements::subtract_forces;
-    use crate::stress::lanes::{Avx2, Plain};
+    use super::elements::{add_rates, subtract_forces};
+    use crate::stress::lanes::{Avx2, Lanes, Plain};
+    #[inline(always)]
+    fn both<L: Lanes>(elements: &Elements, velocity: &Field, [means, f]: &mut [Vec<[f64; 2]>; 2]) {
+        add_rates::<L>(elements, velocity, means);
+        subtract_forces::<L>(elements, velocity, means, f);
+    }
     #[target_feature(enable = "avx2,fma")]
-    fn avx2(elements: &Elements, velocity: &Field, f: &mut Field) {
-        subtract_forces::<Avx2>(elements, velocity, f);
+    fn avx2(elements: &Elements, velocity: &Field, fields: &mut [Vec<[f64; 2]>; 2]) {
+        both::<Avx2>(elements, velocity, fields);
     }
     if !crate::stress::lanes::has_avx2() {
         return;
@@ -285,10 +330,13 @@ fn plain_and_avx2_lanes_give_the_same_bits() {
     let mesh = unit_sphere(4.0, Side::Below);
     let viscosity = BulkViscosity::new(&mesh, &unit_glass(), USUAL, 0.7).unwrap();
     let velocity = ragged(&mesh, 1);
-    let mut f = [vec![[0.0; 2]; velocity.len()], vec![[0.0; 2]; velocity.len()]];
-    subtract_forces::<Plain>(&viscosity.elements, &velocity, &mut f[0]);
+    let zeros = || [vec![[0.0; 2]; velocity.len()], vec![[0.0; 2]; velocity.len()]];
+    let [mut plain, mut wide] = [zeros(), zeros()];
+    both::<Plain>(&viscosity.elements, &velocity, &mut plain);
     // SAFETY: the processor has been asked.
-    unsafe { avx2(&viscosity.elements, &velocity, &mut f[1]) };
-    let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
-    assert_eq!(bits(&f[0]), bits(&f[1]));
+    unsafe { avx2(&viscosity.elements, &velocity, &mut wide) };
+    let bits = |fields: &[Vec<[f64; 2]>; 2]| {
+        fields.iter().flatten().flatten().map(|f| f.to_bits()).collect::<Vec<_>>()
+    };
+    assert_eq!(bits(&plain), bits(&wide));
 }

@@ -123,7 +123,8 @@ impl Bounced {
             }
         }
         let rows = std::mem::take(&mut collision.history);
-        self.chain.take(&collision, &rows);
+        let weight = self.gravity.acceleration * collision.bodies[1].mass.unwrap_or(0.0);
+        self.chain.take(&collision, &rows, weight);
         if let Ending::Stopped(stop) = &collision.ending {
             let stop = &of_all(stop, self.element_updates);
             self.chain.keep(&rows, f64::INFINITY);

@@ -33,7 +33,7 @@ pub(super) struct Chain {
     residual: f64,
     /// Energy of the ball's motion and weight that the flight before has handed on, J.
     handed_on: Option<f64>,
-    /// Kinetic energy at first touch of all, J.
+    /// Energy at stake in the first contact, J.
     initial: Option<f64>,
     worst_residual: Option<f64>,
     growth: Option<f64>,
@@ -72,14 +72,15 @@ impl Chain {
         self.first_touch
     }
 
-    /// Takes the ledger of the contact under way.
-    pub fn take(&mut self, collision: &Collision, rows: &[Row]) {
+    /// Takes the ledger of the contact under way, of a ball of some weight, N.
+    pub fn take(&mut self, collision: &Collision, rows: &[Row], weight: f64) {
         if let (Some(handed_on), Some(initial)) = (self.handed_on, collision.initial_energy) {
             self.residual += initial - handed_on;
         }
-        let own = collision.initial_energy.zip(collision.residual_relative);
-        let initial = *self.initial.get_or_insert(collision.initial_energy.unwrap_or(f64::NAN));
-        if let Some((scale, relative)) = own {
+        let given = weight * collision.max_approach.unwrap_or(0.0);
+        let at_stake = collision.initial_energy.map(|initial| initial + given);
+        let initial = *self.initial.get_or_insert(at_stake.unwrap_or(f64::NAN));
+        if let Some((scale, relative)) = at_stake.zip(collision.residual_relative) {
             let here = (self.residual.abs() + relative * scale) / initial;
             self.worst_residual = Some(worst(self.worst_residual.unwrap_or(0.0), here));
         }

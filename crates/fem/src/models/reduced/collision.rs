@@ -26,6 +26,7 @@ pub(super) fn of_impact(
     let residual = |instant| rows.row(instant).residual.unwrap_or(0.0);
     let is_together = impact.contact_time.is_none();
     let first_touch = frame.approach.first_touch();
+    let at_stake = frame.energy_at_stake(impact.max_approach);
     let end = impact.history.last().map(|instant| rows.row(instant));
     Collision {
         approach: frame.approach,
@@ -47,7 +48,7 @@ pub(super) fn of_impact(
         initial_energy: Some(frame.kinetic(frame.speed())),
         energies: end.map_or(Book::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
-        residual_relative: Some(instants().map(residual).fold(0.0, worst) / frame.initial()),
+        residual_relative: Some(instants().map(residual).fold(0.0, worst) / at_stake),
         residual_since: None,
         energy_growth: None,
         momentum_residual_relative: None,

@@ -1,0 +1,95 @@
+//! What of a line lies within the axes.
+
+use crate::chart::{Axis, Chart};
+use crate::curve::Curve;
+
+/// The pieces of a line within the ranges that axes are given, cut at their ends; points that are no numbers,
+/// or not positive on a logarithmic axis, part it. A piece has two points at least.
+pub(crate) fn runs(chart: &Chart, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
+    let axes = [&chart.x, &chart.y];
+    let has_place = |(x, y): &(f64, f64)| axes[0].has_place(*x) && axes[1].has_place(*y);
+    let mut runs: Vec<Vec<(f64, f64)>> = Vec::new();
+    let mut is_open = false;
+    for pair in curve.points.windows(2) {
+        let piece = (pair.iter().all(has_place)).then(|| within(axes, pair[0], pair[1])).flatten();
+        let Some((from, to)) = piece else {
+            is_open = false;
+            continue;
+        };
+        match runs.last_mut().filter(|_| is_open && from == pair[0]) {
+            Some(run) => run.push(to),
+            None => runs.push(vec![from, to]),
+        }
+        is_open = to == pair[1];
+    }
+    runs
+}
+
+/// The part of a segment within both ranges (Liang and Barsky 1984), along what is drawn.
+fn within(axes: [&Axis; 2], from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
+    let (mut first, mut last) = (0.0f64, 1.0f64);
+    let ends = [[from.0, to.0], [from.1, to.1]];
+    for (axis, [a, b]) in axes.iter().zip(ends) {
+        let Some((low, high)) = axis.range else { continue };
+        let [low, high, a, b] = [low, high, a, b].map(|value| axis.along(value));
+        if a == b {
+            if !(low..=high).contains(&a) {
+                return None;
+            }
+            continue;
+        }
+        let (enters, leaves) = ((low - a) / (b - a), (high - a) / (b - a));
+        first = first.max(enters.min(leaves));
+        last = last.min(enters.max(leaves));
+    }
+    let at = |share: f64| match share {
+        0.0 => from,
+        1.0 => to,
+        share => {
+            let between = |axis: &Axis, a: f64, b: f64| {
+                let (own, other) = (axis.along(a), axis.along(b));
+                let value = axis.value(own + share * (other - own));
+                axis.range.map_or(value, |(low, high)| value.clamp(low, high))
+            };
+            (between(axes[0], from.0, to.0), between(axes[1], from.1, to.1))
+        }
+    };
+    (first <= last).then(|| (at(first), at(last)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(points: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
+        let chart = Chart::new(Axis::new("x"), Axis::new("y").from_to(0.0, 1.0));
+        runs(&chart, &Curve::line("", points.to_vec()))
+    }
+
+    #[test]
+    fn a_line_that_leaves_the_axes_is_cut_where_it_does_and_comes_back_as_another() {
+        let tall = of(&[(0.0, 0.0), (1.0, 2.0), (2.0, 2.0), (3.0, 0.0)]);
+        assert_eq!(tall, [[(0.0, 0.0), (0.5, 1.0)], [(2.5, 1.0), (3.0, 0.0)]]);
+        // Through the axes from beyond to beyond, and past them.
+        assert_eq!(of(&[(0.0, -1.0), (3.0, 2.0)]), [[(1.0, 0.0), (2.0, 1.0)]]);
+        assert!(of(&[(0.0, 1.5), (3.0, 2.0)]).is_empty());
+        let whole = of(&[(0.0, 0.1), (1.0, 0.2), (2.0, 0.3)]);
+        assert_eq!(whole, [[(0.0, 0.1), (1.0, 0.2), (2.0, 0.3)]]);
+    }
+
+    #[test]
+    fn what_is_no_number_parts_a_line() {
+        let parted = of(&[(0.0, 0.1), (1.0, 0.2), (2.0, f64::NAN), (3.0, 0.3), (4.0, 0.4)]);
+        assert_eq!(parted, [[(0.0, 0.1), (1.0, 0.2)], [(3.0, 0.3), (4.0, 0.4)]]);
+        assert!(of(&[(0.0, f64::NAN), (1.0, 0.5)]).is_empty());
+    }
+
+    #[test]
+    fn a_logarithmic_axis_cuts_along_its_decades() {
+        let x = Axis::new("x").logarithmic().from_to(1.0, 10.0);
+        let chart = Chart::new(x, Axis::new("y"));
+        let run = runs(&chart, &Curve::line("", vec![(1.0, 0.0), (100.0, 2.0)]));
+        assert!((run[0][1].0 - 10.0).abs() < 1e-12 && (run[0][1].1 - 1.0).abs() < 1e-12, "{run:?}");
+        assert!(runs(&chart, &Curve::line("", vec![(-1.0, 0.0), (5.0, 2.0)])).is_empty());
+    }
+}
