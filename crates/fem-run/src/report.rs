@@ -164,14 +164,17 @@ fn price(summary: &Summary) -> String {
         Some(ns) => (show(cost.solve_s, "s"), format!("{ns:.1} ns an element update, ")),
         None => (show(cost.solve_s, "s"), format!("after {} of setup, ", show(cost.setup_s, "s"))),
     };
+    let trials = (cost.trials_s > 0.1 * cost.solve_s)
+        .then(|| format!(", after {} of trials", show(cost.trials_s, "s")));
     let factors = cost.factor_bytes.map(|bytes| format!(", {} of it factors", DecimalBytes(bytes)));
     format!(
-        "{solve} for {} steps of {} ({each}{} thread{}{memory}{})",
+        "{solve} for {} steps of {} ({each}{} thread{}{memory}{}){}",
         HumanCount(steps),
         summary.time_step_s.map_or(NONE.into(), |step| show(step, "s")),
         cost.threads,
         if cost.threads == 1 { "" } else { "s" },
         factors.unwrap_or_default(),
+        trials.unwrap_or_default(),
     )
 }
 

@@ -16,6 +16,7 @@ pub struct Stopwatch {
     /// Start of the process, or of this run in it.
     started: Instant,
     setup: Duration,
+    trials: Duration,
     solve: Duration,
 }
 
@@ -23,6 +24,7 @@ pub struct Stopwatch {
 pub struct Timed<M> {
     monitor: M,
     started: Instant,
+    first: Option<Instant>,
     collision: Option<Instant>,
     fields: Option<Instant>,
 }
@@ -30,15 +32,16 @@ pub struct Timed<M> {
 impl<M> Timed<M> {
     /// Of a run that began at `started`.
     pub fn since(started: Instant, monitor: M) -> Self {
-        Self { monitor, started, collision: None, fields: None }
+        Self { monitor, started, first: None, collision: None, fields: None }
     }
 
     /// The run has just ended; the other monitor is given back.
     pub fn stop(self) -> (Stopwatch, M) {
         let end = self.fields.unwrap_or_else(Instant::now);
         let collision = self.collision.unwrap_or(end);
-        let (setup, solve) = (collision - self.started, end - collision);
-        (Stopwatch { started: self.started, setup, solve }, self.monitor)
+        let first = self.first.unwrap_or(collision);
+        let (setup, trials, solve) = (first - self.started, collision - first, end - collision);
+        (Stopwatch { started: self.started, setup, trials, solve }, self.monitor)
     }
 }
 
@@ -46,7 +49,10 @@ impl<M: Monitor> Monitor for Timed<M> {
     fn enter(&mut self, phase: Phase) {
         let now = Instant::now();
         match phase {
-            Phase::Collision => (self.collision, self.fields) = (Some(now), None),
+            Phase::Collision => {
+                self.first.get_or_insert(now);
+                (self.collision, self.fields) = (Some(now), None);
+            }
             Phase::Fields => self.fields = Some(now),
         }
         self.monitor.enter(phase);
@@ -63,6 +69,7 @@ impl Stopwatch {
         Spent {
             wall: self.started.elapsed().as_secs_f64(),
             setup: self.setup.as_secs_f64(),
+            trials: self.trials.as_secs_f64(),
             solve: self.solve.as_secs_f64(),
             threads: THREADS,
             peak_memory: peak_memory(),

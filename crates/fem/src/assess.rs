@@ -51,10 +51,17 @@ pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     warnings
 }
 
+/// That the surfaces overlap by too much.
+pub(crate) fn overlap_warning(simulation: &Simulation, collision: &Collision) -> Option<String> {
+    Run::of(simulation, collision)?.penetration()
+}
+
 fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
+    // Of a mesh that resolves no contact nothing else is to be known.
+    let penetration = run.penetration().filter(|_| !simulation.is_unresolved(collision));
     let early = EarlyPressure::warning(simulation, collision);
-    let warnings = [run.meshes(simulation), run.penetration(), run.noise(), early];
+    let warnings = [run.meshes(simulation), penetration, run.noise(), early];
     warnings.into_iter().flatten().collect()
 }
 
@@ -121,18 +128,16 @@ struct Run<'a> {
 
 impl<'a> Run<'a> {
     fn of(simulation: &'a Simulation, collision: &'a Collision) -> Option<Self> {
-        let ElementSetup { plan, has_springs, quieter } = simulation.setup().elements.as_ref()?;
+        let ElementSetup { plan, has_springs, quieter, .. } =
+            simulation.setup().elements.as_ref()?;
         let meshes = simulation.model().meshes();
         let (has_springs, quieter) = (*has_springs, *quieter);
         Some(Self { collision, plan, meshes, has_springs, quieter })
     }
 
-    /// Whether the meshes can carry the contact as wide as it came. One of the poles alone has no width; it is
-    /// as wide as was expected.
+    /// Whether the meshes can carry the contact as wide as it came.
     fn meshes(&self, simulation: &Simulation) -> Option<String> {
-        let radius = self.collision.max_contact_radius.filter(|_| self.collision.is_complete())?;
-        let expected = simulation.setup().estimate.contact_radius;
-        simulation.resolution_warning(if radius > 0.0 { radius } else { expected })
+        simulation.resolution_warning(simulation.carried_radius(self.collision)?)
     }
 
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty

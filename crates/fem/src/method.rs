@@ -142,6 +142,8 @@ pub struct ElementSetup {
     pub plan: Plan,
     /// Whether springs keep the surfaces apart.
     pub has_springs: bool,
+    /// Mass that is moved for a longer step, over that of the lighter body: the larger one of both bodies'.
+    pub added_share: f64,
     /// What makes the contact quieter.
     pub quieter: Quieter,
 }

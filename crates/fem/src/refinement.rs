@@ -14,6 +14,8 @@
 //! than [`MOST_UPDATES`], or what the case gives as `limits.element_updates`; nor where mass or springs, as the case
 //! gives them, are off by more than is allowed, which no mesh mends. Where that does not do, or may not be, a
 //! warning says so. All of it is decided by numbers of the case and of the runs: it is the same on all machines.
+//! Where condensed companions tell it, the first mesh is chosen so before anything is run
+//! ([`foresight`](crate::foresight)).
 
 use std::convert::Infallible;
 
@@ -22,11 +24,13 @@ use fem_collision::{Collision, Headline, Monitor, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
-use crate::accuracy::of_moved_mass;
+use crate::accuracy::{foretold_errors, of_moved_mass};
+use crate::assess::overlap_warning;
 use crate::early_pressure::EarlyPressure;
 use crate::effects::percent;
-use crate::method::Cost;
+use crate::method::{Cost, ElementSetup};
 use crate::simulation::Simulation;
+use crate::soft_springs::softness;
 
 /// Room beyond the error that is seen.
 const ROOM: f64 = 1.1;
@@ -36,19 +40,22 @@ const ORDER: f64 = 1.5;
 const STEPS: [f64; 2] = [1.25, 2.0];
 /// Finer meshes after the first.
 const MOST_LEVELS: usize = 4;
-/// Element updates of a mesh over those of one of twice as long elements, at most.
-const DEAREST: u64 = 8;
 /// Element updates of a finer mesh, where the case gives no limit: some seconds.
 const MOST_UPDATES: u64 = 150_000_000;
 /// Elements of a finer mesh of condensed bodies, which take no updates: a second.
 const MOST_ELEMENTS: u64 = 60_000;
+/// An error of more than so many times what soft springs change is one of the mesh: what is told has a margin, and
+/// force and pressure change by more than the contact time.
+const OF_SPRINGS: f64 = 4.0;
+/// An error of more is no number any more: it is not resolved at all.
+const LARGEST_TOLD: f64 = 0.5;
 
-/// A mesh that was too coarse.
+/// A mesh that was too coarse, or was foretold to be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// Edge length of its elements at the contact.
     pub contact_element_size_m: f64,
-    /// What it took, of a model that steps.
+    /// What it took, of a model that steps; none where companions alone were computed with it.
     pub element_updates: Option<u64>,
     /// Key of the quantity that missed its tolerance by most.
     pub quantity: String,
@@ -74,12 +81,24 @@ impl Miss {
 
     /// "peak force may be off by 1.7 % where 1 % is asked".
     fn in_words(&self) -> String {
-        let [error, tolerance] = [self.error, self.tolerance].map(|size| match self.headline {
+        let words = |size: f64| match self.headline {
             Headline::Restitution => format!("{size:.1e}"),
             _ => percent(size),
-        });
-        let name = self.headline.name();
-        format!("{name} may be off by {error} where {tolerance} is asked")
+        };
+        let (name, tolerance) = (self.headline.name(), words(self.tolerance));
+        match self.error <= LARGEST_TOLD {
+            true => {
+                format!("{name} may be off by {} where {tolerance} is asked", words(self.error))
+            }
+            false => format!("{name} may be off by more than half where {tolerance} is asked"),
+        }
+    }
+
+    /// Whether springs of these that are softer than the usual ones are at fault, and not the mesh.
+    fn is_of_springs(&self, elements: &ElementSetup) -> bool {
+        let is_theirs = |softness: f64| self.error <= OF_SPRINGS * softness;
+        let is_possible = elements.has_springs && self.headline != Headline::Restitution;
+        is_possible && softness(&elements.plan).is_some_and(is_theirs)
     }
 }
 
@@ -118,8 +137,10 @@ impl Simulation {
     /// Computes the collision, again on finer meshes where the first does not do; what came, and the
     /// simulation that it came from.
     pub fn run_within_tolerance(self, monitor: &mut dyn Monitor) -> (Self, Collision) {
-        let computed =
-            self.within_tolerance(|simulation| Ok::<_, Infallible>(simulation.run(monitor)));
+        let computed = self
+            .foreseen(|| true)
+            .simulation
+            .within_tolerance(|simulation| Ok::<_, Infallible>(simulation.run(monitor)));
         match computed {
             Ok(both) => both,
             Err(never) => match never {},
@@ -151,24 +172,32 @@ impl Simulation {
     /// The same case on a finer mesh, where a quantity of its collision may be off by more than the case allows
     /// and a finer mesh may be had.
     pub fn finer(&self, collision: &Collision) -> Option<Self> {
-        self.finer_or_kept(&self.missed(collision)?, collision).ok()
+        self.finer_or_kept(&self.missed(collision)?, Some(collision)).ok()
     }
 
-    /// Most element updates that finer meshes take in all, beyond those of this one, should its result miss the
-    /// tolerance; `None` where its elements stay.
+    /// Element updates of the finer meshes that may follow, all together, at most; none of what takes no updates, and
+    /// where the elements stay.
     pub fn most_of_finer_meshes(&self) -> Option<u64> {
         let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
+        let most = self.case().scene().limits().element_updates.unwrap_or(MOST_UPDATES) as f64;
+        let least = STEPS[0].powi(3);
+        let (mut one, mut sum) = (element_updates as f64, 0.0);
+        for _ in self.levels.len()..MOST_LEVELS {
+            if least * one > most {
+                break;
+            }
+            one = (STEPS[1].powi(3) * one).min(most);
+            sum += one;
+        }
+        self.may_be_refined().then_some(sum as u64)
+    }
+
+    /// Whether meshes of the case may be made finer for its tolerance.
+    pub(crate) fn may_be_refined(&self) -> bool {
         let scene = self.case().scene();
         let is_given = scene.mesh().contact_element_size.is_some();
-        if is_given || self.has_mesh_file() || scene.gravity().is_some() {
-            return None;
-        }
-        let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
-        let levels = 1..=MOST_LEVELS as u32;
-        let dearest = levels.map(|level| element_updates.saturating_mul(DEAREST.pow(level)));
-        // Of meshes up to the dearest that is allowed each takes half of the next, or less.
-        let all = dearest.fold(0, u64::saturating_add);
-        Some(all.min(most.saturating_mul(2)))
+        let has_elements = self.setup().elements.is_some();
+        has_elements && !is_given && !self.has_mesh_file() && scene.gravity().is_none()
     }
 
     fn has_mesh_file(&self) -> bool {
@@ -187,9 +216,13 @@ impl Simulation {
         let headline = Headline::ALL.into_iter().find(|it| it.key() == level.quantity)?;
         let miss = Miss { headline, error: level.error, tolerance: level.tolerance };
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
+        // What was foretold was not run.
+        let is_foretold =
+            level.element_updates.is_none() && matches!(self.setup().cost, Cost::Steps { .. });
         Some(format!(
-            "{}: again with elements of {} in place of {}",
+            "{}: {}elements of {} in place of {}",
             miss.in_words(),
+            if is_foretold { "" } else { "again with " },
             length(size),
             length(level.contact_element_size_m)
         ))
@@ -197,11 +230,23 @@ impl Simulation {
 
     /// The quantity of a collision that may be off by most of what the case allows, if by more than that.
     pub(crate) fn missed(&self, collision: &Collision) -> Option<Miss> {
-        let accuracy = self.case().scene().accuracy();
         let doubt = self.discretisation(collision);
+        // Of a pressure that comes much too early there is a warning of its own.
+        let early = EarlyPressure::of(self, collision);
+        let is_early = early.as_ref().is_some_and(EarlyPressure::is_beyond_reach);
+        self.worst_miss(|headline| {
+            if headline == Headline::PeakPressure && is_early {
+                return None;
+            }
+            Some(doubt.size(headline)? / headline.scale(headline.of(collision)?))
+        })
+    }
+
+    /// The quantity that is off by most of what the case allows, if by more than that.
+    pub(crate) fn worst_miss(&self, error: impl Fn(Headline) -> Option<f64>) -> Option<Miss> {
+        let accuracy = self.case().scene().accuracy();
         let of = |(headline, tolerance): (Headline, f64)| {
-            let error = doubt.size(headline)? / headline.scale(headline.of(collision)?);
-            Some(Miss { headline, error, tolerance })
+            Some(Miss { headline, error: error(headline)?, tolerance })
         };
         let all = [
             (Headline::Restitution, accuracy.restitution),
@@ -209,13 +254,7 @@ impl Simulation {
             (Headline::PeakForce, accuracy.peak_force),
             (Headline::PeakPressure, accuracy.peak_pressure),
         ];
-        // Of a pressure that comes much too early there is a warning of its own.
-        let early = EarlyPressure::of(self, collision);
-        let is_early = || early.as_ref().is_some_and(EarlyPressure::is_beyond_reach);
-        let is_wanted =
-            |(headline, _): &(Headline, f64)| *headline != Headline::PeakPressure || !is_early();
-        let all = all.into_iter().filter(is_wanted);
-        let missed = all.filter_map(of).filter(|miss| miss.excess() > 1.0);
+        let missed = all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0);
         missed.max_by(|a, b| a.excess().total_cmp(&b.excess()))
     }
 
@@ -223,10 +262,14 @@ impl Simulation {
     pub(crate) fn miss_warning(&self, collision: &Collision) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
         let Some(miss) = self.missed(collision) else { return self.untold(collision) };
+        // One word a cause.
+        if self.is_unresolved(collision) || overlap_warning(self, collision).is_some() {
+            return None;
+        }
         let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
         let mut cause = "the mesh";
         let write = format!("write mesh.contact_element_size = \"{}\"", length(size));
-        let remedy = match self.finer_or_kept(&miss, collision) {
+        let remedy = match self.finer_or_kept(&miss, Some(collision)) {
             // Who has the course decides.
             Ok(_) => write,
             Err(Kept::Given) => write,
@@ -272,13 +315,17 @@ impl Simulation {
         })
     }
 
-    /// The setting of the case that is off by more than is allowed, whatever the mesh.
-    fn other_cause(&self, miss: &Miss, collision: &Collision) -> Option<Cause> {
-        let scene = self.case().scene();
-        let of_mass = of_moved_mass(collision, miss.headline);
+    /// The setting of the case that is off by more than is allowed, whatever the mesh; of a collision or before one.
+    fn other_cause(&self, miss: &Miss, met: Option<&Collision>) -> Option<Cause> {
+        let (scene, elements) = (self.case().scene(), self.setup().elements.as_ref()?);
+        if miss.is_of_springs(elements) {
+            return Some(Cause::SoftSprings);
+        }
+        let of_mass = of_moved_mass(elements.added_share, miss.headline);
         if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
             return Some(Cause::MovedMass);
         }
+        let collision = met?;
         // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
         let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
         let of_springs = 0.5 * overlap / collision.max_approach?;
@@ -286,11 +333,23 @@ impl Simulation {
         (is_soft && of_springs > miss.tolerance).then_some(Cause::SoftSprings)
     }
 
-    /// The same case on a finer mesh, or why there is none.
-    fn finer_or_kept(&self, miss: &Miss, collision: &Collision) -> Result<Self, Kept> {
+    /// The same case on the finer mesh that a quantity needs that is going to be off, of bodies that meet as the case
+    /// says; none where there is none.
+    pub(crate) fn finer_for(&self, miss: &Miss) -> Option<Self> {
+        self.finer_or_kept(miss, None).ok()
+    }
+
+    /// The quantity that is foretold to be off by most of what the case allows, if by more than that.
+    pub(crate) fn foretold_miss(&self) -> Option<Option<Miss>> {
+        let errors = foretold_errors(self)?;
+        Some(self.worst_miss(|headline| errors[headline as usize]))
+    }
+
+    /// The same case on a finer mesh, or why there is none; after a collision or before one.
+    fn finer_or_kept(&self, miss: &Miss, met: Option<&Collision>) -> Result<Self, Kept> {
         let scene = self.case().scene();
         let elements = self.setup().elements.as_ref().ok_or(Kept::Given)?;
-        if let Some(cause) = self.other_cause(miss, collision) {
+        if let Some(cause) = self.other_cause(miss, met) {
             return Err(Kept::Setting(cause));
         }
         if self.has_mesh_file() {
@@ -299,7 +358,8 @@ impl Simulation {
         if scene.mesh().contact_element_size.is_some() {
             return Err(Kept::Given);
         }
-        if scene.gravity().is_some() || collision.approach != self.setup().approach {
+        let is_other = |collision: &Collision| collision.approach != self.setup().approach;
+        if scene.gravity().is_some() || met.is_some_and(is_other) {
             return Err(Kept::Gravity);
         }
         if let Some(why) = &self.stopped_finer {
@@ -310,7 +370,7 @@ impl Simulation {
         }
         let level = Level {
             contact_element_size_m: elements.plan.contact_element_size,
-            element_updates: collision.element_updates,
+            element_updates: met.and_then(|collision| collision.element_updates),
             quantity: miss.headline.key().to_string(),
             error: miss.error,
             tolerance: miss.tolerance,
@@ -320,9 +380,7 @@ impl Simulation {
             |by: f64| self.refined(self.refinement * by, levels.clone()).map_err(Kept::Refused);
         let by = step(miss.excess(), STEPS[1]);
         let finer = match (finer(by)?, by < STEPS[1]) {
-            (short, true) if self.is_foretold(collision) && short.missed(collision).is_some() => {
-                finer(STEPS[1])?
-            }
+            (short, true) if short.foretold_miss().flatten().is_some() => finer(STEPS[1])?,
             (enough, _) => enough,
         };
         match finer.setup().cost {

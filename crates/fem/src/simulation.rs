@@ -8,6 +8,7 @@ use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
+use crate::accuracy::Beside;
 use crate::course::{Course, begun};
 use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::Estimate;
@@ -19,6 +20,7 @@ use crate::probes::probes_of;
 use crate::refinement::Level;
 use crate::refusal::Refusal;
 use crate::resolution::Resolution;
+use crate::soft_springs::softness;
 use crate::uncertainty::Seen;
 
 /// The collision of a case, by the model that it asks for, within its tolerance.
@@ -66,6 +68,8 @@ pub struct Simulation {
     pub(crate) stopped_finer: Option<String>,
     /// Of the last collision that was looked at.
     pub(crate) errors: Mutex<Option<(Seen, Doubt)>>,
+    /// Condensed companions of explicit elements that meet like this.
+    pub(crate) condensed: Mutex<Option<(Approach, Option<Beside>)>>,
 }
 
 impl Simulation {
@@ -111,6 +115,7 @@ impl Simulation {
             levels,
             stopped_finer: None,
             errors: Mutex::default(),
+            condensed: Mutex::default(),
         })
     }
 
@@ -175,7 +180,8 @@ impl Simulation {
 
     /// What the user should know before the run.
     pub fn warnings_before(&self) -> Vec<String> {
-        let own = self.mesh_warning().into_iter().chain(self.cheaper());
+        let own = self.mesh_warning().into_iter().chain(self.springs_warning());
+        let own = own.chain(self.cheaper());
         let odd = self.case.scene().oddities().into_iter().chain(self.choice_warning());
         odd.chain(self.setup().warnings()).chain(own).collect()
     }
@@ -186,12 +192,43 @@ impl Simulation {
         self.resolution_warning(self.setup().estimate.contact_radius)
     }
 
+    /// That springs softer than the usual ones give way, by how much, and what helps.
+    fn springs_warning(&self) -> Option<String> {
+        let elements = self.setup().elements.as_ref().filter(|elements| elements.has_springs)?;
+        let longer = softness(&elements.plan)?;
+        (longer > self.case.scene().accuracy().contact_time).then(|| {
+            format!(
+                "springs of contact.penalty_factor = {} give way: the contact lasts about {:.0} % longer; write \
+                 contact.penalty_factor = 1",
+                elements.plan.penalty_factor,
+                100.0 * longer
+            )
+        })
+    }
+
     /// That the meshes cannot carry a contact of this radius, m.
     pub(crate) fn resolution_warning(&self, contact_radius: f64) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
         let (scene, meshes) = (self.case.scene(), self.model.meshes());
         let resolution = Resolution::of(scene, meshes, contact_radius)?;
         resolution.warning(scene, plan, meshes, contact_radius)
+    }
+
+    /// How wide the contact came, m, where it came to its end. One of the poles alone has no width; it is as wide as
+    /// was expected, and so is one that spans not even an element, whose radius is one of elements.
+    pub(crate) fn carried_radius(&self, collision: &Collision) -> Option<f64> {
+        let radius = collision.max_contact_radius.filter(|_| collision.is_complete())?;
+        let size = self.setup().elements.as_ref()?.plan.contact_element_size;
+        let expected = self.estimate(collision)?.contact_radius;
+        Some(if radius > 0.0 && expected >= size { radius } else { expected })
+    }
+
+    /// Whether the meshes do not resolve the contact of a collision at all.
+    pub(crate) fn is_unresolved(&self, collision: &Collision) -> bool {
+        let resolution = self
+            .carried_radius(collision)
+            .and_then(|radius| Resolution::of(self.case.scene(), self.model.meshes(), radius));
+        resolution.is_some_and(|resolution| resolution.is_none_at_all())
     }
 
     /// That the run takes long, and that the condensed model, which has fields too and is expected to serve

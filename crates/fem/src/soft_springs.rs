@@ -18,6 +18,18 @@ const STEPS: f64 = 400.0;
 /// a sphere, F = π k R o² (Johnson 1985, § 4.3), if they are soft. The energy of both is that of
 /// the approach.
 pub(crate) fn lengthening(plan: &Plan) -> f64 {
+    let ratio = ratio(plan);
+    if ratio > LEAST { ratio } else { 1.0 }
+}
+
+/// By how much springs that are softer than the usual ones lengthen the contact, over its time; nothing of
+/// the usual ones, which are part of what a mesh is off by.
+pub(crate) fn softness(plan: &Plan) -> Option<f64> {
+    (plan.penalty_factor < 1.0).then(|| ratio(plan) - 1.0)
+}
+
+/// What is less than [`LEAST`] included; 1 of what is no number.
+fn ratio(plan: &Plan) -> f64 {
     let hertz = &plan.estimate.hertz;
     let (stiff, radius) = (hertz.max_approach(), hertz.pair().effective_radius());
     let per_area = plan.contact_stiffness / plan.contact_element_size;
@@ -38,7 +50,7 @@ pub(crate) fn lengthening(plan: &Plan) -> f64 {
         (force, whole) = (next, after);
     }
     let ratio = whole / stiff;
-    if ratio > LEAST && ratio.is_finite() { ratio } else { 1.0 }
+    if ratio.is_finite() { ratio.max(1.0) } else { 1.0 }
 }
 
 #[cfg(test)]

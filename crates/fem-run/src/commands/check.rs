@@ -1,9 +1,9 @@
 //! `fem-run check CASE`: what a run would do, without running it.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::{Cost, ForceLaw, Simulation};
+use fem::{Cost, ForceLaw, Foreseen, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::show;
@@ -15,6 +15,9 @@ use crate::forecast::seconds;
 use crate::report;
 use crate::standard_output;
 use crate::tables::{mesh_table, pairs, table};
+
+/// What companions may take before the mesh counts as open.
+const PATIENCE_WITH_COMPANIONS: Duration = Duration::from_secs(2);
 
 /// Check a case and print it with all defaults filled in
 ///
@@ -52,20 +55,34 @@ pub fn text(case: Case, name: &str) -> Result<String, Failure> {
 fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let begin = Instant::now();
     let simulation = Simulation::new(case)?;
+    let making = begin.elapsed().as_secs_f64();
+    let Foreseen { simulation, is_open } =
+        simulation.foreseen(|| begin.elapsed() < PATIENCE_WITH_COMPANIONS);
     let setup = begin.elapsed().as_secs_f64();
+    let spent = Making { making, setup, is_open };
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
     let heading = format!("{name} is sound. What to expect of a run:");
     let expectation =
-        format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, setup));
+        format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, &spent));
     let text = format!("{}\n{resolved}", as_comment(&expectation));
     Ok((simulation, text))
 }
 
-/// What to expect of a run, whose bodies took so long to make, s.
-fn expect(simulation: &Simulation, making: f64) -> String {
+/// What came before a run.
+struct Making {
+    /// Of its bodies at first, s.
+    making: f64,
+    /// All of it, companions too, which tell the mesh that is needed, s.
+    setup: f64,
+    /// Whether finer meshes may follow.
+    is_open: bool,
+}
+
+/// What to expect of a run.
+fn expect(simulation: &Simulation, spent: &Making) -> String {
     let setup = simulation.setup();
     let hertz = &setup.estimate.hertz;
     let closed_form = pairs([
@@ -75,13 +92,12 @@ fn expect(simulation: &Simulation, making: f64) -> String {
         ("largest contact radius", show(hertz.max_contact_radius(), "m")),
         ("peak pressure", show(hertz.peak_pressure(), "Pa")),
     ]);
-    let costs = costs(&setup.cost, Some(time(simulation, making)));
+    let costs = costs(&setup.cost, time(simulation, spent));
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
             let chosen = by_tolerance(simulation);
-            let finer = of_finer_meshes(simulation);
-            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}{finer}", of_contacts(simulation))
+            format!("Mesh\n{meshes}{chosen}\nCost{}\n{costs}", of_contacts(simulation))
         }
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
@@ -124,7 +140,7 @@ fn unforced(simulation: &Simulation) -> String {
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
         Some(Ok(planned)) if planned.setup().cost != simulation.setup().cost => {
-            let costs = costs(&planned.setup().cost, None);
+            let costs = costs(&planned.setup().cost, Vec::new());
             format!("\nCost if the plan decided on all effects\n{costs}")
         }
         _ => String::new(),
@@ -166,27 +182,40 @@ fn of_contacts(simulation: &Simulation) -> String {
     }
 }
 
-/// What finer meshes may take, where a result that misses the tolerance is computed again.
-fn of_finer_meshes(simulation: &Simulation) -> String {
-    simulation.most_of_finer_meshes().map_or_else(String::new, |most| {
-        format!(
-            "where a result misses accuracy.tolerance it is computed again on finer meshes, in up to {:.0e} \
-             element updates more\n",
-            most as f64
-        )
-    })
-}
-
-/// How long the making of the bodies took here, and the steps will take.
-fn time(simulation: &Simulation, making: f64) -> String {
-    let making = show(making, "s");
-    match seconds(simulation) {
-        Some(steps) => format!("about {} here, after {making} of setup", show(steps, "s")),
+/// How long the making of the bodies took here, the steps will take, and what may follow.
+fn time(simulation: &Simulation, spent: &Making) -> Vec<[String; 2]> {
+    let making = show(spent.setup, "s");
+    let run = seconds(simulation, spent.making);
+    let time = match run {
+        Some(run) => format!("about {} here, after {making} of setup", show(run, "s")),
         None => format!("{making} of setup here"),
+    };
+    let mut rows = Vec::new();
+    if let Some(why) = simulation.refined_because() {
+        rows.push(["finer mesh".to_string(), why]);
     }
+    rows.push(["time".to_string(), time]);
+    let follows = simulation.most_of_finer_meshes() != Some(0);
+    if spent.is_open && follows {
+        let most = match (&simulation.setup().cost, simulation.most_of_finer_meshes(), run) {
+            (Cost::Steps { element_updates, .. }, Some(most), Some(run)) => {
+                let each = run / *element_updates as f64;
+                format!(
+                    "at most {:.1e} element updates more, {}",
+                    most as f64,
+                    show(each * most as f64, "s")
+                )
+            }
+            _ => "at most four, each with up to four times the elements of the one before"
+                .to_string(),
+        };
+        let when = "where the mesh misses accuracy.tolerance, which only the run tells";
+        rows.push(["finer meshes".to_string(), format!("{when}: {most}")]);
+    }
+    rows
 }
 
-fn costs(cost: &Cost, time: Option<String>) -> String {
+fn costs(cost: &Cost, time: Vec<[String; 2]>) -> String {
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, value: String| rows.push([name.to_string(), value]);
     match *cost {
@@ -205,9 +234,7 @@ fn costs(cost: &Cost, time: Option<String>) -> String {
         }
         Cost::Little { .. } => {}
     }
-    if let Some(time) = time {
-        row("time", time);
-    }
+    rows.extend(time);
     table(&[Left, Left], rows)
 }
 

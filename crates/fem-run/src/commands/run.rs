@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use fem::results::Summary;
-use fem::{Cost, Identity, Memory, Simulation, remedy_of};
+use fem::{Cost, Foreseen, Identity, Memory, Simulation, remedy_of};
 use fem_case::Keep;
 use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
@@ -14,6 +14,7 @@ use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::{CaseArguments, ToleranceArguments, parse_count};
 use crate::failure::Failure;
+use crate::forecast::seconds;
 use crate::interrupt::Interrupt;
 use crate::place::ResultPlace;
 use crate::progress::Watch;
@@ -57,7 +58,9 @@ pub struct Options {
 /// Runs a case.
 pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
+    let begin = Instant::now();
     let simulation = Simulation::new(input.load_within(&options.within)?)?;
+    let making = begin.elapsed().as_secs_f64();
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
     let replaces = Replaces::only(&identity.case, options.force);
@@ -67,8 +70,12 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         false => None,
     };
     let folder = ResultFolder::claim(&place.out, &longest_name(&stem), replaces)?;
+    let Foreseen { simulation, is_open } = match &memory {
+        Some(memory) => Foreseen { simulation: simulation.as_in(memory)?, is_open: false },
+        None => simulation.foreseen(|| true),
+    };
     if !options.quiet {
-        announce(&simulation, &input.name(), &place);
+        announce(&simulation, making, &input.name(), &place, is_open);
         if options.restart.restart {
             restart::tell(memory.as_ref());
         }
@@ -76,10 +83,6 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
 
     let mut watch = Timed::since(started, Watch::new(interrupt, options.quiet));
     let mut keeper = Keeper::new(&folder, &identity, options.restart);
-    let simulation = match &memory {
-        Some(memory) => simulation.as_in(memory)?,
-        None => simulation,
-    };
     let mut memory = memory;
     let mut left: &[&str] = &[];
     let (simulation, collision) = simulation.within_tolerance(|simulation| {
@@ -160,8 +163,16 @@ fn compute(
 }
 
 /// Some words on stderr about what begins.
-fn announce(simulation: &Simulation, case: &str, place: &ResultPlace) {
-    let mut line = format!("{case}: {}; result: {}", price(simulation), place.out.display());
+fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlace, is_open: bool) {
+    let more = simulation.most_of_finer_meshes().filter(|more| is_open && *more > 0);
+    let more = more.map_or(String::new(), |more| {
+        format!(", up to {:.1e} element updates more if finer meshes have to follow", more as f64)
+    });
+    let is_condensed = matches!(simulation.setup().cost, Cost::Factors { .. });
+    let time = is_condensed.then(|| seconds(simulation, making)).flatten();
+    let time = time.map_or(String::new(), |time| format!(", some {}", show(time, "s")));
+    let (price, out) = (price(simulation), place.out.display());
+    let mut line = format!("{case}: {price}{time}{more}; result: {out}");
     if let Some(taken) = &place.taken {
         line += &format!(", since {} holds that of another case", taken.display());
     }

@@ -7,6 +7,7 @@ mod calibrate;
 mod common;
 mod first_minutes;
 mod fit;
+mod foretold;
 mod full_disk;
 mod house;
 mod leftovers;

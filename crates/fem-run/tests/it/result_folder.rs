@@ -74,6 +74,7 @@ fn the_summary_has_the_keys_of_the_contract() {
     let cost = [
         "wall_s",
         "setup_s",
+        "trials_s",
         "solve_s",
         "ns_per_element_update",
         "threads",

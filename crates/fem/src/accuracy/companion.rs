@@ -33,15 +33,19 @@
 //! Errors are told without their sign and with a margin: the limit is expected within them. Margins and
 //! scatter are measured on random scenes of all kinds (`validation/error_bars`).
 
+use std::sync::PoisonError;
+
 use fem_case::schema::ContactMethod;
 use fem_case::{Body, Quantity};
-use fem_collision::{Collision, Headline, Want, longest_at_pole};
+use fem_collision::{Approach, Collision, Headline, Want, longest_at_pole};
 use fem_material::Material;
 
 use super::ladder::first_contact;
 use super::setting::Setting;
 use crate::early_pressure::EarlyPressure;
-use crate::effects::Doubt;
+use crate::effects::{Doubt, FiniteStrain};
+use crate::estimate::Estimate;
+use crate::method::{Cost, ElementSetup};
 use crate::plan::Plan;
 use crate::simulation::Simulation;
 
@@ -129,14 +133,14 @@ pub(crate) fn discretisation_errors(
         false => Some(longest_at_pole(simulation.model().meshes())).filter(|size| *size > 0.0),
     };
     let Some(size) = size else { return Doubt::default() };
-    let companions = Companions { simulation, collision, plan, size };
+    let companions = Companions { simulation, approach: collision.approach, plan, size };
     let across = collision.max_contact_radius.map_or(FEW, |radius| radius / size);
     let is_explicit = collision.element_updates.is_some();
     let [mach, strain] = (simulation.estimate(collision))
         .map_or([0.0, FLAT], |estimate| [estimate.mach, estimate.strain]);
     let are_like = companion_updates([mach, strain], is_at_finite_strain).is_none();
     let condensed = match are_like && plan.makes_meshes && is_explicit {
-        true => companions.of_condensed(),
+        true => companions.of_condensed().map(|Beside { errors, .. }| errors),
         false => None,
     };
     let is_few = across < 2.0 * FEW;
@@ -157,10 +161,8 @@ pub(crate) fn discretisation_errors(
         None => (companions.of_coarser(values), MARGIN_OF_CONDENSED),
     };
     let (scatter, of_few) = match (is_explicit, condensed) {
-        (true, _) if are_like && is_at_finite_strain => {
-            (SCATTER_AT_FINITE_STRAIN, with_waves(OF_FEW_AT_FINITE_STRAIN, mach))
-        }
-        (true, Some(_)) => (SCATTER, OF_FEW),
+        (true, _) if are_like && is_at_finite_strain => beside_condensed(mach, true),
+        (true, Some(_)) => beside_condensed(mach, false),
         (true, None) if plan.makes_meshes => (SCATTER, with_waves(OF_FEW_STRAINED, mach)),
         (true, None) => (SCATTER, OF_FEW),
         (false, _) => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
@@ -170,7 +172,6 @@ pub(crate) fn discretisation_errors(
         false => [0.0; 6],
     };
     let added = added_share(collision);
-    let coarse = (FEW / across).max(1.0).powi(2);
     let early = EarlyPressure::of(simulation, collision);
     let fast = if is_explicit { OF_FAST_TERMS * lost_at_once(simulation, collision) } else { 0.0 };
     let of_relaxation = |headline| match headline {
@@ -178,14 +179,65 @@ pub(crate) fn discretisation_errors(
         Headline::Restitution => fast,
         _ => 0.0,
     };
+    let scatter: [f64; 6] = std::array::from_fn(|k| scatter[k] + fronts[k]);
+    let told = told(errors, margin, scatter, of_few, across, added);
     Doubt::by(|headline| {
         let k = headline as usize;
-        let scatter = scatter[k] + fronts[k] + of_few[k] / (across * across);
-        let share =
-            |error: f64| coarse * margin[k] * error.abs() + scatter + added * OF_ADDED_MASS[k];
-        let both = errors[k].zip(values[k]);
-        both.map(|(error, value)| share(error) * headline.scale(value) + of_relaxation(headline))
+        let both = told[k].zip(values[k]);
+        both.map(|(error, value)| error * headline.scale(value) + of_relaxation(headline))
     })
+}
+
+/// Errors that are told of those that are estimated, with so many elements across the contact and such a share
+/// of mass that is moved.
+fn told(
+    errors: [Option<f64>; 6],
+    margin: [f64; 6],
+    scatter: [f64; 6],
+    of_few: [f64; 6],
+    across: f64,
+    added: f64,
+) -> [Option<f64>; 6] {
+    let coarse = (FEW / across).max(1.0).powi(2);
+    Headline::ALL.map(|headline| {
+        let k = headline as usize;
+        let scatter = scatter[k] + of_few[k] / (across * across);
+        Some(coarse * margin[k] * errors[k]?.abs() + scatter + added * OF_ADDED_MASS[k])
+    })
+}
+
+/// The errors, the restitution's absolute, all others relative, that elements are going to make: before a
+/// collision of them, of those whose companions are condensed bodies. None of others, which only a run tells.
+pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6]> {
+    let setup = simulation.setup();
+    let Cost::Steps { .. } = setup.cost else { return None };
+    let ElementSetup { plan, added_share, .. } = setup.elements.as_ref()?;
+    let is_finite = setup.decisions.is_active(FiniteStrain::NAME);
+    let Estimate { mach, strain, .. } = setup.estimate;
+    if !plan.makes_meshes || companion_updates([mach, strain], is_finite).is_some() {
+        return None;
+    }
+    let (approach, size) = (setup.approach, plan.contact_element_size);
+    let Beside { values, errors } =
+        Companions { simulation, approach, plan, size }.of_condensed()?;
+    let across = values[Headline::MaxContactRadius as usize]? / size;
+    let (scatter, of_few) = beside_condensed(mach, is_finite);
+    Some(told(errors, MARGIN, scatter, of_few, across, *added_share))
+}
+
+/// Scatter, and what grows where elements are few, of explicit elements whose companions are condensed bodies.
+fn beside_condensed(mach: f64, is_at_finite_strain: bool) -> ([f64; 6], [f64; 6]) {
+    match is_at_finite_strain {
+        true => (SCATTER_AT_FINITE_STRAIN, with_waves(OF_FEW_AT_FINITE_STRAIN, mach)),
+        false => (SCATTER, OF_FEW),
+    }
+}
+
+/// The numbers of condensed bodies with springs, and what they are off by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Beside {
+    values: [Option<f64>; 6],
+    errors: [Option<f64>; 6],
 }
 
 /// Element updates of the companions of explicit elements over those of the collision, Σ r⁻³, whose impact has this
@@ -217,9 +269,9 @@ fn lost_at_once(simulation: &Simulation, collision: &Collision) -> f64 {
     lost.fold(0.0, f64::max)
 }
 
-/// What the mass that is moved changes of a number of a collision, as errors of it are told.
-pub(crate) fn of_moved_mass(collision: &Collision, headline: Headline) -> f64 {
-    added_share(collision) * OF_ADDED_MASS[headline as usize]
+/// What such a share of moved mass changes of a number, as errors of it are told.
+pub(crate) fn of_moved_mass(added: f64, headline: Headline) -> f64 {
+    added * OF_ADDED_MASS[headline as usize]
 }
 
 /// The most mass that is moved in a body over that of the lighter one.
@@ -230,7 +282,8 @@ fn added_share(collision: &Collision) -> f64 {
 /// Cheaper collisions of the same bodies.
 struct Companions<'a> {
     simulation: &'a Simulation,
-    collision: &'a Collision,
+    /// How the bodies meet.
+    approach: Approach,
     plan: &'a Plan,
     /// Length of the elements at the contact, m.
     size: f64,
@@ -238,14 +291,27 @@ struct Companions<'a> {
 
 impl Companions<'_> {
     /// Errors of explicit elements, the restitution's absolute, all others relative; none where condensed
-    /// bodies cannot be had.
-    fn of_condensed(&self) -> Option<[Option<f64>; 6]> {
-        let same = self.collide(&[
+    /// bodies cannot be had. What they were is kept: they are asked for before a collision and after it.
+    fn of_condensed(&self) -> Option<Beside> {
+        // Who panicked has left nothing half written.
+        let mut known = self.simulation.condensed.lock().unwrap_or_else(PoisonError::into_inner);
+        match *known {
+            Some((approach, beside)) if approach == self.approach => beside,
+            _ => {
+                let beside = self.condensed_anew();
+                *known = Some((self.approach, beside));
+                beside
+            }
+        }
+    }
+
+    fn condensed_anew(&self) -> Option<Beside> {
+        let values = self.collide(&[
             Setting::Condensed { vibration_modes: 0, penalty_springs: true },
             Setting::ElementSize(self.size),
             Setting::Staggered(self.plan.finer_body.is_some()),
         ])?;
-        self.beside_touching(same, self.size)
+        Some(Beside { values, errors: self.beside_touching(values, self.size)? })
     }
 
     /// The numbers of condensed bodies with springs on the mesh of a file.
@@ -261,7 +327,7 @@ impl Companions<'_> {
     /// Errors of numbers beside the limit of nodes that touch exactly, which have no meshes that are staggered, with
     /// elements about as long (m) and half as long.
     fn beside_touching(&self, values: [Option<f64>; 6], size: f64) -> Option<[Option<f64>; 6]> {
-        let size = match self.collision.max_contact_radius {
+        let size = match values[Headline::MaxContactRadius as usize] {
             Some(radius) if radius > size => radius / (radius / size).round(),
             _ => size,
         };
@@ -344,7 +410,7 @@ impl Companions<'_> {
         let shared = self.simulation.shared().of_companions();
         let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
         let want = Want::quantities();
-        let collision = companion.model().collide(&self.collision.approach, &want, &mut ());
+        let collision = companion.model().collide(&self.approach, &want, &mut ());
         let values = Headline::ALL.map(|headline| headline.of(&collision));
         collision.is_complete().then_some(values)
     }

@@ -16,7 +16,9 @@ mod setting;
 mod stress_places;
 mod study;
 
-pub(crate) use companion::{companion_updates, discretisation_errors, of_moved_mass};
+pub(crate) use companion::{
+    Beside, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
+};
 pub use error_parts::{ErrorPart, ErrorSource};
 pub use ladder::Ladder;
 pub use limit::Limit;

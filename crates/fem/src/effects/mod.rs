@@ -115,6 +115,11 @@ pub struct Decisions {
 }
 
 impl Decisions {
+    /// Whether an effect of this name is on.
+    pub(crate) fn is_active(&self, name: &str) -> bool {
+        self.verdicts.iter().any(|verdict| verdict.name == name && verdict.active)
+    }
+
     /// Puts what a collision tells of effects better in place of what was decided before.
     pub(crate) fn take_what_was_found(&mut self, scene: &Scene, collision: &Collision) {
         for verdict in &mut self.verdicts {

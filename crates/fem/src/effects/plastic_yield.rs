@@ -7,6 +7,7 @@
 use fem_case::engineering::show;
 use fem_case::{Body, Scene};
 use fem_laws::{FirstYield, largest_von_mises};
+use fem_material::Material;
 
 use super::effect::Effect;
 use super::left_out::LeftOut;
@@ -16,6 +17,9 @@ use crate::estimate::Estimate;
 /// Peak pressure over the pair's contact modulus above which only brittle or rubber-like materials do
 /// not yield: glass at 0.5 m/s is at 1/32, steel at 5 m/s at 1/13.
 const PRESSURE_LIMIT: f64 = 1.0 / 20.0;
+/// Young's modulus (Pa) below which are elastomers, gels and foams, which tear and do not yield (Ashby 2011, chart of
+/// modulus and strength).
+const ELASTOMER: f64 = 0.1e9;
 
 /// Plastic flow.
 #[derive(Clone, Copy, Debug)]
@@ -78,16 +82,27 @@ fn of_strength(body: &Body, first: &FirstYield, estimate: &Estimate) -> Need {
     }
 }
 
+/// Whether a material is of a kind that flows: as soft as rubber, or of a hyperelastic law, it is not.
+fn may_yield(material: &Material) -> bool {
+    material.named_law().is_none() && material.instantaneous().youngs_modulus() >= ELASTOMER
+}
+
 fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
     let peak = estimate.softened.sizes.peak_pressure;
     let share = peak / estimate.hertz.pair().contact_modulus();
     let reached = |body: &Body| {
+        let material = body.material().filter(|material| may_yield(material))?;
+        // Beside a softer body a stiff one bears little.
+        let own = 0.5 * material.instantaneous().plane_strain_modulus();
+        if share > PRESSURE_LIMIT && peak <= PRESSURE_LIMIT * own {
+            return None;
+        }
         let nu = body.material()?.instantaneous().poissons_ratio();
         Some(format!("{} {}", body.name(), show(largest_von_mises(nu) * peak, "Pa")))
     };
     let reached: Vec<String> = scene.bodies().iter().filter_map(reached).collect();
     let reached = reached.join(", ");
-    let warning = (share > PRESSURE_LIMIT).then(|| {
+    let warning = (share > PRESSURE_LIMIT && !reached.is_empty()).then(|| {
         format!(
             "the peak pressure is {} of the contact modulus, which few materials bear without \
              plastic flow: the stress reaches {reached}; give material.NAME.yield_strength to see \
@@ -98,9 +113,14 @@ fn without_strength(scene: &Scene, estimate: &Estimate) -> Need {
     Need {
         is_called_for: false,
         number: format!("peak pressure / contact modulus = {share:.3}"),
-        otherwise: format!(
-            "the stress reaches {reached}; a material that yields below that would flow"
-        ),
+        otherwise: match reached.is_empty() {
+            true => "what is as soft as rubber, has a law beyond Hooke's or is far stiffer than its partner \
+                     does not yield"
+                .to_string(),
+            false => format!(
+                "the stress reaches {reached}; a material that yields below that would flow"
+            ),
+        },
         left_open: String::new(),
         warning,
     }

@@ -149,6 +149,7 @@ impl Explicit {
                 quieter: Quieter::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
+                added_share: added_share(&bodies),
             }),
         };
         Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
@@ -421,4 +422,10 @@ fn mass_scaling(scene: &Scene, model: &Bodies) -> Answer {
     let masses = model.bodies().each_ref().map(|body| Some(body.mass()).filter(|m| m.is_finite()));
     let added = model.bodies().each_ref().map(|body| Some(body.added_mass()));
     MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
+}
+
+/// The larger share of the lighter body's mass that is moved in a body.
+fn added_share(model: &Bodies) -> f64 {
+    let lightest = model.bodies().iter().map(|body| body.mass()).fold(f64::INFINITY, f64::min);
+    model.bodies().iter().map(|body| body.added_mass() / lightest).fold(0.0, f64::max)
 }

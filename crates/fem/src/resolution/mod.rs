@@ -25,6 +25,12 @@ const FORCE_OVER_LOSS: [f64; 2] = [0.8, 0.4];
 const LARGEST_ERROR: f64 = 0.015;
 /// Fewer elements across the contact radius cost more than about 1 % of the force.
 const FEWEST_ELEMENTS: f64 = 3.5;
+/// Fewer do not resolve it: no error is foretold of them.
+const NO_ELEMENTS: f64 = 1.0;
+/// An error that is foretold above this is no number: elements lose more than half of the contact's energy.
+const LARGEST_TOLD: f64 = 0.5;
+/// Elements across the contact that are advised where there are none: those of 1 %.
+const ADVISED: f64 = 4.0;
 /// A length is advised that brings the error to this share of the largest.
 const SHARE_OF_ADVICE: f64 = 0.5;
 
@@ -89,6 +95,30 @@ impl Resolution {
         Some(sum)
     }
 
+    /// Whether the contact is narrower than an element.
+    pub fn is_none_at_all(&self) -> bool {
+        self.elements < NO_ELEMENTS
+    }
+
+    /// What a user should know of a mesh whose elements are wider than the contact, whose radius is this, m.
+    fn unresolved(&self, scene: &Scene, contact_radius: f64) -> String {
+        let body = &scene.bodies()[self.source.side];
+        let size = show(contact_radius / ADVISED, "m");
+        let advice = match is_made_here(body) {
+            true => format!("use a mesh.contact_element_size of {size} or less, or leave it out"),
+            false => format!(
+                "use a mesh of {} with edges of {size} there, or leave body.{}.sphere.mesh out",
+                body.name(),
+                self.source.side
+            ),
+        };
+        format!(
+            "the mesh does not resolve the contact, whose radius spans {:.2} elements: contact time and peak force \
+             may be off by half and more; {advice}",
+            self.elements
+        )
+    }
+
     /// What a user should know of it, of a contact of this radius, m.
     pub fn warning(
         &self,
@@ -101,6 +131,9 @@ impl Resolution {
         // What is no number is above every limit.
         let is_fine = largest <= LARGEST_ERROR && self.elements >= FEWEST_ELEMENTS;
         let mesh = meshes[self.source.side].filter(|_| !is_fine)?;
+        if self.is_none_at_all() {
+            return Some(self.unresolved(scene, contact_radius));
+        }
         let body = &scene.bodies()[self.source.side];
         let corners = mesh.corners(self.source.element);
         let [r, y] = middle(&corners);
@@ -121,11 +154,11 @@ impl Resolution {
         let place = if self.source.is_under { "under" } else { "around" };
         Some(format!(
             "the mesh is too coarse {place} the contact, whose radius spans {:.1} elements: contact time \
-             off by about {:.1} %, peak force by about {:.1} %, most by {} (element {} at r = {}, depth \
+             off by {}, peak force by {}, most by {} (element {} at r = {}, depth \
              {}, has edges of {}); {advice}",
             self.elements,
-            100.0 * self.contact_time,
-            100.0 * self.peak_force,
+            about(self.contact_time),
+            about(self.peak_force),
             body.name(),
             self.source.element,
             show(r, "m"),
@@ -147,6 +180,15 @@ impl Resolution {
         }
         let size = show(shrink * plan.contact_element_size, "m");
         format!("use a mesh.contact_element_size of {size} or less")
+    }
+}
+
+/// "about 5.5 %".
+fn about(error: f64) -> String {
+    match error <= LARGEST_TOLD {
+        true => format!("about {:.1} %", 100.0 * error),
+        // So is what is no number.
+        false => "more than half".to_string(),
     }
 }
 

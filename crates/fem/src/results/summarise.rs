@@ -21,6 +21,8 @@ pub struct Spent {
     pub wall: f64,
     /// Until the collision could begin, s.
     pub setup: f64,
+    /// Collisions before it whose mesh or region of contact did not do, with what told that, s.
+    pub trials: f64,
     /// The collision alone, s.
     pub solve: f64,
     /// Threads that the run used.
@@ -63,6 +65,7 @@ impl Summary {
             cost: CostSummary {
                 wall_s: spent.wall,
                 setup_s: spent.setup,
+                trials_s: spent.trials,
                 solve_s: spent.solve,
                 ns_per_element_update: updates.map(|updates| 1e9 * spent.solve / updates as f64),
                 threads: spent.threads,

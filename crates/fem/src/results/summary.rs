@@ -226,8 +226,10 @@ pub struct BodySummary {
 pub struct CostSummary {
     /// The process up to now.
     pub wall_s: f64,
-    /// Until the collision could begin: case, meshes, factors.
+    /// Until the first collision could begin: case, meshes, factors, and what tells the mesh that is needed.
     pub setup_s: f64,
+    /// Collisions whose mesh or region of contact did not do, with what told that; 0 where the first did.
+    pub trials_s: f64,
     /// The collision alone.
     pub solve_s: f64,
     /// Time of an element and step, of the collision alone.

@@ -4,9 +4,8 @@ use std::sync::PoisonError;
 
 use fem_collision::{Approach, Collision, Headline};
 
-use crate::accuracy::{companion_updates, discretisation_errors};
+use crate::accuracy::discretisation_errors;
 use crate::effects::{Doubt, FiniteStrain, Verdict};
-use crate::estimate::Estimate;
 use crate::simulation::Simulation;
 
 /// What closed forms are off by: rounding.
@@ -36,16 +35,6 @@ impl Seen {
 }
 
 impl Simulation {
-    /// Whether what a mesh is off by is known before a collision like this one is computed on it, from condensed
-    /// bodies alone.
-    pub(crate) fn is_foretold(&self, collision: &Collision) -> bool {
-        let of = |estimate: Estimate| {
-            let is_finite = is_at_finite_strain(self, collision);
-            companion_updates([estimate.mach, estimate.strain], is_finite).is_none()
-        };
-        collision.element_updates.is_some() && self.estimate(collision).is_some_and(of)
-    }
-
     /// Of the quantities of a collision: of elements by companions, of one degree of freedom by its
     /// tolerance. Companions take time: what they told of the last collision is kept.
     pub(crate) fn discretisation(&self, collision: &Collision) -> Doubt {

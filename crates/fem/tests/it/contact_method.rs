@@ -68,7 +68,7 @@ fn a_case_names_the_method() {
 fn viscosity_that_is_forced_on_takes_penalty_and_says_so() {
     for bodies in ["start={}", TWINS] {
         for (switch, named, expected) in [
-            ("effects={}", "start={}", ContactMethod::Massless),
+            ("effects.bulk_viscosity='auto'", "start={}", ContactMethod::Massless),
             (VISCOUS, "start={}", ContactMethod::Penalty),
             (VISCOUS, MASSLESS, ContactMethod::Penalty),
             (VISCOUS, NODES, ContactMethod::NodeToSurface),

@@ -16,6 +16,7 @@ mod effects;
 mod error_bars;
 mod finite_strain;
 mod folded_terms;
+mod foresight;
 mod front_door;
 mod gravity;
 mod guards;

@@ -89,3 +89,30 @@ fn the_body_that_yields_first_is_named() {
     assert!(warnings.contains("upper yields from"), "{warnings}");
     assert!(!warnings.contains("lower yields"), "{warnings}");
 }
+
+/// Rubber is strained by as much and does not flow: what is as soft, or has a hyperelastic law, is not warned about;
+/// what stands beside it, and what has a yield strength, is.
+#[test]
+fn rubber_has_no_yield_strength_to_give() {
+    let soft = "material.steel={density=1100, youngs_modulus='50 MPa', poissons_ratio=0.45}";
+    let slow = "body.0.approach_speed='5 m/s'";
+    let beside = "material.hard={density=1100, youngs_modulus='200 MPa', poissons_ratio=0.4}";
+    let stiff = "material.hard={density=8000, youngs_modulus='200 GPa', poissons_ratio=0.3}";
+    for model in MODELS {
+        let (verdict, warnings) = told(STEEL, &[model, soft, slow]);
+        assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
+        assert!(verdict.reason.contains("does not yield"), "{}", verdict.reason);
+        let (_, warnings) = told(STEEL, &[model, "material.steel.hyperelastic='hencky'"]);
+        assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
+        // The stiff one of both.
+        let fast = "body.0.approach_speed='30 m/s'";
+        let (_, warnings) = told(STEEL, &[model, soft, beside, "body.1.material='hard'", fast]);
+        assert!(warnings.contains("plastic flow: the stress reaches upper"), "{model}: {warnings}");
+        // Far stiffer than the rubber that presses on it.
+        let (_, warnings) = told(STEEL, &[model, soft, stiff, "body.1.material='hard'", slow]);
+        assert!(!warnings.contains("plastic flow"), "{model}: {warnings}");
+        let strength = "material.steel.yield_strength='1 MPa'";
+        let (_, warnings) = told(STEEL, &[model, soft, slow, strength]);
+        assert!(warnings.contains("yields from"), "{model}: {warnings}");
+    }
+}

@@ -142,3 +142,48 @@ fn a_long_run_names_the_model_that_is_not() {
     // Where only explicit elements serve, there is none to name.
     assert_eq!(hint(&[stiff, "effects.hourglass_control='on'"]), None);
 }
+
+/// Elements wider than the contact foretell no error in numbers, which would be 4 % where 50 % is missing; one warning
+/// says so, and its remedy is enough.
+#[test]
+fn a_mesh_that_resolves_nothing_is_told_so_once() {
+    for model in ["fem", "condensed"] {
+        for size in ["0.3 mm", "1 mm", "1.8 mm"] {
+            let size = format!("mesh.contact_element_size='{size}'");
+            let (simulation, collision) = run(&of(model, &[&size]));
+            let before = simulation.mesh_warning().unwrap();
+            let after = simulation.warnings(&collision);
+            for (when, warnings) in [("before", vec![before]), ("after", after)] {
+                let of_mesh: Vec<&String> = warnings
+                    .iter()
+                    .filter(|text| {
+                        text.contains("the mesh") || text.contains("contact_element_size")
+                    })
+                    .collect();
+                let [one] = of_mesh[..] else { panic!("{model} {size} {when}: {warnings:#?}") };
+                assert!(one.contains("does not resolve the contact"), "{one}");
+                assert!(
+                    one.contains("use a mesh.contact_element_size of 55.77 µm or less"),
+                    "{one}"
+                );
+                assert!(!one.contains('%'), "{one}");
+            }
+        }
+        let (simulation, collision) = run(&of(model, &["mesh.contact_element_size='55 um'"]));
+        assert_eq!(simulation.mesh_warning(), None);
+        let hertz = simulation.setup().estimate.hertz.contact_time();
+        assert!((collision.contact_time.unwrap() / hertz - 1.0).abs() < 0.015);
+    }
+}
+
+/// Elements far beyond the contact carry nothing of its field, and rounding of the field there is no error of theirs.
+#[test]
+fn what_is_far_away_is_no_fault_of_the_mesh() {
+    for (large, small) in [("1e6", "1e-6"), ("1e3", "1e-3"), ("10", "1e-5")] {
+        let sizes =
+            [format!("body.0.sphere.diameter={large}"), format!("body.1.sphere.diameter={small}")];
+        let case = [&sizes[..], &of("fem", &[])].concat();
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &case).unwrap();
+        assert_eq!(Simulation::new(case).unwrap().mesh_warning(), None, "{large} {small}");
+    }
+}

@@ -145,6 +145,7 @@ impl Condensed {
             cost: cost_of(&pair, n_steps as u64),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
+                added_share: 0.0,
                 quieter: Quieter::MoreSteps,
                 plan,
             }),

@@ -1,0 +1,61 @@
+//! What `fem-run check` foretells of a run, and what the run says that it took.
+
+use crate::common::Place;
+
+/// Rubber that the first mesh leaves outside of 1 %.
+const RUBBER: &str = "
+material.rubber = { density = 1100, youngs_modulus = '1 MPa', poissons_ratio = 0.45, hyperelastic = 'neo-hooke' }
+body = [{ name = 'wall', wall = {} },
+        { name = 'ball', sphere.diameter = '3 cm', material = 'rubber', approach_speed = '3 m/s' }]
+output.snapshots = []
+";
+/// Glass that is far stiffer against shear than against pressure.
+const AUXETIC: &str = "
+material.glass = { density = 2500, youngs_modulus = '60 GPa', poissons_ratio = -0.99 }
+body = [{ name = 'lower', sphere.diameter = '1 cm', material = 'glass' },
+        { name = 'upper', sphere.diameter = '1 cm', material = 'glass', approach_speed = '1 m/s' }]
+output.snapshots = []
+";
+
+/// Meshes that did not do have taken their time, which is a number of its own; where the first does there is none.
+#[test]
+fn trials_are_counted_by_themselves() {
+    let place = Place::new();
+    place.write("rubber.toml", RUBBER);
+    place.write("auxetic.toml", AUXETIC);
+    for (case, has_trials) in [("rubber.toml", true), ("auxetic.toml", false)] {
+        let ran = place.succeed(&[case, "--out", case.trim_end_matches(".toml")]);
+        let summary = place.json(&format!("{}/summary.json", case.trim_end_matches(".toml")));
+        let seconds = |key: &str| summary["cost"][key].as_f64().unwrap();
+        assert_eq!(seconds("trials_s") > 0.0, has_trials, "{case}: {}", summary["cost"]);
+        assert!(seconds("setup_s") + seconds("trials_s") + seconds("solve_s") <= seconds("wall_s"));
+        // Both had a mesh that did not do; only one of them was run.
+        assert!(!summary["coarser_meshes"].as_array().unwrap().is_empty());
+        let first = &summary["coarser_meshes"][0];
+        assert_eq!(first["element_updates"].is_null(), !has_trials, "{first}");
+        assert_eq!(ran.stdout.contains(" of trials"), has_trials, "{}", ran.stdout);
+        assert_eq!(ran.stderr.contains("if finer meshes have to follow"), has_trials);
+    }
+}
+
+/// Of the mesh that is needed where that is known before, else of the most that may follow; of condensed bodies, too.
+#[test]
+fn check_tells_what_may_follow() {
+    let place = Place::new();
+    place.write("rubber.toml", RUBBER);
+    place.write("auxetic.toml", AUXETIC);
+    let open = place.succeed(&["check", "rubber.toml"]).stdout;
+    assert!(open.contains("which only the run tells: at most"), "{open}");
+    let told = place.succeed(&["check", "auxetic.toml"]).stdout;
+    assert!(told.contains("finer mesh  ") && !told.contains("only the run tells"), "{told}");
+    place.write("resolved.toml", &told);
+    let again = place.succeed(&["resolved.toml", "--out", "again"]);
+    assert!(!again.stderr.contains("finer"), "{}", again.stderr);
+    place.succeed(&["auxetic.toml", "--out", "out"]);
+    for key in ["restitution", "peak_force_n"] {
+        assert_eq!(place.json("again/summary.json")[key], place.json("out/summary.json")[key]);
+    }
+    let condensed = place.succeed(&["check", "case.toml", "--set", "model.condensed={}"]).stdout;
+    let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
+    assert!(time.contains("about ") && time.contains("here, after"), "{time}");
+}
