@@ -17,12 +17,13 @@ mod record;
 mod view;
 
 use askama::Template;
-use fem_case::engineering::{Unit, show};
+use fem_case::engineering::show;
 use fem_figure::Chart;
 use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::stopwatch::spent;
 use cards::Card;
 use curves::Quantity;
 use effects::Effect;
@@ -151,12 +152,7 @@ fn price(record: &Record) -> String {
         .filter_map(|body| body.get("elements").and_then(Value::as_f64))
         .sum();
     let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
-    let seconds = match seconds {
-        // No clock is that fine.
-        seconds if seconds < 1e-3 => "less than 1 ms".to_string(),
-        seconds => Unit::fitting(seconds, "s").with_digits(3).show(seconds),
-    };
-    let mut parts = vec![format!("computed in {seconds}")];
+    let mut parts = vec![format!("computed in {}", spent(seconds))];
     if elements > 0.0 {
         parts.push(format!("{} elements", grouped(elements)));
     }

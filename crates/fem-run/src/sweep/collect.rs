@@ -13,6 +13,7 @@ use super::folder::{PICTURE_FILE, SweepFolder};
 use super::picture::picture;
 use super::picture_data::Choice;
 use super::picture_points::PicturePoint;
+use super::warnings::Warnings;
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 
@@ -34,6 +35,8 @@ pub struct Collected {
     pub n_failed: usize,
     /// The first of them, and why.
     pub failed: Vec<String>,
+    /// What its own members warn of.
+    pub warnings: Warnings,
 }
 
 /// What one look at all members found.
@@ -163,6 +166,12 @@ impl Collected {
             if self.failed.len() < MOST_NAMED {
                 let reason = row.summary["stopped_because"].as_str().unwrap_or("unknown");
                 self.failed.push(one_line(&format!("{}: {reason}", sweep.describe(row.index))));
+            }
+        }
+        if is_own {
+            let warnings = row.summary["warnings"].as_array().into_iter().flatten();
+            for warning in warnings.filter_map(|warning| warning.as_str()) {
+                self.warnings.see(warning, || sweep.describe(row.index));
             }
         }
         if self.shown.len() < MOST_SHOWN {

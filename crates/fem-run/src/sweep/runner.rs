@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_files::{longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::stopwatch::{Stopwatch, Timed};
+use crate::stopwatch::{Stopwatch, Timed, spent};
 
 /// What members are run with.
 pub struct Job<'a> {
@@ -152,9 +152,9 @@ fn in_a_few_words(summary: &Summary) -> String {
     }
     let quantity = |value: Option<f64>, unit| value.map_or("-".into(), |value| show(value, unit));
     format!(
-        "restitution {}, contact time {}, {:.2} s",
+        "restitution {}, contact time {}, {}",
         summary.collision.restitution.map_or("-".into(), |value| format!("{value:.5}")),
         quantity(summary.collision.contact_time_s, "s"),
-        summary.cost.solve_s
+        spent(summary.cost.solve_s)
     )
 }
