@@ -13,6 +13,7 @@ pub struct Body {
     pub(crate) velocity: f64,
     pub(crate) held: bool,
     pub(crate) yield_strength: Option<f64>,
+    pub(crate) unpublished_loss: Option<String>,
 }
 
 impl Body {
@@ -39,6 +40,11 @@ impl Body {
     /// Yield strength of its material, Pa, > 0, if the case gives one.
     pub fn yield_strength(&self) -> Option<f64> {
         self.yield_strength
+    }
+
+    /// The name of its material, without `lib:`, if that is of the library, which knows no loss of it, and the case gives none.
+    pub fn unpublished_loss(&self) -> Option<&str> {
+        self.unpublished_loss.as_deref()
     }
 
     /// Its material; a rigid body has none.

@@ -1,8 +1,9 @@
-//! Numbers of a scene that are possible and seldom meant: a unit that was forgotten. They are told,
-//! never refused.
+//! Numbers of a scene that are possible and seldom meant: a unit that was forgotten; and what its numbers do
+//! not say. They are told, never refused.
 
-use crate::body::Shape;
+use crate::body::{Body, Shape};
 use crate::engineering::{number, show};
+use crate::model::ModelChoice;
 use crate::scene::Scene;
 
 /// Larger than what is thrown at each other; a bare number is in metres.
@@ -16,6 +17,25 @@ const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
 const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 
 impl Scene {
+    /// That the restitution lacks what materials of the library lose, where that is not published and the case
+    /// gives no relaxation; nothing of a contact law, whose loss is the user's.
+    pub fn unpublished_loss(&self) -> Option<String> {
+        if matches!(self.model, ModelChoice::Law { .. }) {
+            return None;
+        }
+        let mut names: Vec<&str> = self.bodies.iter().filter_map(Body::unpublished_loss).collect();
+        names.dedup();
+        (!names.is_empty()).then(|| {
+            let names = names.join(" and ");
+            format!(
+                "what {names} {} in an impact is not published: the restitution is computed as if that were \
+                 nothing, and how far it is off is not known; give the material a relaxation, `fem-run \
+                 calibrate` finds one from measured restitutions",
+                if names.contains(" and ") { "lose" } else { "loses" },
+            )
+        })
+    }
+
     /// What is so far from all bodies that a unit was probably forgotten, a sentence each.
     pub fn oddities(&self) -> Vec<String> {
         let mut found = Vec::new();

@@ -179,8 +179,18 @@ impl Sweep {
         make: impl Fn(Case) -> Result<T, CaseError>,
     ) -> Result<T, CaseError> {
         let choice: Vec<_> = self.choice(member).into_iter().enumerate().collect();
+        self.build_of(&choice, member, make)
+    }
+
+    /// What `make` makes of the base case with these elements of these axes, which a member has.
+    pub(crate) fn build_of<T>(
+        &self,
+        choice: &[(usize, usize)],
+        member: usize,
+        make: impl Fn(Case) -> Result<T, CaseError>,
+    ) -> Result<T, CaseError> {
         let attempt = |choice: &[(usize, usize)]| self.case(choice).and_then(&make);
-        attempt(&choice).map_err(|error| {
+        attempt(choice).map_err(|error| {
             let is_the_base = attempt(&[]).err().as_ref() == Some(&error);
             if error.source_name() == self.name || is_the_base {
                 return error;

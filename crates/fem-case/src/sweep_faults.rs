@@ -93,8 +93,9 @@ impl Sweep {
         let tried = |axis: usize| 0..self.axes[axis].elements.len().min(MOST_TRIED);
         let alone =
             |axis: usize| tried(axis).find(|element| attempt(&[(axis, *element)]).is_none());
-        let sound: Vec<usize> = match self.combine {
-            Combine::All => (0..self.axes.len()).map(|axis| alone(axis).unwrap_or(0)).collect(),
+        // Of an axis that has no sound value the base case's own is one.
+        let sound: Vec<Option<usize>> = match self.combine {
+            Combine::All => (0..self.axes.len()).map(alone).collect(),
             Combine::Paired => Vec::new(),
         };
         let mut faults = vec![first.clone()];
@@ -105,10 +106,18 @@ impl Sweep {
                 }
                 let mut choice = sound.clone();
                 if let Some(own) = choice.get_mut(axis) {
-                    *own = element;
+                    *own = Some(element);
                 }
-                let member = self.member_of(&choice).unwrap_or(element);
-                let Some(fault) = self.build(member, &make).err() else { continue };
+                let whole: Vec<usize> = choice.iter().map(|own| own.unwrap_or(0)).collect();
+                let member = self.member_of(&whole).unwrap_or(element);
+                let places = choice.iter().enumerate();
+                let choice: Vec<_> =
+                    places.filter_map(|(axis, own)| Some((axis, (*own)?))).collect();
+                let fault = match self.combine {
+                    Combine::All => self.build_of(&choice, member, &make).err(),
+                    Combine::Paired => self.build_of(&[(axis, element)], member, &make).err(),
+                };
+                let Some(fault) = fault else { continue };
                 let is_known = |known: &CaseError| known.span() == fault.span();
                 if points_here(&fault) && !faults.iter().any(is_known) {
                     faults.push(fault);

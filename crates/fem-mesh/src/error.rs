@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MeshError {
     /// A length that must be positive and finite is not.
-    #[error("{name} is {value:e} m; it must be positive and finite")]
+    #[error("{name} is {value:?} m; it must be positive and finite")]
     Length {
         /// Which length.
         name: &'static str,
@@ -15,8 +15,8 @@ pub enum MeshError {
     },
     /// The elements at the contact are too large to describe the sphere.
     #[error(
-        "contact element size {size:.3e} m is too large for a sphere of radius {radius:.3e} m; \
-         at most a quarter of the radius, {:.3e} m, is allowed", radius / 4.0
+        "contact element size {size:?} m is too large for a sphere of radius {radius:?} m; \
+         at most a quarter of the radius, {:?} m, is allowed", radius / 4.0
     )]
     ElementSize {
         /// Element size asked for, m.
@@ -26,7 +26,7 @@ pub enum MeshError {
     },
     /// The uniformly fine block does not fit into the sphere.
     #[error(
-        "refined radius {refined_radius:.3e} m is too large for a sphere of radius {radius:.3e} m; \
+        "refined radius {refined_radius:?} m is too large for a sphere of radius {radius:?} m; \
          at most that radius is allowed"
     )]
     RefinedRadius {
@@ -37,8 +37,8 @@ pub enum MeshError {
     },
     /// A half-space's mesh ends too near.
     #[error(
-        "far radius {far_radius:.3e} m is too small for a refined radius of {refined_radius:.3e} m; at least \
-         twice that, {:.3e} m, is needed", 2.0 * refined_radius
+        "far radius {far_radius:?} m is too small for a refined radius of {refined_radius:?} m; at least \
+         twice that, {:?} m, is needed", 2.0 * refined_radius
     )]
     FarRadius {
         /// Distance of the far boundary, m.

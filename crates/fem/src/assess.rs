@@ -28,6 +28,7 @@ impl Simulation {
     /// ([`assess`]), and what its model says.
     pub fn warnings(&self, collision: &Collision) -> Vec<String> {
         let mut warnings = self.case().scene().oddities();
+        warnings.extend(self.case().scene().unpublished_loss());
         warnings.extend(self.choice_warning());
         warnings.extend(self.decisions(collision).warnings);
         warnings.extend(self.setup().unread.iter().cloned());

@@ -182,8 +182,9 @@ impl Simulation {
     pub fn warnings_before(&self) -> Vec<String> {
         let own = self.mesh_warning().into_iter().chain(self.springs_warning());
         let own = own.chain(self.cheaper());
-        let odd = self.case.scene().oddities().into_iter().chain(self.choice_warning());
-        odd.chain(self.setup().warnings()).chain(own).collect()
+        let scene = self.case.scene();
+        let of_scene = scene.oddities().into_iter().chain(scene.unpublished_loss());
+        of_scene.chain(self.choice_warning()).chain(self.setup().warnings()).chain(own).collect()
     }
 
     /// That the meshes cannot carry the contact that is expected, by how much results will be off, and

@@ -26,6 +26,14 @@ pub struct WarningKind {
 #[derive(Clone, Debug, Default)]
 pub struct WarningKinds {
     kinds: Vec<WarningKind>,
+    n_others: usize,
+}
+
+impl WarningKind {
+    /// Whether a warning differs from these in its numbers alone.
+    pub fn is_of(&self, warning: &str) -> bool {
+        self.kind == without_numbers(warning)
+    }
 }
 
 impl WarningKinds {
@@ -37,10 +45,17 @@ impl WarningKinds {
         } else if self.kinds.len() < MOST {
             let first = warning.to_string();
             self.kinds.push(WarningKind { kind, first, place, count: 1 });
+        } else {
+            self.n_others += 1;
         }
     }
 
-    /// What was seen.
+    /// How many warnings are of kinds that are not kept.
+    pub fn n_others(&self) -> usize {
+        self.n_others
+    }
+
+    /// The kinds that are kept.
     pub fn all(&self) -> &[WarningKind] {
         &self.kinds
     }
@@ -62,12 +77,23 @@ fn without_numbers(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::without_numbers;
+    use super::*;
 
     #[test]
     fn warnings_that_differ_in_their_numbers_alone_are_one() {
         let [a, b] = ["a step of 12.3 µm is 4 % too long", "a step of 1.1 mm is 12 % too long"];
         assert_eq!(without_numbers(a), without_numbers(b));
         assert_ne!(without_numbers(a), without_numbers("a step of 12.3 µm is 4 % too short"));
+    }
+
+    #[test]
+    fn kinds_that_are_not_kept_are_counted() {
+        let mut kinds = WarningKinds::default();
+        for k in 0..MOST + 5 {
+            let letters: String = format!("{k}").chars().map(|c| (c as u8 + 49) as char).collect();
+            kinds.see(k, &format!("of a kind {letters}"));
+        }
+        assert_eq!((kinds.all().len(), kinds.n_others()), (MOST, 5));
+        assert!(kinds.all()[0].is_of("of a kind 7 a") && !kinds.all()[1].is_of("of a kind a"));
     }
 }

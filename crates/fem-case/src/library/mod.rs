@@ -71,6 +71,35 @@ pub(crate) fn is_of_library(name: &str) -> bool {
     name.starts_with(PREFIX)
 }
 
+/// A name without `lib:`.
+pub(crate) fn bare(name: &str) -> &str {
+    name.strip_prefix(PREFIX).unwrap_or(name)
+}
+
+/// Whether a material of a case, of this name, is one of the library of which no loss is published: by its
+/// `lib:` name whatever its numbers are, else by its name and its numbers, as `fem-run new` writes them. One
+/// that relaxes is not.
+pub(crate) fn is_without_loss(name: &str, table: &MaterialTable) -> bool {
+    let Some(entry) = materials().get(bare(name)) else {
+        return false;
+    };
+    let known = &entry.material;
+    let stress = |of: &MaterialTable| {
+        [&of.youngs_modulus, &of.shear_modulus, &of.bulk_modulus]
+            .map(|modulus| modulus.as_ref().map(|modulus| modulus.si().ok()))
+    };
+    let ratio = |of: &MaterialTable| {
+        of.poissons_ratio.as_ref().map(|poissons_ratio| poissons_ratio.si().ok())
+    };
+    let is_same = || {
+        table.density.si().ok() == known.density.si().ok()
+            && stress(table) == stress(known)
+            && ratio(table) == ratio(known)
+    };
+    let is_elastic = known.relaxation.is_none() && table.relaxation.is_none();
+    is_elastic && (is_of_library(name) || is_same())
+}
+
 fn find(name: &str) -> Option<&'static Material> {
     materials().get(name.strip_prefix(PREFIX)?)
 }

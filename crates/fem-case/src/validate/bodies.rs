@@ -12,6 +12,13 @@ use crate::key_path::{is_bare, join, quote_key};
 use crate::library;
 use crate::schema::{BodyTable, CaseFile, SphereTable};
 
+/// The name of a body's material where the library has it, knows no loss of it, and the case gives none.
+fn unpublished_loss(file: &CaseFile, body: &BodyTable) -> Option<String> {
+    let name = body.material.as_ref()?;
+    library::is_without_loss(name, file.material.get(name)?)
+        .then(|| library::bare(name).to_string())
+}
+
 impl Check<'_> {
     pub(super) fn bodies(&self, file: &CaseFile) -> Result<[Body; 2], CaseError> {
         let mut materials = BTreeMap::new();
@@ -76,6 +83,7 @@ impl Check<'_> {
                 velocity: lower_velocity,
                 held: lower.held.unwrap_or_default(),
                 yield_strength: self.yield_strength(file, lower)?,
+                unpublished_loss: unpublished_loss(file, lower),
             },
             Body {
                 name: upper.name.clone(),
@@ -83,6 +91,7 @@ impl Check<'_> {
                 velocity: upper_velocity,
                 held: upper.held.unwrap_or_default(),
                 yield_strength: self.yield_strength(file, upper)?,
+                unpublished_loss: unpublished_loss(file, upper),
             },
         ])
     }

@@ -121,3 +121,23 @@ fn an_unknown_one_is_told_what_there_is() {
     assert!(fault(&["material=3"]).contains("material"));
     assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));
 }
+
+/// What nobody has published is said, however the library's material came into the case; and of nothing else.
+#[test]
+fn a_loss_that_is_not_published_is_said() {
+    let said = |text: &str, set: &[&str]| parse(text, set).unwrap().scene().unpublished_loss();
+    assert!(said(BALL, &[]).unwrap().contains("what pmma loses in an impact is not published"));
+    // As `fem-run new` writes it, and as a resolved case has it.
+    let copy = table_text("pmma").unwrap() + &BALL.replace("lib:pmma", "pmma");
+    assert!(said(&copy, &[]).unwrap().contains("what pmma loses"));
+    let resolved = parse(BALL, &[]).unwrap().file().clone();
+    assert!(Case::of(resolved).unwrap().scene().unpublished_loss().is_some());
+    let relaxing = "material.'lib:pmma'.relaxation={ acts_on = 'shear', terms = [{ weight = 0.1, \
+                    relaxation_time = 1 }] }";
+    let law = "model.law={ kuwabara_kono = { a = '1e-6 s' } }";
+    for set in ["body.1.material='lib:pvb'", relaxing, law] {
+        assert_eq!(said(BALL, &[set]), None, "{set}");
+    }
+    // A material of the user's is the user's.
+    assert_eq!(said(&copy, &["material.pmma.density=1200"]), None);
+}

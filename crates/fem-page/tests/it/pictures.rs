@@ -87,7 +87,8 @@ fn a_page_asks_for_charts_of_its_own() {
              {"label": "measured", "mark": "points", "points": [[0.5, 66.0]]}]}"#,
     );
     let svg = chart.unwrap().svg().expect("points");
-    assert_eq!(svg.matches("<circle").count(), 2 + 1 + 1);
+    // Points, and the mark of each curve in the legend.
+    assert_eq!(svg.matches("<circle").count(), 2 + 1 + 2);
     assert!(spec(r#"{"x": "", "y": "", "curves": []}"#).unwrap().svg().is_none());
     assert!(spec(r#"{"x": "", "y": "", "curves": [], "z": 1}"#).is_err());
 }

@@ -43,13 +43,15 @@ export function headline(summary) {
 export function showNumbers(summary) {
   const rows = QUANTITIES.map(([key, name, unit]) => {
     const [own, hertz] = [summary[key], summary.hertz[key]];
-    const { discretisation, model } = summary.uncertainty[key];
-    const off = discretisation === null && model === null ? null : (discretisation ?? 0) + (model ?? 0);
+    const { discretisation, model, model_at_least: least } = summary.uncertainty[key];
+    const known = (discretisation ?? 0) + (model ?? least ?? 0);
+    const sign = discretisation === null || model === null ? '>' : '±';
+    const off = sign === '>' && known === 0 ? null : known;
     const row = element('tr');
     const ratio = own === null || hertz === null ? '–' : (own / hertz).toFixed(4);
     const number = element('td', show(own, unit), { 'data-key': key });
     if (own !== null) number.dataset.value = own;
-    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), element('td', off === null ? '–' : `± ${showBeside(off, own, unit)}`));
+    row.append(element('th', name, { scope: 'row' }), number, element('td', show(hertz, unit, 4, own ?? hertz)), element('td', ratio), element('td', off === null ? '–' : `${sign} ${showBeside(off, own, unit)}`));
     return row;
   });
   at('numbers').tBodies[0].replaceChildren(...rows);

@@ -58,6 +58,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return write_pairs(arguments, &case);
     }
     let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
+    if table.is_none() {
+        standard_output::warn(case.scene().unpublished_loss());
+    }
     let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
     let mut output =
         arguments.output.claim(&arguments.input.stem(), "export", &[&case_identity(&case)])?;

@@ -13,7 +13,7 @@ use crate::interrupt::Interrupt;
 use crate::standard_output;
 use crate::sweep::{
     Batch, Checking, Choice, Collected, Collector, Job, Mark, Shard, SlurmOptions, SweepFolder,
-    Whose, announce, conclude, report, run_members, status,
+    Whose, announce, conclude, report, run_members, status, warnings,
 };
 
 /// Compute many members of a case: lists of values for some of its keys
@@ -131,7 +131,7 @@ impl Work<'_> {
         let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
         let collected = collector.collect(|index| shard.has(index))?;
         ran?;
-        standard_output::warn(collected.warnings(sweep));
+        standard_output::warn(warnings::lines(&collected.warnings, sweep, told(&checked)));
         if !arguments.quiet {
             let text = report(sweep, &collected, members.len(), folder.path());
             standard_output::print(&text)?;
@@ -171,6 +171,7 @@ impl Work<'_> {
                 collected.take(row, sweep, true);
             }
         }
+        standard_output::warn(warnings::lines(&collected.warnings, sweep, told(&checked)));
         conclude(&collected, places.len(), self.interrupt.is_requested())
     }
 
@@ -198,13 +199,18 @@ impl Work<'_> {
             let name = arguments.sweep.display().to_string();
             announce(&name, sweep, checked, n_own, pool.current_num_threads());
         }
-        standard_output::warn(checked.oddities.iter().take(MOST_ODDITIES).cloned());
+        standard_output::warn(told(checked).cloned());
     }
 
     fn job<'j>(&'j self, folder: &'j SweepFolder, members: &'j [Member], shard: Shard) -> Job<'j> {
         let (sweep, pool, quiet) = (self.sweep, self.pool, self.arguments.quiet);
         Job { sweep, members, folder, shard, pool, quiet, interrupt: self.interrupt.clone() }
     }
+}
+
+/// Oddities of scenes that are told before the sweep.
+fn told(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
+    checked.oddities.iter().take(MOST_ODDITIES)
 }
 
 fn pool(threads: Option<NonZeroUsize>) -> Result<ThreadPool, Failure> {

@@ -22,7 +22,7 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
             grain(&row.second_material, row.second_diameter_m),
             format!("{:.4}", row.restitution),
             match row.slowest_m_s {
-                None => "loses nothing".to_string(),
+                None => "no loss known".to_string(),
                 Some(_) => good(row.good_from_m_s, row.good_to_m_s),
             },
             format!("{:.4}", row.worst_error),

@@ -1,5 +1,6 @@
 //! The numbers that a collision is known by, with what they may be off by.
 
+use fem::results::Parts;
 use fem_case::engineering::{Unit, show};
 use fem_collision::Headline;
 
@@ -8,7 +9,7 @@ use super::record::Record;
 /// One number.
 pub struct Card {
     pub name: String,
-    /// With its error, if anything tells it.
+    /// With its error, if all of it is known.
     pub value: String,
     pub unit: String,
     /// What of the error is of what, and what Hertz says.
@@ -24,27 +25,14 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     let key = headline.key();
     let value = record.number(&[key])?;
     let hertz = record.number(&["hertz", key]);
-    let part = |part: &str| record.number(&["uncertainty", key, part]);
-    let numerics = if record.has_elements() { "mesh" } else { "numerics" };
-    let parts = [(numerics, part("discretisation")), ("effects left out", part("model"))];
-    let error = parts.iter().filter_map(|(_, size)| *size).reduce(|a, b| a + b);
-    // A part that nobody knows may be the larger one.
-    let is_whole = parts.iter().all(|(_, size)| size.is_some());
-    // What rounding does is no error bar.
+    let parts = record.parts(headline);
     let whole = whole(value, headline);
-    let is_told = |size: f64| size > EXACT * whole;
-    let error = error.filter(|error| is_told(*error));
+    let error = parts.sum();
     let unit = (!headline.unit().is_empty()).then(|| Unit::fitting(value, headline.unit()));
     let scaled = |value: f64| unit.as_ref().map_or(value, |unit| unit.scaled(value));
     let mut notes = Vec::new();
-    if error.is_some() {
-        let told = parts.iter().filter_map(|(name, size)| match size {
-            Some(size) if is_told(*size) => Some(format!("{name} {}", rounded(scaled(*size)))),
-            Some(_) => None,
-            None => Some(format!("{name} not known")),
-        });
-        notes.push(told.collect::<Vec<_>>().join(" + "));
-    }
+    let numerics = if record.has_elements() { "mesh" } else { "numerics" };
+    notes.extend(of_what(&parts, numerics, EXACT * whole, &|size| rounded(scaled(size))));
     if let Some(hertz) = hertz.filter(|_| headline != Headline::Restitution) {
         notes.push(format!("Hertz {} (× {:.4})", show(hertz, headline.unit()), value / hertz));
     }
@@ -54,13 +42,32 @@ fn card(record: &Record, headline: Headline) -> Option<Card> {
     Some(Card {
         name: name(record, headline),
         // Smaller errors are a note's, and have no digits of the number.
-        value: with_error(
-            scaled(value),
-            error.filter(|e| is_whole && *e > SEEN * whole).map(scaled),
-        ),
+        value: with_error(scaled(value), error.filter(|error| *error > SEEN * whole).map(scaled)),
         unit: unit.as_ref().map_or(String::new(), |unit| unit.symbol().to_string()),
         notes,
     })
+}
+
+/// What an error is of, where parts are larger than what rounding does, or not known.
+fn of_what(
+    parts: &Parts,
+    numerics: &str,
+    least: f64,
+    shown: &dyn Fn(f64) -> String,
+) -> Option<String> {
+    let told = |name: &str, size: Option<f64>, known: Option<f64>| match (size, known) {
+        (Some(size), _) => (size > least).then(|| format!("{name} {}", shown(size))),
+        (None, Some(known)) if known > least => {
+            Some(format!("{name} not known, at least {}", shown(known)))
+        }
+        (None, _) => Some(format!("{name} not known")),
+    };
+    let told = [
+        told(numerics, parts.discretisation, None),
+        told("effects left out", parts.model, parts.model_at_least),
+    ];
+    let told: Vec<String> = told.into_iter().flatten().collect();
+    (!told.is_empty()).then(|| told.join(" + "))
 }
 
 /// What a number is called: of radius and pressure, of which shape they are.
@@ -143,6 +150,24 @@ pub fn rounded(size: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What is missing is said, whatever else is known.
+    #[test]
+    fn parts_that_are_not_known_are_said() {
+        let of = |discretisation, model, model_at_least| {
+            let parts = Parts { discretisation, model, model_at_least };
+            of_what(&parts, "mesh", 1e-9, &rounded)
+        };
+        let said = |text: &str| Some(text.to_string());
+        assert_eq!(of(Some(0.16), Some(0.5), None), said("mesh 0.16 + effects left out 0.5"));
+        assert_eq!(of(Some(1e-12), Some(0.0), None), None);
+        assert_eq!(of(Some(1e-12), None, None), said("effects left out not known"));
+        assert_eq!(
+            of(Some(0.16), None, Some(1.7)),
+            said("mesh 0.16 + effects left out not known, at least 1.7")
+        );
+        assert_eq!(of(None, Some(0.0), None), said("mesh not known"));
+    }
 
     #[test]
     fn powers_of_ten_are_written_out() {

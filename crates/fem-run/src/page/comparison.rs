@@ -1,6 +1,7 @@
 //! Several results beside each other.
 
 use askama::Template;
+use fem::results::Parts;
 use fem_case::engineering::{Unit, show};
 use fem_collision::Headline;
 use serde_json::Value;
@@ -91,9 +92,7 @@ fn turned(
 fn numbers(records: &[Record], headline: Headline) -> (String, Vec<Cell>) {
     let of = |record: &Record| {
         let value = record.number(&[headline.key()])?;
-        let part = |part: &str| record.number(&["uncertainty", headline.key(), part]);
-        let error = part("discretisation").zip(part("model")).map(|(a, b)| a + b);
-        Some((value, error))
+        Some((value, record.parts(headline)))
     };
     let first = records.first().and_then(of);
     let cell = |(k, record): (usize, &Record)| {
@@ -119,10 +118,11 @@ fn numbers(records: &[Record], headline: Headline) -> (String, Vec<Cell>) {
     (name, records.iter().enumerate().map(cell).collect())
 }
 
-/// `62.46 ± 0.21 µs`.
-fn shown((value, error): (f64, Option<f64>), headline: Headline) -> String {
-    let error = error.filter(|error| *error > cards::SEEN * cards::whole(value, headline));
-    match headline.unit() {
+/// `62.46 ± 0.21 µs`; `62.46 µs, error at least 0.21 µs` where more than that is not known.
+fn shown((value, parts): (f64, Parts), headline: Headline) -> String {
+    let is_seen = |error: &f64| *error > cards::SEEN * cards::whole(value, headline);
+    let error = parts.sum().filter(is_seen);
+    let number = match headline.unit() {
         "" => match error {
             None => format!("{value:.5}"),
             error => cards::with_error(value, error),
@@ -135,11 +135,20 @@ fn shown((value, error): (f64, Option<f64>), headline: Headline) -> String {
                 format!("{} {}", cards::with_error(unit.scaled(value), error), unit.symbol())
             }
         },
+    };
+    match (parts.sum(), parts.known().filter(is_seen)) {
+        (Some(_), _) => number,
+        (None, None) => format!("{number}, error not known"),
+        (None, Some(known)) => {
+            let unit = Unit::fitting(value, headline.unit());
+            let known = format!("{} {}", cards::rounded(unit.scaled(known)), unit.symbol());
+            format!("{number}, error at least {}", known.trim_end())
+        }
     }
 }
 
 /// A difference of restitutions as it is, of all else as a share; and whether the error bars tell it.
-fn apart(own: (f64, Option<f64>), from: (f64, Option<f64>), headline: Headline) -> String {
+fn apart(own: (f64, Parts), from: (f64, Parts), headline: Headline) -> String {
     let difference = own.0 - from.0;
     if difference == 0.0 {
         return "the same".to_string();
@@ -148,8 +157,32 @@ fn apart(own: (f64, Option<f64>), from: (f64, Option<f64>), headline: Headline) 
         Headline::Restitution => format!("{difference:+.5}"),
         _ => format!("{:+.2} %", 100.0 * difference / from.0),
     };
-    let bars = own.1.zip(from.1).map(|(a, b)| a + b);
+    let bars = own.1.sum().zip(from.1.sum()).map(|(a, b)| a + b);
     let within =
         if bars.is_some_and(|bars| difference.abs() < bars) { ", within the bars" } else { "" };
     format!("{size}{within}").replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of what is not known whole there is no ±, and no difference that bars tell.
+    #[test]
+    fn an_error_that_is_not_known_whole_is_no_bar() {
+        let parts = |discretisation, model, model_at_least| Parts {
+            discretisation: Some(discretisation),
+            model,
+            model_at_least,
+        };
+        let time = |parts| shown((45.607e-6, parts), Headline::ContactTime);
+        assert_eq!(time(parts(1e-6, Some(0.9e-6), None)), "45.6 ± 1.9 µs");
+        assert_eq!(time(parts(1.6e-7, None, Some(1.74e-6))), "45.61 µs, error at least 1.9 µs");
+        assert_eq!(time(parts(4.6e-13, None, None)), "45.61 µs, error not known");
+        let restitution = shown((0.99279, parts(5e-4, None, None)), Headline::Restitution);
+        assert_eq!(restitution, "0.99279, error at least 0.0005");
+        let apart = |parts| apart((45e-6, parts), (46e-6, parts), Headline::ContactTime);
+        assert!(apart(parts(1e-6, Some(0.0), None)).contains("within the bars"));
+        assert!(!apart(parts(1e-6, None, None)).contains("within the bars"));
+    }
 }

@@ -23,7 +23,7 @@ use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
 use crate::failure::Failure;
-use crate::stopwatch::seconds_taken;
+use crate::stopwatch::spent;
 use cards::Card;
 use curves::Quantity;
 use effects::Effect;
@@ -149,7 +149,7 @@ fn price(record: &Record) -> String {
         .filter_map(|body| body.get("elements").and_then(Value::as_f64))
         .sum();
     let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
-    let mut parts = vec![format!("computed in {}", seconds_taken(seconds))];
+    let mut parts = vec![format!("computed in {}", spent(seconds))];
     if elements > 0.0 {
         parts.push(format!("{} elements", grouped(elements)));
     }

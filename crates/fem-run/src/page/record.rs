@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use fem::results::{CONTACT_FILE, HISTORY_FILE, SUMMARY_FILE};
+use fem::results::{CONTACT_FILE, HISTORY_FILE, Parts, SUMMARY_FILE};
+use fem_collision::Headline;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -132,6 +133,16 @@ impl Record {
     /// A number of the summary by its keys; `None` of what is null or not there.
     pub fn number(&self, keys: &[&str]) -> Option<f64> {
         keys.iter().try_fold(&self.summary, |value, key| value.get(key))?.as_f64()
+    }
+
+    /// How far a quantity may be off; older results know less of it.
+    pub fn parts(&self, headline: Headline) -> Parts {
+        let part = |part: &str| self.number(&["uncertainty", headline.key(), part]);
+        Parts {
+            discretisation: part("discretisation"),
+            model: part("model"),
+            model_at_least: part("model_at_least"),
+        }
     }
 
     /// A text of the summary by its key; empty where there is none.

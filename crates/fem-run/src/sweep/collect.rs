@@ -5,8 +5,8 @@
 
 use std::io;
 
+use fem::WarningKinds;
 use fem::sweep::{Columns, KeyNumbers, Member, NumberColumn, Row, SWEEP_FILE, sweep_csv};
-use fem::{WarningKind, WarningKinds};
 use fem_case::Sweep;
 use serde_json::Value;
 
@@ -19,8 +19,6 @@ use crate::standard_output::one_line;
 
 /// Rows that are shown; all are in the table.
 const MOST_SHOWN: usize = 40;
-/// Kinds of warnings that are told.
-const MOST_WARNINGS: usize = 12;
 /// Members that are named which failed.
 const MOST_NAMED: usize = 40;
 
@@ -159,17 +157,6 @@ impl Collector<'_> {
 }
 
 impl Collected {
-    /// What members warn of, each kind once, with the first of them and how many more there are.
-    pub fn warnings(&self, sweep: &Sweep) -> Vec<String> {
-        let told = |kind: &WarningKind| match kind.count {
-            1 => format!("{}: {}", sweep.describe(kind.place), kind.first),
-            n => {
-                format!("{} and {} more: {}", sweep.describe(kind.place), n - 1, kind.first)
-            }
-        };
-        self.warnings.all().iter().take(MOST_WARNINGS).map(told).collect()
-    }
-
     /// Takes the row of a member that is done.
     pub fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
         self.n_done += 1;
@@ -181,9 +168,11 @@ impl Collected {
                 self.failed.push(one_line(&format!("{}: {reason}", sweep.describe(row.index))));
             }
         }
-        let warnings = row.summary["warnings"].as_array().filter(|_| is_own);
-        for warning in warnings.into_iter().flatten().filter_map(Value::as_str) {
-            self.warnings.see(row.index, warning);
+        if is_own {
+            let warnings = row.summary["warnings"].as_array().into_iter().flatten();
+            for warning in warnings.filter_map(|warning| warning.as_str()) {
+                self.warnings.see(row.index, warning);
+            }
         }
         if self.shown.len() < MOST_SHOWN {
             self.shown.push(row);

@@ -30,6 +30,7 @@ mod runner;
 mod shard;
 mod slurm;
 mod status;
+pub mod warnings;
 
 pub use checking::Checking;
 pub use collect::{Collected, Collector};

@@ -43,7 +43,9 @@ impl PicturePoint {
         let panel = |column: &&str| {
             let parts = ["discretisation", "model"]
                 .map(|part| there(format!("uncertainty_{part}_{column}")));
-            let error = parts.iter().flatten().copied().reduce(|a, b| a + b);
+            // A bar that is not known whole would be too short.
+            let error =
+                parts[0].zip(parts[1]).map(|(discretisation, model)| discretisation + model);
             // Hertz gives all back.
             let hertz =
                 (*column != "restitution").then(|| there(format!("hertz_{column}"))).flatten();

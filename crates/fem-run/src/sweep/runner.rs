@@ -18,8 +18,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_files::{longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::stopwatch::seconds_taken;
-use crate::stopwatch::{Stopwatch, Timed};
+use crate::stopwatch::{Stopwatch, Timed, spent};
 
 /// What members are run with.
 pub struct Job<'a> {
@@ -156,6 +155,6 @@ fn in_a_few_words(summary: &Summary) -> String {
         "restitution {}, contact time {}, {}",
         summary.collision.restitution.map_or("-".into(), |value| format!("{value:.5}")),
         quantity(summary.collision.contact_time_s, "s"),
-        seconds_taken(summary.cost.solve_s)
+        spent(summary.cost.solve_s)
     )
 }

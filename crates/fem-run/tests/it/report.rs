@@ -113,7 +113,7 @@ fn a_comparison_tells_what_differs_first() {
     let place = Place::new();
     let condensed = ["case.toml", "--set", "model.condensed={}", "--quiet"];
     place.succeed(&[&condensed[..], &["--out", "glass_on_glass"]].concat());
-    let fast = ["--set", "body.0.approach_speed='1 m/s'", "--out", "glass_fast_0.5"];
+    let fast = ["--set", "body.0.approach_speed='4 m/s'", "--out", "glass_fast_0.5"];
     place.succeed(&[&condensed[..], &fast].concat());
     place.succeed(&["report", "glass_on_glass", "glass_fast_0.5", "--out", "both.html"]);
     let page = text(&place, "both.html");

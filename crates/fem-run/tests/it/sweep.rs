@@ -383,7 +383,7 @@ fn the_page_on_sweeps_is_true() {
 /// Condensed members share a factor if the case gives the mesh; that is said where it does not.
 #[test]
 fn condensed_members_are_told_how_to_share_a_factor() {
-    let vary = "[vary]\nbody.0.approach_speed = [0.2, 0.3]\n\
+    let vary = "[vary]\nbody.0.approach_speed = [0.2, 3]\n\
                 material.glass.relaxation.terms.0.decay_rate = [1000, 2000]\n";
     let place = place(&format!("case = 'case.toml'\n{vary}"));
     let condensed = ["sweep", "sweep.toml", "--set", "model.condensed={}"];
@@ -396,7 +396,7 @@ fn condensed_members_are_told_how_to_share_a_factor() {
     // A member is the case alone, but for the files that are not kept.
     let rows = rows(&place, "given/sweep.csv");
     let member = format!("given/members/{}/summary.json", rows[4].last().unwrap());
-    let speed = ["case.toml", "--out", "alone", "--set", "body.0.approach_speed=0.3"];
+    let speed = ["case.toml", "--out", "alone", "--set", "body.0.approach_speed=3"];
     let rate = ["--set", "material.glass.relaxation.terms.0.decay_rate=2000"];
     place.succeed(&[&speed[..], &rate, &condensed[2..], &given[..2]].concat());
     let [mut alone, mut member] = ["alone/summary.json", &member].map(|name| place.json(name));

@@ -196,6 +196,35 @@ fn all_faults_of_a_sweep_file_are_told_at_once() {
          body.1.name = ['a', 'striker']",
     ));
     assert_eq!(found, ["3:35", "3:43", "4:26", "4:34", "5:21"], "{stderr}");
+    // Keys without any sound value hide no others.
+    let (found, stderr) = places(&vary(
+        "'body.0.aproach_speed' = ['1 m/s', '2 kg']\nbody.0.sphere.diameter = ['1 cm', '-2 mm']\n\
+         modell = ['ting']",
+    ));
+    assert_eq!(found, ["3:9", "4:35", "5:1"], "{stderr}");
+}
+
+/// What members warn of is told once, with how many and the first, and where nothing else is.
+#[test]
+fn warnings_of_members_are_told_once() {
+    let place = Place::new();
+    place.write("sweep.toml", &vary("'body.0.approach_speed' = [0.5, 0.6, 0.7]"));
+    let set = "model={ ting = {} }";
+    let library = "body.1.material='lib:pmma'";
+    let arguments = ["sweep", "sweep.toml", "--quiet", "--set", set, "--set", library];
+    // A sweep that is done tells it again.
+    for _ in 0..2 {
+        let ran = place.succeed(&arguments);
+        let told: Vec<&str> =
+            ran.stderr.lines().filter(|line| line.contains("is not published")).collect();
+        assert!(
+            told.len() == 1 && told[0].starts_with("warning: what pmma loses"),
+            "{}",
+            ran.stderr
+        );
+        assert!(told[0].contains("3 members") && told[0].contains("= 0.5)"), "{}", ran.stderr);
+        assert_eq!(ran.stdout, "");
+    }
 }
 
 /// Ends of a range in two units of one quantity: the ends as written, the others in the unit of the last.

@@ -36,7 +36,7 @@
 use std::sync::PoisonError;
 
 use fem_case::schema::ContactMethod;
-use fem_case::{Body, Quantity};
+use fem_case::{Body, CondensedOptions, Quantity};
 use fem_collision::{Approach, Collision, Headline, Want, longest_at_pole};
 use fem_material::Material;
 
@@ -399,10 +399,12 @@ impl Companions<'_> {
             let condensed = file.model.as_mut().and_then(|model| model.condensed.as_mut());
             if let Some(table) = condensed {
                 let own = table.steps.as_ref().and_then(|steps| steps.si().ok());
-                let steps = if is_condensed {
-                    STEPS
-                } else {
-                    own.map_or(OWN_STEPS, |own| own.min(OWN_STEPS))
+                // Who asks for more than the usual ones has an instant to see that fewer do not show.
+                let usual = CondensedOptions::default().steps as f64;
+                let steps = match own {
+                    _ if is_condensed => STEPS,
+                    Some(own) if own > usual => own,
+                    own => own.unwrap_or(OWN_STEPS).min(OWN_STEPS),
                 };
                 table.steps = Some(Quantity::from_si(steps));
             }

@@ -65,6 +65,12 @@ impl Doubt {
         doubt.checked()
     }
 
+    /// Of a loss that is not known: of the restitution. The other quantities go by the moduli, of whose
+    /// scatter nothing is said here.
+    pub fn of_loss() -> Self {
+        Self::by(|headline| (headline != Headline::Restitution).then_some(0.0))
+    }
+
     /// Of one quantity.
     pub fn size(&self, headline: Headline) -> Option<f64> {
         self.0[headline as usize]
@@ -94,5 +100,11 @@ impl Doubt {
         Self::by(|headline| {
             self.size(headline).zip(other.size(headline)).map(|(one, more)| one + more)
         })
+    }
+
+    /// What is told of it, nothing elsewhere: the sum of such is what doubts come to at least.
+    #[must_use]
+    pub fn told(self) -> Self {
+        Self(self.0.map(|doubt| doubt.or(Some(0.0))))
     }
 }

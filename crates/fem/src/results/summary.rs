@@ -168,6 +168,22 @@ pub struct Parts {
     pub discretisation: Option<f64>,
     /// Nature is expected within it and the first part together.
     pub model: Option<f64>,
+    /// What is known of the second part where the whole is not: it is at least this.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model_at_least: Option<f64>,
+}
+
+impl Parts {
+    /// Both together, where both are known.
+    pub fn sum(&self) -> Option<f64> {
+        Some(self.discretisation? + self.model?)
+    }
+
+    /// What is known of both together; nothing where that is nothing.
+    pub fn known(&self) -> Option<f64> {
+        let parts = [self.discretisation, self.model.or(self.model_at_least)];
+        parts.into_iter().flatten().reduce(|one, more| one + more)
+    }
 }
 
 /// One contact of a ball that bounces.

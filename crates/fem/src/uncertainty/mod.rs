@@ -4,7 +4,8 @@
 //! is expected within it. **Model**: nature is expected within both together; it is what effects that are
 //! left out change ([`crate::effects::Doubt`]), and how far the laws are apart that a material may follow
 //! beyond Hooke's where the case names none. It is as good as what closed forms foretell: within a factor of
-//! three. Of a contact law's own numbers, which are the user's, it knows nothing.
+//! three. Of a material of the library whose loss in an impact is not published the restitution's is not
+//! known. Of a contact law's own numbers, which are the user's, it knows nothing.
 
 mod discretisation;
 
@@ -26,24 +27,30 @@ impl Simulation {
         effects: &[EffectSummary],
     ) -> UncertaintySummary {
         let discretisation = self.discretisation(collision);
-        let model = self.model_doubt(collision, effects);
+        let doubts = self.model_doubts(collision, effects);
+        let sum = |doubts: &mut dyn Iterator<Item = Doubt>| doubts.fold(Doubt::NOTHING, Doubt::and);
+        let model = sum(&mut doubts.iter().copied());
+        let told = sum(&mut doubts.iter().copied().map(Doubt::told));
         UncertaintySummary::by(|headline| {
             let of = |doubt: &Doubt| numbers.number(headline).and(doubt.size(headline));
-            Parts { discretisation: of(&discretisation), model: of(&model) }
+            let model = of(&model);
+            let told = of(&told).filter(|told| model.is_none() && *told > 0.0);
+            Parts { discretisation: of(&discretisation), model, model_at_least: told }
         })
     }
 
-    /// What the effects that the collision lacks would change, all together.
-    fn model_doubt(&self, collision: &Collision, effects: &[EffectSummary]) -> Doubt {
-        let Some(estimate) = self.estimate(collision) else { return Doubt::default() };
+    /// What each effect that the collision lacks would change, and a loss that nobody has published.
+    fn model_doubts(&self, collision: &Collision, effects: &[EffectSummary]) -> Vec<Doubt> {
+        let Some(estimate) = self.estimate(collision) else { return vec![Doubt::default()] };
         let estimate = estimate.as_came(collision);
         let scene = self.scene_of_model();
-        effects.iter().fold(Doubt::NOTHING, |sum, EffectSummary { verdict, error_if_left_out }| {
+        let doubt = |EffectSummary { verdict, error_if_left_out }: &EffectSummary| {
             let standing =
                 Standing { is_lacking: verdict.is_lacking, left_out: *error_if_left_out };
-            let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name);
-            let doubt = effect.map(|effect| effect.doubt(&scene, &estimate, &standing));
-            sum.and(doubt.unwrap_or(Doubt::NOTHING))
-        })
+            let effect = EFFECTS.iter().find(|effect| effect.name() == verdict.name)?;
+            Some(effect.doubt(&scene, &estimate, &standing))
+        };
+        let loss = self.case().scene().unpublished_loss().map(|_| Doubt::of_loss());
+        effects.iter().filter_map(doubt).chain(loss).collect()
     }
 }

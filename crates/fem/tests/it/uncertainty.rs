@@ -147,3 +147,26 @@ fn what_is_no_number_has_no_doubt() {
     let flat = self::summary(RUBBER, &[&flat[..], &["model.hertz={}"]].concat());
     assert!(parts(&flat.uncertainty).iter().all(|parts| parts.model.is_none()));
 }
+
+/// Where one part is not known the others are still told, as what the whole is at least: nylon on steel beyond
+/// its yield, whose contact time closed forms of plastic impact do not tell. Nor is the restitution known of a
+/// material whose loss nobody has published.
+#[test]
+fn what_is_known_of_a_doubt_is_told_where_the_whole_is_not() {
+    let nylon = "[[body]]\nname = 'steel'\nsphere = { diameter = '12 mm' }\nmaterial = 'lib:steel'\n\
+                 [[body]]\nname = 'nylon'\nsphere = { diameter = '8 mm' }\nmaterial = 'lib:nylon'\n\
+                 approach_speed = '3 m/s'\n";
+    let found = summary(nylon, &[TING]);
+    let of = |headline: Headline| found.uncertainty.parts(headline);
+    let time = of(Headline::ContactTime);
+    assert_eq!((time.model, time.sum()), (None, None));
+    // What the law of finite strain may change of it alone is warned of as 3.88 %.
+    let share = time.known().unwrap() / found.collision.contact_time_s.unwrap();
+    assert!((0.0388..0.1).contains(&share), "{share}");
+    let slow = "body.1.approach_speed='1 cm/s'";
+    let slow = summary(nylon, &[TING, slow]);
+    let restitution = slow.uncertainty.parts(Headline::Restitution);
+    assert_eq!(restitution.model, None);
+    assert!(slow.uncertainty.parts(Headline::ContactTime).sum().is_some());
+    assert!(slow.warnings.iter().any(|warning| warning.contains("is not published")));
+}
