@@ -103,6 +103,13 @@ impl ElasticCurve {
         None
     }
 
+    /// The force at an approach (m), N; on the last line beyond the last point.
+    pub fn force(&self, approach: f64) -> f64 {
+        let joined =
+            self.touch.iter().zip(&self.stiffness).take_while(|(touch, _)| **touch < approach);
+        joined.map(|(touch, stiffness)| stiffness * (approach - touch)).sum()
+    }
+
     /// What of the force at an approach (m) is that of the nodes, N: between two δ_k the force is a chord of the
     /// curve of the continuum, above it and below by
     ///

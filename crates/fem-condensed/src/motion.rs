@@ -151,14 +151,17 @@ impl<'a> Motion<'a> {
 
     /// What of the force is not that of the continuum, since nodes join the contact one by one, N: the elastic
     /// contact's at this approach, of which waves take a part. As long as a contact grows it is as large as without
-    /// relaxation (Ting 1966), and the force has not long relaxed since the last node joined. 0 of springs,
-    /// which join at points of elements.
+    /// relaxation (Ting 1966). What it makes of the force has relaxed as the force has: it is as large a share of it. 0
+    /// of springs, which join at points of elements.
     pub fn swing(&self) -> f64 {
         if self.contact.n_closed == 0 || self.pair.settings().contact != ContactModel::Exact {
             return 0.0;
         }
         let of_waves = self.waves.as_ref().map_or(0.0, Waves::displacement);
-        self.pair.curve.swing(self.approach - of_waves)
+        let approach = self.approach - of_waves;
+        let elastic = self.pair.curve.force(approach);
+        let lasting = if elastic > self.force { self.force / elastic } else { 1.0 };
+        lasting * self.pair.curve.swing(approach)
     }
 
     /// Overlap that springs leave at the point where that is largest, and its distance from the axis, m; none of
