@@ -29,8 +29,7 @@ fn defaults_follow_from_hertz() {
     assert!((plan.contact_element_size * 4.0 * 1e3 - 0.22307).abs() < 5e-6);
     let [larger, smaller] = plan.element_sizes().map(|size| 0.22307e-3 / size);
     assert!((larger - 3.75).abs() < 1e-3 && (smaller - 4.25).abs() < 1e-3, "{larger} {smaller}");
-    // What they leave of the tolerance, 2 (0.01 − 0.05/16), but no more than this.
-    assert_eq!(plan.mass_scaling, 1e-2);
+    assert_eq!(plan.mass_scaling, 5e-3);
     assert_eq!(plan.step_factor, 0.9);
     assert!((plan.contact_stiffness / 33.494e9 - 20.0).abs() < 1e-3);
 }
