@@ -139,10 +139,13 @@ fn shown((value, parts): (f64, Parts), headline: Headline) -> String {
     match (parts.sum(), parts.known().filter(is_seen)) {
         (Some(_), _) => number,
         (None, None) => format!("{number}, error not known"),
+        (None, Some(known)) if headline.unit().is_empty() => {
+            format!("{number}, error at least {}", cards::rounded(known))
+        }
         (None, Some(known)) => {
             let unit = Unit::fitting(value, headline.unit());
-            let known = format!("{} {}", cards::rounded(unit.scaled(known)), unit.symbol());
-            format!("{number}, error at least {}", known.trim_end())
+            let known = cards::rounded(unit.scaled(known));
+            format!("{number}, error at least {known} {}", unit.symbol())
         }
     }
 }

@@ -235,11 +235,11 @@ fn a_contact_without_an_end_does_not_squeeze_the_others() {
     place.succeed(&["report", "leaves", "stays", "--out", "both.html"]);
     let [width, height] = share(&text(&place, "both.html"));
     assert!(width > 0.8 && height > 0.8, "{width} × {height}");
-    // An error of which no digit is seen beside its number is told below it.
+    // What models leave out of bodies that stay together is told beside the number, which it may be.
     let page = text(&place, "stays/report.html");
     let value = page.split("<small>restitution</small><b>").nth(1).unwrap();
-    assert!(value.starts_with("0.000 <"), "{}", &value[..40]);
-    assert!(page.contains("effects left out not known"));
+    assert!(value.starts_with("0.000 ± 0.0"), "{}", &value[..40]);
+    assert!(page.contains("effects left out 0.0"));
 }
 
 /// Eight colours there are not: the eighth curve has other dashes. The numbers of many results have rows.
