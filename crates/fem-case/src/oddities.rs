@@ -16,14 +16,19 @@ const DENSITIES: std::ops::RangeInclusive<f64> = 10.0..=25_000.0;
 /// The softest gels have some 100 Pa, diamond has 1.2 TPa.
 const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 
+/// Share of the contact's compliance from which what a body loses counts, a share of what its partner does.
+const LEAST_SHARE: f64 = 1e-3;
+
 impl Scene {
     /// That the restitution lacks what materials of the library lose, where that is not published and the case
-    /// gives no relaxation; nothing of a contact law, whose loss is the user's.
+    /// gives no relaxation; nothing of a contact law, whose loss is the user's, and of a body that hardly deforms.
     pub fn unpublished_loss(&self) -> Option<String> {
         if matches!(self.model, ModelChoice::Law { .. }) {
             return None;
         }
-        let mut names: Vec<&str> = self.bodies.iter().filter_map(Body::unpublished_loss).collect();
+        let deforms = self.bodies.iter().zip(self.compliance_shares());
+        let deforms = deforms.filter(|(_, share)| *share > LEAST_SHARE).map(|(body, _)| body);
+        let mut names: Vec<&str> = deforms.filter_map(Body::unpublished_loss).collect();
         names.dedup();
         (!names.is_empty()).then(|| {
             let names = names.join(" and ");

@@ -94,6 +94,6 @@ mod tests {
             kinds.see(k, &format!("of a kind {letters}"));
         }
         assert_eq!((kinds.all().len(), kinds.n_others()), (MOST, 5));
-        assert!(kinds.all()[0].is_of("of a kind 7 a") && !kinds.all()[1].is_of("of a kind a"));
+        assert!(kinds.all()[0].is_of("of a kind a 7") && !kinds.all()[1].is_of("of a kind a"));
     }
 }
