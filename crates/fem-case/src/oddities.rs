@@ -20,16 +20,24 @@ const YOUNGS_MODULI: std::ops::RangeInclusive<f64> = 100.0..=2e12;
 const LEAST_SHARE: f64 = 1e-3;
 
 impl Scene {
-    /// That the restitution lacks what materials of the library lose, where that is not published and the case
-    /// gives no relaxation; nothing of a contact law, whose loss is the user's, and of a body that hardly deforms.
-    pub fn unpublished_loss(&self) -> Option<String> {
+    /// Materials of the library, without `lib:`, of which no loss is published and the case gives no relaxation:
+    /// the restitution lacks what they lose. None of a contact law, whose loss is the user's, and of a body that
+    /// hardly deforms.
+    pub fn materials_of_unpublished_loss(&self) -> Vec<&str> {
         if matches!(self.model, ModelChoice::Law { .. }) {
-            return None;
+            return Vec::new();
         }
         let deforms = self.bodies.iter().zip(self.compliance_shares());
         let deforms = deforms.filter(|(_, share)| *share > LEAST_SHARE).map(|(body, _)| body);
         let mut names: Vec<&str> = deforms.filter_map(Body::unpublished_loss).collect();
         names.dedup();
+        names
+    }
+
+    /// That the restitution lacks what the [materials of unpublished loss](Self::materials_of_unpublished_loss)
+    /// lose, in words.
+    pub fn unpublished_loss(&self) -> Option<String> {
+        let names = self.materials_of_unpublished_loss();
         (!names.is_empty()).then(|| {
             let names = names.join(" and ");
             format!(

@@ -80,10 +80,14 @@ impl Failure {
         }
     }
 
-    /// Adds what to do.
+    /// Says what to do, in the place of what was said before.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        let shown = |help: &str| format!("\n  help: {}", help.replace('\n', "\n        "));
+        if let Some(before) = self.help.take() {
+            self.plain = self.plain.replacen(&shown(&before), "", 1);
+        }
         let help = help.into();
-        self.plain += &format!("\n  help: {}", help.replace('\n', "\n        "));
+        self.plain += &shown(&help);
         self.help = Some(help);
         self
     }

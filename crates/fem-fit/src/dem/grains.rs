@@ -6,7 +6,10 @@
 use fem_laws::Pair;
 
 use super::mfix::mfix_entry;
-use super::snippet::{Sphere, short};
+use super::snippet::{Sphere, short, unpublished_loss};
+
+/// Letters of pairs that a line takes beside a sentence.
+const LONGEST_LIST: usize = 40;
 
 /// A material at a size: a type, or phase, of a code.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +29,8 @@ pub struct PairOfGrains {
     pub pair: Pair,
     /// One e for all speeds.
     pub restitution: f64,
+    /// Materials whose loss counts as nothing, since none is known: e is too high.
+    pub unpublished_loss: Vec<String>,
 }
 
 /// Files and their texts; pairs in the order 11, 12, …, 22, ….
@@ -39,7 +44,7 @@ pub fn grain_snippets(grains: &[Grain], pairs: &[PairOfGrains]) -> Vec<(&'static
     files
 }
 
-fn heading(code: &str, kind: &str, grains: &[Grain]) -> String {
+fn heading(code: &str, kind: &str, grains: &[Grain], pairs: &[PairOfGrains]) -> String {
     let mut text = format!(
         "# {code}; one restitution a pair, for all speeds, SI units; where it is good: pairs.csv.\n"
     );
@@ -47,13 +52,30 @@ fn heading(code: &str, kind: &str, grains: &[Grain]) -> String {
         let material = material.replace(char::is_control, " ");
         text += &format!("# {kind} {}: {material}, {} m\n", index + 1, short(sphere.diameter));
     }
+    let mut by_materials: Vec<(&[String], Vec<String>)> = Vec::new();
+    for pair in pairs.iter().filter(|pair| !pair.unpublished_loss.is_empty()) {
+        let [first, second] = pair.grains.map(|grain| grain + 1);
+        let (materials, name) = (pair.unpublished_loss.as_slice(), format!("{first} {second}"));
+        match by_materials.iter_mut().find(|(known, _)| *known == materials) {
+            Some((_, names)) => names.push(name),
+            None => by_materials.push((materials, vec![name])),
+        }
+    }
+    for (materials, names) in by_materials {
+        let mut names = names.join(", ");
+        // Long lists are broken for readers, and each line is a comment.
+        if names.len() > LONGEST_LIST {
+            names = format!("the pairs\n# {names}\n# ");
+        }
+        text += &unpublished_loss(&format!("e of {names}"), materials);
+    }
     text
 }
 
 fn lammps(grains: &[Grain], pairs: &[PairOfGrains]) -> String {
-    let mut text = heading("LAMMPS, granular hertz/material", "type", grains);
+    let mut text = heading("LAMMPS, granular hertz/material", "type", grains, pairs);
     text += "pair_style granular\n";
-    for PairOfGrains { grains: [first, second], pair, restitution } in pairs {
+    for PairOfGrains { grains: [first, second], pair, restitution, .. } in pairs {
         let poissons_ratio = grains[*first].sphere.poissons_ratio;
         text += &format!(
             "pair_coeff {} {} hertz/material {} {} {} tangential linear_nohistory 0.0 0.0 damping \
@@ -81,7 +103,7 @@ fn liggghts(grains: &[Grain], pairs: &[PairOfGrains]) -> String {
         let rows = (0..n).flat_map(|first| (0..n).map(move |second| (first, second)));
         rows.map(|(first, second)| " ".to_string() + &short(of(first, second))).collect()
     };
-    heading("LIGGGHTS, gran model hertz", "type", grains)
+    heading("LIGGGHTS, gran model hertz", "type", grains, pairs)
         + &format!(
             "fix m1 all property/global youngsModulus peratomtype{}\n\
              fix m2 all property/global poissonsRatio peratomtype{}\n\
@@ -96,7 +118,7 @@ fn liggghts(grains: &[Grain], pairs: &[PairOfGrains]) -> String {
 }
 
 fn mfix(grains: &[Grain], pairs: &[PairOfGrains]) -> Option<String> {
-    let mut text = heading("MFIX-DEM, Hertzian", "phase", grains);
+    let mut text = heading("MFIX-DEM, Hertzian", "phase", grains, pairs);
     text += "  des_coll_model = 'HERTZIAN'\n";
     for (index, Grain { sphere, .. }) in grains.iter().enumerate() {
         let phase = index + 1;

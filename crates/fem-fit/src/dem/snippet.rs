@@ -82,6 +82,8 @@ pub struct Export {
     pub linear: Dashpot,
     /// Falling with speed; none of a loss that it cannot make.
     pub hunt_crossley: Option<HuntCrossley>,
+    /// Materials whose loss counts as nothing, since it is not published: e is too high.
+    pub unpublished_loss: Vec<String>,
 }
 
 /// A file for a DEM code.
@@ -112,12 +114,14 @@ impl Export {
             [one] => format!("a sphere of {one} m on a {}", self.wall()),
             all => format!("spheres of {} m", all.join(" and ")),
         };
+        // Of a loss that is not known the fit is good, and the restitution is not.
+        let e = if self.unpublished_loss.is_empty() { "e" } else { "the fit" };
         let range = if from == to {
-            format!("e is good to {} at {} alone", self.tolerance, speed(from))
+            format!("{e} is good to {} at {} alone", self.tolerance, speed(from))
         } else if from <= to {
-            format!("e is good to {} from {} to {}", self.tolerance, speed(from), speed(to))
+            format!("{e} is good to {} from {} to {}", self.tolerance, speed(from), speed(to))
         } else {
-            format!("e is nowhere good to {}", self.tolerance)
+            format!("{e} is nowhere good to {}", self.tolerance)
         };
         let mut text = format!(
             "# {}\n# {model}; {bodies}, SI units.\n# Fitted from {} to {}; {range}\n\
@@ -126,6 +130,9 @@ impl Export {
             speed(self.speeds.0),
             speed(self.speeds.1)
         );
+        if !self.unpublished_loss.is_empty() {
+            text += &unpublished_loss("e", &self.unpublished_loss);
+        }
         for note in notes {
             text += &format!("# {note}\n");
         }
@@ -176,6 +183,15 @@ impl Export {
         let Dashpot { restitution, contact_time, .. } = self.linear;
         linear_from_restitution(&self.pair, restitution, contact_time, end_rule)
     }
+}
+
+/// A comment that what some materials lose is not in the restitutions named.
+pub(crate) fn unpublished_loss(restitutions: &str, materials: &[String]) -> String {
+    let materials = materials.join(" and ").replace(char::is_control, " ");
+    format!(
+        "# WARNING: no loss of {materials} is known, and none is in {restitutions}: it is too high,\n\
+         # by how much is not known. Measure it, or give the material a relaxation.\n"
+    )
 }
 
 /// A number in ten digits, as short as it can be said.

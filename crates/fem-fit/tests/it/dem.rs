@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use crate::common::{glass, glass_model};
 use fem_fit::dem::{
-    Dashpot, Elastic, Export, Sphere, TsujiVersion, characteristic_velocity, hertz_mindlin_entry,
-    hooke_stiffness, lammps_snippets, lethe_snippets, liggghts_snippets, mercury_snippets,
-    mfix_entry, mfix_outcome, mfix_snippets, tsuji_entry, tsuji_outcome, viscel_entry,
-    viscoelastic_damping, yade_betan, yade_snippets,
+    Dashpot, Elastic, Export, Grain, HuntCrossley, PairOfGrains, Sphere, TsujiVersion,
+    characteristic_velocity, drake_snippets, grain_snippets, hertz_mindlin_entry, hooke_stiffness,
+    lammps_snippets, lethe_snippets, liggghts_snippets, mercury_snippets, mfix_entry, mfix_outcome,
+    mfix_snippets, mujoco_snippets, tsuji_entry, tsuji_outcome, viscel_entry, viscoelastic_damping,
+    yade_betan, yade_snippets,
 };
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
 use fem_laws::{EndRule, Family, HertzImpact, LawImpact, Pair, Partner};
@@ -31,6 +32,57 @@ fn export() -> Export {
         dissipation_time: (1e-6, validity),
         linear: Dashpot { restitution: 0.92, contact_time: 64e-6, validity },
         hunt_crossley: None,
+        unpublished_loss: Vec::new(),
+    }
+}
+
+/// Every file says itself that a loss is missing, and none says so where it is not.
+#[test]
+fn files_say_of_which_materials_no_loss_is_known() {
+    let hunt_crossley = HuntCrossley { dissipation: 0.1, rms: 0.01, validity: [0.1, 1.0, 0.004] };
+    let unpublished_loss = vec!["steel".to_string()];
+    let of = |unpublished_loss: Vec<String>| {
+        let hunt_crossley = Some(hunt_crossley);
+        let export = Export { unpublished_loss, hunt_crossley, ..export() };
+        let mut all = lammps_snippets(&export).unwrap();
+        all.extend(liggghts_snippets(&export).unwrap());
+        all.extend(yade_snippets(&export).unwrap());
+        all.extend(mercury_snippets(&export));
+        all.extend(lethe_snippets(&export));
+        all.extend(mfix_snippets(&export).unwrap());
+        all.extend(drake_snippets(&export));
+        all.extend(mujoco_snippets(&export));
+        let codes: std::collections::BTreeSet<_> = all.iter().map(|one| one.code).collect();
+        assert_eq!(codes.len(), 8);
+        all
+    };
+    for snippet in of(unpublished_loss.clone()) {
+        let text = &snippet.text;
+        assert!(text.contains("WARNING: no loss of steel is known"), "{text}");
+        assert!(!text.contains("e is good"), "{text}");
+    }
+    assert!(of(Vec::new()).iter().all(|snippet| !snippet.text.contains("WARNING")));
+
+    let sphere = export().spheres[0];
+    let grain = |material: &str| Grain { material: material.to_string(), sphere };
+    let pair = |grains, unpublished_loss| PairOfGrains {
+        grains,
+        pair: export().pair,
+        restitution: 0.9,
+        unpublished_loss,
+    };
+    let grains = [grain("glass"), grain("steel")];
+    let pairs = [
+        pair([0, 0], Vec::new()),
+        pair([0, 1], unpublished_loss.clone()),
+        pair([1, 1], unpublished_loss),
+    ];
+    let files = grain_snippets(&grains, &pairs);
+    assert_eq!(files.len(), 3);
+    for (name, text) in files {
+        let warning = "# WARNING: no loss of steel is known, and none is in e of 1 2, 2 2";
+        assert_eq!(text.matches(warning).count(), 1, "{name}: {text}");
+        assert!(grain_snippets(&grains, &pairs[..1]).iter().all(|one| !one.1.contains("WARNING")));
     }
 }
 

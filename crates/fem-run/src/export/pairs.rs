@@ -21,11 +21,11 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
             grain(&row.first_material, row.first_diameter_m),
             grain(&row.second_material, row.second_diameter_m),
             format!("{:.4}", row.restitution),
-            match row.slowest_m_s {
-                None => "no loss known".to_string(),
-                Some(_) => good(row.good_from_m_s, row.good_to_m_s),
+            match row.unpublished_loss.as_slice() {
+                [] => good(row.good_from_m_s, row.good_to_m_s),
+                materials => format!("no loss known of {}", materials.join(", ")),
             },
-            format!("{:.4}", row.worst_error),
+            row.worst_error.map_or("not known".to_string(), |error| format!("{error:.4}")),
         ]
     };
     let n = export.grains.len();
@@ -59,6 +59,7 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
         "good_from_m_s",
         "good_to_m_s",
         "worst_error",
+        "no_loss_known_of",
     ];
     let header = fixed.into_iter().chain(keys.iter().map(|key| key.as_str()));
     writer.write_record(header).map_err(failed)?;
@@ -74,7 +75,8 @@ pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
             number(Some(row.restitution)),
             number(row.good_from_m_s),
             number(row.good_to_m_s),
-            number(Some(row.worst_error)),
+            number(row.worst_error),
+            row.unpublished_loss.join(" "),
         ];
         cells.extend(keys.iter().map(|key| number(row.entries.get(*key).copied())));
         writer.write_record(cells).map_err(failed)?;

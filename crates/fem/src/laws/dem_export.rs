@@ -119,6 +119,7 @@ impl DemExport {
             dissipation_time: (viscoelastic.values[0], viscoelastic.validity),
             linear: Dashpot { restitution: e, contact_time, validity: constant_validity },
             hunt_crossley,
+            unpublished_loss: curve.unpublished_loss.clone(),
         };
         Ok(Self { curve, export, laws: [constant, viscoelastic, linear] })
     }

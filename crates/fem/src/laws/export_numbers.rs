@@ -32,6 +32,8 @@ pub struct ExportNumbers {
     pub linear_contact_time_s: f64,
     /// Whether the contact times of the data are Hertz'.
     pub has_hertz_times: bool,
+    /// Materials whose loss counts as nothing, since it is not published: e is too high.
+    pub unpublished_loss: Vec<String>,
     /// What the laws are fitted to.
     pub data: Vec<PointNumbers>,
     /// The files.
@@ -102,6 +104,7 @@ impl DemExport {
             dissipation_time_s: export.dissipation_time.0,
             linear_contact_time_s: export.linear.contact_time,
             has_hertz_times: self.curve.has_hertz_times,
+            unpublished_loss: export.unpublished_loss.clone(),
             data: points.iter().map(point).collect(),
             snippets: snippets.iter().map(|snippet| self.snippet(snippet)).collect(),
         }

@@ -20,6 +20,8 @@ pub struct ImpactCurve {
     pub points: Vec<Point>,
     /// Whether the times are Hertz', for want of data.
     pub has_hertz_times: bool,
+    /// Materials whose loss counts as nothing, since it is not published; none of measured data.
+    pub unpublished_loss: Vec<String>,
 }
 
 impl ImpactCurve {
@@ -51,7 +53,9 @@ impl ImpactCurve {
             Ok(Point { contact_time: impact.contact_time, ..point })
         };
         let points: Vec<Point> = (0..N_SPEEDS).map(point).collect::<Result<_, FitError>>()?;
-        Ok(Self::of(&reduced.scene().pair()?, points)?)
+        let unpublished = case.scene().materials_of_unpublished_loss();
+        let unpublished_loss = unpublished.into_iter().map(String::from).collect();
+        Ok(Self { unpublished_loss, ..Self::of(&reduced.scene().pair()?, points)? })
     }
 
     fn of(pair: &Pair, mut points: Vec<Point>) -> Result<Self, FitError> {
@@ -63,7 +67,7 @@ impl ImpactCurve {
             }
             point.restitution_uncertainty = None;
         }
-        Ok(Self { points, has_hertz_times })
+        Ok(Self { points, has_hertz_times, unpublished_loss: Vec::new() })
     }
 
     /// Slowest and fastest speed, m/s.

@@ -39,6 +39,8 @@ pub struct FittedPair {
     pub pair: Pair,
     /// Its laws; none of a pair that loses nothing.
     pub export: Option<DemExport>,
+    /// Materials whose loss counts as nothing, since none is known.
+    pub unpublished_loss: Vec<String>,
 }
 
 /// A row of the table, SI.
@@ -62,8 +64,10 @@ pub struct PairNumbers {
     pub good_from_m_s: Cell,
     /// Where it is good, to.
     pub good_to_m_s: Cell,
-    /// Largest error of it.
-    pub worst_error: f64,
+    /// Largest error of it over the speeds of the fit; none where what is lost is not known.
+    pub worst_error: Cell,
+    /// Materials whose loss counts as nothing, since none is known: the restitution is too high.
+    pub unpublished_loss: Vec<String>,
     /// What each code is told: `lammps_viscoelastic_eta`, ….
     pub entries: BTreeMap<String, f64>,
 }
@@ -118,29 +122,35 @@ impl PairExport {
             let (grains, pair) =
                 ([first, second], collision.scene().pair().map_err(FitError::from)?);
             let export = fitted(&collision, speeds, tolerance)?;
-            pairs.push(FittedPair { grains, pair, export });
+            let unpublished = collision.scene().materials_of_unpublished_loss();
+            let mut unpublished_loss: Vec<String> =
+                unpublished.into_iter().map(String::from).collect();
+            // No grain loses nothing, whatever its table says.
+            if export.is_none() && unpublished_loss.is_empty() {
+                unpublished_loss = [first, second].map(|place| kinds[place].0.clone()).into();
+                unpublished_loss.dedup();
+            }
+            pairs.push(FittedPair { grains, pair, export, unpublished_loss });
         }
         Ok(Self { grains: grains.into_iter().flatten().collect(), pairs, tolerance })
     }
 
-    /// What a reader should know: which materials lose nothing, for want of a relaxation.
+    /// What a reader should know: of which materials no loss is known.
     pub fn warnings(&self) -> Vec<String> {
-        let lossless = self.pairs.iter().filter(|pair| pair.export.is_none());
         let mut names: Vec<&str> = Vec::new();
-        for place in lossless.flat_map(|pair| pair.grains) {
-            let name = self.grains[place].material.as_str();
-            if !names.contains(&name) {
+        for name in self.pairs.iter().flat_map(|pair| &pair.unpublished_loss) {
+            if !names.contains(&name.as_str()) {
                 names.push(name);
             }
         }
         match names.as_slice() {
             [] => Vec::new(),
             names => vec![format!(
-                "no relaxation is known of {}: pairs of {} have e = 1, which no grains have; give \
-                 [material.NAME.relaxation], of a material of the library in a table with its numbers \
-                 (fem-run materials NAME prints it), or name a law that loses energy in [model]",
+                "no loss of {} is known, and none is in e of {} pairs: it is too high, by how much is not \
+                 known; give [material.NAME.relaxation], of a material of the library in a table with its \
+                 numbers (fem-run materials NAME prints it), or name a law that loses energy in [model]",
                 names.join(", "),
-                if names.len() == 1 { "it" } else { "them" }
+                if names.len() == 1 { "its" } else { "their" }
             )],
         }
     }
@@ -151,6 +161,7 @@ impl PairExport {
             grains: fitted.grains,
             pair: fitted.pair,
             restitution: fitted.export.as_ref().map_or(1.0, |of| of.export.hertz.restitution),
+            unpublished_loss: fitted.unpublished_loss.clone(),
         };
         self.pairs.iter().map(of).collect()
     }
@@ -165,7 +176,8 @@ impl PairExport {
         let laws = fitted.export.as_ref();
         let speeds = laws.map(|of| of.export.speeds);
         let validity = laws.map(|of| of.export.hertz.validity);
-        let good = validity.filter(|[from, to, _]| from <= to);
+        let is_known = fitted.unpublished_loss.is_empty();
+        let good = validity.filter(|[from, to, _]| from <= to && is_known);
         PairNumbers {
             first_material: first.material.clone(),
             first_diameter_m: first.sphere.diameter,
@@ -176,7 +188,8 @@ impl PairExport {
             restitution: laws.map_or(1.0, |of| of.export.hertz.restitution),
             good_from_m_s: good.map(|good| good[0]),
             good_to_m_s: good.map(|good| good[1]),
-            worst_error: validity.map_or(0.0, |validity| validity[2]),
+            worst_error: validity.filter(|_| is_known).map(|validity| validity[2]),
+            unpublished_loss: fitted.unpublished_loss.clone(),
             entries: laws.map(entries).unwrap_or_default(),
         }
     }
