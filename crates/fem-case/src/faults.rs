@@ -12,7 +12,7 @@ use crate::overrides::parse_path;
 const MOST_FAULTS: usize = 20;
 
 /// Sound values of keys that a case needs, by their last part; other keys are left out.
-const SOUND: [(&str, &str); 13] = [
+const SOUND: [(&str, &str); 14] = [
     ("density", "1e3"),
     ("youngs_modulus", "1e9"),
     ("shear_modulus", "4e8"),
@@ -23,6 +23,7 @@ const SOUND: [(&str, &str); 13] = [
     ("weight", "0.01"),
     ("relaxation_time", "1"),
     ("decay_rate", "1"),
+    ("sphere", "{ diameter = 0.01 }"),
     ("diameter", "0.01"),
     ("approach_speed", "1"),
     ("acceleration", "9.81"),

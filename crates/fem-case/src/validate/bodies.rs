@@ -163,6 +163,7 @@ impl Check<'_> {
             [(_, key)] => Ok(*key),
             [] => Err(self
                 .error(path, format!("\"{name}\" is neither sphere, wall nor half_space"))
+                .lacking("sphere")
                 .with_help(
                     "write sphere = { diameter = \"22.2 mm\" }, wall = {} or half_space = {}",
                 )),
@@ -194,6 +195,7 @@ impl Check<'_> {
         let Some(name) = &table.material else {
             return Err(self
                 .error(path, format!("the key `material` is missing in {path}"))
+                .lacking("material")
                 .with_help(format!("name a material; {known}")));
         };
         materials.get(name.as_str()).cloned().ok_or_else(|| {

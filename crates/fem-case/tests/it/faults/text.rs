@@ -137,3 +137,17 @@ fn all_faults_of_a_file_are_told_at_once() {
     let expected = ["--set body.0.approach_speed=…", "--set mesh.growth=…"];
     assert_eq!(names, BTreeSet::from(expected));
 }
+
+/// What a body lacks hides nothing of what it has.
+#[test]
+fn a_body_without_a_shape_tells_its_other_faults() {
+    let sphere = "sphere = { diameter = \"15.9 mm\" }";
+    let (before, after) = VALID.split_once(sphere).unwrap();
+    let after = after.replacen("\"glass\"", "\"lib:stel\"", 1);
+    let error = parse(&format!("{before}{after}")).unwrap_err();
+    let all = std::iter::once(&error).chain(error.others()).map(ToString::to_string);
+    let all = all.collect::<Vec<_>>().join("\n");
+    for expected in ["neither sphere, wall nor half_space", "no material \"lib:stel\""] {
+        assert!(all.contains(expected), "{all}");
+    }
+}
