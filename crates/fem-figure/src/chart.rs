@@ -9,7 +9,7 @@ use kuva::prelude::{BandPlot, Layout, LinePlot, Plot, ScatterPlot, TickFormat};
 use crate::clip::runs;
 use crate::curve::{Curve, Mark};
 use crate::line_style::LineStyle;
-use crate::style::{COLOURS, tick};
+use crate::style::{COLOURS, decade, tick};
 
 /// Free space beside the data on a logarithmic axis, as a factor.
 const MARGIN: f64 = 1.2;
@@ -193,13 +193,15 @@ impl Chart {
             layout = layout.with_log_x();
         }
         if self.y.is_logarithmic {
-            layout = layout.with_log_y();
+            layout = layout.with_log_y().with_y_tick_format(TickFormat::Custom(Arc::new(decade)));
         }
         if let Some((from, to)) = self.x.limits(all.iter().map(|point| point.0)) {
             layout = layout.with_x_axis_min(from).with_x_axis_max(to);
         }
         if let Some((from, to)) = self.y.limits(all.iter().map(|point| point.1)) {
             layout = layout.with_y_axis_min(from).with_y_axis_max(to);
+            // The label stands beside the numbers of this range, not beside those of the data's.
+            layout.y_range = (from, to);
         }
         (plots, layout)
     }

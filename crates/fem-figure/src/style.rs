@@ -34,13 +34,24 @@ pub fn colour_along(k: usize, n: usize) -> String {
 
 /// A tick's number: as short as it can be said, rounding errors left out.
 pub fn tick(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    let rounded = rounded(value);
     let size = rounded.abs();
     if size == 0.0 || (1e-4..1e6).contains(&size) {
         rounded.to_string()
     } else {
         format!("{rounded:e}")
     }
+}
+
+/// A tick's number on a logarithmic axis: small ones as powers, which take no more room than their labels are
+/// placed for.
+pub(crate) fn decade(value: f64) -> String {
+    if value < 0.1 { format!("{:e}", rounded(value)) } else { tick(value) }
+}
+
+/// Without the errors of rounding.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// Text and lines.
@@ -145,6 +156,9 @@ mod tests {
             [(0.1 + 0.2, "0.3"), (0.0, "0"), (1e-7, "1e-7"), (-2.5e8, "-2.5e8"), (1000.0, "1000")]
         {
             assert_eq!(tick(value), expected);
+        }
+        for (value, expected) in [(0.1, "0.1"), (0.01, "1e-2"), (5e-5, "5e-5"), (200.0, "200")] {
+            assert_eq!(decade(value), expected);
         }
     }
 }

@@ -21,6 +21,7 @@ mod folder;
 mod mark;
 mod packs;
 mod picture;
+mod picture_convergence;
 mod picture_curves;
 mod picture_data;
 mod picture_points;

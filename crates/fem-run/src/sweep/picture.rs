@@ -1,18 +1,22 @@
-//! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside.
+//! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside. Over what makes members
+//! finer a second panel shows how far they are from their limit, and the limit stands in the place of Hertz.
 
 use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
 use fem_case::engineering::Unit;
 use fem_figure::{Axis, COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
 
+use super::picture_convergence::{self, Converging, Fineness};
 use super::picture_curves::{Curve, curves};
 use super::picture_data::Choice;
 use super::picture_points::PicturePoint;
 use super::picture_words::{plain, role, role_of_all};
 
-/// Hertz in the legend.
+/// What curves are compared with, in the legend.
 const HERTZ: &str = "Hertz";
-/// Lines of a legend beside curves: Hertz, what failed, how many are not named.
+/// The same where members converge.
+const LIMIT: &str = "extrapolated limit";
+/// Lines of a legend beside curves: what they are compared with, what failed, how many are not named.
 const NOTES: usize = 3;
 /// Steps between the entries of a colour map.
 const MAP_ENTRIES: usize = 8;
@@ -20,7 +24,7 @@ const MAP_ENTRIES: usize = 8;
 const LONGEST_LABEL: usize = 60;
 /// Free space above and below the data over their range.
 const MARGIN: f64 = 0.06;
-/// Data that are less than this share of the range with Hertz are shown without Hertz.
+/// Data that are less than this share of the range with what they are compared with are shown without it.
 const LEAST_SHARE: f64 = 0.2;
 /// No axis shows less than this share of its values: what differs by less is noise.
 const NOISE: f64 = 1e-4;
@@ -34,16 +38,41 @@ pub fn picture(
     choice: &Choice,
     n_failed: usize,
 ) -> Option<String> {
-    let room = legend_room(choice.y.len()).saturating_sub(NOTES);
-    let panel = |(k, column): (usize, &&'static str)| {
-        let chart = chart(sweep, choice, column, &curves(sweep, points, choice, k), room);
-        match n_failed {
-            0 => chart,
-            1 => chart.with(note("1 member failed")),
-            n => chart.with(note(&format!("{n} members failed"))),
+    let key = sweep.keys().nth(choice.x.key).map_or("", |swept| swept.key.as_str());
+    let fineness = Fineness::of(key).filter(|_| !choice.x.is_counted);
+    let n_panels = choice.y.len() * if fineness.is_some() { 2 } else { 1 };
+    let room = legend_room(n_panels).saturating_sub(NOTES);
+    let panels = choice.y.iter().enumerate().flat_map(|(k, column)| {
+        let mut curves = curves(sweep, points, choice, k);
+        let errors = fineness.and_then(|fineness| {
+            let of_curve = |curve: &Curve| Converging::of(fineness, column, curve);
+            let converging: Vec<_> = curves.iter().map(of_curve).collect();
+            // Where no curve has levels enough there is nothing to converge.
+            converging.iter().any(Option::is_some).then_some((fineness, converging))
+        });
+        let reference = if errors.is_some() { LIMIT } else { HERTZ };
+        if let Some((_, converging)) = &errors {
+            for (curve, one) in curves.iter_mut().zip(converging) {
+                curve.reference = one.as_ref().map(Converging::limit).unwrap_or_default();
+            }
         }
+        let value = chart(sweep, choice, column, (&curves, reference), room);
+        let errors = errors.map(|(fineness, converging)| {
+            let x = curves.iter().flat_map(|curve| curve.points.iter().map(|point| point.0));
+            let horizontal = Scale::of(x, choice.x.unit).logarithmic();
+            let (axis, paint) = (horizontal.axis(&along(sweep, choice)), Paint::of(&curves));
+            let place = |x: f64| horizontal.scaled(x);
+            let drawn = |line: Line, k: usize| paint.on(line, k);
+            picture_convergence::chart(fineness, column, &converging, (axis, &place), &drawn)
+        });
+        [Some(value), errors]
+    });
+    let with_note = |chart: Chart| match n_failed {
+        0 => chart,
+        1 => chart.with(note("1 member failed")),
+        n => chart.with(note(&format!("{n} members failed"))),
     };
-    fem_figure::svg(&choice.y.iter().enumerate().map(panel).collect::<Vec<_>>())
+    fem_figure::svg(&panels.flatten().map(with_note).collect::<Vec<_>>())
 }
 
 /// A line of the legend that is no curve.
@@ -51,11 +80,19 @@ fn note(text: &str) -> Line {
     Line::line(text, Vec::new()).coloured("none")
 }
 
-fn chart(sweep: &Sweep, choice: &Choice, column: &str, curves: &[Curve], room: usize) -> Chart {
+/// Curves of a column, and beside them what they are compared with, by its name.
+fn chart(
+    sweep: &Sweep,
+    choice: &Choice,
+    column: &str,
+    (curves, reference_name): (&[Curve], &'static str),
+    room: usize,
+) -> Chart {
     let own = || curves.iter().flat_map(|curve| &curve.points);
-    let reference = || curves.iter().flat_map(|curve| &curve.hertz);
+    let reference = || curves.iter().flat_map(|curve| &curve.reference);
     let x = own().map(|point| point.0).chain(reference().map(|point| point.0));
     let horizontal = Scale::of(x, choice.x.unit).linear_if(choice.x.is_counted);
+    let horizontal = if reference_name == LIMIT { horizontal.logarithmic() } else { horizontal };
     let y = own().map(|point| point.1).chain(reference().map(|point| point.1));
     let vertical = Scale::of(y, Some(column_unit(column)));
     let scaled = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
@@ -70,26 +107,22 @@ fn chart(sweep: &Sweep, choice: &Choice, column: &str, curves: &[Curve], room: u
     let own_range = own().map(|point| vertical.scaled(point.1));
     let bars = own().map(|point| (vertical.scaled(point.1), bar(point)));
     let y = vertical.axis(&column_words(column));
-    let of_hertz = reference().map(|point| vertical.scaled(point.1));
-    let y = match shown(with_bars(own_range, bars), of_hertz).filter(|_| !vertical.is_logarithmic) {
+    let of_reference = reference().map(|point| vertical.scaled(point.1));
+    let y = match shown(with_bars(own_range, bars), of_reference)
+        .filter(|_| !vertical.is_logarithmic)
+    {
         Some((from, to)) => y.from_to(from, to),
         None => y,
     };
     let mut chart = Chart::new(horizontal.axis(&along(sweep, choice)), y);
     // Between what is counted there is nothing.
-    let hertz_line = if choice.x.is_counted { Line::points } else { Line::dashed };
+    let reference_line = if choice.x.is_counted { Line::points } else { Line::dashed };
     let named = Named::of(curves, room);
     if let Some(heading) = &named.heading {
         chart = chart.with(note(heading));
     }
-    let ranks = ranks(curves);
-    // More than there are colours for have a map of them if a number tells them apart; else also other dashes.
-    let is_map = curves.len() > COLOURS.len() && curves.iter().all(|curve| curve.number.is_some());
-    let drawn = |line: Line, k: usize| match is_map {
-        true => line.coloured(colour_along(ranks[k], curves.len())),
-        false => line.like_curve(k),
-    };
-    let is_one = curves.windows(2).all(|pair| pair[0].hertz == pair[1].hertz);
+    let paint = Paint::of(curves);
+    let is_one = curves.windows(2).all(|pair| pair[0].reference == pair[1].reference);
     for (k, curve) in curves.iter().enumerate() {
         let label = match curves.len() {
             1 => "computed",
@@ -102,19 +135,19 @@ fn chart(sweep: &Sweep, choice: &Choice, column: &str, curves: &[Curve], room: u
             true => Line::points(label, scaled(&points)),
             false => Line::points_on_line(label, scaled(&points)),
         };
-        chart = chart.with(drawn(line, k).with_errors(errors));
-        let hertz = hertz_line("", scaled(&curve.hertz));
+        chart = chart.with(paint.on(line, k).with_errors(errors));
+        let reference = reference_line("", scaled(&curve.reference));
         chart = match (is_one, k) {
-            (true, 0) => chart.with(hertz.coloured(GREY)),
-            (false, k) if has_errors => chart.with(drawn(hertz, k)),
+            (true, 0) => chart.with(reference.coloured(GREY)),
+            (false, k) if has_errors => chart.with(paint.on(reference, k)),
             _ => chart,
         };
     }
     if let Some(note_of_rest) = &named.rest {
         chart = chart.with(note(note_of_rest));
     }
-    if curves.iter().any(|curve| !curve.hertz.is_empty()) && (is_one || has_errors) {
-        chart = chart.with(hertz_line(HERTZ, Vec::new()).coloured(GREY));
+    if curves.iter().any(|curve| !curve.reference.is_empty()) && (is_one || has_errors) {
+        chart = chart.with(reference_line(reference_name, Vec::new()).coloured(GREY));
     }
     chart
 }
@@ -132,6 +165,28 @@ fn along(sweep: &Sweep, choice: &Choice) -> String {
     match said.chars().count() {
         0..=LONGEST_LABEL => said,
         _ => format!("{}, in the order of the sweep", role(name)),
+    }
+}
+
+/// What tells curves apart: colours in turn and, once all were used, other dashes; of more than there are
+/// colours for a map of colours if a number tells them apart.
+struct Paint {
+    is_map: bool,
+    ranks: Vec<usize>,
+}
+
+impl Paint {
+    fn of(curves: &[Curve]) -> Self {
+        let has_numbers = curves.iter().all(|curve| curve.number.is_some());
+        Self { is_map: curves.len() > COLOURS.len() && has_numbers, ranks: ranks(curves) }
+    }
+
+    /// A line of the k-th curve.
+    fn on(&self, line: Line, k: usize) -> Line {
+        match self.is_map {
+            true => line.coloured(colour_along(self.ranks[k], self.ranks.len())),
+            false => line.like_curve(k),
+        }
     }
 }
 
@@ -220,6 +275,7 @@ struct Scale {
     /// None: no unit, or one that takes no prefix.
     unit: Option<Unit>,
     symbol: Option<&'static str>,
+    is_positive: bool,
     is_logarithmic: bool,
 }
 
@@ -233,6 +289,7 @@ impl Scale {
         let unit = unit.map(|unit| Unit::fitting(largest.abs().max(smallest.abs()), unit));
         Self {
             symbol,
+            is_positive: smallest > 0.0,
             is_logarithmic: smallest > 0.0 && largest >= LOGARITHMIC_FROM * smallest,
             unit,
         }
@@ -241,6 +298,12 @@ impl Scale {
     /// The same, not logarithmic if `linear`.
     fn linear_if(mut self, linear: bool) -> Self {
         self.is_logarithmic &= !linear;
+        self
+    }
+
+    /// The same, logarithmic if its values are positive.
+    fn logarithmic(mut self) -> Self {
+        self.is_logarithmic |= self.is_positive;
         self
     }
 

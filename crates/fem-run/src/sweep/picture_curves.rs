@@ -17,8 +17,8 @@ pub struct Curve {
     pub number: Option<f64>,
     /// SI, by increasing x: x, y and how far that may be off.
     pub points: Vec<(f64, f64, f64)>,
-    /// The same members by Hertz; empty if Hertz has no such column.
-    pub hertz: Vec<(f64, f64)>,
+    /// What they are compared with; empty if there is nothing. Of the table: the same members by Hertz.
+    pub reference: Vec<(f64, f64)>,
 }
 
 /// The curves of the panel that `panel` counts, in the order of the sweep.
@@ -31,18 +31,18 @@ pub fn curves(sweep: &Sweep, points: &[PicturePoint], choice: &Choice, panel: us
         let number = choice.series_values.as_ref().map(|values| values[own[0]]);
         let place = *places.entry(own).or_insert_with(|| {
             let label = label(sweep, &elements, &choice.series);
-            curves.push(Curve { label, number, points: Vec::new(), hertz: Vec::new() });
+            curves.push(Curve { label, number, points: Vec::new(), reference: Vec::new() });
             curves.len() - 1
         });
         let x = choice.x.values[elements[choice.x.axis]];
         let values = point.values[panel];
         let error = values.error.unwrap_or(0.0);
         curves[place].points.extend(values.own.map(|y| (x, y, error)));
-        curves[place].hertz.extend(values.hertz.map(|y| (x, y)));
+        curves[place].reference.extend(values.hertz.map(|y| (x, y)));
     }
     for curve in &mut curves {
         curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        curve.hertz.sort_by(|a, b| a.0.total_cmp(&b.0));
+        curve.reference.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     curves
 }

@@ -14,7 +14,7 @@
 //! out, and how far D moves from the next coarser mesh to the finest. Where D is less than its own
 //! uncertainty it is left out and counts as uncertain.
 
-use super::power_law::PowerLaw;
+use super::convergence::Convergence;
 
 /// What a number tends to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,13 +29,6 @@ pub struct Limit {
     pub added: Option<f64>,
 }
 
-/// Orders that a sequence is believed to have.
-const ORDERS: std::ops::Range<f64> = 0.5..3.9;
-/// A limit lies at most so many times the last step beyond the finest level.
-const FARTHEST: f64 = 2.0;
-/// Levels that a limit is made of.
-const N_LEVELS: usize = 6;
-
 impl Limit {
     /// Of values over the size of the elements (m, SI), in any order: of condensed bodies, of those with
     /// springs, of explicit elements; none without any.
@@ -44,10 +37,9 @@ impl Limit {
         springs: &[(f64, f64)],
         explicit: &[(f64, f64)],
     ) -> Option<Self> {
-        let condensed = finest_first(condensed);
         let explicit = finest_first(explicit);
-        let Some((value, uncertainty)) = alone(&condensed) else {
-            let (value, uncertainty) = alone(&explicit)?;
+        let Some(Convergence { limit: value, uncertainty, .. }) = Convergence::of(condensed) else {
+            let Convergence { limit: value, uncertainty, .. } = Convergence::of(&explicit)?;
             return Some(Self { value, uncertainty, condensed: None, added: None });
         };
         let own = |size: f64| {
@@ -83,23 +75,6 @@ fn finest_first(levels: &[(f64, f64)]) -> Vec<(f64, f64)> {
     sorted
 }
 
-/// Limit and uncertainty of levels, the finest first.
-fn alone(levels: &[(f64, f64)]) -> Option<(f64, f64)> {
-    let finest = levels.first()?.1;
-    let Some(step) = levels.get(1).map(|(_, next)| (finest - next).abs()) else {
-        return Some((finest, f64::INFINITY));
-    };
-    let fit = PowerLaw::fit(&levels[..levels.len().min(N_LEVELS)]);
-    let is_sound = |fit: &PowerLaw| {
-        ORDERS.contains(&fit.order) && (fit.limit - finest).abs() <= FARTHEST * step
-    };
-    Some(match fit.filter(is_sound) {
-        // What is left of the way to the limit is not known better than to a fifth.
-        Some(fit) => (fit.limit, fit.uncertainty.max(0.2 * (fit.limit - finest).abs())),
-        None => (finest, step),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -129,13 +104,8 @@ mod tests {
         assert!((limit.value - 3.0).abs() < 1e-4 && limit.uncertainty >= 0.01, "{limit:?}");
     }
 
-    /// Without order there is no extrapolation, and with one level no certainty.
     #[test]
-    fn what_does_not_converge_is_not_extrapolated() {
-        let noise = vec![(4.0, 1.0), (3.0, 1.2), (2.0, 0.9), (1.5, 1.15), (1.0, 1.05)];
-        let limit = Limit::of(&noise, &[], &[]).unwrap();
-        assert_eq!((limit.value, limit.condensed), (1.05, Some(1.05)));
-        assert!((limit.uncertainty - 0.1).abs() < 1e-12);
+    fn one_level_is_not_certain() {
         assert_eq!(Limit::of(&[], &[], &[(1.0, 2.0)]).unwrap().uncertainty, f64::INFINITY);
         assert_eq!(Limit::of(&[], &[], &[]), None);
     }

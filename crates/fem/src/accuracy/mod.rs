@@ -6,6 +6,7 @@
 //! beats in both error and time.
 
 mod companion;
+mod convergence;
 mod error_parts;
 mod ladder;
 mod limit;
@@ -19,6 +20,7 @@ mod study;
 pub(crate) use companion::{
     Beside, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
 };
+pub use convergence::{Convergence, ObservedOrder};
 pub use error_parts::{ErrorPart, ErrorSource};
 pub use ladder::Ladder;
 pub use limit::Limit;

@@ -1,0 +1,144 @@
+//! What a sequence of results converges to, as far as its own levels tell.
+//!
+//! The limit is that of a [`PowerLaw`] through the finest levels where one rules over them; else the finest
+//! level stands for it. The order is the slope of the straight line
+//!
+//! ```math
+//! \ln|q-q_0| = \ln C + p\,\ln h
+//! ```
+//!
+//! by least squares through the levels whose errors are more than twice what is known of the limit, and its
+//! uncertainty the standard error of that slope (as of any regression line: Draper and Smith 1998, 1.4).
+
+use super::power_law::PowerLaw;
+
+/// Orders that a sequence is believed to have.
+const ORDERS: std::ops::Range<f64> = 0.5..3.9;
+/// A limit lies at most so many times the last step beyond the finest level.
+const FARTHEST: f64 = 2.0;
+/// Levels that a limit is made of.
+const N_LEVELS: usize = 6;
+/// Errors that are fewer times what is known of the limit tell of no order.
+const CLEAR: f64 = 2.0;
+/// Errors that are less than this over the limit are rounding.
+const ROUNDING: f64 = 1e-6;
+/// Levels that tell of an order.
+const FEWEST: usize = 3;
+/// A slope with a larger standard error is none.
+const LOOSEST: f64 = 0.75;
+/// What is left of the way to the limit is not known better than to this share.
+const LEFT: f64 = 0.2;
+
+/// The limit of a sequence of levels (h, q), h in any unit and q in its own.
+///
+/// ```
+/// use fem::accuracy::Convergence;
+///
+/// let levels = [4.0, 2.8, 2.0, 1.4].map(|h: f64| (h, 0.9 + 0.01 * h * h));
+/// let found = Convergence::of(&levels).expect("levels");
+/// assert!((found.limit - 0.9).abs() < found.uncertainty && found.is_extrapolated);
+/// // Two levels tell of no order.
+/// assert_eq!(Convergence::of(&levels[2..]).map(|found| found.order), Some(None));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Convergence {
+    /// The limit, in the unit of q.
+    pub limit: f64,
+    /// How far it may be off, in the unit of q; infinite of a single level.
+    pub uncertainty: f64,
+    /// Whether it is extrapolated; else the finest level stands for it.
+    pub is_extrapolated: bool,
+    /// The observed order; none where the levels scatter or are too few.
+    pub order: Option<ObservedOrder>,
+}
+
+/// |q − q₀| = C hᵖ, as levels show it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ObservedOrder {
+    /// The order p.
+    pub order: f64,
+    /// Its standard error.
+    pub standard_error: f64,
+    /// The factor C > 0, in the unit of q over that of hᵖ.
+    pub factor: f64,
+}
+
+impl Convergence {
+    /// Of levels (h, q) in any order, h > 0; none without any.
+    pub fn of(levels: &[(f64, f64)]) -> Option<Self> {
+        let mut levels = levels.to_vec();
+        levels.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let finest = levels.first()?.1;
+        let Some(step) = levels.get(1).map(|(_, next)| (finest - next).abs()) else {
+            return Some(Self {
+                limit: finest,
+                uncertainty: f64::INFINITY,
+                is_extrapolated: false,
+                order: None,
+            });
+        };
+        let law = PowerLaw::fit(&levels[..levels.len().min(N_LEVELS)]);
+        let is_sound = |law: &PowerLaw| {
+            ORDERS.contains(&law.order) && (law.limit - finest).abs() <= FARTHEST * step
+        };
+        let law = law.filter(is_sound);
+        let (limit, uncertainty) = match law {
+            Some(law) => (law.limit, law.uncertainty.max(LEFT * (law.limit - finest).abs())),
+            None => (finest, step),
+        };
+        let is_extrapolated = law.is_some();
+        let order = ObservedOrder::of(&levels, limit, uncertainty);
+        Some(Self { limit, uncertainty, is_extrapolated, order })
+    }
+}
+
+impl ObservedOrder {
+    fn of(levels: &[(f64, f64)], limit: f64, uncertainty: f64) -> Option<Self> {
+        let least = (CLEAR * uncertainty).max(ROUNDING * limit.abs());
+        let errors = levels.iter().map(|(h, q)| (h.ln(), (q - limit).abs()));
+        let clear = errors.filter(|(_, error)| *error > least);
+        let points: Vec<(f64, f64)> = clear.map(|(h, error)| (h, error.ln())).collect();
+        if points.len() < FEWEST {
+            return None;
+        }
+        let n = points.len() as f64;
+        let mean_x = points.iter().map(|point| point.0).sum::<f64>() / n;
+        let mean_y = points.iter().map(|point| point.1).sum::<f64>() / n;
+        let xx: f64 = points.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
+        let xy: f64 = points.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+        let order = xy / xx;
+        let residual = |(x, y): &(f64, f64)| (y - mean_y - order * (x - mean_x)).powi(2);
+        let squares: f64 = points.iter().map(residual).sum();
+        let standard_error = (squares / (n - 2.0) / xx).sqrt();
+        let factor = (mean_y - order * mean_x).exp();
+        let is_seen = ORDERS.contains(&order) && standard_error < LOOSEST;
+        is_seen.then_some(Self { order, standard_error, factor })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without order there is no extrapolation, and with one level no certainty.
+    #[test]
+    fn what_does_not_converge_is_not_extrapolated() {
+        let noise = [(4.0, 1.0), (3.0, 1.2), (2.0, 0.9), (1.5, 1.15), (1.0, 1.05)];
+        let found = Convergence::of(&noise).unwrap();
+        assert_eq!((found.limit, found.is_extrapolated, found.order), (1.05, false, None));
+        assert!((found.uncertainty - 0.1).abs() < 1e-12);
+        assert_eq!(Convergence::of(&noise[..1]).unwrap().uncertainty, f64::INFINITY);
+        assert_eq!(Convergence::of(&[]), None);
+    }
+
+    #[test]
+    fn the_order_is_the_slope() {
+        for order in [1.0, 2.0, 3.0] {
+            let level = |h: f64| (h, 6.0 - 0.1 * h.powf(order));
+            let levels = [4.0, 2.8, 2.0, 1.4, 1.0, 0.7].map(level);
+            let seen = Convergence::of(&levels).unwrap().order.unwrap();
+            assert!((seen.order - order).abs() < 1e-3, "{seen:?}");
+            assert!((seen.factor - 0.1).abs() < 1e-3 && seen.standard_error < 1e-3, "{seen:?}");
+        }
+    }
+}
