@@ -55,6 +55,7 @@
 //! # }
 //! ```
 
+mod band;
 mod body;
 mod chain;
 mod collision;
@@ -69,6 +70,7 @@ mod elements;
 mod error;
 mod factor;
 mod fields;
+mod fronts;
 mod instants;
 mod motion;
 mod numbering;

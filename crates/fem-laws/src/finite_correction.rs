@@ -49,13 +49,8 @@ impl Correction {
         if hertz > 0.0 { self.alpha - self.beta * ln(hertz) } else { 0.0 }
     }
 
-    /// u, and ∂u/∂δ there, at δ (an open contact: 0), with the `remembered` Σ M_k (α_k − β_k ln u).
-    pub fn hertz_approach(&self, approach: f64, remembered: &Self) -> (f64, f64) {
-        // From an error of 1e-2: 1e-4, 1e-8, 1e-16.
-        self.hertz_approach_after(4, approach, remembered)
-    }
-
-    /// The same after a number of iterations of Newton's method.
+    /// u, and ∂u/∂δ there, at δ (an open contact: 0), with the `remembered` Σ M_k (α_k − β_k ln u), after a
+    /// number of iterations of Newton's method.
     pub fn hertz_approach_after(
         &self,
         n_iterations: usize,
@@ -115,7 +110,7 @@ mod tests {
                     let own = u * u.sqrt() * (correction.alpha - correction.beta * u.ln());
                     u + own + remembered.alpha - remembered.beta * u.ln()
                 };
-                let (hertz, slope) = correction.hertz_approach(approach, &remembered);
+                let (hertz, slope) = correction.hertz_approach_after(4, approach, &remembered);
                 assert!((whole(hertz) / approach - 1.0).abs() < 1e-15);
                 let h = 1e-6 * hertz;
                 let secant = 2.0 * h / (whole(hertz + h) - whole(hertz - h));
@@ -123,6 +118,6 @@ mod tests {
                 assert!((slope - secant).abs() < 1e-9);
             }
         }
-        assert_eq!(Correction::NONE.hertz_approach(0.7, &Correction::NONE), (0.7, 1.0));
+        assert_eq!(Correction::NONE.hertz_approach_after(4, 0.7, &Correction::NONE), (0.7, 1.0));
     }
 }

@@ -57,7 +57,7 @@ use crate::radiation::{radiation_damping, share_of_damping};
 use crate::surface_slip::SurfaceSlip;
 use crate::ting_collision::{Collision, Units};
 use crate::ting_radiation::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
-use crate::ting_record::{Contact, Element};
+use crate::ting_record::{Contact, Element, Settling};
 
 /// Faster relaxation leaves a force of 1e-15.
 const MAX_RATE: f64 = 1e15;
@@ -184,13 +184,11 @@ impl Ting {
             correction: corrections.equilibrium,
             radiation: None,
             gravity: self.gravity * units.time / units.speed,
+            settling: if self.has_coarse_waves { Settling::FORECAST } else { Settling::FULL },
         };
         let rate = approach_speed / units.speed;
         let run = |contact: &Contact| {
-            let collision =
-                Collision::new(contact, self.finite_size.as_ref(), self.tolerance, rate);
-            let collision = if self.has_coarse_waves { collision.foretelling() } else { collision };
-            collision.run(&units)
+            Collision::new(contact, self.finite_size.as_ref(), self.tolerance, rate).run(&units)
         };
         let Some(damping) = self.radiation_damping else { return run(&contact) };
         let (value, limit) = (share_of_damping(&hertz, damping), Self::MAX_RADIATED_SHARE);

@@ -11,7 +11,7 @@ use crate::hertz::HertzImpact;
 use crate::impact::{Impact, ImpactInstant};
 use crate::ting::Ting;
 use crate::ting_record::{Contact, Record, peak};
-use crate::ting_step::{self, Solved, State, Stepper};
+use crate::ting_step::{Solved, State, Stepper};
 
 /// Local error of the rate over the tolerance. A collision takes some tens of steps.
 const LOCAL_SHARE: f64 = 0.1;
@@ -73,7 +73,6 @@ pub(crate) struct Collision<'a> {
     contact: &'a Contact,
     finite_size: Option<&'a FiniteSize>,
     interpolation: Interpolation,
-    settled: f64,
     local_tolerance: f64,
     max_steps: usize,
     state: State,
@@ -102,7 +101,6 @@ impl<'a> Collision<'a> {
             contact,
             finite_size,
             interpolation: Interpolation::new(),
-            settled: ting_step::SETTLED,
             local_tolerance: LOCAL_SHARE * tolerance,
             max_steps: (MAX_STEPS * power(Ting::DEFAULT_TOLERANCE / tolerance, 0.2))
                 .max(FEWEST_STEPS) as usize,
@@ -221,15 +219,10 @@ impl<'a> Collision<'a> {
         }
     }
 
-    /// The same for a forecast: its steps' iterations end early.
-    pub fn foretelling(self) -> Self {
-        Self { settled: ting_step::NEARLY_SETTLED, ..self }
-    }
-
     /// One step within the tolerance; the size of the next is chosen.
     fn step(&mut self, record: Option<&Record>, units: &Units) -> Result<Solved, LawError> {
         let (contact, interpolation) = (self.contact, &self.interpolation);
-        let stepper = Stepper { contact, interpolation, record, settled: self.settled };
+        let stepper = Stepper { contact, interpolation, record };
         // A step that the clock does not feel, or that is none, gets nowhere.
         while self.n_steps < self.max_steps && self.state.time + self.length > self.state.time {
             self.n_steps += 1;

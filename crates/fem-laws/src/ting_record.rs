@@ -43,12 +43,38 @@ pub(crate) struct Contact {
     pub radiation: Option<Radiation>,
     /// What gravity adds to the acceleration of the approach; 0 without.
     pub gravity: f64,
+    /// How far iterations go.
+    pub settling: Settling,
+}
+
+/// How far the iterations of a collision go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Settling {
+    /// Change of the rate, of 1, at which those of a step end.
+    pub rate: f64,
+    /// Newton's for Hertz' approach: from an error of 1e-2 to 1e-4, 1e-8, 1e-16.
+    pub n_newton: usize,
+    /// Change of t₁ over the time of loading at which the search for it ends.
+    pub equivalent_time: f64,
+}
+
+impl Settling {
+    /// To rounding: the force has an error of its slope 1.5 √u u̇ ≤ 2 times that of t₁.
+    pub const FULL: Self = Self { rate: 1e-14, n_newton: 4, equivalent_time: 1e-13 };
+
+    /// Of a collision that is a forecast.
+    pub const FORECAST: Self = Self { rate: 1e-8, n_newton: 3, equivalent_time: 1e-9 };
 }
 
 impl Contact {
     /// Hertz' approach u at δ, with what the elements remember.
     pub fn hertz_approach(&self, approach: f64, memory: &[Memory]) -> f64 {
-        self.correction.hertz_approach(approach, &self.remembered(memory)).0
+        self.inverted(approach, &self.remembered(memory)).0
+    }
+
+    /// u, and ∂u/∂δ there, at δ with what the finite size remembers.
+    pub fn inverted(&self, approach: f64, remembered: &Correction) -> (f64, f64) {
+        self.correction.hertz_approach_after(self.settling.n_newton, approach, remembered)
     }
 
     /// What the finite size does with what the elements remember.
@@ -212,8 +238,8 @@ impl Record {
             }
             let newton = t1 - excess / slope;
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            // The force has an error of its slope 1.5 √u u̇ ≤ 2 times this.
-            if (next - t1).abs() <= 1e-13 * self.end || high - low <= 1e-13 * self.end {
+            let settled = contact.settling.equivalent_time * self.end;
+            if (next - t1).abs() <= settled || high - low <= settled {
                 return shrunk;
             }
             t1 = next;
@@ -229,7 +255,7 @@ impl Record {
         let memories = step.memories(contact, theta);
         let remembered = contact.remembered(&memories);
         let approach = step.contact_approach_at(contact, theta);
-        let (hertz, compression) = contact.correction.hertz_approach(approach, &remembered);
+        let (hertz, compression) = contact.inverted(approach, &remembered);
         let mut surface = contact.equilibrium * hertz;
         let mut force = contact.equilibrium * hertz * hertz.sqrt();
         let mut pressure = contact.equilibrium * hertz.sqrt();

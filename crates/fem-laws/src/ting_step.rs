@@ -70,18 +70,11 @@ impl Fading {
 /// More than this says that the step is too long.
 const MAX_ITERATIONS: usize = 20;
 
-/// Change of the rate, of 1, at which the iteration ends, ...
-pub(crate) const SETTLED: f64 = 1e-14;
-/// ... and of a collision that is a forecast.
-pub(crate) const NEARLY_SETTLED: f64 = 1e-8;
-
 pub(crate) struct Stepper<'a> {
     pub contact: &'a Contact,
     pub interpolation: &'a Interpolation,
     /// `None` while the contact grows.
     pub record: Option<&'a Record>,
-    /// Change of the rate at which the iteration ends.
-    pub settled: f64,
 }
 
 impl Contact {
@@ -140,8 +133,7 @@ impl Stepper<'_> {
                 let (remembered, creeping) = &creep[i];
                 let (u, slope, rate) = match &waves {
                     None => {
-                        let correction = &self.contact.correction;
-                        let (u, slope) = correction.hertz_approach(approach, remembered);
+                        let (u, slope) = self.contact.inverted(approach, remembered);
                         (u, slope, rate)
                     }
                     Some(waves) => waves.hertz_approach(i, approach, rate, remembered),
@@ -169,7 +161,7 @@ impl Stepper<'_> {
             };
             let change = (0..N).map(|i| (new_force[i] - force[i]).abs()).fold(0.0, f64::max);
             force = new_force;
-            if length * change <= self.settled {
+            if length * change <= self.contact.settling.rate {
                 let pressure = match self.record {
                     None => self.remembered(&kernel, PRESSURE, &hertz.map(f64::sqrt), &drives),
                     Some(_) => shrunk_pressure,

@@ -45,7 +45,7 @@ pub(crate) fn foretold_on_half_spaces(
     pair: &Pair,
     speed: f64,
 ) -> Result<Rc<Impact>, LawError> {
-    let ting = ting_of(scene, pair, true, None)?;
+    let ting = ting_of(scene, pair, true, None)?.with_coarse_waves();
     known_impact(ting.with_tolerance(FORECAST)?, speed)
 }
 

@@ -81,9 +81,9 @@ impl Effect for SurfaceSlip {
         })
     }
 
-    /// Between Ting's impacts with and without.
+    /// Between Ting's impacts with and without; nothing between like bodies.
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        if has_wall(scene) {
+        if !is_called_for(scene) {
             return Some(LeftOut::NOTHING);
         }
         let [with, without] = [Switch::On, Switch::Off].map(|to| Self::switched(scene, to));
