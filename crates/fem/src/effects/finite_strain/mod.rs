@@ -94,7 +94,7 @@ impl FiniteStrain {
         let is_near = estimate.strain < FLAT && estimate.mach < SLOW && !is_forced_on(scene);
         let change = departure(scene, estimate).over(&scene.accuracy());
         let radii = (change / LEFT_FAR_AWAY).cbrt().max(NEAREST);
-        is_near.then(|| radii * estimate.contact_radius)
+        is_near.then_some(radii * estimate.contact_radius)
     }
 
     /// A scene that is forced to large strain must be one that the elements bear.
