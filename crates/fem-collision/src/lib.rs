@@ -77,6 +77,6 @@ pub use searched::Searched;
 pub use snapshot::{BodyFields, ContactPlace, ContactProfile, Label, Snapshot, SnapshotRequest};
 pub use standstill::{Held, Standstill};
 pub use stop::Stop;
-pub use stress::{StressField, StressRecovery, invariants};
+pub use stress::{SmallStrain, StressField, StressRecovery, invariants};
 pub use want::{Expectation, Want, WantError};
 pub use worst::{highest, worst};

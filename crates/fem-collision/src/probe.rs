@@ -89,7 +89,7 @@ impl Probe {
 
     /// Stress (σ_rr, σ_yy, σ_θθ, σ_ry) of a body's fields, tension positive, Pa.
     pub fn stress(&self, material: &Material, fields: &BodyFields) -> [f64; 4] {
-        let small_strain = SmallStrain::of(material, fields);
+        let small_strain = SmallStrain::of(material, &fields.displacement, &fields.effective);
         let of_element = |element: &Element| match fields.stress.get(element.number) {
             Some(stress) => *stress,
             None => small_strain.stress(&element.geometry, &element.quad),

@@ -78,14 +78,15 @@ impl<'a> StressRecovery<'a> {
 
     /// Stress of the elements at small strain.
     fn at_small_strain(&self, material: &Material, fields: &BodyFields) -> Vec<[f64; 4]> {
-        let of = SmallStrain::of(material, fields);
+        let of = SmallStrain::of(material, &fields.displacement, &fields.effective);
         let elements = self.geometries.iter().zip(self.mesh.quads());
         elements.map(|(geometry, quad)| of.stress(geometry, quad)).collect()
     }
 }
 
 /// What stress follows from at small strain.
-pub(crate) struct SmallStrain<'a> {
+#[derive(Debug, Clone, Copy)]
+pub struct SmallStrain<'a> {
     moduli: &'a ElasticModuli,
     shear_field: &'a [[f64; 2]],
     /// The field of the mean part, where it is another.
@@ -93,18 +94,24 @@ pub(crate) struct SmallStrain<'a> {
 }
 
 impl<'a> SmallStrain<'a> {
-    pub fn of(material: &'a Material, fields: &'a BodyFields) -> Self {
-        let relaxed = if fields.effective.is_empty() { None } else { material.relaxation() };
+    /// Of displacements and, of a body that relaxes, effective displacements of its nodes, m; none of any
+    /// other.
+    pub fn of(
+        material: &'a Material,
+        displacement: &'a [[f64; 2]],
+        effective: &'a [[f64; 2]],
+    ) -> Self {
+        let relaxed = if effective.is_empty() { None } else { material.relaxation() };
         Self {
             moduli: material.instantaneous(),
-            shear_field: if relaxed.is_some() { &fields.effective } else { &fields.displacement },
+            shear_field: if relaxed.is_some() { effective } else { displacement },
             bulk_field: relaxed
                 .filter(|series| series.acts_on() == ActsOn::Shear)
-                .map(|_| fields.displacement.as_slice()),
+                .map(|_| displacement),
         }
     }
 
-    /// Of an element.
+    /// Cauchy stress (σ_rr, σ_yy, σ_θθ, σ_ry) of an element with these corners, tension positive, Pa.
     pub fn stress(&self, geometry: &QuadGeometry, quad: &[u32; 4]) -> [f64; 4] {
         let trace = |e: &[f64; 4]| e[0] + e[1] + e[2];
         let at = |field: &[[f64; 2]]| geometry.mean_strain(&quad.map(|node| field[node as usize]));

@@ -219,6 +219,11 @@ impl Body {
         self.mesh.as_ref().map_or(0, |mesh| mesh.quads().len())
     }
 
+    /// Number of its elements that are at finite strain.
+    pub fn n_finite_elements(&self) -> usize {
+        self.stress.as_ref().map_or(0, |stress| stress.part.n_finite_elements())
+    }
+
     /// Number of nodes of its mesh: a rigid body has none to show.
     pub fn n_nodes(&self) -> usize {
         self.mesh.as_ref().map_or(0, |mesh| mesh.nodes().len())

@@ -10,7 +10,7 @@ use fem_mesh::SphereMesh;
 
 use crate::body::Body;
 use crate::error::ModelError;
-use crate::lumped::LumpedMesh;
+use crate::lumped::{FiniteStrainOf, LumpedMesh};
 use crate::model::check_step_factor;
 use crate::part::Accounts;
 use crate::state::{BodyState, Clock};
@@ -90,6 +90,7 @@ impl FreeMotion {
         step_factor: f64,
     ) -> Result<Self, ModelError> {
         check_step_factor(step_factor)?;
+        let law = law.map(|law| FiniteStrainOf { law, within: None });
         let sphere = LumpedMesh::new(mesh, material.clone(), law, Vec::new(), &[])?;
         let time_step = step_factor * sphere.bound.critical_time_step();
         let nodal_mass = sphere.bound.mass.clone();

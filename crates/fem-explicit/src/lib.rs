@@ -96,4 +96,4 @@ pub use model::{Model, Parts, Settings};
 pub use part::{Accounts, Field, Motion, MotionMut, NodalField, Part};
 pub use run::{Run, collide};
 pub use snapshot::n_states;
-pub use stress::{Collapse, MOST_FINITE_STRAIN_TERMS, Stress, Unstable};
+pub use stress::{Collapse, LumpedElement, MOST_FINITE_STRAIN_TERMS, Stress, Unstable};

@@ -31,6 +31,14 @@ pub(crate) struct LumpedMesh {
     pub bound: NodalBound,
 }
 
+/// The law of a body at finite strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FiniteStrainOf {
+    pub law: HyperelasticLaw,
+    /// Distance from first touch of the elements that follow it, m; all without.
+    pub within: Option<f64>,
+}
+
 /// A rigid sphere: one node that carries its mass.
 #[derive(Debug)]
 pub(crate) struct RigidSphere {
@@ -47,7 +55,7 @@ impl LumpedBody {
     /// finite strain of a body that does not deform, or that relaxes by too many terms.
     pub fn new(
         input: BodyInput,
-        finite_strain: Option<HyperelasticLaw>,
+        finite_strain: Option<FiniteStrainOf>,
         node_forces: Vec<Box<dyn NodeForce>>,
         massless: &[u32],
     ) -> Result<Option<Self>, ModelError> {
@@ -131,7 +139,7 @@ impl LumpedMesh {
     pub fn new(
         mesh: SphereMesh,
         material: Material,
-        finite_strain: Option<HyperelasticLaw>,
+        finite_strain: Option<FiniteStrainOf>,
         node_forces: Vec<Box<dyn NodeForce>>,
         massless: &[u32],
     ) -> Result<Self, ModelError> {
@@ -144,7 +152,12 @@ impl LumpedMesh {
             elements.map(|element| QuadGeometry::new(&mesh.corners(element))).collect();
         let stress = match finite_strain {
             None => stress::of_material(&mesh, &geometries, &material),
-            Some(law) => stress::finite_strain(&mesh, &geometries, &material, law),
+            Some(FiniteStrainOf { law, within: None }) => {
+                stress::finite_strain(&mesh, &geometries, &material, law)
+            }
+            Some(FiniteStrainOf { law, within: Some(radius) }) => {
+                stress::finite_strain_within(radius, &mesh, &geometries, &material, law)
+            }
         };
         let (boundary, density) = (BoundaryMass::new(&mesh, massless)?, material.density());
         let mut bound =

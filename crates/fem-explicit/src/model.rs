@@ -14,7 +14,7 @@ use crate::body::Body;
 use crate::contact::{Contact, ContactMethod, Massless, MovedContact};
 use crate::error::ModelError;
 use crate::forces::NodeForce;
-use crate::lumped::LumpedBody;
+use crate::lumped::{FiniteStrainOf, LumpedBody};
 
 /// Numerical settings of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +44,9 @@ pub struct Parts {
     /// Which energy the lower and the upper body store at finite strain; small strain where none is
     /// named. The time step of such a body follows its stiffness.
     pub finite_strain: [Option<HyperelasticLaw>; 2],
+    /// Distance from first touch (m) within which elements of such bodies are at finite strain; those farther
+    /// away stay at small strain. None by default: all are.
+    pub finite_strain_within: Option<f64>,
     /// Whether the surfaces slip on each other, as those of unlike materials do. At finite strain they do
     /// of themselves.
     pub surface_slip: bool,
@@ -109,7 +112,9 @@ impl Model {
         };
         let [lower, upper] = inputs;
         let [forces_on_lower, forces_on_upper] = parts.node_forces;
-        let [law_of_lower, law_of_upper] = parts.finite_strain;
+        let within = parts.finite_strain_within;
+        let of = |law: HyperelasticLaw| FiniteStrainOf { law, within };
+        let [law_of_lower, law_of_upper] = parts.finite_strain.map(|law| law.map(of));
         let massless = [0, 1].map(|side: usize| contact.massless_nodes(side));
         let mut movable = [
             LumpedBody::new(lower, law_of_lower, forces_on_lower, massless[0])?,

@@ -50,7 +50,7 @@ use fem_element::QuadGeometry;
 use fem_mesh::{SphereMesh, lump_mass};
 
 use crate::boundary_mass::BoundaryMass;
-use crate::stress::Stress;
+use crate::stress::{LumpedElement, Stress};
 
 /// Share of what nodes have beyond their need that is taken from them at most.
 const MOST_OF_SPARE: f64 = 0.5;
@@ -78,13 +78,17 @@ impl NodalBound {
         stress: &dyn Stress,
         boundary: &BoundaryMass,
     ) -> Self {
-        let mut stiffness = vec![0.0; mesh.nodes().len()];
-        for (element, (quad, geometry)) in mesh.quads().iter().zip(geometries).enumerate() {
+        let of = |(element, (quad, geometry)): (usize, (&[u32; 4], &QuadGeometry))| {
             let masses = geometry.nodal_volumes.map(|volume| density * volume);
             let masses = boundary.of_corners(quad, masses);
             let on_axis = mesh.corners(element).map(|corner| corner[0] == 0.0);
-            let eigenvalue = stress.largest_eigenvalue(geometry, &masses, on_axis);
-            for (&node, mass) in quad.iter().zip(masses) {
+            LumpedElement { geometry: *geometry, masses, on_axis }
+        };
+        let elements: Vec<_> = mesh.quads().iter().zip(geometries).enumerate().map(of).collect();
+        let eigenvalues = stress.largest_eigenvalues(&elements);
+        let mut stiffness = vec![0.0; mesh.nodes().len()];
+        for ((quad, element), eigenvalue) in mesh.quads().iter().zip(&elements).zip(eigenvalues) {
+            for (&node, mass) in quad.iter().zip(element.masses) {
                 stiffness[node as usize] += eigenvalue * mass;
             }
         }

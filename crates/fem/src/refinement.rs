@@ -18,6 +18,7 @@
 //! ([`foresight`](crate::foresight)).
 
 use std::convert::Infallible;
+use std::sync::{MutexGuard, PoisonError};
 
 use fem_case::{Body, CaseError, Shape};
 use fem_collision::{Collision, Headline, Monitor, Stop};
@@ -333,6 +334,17 @@ impl Simulation {
         (is_soft && of_springs > miss.tolerance).then_some(Cause::SoftSprings)
     }
 
+    /// Element updates of elements that are so many times smaller, where they have been found too dear.
+    fn known_as_too_dear(&self, by: f64) -> Option<u64> {
+        let known = *self.lock_too_dear();
+        known.filter(|(known, _)| (by / known - 1.0).abs() < SAME_STEP).map(|(_, updates)| updates)
+    }
+
+    fn lock_too_dear(&self) -> MutexGuard<'_, Option<(f64, u64)>> {
+        // Who panicked has left nothing half written.
+        self.too_dear.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// The same case on the finer mesh that a quantity needs that is going to be off, of bodies that meet as the case
     /// says; none where there is none.
     pub(crate) fn finer_for(&self, miss: &Miss) -> Option<Self> {
@@ -368,6 +380,10 @@ impl Simulation {
         if self.levels.len() >= MOST_LEVELS {
             return Err(Kept::Dear { updates: None });
         }
+        let by = step(miss.excess(), STEPS[1]);
+        if let Some(updates) = self.known_as_too_dear(by) {
+            return Err(Kept::Dear { updates: Some(updates) });
+        }
         let level = Level {
             contact_element_size_m: elements.plan.contact_element_size,
             element_updates: met.and_then(|collision| collision.element_updates),
@@ -378,7 +394,6 @@ impl Simulation {
         let levels: Vec<Level> = self.levels.iter().cloned().chain([level]).collect();
         let finer =
             |by: f64| self.refined(self.refinement * by, levels.clone()).map_err(Kept::Refused);
-        let by = step(miss.excess(), STEPS[1]);
         let finer = match (finer(by)?, by < STEPS[1]) {
             (short, true) if short.foretold_miss().flatten().is_some() => finer(STEPS[1])?,
             (enough, _) => enough,
@@ -388,7 +403,10 @@ impl Simulation {
                 let most = scene.limits().element_updates.unwrap_or(MOST_UPDATES);
                 match element_updates <= most {
                     true => Ok(finer),
-                    false => Err(Kept::Dear { updates: Some(element_updates) }),
+                    false => {
+                        *self.lock_too_dear() = Some((by, element_updates));
+                        Err(Kept::Dear { updates: Some(element_updates) })
+                    }
                 }
             }
             Cost::Factors { elements, .. } if elements > MOST_ELEMENTS => {
@@ -398,6 +416,10 @@ impl Simulation {
         }
     }
 }
+
+/// What is known of one refinement holds for others that differ from it by less: those of one mesh, which its
+/// companions foretell before a run and tell after it, differ by some 1e-3.
+const SAME_STEP: f64 = 0.01;
 
 /// Whether a run was stopped by its user.
 fn is_wanted(stop: &Stop) -> bool {

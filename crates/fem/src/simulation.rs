@@ -66,6 +66,8 @@ pub struct Simulation {
     pub(crate) levels: Vec<Level>,
     /// Why a finer mesh could not go through the collision.
     pub(crate) stopped_finer: Option<String>,
+    /// By how much smaller elements were too dear, and the element updates that those would take.
+    pub(crate) too_dear: Mutex<Option<(f64, u64)>>,
     /// Of the last collision that was looked at.
     pub(crate) errors: Mutex<Option<(Seen, Doubt)>>,
     /// Condensed companions of explicit elements that meet like this.
@@ -114,6 +116,7 @@ impl Simulation {
             refinement,
             levels,
             stopped_finer: None,
+            too_dear: Mutex::default(),
             errors: Mutex::default(),
             condensed: Mutex::default(),
         })

@@ -7,6 +7,7 @@
 //! relaxing_shear      shear relaxes, bulk is elastic
 //! prony               the history of both, one field a term
 //! finite              a law beyond Hooke at finite strain
+//! partly_finite       that near the contact alone, and small strain beyond
 //! kernel              the element loops of all: forces and strain energy
 //! lanes               several elements at once
 //! elements            how those of small strain lie in memory: rows of eight, and blocks of four
@@ -19,6 +20,7 @@ mod elements;
 mod finite;
 mod kernel;
 pub(crate) mod lanes;
+mod partly_finite;
 mod port;
 mod prony;
 mod relaxing_shear;
@@ -35,7 +37,8 @@ use elements::Elements;
 pub use finite::MOST_FINITE_STRAIN_TERMS;
 pub(crate) use finite::finite_strain;
 pub(crate) use kernel::Moduli;
-pub use port::{Collapse, Stress, Unstable};
+pub(crate) use partly_finite::finite_strain_within;
+pub use port::{Collapse, LumpedElement, Stress, Unstable};
 use prony::Relaxing;
 use relaxing_shear::RelaxingShear;
 

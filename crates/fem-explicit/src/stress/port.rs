@@ -24,6 +24,17 @@ pub struct Unstable {
     pub law: &'static str,
 }
 
+/// An element with its masses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LumpedElement {
+    /// Of the undeformed element.
+    pub geometry: QuadGeometry,
+    /// Lumped masses of its corners, kg.
+    pub masses: [f64; 4],
+    /// Corners that are free along y alone.
+    pub on_axis: [bool; 4],
+}
+
 /// The stress of a body: internal forces, what it stores and dissipates, and how stiff it is.
 ///
 /// The place of effects that depend on strain and its past: another material law, finite strain.
@@ -35,6 +46,11 @@ pub trait Stress: Part {
         0
     }
 
+    /// Number of elements at finite strain.
+    fn n_finite_elements(&self) -> usize {
+        0
+    }
+
     /// Largest eigenvalue (s⁻²) of an element's stiffness against its lumped masses (kg), its
     /// corners `on_axis` free along y alone; or a bound of it.
     fn largest_eigenvalue(
@@ -43,6 +59,14 @@ pub trait Stress: Part {
         masses: &[f64; 4],
         on_axis: [bool; 4],
     ) -> f64;
+
+    /// Those of several elements.
+    fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
+        let of = |element: &LumpedElement| {
+            self.largest_eigenvalue(&element.geometry, &element.masses, element.on_axis)
+        };
+        elements.iter().map(of).collect()
+    }
 
     /// History of a body that is displaced (m) as a whole.
     fn start_rigid(&self, _displacement: &Field, _history: &mut [NodalField]) {}

@@ -351,6 +351,7 @@ fn parts(
     let mut parts = Parts { held, surface_slip, ..Parts::default() };
     if let Ok(estimate) = Estimate::at(scene, approach_speed) {
         parts.finite_strain = FiniteStrain::laws(scene, &estimate);
+        parts.finite_strain_within = FiniteStrain::within(scene, &estimate);
     }
     let is_finite = parts.finite_strain != [None; 2];
     if BulkViscosity::is_on(scene, mach(scene, speed), is_finite) {

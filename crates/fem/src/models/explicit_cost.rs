@@ -69,19 +69,16 @@ fn with_companions(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) -> f
 
 /// Seconds that a step of both bodies takes.
 fn seconds_a_step(scene: &Scene, model: &Bodies, plan: &Plan) -> f64 {
-    let laws = FiniteStrain::laws(scene, &plan.estimate);
+    let is_finite = model.changes_stiffness();
     let whole = mach(scene, scene.approach_speed() / plan.speed_share);
-    let is_finite = laws != [None; 2];
     let viscous =
         if BulkViscosity::is_on(scene, whole, is_finite) { SECONDS_OF_BULK_VISCOSITY } else { 0.0 };
-    let bodies = model.bodies().iter().zip(scene.bodies()).zip(laws);
-    let seconds = bodies.map(|((body, named), law)| {
+    let seconds = model.bodies().iter().zip(scene.bodies()).map(|(body, named)| {
         let branches = n_branches(named) as f64;
-        let each = match law {
-            None => SECONDS_AN_UPDATE + branches * SECONDS_A_BRANCH,
-            Some(_) => SECONDS_AT_FINITE_STRAIN + branches * SECONDS_A_BRANCH_AT_FINITE_STRAIN,
-        };
-        body.n_elements() as f64 * (each + viscous)
+        let small = SECONDS_AN_UPDATE + branches * SECONDS_A_BRANCH;
+        let finite = SECONDS_AT_FINITE_STRAIN + branches * SECONDS_A_BRANCH_AT_FINITE_STRAIN;
+        let [n, n_finite] = [body.n_elements(), body.n_finite_elements()].map(|n| n as f64);
+        n * (small + viscous) + n_finite * (finite - small)
     });
     let of_contact = if is_finite { SECONDS_OF_MOVED_CONTACT } else { 0.0 };
     seconds.sum::<f64>() + of_contact

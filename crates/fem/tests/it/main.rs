@@ -30,6 +30,7 @@ mod models;
 mod numerics;
 mod own_frame;
 mod paper;
+mod partly_finite;
 mod partner_waves;
 mod plan;
 mod plastic_yield;

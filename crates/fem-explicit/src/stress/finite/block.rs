@@ -34,7 +34,7 @@ pub(super) struct Block {
 
 impl Block {
     /// Without volume: no deformation, no force.
-    const EMPTY: Self = Self {
+    pub const EMPTY: Self = Self {
         corners: [[0; WIDE]; 4],
         gradient_r: [[0.0; WIDE]; 3],
         gradient_y: [[0.0; WIDE]; 3],
@@ -45,7 +45,7 @@ impl Block {
     };
 
     /// Puts an element of these corners into a lane.
-    fn put(&mut self, lane: usize, corners: &[u32; 4], geometry: &QuadGeometry) {
+    pub fn put(&mut self, lane: usize, corners: &[u32; 4], geometry: &QuadGeometry) {
         for a in 0..4 {
             self.corners[a][lane] = corners[a];
             self.hoop[a][lane] = geometry.hoop[a];
@@ -58,13 +58,6 @@ impl Block {
             self.measures[a][lane] = geometry.hourglass_measures[a] / 16.0;
         }
         self.volume[lane] = geometry.volume;
-    }
-
-    /// One element, in the first lane, of corners 0 to 3.
-    pub fn of_one(geometry: &QuadGeometry) -> Self {
-        let mut block = Self::EMPTY;
-        block.put(0, &[0, 1, 2, 3], geometry);
-        block
     }
 }
 
@@ -126,18 +119,18 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// Packs the integrated elements of a mesh; lanes as those of the small-strain loops.
-    pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry]) -> Self {
+    /// Packs some integrated elements of a mesh; lanes as those of the small-strain loops.
+    pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry], elements: &[usize]) -> Self {
         let n_nodes = mesh.nodes().len();
         assert!(
             mesh.quads().iter().flatten().all(|&node| (node as usize) < n_nodes),
             "an element names a node that the mesh does not have"
         );
-        let n_elements = geometries.len();
+        let n_elements = elements.len();
         let mut blocks = vec![Block::EMPTY; n_elements.div_ceil(WIDE)];
-        for (element, geometry) in geometries.iter().enumerate() {
-            let (place, lane) = place(element, blocks.len());
-            blocks[place].put(lane, &mesh.quads()[element], geometry);
+        for (k, &element) in elements.iter().enumerate() {
+            let (place, lane) = place(k, blocks.len());
+            blocks[place].put(lane, &mesh.quads()[element], &geometries[element]);
         }
         Self { blocks, n_nodes, n_elements }
     }

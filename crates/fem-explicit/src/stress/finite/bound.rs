@@ -15,6 +15,7 @@ use fem_element::QuadGeometry;
 use fem_mesh::SphereMesh;
 
 use super::super::lanes::{LaneKernel, Lanes, WIDE, run_wide_lanes};
+use super::super::port::LumpedElement;
 use super::block::{Block, Numbers, place};
 use super::kernel::{Conjugate, Elements, Strain};
 use super::law::Law;
@@ -83,50 +84,55 @@ impl Metric {
 pub(super) struct Metrics(Vec<Metric>);
 
 impl Metrics {
-    /// Of the integrated elements of a mesh and a density, kg/m³.
-    pub fn pack(mesh: &SphereMesh, geometries: &[QuadGeometry], density: f64) -> Self {
-        let mut metrics = vec![Metric::EMPTY; geometries.len().div_ceil(WIDE)];
+    /// Of some integrated elements of a mesh and a density, kg/m³.
+    pub fn pack(
+        mesh: &SphereMesh,
+        geometries: &[QuadGeometry],
+        elements: &[usize],
+        density: f64,
+    ) -> Self {
+        let mut metrics = vec![Metric::EMPTY; elements.len().div_ceil(WIDE)];
         let n_blocks = metrics.len();
-        for (element, geometry) in geometries.iter().enumerate() {
+        for (k, &element) in elements.iter().enumerate() {
+            let geometry = &geometries[element];
             let masses = geometry.nodal_volumes.map(|volume| density * volume);
             let on_axis = mesh.corners(element).map(|corner| corner[0] == 0.0);
-            let (place, lane) = place(element, n_blocks);
+            let (place, lane) = place(k, n_blocks);
             metrics[place].put(lane, geometry, &masses, on_axis);
         }
         Self(metrics)
     }
 }
 
-/// Bound of the largest eigenvalue (s⁻²) of an undeformed element.
-pub(super) fn at_rest<W: Law>(
-    law: &W,
-    geometry: &QuadGeometry,
-    masses: &[f64; 4],
-    on_axis: [bool; 4],
-) -> f64 {
-    let mut metric = Metric::EMPTY;
-    metric.put(0, geometry, masses, on_axis);
-    let mut eigenvalue = 0.0;
-    run_wide_lanes(AtRest { block: Block::of_one(geometry), metric, law }, &mut eigenvalue);
-    eigenvalue
+/// Bounds of the largest eigenvalues (s⁻²) of undeformed elements.
+pub(super) fn at_rest<W: Law>(law: &W, elements: &[LumpedElement]) -> Vec<f64> {
+    let mut bounds = Vec::with_capacity(elements.len().next_multiple_of(WIDE));
+    run_wide_lanes(AtRest { elements, law }, &mut bounds);
+    bounds.truncate(elements.len());
+    bounds
 }
 
-/// One element, in the first lane.
 struct AtRest<'a, W> {
-    block: Block,
-    metric: Metric,
+    elements: &'a [LumpedElement],
     law: &'a W,
 }
 
 impl<W: Law> LaneKernel<WIDE> for AtRest<'_, W> {
-    type Output = f64;
+    type Output = Vec<f64>;
 
     #[inline(always)]
-    fn on<L: Lanes<WIDE>>(self, eigenvalue: &mut f64) {
-        let Self { block, metric, law } = self;
-        // SAFETY: the block's corners are 0 to 3.
-        let strain = unsafe { Strain::<L>::gather(&block, &[[0.0; 2]; 4]) };
-        *eigenvalue = eigenvalues(&strain, &block, &metric, law, &Past::none())[0];
+    fn on<L: Lanes<WIDE>>(self, bounds: &mut Vec<f64>) {
+        let past = Past::none();
+        for elements in self.elements.chunks(WIDE) {
+            let (mut block, mut metric) = (Block::EMPTY, Metric::EMPTY);
+            for (lane, LumpedElement { geometry, masses, on_axis }) in elements.iter().enumerate() {
+                block.put(lane, &[0, 1, 2, 3], geometry);
+                metric.put(lane, geometry, masses, *on_axis);
+            }
+            // SAFETY: the block's corners are 0 to 3.
+            let strain = unsafe { Strain::<L>::gather(&block, &[[0.0; 2]; 4]) };
+            bounds.extend(eigenvalues(&strain, &block, &metric, self.law, &past));
+        }
     }
 }
 

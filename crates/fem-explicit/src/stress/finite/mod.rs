@@ -45,7 +45,7 @@ use fem_material::finite::{
 };
 use fem_mesh::SphereMesh;
 
-use super::port::{Collapse, Stress, Unstable};
+use super::port::{Collapse, LumpedElement, Stress, Unstable};
 use crate::part::{Accounts, Field, Motion, NodalField, Part};
 use block::{Blocks, Slots};
 use bound::Metrics;
@@ -110,11 +110,23 @@ pub(crate) fn finite_strain(
     material: &Material,
     law: HyperelasticLaw,
 ) -> Box<dyn Stress> {
+    let all: Vec<_> = (0..geometries.len()).collect();
+    finite_strain_of(mesh, geometries, &all, material, law)
+}
+
+/// The same on some elements, which it knows by their places in the list.
+pub(super) fn finite_strain_of(
+    mesh: &SphereMesh,
+    geometries: &[QuadGeometry],
+    elements: &[usize],
+    material: &Material,
+    law: HyperelasticLaw,
+) -> Box<dyn Stress> {
     let moduli = material.instantaneous();
     let (bulk, shear) = (moduli.bulk_modulus(), moduli.shear_modulus());
     let solid = Hyperelastic::new(law, moduli);
-    let blocks = Blocks::pack(mesh, geometries);
-    let metrics = Metrics::pack(mesh, geometries, material.density());
+    let blocks = Blocks::pack(mesh, geometries, elements);
+    let metrics = Metrics::pack(mesh, geometries, elements, material.density());
     if let Some(series) = material.relaxation().filter(|series| series.relaxes()) {
         return relaxing::relaxing_strain(blocks, metrics, &solid, series);
     }
@@ -154,13 +166,22 @@ impl<R: Response> Stress for FiniteStrain<R> {
         self.response.n_history()[0]
     }
 
+    fn n_finite_elements(&self) -> usize {
+        self.blocks.n_elements()
+    }
+
     fn largest_eigenvalue(
         &self,
         geometry: &QuadGeometry,
         masses: &[f64; 4],
         on_axis: [bool; 4],
     ) -> f64 {
-        bound::at_rest(self.response.law(), geometry, masses, on_axis)
+        let element = LumpedElement { geometry: *geometry, masses: *masses, on_axis };
+        self.largest_eigenvalues(&[element])[0]
+    }
+
+    fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
+        bound::at_rest(self.response.law(), elements)
     }
 
     fn subtract_forces(

@@ -54,6 +54,16 @@ const OF_RELAXED_LOSS: f64 = 0.3;
 /// The same of what waves take: energy as T⁻³, of the impulse as it is.
 const RADIATED_OVER_TIME: f64 = 2.0;
 
+/// Contact radius over effective radius from which on all elements of a body are at finite strain: it ends where
+/// strains have hardly fallen.
+const FLAT: f64 = 0.1;
+/// Approach speed over that of shear waves from which on they are, too: waves bring strains of its size anywhere.
+const SLOW: f64 = 1e-3;
+/// Share of what a case allows of a number that may be left out in elements far from the contact.
+const LEFT_FAR_AWAY: f64 = 0.01;
+/// Contact radii within which all elements are at finite strain, whatever the case allows.
+const NEAREST: f64 = 3.0;
+
 /// Large strains and rotations.
 #[derive(Clone, Copy, Debug)]
 pub struct FiniteStrain;
@@ -75,6 +85,16 @@ impl FiniteStrain {
         };
         let of_both = Strained::of_both(scene, estimate);
         of_both.map(|strained| Some(strained.filter(is_finite)?.material.law()))
+    }
+
+    /// Distance from first touch (m) within which elements are at finite strain: what it changes falls with the
+    /// third power of that distance over the contact radius (`fem-explicit/src/stress/partly_finite.rs`). None
+    /// where all are: where the case forces it on, in flat contacts and beside waves.
+    pub(crate) fn within(scene: &Scene, estimate: &Estimate) -> Option<f64> {
+        let is_near = estimate.strain < FLAT && estimate.mach < SLOW && !is_forced_on(scene);
+        let change = departure(scene, estimate).over(&scene.accuracy());
+        let radii = (change / LEFT_FAR_AWAY).cbrt().max(NEAREST);
+        is_near.then_some(radii * estimate.contact_radius)
     }
 
     /// A scene that is forced to large strain must be one that the elements bear.

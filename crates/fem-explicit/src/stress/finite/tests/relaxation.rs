@@ -202,7 +202,7 @@ fn a_held_amplitude_relaxes_exactly() {
     let (mesh, hold) = (mesh(), 0.7);
     let material = relaxing_glass(&TERMS, ActsOn::Shear);
     let mut march = March::new(stress(&mesh, &material, HyperelasticLaw::NeoHooke), &mesh, 0.1);
-    let (u, blocks) = (deformed(&mesh), Blocks::pack(&mesh, &geometries(&mesh)));
+    let (u, blocks) = (deformed(&mesh), every(&mesh));
     march.step(1e-12, &u);
     let at_once = march.history.clone();
     march.step(hold, &u);
@@ -251,7 +251,7 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
         vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 9];
     let bits = |f: &Field| f.iter().flatten().map(|f| f.to_bits()).collect::<Vec<_>>();
     for (law, n_elements) in HyperelasticLaw::ALL.into_iter().zip([96, 95, 91, 7]) {
-        let blocks = Blocks::pack(&mesh, &geometries[..n_elements]);
+        let blocks = Blocks::pack(&mesh, &geometries, &leading(n_elements));
         let solid = Hyperelastic::new(law, material.instantaneous());
         let viscoelastic = Viscoelastic::new(&solid, series);
         let step = Step::of(&viscoelastic, &TERMS.map(|(_, time)| time), 0.3);
@@ -286,7 +286,7 @@ fn slots_hold_each_element_once() {
     let mesh = mesh();
     let geometries = geometries(&mesh);
     for n_elements in [96, 95, 91, 89, 57, 12, 9, 7, 1] {
-        let blocks = Blocks::pack(&mesh, &geometries[..n_elements]);
+        let blocks = Blocks::pack(&mesh, &geometries, &leading(n_elements));
         let mut field = vec![[f64::NAN; 2]; n_elements];
         for place in 0..n_elements.div_ceil(WIDE) {
             let numbers =

@@ -1,0 +1,236 @@
+//! Finite strain near first touch, small strain beyond.
+//!
+//! Strains under a contact of radius a fall as (a/r)² with the distance r from its middle, and what finite
+//! strain adds to the energy is of the third order in them. What is left of it beyond a radius R,
+//!
+//! ```math
+//! \int_R^\infty \left(\frac ar\right)^6 r^2\, dr \sim \left(\frac aR\right)^3 ,
+//! ```
+//!
+//! is a share that is chosen with R, for a third of the price of an element there. Elements of either kind
+//! store energies of their own, and meet at nodes: energy and momentum are kept as by one kind alone.
+
+use std::fmt;
+
+use fem_collision::SmallStrain;
+use fem_element::QuadGeometry;
+use fem_material::Material;
+use fem_material::finite::HyperelasticLaw;
+use fem_mesh::SphereMesh;
+
+use super::finite::finite_strain_of;
+use super::port::{Collapse, LumpedElement, Stress, Unstable};
+use super::{of_material, of_quads};
+use crate::part::{Accounts, Field, Motion, NodalField, Part};
+
+/// A body of which some elements are at finite strain. Its history is that of those, of elements and of
+/// nodes, then that of the others.
+struct PartlyFinite {
+    near: Box<dyn Stress>,
+    /// Numbers of its elements, ascending.
+    near_elements: Vec<usize>,
+    far: Box<dyn Stress>,
+    far_elements: Vec<FarElement>,
+    material: Material,
+}
+
+struct FarElement {
+    number: usize,
+    quad: [u32; 4],
+    geometry: QuadGeometry,
+}
+
+/// The stress of a material that follows a law in elements whose middles are within a radius (m) of first
+/// touch, and Hooke's law at small strain in the others, if there are any.
+pub(crate) fn finite_strain_within(
+    radius: f64,
+    mesh: &SphereMesh,
+    geometries: &[QuadGeometry],
+    material: &Material,
+    law: HyperelasticLaw,
+) -> Box<dyn Stress> {
+    let is_near = |element: &usize| {
+        let corners = mesh.corners(*element);
+        let [r, y] = [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0);
+        r.hypot(y) <= radius
+    };
+    let (near_elements, others): (Vec<_>, Vec<_>) = (0..geometries.len()).partition(is_near);
+    if near_elements.is_empty() {
+        return of_material(mesh, geometries, material);
+    }
+    let near = finite_strain_of(mesh, geometries, &near_elements, material, law);
+    if others.is_empty() {
+        return near;
+    }
+    let of = |&number: &usize| FarElement {
+        number,
+        quad: mesh.quads()[number],
+        geometry: geometries[number],
+    };
+    let far_elements: Vec<_> = others.iter().map(of).collect();
+    let quads: Vec<_> = far_elements.iter().map(|element| element.quad).collect();
+    let of_far: Vec<_> = far_elements.iter().map(|element| element.geometry).collect();
+    let far = of_quads(mesh.nodes().len(), &quads, &of_far, material);
+    let material = material.clone();
+    Box::new(PartlyFinite { near, near_elements, far, far_elements, material })
+}
+
+impl PartlyFinite {
+    fn n_near(&self) -> usize {
+        self.near.n_element_history() + self.near.n_history()
+    }
+
+    /// The fields of the near elements, and those of the others.
+    fn split<'a>(&self, history: &'a [NodalField]) -> (&'a [NodalField], &'a [NodalField]) {
+        // Bounds are asked for of bodies without a past, too.
+        history.split_at(self.n_near().min(history.len()))
+    }
+
+    fn split_mut<'a>(
+        &self,
+        history: &'a mut [NodalField],
+    ) -> (&'a mut [NodalField], &'a mut [NodalField]) {
+        history.split_at_mut(self.n_near())
+    }
+
+    /// As the body counts its elements.
+    fn collapse(&self, collapse: Collapse) -> Collapse {
+        Collapse { element: self.near_elements[collapse.element], ..collapse }
+    }
+}
+
+/// What the elements are, and how many of either kind; the mesh is known by other means.
+impl fmt::Debug for PartlyFinite {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let n = [self.near_elements.len(), self.far_elements.len()];
+        write!(formatter, "PartlyFinite {{ {:?}, {n:?} }}", self.near)
+    }
+}
+
+impl Part for PartlyFinite {
+    fn n_history(&self) -> usize {
+        self.near.n_history() + self.far.n_history()
+    }
+
+    fn set_time_step(&mut self, time_step: f64) {
+        self.near.set_time_step(time_step);
+        self.far.set_time_step(time_step);
+    }
+}
+
+impl Stress for PartlyFinite {
+    fn n_element_history(&self) -> usize {
+        self.near.n_element_history()
+    }
+
+    fn n_finite_elements(&self) -> usize {
+        self.near.n_finite_elements()
+    }
+
+    /// The bound of the near ones: undeformed, both kinds have the same stiffness.
+    fn largest_eigenvalue(
+        &self,
+        geometry: &QuadGeometry,
+        masses: &[f64; 4],
+        on_axis: [bool; 4],
+    ) -> f64 {
+        self.near.largest_eigenvalue(geometry, masses, on_axis)
+    }
+
+    fn largest_eigenvalues(&self, elements: &[LumpedElement]) -> Vec<f64> {
+        self.near.largest_eigenvalues(elements)
+    }
+
+    fn start_rigid(&self, displacement: &Field, history: &mut [NodalField]) {
+        let (near, far) = self.split_mut(history);
+        self.near.start_rigid(displacement, near);
+        self.far.start_rigid(displacement, far);
+    }
+
+    fn start_deformed(&self, displacement: &Field, history: &mut [NodalField]) {
+        let (near, far) = self.split_mut(history);
+        self.near.start_deformed(displacement, near);
+        self.far.start_deformed(displacement, far);
+    }
+
+    fn subtract_forces(
+        &self,
+        motion: &Motion<'_>,
+        history: &[NodalField],
+        forces: &mut Field,
+    ) -> Result<(), Collapse> {
+        let (near, far) = self.split(history);
+        let done = self.near.subtract_forces(motion, near, forces);
+        self.far.subtract_forces(motion, far, forces)?;
+        done.map_err(|collapse| self.collapse(collapse))
+    }
+
+    fn changes_stiffness(&self) -> bool {
+        true
+    }
+
+    fn can_lose_stability(&self) -> bool {
+        self.near.can_lose_stability()
+    }
+
+    fn unstable_element(&self, u: &Field, history: &[NodalField]) -> Option<Unstable> {
+        let unstable = self.near.unstable_element(u, self.split(history).0)?;
+        Some(Unstable { element: self.near_elements[unstable.element], ..unstable })
+    }
+
+    /// Of the near elements alone, here and below: what they grow by is what counts.
+    fn add_undeformed_stiffness_bound(&self, bound: &mut [f64]) {
+        self.near.add_undeformed_stiffness_bound(bound);
+    }
+
+    fn add_stiffness_bound(&self, motion: &Motion<'_>, history: &[NodalField], bound: &mut [f64]) {
+        self.near.add_stiffness_bound(motion, self.split(history).0, bound);
+    }
+
+    fn strain_rate(&self, motion: &Motion<'_>) -> f64 {
+        self.near.strain_rate(motion)
+    }
+
+    fn urgency(&self, motion: &Motion<'_>, room: &[f64]) -> f64 {
+        self.near.urgency(motion, room)
+    }
+
+    fn most_compressed(&self, displacement: &Field) -> Option<Collapse> {
+        self.near.most_compressed(displacement).map(|collapse| self.collapse(collapse))
+    }
+
+    fn update_cauchy_stress(
+        &self,
+        displacement: &Field,
+        history: &[NodalField],
+        stress: &mut Vec<[f64; 4]>,
+    ) {
+        let (near, far) = self.split(history);
+        self.near.update_cauchy_stress(displacement, near, stress);
+        stress.resize(self.near_elements.len() + self.far_elements.len(), [0.0; 4]);
+        // No element comes before its place among the near ones.
+        for (k, &number) in self.near_elements.iter().enumerate().rev() {
+            stress[number] = stress[k];
+        }
+        let effective = self.far.effective().map_or(&[][..], |field| &far[field]);
+        let small_strain = SmallStrain::of(&self.material, displacement, effective);
+        for FarElement { number, quad, geometry } in &self.far_elements {
+            stress[*number] = small_strain.stress(geometry, quad);
+        }
+    }
+
+    fn advance(&self, motion: &Motion<'_>, history: &mut [NodalField]) {
+        let (near, far) = self.split_mut(history);
+        self.near.advance(motion, near);
+        self.far.advance(motion, far);
+    }
+
+    fn add_energies(&self, motion: &Motion<'_>, history: &[NodalField], accounts: &mut Accounts) {
+        let (near, far) = self.split(history);
+        self.near.add_energies(motion, near, accounts);
+        self.far.add_energies(motion, far, accounts);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! Two kinds of elements are one body.
+
+use fem_collision::Account;
+use fem_material::ActsOn;
+use fem_mesh::Side;
+
+use super::super::finite::finite_strain;
+use super::*;
+use crate::test_support::{geometries, ragged, relaxing_glass, unit_glass, unit_sphere};
+
+const LAW: HyperelasticLaw = HyperelasticLaw::NeoHooke;
+
+fn mesh() -> SphereMesh {
+    unit_sphere(8.0, Side::Above)
+}
+
+fn materials() -> [Material; 3] {
+    let terms = [(0.3, 0.7), (0.2, 5.0)];
+    [unit_glass(), relaxing_glass(&terms, ActsOn::All), relaxing_glass(&terms, ActsOn::Shear)]
+}
+
+/// A history that has been advanced over some steps of a growing displacement.
+fn history(stress: &dyn Stress, mesh: &SphereMesh, u: &Field) -> Vec<NodalField> {
+    let (n_nodes, n_elements) = (mesh.nodes().len(), mesh.quads().len());
+    let of_elements = std::iter::repeat_n(n_elements, stress.n_element_history());
+    let lengths = of_elements.chain(std::iter::repeat_n(n_nodes, stress.n_history()));
+    let mut history: Vec<_> = lengths.map(|length| vec![[0.0; 2]; length]).collect();
+    let velocity: Vec<_> = u.iter().map(|u| u.map(|u| u / 0.4)).collect();
+    for k in 1..=4 {
+        let displacement: Vec<_> = u.iter().map(|u| u.map(|u| 0.25 * f64::from(k) * u)).collect();
+        stress.advance(&motion(&displacement, &velocity), &mut history);
+    }
+    history
+}
+
+fn motion<'a>(displacement: &'a Field, velocity: &'a Field) -> Motion<'a> {
+    Motion { time: 0.0, time_step: 0.1, displacement, velocity, nodal_mass: &[] }
+}
+
+/// Forces, stored energy, power and stress of the elements.
+type Answer = (Vec<[f64; 2]>, f64, f64, Vec<[f64; 4]>);
+
+fn answer(mut stress: Box<dyn Stress>, mesh: &SphereMesh, u: &Field) -> Answer {
+    stress.set_time_step(0.1);
+    let history = history(stress.as_ref(), mesh, u);
+    let motion = motion(u, &[]);
+    let (mut forces, mut cauchy) = (vec![[0.0; 2]; u.len()], Vec::new());
+    stress.subtract_forces(&motion, &history, &mut forces).unwrap();
+    let mut accounts = Accounts::default();
+    stress.add_energies(&motion, &history, &mut accounts);
+    stress.update_cauchy_stress(u, &history, &mut cauchy);
+    let stored = accounts.energies.get(Account::Strain).unwrap();
+    let power = accounts.powers.get(Account::ViscousDissipation).unwrap();
+    (forces, stored, power, cauchy)
+}
+
+fn deformed(mesh: &SphereMesh, size: f64) -> Vec<[f64; 2]> {
+    ragged(mesh, 3).iter().map(|x| x.map(|x| size * x)).collect()
+}
+
+/// As far as the body goes, and not at all: the bits of one kind alone.
+#[test]
+fn a_radius_beyond_the_body_is_none() {
+    let mesh = mesh();
+    let (geometries, u) = (geometries(&mesh), deformed(&mesh, 0.02));
+    for material in materials() {
+        let near = finite_strain(&mesh, &geometries, &material, LAW);
+        let all = finite_strain_within(3.0, &mesh, &geometries, &material, LAW);
+        assert!(answer(near, &mesh, &u) == answer(all, &mesh, &u));
+        let none = finite_strain_within(1e-3, &mesh, &geometries, &material, LAW);
+        assert!(!none.changes_stiffness());
+    }
+}
+
+/// Where all is small both kinds are the same, whichever element has which: forces, energies, stresses at
+/// the places of the elements; and where nothing is small they are not.
+#[test]
+fn at_small_strain_kinds_are_the_same() {
+    let mesh = mesh();
+    let geometries = geometries(&mesh);
+    for material in materials() {
+        for (size, is_small) in [(1e-7, true), (0.02, false)] {
+            let u = deformed(&mesh, size);
+            let whole = answer(finite_strain(&mesh, &geometries, &material, LAW), &mesh, &u);
+            let partly = finite_strain_within(0.7, &mesh, &geometries, &material, LAW);
+            let text = format!("{partly:?}");
+            let (forces, stored, power, cauchy) = answer(partly, &mesh, &u);
+            let of = |x: &[[f64; 2]]| x.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+            let largest = of(&whole.0);
+            let change: Vec<_> =
+                forces.iter().zip(&whole.0).map(|(f, g)| [f[0] - g[0], f[1] - g[1]]).collect();
+            let stress = whole.3.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+            let apart = cauchy
+                .iter()
+                .flatten()
+                .zip(whole.3.iter().flatten())
+                .fold(0.0, |a: f64, (x, y)| a.max((x - y).abs()));
+            let errors = [
+                of(&change) / largest,
+                (stored / whole.1 - 1.0).abs(),
+                if whole.2 > 0.0 { (power / whole.2 - 1.0).abs() } else { 0.0 },
+                apart / stress,
+            ];
+            // 1e-7 a size and eight elements across: strains of 1e-6.
+            let is_same = errors.iter().all(|error| *error < 1e-5);
+            assert_eq!(is_same, is_small, "{text}: {errors:?}");
+        }
+    }
+}
+
+/// Forces are the derivative of the energy of both kinds together.
+#[test]
+fn forces_are_the_derivative_of_the_energy() {
+    let mesh = mesh();
+    let (geometries, u) = (geometries(&mesh), deformed(&mesh, 0.02));
+    let stress = finite_strain_within(0.7, &mesh, &geometries, &unit_glass(), LAW);
+    let energy = |u: &Field| {
+        let mut accounts = Accounts::default();
+        stress.add_energies(&motion(u, &[]), &[], &mut accounts);
+        accounts.energies.get(Account::Strain).unwrap()
+    };
+    let mut forces = vec![[0.0; 2]; u.len()];
+    stress.subtract_forces(&motion(&u, &[]), &[], &mut forces).unwrap();
+    let step = 1e-6;
+    for node in (0..u.len()).step_by(7) {
+        for axis in 0..2 {
+            let at = |by: f64| {
+                let mut u = u.clone();
+                u[node][axis] += by;
+                energy(&u)
+            };
+            let slope = (at(step) - at(-step)) / (2.0 * step);
+            let error = (slope + forces[node][axis]).abs();
+            assert!(error < 1e-7, "{node} {axis}: {slope} {}", forces[node][axis]);
+        }
+    }
+}
+
+/// What collapses is named as the body counts its elements.
+#[test]
+fn an_element_is_named_by_its_number_in_the_body() {
+    let mesh = mesh();
+    let geometries = geometries(&mesh);
+    let stress = finite_strain_within(0.7, &mesh, &geometries, &unit_glass(), LAW);
+    for element in [5, 17, 40] {
+        let mut u = vec![[0.0; 2]; mesh.nodes().len()];
+        let middle = mesh.corners(element).iter().map(|x| x[1]).sum::<f64>() / 4.0;
+        for &node in &mesh.quads()[element] {
+            u[node as usize][1] = -1.5 * (mesh.nodes()[node as usize][1] - middle);
+        }
+        let middle = mesh.corners(element).iter().map(|x| x[0]).sum::<f64>() / 4.0;
+        let is_near = middle.hypot(mesh.corners(element).iter().map(|x| x[1]).sum::<f64>() / 4.0);
+        let most = stress.most_compressed(&u).unwrap();
+        let whole = finite_strain(&mesh, &geometries, &unit_glass(), LAW);
+        let own = whole.most_compressed(&u).unwrap();
+        assert_eq!(is_near <= 0.7, most == own, "{element}: {most:?} {own:?}");
+    }
+}
