@@ -85,7 +85,12 @@ impl Converging {
     /// The line of the observed order at the levels' places, where it is above the noise.
     fn line(&self, fineness: Fineness) -> Vec<(f64, f64)> {
         let Some(ObservedOrder { order, factor, .. }) = self.found.order else { return Vec::new() };
-        let error = |x: f64| factor * fineness.of_value(x).powf(order) / self.scale;
+        let power = |x: f64| factor * fineness.of_value(x).powf(order);
+        // The finest member has no error against itself.
+        let sizes = self.places.iter().map(|x| power(*x));
+        let finest = sizes.fold(f64::INFINITY, f64::min);
+        let reference = if self.found.is_extrapolated { 0.0 } else { finest };
+        let error = |x: f64| (power(x) - reference) / self.scale;
         let places = self.errors.iter().map(|(x, _)| (*x, error(*x)));
         places.filter(|(_, error)| *error >= LEAST).collect()
     }

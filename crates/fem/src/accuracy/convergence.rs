@@ -1,14 +1,17 @@
 //! What a sequence of results converges to, as far as its own levels tell.
 //!
 //! The limit is that of a [`PowerLaw`] through the finest levels where one rules over them; else the finest
-//! level stands for it. The order is the slope of the straight line
+//! level stands for it. The order is told by how far levels are from the finest, (h_f, q_f), whose own error is not
+//! known:
 //!
 //! ```math
-//! \ln|q-q_0| = \ln C + p\,\ln h
+//! \ln|q-q_f| = \ln C + \ln(h^p-h_f^p)
 //! ```
 //!
-//! by least squares through the levels whose errors are more than twice what is known of the limit, and its
-//! uncertainty the standard error of that slope (as of any regression line: Draper and Smith 1998, 1.4).
+//! by least squares through the levels that differ from it by more than twice what is known of the limit, and its
+//! uncertainty is the standard error of p (of a fit that is not linear: Draper and Smith 1998, 24.2).
+
+use fem_laws::bisection::last_where;
 
 use super::power_law::PowerLaw;
 
@@ -22,6 +25,9 @@ const N_LEVELS: usize = 6;
 const CLEAR: f64 = 2.0;
 /// Errors that are less than this over the limit are rounding.
 const ROUNDING: f64 = 1e-6;
+/// Orders that are tried, and of that range what a slope is taken over.
+const TRIED: (f64, f64) = (0.1, 8.0);
+const SLOPE: f64 = 1e-5;
 /// Levels that tell of an order.
 const FEWEST: usize = 3;
 /// A slope with a larger standard error is none.
@@ -87,30 +93,40 @@ impl Convergence {
             None => (finest, step),
         };
         let is_extrapolated = law.is_some();
-        let order = ObservedOrder::of(&levels, limit, uncertainty);
+        let order = ObservedOrder::of(&levels, uncertainty);
         Some(Self { limit, uncertainty, is_extrapolated, order })
     }
 }
 
 impl ObservedOrder {
-    fn of(levels: &[(f64, f64)], limit: f64, uncertainty: f64) -> Option<Self> {
-        let least = (CLEAR * uncertainty).max(ROUNDING * limit.abs());
-        let errors = levels.iter().map(|(h, q)| (h.ln(), (q - limit).abs()));
-        let clear = errors.filter(|(_, error)| *error > least);
-        let points: Vec<(f64, f64)> = clear.map(|(h, error)| (h, error.ln())).collect();
+    /// Of levels, the finest first.
+    fn of(levels: &[(f64, f64)], uncertainty: f64) -> Option<Self> {
+        let [(finest, of_finest), others @ ..] = levels else { return None };
+        let least = (CLEAR * uncertainty).max(ROUNDING * of_finest.abs());
+        let differences = others.iter().map(|(h, q)| (h / finest, (q - of_finest).abs()));
+        let points: Vec<(f64, f64)> =
+            differences.filter(|(_, difference)| *difference > least).collect();
         if points.len() < FEWEST {
             return None;
         }
         let n = points.len() as f64;
-        let mean_x = points.iter().map(|point| point.0).sum::<f64>() / n;
-        let mean_y = points.iter().map(|point| point.1).sum::<f64>() / n;
-        let xx: f64 = points.iter().map(|(x, _)| (x - mean_x).powi(2)).sum();
-        let xy: f64 = points.iter().map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
-        let order = xy / xx;
-        let residual = |(x, y): &(f64, f64)| (y - mean_y - order * (x - mean_x)).powi(2);
-        let squares: f64 = points.iter().map(residual).sum();
-        let standard_error = (squares / (n - 2.0) / xx).sqrt();
-        let factor = (mean_y - order * mean_x).exp();
+        let mean =
+            |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|(x, d)| of(*x, *d)).sum::<f64>() / n;
+        let spread = |of: &dyn Fn(f64, f64) -> f64| {
+            let middle = mean(of);
+            points.iter().map(|(x, d)| (of(*x, *d) - middle).powi(2)).sum::<f64>()
+        };
+        let residual =
+            |p: f64| move |x: f64, difference: f64| difference.ln() - (x.powf(p) - 1.0).ln();
+        let (from, to) = TRIED;
+        let order = last_where(from, to, |p| {
+            let step = (to - from) * SLOPE;
+            spread(&residual(p + step)) < spread(&residual(p - step))
+        });
+        let slope = |x: f64, _: f64| x.powf(order) * x.ln() / (x.powf(order) - 1.0);
+        let squares = spread(&residual(order));
+        let standard_error = (squares / (n - 2.0) / spread(&slope)).sqrt();
+        let factor = mean(&residual(order)).exp() / finest.powf(order);
         let is_seen = ORDERS.contains(&order) && standard_error < LOOSEST;
         is_seen.then_some(Self { order, standard_error, factor })
     }

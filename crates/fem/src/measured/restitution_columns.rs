@@ -79,6 +79,10 @@ impl Columns {
 
     /// A sweep has rows of members that failed, a measurement rows without a speed or a restitution.
     pub fn has_result(&self, table: &Table, row: usize) -> bool {
+        // What stands first and is no number would be the unit of all that follows.
+        if row == 0 && self.speeds.iter().any(|speed| is_text(table, *speed)) {
+            return true;
+        }
         let is_complete = |complete: usize| table.text(row, complete) != "false";
         self.complete.is_none_or(is_complete)
             && !table.is_missing(row, self.restitution)
@@ -115,6 +119,11 @@ impl Columns {
         };
         Ok(Point { speed, restitution, restitution_uncertainty, contact_time })
     }
+}
+
+/// Whether the first cell of a column of speeds is neither a speed nor left out.
+fn is_text(table: &Table, column: usize) -> bool {
+    !table.is_missing(0, column) && table.number(0, column, SPEED).is_err()
 }
 
 /// Refuses a sweep that varies more than `may_vary`.

@@ -1,7 +1,7 @@
 //! CSV tables with a header: cells as numbers, faults with their line.
 //!
 //! Lines that begin with `#` are comments. A name may end in a unit, `speed_cm_s`, or have it in
-//! brackets, `speed [cm/s]`; without one a cell is a bare SI number or has its unit, `5 cm/s`. Cells are
+//! brackets, `speed [cm/s]`, or in a row of units below the names; without one a cell is a bare SI number or has its unit, `5 cm/s`. Cells are
 //! parted by commas, semicolons, tabs or blanks; with the latter three numbers may have decimal commas.
 
 use std::fmt::Display;
@@ -11,7 +11,7 @@ use fem_case::{nearest, parse_quantity};
 use super::column_units::{bare, ending_of, readings};
 use super::data_error::{DataError, one_line};
 use super::meanings::meanings;
-use super::written::{column_name, is_missing, separator, tabs_for_blanks, with_point};
+use super::written::{column_name, is_missing, separator, tabs_for_blanks, with_point, with_units};
 
 /// A table in memory, its cells as they are written.
 ///
@@ -69,8 +69,8 @@ impl Table {
                 "write a line above it that names the columns, such as speed_m_s,restitution",
             ));
         }
-        let header: Vec<String> = header.iter().map(column_name).collect();
-        let mut rows = Vec::new();
+        let mut header: Vec<String> = header.iter().map(column_name).collect();
+        let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
         for record in reader.records() {
             let place = |position: Option<&csv::Position>| {
                 n_above as u64 + position.map_or(0, csv::Position::line)
@@ -92,6 +92,12 @@ impl Table {
                     .with_help("every row has as many cells as the header"));
             }
             rows.push((line, cells));
+        }
+        if let [(_, first), (_, second), ..] = rows.as_slice()
+            && let Some(names) = with_units(&header, first, second)
+        {
+            header = names;
+            rows.remove(0);
         }
         if rows.is_empty() {
             return Err(DataError::new(&name, "there is no row below the header"));
@@ -214,7 +220,9 @@ impl Table {
         let mut unread = Vec::new();
         for (column, header) in self.header.iter().enumerate() {
             let bare = bare(header);
-            if read.contains(&column) || is_known(header) || is_known(bare) {
+            let is_empty =
+                header.is_empty() && (0..self.n_rows()).all(|row| self.is_missing(row, column));
+            if is_empty || read.contains(&column) || is_known(header) || is_known(bare) {
                 continue;
             }
             // `contact_time_spread` and `mass_uncertainty` are names of their own.

@@ -73,15 +73,48 @@ pub(super) fn column_name(header: &str) -> String {
     let joined = |name: &str| name.to_lowercase().split_whitespace().collect::<Vec<_>>().join("_");
     match bracketed {
         Some((name, "-" | "1" | "")) => joined(name),
-        Some((name, unit)) => match parse_quantity(&format!("1 {unit}")) {
-            Ok((scale, dimension)) => match ending_like(scale, dimension.0) {
-                Some(ending) => joined(name) + ending.text,
-                None => joined(header),
-            },
-            Err(_) => joined(header),
+        Some((name, unit)) => match ending_of_unit(unit) {
+            Some(ending) => joined(name) + ending,
+            None => joined(header),
         },
         None => joined(header),
     }
+}
+
+/// The ending of a name that stands for a unit.
+fn ending_of_unit(unit: &str) -> Option<&'static str> {
+    let (scale, dimension) = parse_quantity(&format!("1 {unit}")).ok()?;
+    ending_like(scale, dimension.0).map(|ending| ending.text)
+}
+
+/// The names of columns with the units that a row below them has, `speed` above `mm/s`, if it is such a row:
+/// units or no value above numbers, and at least one unit.
+pub(super) fn with_units(
+    header: &[String],
+    row: &[String],
+    next: &[String],
+) -> Option<Vec<String>> {
+    let is_number = |cell: &str| parse_quantity(&with_point(cell)).is_ok();
+    if row.iter().any(|cell| is_number(cell)) {
+        return None;
+    }
+    let unit = |cell: &String| {
+        if is_missing(cell) {
+            return None;
+        }
+        let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+        ending_of_unit(bare.trim())
+    };
+    let units: Vec<Option<&str>> = row.iter().map(unit).collect();
+    let fits = |(unit, below): (&Option<&str>, &String)| {
+        unit.is_none() || is_number(below) || is_missing(below)
+    };
+    let is_row = units.iter().any(Option::is_some) && units.iter().zip(next).all(fits);
+    let named = |(name, unit): (&String, &Option<&str>)| match unit {
+        Some(unit) if !name.ends_with(unit) => name.clone() + unit,
+        _ => name.clone(),
+    };
+    is_row.then(|| header.iter().zip(&units).map(named).collect())
 }
 
 /// Whether a cell says that there is no value.
@@ -144,6 +177,28 @@ mod tests {
         ] {
             assert_eq!(column_name(header), expected);
         }
+    }
+
+    /// Whoever writes the units below the names does not mean SI.
+    #[test]
+    fn a_row_of_units_is_that_of_the_names() {
+        let cells = |text: &str| text.split(',').map(String::from).collect::<Vec<_>>();
+        let read = |header: &str, row: &str, next: &str| {
+            with_units(&cells(header), &cells(row), &cells(next)).map(|names| names.join(","))
+        };
+        for (row, expected) in [
+            ("mm/s,-,µs", Some("speed_mm_s,e,t_us")),
+            ("[cm/s],[-],[ms]", Some("speed_cm_s,e,t_ms")),
+            ("m/s,%,", Some("speed_m_s,e_percent,t")),
+            ("0.1,0.9,", None),
+            ("slow,-,", None),
+            (",,", None),
+        ] {
+            assert_eq!(read("speed,e,t", row, "100,0.9,60").as_deref(), expected, "{row}");
+        }
+        // Names of materials, and a name that has its unit.
+        assert_eq!(read("a,b", "m,s", "glass,steel"), None);
+        assert_eq!(read("v_m_s,e", "m/s,-", "1,0.9").as_deref(), Some("v_m_s,e"));
     }
 
     #[test]

@@ -20,6 +20,7 @@ fn units_and_columns_of_sweeps_are_read() {
         "speed_m_s,restitution\n0.5,0.95\n0.75,0.92\n",
         "# a comment\nSpeed_cm_s, e\n50, 0.95\n75, 0.92\n",
         "v,restitution_percent\n50 cm/s,95\n0.75 m/s,92\n",
+        "speed,restitution,\nmm/s,-,\n500,0.95,\n750,0.92,\n",
         // The other body has 0.25 m/s.
         "body.0.approach_speed,restitution,complete\n0.25,0.95,true\n0.5,0.92,true\n1,,false\n",
     ] {
@@ -34,6 +35,17 @@ fn units_and_columns_of_sweeps_are_read() {
         assert_eq!(read.n_left_out, usize::from(text.contains("false")));
         assert_eq!(read.speeds(), (0.5, 0.75));
     }
+}
+
+/// A unit that is not known is no row without a value, and columns of nothing are no columns.
+#[test]
+fn no_unit_is_passed_over() {
+    let read =
+        |text: &str| Restitutions::read(&Table::parse("e.csv", text).unwrap(), spheres().scene());
+    let error = read("speed,restitution\nfurlong,-\n500,0.95\n750,0.92\n").unwrap_err();
+    assert!(error.to_string().contains("speed is \"furlong\", which is not a number"), "{error}");
+    assert_eq!(error.place(), "e.csv:2");
+    assert!(read("speed,restitution,\n0.5,0.95,\n0.75,0.92,\n").unwrap().unread.is_empty());
 }
 
 #[test]
