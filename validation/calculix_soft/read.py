@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Numbers of the claim from what CalculiX left of an impact.py: read.py SCENE NAME.dat
+"""Numbers of a claim from what CalculiX left of an impact.py, or from lines of time and force: read.py SCENE NAME
 
 From the contact force F(t) alone: restitution and approach of the mass centres are its integrals, the width is
 that at a tenth of its largest value, and the mean is the largest over a hundredth of that.
@@ -14,6 +14,9 @@ from impact import SCENES, WEDGE
 
 def history(name):
     """Times (ms) and contact forces of the whole body of revolution, N."""
+    if not name.endswith(".dat"):
+        rows = [tuple(map(float, line.split())) for line in open(name)]
+        return [time for time, _ in rows], [force for _, force in rows]
     times, forces, whole = [0.0], [0.0], 360.0 / WEDGE
     lines = iter(open(name))
     time = 0.0

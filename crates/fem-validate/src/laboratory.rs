@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use fem::{Explicit, Model, Setup, Simulation};
+use fem::effects::{Effect, RigidPartner};
+use fem::{Estimate, Explicit, Model, Setup, Simulation};
 use fem_case::{Case, CaseFile, ModelChoice};
 use fem_collision::{Collision, Monitor, Progress};
 use fem_laws::HertzImpact;
@@ -90,12 +91,13 @@ impl<'a> Laboratory<'a> {
         cases.into_par_iter().map(|case| self.run(case)).collect()
     }
 
-    /// Runs a case of any model, or takes the result of an earlier run of it.
+    /// Runs a case of any model, or takes the result of an earlier run of it. A partner that the plan takes as rigid
+    /// is: its own elements would ask for thousands of times as many steps.
     ///
     /// # Errors
     /// As [`Laboratory::run`], but for the model.
     pub fn simulate(&self, case: Case) -> Result<Arc<Run>, StudyError> {
-        if *case.scene().model() == ModelChoice::Fem {
+        if *case.scene().model() == ModelChoice::Fem && !has_rigid_partner(&case) {
             return self.run(case).map(|run| Arc::new(run.run.clone()));
         }
         if self.observer.is_interrupted() {
@@ -187,6 +189,14 @@ impl<'a> Laboratory<'a> {
             .ok_or_else(|| StudyError::parameters(format!("{}: no restitution", title())))?;
         Ok(Run { case, hertz, collision, restitution, seconds })
     }
+}
+
+/// Whether the plan takes a body of a case as rigid. What cannot be told fails where the case is run.
+fn has_rigid_partner(case: &Case) -> bool {
+    let scene = case.scene();
+    let estimate = Estimate::of(scene).ok();
+    let of = |estimate| RigidPartner.transform(scene, &estimate).ok().flatten();
+    estimate.and_then(of).is_some()
 }
 
 /// What a case is known by on the shelf: all of it but its title.

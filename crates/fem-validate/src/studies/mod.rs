@@ -15,6 +15,7 @@ mod pressed_sphere;
 mod relaxing;
 mod sections;
 mod soft_contours;
+mod soft_random;
 mod summary;
 mod surface_slip;
 mod uniform_stress;
@@ -51,6 +52,7 @@ const STUDIES: &[(&str, Study)] = &[
     ("paper_velocities", paper::velocities::study),
     ("pressed_sphere", pressed_sphere::study),
     ("soft_contours", soft_contours::study),
+    ("soft_random", soft_random::study),
     ("summary", summary::study),
     ("surface_slip", surface_slip::study),
     ("uniform_stress", uniform_stress::study),
