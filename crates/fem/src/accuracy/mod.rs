@@ -17,7 +17,7 @@ mod stress_places;
 mod study;
 
 pub(crate) use companion::{
-    Beside, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
+    Beside, ByCoarser, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
 };
 pub use error_parts::{ErrorPart, ErrorSource};
 pub use ladder::Ladder;
