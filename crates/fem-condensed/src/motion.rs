@@ -179,7 +179,7 @@ impl<'a> Motion<'a> {
     /// One step.
     ///
     /// # Errors
-    /// No contact state; a contact that reaches the last point, or with springs the last element.
+    /// No contact state, or a motion that is no number; a contact that reaches the last point, or with springs the last element.
     pub fn advance(&mut self) -> Result<(), Stop> {
         let dt = self.time_step;
         let predicted = self.approach + dt * self.rate + (0.5 - BETA) * dt * dt * self.acceleration;
@@ -195,10 +195,12 @@ impl<'a> Motion<'a> {
             let displacement = waves.past_displacement();
             self.overlap.iter_mut().for_each(|overlap| *overlap -= displacement);
         }
-        self.contact = self
-            .solver
-            .solve(&self.overlap, &mut self.forces)
-            .map_err(|_| Stop::NoContactState { time: (self.step + 1) as f64 * dt })?;
+        let none = Stop::NoContactState { time: (self.step + 1) as f64 * dt };
+        // Numbers that are none would close all points: that is no wide contact.
+        if !self.overlap.iter().all(|overlap| overlap.is_finite()) {
+            return Err(none);
+        }
+        self.contact = self.solver.solve(&self.overlap, &mut self.forces).map_err(|_| none)?;
         if self.contact.n_closed > self.most_closed {
             let radius = self.pair.points[self.forces.len() - 1].radius;
             let (time, step) = (self.time(), self.step as u64);

@@ -369,3 +369,6 @@ impl<'a> Run<'a> {
         Finished { collision, trace: self.trace }
     }
 }
+
+#[cfg(test)]
+mod tests;

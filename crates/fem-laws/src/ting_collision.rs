@@ -34,8 +34,9 @@ const SETTLED: f64 = 1e-3;
 /// a step's error does its fifth power. Tens are usual; the most viscous and the most radiating contacts of the tests take more
 /// than 2000. Each step looks back on all before.
 const MAX_STEPS: f64 = 5_000.0;
-/// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest contact.
-const FEWEST_STEPS: f64 = 2_000.0;
+/// Steps that a collision may take at any tolerance: the span from the fastest relaxation to the slowest contact. Forecasts
+/// of contacts with ten decades between the two take up to 930.
+const FEWEST_STEPS: f64 = 1_000.0;
 
 /// Index of the Gauss point at θ = 1/2.
 const MIDDLE: usize = N / 2;

@@ -77,7 +77,7 @@ pub fn hard_scenes(results: &[ClaimResult]) -> String {
          From one extreme to the other of every axis, with every model: the right answer, or why there is \
          none. What each scene is made of, is held against and has to say stands in \
          [validation/hard](../validation/hard/claim.toml); the claim holds all of it.\n\n\
-         *Δe*, *ΔT/T* and *ΔF/F* are what a run is off its reference, where it has one. *Growth* is the most that \
+         *Δe*, *ΔT/T*, *ΔF/F* and *Δp/p* (peak pressure) are what a run is off its reference, where it has one. *Growth* is the most that \
          the bodies hold at any instant above what they had and were given, over what they had; *momentum* its \
          largest drift over what went in; *cost* element updates over those that were announced. Of a ball that \
          bounces e is the product of all. *Warns* is what a user is told beside the result, *refused* what \

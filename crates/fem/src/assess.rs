@@ -15,6 +15,8 @@ use crate::simulation::Simulation;
 
 /// Overlap of the surfaces over the approach.
 const LARGEST_PENETRATION: f64 = 0.01;
+/// Springs as stiff as usual overlap by less on the meshes that are chosen, and are advised wherever softer ones might do.
+const USUAL: f64 = 1.0;
 /// So much stiffer springs are advised than would just do. Soft springs widen the contact, so that their
 /// overlap falls slower than they grow stiffer: with the power 0.6 to 0.9 of their factor, from 0.02 to 1.
 const ROOM_OF_ADVICE: f64 = 1.2;
@@ -160,7 +162,7 @@ impl<'a> Run<'a> {
                 100.0 * of_element,
                 self.collision.deepest.map_or(String::new(), |deepest| format!(", deepest {deepest}")),
                 100.0 * LARGEST_PENETRATION,
-                two_digits(ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor),
+                two_digits((ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor).max(USUAL)),
                 match self.plan.makes_meshes {
                     true => "a smaller mesh.contact_element_size",
                     false => "meshes that are finer at the contact",

@@ -2,10 +2,10 @@
 //!
 //! What explicit elements are off by, condensed companions tell without them (`accuracy/companion.rs`): the mesh is
 //! made finer by that before the first run ([`crate::refinement`]), and no run is thrown away. At finite strain
-//! and beside waves the companions are runs themselves, and of condensed bodies a collision is as cheap as any
-//! forecast: of these only bounds are known.
+//! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, and the
+//! run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
 
-use crate::accuracy::companion_updates;
+use crate::accuracy::{ByCoarser, companion_updates};
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 use crate::method::Cost;
@@ -20,7 +20,42 @@ pub struct Foreseen {
     pub is_open: bool,
 }
 
+/// Finer meshes that are expected to follow a collision, all together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Following {
+    /// How many.
+    pub meshes: usize,
+    /// What they take, without their companions.
+    pub element_updates: u64,
+}
+
 impl Simulation {
+    /// The finer meshes that two coarser ones foretell to follow, which take [`Simulation::companion_updates`] of the
+    /// collision; none where these tell nothing.
+    pub fn following(&self) -> Option<Following> {
+        let told = ByCoarser::of(self)?;
+        let size = |simulation: &Self| {
+            Some(simulation.setup().elements.as_ref()?.plan.contact_element_size)
+        };
+        let mut following = Following { meshes: 0, element_updates: 0 };
+        let mut finest: Option<Self> = None;
+        loop {
+            let now = finest.as_ref().unwrap_or(self);
+            let added = now.setup().elements.as_ref()?.added_share;
+            let errors = told.told(size(self)? / size(now)?, added);
+            let miss = now.worst_miss(|headline| errors[headline as usize]);
+            let Some(finer) = miss.and_then(|miss| now.finer_for(&miss)) else {
+                return Some(following);
+            };
+            let Cost::Steps { element_updates, .. } = finer.setup().cost else {
+                return Some(following);
+            };
+            following.meshes += 1;
+            following.element_updates += element_updates;
+            finest = Some(finer);
+        }
+    }
+
     /// The same case on the mesh that its tolerance needs, as far as companions of it tell that before a run.
     /// Where `goes_on` says no, what is left is as open as what they cannot tell.
     pub fn foreseen(self, mut goes_on: impl FnMut() -> bool) -> Foreseen {

@@ -11,11 +11,13 @@
 //!
 //! and ½MV² of what has left as waves, V = (m/M)(v − δ̇′), is the motion of the partner.
 
+use std::rc::Rc;
+
 use fem_case::{Body, Scene};
 use fem_laws::{Impact, ImpactInstant, LawError, Pair, Ting, restitution_of_mass_centres};
 use fem_material::Material;
 
-use crate::quasi_static::ting_of;
+use crate::quasi_static::{known_impact, ting_of};
 
 /// Ting's impact at a speed (m/s) of a scene with bodies that radiate, given by their materials; of the
 /// spheres' own compliance and the accuracy that `finish` gives.
@@ -40,7 +42,8 @@ pub(crate) fn radiating_impact(
     let endless = partner.as_ref().map(|partner| scene.with_half_space(partner.side));
     let size = finite_size.then(|| endless.as_ref().unwrap_or(scene).finite_size()).transpose()?;
     let ting = finish(ting_of(scene, &pair, true, size)?)?;
-    let impact = ting.with_radiation(radiating.into_iter().flatten())?.impact(speed)?;
+    let ting = ting.with_radiation(radiating.into_iter().flatten())?;
+    let impact = Rc::unwrap_or_clone(known_impact(ting, speed)?);
     Ok(match partner {
         Some(Partner { mass, mass_ratio, .. }) => of_mass_centres(impact, mass, mass_ratio, speed),
         None => impact,

@@ -65,7 +65,7 @@ pub use assess::assess;
 pub use checkpoint::{CheckpointError, CheckpointHead, checkpoint, checkpoint_head, memory_of};
 pub use course::Course;
 pub use estimate::Estimate;
-pub use foresight::Foreseen;
+pub use foresight::{Following, Foreseen};
 pub use identity::{Identity, case_identity, digest_of};
 pub use memory::Memory;
 pub use meshes::build_meshes;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::{Cost, ForceLaw, Foreseen, Simulation};
+use fem::{Cost, Following, ForceLaw, Foreseen, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::show;
@@ -18,6 +18,8 @@ use crate::tables::{mesh_table, pairs, table};
 
 /// What companions may take before the mesh counts as open.
 const PATIENCE_WITH_COMPANIONS: Duration = Duration::from_secs(2);
+/// The same of coarser meshes, which foretell what follows where nothing else does, s.
+const SECONDS_OF_COARSER_MESHES: f64 = 1.5;
 
 /// Check a case and print it with all defaults filled in
 ///
@@ -59,7 +61,9 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let Foreseen { simulation, is_open } =
         simulation.foreseen(|| begin.elapsed() < PATIENCE_WITH_COMPANIONS);
     let setup = begin.elapsed().as_secs_f64();
-    let spent = Making { making, setup, is_open };
+    let is_quick = is_open && companion_seconds(&simulation) < SECONDS_OF_COARSER_MESHES;
+    let following = is_quick.then(|| simulation.following()).flatten();
+    let spent = Making { making, setup, is_open, following };
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
@@ -71,6 +75,14 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     Ok((simulation, text))
 }
 
+/// What the coarser meshes of a run are expected to take, s.
+fn companion_seconds(simulation: &Simulation) -> f64 {
+    match (seconds(simulation, 0.0), simulation.companion_updates()) {
+        (Some(run), Some(share)) => run * share / (1.0 + share),
+        _ => f64::INFINITY,
+    }
+}
+
 /// What came before a run.
 struct Making {
     /// Of its bodies at first, s.
@@ -79,6 +91,8 @@ struct Making {
     setup: f64,
     /// Whether finer meshes may follow.
     is_open: bool,
+    /// Finer meshes that coarser ones foretell.
+    following: Option<Following>,
 }
 
 /// What to expect of a run.
@@ -195,22 +209,25 @@ fn time(simulation: &Simulation, spent: &Making) -> Vec<[String; 2]> {
         rows.push(["finer mesh".to_string(), why]);
     }
     rows.push(["time".to_string(), time]);
-    let follows = simulation.most_of_finer_meshes() != Some(0);
-    if spent.is_open && follows {
-        let most = match (&simulation.setup().cost, simulation.most_of_finer_meshes(), run) {
-            (Cost::Steps { element_updates, .. }, Some(most), Some(run)) => {
-                let each = run / *element_updates as f64;
-                format!(
-                    "at most {:.1e} element updates more, {}",
-                    most as f64,
-                    show(each * most as f64, "s")
-                )
+    if spent.is_open
+        && let (Cost::Steps { element_updates, .. }, Some(run)) = (&simulation.setup().cost, run)
+        && let Some(most) = simulation.most_of_finer_meshes().filter(|most| *most > 0)
+    {
+        let each = run / *element_updates as f64;
+        let price = |updates: u64| {
+            let updates = updates as f64;
+            format!("{updates:.1e} element updates more, {}", show(each * updates, "s"))
+        };
+        let expected = match spent.following {
+            Some(Following { meshes: 0, .. }) => "coarser meshes foretell none; ".to_string(),
+            Some(Following { meshes, element_updates }) => {
+                format!("coarser meshes foretell {meshes}, about {}; ", price(element_updates))
             }
-            _ => "at most four, each with up to four times the elements of the one before"
-                .to_string(),
+            None => String::new(),
         };
         let when = "where the mesh misses accuracy.tolerance, which only the run tells";
-        rows.push(["finer meshes".to_string(), format!("{when}: {most}")]);
+        let most = price(most);
+        rows.push(["finer meshes".to_string(), format!("{when}: {expected}at most {most}")]);
     }
     rows
 }

@@ -38,6 +38,12 @@ fn trials_are_counted_by_themselves() {
     }
 }
 
+/// Whether `check` speaks of finer meshes of condensed bodies.
+fn condensed_tells(place: &Place) -> bool {
+    let told = place.succeed(&["check", "case.toml", "--set", "model.condensed={}"]).stdout;
+    told.contains("finer meshes")
+}
+
 /// Of the mesh that is needed where that is known before, else of the most that may follow; of condensed bodies, too.
 #[test]
 fn check_tells_what_may_follow() {
@@ -45,7 +51,15 @@ fn check_tells_what_may_follow() {
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
     let open = place.succeed(&["check", "rubber.toml"]).stdout;
-    assert!(open.contains("which only the run tells: at most"), "{open}");
+    let finer = open.lines().find(|line| line.starts_with("# finer meshes  ")).unwrap();
+    for words in [
+        "which only the run tells: coarser meshes foretell ",
+        "; at most ",
+        " element updates more, ",
+    ] {
+        assert!(finer.contains(words), "{finer}");
+    }
+    assert!(!condensed_tells(&place), "nothing follows from it");
     let told = place.succeed(&["check", "auxetic.toml"]).stdout;
     assert!(told.contains("finer mesh  ") && !told.contains("only the run tells"), "{told}");
     place.write("resolved.toml", &told);

@@ -225,6 +225,63 @@ pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6
     Some(told(errors, MARGIN, scatter, of_few, across, *added_share))
 }
 
+/// Coarser meshes that foretell may take so many times what is expected of them.
+const PATIENCE: f64 = 2.0;
+
+/// What elements are going to be off by, as two coarser meshes tell it before a collision, of those whose companions are
+/// explicit elements themselves:
+///
+/// ```math
+/// |q(h) - q_0| \approx \frac{|q(2h) - q(\tfrac32 h)|}{2^p - (\tfrac32)^p},
+/// ```
+///
+/// which falls with h^p. Only a collision tells it for sure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ByCoarser {
+    errors: [Option<f64>; 6],
+    scatter: [f64; 6],
+    of_few: [f64; 6],
+    across: f64,
+}
+
+impl ByCoarser {
+    /// Computes both coarser meshes; none where condensed bodies tell it, or where a mesh does not carry the collision.
+    pub fn of(simulation: &Simulation) -> Option<Self> {
+        simulation.companion_updates()?;
+        let setup = simulation.setup();
+        let plan = &setup.elements.as_ref()?.plan;
+        let (approach, size) = (setup.approach, plan.contact_element_size);
+        let companions = Companions { simulation, approach, plan, size };
+        let [fine, coarse] = COARSER;
+        let Cost::Steps { element_updates, .. } = setup.cost else { return None };
+        let [near, far] = [fine, coarse].map(|ratio| {
+            let foretold = element_updates as f64 / ratio.powi(3);
+            companions.with_elements(ratio, (PATIENCE * foretold) as u64)
+        });
+        let (near, far) = (near?, far?);
+        let fall = coarse.powf(ORDER) - fine.powf(ORDER);
+        let errors = Headline::ALL.map(|headline| {
+            let (near, far) = (near[headline as usize]?, far[headline as usize]?);
+            Some((far - near).abs() / fall / headline.scale(near))
+        });
+        let mach = setup.estimate.mach;
+        let fronts = FRONTS.map(|scatter| scatter * mach.min(FAST));
+        Some(Self {
+            errors,
+            scatter: std::array::from_fn(|k| SCATTER[k] + fronts[k]),
+            of_few: with_waves(OF_FEW_STRAINED, mach),
+            across: near[Headline::MaxContactRadius as usize]? / size,
+        })
+    }
+
+    /// The errors that are going to be told of elements that are so many times smaller, beside such a share of moved
+    /// mass.
+    pub fn told(&self, smaller: f64, added: f64) -> [Option<f64>; 6] {
+        let errors = self.errors.map(|error| Some(error? / smaller.powf(ORDER)));
+        told(errors, MARGIN_OF_STRAINED, self.scatter, self.of_few, smaller * self.across, added)
+    }
+}
+
 /// Scatter, and what grows where elements are few, of explicit elements whose companions are condensed bodies.
 fn beside_condensed(mach: f64, is_at_finite_strain: bool) -> ([f64; 6], [f64; 6]) {
     match is_at_finite_strain {
@@ -353,13 +410,18 @@ impl Companions<'_> {
         })
     }
 
+    /// The numbers of the model itself with elements that are so many times longer; none of a run that takes more.
+    fn with_elements(&self, ratio: f64, most_element_updates: u64) -> Option<[Option<f64>; 6]> {
+        let size = Setting::ElementSize(ratio * self.size);
+        let staggered = Setting::Staggered(self.plan.finer_body.is_some());
+        self.collide_within(&[size, staggered], most_element_updates)
+    }
+
     /// The same from the model itself with longer elements.
     fn of_coarser(&self, values: [Option<f64>; 6]) -> [Option<f64>; 6] {
         let mut errors = [None; 6];
         for ratio in COARSER {
-            let size = Setting::ElementSize(ratio * self.size);
-            let staggered = Setting::Staggered(self.plan.finer_body.is_some());
-            let Some(coarse) = self.collide(&[size, staggered]) else { continue };
+            let Some(coarse) = self.with_elements(ratio, u64::MAX) else { continue };
             for (k, headline) in Headline::ALL.into_iter().enumerate() {
                 let both = coarse[k].zip(values[k]);
                 let error = both.map(|(coarse, value)| {
@@ -374,6 +436,15 @@ impl Companions<'_> {
 
     /// The numbers of the bodies' first contact with these settings; none where the model refuses them.
     fn collide(&self, settings: &[Setting]) -> Option<[Option<f64>; 6]> {
+        self.collide_within(settings, u64::MAX)
+    }
+
+    /// The same; none of a run that takes more element updates.
+    fn collide_within(
+        &self,
+        settings: &[Setting],
+        most_element_updates: u64,
+    ) -> Option<[Option<f64>; 6]> {
         let case = self.simulation.case().edited(|file| {
             file.stop = first_contact(file);
             // Where the case leaves the model open, the one that was chosen.
@@ -411,7 +482,7 @@ impl Companions<'_> {
         });
         let shared = self.simulation.shared().of_companions();
         let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
-        let want = Want::quantities();
+        let want = Want { most_element_updates, ..Want::quantities() };
         let collision = companion.model().collide(&self.approach, &want, &mut ());
         let values = Headline::ALL.map(|headline| headline.of(&collision));
         collision.is_complete().then_some(values)

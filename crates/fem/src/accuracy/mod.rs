@@ -18,7 +18,7 @@ mod stress_places;
 mod study;
 
 pub(crate) use companion::{
-    Beside, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
+    Beside, ByCoarser, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
 };
 pub use convergence::{Convergence, ObservedOrder};
 pub use error_parts::{ErrorPart, ErrorSource};

@@ -14,7 +14,7 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::transformed::Transformed;
 use crate::estimate::Estimate;
-use crate::quasi_static::ting_of;
+use crate::quasi_static::{known_impact, ting_of};
 use crate::refusal::Refusal;
 
 /// What terms that are not followed may change, all together, of restitution (absolute), contact time and
@@ -137,7 +137,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
     let hertz = &estimate.hertz;
     let ting =
         ting_of(scene, hertz.pair(), true, None).ok()?.with_tolerance(LOSS_TOLERANCE).ok()?;
-    let relaxing = ting.impact(hertz.approach_speed()).ok()?.restitution;
+    let relaxing = known_impact(ting, hertz.approach_speed()).ok()?.restitution;
     Some((relaxing - hertz.restitution()).abs())
 }
 

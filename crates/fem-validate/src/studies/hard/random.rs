@@ -100,32 +100,32 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
             scenes.extend((0..n).map(|_| (settings, overrides_of(&mut random, ratios))));
         }
     }
-    let runs = scenes.par_iter().map(|(settings, set)| {
-        let runs = MODELS.map(|model| run(laboratory, *settings, set, model));
-        let [fem, condensed, ting] = runs;
-        Ok::<_, StudyError>([fem?, condensed?, ting?])
+    let pairs = [("explicit", [0, 1], parameters.explicit), ("ting", [1, 2], parameters.ting)];
+    // What a scene takes, its bars too, is done at once, and its models and fields are not kept.
+    let compared = scenes.par_iter().map(|(settings, set)| {
+        let [fem, condensed, ting] = MODELS.map(|model| run(laboratory, *settings, set, model));
+        let runs = [fem?, condensed?, ting?];
+        let differences = pairs.map(|(_, pair, tolerance)| {
+            let [ours, theirs] = pair.map(|k| runs[k].as_ref().ok());
+            Some(difference(set, *settings, [ours?, theirs?], tolerance))
+        });
+        let stopped: Vec<String> = runs.into_iter().filter_map(Result::err).collect();
+        Ok::<_, StudyError>((differences, stopped))
     });
-    let runs = runs.collect::<Result<Vec<_>, _>>()?;
+    let compared = compared.collect::<Result<Vec<_>, _>>()?;
+    let (differences, stopped): (Vec<_>, Vec<_>) = compared.into_iter().unzip();
     let mut findings = Findings::new();
     findings.measure("scenes", scenes.len() as f64);
-    for (name, pair, tolerance) in
-        [("explicit", [0, 1], parameters.explicit), ("ting", [1, 2], parameters.ting)]
-    {
-        let mut differences: Vec<Difference> = scenes
-            .iter()
-            .zip(&runs)
-            .filter_map(|((settings, set), runs)| {
-                let [ours, theirs] = pair.map(|k| runs[k].as_ref().ok());
-                let (ours, theirs) = (ours?, theirs?);
-                Some(difference(set, *settings, [ours, theirs], tolerance))
-            })
-            .collect();
+    for (k, (name, ..)) in pairs.into_iter().enumerate() {
+        let mut differences: Vec<&Difference> =
+            differences.iter().filter_map(|pairs| pairs[k].as_ref()).collect();
         findings.measure(format!("{name}.compared"), differences.len() as f64);
         // A share that is no number is beyond every limit.
         let is_within = |one: &&Difference| one.share <= 1.0;
-        let beyond = differences.iter().filter(|one| !is_within(one));
-        let (warned, beyond): (Vec<_>, Vec<_>) = beyond.partition(|one| one.warns);
-        let (unexplained, beyond_bars): (Vec<_>, Vec<_>) =
+        let beyond = differences.iter().copied().filter(|one| !is_within(one));
+        let (warned, beyond): (Vec<&Difference>, Vec<&Difference>) =
+            beyond.partition(|one| one.warns);
+        let (unexplained, beyond_bars): (Vec<&Difference>, Vec<&Difference>) =
             beyond.into_iter().partition(|one| one.settings == Settings::Claim);
         findings.measure(format!("{name}.warned"), warned.len() as f64);
         findings.measure(format!("{name}.unexplained"), unexplained.len() as f64);
@@ -146,12 +146,11 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
             rows,
         );
     }
-    let stopped = runs.iter().flatten().filter_map(|run| run.as_ref().err());
-    let mut messages: Vec<&String> = stopped.collect();
+    let mut messages: Vec<String> = stopped.into_iter().flatten().collect();
     findings.measure("stopped", messages.len() as f64);
     messages.sort();
     messages.dedup();
-    let rows = messages.into_iter().map(|message| [message.clone()]);
+    let rows = messages.into_iter().map(|message| [message]);
     findings.tabulate(
         "What is said of the scenes that a model does not compute.",
         ["message"],

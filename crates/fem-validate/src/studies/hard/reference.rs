@@ -39,8 +39,8 @@ impl Reference {
             trial.numbers().map(Self).ok_or_else(|| StudyError::parameters(none()))
         };
         match against {
-            Against::Hertz => Ok(Self([Some(1.0); 3])),
-            Against::Restitution(restitution) => Ok(Self([Some(*restitution), None, None])),
+            Against::Hertz => Ok(Self([Some(1.0); 4])),
+            Against::Restitution(restitution) => Ok(Self([Some(*restitution), None, None, None])),
             Against::Ting => run(scene, TING),
             Against::Scene(name) => run(other(name)?, model),
         }

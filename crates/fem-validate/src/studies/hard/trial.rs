@@ -25,8 +25,8 @@ pub(super) enum Outcome {
     Refused(String),
 }
 
-/// Restitution, of a ball that bounces the product of all; contact time and peak force over Hertz'.
-pub(super) type Numbers = [Option<f64>; 3];
+/// Restitution, of a ball that bounces the product of all; contact time, peak force and peak pressure over Hertz'.
+pub(super) type Numbers = [Option<f64>; 4];
 
 impl Trial {
     /// Runs a case, if it is one.
@@ -64,6 +64,7 @@ impl Trial {
             self.restitution(),
             collision.contact_time.map(|time| time / hertz.contact_time()),
             collision.peak_force.map(|force| force / hertz.peak_force()),
+            collision.peak_pressure.map(|pressure| pressure / hertz.peak_pressure()),
         ])
     }
 
