@@ -126,18 +126,19 @@ impl CondensedBody {
     }
 
     /// With the body's own inertia under a unit acceleration as right-hand side; a half-space has none.
-    fn eliminate(&self, keeps_factor: bool) -> Result<Elimination<Factor>, CondensedError> {
+    fn eliminate(&self, keeps_factor: bool) -> Result<Elimination, CondensedError> {
         let n = self.numbering.n_equations;
         let inertia = match self.mass.is_infinite() {
             true => vec![0.0; n],
             false => (0..n).map(|i| self.mass * self.inertia_share(i)).collect(),
         };
-        let elements = ElementEquations::of_mesh(&self.mesh, &self.numbering.equations);
+        let elements = ElementEquations::of_mesh(&self.mesh, &self.numbering);
         let matrix = |number: usize| {
             let geometry = QuadGeometry::new(&self.mesh.corners(number));
             mean_gradient_stiffness(&geometry, self.bulk_modulus, self.shear_modulus)
         };
-        Elimination::new(&self.numbering, &elements, matrix, inertia, keeps_factor)
+        let (ends, n_contact) = (&self.numbering.ends, self.numbering.n_contact);
+        Elimination::new(ends, &elements, matrix, inertia, n_contact, keeps_factor)
     }
 
     /// What displacements are found with, made when it is first asked for.

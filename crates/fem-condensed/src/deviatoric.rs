@@ -13,7 +13,7 @@ impl CondensedBody {
     /// Product of the deviatoric stiffness with fields, ground's row included, N.
     pub fn apply_deviatoric(&self, fields: &Mat<f64>) -> Mat<f64> {
         let n = self.numbering.n_equations;
-        let elements = ElementEquations::of_mesh(&self.mesh, &self.numbering.equations);
+        let elements = ElementEquations::of_mesh(&self.mesh, &self.numbering);
         let matrices: Vec<_> = (0..elements.len())
             .map(|number| mean_gradient(&QuadGeometry::new(&self.mesh.corners(number))).deviatoric)
             .collect();

@@ -25,35 +25,29 @@ pub(crate) struct Dissection {
 
 /// Where a node lies, in elements.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
-    pub node: u32,
-    /// How far from the ground.
-    pub ring: i64,
-    /// How much farther from the axis than from the surface.
-    pub along: i64,
-}
-
-/// The places of the nodes of a mesh for which `is_interior` says so.
-pub(crate) fn places(mesh: &SphereMesh, is_interior: impl Fn(usize) -> bool) -> Vec<Place> {
-    let neighbours = Neighbours::new(mesh);
-    let ground = &mesh.axis()[mesh.axis().len() - 1..];
-    let far = if mesh.is_half_space() { mesh.far_boundary() } else { ground };
-    let rings = neighbours.distances(mesh, far);
-    let from_axis = neighbours.distances(mesh, mesh.axis());
-    let from_surface = neighbours.distances(mesh, mesh.surface());
-    (0..mesh.nodes().len())
-        .filter(|&node| is_interior(node))
-        .map(|node| Place {
-            node: node as u32,
-            ring: i64::from(rings[node]),
-            along: i64::from(from_axis[node]) - i64::from(from_surface[node]),
-        })
-        .collect()
+struct Place {
+    node: u32,
+    ring: i64,
+    along: i64,
 }
 
 impl Dissection {
-    /// Of nodes at these places.
-    pub fn new(mut places: Vec<Place>) -> Self {
+    /// Of the nodes of a mesh for which `is_interior` says so.
+    pub fn new(mesh: &SphereMesh, is_interior: impl Fn(usize) -> bool) -> Self {
+        let neighbours = Neighbours::new(mesh);
+        let ground = &mesh.axis()[mesh.axis().len() - 1..];
+        let far = if mesh.is_half_space() { mesh.far_boundary() } else { ground };
+        let rings = neighbours.distances(mesh, far);
+        let from_axis = neighbours.distances(mesh, mesh.axis());
+        let from_surface = neighbours.distances(mesh, mesh.surface());
+        let mut places: Vec<Place> = (0..mesh.nodes().len())
+            .filter(|&node| is_interior(node))
+            .map(|node| Place {
+                node: node as u32,
+                ring: i64::from(rings[node]),
+                along: i64::from(from_axis[node]) - i64::from(from_surface[node]),
+            })
+            .collect();
         let mut dissection = Self { nodes: Vec::with_capacity(places.len()), ends: Vec::new() };
         let mut scratch = Vec::with_capacity(places.len());
         dissection.part(&mut places, &mut scratch, &mut Vec::new());
@@ -230,7 +224,7 @@ mod tests {
     fn pieces_are_small_and_know_little_of_each_other() {
         for (mesh, most) in [(sphere(0.02), 2.0), (half_space(), 2.0)] {
             let n_nodes = mesh.nodes().len();
-            let Dissection { nodes, ends } = Dissection::new(places(&mesh, |node| node != 0));
+            let Dissection { nodes, ends } = Dissection::new(&mesh, |node| node != 0);
             let mut sorted = nodes.clone();
             sorted.sort_unstable();
             assert!(sorted.iter().copied().eq(1..n_nodes as u32));

@@ -2,6 +2,8 @@
 
 use fem_mesh::SphereMesh;
 
+use crate::numbering::Numbering;
+
 /// Lower triangle of an element's matrix, row by row; degrees of freedom u_r, u_y corner by corner.
 pub(crate) type Lower = [f64; 36];
 
@@ -13,9 +15,9 @@ pub(crate) struct ElementEquations {
 }
 
 impl ElementEquations {
-    /// Of all elements, by those of the nodes.
-    pub fn of_mesh(mesh: &SphereMesh, equations: &[[u32; 2]]) -> Vec<Self> {
-        let of_corner = |node: u32| equations[node as usize];
+    /// Of all elements.
+    pub fn of_mesh(mesh: &SphereMesh, numbering: &Numbering) -> Vec<Self> {
+        let of_corner = |node: u32| numbering.equations[node as usize];
         let of_quad = |quad: &[u32; 4]| {
             let equations = std::array::from_fn(|i| of_corner(quad[i / 2])[i % 2]);
             Self { equations }

@@ -55,7 +55,6 @@
 //! # }
 //! ```
 
-mod band;
 mod body;
 mod chain;
 mod collision;
@@ -70,7 +69,6 @@ mod elements;
 mod error;
 mod factor;
 mod fields;
-mod fronts;
 mod instants;
 mod motion;
 mod numbering;
