@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Simulation};
+use fem::{Case, Collision, Headline, Simulation};
 
 /// Two spheres, the first of which strikes the second.
 fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {
@@ -315,7 +315,8 @@ fn what_nothing_foretells_serves_nobody() {
 fn no_choice_advises_another_model() {
     let mut state = 20_u64;
     let mut random = |least: f64, most: f64| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let share = (state >> 11) as f64 / (1_u64 << 53) as f64;
         least * (most / least).powf(share)
     };
@@ -326,7 +327,8 @@ fn no_choice_advises_another_model() {
             "[material.stuff]\ndensity=1100\nyoungs_modulus={modulus}\npoissons_ratio=0.4\n"
         );
         let diameters = [10.0, 10.0 * random(1.0, 3.0)].map(|mm| format!("{mm} mm"));
-        let text = scene(&material, diameters.each_ref().map(String::as_str), &format!("{speed} m/s"));
+        let text =
+            scene(&material, diameters.each_ref().map(String::as_str), &format!("{speed} m/s"));
         let small = ["model.auto={}", "effects.finite_strain='off'", "accuracy.tolerance='5 %'"];
         let simulation = simulation(&text, &small);
         let warnings = simulation.warnings_before();
@@ -348,7 +350,8 @@ fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
         scene(&material, [&diameter, &diameter], &format!("{speed} m/s"))
     };
     let auxetic = like(-0.08076, 1.801_58e10, 2450.94, 2.952_95e-3, 0.134_785);
-    let relaxing = "material.stuff.relaxation={acts_on='all',terms=[{weight=0.3,relaxation_time=4.024e-5}]}";
+    let relaxing =
+        "material.stuff.relaxation={acts_on='all',terms=[{weight=0.3,relaxation_time=4.024e-5}]}";
     let more_auxetic = like(-0.2617, 3.889_26e10, 5921.74, 1.753_69e-4, 0.089_663_4);
     for (text, model, more, truth) in [
         (&auxetic, "model.hertz={}", "output.report=false", 216.57e6),
@@ -356,12 +359,15 @@ fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
     ] {
         let run = simulation(text, &[more, model]);
         let collision = run.run(&mut ());
-        let parts = run.summary(&collision).uncertainty.peak_pressure_pa;
+        let parts = run.summary(&collision).uncertainty.parts(Headline::PeakPressure);
         let bar = parts.model.unwrap() + parts.discretisation.unwrap();
         let error = (collision.peak_pressure.unwrap() - truth).abs();
         assert!(error < bar && bar < 3.0 * error, "{error} {bar}");
         let asked = simulation(text, &[more, "model.auto={}", "accuracy.tolerance='0.1 %'"]);
         let chosen = asked.considered().iter().find(|it| it.chosen).unwrap();
-        assert!(chosen.model.starts_with("condensed") || chosen.model.starts_with("fem"), "{chosen:?}");
+        assert!(
+            chosen.model.starts_with("condensed") || chosen.model.starts_with("fem"),
+            "{chosen:?}"
+        );
     }
 }
