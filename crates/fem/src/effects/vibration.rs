@@ -126,9 +126,8 @@ impl Vibration {
     /// What such a model leaves open because of the speed.
     pub(crate) fn doubts_of_speed(estimate: &Estimate, n_asked: usize) -> Vec<String> {
         let mut warnings = Vec::new();
-        let needs_modes = estimate.softened_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES;
         // Modes help only where nothing forms that they do not carry.
-        if needs_modes && Self::beyond_modes(estimate).is_none() {
+        if Self::needs_modes(estimate, n_asked) && Self::beyond_modes(estimate).is_none() {
             warnings.push(format!(
                 "{} the inertia of the bodies counts: set model.condensed.vibration_modes = \
                  {ENOUGH_MODES}, or use model fem",
@@ -154,9 +153,19 @@ impl Vibration {
         warnings
     }
 
-    /// Why no number of modes carries what inertia does in a scene, if none does: quasi-static elements with modes or
-    /// without warn there that explicit elements are to be used.
-    pub(crate) fn beyond_modes(estimate: &Estimate) -> Option<&'static str> {
+    fn needs_modes(estimate: &Estimate, n_asked: usize) -> bool {
+        estimate.softened_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES
+    }
+
+    /// Why a result with so many modes would advise more of them, or explicit elements
+    /// ([`Vibration::doubts_of_speed`]).
+    pub(crate) fn advises_another(estimate: &Estimate, n_asked: usize) -> Option<&'static str> {
+        let few = Self::needs_modes(estimate, n_asked).then_some("lacks vibration, which counts");
+        Self::beyond_modes(estimate).or(few)
+    }
+
+    /// Why no number of modes carries what inertia does in a scene, if none does.
+    fn beyond_modes(estimate: &Estimate) -> Option<&'static str> {
         if estimate.softened_mach > MACH_LIMIT {
             return Some("steep fronts form that no mode carries");
         }

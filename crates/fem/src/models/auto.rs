@@ -186,7 +186,7 @@ const CANDIDATES: [Candidate; 6] = [
         lacks: &[&FiniteStrain, &PartnerWaves, &Vibration],
         has_fields: false,
         is_first_order: true,
-        own: [2e-4, 2e-4, 2e-4, 5e-3],
+        own: [2e-4, 2e-4, 2e-4, 1e-3],
     },
     Candidate {
         name: "condensed = {}",
@@ -353,7 +353,9 @@ impl Candidate {
     /// Why its result would itself advise another model, whatever the tolerance.
     fn called_out(&self, estimate: &Estimate) -> Option<&'static str> {
         match self.choice() {
-            ModelChoice::Condensed(_) => Vibration::beyond_modes(estimate),
+            ModelChoice::Condensed(options) => {
+                Vibration::advises_another(estimate, options.vibration_modes)
+            }
             _ => None,
         }
     }

@@ -186,7 +186,6 @@ fn a_setting_far_from_its_default_is_blamed_itself() {
         ("time.step_factor", "1e-7"),
         ("contact.penalty_factor", "1e-300"),
         ("contact.penalty_factor", "1e-200"),
-        ("contact.penalty_factor", "1e200"),
         ("contact.penalty_factor", "1e300"),
     ] {
         let set = [format!("{key}={value}")];
