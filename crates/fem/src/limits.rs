@@ -157,7 +157,8 @@ pub(crate) fn check_updates(
     );
     let allowed = format!("at most {:.1e} are allowed", plan.max_element_updates as f64);
     Err(match odd_step(scene) {
-        Some((key, help)) => Refusal::new(key, found).with_help(format!("{allowed}; {help}")),
+        Some((key, help)) => Refusal::new(key, found)
+            .with_help(format!("{allowed}; {help}, or raise limits.element_updates")),
         None => {
             let key = blamed(scene, "limits.element_updates", scene.limits().element_updates);
             Refusal::new(key, found).with_help(format!(
