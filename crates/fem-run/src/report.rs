@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::Considered;
 use fem::effects::{LeftOut, Verdict};
 use fem::results::{BodySummary, Quantities, Summary};
+use fem::{Considered, ExpectedError};
 use fem_case::engineering::{Unit, number, show};
 use fem_collision::{Headline, Shown, Side};
 use indicatif::{DecimalBytes, HumanCount};
@@ -180,30 +180,39 @@ fn price(summary: &Summary) -> String {
 
 /// Which models were considered, what they are expected to be off by, and why one was chosen.
 pub fn models(considered: &[Considered]) -> String {
-    let header = ["", "model", "restitution", "contact time", "peak force", ""].map(String::from);
+    let header = ["", "model", "restitution", "contact time", "peak force", "peak pressure", ""]
+        .map(String::from);
     let row = |considered: &Considered| {
-        let [restitution, time, force] = changes(&considered.error);
+        let ExpectedError { restitution, contact_time_s, peak_force_n, peak_pressure_pa } =
+            considered.error;
+        let [restitution, time, force] =
+            changes(&LeftOut { restitution, contact_time_s, peak_force_n });
+        let pressure = change(peak_pressure_pa, &|change| show(change, "Pa"));
         let mark = if considered.chosen { "takes" } else { "" };
         let model = considered.model.to_string();
-        [mark.to_string(), model, restitution, time, force, considered.reason.clone()]
+        [mark.to_string(), model, restitution, time, force, pressure, considered.reason.clone()]
     };
     let rows = std::iter::once(header).chain(considered.iter().map(row));
-    table(&[Left, Left, Right, Right, Right, Left], rows)
+    table(&[Left, Left, Right, Right, Right, Right, Left], rows)
 }
 
 /// Changes of restitution, contact time and peak force.
 pub fn changes(changes: &LeftOut) -> [String; 3] {
     let LeftOut { restitution, contact_time_s, peak_force_n } = *changes;
-    let text = |change: Option<f64>, show: &dyn Fn(f64) -> String| match change {
+    [
+        change(restitution, &|change| number(change, 2)),
+        change(contact_time_s, &|change| show(change, "s")),
+        change(peak_force_n, &|change| show(change, "N")),
+    ]
+}
+
+/// What a quantity changes by, "?" where nothing tells.
+fn change(change: Option<f64>, show: &dyn Fn(f64) -> String) -> String {
+    match change {
         None => "?".to_string(),
         Some(0.0) => "0".to_string(),
         Some(change) => show(change),
-    };
-    [
-        text(restitution, &|change| number(change, 2)),
-        text(contact_time_s, &|change| show(change, "s")),
-        text(peak_force_n, &|change| show(change, "N")),
-    ]
+    }
 }
 
 /// On or off, and why.

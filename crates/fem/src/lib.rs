@@ -71,8 +71,8 @@ pub use memory::Memory;
 pub use meshes::build_meshes;
 pub use method::{Cost, ElementSetup, ForceLaw, Method, Model, Setup, Shared};
 pub use models::{
-    AutoMethod, Condensed, CondensedMethod, Considered, Explicit, ExplicitMethod, HertzMethod,
-    LawMethod, METHODS, Reduced, TingMethod, method_of, model_of,
+    AutoMethod, Condensed, CondensedMethod, Considered, ExpectedError, Explicit, ExplicitMethod,
+    HertzMethod, LawMethod, METHODS, Reduced, TingMethod, method_of, model_of,
 };
 pub use numerics::NUMERICS;
 pub use pair_cache::PairCache;

@@ -3,12 +3,20 @@
 use fem_case::{Scene, Shape};
 use fem_explicit::n_states;
 use fem_material::engineering::show;
+use fem_mesh::MeshError;
 
 use crate::effects::{BulkViscosity, FiniteStrain};
 use crate::estimate::mach;
 use crate::mesh_source::{half_disc, mesh_refusal, quarter_disc};
 use crate::plan::Plan;
 use crate::refusal::Refusal;
+
+/// Growth from element to element below which it is what makes elements many.
+const SLOW_GROWTH: f64 = 1.01;
+/// Step factors of which none makes a run ten times as long as the default.
+const USUAL_STEPS: std::ops::RangeInclusive<f64> = 0.1..=1.0;
+/// Springs over the default ones of which none makes steps or contact ten times as short or long.
+const USUAL_SPRINGS: std::ops::RangeInclusive<f64> = 0.01..=100.0;
 
 /// Bytes an element of the built-in mesh takes: element blocks, some one node's
 /// worth of vectors, and the ladder of states kept for snapshots.
@@ -60,7 +68,10 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
             Shape::Sphere { mesh: Some(_), .. } | Shape::Rigid { .. } | Shape::Wall => None,
         };
         if let Some((n, material)) = made {
-            let n = n.map_err(|error| mesh_refusal(&error))? as u64;
+            let n = n.map_err(|error| match error {
+                MeshError::TooLarge(_) => of_elements(scene, mesh_refusal(&error)),
+                _ => mesh_refusal(&error),
+            })? as u64;
             elements += n;
             branches += n * material.relaxation().map_or(0, |series| series.terms().len()) as u64;
         }
@@ -86,10 +97,11 @@ pub(crate) fn check_elements(scene: &Scene, plan: &Plan, elements: u64) -> Resul
         "the meshes would have {elements} elements, {} long at the contact",
         show(plan.contact_element_size, "m")
     );
-    Err(Refusal::new(key, found).with_help(format!(
+    let refusal = Refusal::new(key, found).with_help(format!(
         "at most {} are allowed; use a larger mesh.contact_element_size or raise limits.elements",
         plan.max_elements
-    )))
+    ));
+    Err(of_elements(scene, refusal))
 }
 
 /// Refuses more memory (bytes) than the limit.
@@ -139,16 +151,49 @@ pub(crate) fn check_updates(
     if element_updates <= plan.max_element_updates as f64 {
         return Ok(());
     }
-    let key = blamed(scene, "limits.element_updates", scene.limits().element_updates);
     let found = format!(
         "the run would take {steps:.1e} steps of {elements} elements, {element_updates:.1e} element \
          updates"
     );
-    Err(Refusal::new(key, found).with_help(format!(
-        "at most {:.1e} are allowed; use a larger mesh.contact_element_size or more \
-         time.mass_scaling, or raise limits.element_updates",
-        plan.max_element_updates as f64
-    )))
+    let allowed = format!("at most {:.1e} are allowed", plan.max_element_updates as f64);
+    Err(match odd_step(scene) {
+        Some((key, help)) => Refusal::new(key, found)
+            .with_help(format!("{allowed}; {help}, or raise limits.element_updates")),
+        None => {
+            let key = blamed(scene, "limits.element_updates", scene.limits().element_updates);
+            Refusal::new(key, found).with_help(format!(
+                "{allowed}; use a larger mesh.contact_element_size or more time.mass_scaling, or raise \
+                 limits.element_updates"
+            ))
+        }
+    })
+}
+
+/// A growth of elements so small that it is what makes them many.
+fn of_elements(scene: &Scene, refusal: Refusal) -> Refusal {
+    match scene.mesh().growth {
+        Some(growth) if growth < SLOW_GROWTH => {
+            Refusal::new("mesh.growth", refusal.message).with_help(format!(
+                "elements grow too slowly; use a mesh.growth of at least {SLOW_GROWTH}, or leave it out"
+            ))
+        }
+        _ => refusal,
+    }
+}
+
+/// The key that makes a run's steps many, where its value is far from the default, and what helps.
+fn odd_step(scene: &Scene) -> Option<(&'static str, &'static str)> {
+    let is_odd = |value: Option<f64>, usual: std::ops::RangeInclusive<f64>| {
+        value.is_some_and(|value| !usual.contains(&value))
+    };
+    if is_odd(scene.step_factor(), USUAL_STEPS) {
+        let help = "steps are far shorter than they need to be; leave out time.step_factor";
+        return Some(("time.step_factor", help));
+    }
+    is_odd(scene.penalty_factor(), USUAL_SPRINGS).then_some((
+        "contact.penalty_factor",
+        "springs are far from those that elements need; leave out contact.penalty_factor",
+    ))
 }
 
 /// The element size if the case gives it, else the limit if that is given.

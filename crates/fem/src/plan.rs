@@ -106,6 +106,16 @@ impl Plan {
         });
         let candidate_radius = candidate_radius(&estimate, contact_element_size);
         let penalty_factor = scene.penalty_factor().unwrap_or(1.0);
+        let contact_stiffness =
+            penalty_factor * PENALTY_OVER_MODULUS * estimate.hertz.pair().contact_modulus();
+        let per_area = contact_stiffness / contact_element_size;
+        if scene.penalty_factor().is_some() && !(per_area.is_finite() && per_area > 0.0) {
+            let found = format!(
+                "springs of contact.penalty_factor = {penalty_factor:e} have {per_area:e} Pa/m"
+            );
+            return Err(Refusal::new("contact.penalty_factor", found)
+                .with_help("it must be positive and finite; 1 is the default, leave it out"));
+        }
         let made_here = |body: &Body| {
             matches!(body.shape(), Shape::Sphere { mesh: None, .. } | Shape::HalfSpace { .. })
         };
@@ -144,9 +154,7 @@ impl Plan {
             candidate_radius,
             contact_method: contact_method(scene),
             penalty_factor,
-            contact_stiffness: penalty_factor
-                * PENALTY_OVER_MODULUS
-                * estimate.hertz.pair().contact_modulus(),
+            contact_stiffness,
             step_factor: scene.step_factor().unwrap_or(STEP_FACTOR),
             mass_scaling: scene.mass_scaling().unwrap_or(fineness.mass_scaling),
             snapshots: request(scene.snapshots()),

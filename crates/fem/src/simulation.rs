@@ -11,7 +11,7 @@ use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantErr
 use crate::accuracy::Beside;
 use crate::course::{Course, begun};
 use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, mach};
 use crate::identity::identity_of;
 use crate::memory::Memory;
 use crate::method::{Cost, Model, Setup, Shared};
@@ -187,13 +187,31 @@ impl Simulation {
         let own = own.chain(self.cheaper());
         let scene = self.case.scene();
         let of_scene = scene.oddities().into_iter().chain(scene.unpublished_loss());
-        of_scene.chain(self.choice_warning()).chain(self.setup().warnings()).chain(own).collect()
+        of_scene
+            .chain(self.shear_waves_warning())
+            .chain(self.choice_warning())
+            .chain(self.setup().warnings())
+            .chain(own)
+            .collect()
     }
 
     /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
     /// what helps.
     pub fn mesh_warning(&self) -> Option<String> {
         self.resolution_warning(self.setup().estimate.contact_radius)
+    }
+
+    /// That explicit elements fold where bodies meet faster than shear waves leave the contact.
+    fn shear_waves_warning(&self) -> Option<String> {
+        let scene = self.scene_of_model();
+        let mach = mach(&scene, scene.approach_speed());
+        (mach > 1.0 && *scene.model() == ModelChoice::Fem).then(|| {
+            format!(
+                "the approach speed is {mach:.1} times that of the shear waves, √(G/ρ): above 1 the flank of a body \
+                 may fold onto the other one, which stops the run; lower body.N.approach_speed, or check the moduli \
+                 and their units"
+            )
+        })
     }
 
     /// That springs softer than the usual ones give way, by how much, and what helps.

@@ -50,7 +50,6 @@ pub use dashpot::DashpotEffect;
 pub use doubt::{Doubt, Standing};
 pub use effect::Effect;
 pub use finite_size::FiniteSizeEffect;
-pub(crate) use finite_size::SECOND_ORDER;
 pub use finite_strain::FiniteStrain;
 pub use gravity::Gravity;
 pub use hourglass_control::HourglassControl;

@@ -3,7 +3,7 @@
 //!
 //! Decided by the approach speed over the shear wave speed.
 
-use fem_case::Scene;
+use fem_case::{Body, Scene};
 use fem_collision::Collision;
 
 use super::answer::Answer;
@@ -13,24 +13,28 @@ use super::left_out::LeftOut;
 use super::need::{Need, percent};
 use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
+use crate::softened::left_at;
 
 /// Modes that bring it back.
 pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
 const LARGEST_VIBRATION: f64 = 0.01;
 
-/// What it takes of the restitution, over the approach speed in shear wave speeds, and by how much it
-/// lengthens the contact and lowers the peak force: condensed glass pairs and glass on a wall, at 1.5e-3
-/// to 1.5e-2, with forty modes and with none, within a factor of two.
-const LOSS: f64 = 0.05;
-const LENGTHENING: f64 = 0.4;
-const WEAKENING: f64 = 0.5;
+/// What it takes of the restitution, over the bodies' own speeds in shear wave speeds ([`own_mach`]): explicit
+/// elements against quasi-static bodies lose 0.06 to 0.1 of it on a wall at 0.3 to 20 %, twice that at 40 %.
+const LOSS: f64 = 0.1;
+/// By how much it lengthens the contact and lowers the peak force, over what a body deforms less than at rest
+/// ([`slowness`]): elastic balls on a wall at 0.3 to 40 % of the shear wave speed and pairs at 1.5 to 18 %, explicit
+/// elements or twelve modes against none, within a factor of 2.5.
+const LENGTHENING: f64 = 2.2;
+const WEAKENING: f64 = 5.0;
 /// What relaxation takes of the restitution makes inertia take more of it, by so many times that: spheres that relax to
 /// 0.1 to 3 % lose 0.0048, 0.0021, 0.0019 and 0.0023 of it between elements and none, where this has 0.0051, 0.0029, 0.0011
 /// and 0.0022.
 const OF_RELAXED: f64 = 2.0;
 /// The same of bodies that ring because their bulk waves are slow, over [`Estimate::softened_ringing`]: of the glass pair with
 /// ν = −0.99, elements against none.
+const RINGING_LOSS: f64 = 0.05;
 const RINGING_LENGTHENING: f64 = 0.035;
 const RINGING_WEAKENING: f64 = 0.25;
 
@@ -61,16 +65,18 @@ impl Effect for Vibration {
     }
 
     fn left_out(&self, scene: &Scene, estimate: &Estimate) -> Option<LeftOut> {
-        // No body is faster than its waves.
-        let mach = estimate.softened_mach.min(1.0);
+        let mach = own_mach(scene, estimate);
+        let slowness = slowness(scene, estimate);
         let ringing = estimate.softened_ringing;
         let lengths = LeftOut::shares(
             estimate,
-            LENGTHENING * mach + RINGING_LENGTHENING * ringing,
-            WEAKENING * mach + RINGING_WEAKENING * ringing,
+            LENGTHENING * slowness + RINGING_LENGTHENING * ringing,
+            WEAKENING * slowness + RINGING_WEAKENING * ringing,
         );
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
-        Some(LeftOut { restitution: Some(LOSS * (mach + ringing) * relaxed), ..lengths })
+        // Fronts take more of it, the faster the more.
+        let loss = LOSS * mach * (1.0 + mach) + RINGING_LOSS * ringing;
+        Some(LeftOut { restitution: Some(loss * relaxed), ..lengths })
     }
 
     fn after(&self, _: &Scene, estimate: &Estimate, collision: &Collision) -> Vec<String> {
@@ -120,7 +126,8 @@ impl Vibration {
     /// What such a model leaves open because of the speed.
     pub(crate) fn doubts_of_speed(estimate: &Estimate, n_asked: usize) -> Vec<String> {
         let mut warnings = Vec::new();
-        if estimate.softened_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES {
+        // Modes help only where nothing forms that they do not carry.
+        if Self::needs_modes(estimate, n_asked) && Self::beyond_modes(estimate).is_none() {
             warnings.push(format!(
                 "{} the inertia of the bodies counts: set model.condensed.vibration_modes = \
                  {ENOUGH_MODES}, or use model fem",
@@ -132,7 +139,7 @@ impl Vibration {
                 "bulk waves are so slow in a body of negative Poisson's ratio that it rings, and the contact so \
                  short that few modes do not follow: about {} of the restitution, {} of the contact time and {} of the \
                  peak force; use model fem",
-                percent(LOSS * estimate.softened_ringing),
+                percent(RINGING_LOSS * estimate.softened_ringing),
                 percent(RINGING_LENGTHENING * estimate.softened_ringing),
                 percent(RINGING_WEAKENING * estimate.softened_ringing)
             ));
@@ -146,6 +153,26 @@ impl Vibration {
         warnings
     }
 
+    fn needs_modes(estimate: &Estimate, n_asked: usize) -> bool {
+        estimate.softened_mach > QUASI_STATIC_LIMIT && n_asked < ENOUGH_MODES
+    }
+
+    /// Why a result with so many modes would advise more of them, or explicit elements
+    /// ([`Vibration::doubts_of_speed`]).
+    pub(crate) fn advises_another(estimate: &Estimate, n_asked: usize) -> Option<&'static str> {
+        let few = Self::needs_modes(estimate, n_asked).then_some("lacks vibration, which counts");
+        Self::beyond_modes(estimate).or(few)
+    }
+
+    /// Why no number of modes carries what inertia does in a scene, if none does.
+    fn beyond_modes(estimate: &Estimate) -> Option<&'static str> {
+        if estimate.softened_mach > MACH_LIMIT {
+            return Some("steep fronts form that no mode carries");
+        }
+        (estimate.softened_ringing > QUASI_STATIC_LIMIT)
+            .then_some("bulk waves are too slow for few modes")
+    }
+
     /// What a model of rigid bodies with one degree of freedom has of it.
     pub(crate) fn of_rigid_bodies(estimate: &Estimate) -> Answer {
         let warning = (estimate.softened_mach > MACH_LIMIT).then(|| {
@@ -156,4 +183,41 @@ impl Vibration {
         });
         Answer::is(false, "the bodies move as a whole: quasi-static contact").warning(warning)
     }
+}
+
+/// m*/m of each body that moves, m* the reduced mass: its part in the approach.
+fn parts<'a>(scene: &'a Scene, estimate: &'a Estimate) -> impl Iterator<Item = (&'a Body, f64)> {
+    let reduced = estimate.hertz.pair().effective_mass();
+    let part = move |body: &'a Body| Some((body, (reduced / body.mass()?).min(1.0)));
+    scene.bodies().iter().filter_map(part)
+}
+
+/// The speeds of the bodies in the frame of the mass centre over those of their shear waves, weighed by their kinetic
+/// energies; a body is no faster than its waves. Like bodies meet as each would a wall at half the speed.
+fn own_mach(scene: &Scene, estimate: &Estimate) -> f64 {
+    let own = |(body, part): (&Body, f64)| {
+        let waves = left_at(body.material()?, estimate.softened.after).shear_wave_speed();
+        Some(part * (part * estimate.hertz.approach_speed() / waves).min(1.0))
+    };
+    parts(scene, estimate).filter_map(own).sum()
+}
+
+/// How much later than its contact force a body deforms: modes of free vibration of frequencies ω and masses m follow a
+/// force F that lasts for T with
+///
+/// ```math
+/// q = \frac{F}{m\omega^2} - \frac{\ddot F}{m\omega^4} + \dots, \qquad
+/// \frac{\Delta\delta}\delta \sim \sum_b \frac{m^*}{m_b}\Bigl(\frac{D_b}{c_{s,b}T}\Bigr)^4,
+/// ```
+///
+/// since δ ~ F T²/m*, ω ~ c_s/D and F̈ ~ F/T², the first term being that of bodies at rest. With Hertz' contact time it grows
+/// as (v/c_s)^(4/5). Waves that do not come back within the contact do nothing to it.
+fn slowness(scene: &Scene, estimate: &Estimate) -> f64 {
+    let softened = &estimate.softened;
+    let of_body = |(body, part): (&Body, f64)| {
+        let waves = left_at(body.material()?, softened.after).shear_wave_speed();
+        let passage = body.diameter()? / (waves * softened.hertz.contact_time());
+        Some(part * passage.min(1.0).powi(4))
+    };
+    parts(scene, estimate).filter_map(of_body).sum()
 }

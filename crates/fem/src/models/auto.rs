@@ -4,15 +4,19 @@
 //! is estimated before anything is computed: what the effects are worth that the scene calls for and
 //! the model lacks ([`Effect::left_out`]), and what its own approximations are known to cost. Effects
 //! that no model has choose none; the plan warns of them.
+//! One that lacks what nothing foretells the worth of does not serve, nor one whose result would itself advise another.
 
-use fem_case::{CaseFile, CondensedOptions, EffectsTable, ModelChoice, Scene, Snapshots, Switch};
+use fem_case::{
+    Accuracy, CaseFile, CondensedOptions, EffectsTable, ModelChoice, Scene, Snapshots, Switch,
+};
+use fem_collision::Headline;
 use fem_laws::Ting;
 use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    Answer, Effect, FiniteSizeEffect, FiniteStrain, LeftOut, PartnerWaves, RADIATION_ERROR,
-    SECOND_ORDER, Vibration, Viscoelasticity,
+    Answer, Doubt, Effect, FiniteSizeEffect, FiniteStrain, PartnerWaves, RADIATION_ERROR, Standing,
+    Vibration, Viscoelasticity,
 };
 use crate::estimate::Estimate;
 use crate::flow;
@@ -54,6 +58,30 @@ fn left_open(scene: &Scene) -> Result<Scene, Refusal> {
     }
 }
 
+/// What a model is expected to be off by; magnitudes, `None` where nothing foretells it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ExpectedError {
+    /// Of the restitution.
+    pub restitution: Option<f64>,
+    /// Of the contact time, s.
+    pub contact_time_s: Option<f64>,
+    /// Of the peak force, N.
+    pub peak_force_n: Option<f64>,
+    /// Of the peak pressure, Pa.
+    pub peak_pressure_pa: Option<f64>,
+}
+
+impl From<&Doubt> for ExpectedError {
+    fn from(doubt: &Doubt) -> Self {
+        Self {
+            restitution: doubt.size(Headline::Restitution),
+            contact_time_s: doubt.size(Headline::ContactTime),
+            peak_force_n: doubt.size(Headline::PeakForce),
+            peak_pressure_pa: doubt.size(Headline::PeakPressure),
+        }
+    }
+}
+
 /// A model that was considered for a case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Considered {
@@ -62,7 +90,7 @@ pub struct Considered {
     /// Whether it computes the collision.
     pub chosen: bool,
     /// What it is expected to be off by.
-    pub error: LeftOut,
+    pub error: ExpectedError,
     /// Why it serves or does not.
     pub reason: String,
 }
@@ -158,7 +186,7 @@ const CANDIDATES: [Candidate; 6] = [
         lacks: &[&FiniteStrain, &PartnerWaves, &Vibration],
         has_fields: false,
         is_first_order: true,
-        own: [2e-4, 2e-4, 2e-4, 5e-3],
+        own: [2e-4, 2e-4, 2e-4, 1e-3],
     },
     Candidate {
         name: "condensed = {}",
@@ -189,10 +217,13 @@ const CANDIDATES: [Candidate; 6] = [
     },
 ];
 
+/// Share of the default tolerances down to which meshes are made as fine as a case asks.
+const FINEST: f64 = 0.05;
+
 /// What a candidate is expected to be off by.
 struct Judged {
-    error: LeftOut,
-    /// The worst of it, in tolerances.
+    error: ExpectedError,
+    /// The worst of it, in tolerances; infinite where it is not known.
     excess: f64,
     /// Whether it can be had at all.
     is_possible: bool,
@@ -213,56 +244,120 @@ impl Candidate {
     }
 
     fn judge(&self, scene: &Scene, estimate: &Estimate) -> Judged {
-        let sizes = &estimate.softened.sizes;
-        let scales = [1.0, sizes.contact_time, sizes.peak_force];
-        let second = if self.is_first_order { SECOND_ORDER * estimate.strain.powi(2) } else { 0.0 };
-        let [restitution, contact_time, peak_force, peak_pressure] = self.own;
-        let own = [restitution, contact_time + second, peak_force + second];
-        let mut error = Sum::default();
-        for ((sum, own), scale) in error.0.iter_mut().zip(own).zip(scales) {
-            *sum += own * scale;
-        }
-        let mut worst: Option<(&str, f64)> = None;
         let accuracy = scene.accuracy();
-        let share = |[restitution, contact_time, peak_force]: [f64; 3]| {
-            let force = peak_force / scales[2];
-            let shares = [
-                restitution / accuracy.restitution,
-                contact_time / scales[1] / accuracy.contact_time,
-                force / accuracy.peak_force,
-                // p₀³ ∝ F E*²: what changes the force changes the pressure by a third of it at least.
-                (peak_pressure + force / 3.0) / accuracy.peak_pressure,
-            ];
-            shares.into_iter().fold(0.0, f64::max)
-        };
-        let own_waves = self.own_waves(scene, estimate);
+        let mut error = self.own_error(scene, estimate);
+        let mut worst: Option<(&str, f64)> = None;
+        let mut unknown: Option<&str> = None;
         for effect in self.lacks {
             // What elements leave out, too, tells none from another.
             let is_small = effect.name() == FiniteStrain::NAME
                 && FiniteStrain::laws(scene, estimate) == [None; 2];
-            let Some(left_out) = effect.left_out(scene, estimate).filter(|_| !is_small) else {
+            if is_small {
+                continue;
+            }
+            let Some(change) = self.without(*effect, scene, estimate) else {
+                unknown = unknown.or(Some(effect.name()));
                 continue;
             };
-            let part = if effect.name() == PartnerWaves::NAME { own_waves } else { 1.0 };
-            let changes = Sum::of(&left_out, part);
-            error.add(changes);
-            let part = share(changes.0);
+            error = error.and(change);
+            let part = excess(&change, estimate, &accuracy);
             if worst.is_none_or(|(_, most)| part > most) {
                 worst = Some((effect.name(), part));
             }
         }
-        let excess = share(error.0);
+        let told = excess(&error, estimate, &accuracy);
         let impossible = self.impossible(scene, estimate);
-        let off = || format!("{excess:.2} times the tolerance");
-        let unfit = match (&impossible, excess > 1.0, worst) {
+        let off = || format!("{told:.2} times the tolerance");
+        let unfit = match (&impossible, unknown, told > 1.0, worst) {
             (Some(why), ..) => Some(why.clone()),
-            (None, true, Some((name, part))) if part > 0.5 * excess => {
+            (None, Some(name), ..) => {
+                Some(format!("lacks {name}: nothing foretells what that changes"))
+            }
+            (None, None, true, Some((name, part))) if part > 0.5 * told => {
                 Some(format!("lacks {name}: {}", off()))
             }
-            (None, true, _) => Some(format!("is off by {}", off())),
-            (None, false, _) => None,
+            (None, None, true, _) => Some(format!("is off by {}", off())),
+            (None, None, false, _) => None,
         };
-        Judged { error: error.left_out(), excess, is_possible: impossible.is_none(), unfit }
+        let unfit = unfit.or_else(|| self.called_out(estimate).map(str::to_string));
+        let (error, excess) = match unknown {
+            Some(_) => (Doubt::default(), f64::INFINITY),
+            None => (error, told),
+        };
+        Judged { error: (&error).into(), excess, is_possible: impossible.is_none(), unfit }
+    }
+
+    /// What its approximations cost.
+    fn own_error(&self, scene: &Scene, estimate: &Estimate) -> Doubt {
+        let sizes = &estimate.softened.sizes;
+        let accuracy = scene.accuracy();
+        let default = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
+        let is_made_finer = self.has_fields && scene.mesh().contact_element_size.is_none();
+        let own = |headline: Headline| {
+            let [restitution, contact_time, peak_force, peak_pressure] = self.own;
+            let (own, scale, asked, usual) = match headline {
+                Headline::Restitution => {
+                    (restitution, 1.0, accuracy.restitution, default.restitution)
+                }
+                Headline::ContactTime => {
+                    (contact_time, sizes.contact_time, accuracy.contact_time, default.contact_time)
+                }
+                Headline::PeakForce => {
+                    (peak_force, sizes.peak_force, accuracy.peak_force, default.peak_force)
+                }
+                Headline::PeakPressure => (
+                    peak_pressure,
+                    sizes.peak_pressure,
+                    accuracy.peak_pressure,
+                    default.peak_pressure,
+                ),
+                _ => return Some(0.0),
+            };
+            let share = asked / usual;
+            let is_followed = is_made_finer && (FINEST..1.0).contains(&share);
+            Some(own * scale * if is_followed { share } else { 1.0 })
+        };
+        let of_size = Standing { is_lacking: false, left_out: None };
+        let of_size = match self.is_first_order {
+            true => FiniteSizeEffect.doubt(scene, estimate, &of_size),
+            false => Doubt::NOTHING,
+        };
+        Doubt::by(own).and(of_size)
+    }
+
+    /// What leaving an effect out changes of it; `None` where that is called for and nothing tells.
+    fn without(&self, effect: &dyn Effect, scene: &Scene, estimate: &Estimate) -> Option<Doubt> {
+        let is_called_for = || effect.need(scene, estimate).is_some_and(|need| need.is_called_for);
+        let left_out = effect.left_out(scene, estimate);
+        let doubt = match &left_out {
+            None if is_called_for() => return None,
+            None => return Some(Doubt::NOTHING),
+            // A material's law is taken as it is given: by how much laws differ tells no model from another.
+            Some(left_out) if effect.name() == FiniteStrain::NAME => Doubt::of(left_out, estimate),
+            Some(_) => {
+                let standing = Standing { is_lacking: true, left_out };
+                effect.doubt(scene, estimate, &standing)
+            }
+        };
+        // A contact that does not end has no time to be off by.
+        let is_known = [Headline::Restitution, Headline::PeakForce]
+            .into_iter()
+            .all(|headline| doubt.size(headline).is_some());
+        let part = match effect.name() == PartnerWaves::NAME {
+            true => self.own_waves(scene, estimate),
+            false => 1.0,
+        };
+        is_known.then(|| doubt.told().times(part))
+    }
+
+    /// Why its result would itself advise another model, whatever the tolerance.
+    fn called_out(&self, estimate: &Estimate) -> Option<&'static str> {
+        match self.choice() {
+            ModelChoice::Condensed(options) => {
+                Vibration::advises_another(estimate, options.vibration_modes)
+            }
+            _ => None,
+        }
     }
 
     /// Share of what waves in a large partner take that it is off by.
@@ -322,32 +417,18 @@ impl Candidate {
     }
 }
 
-/// Restitution, contact time and peak force, in SI.
-#[derive(Clone, Copy, Default)]
-struct Sum([f64; 3]);
-
-impl Sum {
-    /// A share of what is left out.
-    fn of(left_out: &LeftOut, share: f64) -> Self {
-        let LeftOut { restitution, contact_time_s, peak_force_n } = *left_out;
-        let changes = [restitution, contact_time_s, peak_force_n];
-        Self(changes.map(|change| share * change.unwrap_or_default()))
-    }
-
-    fn add(&mut self, other: Self) {
-        for (sum, more) in self.0.iter_mut().zip(other.0) {
-            *sum += more;
-        }
-    }
-
-    fn left_out(self) -> LeftOut {
-        let [restitution, contact_time, peak_force] = self.0;
-        LeftOut {
-            restitution: Some(restitution),
-            contact_time_s: Some(contact_time),
-            peak_force_n: Some(peak_force),
-        }
-    }
+/// The largest error over the tolerance.
+fn excess(error: &Doubt, estimate: &Estimate, accuracy: &Accuracy) -> f64 {
+    let sizes = &estimate.softened.sizes;
+    let over = |headline: Headline, allowed: f64| error.size(headline).unwrap_or(0.0) / allowed;
+    [
+        over(Headline::Restitution, accuracy.restitution),
+        over(Headline::ContactTime, accuracy.contact_time * sizes.contact_time),
+        over(Headline::PeakForce, accuracy.peak_force * sizes.peak_force),
+        over(Headline::PeakPressure, accuracy.peak_pressure * sizes.peak_pressure),
+    ]
+    .into_iter()
+    .fold(0.0, f64::max)
 }
 
 /// Whether the case asks for snapshots or probes.

@@ -26,7 +26,7 @@ use bouncing::Bouncing;
 use simplified::Simplified;
 
 pub(crate) use auto::Chosen;
-pub use auto::{AutoMethod, Considered};
+pub use auto::{AutoMethod, Considered, ExpectedError};
 pub use condensed::{Condensed, CondensedMethod};
 pub use explicit::{Explicit, ExplicitMethod};
 pub use hertz::HertzMethod;

@@ -176,3 +176,28 @@ fn a_run_at_its_limit_goes_on_where_that_is_raised() {
     assert!(remedy_of(stop).unwrap().remedy.starts_with("raise limits.element_updates"));
     assert_eq!(run(GLASS, &mesh).1.stop(), None);
 }
+
+/// What makes a run too long or a mesh too fine is named, and not what happens to be near.
+#[test]
+fn a_setting_far_from_its_default_is_blamed_itself() {
+    for (key, value) in [
+        ("mesh.growth", "1.0000001"),
+        ("mesh.growth", "1.00001"),
+        ("time.step_factor", "1e-7"),
+        ("contact.penalty_factor", "1e-300"),
+        ("contact.penalty_factor", "1e-200"),
+        ("contact.penalty_factor", "1e300"),
+    ] {
+        let set = [format!("{key}={value}")];
+        let case = fem::Case::parse(
+            "glass.toml",
+            include_str!("../../../../cases/glass_0.5ms.toml"),
+            std::path::Path::new("."),
+            &set,
+        );
+        let error = fem::Simulation::new(case.unwrap()).unwrap_err().to_string();
+        assert!(error.contains(key), "{key}={value}: {error}");
+        let is_to_go = ["leave it out".to_string(), format!("leave out {key}")];
+        assert!(is_to_go.iter().any(|words| error.contains(words)), "{key}={value}: {error}");
+    }
+}

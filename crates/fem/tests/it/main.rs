@@ -21,6 +21,7 @@ mod front_door;
 mod gravity;
 mod guards;
 mod half_space;
+mod inertia;
 mod laws;
 mod left_out;
 mod measured;
