@@ -75,10 +75,11 @@ const SCATTER_AT_FINITE_STRAIN: [f64; 6] = [2e-5, 2e-4, 2e-4, 5e-5, 1e-3, 1e-3];
 /// The same of condensed bodies: steps, and the place of the contact's edge.
 const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 2e-4, 1.5e-4, 3e-3, 1e-3];
 /// What both grow by where elements are few, times the square of h/a: where the edge of the contact lies between
-/// nodes shows in radius and pressure.
-const OF_FEW: [f64; 6] = [1.6e-3, 0.0, 4e-3, 0.013, 0.05, 0.056];
-/// The same at finite strain.
-const OF_FEW_AT_FINITE_STRAIN: [f64; 6] = [1.6e-3, 0.02, 0.02, 0.013, 0.05, 0.056];
+/// nodes shows in radius and pressure. Of the contact time of four in 54 random scenes 0.03 to 0.08 % were missing at
+/// four elements, all of the same sign.
+const OF_FEW: [f64; 6] = [1.6e-3, 0.015, 4e-3, 0.013, 0.05, 0.056];
+/// The same at finite strain. Of two balls that relax the pressure was off by 1.1 and 1.4 times what 0.056 told.
+const OF_FEW_AT_FINITE_STRAIN: [f64; 6] = [1.6e-3, 0.02, 0.02, 0.013, 0.05, 0.1];
 const OF_FEW_CONDENSED: [f64; 6] = [1e-3, 0.01, 0.012, 0.008, 0.3, 0.1];
 /// Over the shear wave speed the speed of an impact of which condensed bodies tell what meshes do: rubber on a
 /// wall at twice that is off by 1.4 % of the contact time where they find 0.3 %.
