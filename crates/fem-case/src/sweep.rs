@@ -226,13 +226,7 @@ impl Sweep {
     }
 
     /// The error of a member that points into the base case, pointed at an element.
-    pub(crate) fn blame(
-        &self,
-        axis: usize,
-        element: usize,
-        member: usize,
-        error: &CaseError,
-    ) -> CaseError {
+    fn blame(&self, axis: usize, element: usize, member: usize, error: &CaseError) -> CaseError {
         let place = match (error.line(), error.column()) {
             (Some(line), Some(column)) => format!("{}:{line}:{column}", error.source_name()),
             _ => error.source_name().to_string(),

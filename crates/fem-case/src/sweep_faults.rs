@@ -28,13 +28,6 @@ pub(crate) fn first_of(mut faults: Vec<CaseError>) -> Option<CaseError> {
     Some(faults.pop()?.with_others(others))
 }
 
-/// A fault and those beside it, each alone.
-fn each(fault: Option<CaseError>) -> Vec<CaseError> {
-    let Some(mut fault) = fault else { return Vec::new() };
-    let others = fault.take_others();
-    std::iter::once(fault).chain(others).collect()
-}
-
 /// The sweep file of a tree; what is wrong with a key is told, and the key left out.
 pub(crate) fn read_file(
     document: &Document,
@@ -94,11 +87,7 @@ impl Sweep {
     ) -> CaseError {
         let attempt = |choice: &[(usize, usize)]| self.case(choice).and_then(&make).err();
         let points_here = |error: &CaseError| error.source_name() == self.name();
-        let of_base = each(attempt(&[]));
-        if !of_base.is_empty() {
-            return self.beside_those_of_the_base(first, &of_base, attempt);
-        }
-        if !points_here(&first) {
+        if !points_here(&first) || attempt(&[]).is_some() {
             return first;
         }
         let tried = |axis: usize| 0..self.axes[axis].elements.len().min(MOST_TRIED);
@@ -138,47 +127,11 @@ impl Sweep {
         first_of(faults).unwrap_or(first)
     }
 
-    /// The faults of the base case that its values do not mend, and those that each value adds to them.
-    fn beside_those_of_the_base(
-        &self,
-        first: CaseError,
-        of_base: &[CaseError],
-        attempt: impl Fn(&[(usize, usize)]) -> Option<CaseError>,
-    ) -> CaseError {
-        let beginning: Vec<_> = (0..self.axes.len()).map(|axis| (axis, 0)).collect();
-        let of_member = each(attempt(&beginning));
-        let stay = of_base.iter().filter(|fault| of_member.contains(fault)).cloned();
-        let mut faults: Vec<CaseError> = Vec::new();
-        for (axis, elements) in self.axes.iter().map(|axis| axis.elements.len()).enumerate() {
-            for element in 0..elements.min(MOST_TRIED) {
-                if faults.len() > MOST_FAULTS {
-                    break;
-                }
-                let added = each(attempt(&[(axis, element)]));
-                let added = added.into_iter().filter(|fault| !of_base.contains(fault));
-                let mut whole = vec![0; self.axes.len()];
-                whole[axis] = element;
-                let member = self.member_of(&whole).unwrap_or(element);
-                faults.extend(added.map(|fault| match fault.source_name() == self.name() {
-                    true => fault,
-                    false => self.blame(axis, element, member, &fault),
-                }));
-            }
-        }
-        let of_values = first_of(faults).into_iter().flat_map(|fault| each(Some(fault)));
-        let mut all = stay.chain(of_values);
-        match all.next() {
-            Some(head) => head.with_others(all.take(MOST_FAULTS).collect()),
-            None => first,
-        }
-    }
-
     /// The member with these elements, where all are combined with all.
     fn member_of(&self, choice: &[usize]) -> Option<usize> {
         let digit = |member: usize, (axis, element): (usize, &usize)| {
             member * self.axes[axis].elements.len() + element
         };
-        let is_any = !choice.is_empty() && self.combine == Combine::All;
-        is_any.then(|| choice.iter().enumerate().fold(0, digit))
+        (!choice.is_empty()).then(|| choice.iter().enumerate().fold(0, digit))
     }
 }

@@ -204,26 +204,6 @@ fn all_faults_of_a_sweep_file_are_told_at_once() {
     assert_eq!(found, ["3:9", "4:35", "5:1"], "{stderr}");
 }
 
-/// Faults of the base case hide none of the values, and what a value mends is none.
-#[test]
-fn faults_of_the_base_case_and_of_values_are_told_together() {
-    let place = Place::with(&crate::common::CASE.replace("63 GPa", "63 Gpa"));
-    let values = "body.0.approach_speed = [1, '2 kg']\n'body.0.sphere.diametre' = [1]";
-    place.write("sweep.toml", &vary(values));
-    let ran = place.run(&["sweep", "sweep.toml"]);
-    for expected in
-        ["error: case.toml:5:18: ", "error: sweep.toml:3:29: ", "error: sweep.toml:4:16: "]
-    {
-        assert!(ran.stderr.contains(expected), "{expected}: {}", ran.stderr);
-    }
-    assert_eq!(ran.stderr.matches("error: ").count(), 3, "{}", ran.stderr);
-    let mended = "material.glass.youngs_modulus = ['63 GPa']\nbody.0.approach_speed = ['2 kg']";
-    place.write("sweep.toml", &vary(mended));
-    let ran = place.run(&["sweep", "sweep.toml"]);
-    assert!(ran.stderr.starts_with("error: sweep.toml:4:"), "{}", ran.stderr);
-    assert_eq!(ran.stderr.matches("error: ").count(), 1, "{}", ran.stderr);
-}
-
 /// What members warn of is told once, with how many and the first, and where nothing else is.
 #[test]
 fn warnings_of_members_are_told_once() {
