@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use fem_collision::{Collision, LARGEST_RESIDUAL};
+use fem_collision::{Collision, LARGEST_RESIDUAL, Stop};
 use fem_mesh::SphereMesh;
 
 use crate::early_pressure::EarlyPressure;
@@ -85,7 +85,15 @@ fn incomplete(collision: &Collision) -> Option<String> {
     Some(format!("the run is not complete: {stop}; maxima are those so far"))
 }
 
+/// Nothing of a run that ended for what its energy or its motion was: the stop has cause and remedy.
 fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
+    use Stop::{EnergyGrowth, EnergyImbalance, NoNumber, StabilityLost};
+    if let Some(
+        EnergyGrowth { .. } | EnergyImbalance { .. } | NoNumber { .. } | StabilityLost { .. },
+    ) = collision.stop()
+    {
+        return None;
+    }
     let residual = collision.residual_relative?;
     // A residual that is no number is above every limit.
     let is_sound = residual <= LARGEST_RESIDUAL;

@@ -33,7 +33,7 @@ pub struct Spent {
 
 impl Summary {
     /// Sums up a collision. `warnings` and `files` are those so far; numbers that are not finite
-    /// become `None` and another warning.
+    /// become `None`, and are told in one more warning.
     pub fn of(
         simulation: &Simulation,
         collision: &Collision,
@@ -41,7 +41,7 @@ impl Summary {
         warnings: Vec<String>,
         files: Vec<String>,
     ) -> Self {
-        let mut numbers = Numbers { warnings };
+        let mut numbers = Numbers { not_finite: Vec::new() };
         let updates = collision.element_updates.filter(|updates| *updates > 0);
         let quantities = quantities(collision, &mut numbers);
         let effects = effects(simulation, collision);
@@ -84,7 +84,7 @@ impl Summary {
             made_from: simulation.made_from(&collision.approach),
             files,
             case: simulation.resolved_at(&collision.approach),
-            warnings: numbers.warnings,
+            warnings: warnings.into_iter().chain(numbers.warning()).collect(),
         }
     }
 }
@@ -115,13 +115,20 @@ fn radius_and_pressure(effects: &[EffectSummary]) -> &'static str {
 
 /// Keeps numbers that are not finite out of the summary.
 struct Numbers {
-    warnings: Vec<String>,
+    /// Their keys.
+    not_finite: Vec<String>,
 }
 
 impl Numbers {
+    /// All of them have one cause, and are told together.
+    fn warning(self) -> Option<String> {
+        let keys = self.not_finite.join(", ");
+        (!keys.is_empty()).then(|| format!("not finite, and left out: {keys}"))
+    }
+
     fn finite(&mut self, key: &str, value: f64) -> Option<f64> {
         if !value.is_finite() {
-            self.warnings.push(format!("{key} is {value}, no number; it is left out"));
+            self.not_finite.push(key.to_string());
         }
         value.is_finite().then_some(value)
     }

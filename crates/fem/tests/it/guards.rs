@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::{Case, Collision, Simulation, Stop, assess, remedy_of};
-use fem_collision::Moment;
+use fem_collision::{Ending, Moment};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
@@ -200,4 +200,26 @@ fn a_setting_far_from_its_default_is_blamed_itself() {
         let is_to_go = ["leave it out".to_string(), format!("leave out {key}")];
         assert!(is_to_go.iter().any(|words| error.contains(words)), "{key}={value}: {error}");
     }
+}
+
+/// Motion that is no number is why a run ends; what follows from it is no news, and told once.
+#[test]
+fn what_ended_a_run_is_told_once() {
+    let (simulation, mut collision) = run(GLASS, &["model={ condensed = {} }"]);
+    collision.ending = Ending::Stopped(Stop::NoNumber {
+        time: 1e-5,
+        step: 7,
+        body: 0,
+        node: 3,
+        place: [0.0, 0.0],
+    });
+    collision.residual_relative = Some(f64::NAN);
+    collision.momentum_residual_relative = Some(f64::NAN);
+    let warnings = simulation.summary(&collision).warnings;
+    let of = |word: &str| warnings.iter().filter(|text| text.contains(word)).count();
+    assert_eq!(
+        (of("no number"), of("add up"), of("NaN"), of("not finite")),
+        (1, 0, 0, 1),
+        "{warnings:?}"
+    );
 }
