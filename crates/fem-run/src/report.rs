@@ -5,7 +5,7 @@ use std::path::Path;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::effects::{LeftOut, Verdict};
-use fem::results::{BodySummary, Quantities, Summary};
+use fem::results::{BodySummary, Summary};
 use fem::{Considered, ExpectedError};
 use fem_case::engineering::{Unit, number, show};
 use fem_collision::{Headline, Shown, Side};
@@ -14,7 +14,7 @@ use indicatif::{DecimalBytes, HumanCount};
 use crate::bounces::bounces;
 use crate::standard_output::one_line;
 use crate::tables::table;
-use crate::uncertainty::may_be_off_by;
+use crate::uncertainty::{columns, legend};
 
 /// Shown for a number that there is not.
 const NONE: &str = "-";
@@ -30,11 +30,10 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     if let Some(reason) = &summary.stopped_because {
         let _ = writeln!(text, "INCOMPLETE: {reason}\n");
     }
-    text += &quantities(&summary.collision, &summary.hertz);
+    text += &quantities(summary);
     if let Some(deficit) = elastic_deficit(summary.collision.restitution) {
         let _ = writeln!(text, "\n1 - restitution  {deficit}");
     }
-    let _ = writeln!(text, "\n{}", may_be_off_by(&summary.uncertainty));
     if summary.contact_episodes > 1 {
         let _ = writeln!(
             text,
@@ -63,28 +62,32 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     text
 }
 
-fn quantities(ours: &Quantities, hertz: &Quantities) -> String {
-    let mut rows = vec![["", "this run", "Hertz", "ratio"].map(String::from)];
-    let mut row = |name: &str, unit: &str, ours: Option<f64>, hertz: Option<f64>| {
-        let shown = Unit::fitting(hertz.or(ours).unwrap_or_default(), unit);
-        let number = |value: Option<f64>| value.map_or(NONE.into(), |value| shown.show(value));
-        let ratio = ours.zip(hertz).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
-        rows.push([name.into(), number(ours), number(hertz), ratio]);
+/// Each quantity with what it may be off by, beside Hertz.
+fn quantities(summary: &Summary) -> String {
+    let (ours, hertz) = (&summary.collision, &summary.hertz);
+    let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
+    let own = if has_elements { "± mesh" } else { "± numerics" };
+    let header = ["", "this run", own, "± left out", "Hertz", "ratio"].map(String::from);
+    let row = |headline: Headline| {
+        let (value, theirs) = (ours.number(headline), hertz.number(headline));
+        let has_unit = headline != Headline::Restitution;
+        let unit =
+            has_unit.then(|| Unit::fitting(theirs.or(value).unwrap_or_default(), headline.unit()));
+        let shown = |value: Option<f64>| match (value, &unit) {
+            (None, _) => NONE.into(),
+            (Some(value), Some(unit)) => unit.show(value),
+            (Some(value), None) => format!("{value:.4}"),
+        };
+        let parts = summary.uncertainty.parts(headline);
+        let errors = value.map(|value| columns(value, &parts, unit.as_ref()));
+        let [mesh, left_out] = errors.unwrap_or([NONE, NONE].map(String::from));
+        let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
+        [headline.name().into(), shown(value), mesh, left_out, shown(theirs), ratio]
     };
-    // The restitution, the first of them, has no unit and stands above.
-    for headline in Headline::ALL.into_iter().skip(1) {
-        let (name, unit) = (headline.name(), headline.unit());
-        row(name, unit, ours.number(headline), hertz.number(headline));
-    }
-    let restitution = |value: Option<f64>| value.map_or(NONE.into(), |value| format!("{value:.4}"));
-    let first = [
-        "restitution".to_string(),
-        restitution(ours.restitution),
-        restitution(hertz.restitution),
-        restitution(ours.restitution),
-    ];
-    rows.insert(1, first);
-    table(&[Left, Right, Right, Right], rows)
+    let rows = std::iter::once(header).chain(Headline::ALL.map(row));
+    let table = table(&[Left, Right, Right, Right, Right, Right], rows);
+    let legend = legend(own, &table);
+    format!("{table}\n{legend}\n")
 }
 
 fn elastic_deficit(restitution: Option<f64>) -> Option<String> {

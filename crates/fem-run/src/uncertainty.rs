@@ -1,70 +1,54 @@
-//! By how much a result may be off, on one line.
+//! By how much a number may be off, in two columns beside it.
 
-use fem::results::UncertaintySummary;
+use fem::results::Parts;
 use fem_case::engineering::{Unit, number};
-use fem_collision::Headline;
 
 /// Shown for what nothing tells.
 const UNTOLD: &str = "?";
 
-/// "may be off by  restitution 1.9e-4, contact time 0.28 µs, …": of each quantity both parts together, and more
-/// than what is known where not all is.
-pub fn may_be_off_by(uncertainty: &UncertaintySummary) -> String {
-    let size = |headline: Headline| {
-        let unit = headline.unit();
-        let parts = uncertainty.parts(headline);
-        let size = match (parts.sum(), parts.known().filter(|known| *known > 0.0)) {
-            (Some(sum), _) => sized(sum, unit),
-            (None, Some(known)) => format!("> {}", sized(known, unit)),
-            (None, None) => UNTOLD.to_string(),
-        };
-        format!("{} {size}", headline.name().trim_start_matches("largest "))
-    };
-    let sizes = Headline::ALL.map(size);
-    let is_partial = sizes.iter().any(|size| size.contains("> "));
+/// Errors below this share of the number are what rounding does.
+const ROUNDING: f64 = 1e-9;
+
+/// What the columns are, for the line below the table; `own` names the first.
+pub fn legend(own: &str, cells: &str) -> String {
+    let untold = if cells.contains(UNTOLD) { "; ?: not known" } else { "" };
+    let partly = if cells.contains("> ") { "; >: at least" } else { "" };
     format!(
-        "may be off by  {} (mesh and effects left out{})",
-        sizes.join(", "),
-        if is_partial { "; >: a part of it is not known" } else { "" }
+        "{own}: from what its equations say; ± left out: by effects that it lacks{untold}{partly}"
     )
 }
 
-/// Two digits.
-fn sized(size: f64, unit: &str) -> String {
-    match (size, unit) {
-        (0.0, _) => "0".to_string(),
-        (_, "") => number(size, 2),
-        _ => Unit::fitting(size, unit).with_digits(2).show(size),
-    }
+/// What `value` may be off by because of the discretisation, and of effects that the model lacks: in `unit`, or
+/// plain for a number that has none. Two digits.
+pub fn columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 2] {
+    let sized = |size: f64| match unit {
+        _ if size <= ROUNDING * value.abs() => "0".to_string(),
+        Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
+        None => number(size, 2),
+    };
+    let left_out = match (parts.model, parts.model_at_least) {
+        (Some(size), _) => sized(size),
+        (None, Some(known)) => format!("> {}", sized(known)),
+        (None, None) => UNTOLD.to_string(),
+    };
+    [parts.discretisation.map_or(UNTOLD.into(), sized), left_out]
 }
 
 #[cfg(test)]
 mod tests {
-    use fem::results::Parts;
-
     use super::*;
 
-    fn parts(discretisation: Option<f64>, model: Option<f64>) -> Parts {
-        Parts { discretisation, model, model_at_least: None }
-    }
-
     #[test]
-    fn a_line_adds_what_is_told() {
-        let uncertainty = UncertaintySummary::by(|headline| match headline {
-            Headline::Restitution => parts(Some(0.0), Some(1.9e-4)),
-            Headline::ContactTime => parts(Some(2e-6), Some(2e-6)),
-            Headline::PeakForce => parts(Some(0.0), Some(0.0)),
-            Headline::MaxApproach => parts(Some(0.0), None),
-            Headline::MaxContactRadius => parts(None, Some(2.5e-6)),
-            Headline::PeakPressure => {
-                Parts { model_at_least: Some(1e-6), ..parts(Some(2.5e-6), None) }
-            }
-        });
-        assert_eq!(
-            may_be_off_by(&uncertainty),
-            "may be off by  restitution 1.9e-4, contact time 4.0 µs, peak force 0, approach ?, \
-             contact radius > 2.5 µm, peak pressure > 3.5 µPa (mesh and effects left out; >: a part of it is \
-             not known)"
-        );
+    fn what_is_not_known_is_said() {
+        let of = |discretisation, model, model_at_least| {
+            let parts = Parts { discretisation, model, model_at_least };
+            columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
+        };
+        assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs"]);
+        assert_eq!(of(Some(1e-17), None, Some(2e-7)), ["0", "> 0.2 µs"]);
+        assert_eq!(of(None, None, None), ["?", "?"]);
+        let plain = Parts { discretisation: Some(1.94e-4), model: Some(0.0), model_at_least: None };
+        assert_eq!(columns(1.0, &plain, None), ["1.9e-4", "0"]);
+        assert!(legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("lacks; >: at least"));
     }
 }
