@@ -184,6 +184,20 @@ impl Case {
         )
     }
 
+    /// All faults of a text with insertions, each alone; `insertions` makes them anew for each reading.
+    pub(crate) fn faults_with<'i>(
+        (name, text): (&str, &str),
+        folder: &Path,
+        overrides: &[String],
+        insertions: impl Fn() -> Insertions<'i, 'i>,
+    ) -> Vec<CaseError> {
+        let read = |repairs: &[Repair]| {
+            let document = Document::parse(name, text, overrides, Some(insertions()), repairs);
+            document.and_then(|document| Case::of_document(document, name, folder)).err()
+        };
+        read(&[]).map_or_else(Vec::new, |first| faults::all(first, read).each().collect())
+    }
+
     fn of_document(
         (document, tree): (Document, Spanned<DeTable<'_>>),
         stem: &str,

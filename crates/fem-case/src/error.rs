@@ -74,6 +74,12 @@ impl CaseError {
         self
     }
 
+    /// This fault and those beside it, each alone.
+    pub(crate) fn each(mut self) -> impl Iterator<Item = CaseError> {
+        let others = self.take_others();
+        std::iter::once(self).chain(others)
+    }
+
     /// The key that wants another value: the one that it is about, or that is missing there.
     pub(crate) fn wanted(&self) -> Option<String> {
         match (&self.key, &self.more.missing) {

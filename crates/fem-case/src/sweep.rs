@@ -225,8 +225,27 @@ impl Sweep {
         Case::build(name, &stem, text, folder, overrides, insertions)
     }
 
+    /// All faults of the base case with these elements of these axes, each alone.
+    pub(crate) fn faults(&self, choice: &[(usize, usize)]) -> Vec<CaseError> {
+        let assign =
+            |(axis, element): &(usize, usize)| self.axes[*axis].assignments(*element, &self.text);
+        let Base { path, name, text, overrides } = &self.base;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Case::faults_with((name, text), folder, overrides, || Insertions {
+            name: &self.name,
+            text: &self.text,
+            assignments: choice.iter().flat_map(assign).collect(),
+        })
+    }
+
     /// The error of a member that points into the base case, pointed at an element.
-    fn blame(&self, axis: usize, element: usize, member: usize, error: &CaseError) -> CaseError {
+    pub(crate) fn blame(
+        &self,
+        axis: usize,
+        element: usize,
+        member: usize,
+        error: &CaseError,
+    ) -> CaseError {
         let place = match (error.line(), error.column()) {
             (Some(line), Some(column)) => format!("{}:{line}:{column}", error.source_name()),
             _ => error.source_name().to_string(),

@@ -87,6 +87,10 @@ impl Sweep {
     ) -> CaseError {
         let attempt = |choice: &[(usize, usize)]| self.case(choice).and_then(&make).err();
         let points_here = |error: &CaseError| error.source_name() == self.name();
+        let of_base = self.faults(&[]);
+        if !of_base.is_empty() {
+            return self.beside_those_of_the_base(first, &of_base);
+        }
         if !points_here(&first) || attempt(&[]).is_some() {
             return first;
         }
@@ -127,11 +131,46 @@ impl Sweep {
         first_of(faults).unwrap_or(first)
     }
 
+    /// The faults of the base case that its values do not mend, and those that each value adds to them.
+    fn beside_those_of_the_base(&self, first: CaseError, of_base: &[CaseError]) -> CaseError {
+        let beginning: Vec<_> = (0..self.axes.len()).map(|axis| (axis, 0)).collect();
+        let of_member = self.faults(&beginning);
+        let stay = of_base.iter().filter(|fault| of_member.contains(fault)).cloned();
+        let mut faults: Vec<CaseError> = Vec::new();
+        for (axis, elements) in self.axes.iter().map(|axis| axis.elements.len()).enumerate() {
+            for element in 0..elements.min(MOST_TRIED) {
+                if faults.len() > MOST_FAULTS {
+                    break;
+                }
+                let added = self.faults(&[(axis, element)]);
+                let added = added.into_iter().filter(|fault| !of_base.contains(fault));
+                let mut whole = vec![0; self.axes.len()];
+                whole[axis] = element;
+                let member = self.member_of(&whole).unwrap_or(element);
+                faults.extend(added.map(|fault| match fault.source_name() == self.name() {
+                    true => fault,
+                    false => self.blame(axis, element, member, &fault),
+                }));
+            }
+        }
+        let of_values = first_of(faults).into_iter().flat_map(CaseError::each);
+        let mut all: Vec<CaseError> = stay.chain(of_values).collect();
+        // What only the making of a member refuses is in none of these.
+        let place = |fault: &CaseError| (fault.source_name().to_string(), fault.span());
+        if !all.iter().any(|fault| place(fault) == place(&first)) {
+            all.insert(0, first);
+        }
+        all.truncate(MOST_FAULTS);
+        let head = all.remove(0);
+        head.with_others(all)
+    }
+
     /// The member with these elements, where all are combined with all.
     fn member_of(&self, choice: &[usize]) -> Option<usize> {
         let digit = |member: usize, (axis, element): (usize, &usize)| {
             member * self.axes[axis].elements.len() + element
         };
-        (!choice.is_empty()).then(|| choice.iter().enumerate().fold(0, digit))
+        let is_any = !choice.is_empty() && self.combine == Combine::All;
+        is_any.then(|| choice.iter().enumerate().fold(0, digit))
     }
 }

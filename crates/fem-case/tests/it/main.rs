@@ -5,3 +5,4 @@ mod in_code;
 mod library;
 mod overrides;
 mod round_trip;
+mod sweep_faults;
