@@ -5,6 +5,7 @@ mod bad_input;
 mod bounces;
 mod calibrate;
 mod common;
+mod disturbed;
 mod first_minutes;
 mod fit;
 mod foretold;

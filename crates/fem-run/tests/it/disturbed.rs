@@ -1,0 +1,130 @@
+//! A run that goes on from a motion that is none of its own: it stops at once, and says when, where and why.
+
+use fem::{Identity, Memory, checkpoint, memory_of};
+use serde_json::Value;
+
+use crate::common::Place;
+
+const RESTART_FILE: &str = "fem-run.restart";
+
+/// At small strain without mass at the contact, with springs, and at finite strain.
+const SCENES: [(&str, &[&str]); 3] = [
+    ("small strain", &["--set", "mesh.contact_element_size='0.1 mm'"]),
+    (
+        "springs",
+        &["--set", "mesh.contact_element_size='0.1 mm'", "--set", "contact.method='penalty'"],
+    ),
+    (
+        "finite strain",
+        &[
+            "--set",
+            "effects.finite_strain='on'",
+            "--set",
+            "body.0.approach_speed=20",
+            "--set",
+            "mesh.contact_element_size='0.4 mm'",
+        ],
+    ),
+];
+
+/// The memory that a run of this scene leaves when it is killed, and what it is of.
+fn left_in(place: &Place, set: &[&str]) -> (Memory, Identity) {
+    let mut bytes = Vec::new();
+    // Of a run that is over soon the file may be there too shortly to be read.
+    for _ in 0..100 {
+        let keep = ["case.toml", "--out", "out", "--checkpoint-every", "0", "--quiet"];
+        let mut run = place.command(&[&keep[..], set].concat()).spawn().unwrap();
+        while bytes.is_empty() && run.try_wait().unwrap().is_none() {
+            bytes = std::fs::read(place.path("out").join(RESTART_FILE)).unwrap_or_default();
+        }
+        let _ = run.kill();
+        run.wait().unwrap();
+        let _ = std::fs::remove_dir_all(place.path("out"));
+        if !bytes.is_empty() {
+            break;
+        }
+    }
+    let line = bytes.iter().position(|byte| *byte == b'\n').expect("a restart file");
+    let head: Value = serde_json::from_slice(&bytes[..line]).unwrap();
+    let text = |key: &str| head[key].as_str().unwrap().to_string();
+    let identity = Identity { case: text("case"), result: text("result") };
+    (memory_of(&bytes, &identity).unwrap(), identity)
+}
+
+/// Velocities of the lower body in a memory, as they follow each other in its bytes.
+fn velocities(memory: &Memory) -> Vec<f64> {
+    let memory = serde_json::to_value(memory).unwrap();
+    let list = memory["contact"]["state"]["bodies"][0]["velocity"].as_array().unwrap();
+    list.iter().flat_map(|v| v.as_array().unwrap()).map(|v| v.as_f64().unwrap()).collect()
+}
+
+/// A memory with other velocities of the lower body; a number that is none can be in its bytes alone.
+fn with(memory: &Memory, change: impl Fn(usize, f64) -> f64) -> Memory {
+    let mut bytes = postcard::to_stdvec(memory).unwrap();
+    let old = velocities(memory);
+    let as_bytes = |values: &[f64]| -> Vec<u8> {
+        values.iter().flat_map(|value| value.to_le_bytes()).collect()
+    };
+    let there = as_bytes(&old);
+    let at = bytes.windows(there.len()).position(|window| window == there).unwrap();
+    let new: Vec<f64> = old.iter().enumerate().map(|(k, v)| change(k, *v)).collect();
+    bytes[at..at + there.len()].copy_from_slice(&as_bytes(&new));
+    postcard::from_bytes(&bytes).unwrap()
+}
+
+/// Goes on from a memory; what the run says, and its summary.
+fn gone_on(place: &Place, set: &[&str], memory: &Memory, identity: &Identity) -> (String, Value) {
+    let _ = std::fs::remove_dir_all(place.path("out"));
+    std::fs::create_dir(place.path("out")).unwrap();
+    std::fs::write(place.path("out").join(RESTART_FILE), checkpoint(identity, memory)).unwrap();
+    let ran = place.run(&[&["case.toml", "--out", "out", "--restart"][..], set].concat());
+    assert!(ran.stderr.contains("going on from step"), "{}", ran.stderr);
+    let summary = place.json("out/summary.json");
+    assert_eq!(ran.code, Some(if summary["complete"] == true { 0 } else { 1 }), "{}", ran.stderr);
+    (ran.stderr, summary)
+}
+
+/// The number behind "step" in the words of a stop.
+fn step_of(stopped: &str) -> u64 {
+    let number = stopped.split("(step ").nth(1).and_then(|rest| rest.split(')').next());
+    number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{stopped}"))
+}
+
+#[test]
+fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
+    for (name, set) in SCENES {
+        let place = Place::new();
+        let (memory, identity) = left_in(&place, set);
+        // So the others stop for what is done to them.
+        let (stderr, summary) = gone_on(&place, set, &with(&memory, |_, v| v), &identity);
+        assert_eq!(summary["complete"], true, "{name}: {stderr}");
+        let whole = summary["steps"].as_u64().unwrap();
+        let faults: [(&str, &dyn Fn(usize, f64) -> f64); 3] = [
+            ("times the initial: the time integration is unstable", &|_, v| 1.5 * v),
+            ("is no number", &|k, v| if k == 41 { f64::NAN } else { v }),
+            ("is no number", &|k, v| if k == 40 { f64::INFINITY } else { v }),
+        ];
+        for (cause, change) in faults {
+            let (stderr, summary) = gone_on(&place, set, &with(&memory, change), &identity);
+            let stopped = summary["stopped_because"].as_str().unwrap_or_else(|| panic!("{name}"));
+            for word in [cause, "at ", "node ", "of the lower body", " it lies at r = "] {
+                assert!(stopped.contains(word), "{name}: no “{word}” in {stopped}");
+            }
+            assert!(stderr.contains("at ") && stderr.contains("lower body"), "{name}: {stderr}");
+            assert!(stderr.contains("help: "), "{name}, no remedy: {stderr}");
+            // Within some hundredths of the collision, since energies are looked at now and then.
+            let after = step_of(stopped) - memory.step();
+            assert!(after <= 16 + whole / 30, "{name}: {after} steps later of {whole}: {stopped}");
+            // What there was of the run is kept, with the last state that was sound.
+            for key in ["restitution", "contact_time_s"] {
+                assert!(summary[key].is_null(), "{name}: {key} = {}", summary[key]);
+            }
+            let files = place.list("out");
+            let ends = |end: &str| files.iter().any(|file| file.ends_with(end));
+            assert!(ends("history.csv") && ends(".pvd"), "{name}: {files:?}");
+            assert!(ends("last-sound.vtu") && ends("last-sound.svg"), "{name}: {files:?}");
+            let history = String::from_utf8(place.read("out/history.csv")).unwrap();
+            assert!(!history.contains("NaN") && !history.contains("inf"), "{name}: {history}");
+        }
+    }
+}
