@@ -13,7 +13,7 @@ use crate::commands::{Command, run};
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 
-/// Computes the collision of two viscoelastic spheres, or of a sphere and a rigid wall.
+/// Computes the collision of two viscoelastic spheres, or of a sphere and a wall or a block.
 ///
 /// Prints the result beside Hertz' closed form and writes summary.json, history.csv and ParaView
 /// files into a folder.

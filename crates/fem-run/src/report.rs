@@ -49,7 +49,7 @@ pub fn report(summary: &Summary, place: Option<&Path>) -> String {
     let _ = writeln!(text, "{}", bodies(&summary.bodies));
     text += &balances(summary);
     if let Some(considered) = &summary.models_considered {
-        let _ = writeln!(text, "\nModels, and what they are off by\n{}", models(considered));
+        let _ = write!(text, "\nModels, and what they are off by\n{}", models(considered));
     }
     let _ = writeln!(
         text,

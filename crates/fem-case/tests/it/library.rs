@@ -64,6 +64,15 @@ fn materials_are_solids_and_say_where_they_are_from() {
     }
 }
 
+/// What relaxes is a solid of which next to nothing lasts, as the eleven terms of the paper add up to.
+#[test]
+fn the_terms_of_pvb_add_up() {
+    let case = parse(BALL, &["body.1.material='lib:pvb'"]).unwrap();
+    let material = case.scene().bodies()[1].material().unwrap();
+    let lasting = material.equilibrium_shear_modulus() / material.instantaneous().shear_modulus();
+    assert!((lasting - 1.35e-4).abs() < 1e-6, "{lasting}");
+}
+
 #[test]
 fn a_case_has_the_table_that_it_names() {
     let case = parse(BALL, &[]).unwrap();

@@ -130,7 +130,7 @@ fn fitted<T>(
     let (family, free) = match (wanted, best) {
         (Wanted::One(family), _) => (family, arguments.free.clone()),
         (Wanted::All, Some(best)) => {
-            (best.family, best.free.iter().map(ToString::to_string).collect())
+            (best.family(), best.free.iter().map(ToString::to_string).collect())
         }
         (Wanted::All, None) => return Err(Failure::failed("no law can be fitted")),
     };
@@ -141,7 +141,13 @@ fn fitted<T>(
     if let Some(free) = &profiled {
         fitted = fitted.with_profile(free)?;
     }
-    for family in &arguments.compare {
+    if let Some(ranking) = &ranking {
+        fitted = fitted.compared_with_ranked(ranking);
+    }
+    let is_ranked = |family: &&Family| {
+        ranking.as_ref().is_some_and(|all| all.laws.iter().any(|law| law.family() == **family))
+    };
+    for family in arguments.compare.iter().filter(|family| !is_ranked(family)) {
         fitted = fitted.compared_with(*family)?;
     }
     then(&Found { fitted, law: &law, ranking })
@@ -157,7 +163,7 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     if let Some(ranking) = ranking {
         output.write("ranking.csv", ranking_csv(ranking))?;
     }
-    output.write("fit.svg", fit_picture(fitted))?;
+    output.write("fit.svg", fit_picture(fitted, ranking.as_ref()))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
     let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;

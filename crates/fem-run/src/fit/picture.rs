@@ -1,6 +1,6 @@
 //! `fit.svg`: data, curves and profile; `histories.svg`: what the fitted law does in time.
 
-use fem::laws::LawFit;
+use fem::laws::{LawFit, LawRanking};
 use fem_case::Scene;
 use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
@@ -8,13 +8,15 @@ use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
 use fem_laws::{Impact, LawError, LawImpact, Role};
 
+use super::ranking::evidence;
+
 /// Points of a curve.
 const N: usize = 80;
 /// Speeds of the overlaps that are drawn, in the speed that is asked for.
 const RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
-/// e(v), and the rms error over the profiled parameter.
-pub fn fit_picture(fitted: &LawFit<'_>) -> String {
+/// e(v), of all laws of a ranking with their shares of the evidence, and the rms error over the profiled parameter.
+pub fn fit_picture(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
     let points = fitted.problem.points;
     let (low, high) = fitted.data.speeds();
     let (low, high) = if low < high { (low, high) } else { (low / 2.0, high * 2.0) };
@@ -28,18 +30,22 @@ pub fn fit_picture(fitted: &LawFit<'_>) -> String {
         (0..N).filter_map(point).collect()
     };
     let model = fitted.problem.model;
-    let label = |model: &Model, fit: &Fit| {
+    let share = |place: usize| -> String {
+        let weight = ranking.and_then(|ranking| ranking.laws.get(place)?.weight);
+        weight.map_or(String::new(), |weight| format!(", evidence {}", evidence(weight)))
+    };
+    let label = |place: usize, model: &Model, fit: &Fit| {
         let numbers = model.family().parameters().iter().zip(&fit.values);
         let exponent = numbers.filter(|(parameter, _)| parameter.key == "n");
         let exponent = exponent.map(|(_, n)| format!(", n = {n:.3}")).next();
-        format!("{}{}", model.family().name(), exponent.unwrap_or_default())
+        format!("{}{}{}", model.family().name(), exponent.unwrap_or_default(), share(place))
     };
     let speed_axis = Axis::new(format!("impact speed v [{}]", unit.symbol())).logarithmic();
     let mut chart = Chart::new(speed_axis, Axis::new("restitution e"))
-        .with(Curve::line(label(model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
+        .with(Curve::line(label(0, model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
     // The law and the data have the first two colours.
     for (k, (model, fit)) in fitted.compared.iter().enumerate() {
-        let curve = Curve::dashed(label(model, fit), curve(model, fit));
+        let curve = Curve::dashed(label(k + 1, model, fit), curve(model, fit));
         chart = chart.with(curve.like_curve(k + 2));
     }
     let data = points.iter().map(|point| (unit.scaled(point.speed), point.restitution)).collect();

@@ -14,11 +14,11 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
             value.map_or("too few data".to_string(), |value| format!("{value:.digits$}"))
         };
         [
-            law.family.name().to_string(),
+            law.family().name().to_string(),
             law.free.join(", "),
-            format!("{:.4}", law.rms),
+            format!("{:.4}", law.fit.rms),
             shown(law.difference, 1),
-            law.weight.map_or(String::new(), |weight| format!("{:.1} %", 100.0 * weight)),
+            law.weight.map_or(String::new(), evidence),
         ]
     });
     let rows: Vec<_> = std::iter::once(header).chain(rows).collect();
@@ -37,14 +37,19 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
     text + "\n"
 }
 
+/// A share of the evidence.
+pub fn evidence(weight: f64) -> String {
+    format!("{:.1} %", 100.0 * weight)
+}
+
 /// `ranking.csv`.
 pub fn ranking_csv(ranking: &LawRanking) -> String {
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
     let mut text = "law,free,rms_error,aicc_difference,evidence\n".to_string();
     for law in &ranking.laws {
-        let (name, free) = (law.family.name(), law.free.join(" "));
+        let (name, free) = (law.family().name(), law.free.join(" "));
         let (difference, weight) = (cell(law.difference), cell(law.weight));
-        text += &format!("{name},{free},{},{difference},{weight}\n", law.rms);
+        text += &format!("{name},{free},{},{difference},{weight}\n", law.fit.rms);
     }
     text
 }

@@ -67,7 +67,10 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
         let parameters = model.family().parameters().iter().zip(&fit.values);
         let values: Vec<_> = parameters
             .map(|(parameter, value)| {
-                format!("{} {}", parameter.key, show_value(*value, parameter.unit))
+                let estimate = fit.estimates.iter().find(|own| own.key == parameter.key);
+                let is_at_bound = estimate.is_some_and(|own| own.is_at_bound);
+                let bound = if is_at_bound { " (at its bound)" } else { "" };
+                format!("{} {}{bound}", parameter.key, show_value(*value, parameter.unit))
             })
             .collect();
         let name = model.family().name();

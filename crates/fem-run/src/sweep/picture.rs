@@ -232,15 +232,15 @@ impl Named {
     }
 }
 
-/// Values with the ends of their error bars, which go beyond the values by no more than their range: what is
-/// compared stays apart.
+/// Values with the ends of their error bars. Beyond the values they go by no more than their range: what is
+/// compared stays apart; where all bars are longer than that, nothing is told apart, and all are whole.
 fn with_bars(
-    own: impl Iterator<Item = f64> + Clone,
-    bars: impl Iterator<Item = (f64, f64)>,
+    own: impl Iterator<Item = f64>,
+    bars: impl Iterator<Item = (f64, f64)> + Clone,
 ) -> impl Iterator<Item = f64> {
-    let from = own.clone().fold(f64::INFINITY, f64::min);
-    let to = own.fold(f64::NEG_INFINITY, f64::max);
-    let room = if to > from { to - from } else { f64::INFINITY };
+    let (from, to) = own.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    let shortest = bars.clone().fold(f64::INFINITY, |least, (_, bar)| least.min(bar));
+    let room = if to > from && shortest <= to - from { to - from } else { f64::INFINITY };
     bars.flat_map(|(value, bar)| [value - bar, value + bar])
         .map(move |end: f64| end.max(from - room).min(to + room))
 }
@@ -342,12 +342,13 @@ mod tests {
         let (from, to) = shown(&[1.0 - 2e-6, 1.0 - 1e-6], &[1.0]);
         assert!(to - from > 1e-4, "{from} {to}");
         assert!(super::shown([f64::NAN].into_iter(), [1.0].into_iter()).is_none());
-        // A bar that is longer than all the rest is cut off; of one value it is whole.
-        let ends = |own: &[f64], bar: f64| {
-            let own = own.iter().copied();
-            super::with_bars(own.clone(), own.map(move |value| (value, bar))).collect::<Vec<_>>()
+        // A bar that is longer than all the rest is cut off; one alone, and bars that are all so long, are whole.
+        let ends = |bars: &[(f64, f64)]| {
+            let bars = bars.iter().copied();
+            super::with_bars(bars.clone().map(|(value, _)| value), bars).collect::<Vec<_>>()
         };
-        assert_eq!(ends(&[1.0, 2.0], 5.0), [0.0, 3.0, 0.0, 3.0]);
-        assert_eq!(ends(&[1.0], 5.0), [-4.0, 6.0]);
+        assert_eq!(ends(&[(1.0, 5.0), (2.0, 0.5)]), [0.0, 3.0, 1.5, 2.5]);
+        assert_eq!(ends(&[(1.0, 5.0), (2.0, 4.0)]), [-4.0, 6.0, -2.0, 6.0]);
+        assert_eq!(ends(&[(1.0, 5.0)]), [-4.0, 6.0]);
     }
 }

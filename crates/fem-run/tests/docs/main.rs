@@ -8,6 +8,7 @@
 //! commands  that are understood
 //! printed   that are run, and what they print and leave
 //! keys      names in a result folder
+//! prose     sizes that sentences name
 //! accuracy  the table of what accuracy costs
 //! contact   the table of ways to keep surfaces apart
 //! effects   the table of what effects cost
@@ -24,5 +25,6 @@ mod keys;
 mod pages;
 mod pointers;
 mod printed;
+mod prose;
 mod shell;
 mod shipped_cases;

@@ -84,7 +84,7 @@ fn pace(arguments: &str) -> Option<Pace> {
 }
 
 /// A place with the repository's cases and data.
-fn place() -> Place {
+pub fn place() -> Place {
     let place = Place::new();
     for folder in ["cases", "validation/data"] {
         fs::create_dir_all(place.path(folder)).unwrap();

@@ -478,6 +478,17 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     assert!(ran.stdout.contains("held: of Hertz' contact time"), "{}", ran.stdout);
     let ranking = String::from_utf8(place.read("out/ranking.csv")).unwrap();
     assert!(ranking.contains("\nbordbar_hyppanen,a n,"), "{ranking}");
+    // Each is drawn beside the data, with what speaks for it, and its values are kept.
+    let picture = String::from_utf8(place.read("out/fit.svg")).unwrap();
+    let kept = place.json("out/fit.json")["compared"].as_array().unwrap().clone();
+    for (k, row) in ranking.lines().skip(1).enumerate() {
+        let law = row.split(',').next().unwrap();
+        let share =
+            format!("{:.1} %", 100.0 * row.rsplit(',').next().unwrap().parse::<f64>().unwrap());
+        let found = picture.lines().filter(|line| line.contains(&format!(">{law}")));
+        assert!(found.clone().any(|line| line.contains(&share)), "{law}, {share}: {picture}");
+        assert!(k == 0 || kept[k - 1]["law"] == law, "{kept:?}");
+    }
     let ran = place.run(&[&all[..], &["--free", "a"]].concat());
     assert_eq!(ran.code, Some(2));
     assert!(ran.stderr.contains("--free is of one law"), "{}", ran.stderr);

@@ -4,6 +4,7 @@ use fem_fit::{Fit, FitError, Free, Model, Problem, Profile};
 use fem_laws::{Family, Role};
 
 use super::law_fault::LawFault;
+use super::law_ranking::LawRanking;
 use super::parameter::loss_parameter;
 use crate::measured::Restitutions;
 
@@ -87,6 +88,13 @@ impl<'a> LawFit<'a> {
         let fit = problem.fit(self.confidence).map_err(fitted)?;
         self.compared.push((model, fit));
         Ok(self)
+    }
+
+    /// Adds all laws of a ranking but the best, which this is, in their order.
+    pub fn compared_with_ranked(mut self, ranking: &LawRanking) -> Self {
+        let others = ranking.laws.iter().skip(1);
+        self.compared.extend(others.map(|law| (law.model.clone(), law.fit.clone())));
+        self
     }
 
     /// Data, fitted values and their differences, a row a point; SI.

@@ -13,7 +13,7 @@
 //! evidence among the laws that were fitted; none of them need be right.
 
 use fem_case::Case;
-use fem_fit::Fit;
+use fem_fit::{Fit, Model};
 use fem_laws::{EndRule, Family};
 
 use super::chosen_law::ChosenLaw;
@@ -30,16 +30,23 @@ const SAME: f64 = 1e-6;
 /// A law that was fitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RankedLaw {
-    /// Which.
-    pub family: Family,
+    /// Which, for the bodies of the case.
+    pub model: Model,
     /// Its free parameters.
     pub free: Vec<&'static str>,
-    /// √(Σ r²/N).
-    pub rms: f64,
+    /// Values of all of its parameters, and what they leave.
+    pub fit: Fit,
     /// AICc less that of the best law; none where there are too few data for so many parameters.
     pub difference: Option<f64>,
     /// Share of the evidence.
     pub weight: Option<f64>,
+}
+
+impl RankedLaw {
+    /// Its family.
+    pub fn family(&self) -> Family {
+        self.model.family()
+    }
 }
 
 /// All laws on the same data.
@@ -69,20 +76,20 @@ impl LawRanking {
         let is_weighted = data.points.iter().all(|point| point.restitution_uncertainty.is_some());
         for (family, exponent) in candidates() {
             match fitted(case, data, (family, exponent), end_rule) {
-                Ok((free, fit)) => {
-                    let twin = found.iter().find(|(law, _)| {
-                        law.free.len() == free.len() && (law.rms - fit.rms).abs() < SAME * fit.rms
+                Ok(law) => {
+                    let rms = law.fit.rms;
+                    let twin = found.iter().find(|(other, _)| {
+                        other.free.len() == law.free.len()
+                            && (other.fit.rms - rms).abs() < SAME * rms
                     });
                     if let Some((twin, _)) = twin {
-                        let of = twin.family.name();
-                        if twin.family != family {
+                        let of = twin.family().name();
+                        if twin.family() != family {
                             twins.push((name(family, exponent), of));
                         }
                         continue;
                     }
-                    let criterion = criterion(&fit, is_weighted);
-                    let (difference, weight) = (None, None);
-                    let law = RankedLaw { family, free, rms: fit.rms, difference, weight };
+                    let criterion = criterion(&law.fit, is_weighted);
                     found.push((law, criterion));
                 }
                 Err(fault) => {
@@ -101,7 +108,7 @@ impl LawRanking {
             law.weight = criterion.map(|own| share(own) / sum);
         }
         let place = |(law, _): &(RankedLaw, Option<f64>)| {
-            (law.difference.unwrap_or(f64::INFINITY), law.rms)
+            (law.difference.unwrap_or(f64::INFINITY), law.fit.rms)
         };
         found.sort_by(|a, b| {
             let (a, b) = (place(a), place(b));
@@ -132,13 +139,13 @@ fn candidates() -> impl Iterator<Item = (Family, Option<&'static str>)> {
     })
 }
 
-/// The free parameters of a law, and its fit.
+/// A law on the data, without its place.
 fn fitted(
     case: &Case,
     data: &Restitutions,
     (family, exponent): (Family, Option<&'static str>),
     end_rule: Option<EndRule>,
-) -> Result<(Vec<&'static str>, Fit), LawFault> {
+) -> Result<RankedLaw, LawFault> {
     let end_rule = end_rule.filter(|_| family.end_rule().is_none());
     let law = ChosenLaw::of(case, family, &[], end_rule)?;
     let damping = family.parameters()[loss_parameter(family)?].key;
@@ -156,7 +163,8 @@ fn fitted(
         problem.free.iter().map(|free| problem.parameter(free.index).key).collect();
     // The damping first.
     free.sort_by_key(|key| *key != damping);
-    Ok((free, problem.fit(CONFIDENCE)?))
+    let fit = problem.fit(CONFIDENCE)?;
+    Ok(RankedLaw { model: law.model().clone(), free, fit, difference: None, weight: None })
 }
 
 /// A law by its name, and by its exponent where that is held and could be free.

@@ -170,16 +170,16 @@ fn laws_are_ranked_by_their_evidence() {
         }
         let ranking = LawRanking::of(&case, &data, None).unwrap();
         let place = |family: Family, n_free: usize| {
-            let is_it = |law: &&RankedLaw| (law.family, law.free.len()) == (family, n_free);
+            let is_it = |law: &&RankedLaw| (law.family(), law.free.len()) == (family, n_free);
             ranking.laws.iter().find(is_it).unwrap()
         };
-        assert_eq!(ranking.laws[0].family, Family::KuwabaraKono, "{ranking:?}");
+        assert_eq!(ranking.laws[0].family(), Family::KuwabaraKono, "{ranking:?}");
         let (own, more) = (place(Family::KuwabaraKono, 1), place(Family::BordbarHyppanen, 2));
-        assert!(more.rms <= own.rms && own.difference == Some(0.0), "{ranking:?}");
+        assert!(more.fit.rms <= own.fit.rms && own.difference == Some(0.0), "{ranking:?}");
         // By hand: what a parameter more costs of 8 data, less what it gains in the misfit.
-        let (n, ratio) = (8.0, (more.rms / own.rms).powi(2));
+        let (n, ratio) = (8.0, (more.fit.rms / own.fit.rms).powi(2));
         let misfit = match is_weighted {
-            true => n * (more.rms.powi(2) - own.rms.powi(2)),
+            true => n * (more.fit.rms.powi(2) - own.fit.rms.powi(2)),
             false => n * ratio.ln(),
         };
         let price = |q: f64| 2.0 * q + 2.0 * q * (q + 1.0) / (n - q - 1.0);
