@@ -98,13 +98,43 @@ impl ContactInterface {
         &self,
         signed_pressure: impl Iterator<Item = (f64, f64)> + Clone,
     ) -> (f64, f64) {
-        let radius = self.radius_of(signed_pressure.clone());
-        let pressure = reading(&self.surfaces, self.candidate_radius).pressure(|side| {
-            let nodes = self.at_nodes(side, signed_pressure.clone());
-            read_out::centre_pressure(nodes, radius, Barrier::Springs)
-        });
-        (radius, pressure)
+        radius_and_pressure(reading(&self.surfaces, self.candidate_radius), |side| {
+            self.at_nodes(side, signed_pressure.clone())
+        })
     }
+}
+
+/// Nodes that are kept between both readings; of contacts with more the pressures are made anew.
+const ROOM: usize = 64;
+
+/// Contact radius (m) and pressure on the axis (Pa) of pressures at the nodes of either side from the axis
+/// outward (r in m, p in Pa), which are made once: they cost more than what is read of them.
+pub(crate) fn radius_and_pressure<I: Iterator<Item = (f64, f64)> + Clone>(
+    reading: Reading,
+    at_nodes: impl Fn(usize) -> I,
+) -> (f64, f64) {
+    let mut room = [[(0.0, 0.0); ROOM]; 2];
+    let kept = [0, 1].map(|side: usize| {
+        if !reading.asks(side) {
+            return None;
+        }
+        let mut n = 0;
+        for node in at_nodes(side) {
+            *room[side].get_mut(n)? = node;
+            n += 1;
+        }
+        Some(n)
+    });
+    let nodes = |side: usize| kept[side].map(|n| room[side][..n].iter().copied());
+    let radius = reading.radius(|side| match nodes(side) {
+        Some(nodes) => read_out::contact_radius(nodes, Barrier::Springs),
+        None => read_out::contact_radius(at_nodes(side), Barrier::Springs),
+    });
+    let pressure = reading.pressure(|side| match nodes(side) {
+        Some(nodes) => read_out::centre_pressure(nodes, radius, Barrier::Springs),
+        None => read_out::centre_pressure(at_nodes(side), radius, Barrier::Springs),
+    });
+    (radius, pressure)
 }
 
 /// At whose nodes radius and pressure of surfaces are read, which can touch out to a radius, m.
@@ -120,4 +150,48 @@ pub(crate) fn coarser(surfaces: [&Surface; 2], radius: f64) -> usize {
         false => surface.nodes_within(radius).len(),
     });
     usize::from(n_nodes[1] < n_nodes[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+
+    /// Of contacts with fewer nodes than are kept, with as many and with more, read at one surface and at
+    /// both: what each reading tells of the pressures by itself.
+    #[test]
+    fn both_readings_are_those_of_each() {
+        let hertz = |n: usize, length: f64| {
+            (0..n).map(move |k| {
+                let r = k as f64 * length;
+                let x = r / (0.8 * n as f64);
+                (r, (1.0 - x * x).max(0.0).sqrt())
+            })
+        };
+        for n in [8, ROOM, ROOM + 1, 200] {
+            let lengths = [1.0, 1.04];
+            let at = |side: usize| hertz(n, lengths[side]);
+            for reading in
+                [Reading::Single(0), Reading::Single(1), Reading::of(lengths.map(Some), 0)]
+            {
+                let radius =
+                    reading.radius(|side| read_out::contact_radius(at(side), Barrier::Springs));
+                let pressure = reading
+                    .pressure(|side| read_out::centre_pressure(at(side), radius, Barrier::Springs));
+                assert!((0.7..0.9).contains(&(radius / n as f64)), "{n} {reading:?}: {radius}");
+                let n_made = Cell::new(0);
+                let counted = |side: usize| {
+                    n_made.set(n_made.get() + 1);
+                    at(side)
+                };
+                let both = radius_and_pressure(reading, counted);
+                assert_eq!(both, (radius, pressure), "{n} {reading:?}");
+                // Pressures are made once at each surface where there is room for them.
+                let n_read = [0, 1].into_iter().filter(|&side| reading.asks(side)).count();
+                let most = if n <= ROOM { n_read } else { 3 * n_read };
+                assert_eq!(n_made.get(), most, "{n} {reading:?}");
+            }
+        }
+    }
 }

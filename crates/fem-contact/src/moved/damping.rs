@@ -39,8 +39,7 @@ impl MovedInterface {
         }
         for piece in self.pieces(u.map(|u| move |node: u32| u[node as usize])) {
             for gauss in GAUSS {
-                let point = piece.point(gauss);
-                if point.gap < 0.0 {
+                if let Some(point) = piece.closed_point(gauss) {
                     let [lower, upper] =
                         [0, 1].map(|side: usize| piece.rate_of_height(&point, side, v[side]));
                     let spring = -piece.stiffness * point.gap;

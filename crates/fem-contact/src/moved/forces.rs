@@ -28,7 +28,9 @@ impl MovedInterface {
 
     /// Whether any point is closed for the given displacements (u_r, u_y) of the candidate nodes, m.
     pub fn is_closed(&self, displacement: [impl Fn(u32) -> [f64; 2]; 2]) -> bool {
-        self.points(displacement).any(|(_, point)| point.gap < 0.0)
+        let is_closed =
+            |piece: Piece<'_>| GAUSS.into_iter().any(|gauss| piece.closed_point(gauss).is_some());
+        self.pieces(displacement).any(is_closed)
     }
 }
 
@@ -39,12 +41,11 @@ fn add_point(
     f: &mut [&mut [[f64; 2]]; 2],
     total: &mut ContactForces,
 ) -> bool {
-    let point = piece.point(gauss);
-    let is_closed = point.gap < 0.0;
-    if is_closed {
-        add_spring(piece, gauss, &point, f, total);
+    let point = piece.closed_point(gauss);
+    if let Some(point) = &point {
+        add_spring(piece, gauss, point, f, total);
     }
-    is_closed
+    point.is_some()
 }
 
 /// Adds the spring of a point that is closed.

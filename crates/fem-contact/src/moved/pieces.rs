@@ -1,5 +1,7 @@
 //! The common refinement of both surfaces, in the order of the radius.
 
+use std::f64::consts::PI;
+
 use super::MovedInterface;
 use super::segment::{Place, Segment};
 use crate::evaluate::Turn;
@@ -88,18 +90,30 @@ impl MovedInterface {
 }
 
 impl<'a> Piece<'a> {
-    /// The point at a share of the half length from the middle, −1 to 1.
-    pub fn point(&self, [offset, weight]: [f64; 2]) -> Point {
+    /// Radius (m) and area seen along y (m²) at a share of the half length from the middle, −1 to 1.
+    pub fn ring(&self, [offset, weight]: [f64; 2]) -> (f64, f64) {
         let [start, end] = self.radii;
         let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
         let radius = middle + offset * half;
+        (radius, 2.0 * PI * radius * (weight * half))
+    }
+
+    /// The point there.
+    pub fn point(&self, gauss: [f64; 2]) -> Point {
+        let (radius, area) = self.ring(gauss);
         let places = self.segments.each_ref().map(|segment| segment.at(radius));
-        Point {
-            radius,
-            area: 2.0 * std::f64::consts::PI * radius * (weight * half),
-            gap: places[1].height - places[0].height,
-            places,
+        Point { radius, area, gap: places[1].height - places[0].height, places }
+    }
+
+    /// The same if it is closed. Most points are open, and most of those by so much that it is known without
+    /// their arcs.
+    pub fn closed_point(&self, gauss: [f64; 2]) -> Option<Point> {
+        let (radius, _) = self.ring(gauss);
+        let [lower, upper] = self.segments.each_ref().map(|segment| segment.least_depth(radius));
+        if lower + upper > 0.0 {
+            return None;
         }
+        Some(self.point(gauss)).filter(|point| point.gap < 0.0)
     }
 }
 
@@ -177,6 +191,67 @@ impl<U: Fn(u32) -> [f64; 2]> Pieces<'_, U> {
             _ => {
                 self.is_over = true;
                 self.turned = Some(side);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_mesh::{HalfDisc, Side};
+
+    use super::*;
+    use crate::surface::Surface;
+
+    fn sphere(radius: f64, contact_element_size: f64, side: Side) -> Surface {
+        let disc = HalfDisc { radius, contact_element_size, refined_radius: 0.3, growth: None };
+        Surface::of_sphere(&disc.build().unwrap().on_side(side))
+    }
+
+    /// Of two spheres, and of one and a rigid sphere or a plane, pressed together by less and more and
+    /// stretched: closed points are the same as by the arcs, and few others are asked for theirs. How many
+    /// are is what a step of the contact costs.
+    #[test]
+    fn points_that_are_open_are_known_without_their_arcs() {
+        let others =
+            [sphere(1.0, 0.011, Side::Above), Surface::rigid_sphere(1.5).unwrap(), Surface::wall()];
+        for upper in others {
+            let lower = sphere(2.0, 0.01, Side::Below);
+            let interface = MovedInterface::new(lower, upper, 1.0, 1e-4, 0.3).unwrap();
+            let radii = interface.surfaces.each_ref().map(|surface| {
+                let of = surface.nodes.iter().zip(&surface.radii);
+                let mut radii =
+                    vec![0.0; 1 + surface.nodes.iter().max().map_or(0, |&n| n as usize)];
+                of.for_each(|(&node, &r)| radii[node as usize] = r);
+                if surface.is_rigid() { vec![0.0; 2] } else { radii }
+            });
+            for pressed in [-1e-3, 1e-3, 4e-3, 1.5e-2] {
+                // A surface gives way where it is pressed, by half as much on the axis.
+                let moved = |side: usize| {
+                    let (radii, sign) = (&radii[side], [1.0, -1.0][side]);
+                    move |node: u32| {
+                        let r = radii[node as usize];
+                        [0.02 * r, sign * 0.5 * pressed * (1.0 - 0.5 * (-50.0 * r * r).exp())]
+                    }
+                };
+                let (mut n, mut n_closed, mut n_asked) = (0, 0, 0);
+                for piece in interface.pieces([moved(0), moved(1)]) {
+                    for gauss in GAUSS {
+                        let (point, found) = (piece.point(gauss), piece.closed_point(gauss));
+                        let gap = |point: Point| point.gap.to_bits();
+                        let is_closed = point.gap < 0.0;
+                        assert_eq!(found.map(gap), is_closed.then(|| gap(point)));
+                        let depth = piece.segments.map(|segment| segment.least_depth(point.radius));
+                        n += 1;
+                        n_closed += usize::from(is_closed);
+                        n_asked += usize::from(depth[0] + depth[1] <= 0.0);
+                    }
+                }
+                assert!(n > 60 && (n_closed > 3) == (pressed > 0.0), "{n} {n_closed}");
+                assert!(
+                    (n_closed..=n_closed + 2).contains(&n_asked),
+                    "{n_closed} {n_asked} of {n}"
+                );
             }
         }
     }

@@ -1,10 +1,10 @@
 //! Contact radius and pressure of moved surfaces: true ones.
 
 use super::MovedInterface;
-use super::pieces::{GAUSS, Piece, Point};
-use crate::pressure::{coarser, reading};
+use super::pieces::{GAUSS, Piece};
+use crate::pressure::{coarser, radius_and_pressure, reading};
 use crate::profile::{N_BEYOND, Profile};
-use crate::read_out::{Barrier, centre_pressure, contact_radius};
+use crate::read_out::{Barrier, contact_radius};
 
 impl MovedInterface {
     /// Distance from the axis at which the pressure falls to zero now, m; 0 without contact: see
@@ -30,7 +30,9 @@ impl MovedInterface {
         side: usize,
         u: [&'a [[f64; 2]]; 2],
     ) -> impl Iterator<Item = (f64, f64)> + Clone + 'a {
-        let pressure = |piece: &Piece<'a>, point: &Point| (-piece.stiffness * point.gap).max(0.0);
+        let pressure = |piece: &Piece<'a>, gauss: [f64; 2]| {
+            piece.closed_point(gauss).map_or(0.0, |point| -piece.stiffness * point.gap)
+        };
         let sums = self.sums_at_nodes(side, u, pressure);
         sums.map(|(radius, [sum, area])| (radius, if area > 0.0 { sum / area } else { 0.0 }))
     }
@@ -41,7 +43,7 @@ impl MovedInterface {
         &'a self,
         side: usize,
         u: [&'a [[f64; 2]]; 2],
-        value: impl Fn(&Piece<'a>, &Point) -> f64 + Clone + 'a,
+        value: impl Fn(&Piece<'a>, [f64; 2]) -> f64 + Clone + 'a,
     ) -> impl Iterator<Item = (f64, [f64; 2])> + Clone + 'a {
         let surface = &self.surfaces[side];
         let mut pieces = self.pieces(u.map(|u| move |node: u32| u[node as usize])).peekable();
@@ -52,10 +54,10 @@ impl MovedInterface {
             from_inside = [0.0; 2];
             while let Some(piece) = pieces.next_if(|piece| piece.segments[side].index == k) {
                 for gauss in GAUSS {
-                    let point = piece.point(gauss);
-                    let share = point.places[side].share;
-                    let value = value(&piece, &point);
-                    let (inner, outer) = ((1.0 - share) * point.area, share * point.area);
+                    let (radius, of_ring) = piece.ring(gauss);
+                    let share = piece.segments[side].share(radius);
+                    let value = value(&piece, gauss);
+                    let (inner, outer) = ((1.0 - share) * of_ring, share * of_ring);
                     sum += inner * value;
                     area += inner;
                     from_inside[0] += outer * value;
@@ -76,17 +78,15 @@ impl MovedInterface {
     /// [Radius](Self::contact_radius), m, and [pressure on the axis](Self::centre_pressure), Pa, which asks for the
     /// radius.
     pub fn radius_and_pressure(&self, u: [&[[f64; 2]]; 2]) -> (f64, f64) {
-        let radius = self.contact_radius(u);
-        let pressure = reading(&self.surfaces, self.candidate_radius)
-            .pressure(|side| centre_pressure(self.at_nodes(side, u), radius, Barrier::Springs));
-        (radius, pressure)
+        let reading = reading(&self.surfaces, self.candidate_radius);
+        radius_and_pressure(reading, |side| self.at_nodes(side, u))
     }
 
     /// As [`ContactInterface::profile`](crate::ContactInterface::profile), of where the surfaces are now: true distances from the axis and
     /// true pressures.
     pub fn profile(&self, u: [&[[f64; 2]]; 2]) -> Profile {
         let side = coarser(self.surfaces.each_ref(), self.candidate_radius);
-        let gaps = self.sums_at_nodes(side, u, |_, point| point.gap);
+        let gaps = self.sums_at_nodes(side, u, |piece, gauss| piece.point(gauss).gap);
         let facing = gaps.map(|(radius, [sum, area])| {
             let own = |of: usize| self.radial_displacement(of, radius, u[of]);
             (area > 0.0).then(|| (sum / area, [own(0), own(1)]))

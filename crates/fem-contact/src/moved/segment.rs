@@ -2,6 +2,9 @@
 
 use crate::surface::Surface;
 
+/// What a parabola may be rounded by, generously.
+const ROUNDED: f64 = 1.0 - 1e-9;
+
 /// A segment where it is now: a curve r → y(r). Of a rigid body it is the whole surface.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment<'a> {
@@ -65,9 +68,26 @@ impl<'a> Segment<'a> {
         [self.surface.nodes[self.index], self.surface.nodes[self.index + 1]]
     }
 
+    /// Share of its outer node in a point at a radius, m; 0 of a rigid body.
+    pub fn share(&self, r: f64) -> f64 {
+        (r - self.radii[0]) * self.per_length
+    }
+
+    /// How far it is inside of its body's side of y = 0 at a radius (m) at least, m: an arc is deeper than its
+    /// parabola, κr²/(1 + cos) > κr²/2, which asks for no root and no quotient.
+    pub fn least_depth(&self, r: f64) -> f64 {
+        let share = self.share(r);
+        let reference = match self.surface.is_rigid() {
+            true => r,
+            false => self.reference + share * self.reference_change,
+        };
+        let rise = self.rise + share * self.rise_change;
+        self.sign * rise + ROUNDED * 0.5 * self.surface.curvature * reference * reference
+    }
+
     /// Where it is at a radius, m.
     pub fn at(&self, r: f64) -> Place {
-        let share = (r - self.radii[0]) * self.per_length;
+        let share = self.share(r);
         if self.surface.is_rigid() {
             let (depth, slope) = self.surface.arc(r);
             let height = self.rise + self.sign * depth;

@@ -29,6 +29,14 @@ impl Reading {
         }
     }
 
+    /// Whether it reads at a surface.
+    pub(crate) fn asks(self, surface: usize) -> bool {
+        match self {
+            Self::Single(single) => single == surface,
+            Self::Staggered(_) => true,
+        }
+    }
+
     /// The contact radius (m) of what it is read as at a surface.
     pub fn radius(self, at: impl Fn(usize) -> f64) -> f64 {
         match self {
