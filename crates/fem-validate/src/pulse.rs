@@ -84,7 +84,8 @@ fn width(rows: &[Row]) -> f64 {
     (moment(&|time| (time - mean) * (time - mean)) / impulse).sqrt()
 }
 
-/// The top of the parabola of least squares through the rows around the largest force.
+/// The top, within a tenth of the contact time, of the parabola of least squares through the rows around the largest
+/// force.
 fn top(rows: &[Row], contact_time: f64, value: fn(&Row) -> f64) -> f64 {
     let Some(peak) = rows.iter().max_by(|a, b| a.contact_force.total_cmp(&b.contact_force)) else {
         return f64::NAN;
@@ -112,7 +113,9 @@ fn top(rows: &[Row], contact_time: f64, value: fn(&Row) -> f64) -> f64 {
             + entry(0, 2) * (entry(1, 0) * entry(2, 1) - entry(1, 1) * entry(2, 0))
     };
     let [c_0, c_1, c_2] = [0, 1, 2].map(|j| minor(Some(j)) / minor(None));
-    c_0 - c_1 * c_1 / (4.0 * c_2)
+    // What still grows or falls at the largest force, as pressures of flat balls do, has its largest value at an end.
+    let x = if c_2 < 0.0 { (-0.5 * c_1 / c_2).clamp(-1.0, 1.0) } else { c_1.signum() };
+    c_0 + x * (c_1 + x * c_2)
 }
 
 #[cfg(test)]
@@ -179,6 +182,17 @@ mod tests {
         assert!((width(&rows) - 0.05f64.sqrt()).abs() < 1e-5);
         let rows = pulse(|t| 4.0 * t * (0.9993 - t));
         assert!((force(&rows) / 0.9993f64.powi(2) - 1.0).abs() < 1e-9);
+    }
+
+    /// A pressure that falls all the while, faster at first, has no top.
+    #[test]
+    fn what_falls_all_the_while_is_largest_at_the_beginning() {
+        let mut rows = pulse(|t| 4.0 * t * (1.0 - t));
+        for row in &mut rows {
+            row.centre_pressure = Some(1.0 + (row.time - 1.0).powi(2));
+        }
+        let top = top(&rows, 1.0, |row| row.centre_pressure.unwrap_or_default());
+        assert!((top - (1.0 + 0.55f64.powi(2))).abs() < 1e-3, "{top}");
     }
 
     /// A point that rings by a per cent over a hundredth of the time moves the top by next to nothing.

@@ -8,6 +8,9 @@ use fem_validate::Pulse;
 /// Why there is no number.
 pub type Fault = Box<dyn std::error::Error + Send + Sync>;
 
+/// Elements across Hertz' contact radius, twice the plan's: what small strains change is small next to what meshes do.
+const ELEMENTS: f64 = 16.0;
+
 /// What a collision is known by.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers {
@@ -43,6 +46,25 @@ impl Numbers {
             pressure: share(self.pulse.pressure, other.pulse.pressure),
         }
     }
+}
+
+/// Stiffness of springs over the usual one at which nodes with mass hardly ring on them; those of flat spheres that are
+/// nearly incompressible ring less on usual ones.
+const SOFT: f64 = 0.3;
+const FLAT: f64 = 0.3;
+const NEARLY_INCOMPRESSIBLE: f64 = 0.4;
+
+/// The keys of runs that are compared, of a contact that Hertz foretells to be a share of a radius (m), and of a Poisson's
+/// ratio: springs, which finite strain has for itself and small strain only if told, and next to no moved mass, of which
+/// they would have unlike shares.
+pub fn alike(strain: f64, radius: f64, poissons_ratio: f64) -> Vec<String> {
+    let is_stiff = strain > FLAT && poissons_ratio > NEARLY_INCOMPRESSIBLE;
+    vec![
+        "contact.method='penalty'".to_string(),
+        format!("contact.penalty_factor={}", if is_stiff { 1.0 } else { SOFT }),
+        "time.mass_scaling=2e-4".to_string(),
+        format!("mesh.contact_element_size={}", strain * radius / ELEMENTS),
+    ]
 }
 
 /// A case of a text with some keys set, which keeps no snapshots.

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use fem::effects::{EFFECTS, Effect, LeftOut};
 
-use crate::collide::{Changes, Fault, Numbers, signed, simulation, speed};
+use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
 const STRAINS: [f64; 3] = [0.2, 0.4, 0.7];
 const POISSONS_RATIOS: [f64; 2] = [0.2, 0.45];
@@ -55,8 +55,11 @@ pub fn table() -> Result<String, Fault> {
 impl Pair {
     fn line(&self, nu: f64, strain: f64) -> Result<String, Fault> {
         let text = self.text(nu, strain);
-        let switched =
-            |switch: &str| simulation(&text, &[format!("effects.finite_strain='{switch}'")]);
+        let switched = |switch: &str| {
+            let mut set = alike(strain, self.radius(), nu);
+            set.push(format!("effects.finite_strain='{switch}'"));
+            simulation(&text, &set)
+        };
         let (off, on) = (switched("off")?, switched("on")?);
         let stopped = || format!("{} stopped at a/R* = {strain}, ν = {nu}", self.name);
         let [without, with] = [&off, &on].map(Numbers::of);
@@ -79,6 +82,11 @@ impl Pair {
         ))
     }
 
+    /// The effective one, m.
+    fn radius(&self) -> f64 {
+        in_series(RADIUS, self.partner.0.map(|ratio| ratio * RADIUS))
+    }
+
     fn text(&self, nu: f64, strain: f64) -> String {
         let materials = materials(nu);
         let (ratio, other) = self.partner;
@@ -88,10 +96,9 @@ impl Pair {
             let [_, youngs_modulus, nu] = materials[material];
             (1.0 - nu * nu) / youngs_modulus
         };
-        let in_series = |a: f64, b: Option<f64>| 1.0 / (1.0 / a + b.map_or(0.0, |b| 1.0 / b));
         let partner = ratio.map(|ratio| ratio * RADIUS);
         let hertz = [
-            in_series(RADIUS, partner),
+            self.radius(),
             in_series(
                 mass(RADIUS, materials[self.ball][0]),
                 partner.map(|radius| mass(radius, materials[other][0])),
@@ -117,6 +124,11 @@ impl Pair {
             speed(strain, hertz),
         )
     }
+}
+
+/// 1/(1/a + 1/b); of a partner that has none, a.
+fn in_series(a: f64, b: Option<f64>) -> f64 {
+    1.0 / (1.0 / a + b.map_or(0.0, |b| 1.0 / b))
 }
 
 /// What leaving finite strain out changes, as the plan has it.

@@ -2,20 +2,16 @@
 
 use rayon::prelude::*;
 
-use crate::collide::{Changes, Fault, Numbers, signed, simulation, speed};
+use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
 /// Contact radius over the sphere's radius, as Hertz foretells it.
-const STRAINS: [f64; 7] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7];
+const STRAINS: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85];
 const POISSONS_RATIOS: [f64; 5] = [0.0, 0.2, 0.33, 0.45, 0.49];
 /// As case files name them.
 const LAWS: [&str; 4] = ["neo-hooke", "neo-hooke-ln", "hencky", "saint-venant-kirchhoff"];
 const RADIUS: f64 = 0.01;
 const DENSITY: f64 = 1000.0;
 const YOUNGS_MODULUS: f64 = 1e7;
-/// Up to this strain the changes are small next to those from mesh to mesh: these are twice as fine as the
-/// plan's.
-const FINE_BELOW: f64 = 0.15;
-const FINE: f64 = 16.0;
 
 /// Of the default law; the numbers of all are printed as `measured.rs` has them.
 pub fn table() -> Result<String, Fault> {
@@ -70,7 +66,5 @@ fn collide(nu: f64, strain: f64, law: Option<&str>) -> Result<Option<Numbers>, F
         speed(strain, [RADIUS, mass, modulus]),
         if law.is_some() { "on" } else { "off" },
     );
-    let size = format!("mesh.contact_element_size={}", strain * RADIUS / FINE);
-    let set: Vec<String> = (strain < FINE_BELOW).then_some(size).into_iter().collect();
-    Ok(Numbers::of(&simulation(&text, &set)?))
+    Ok(Numbers::of(&simulation(&text, &alike(strain, RADIUS, nu))?))
 }

@@ -10,10 +10,11 @@
 //! larger where β is small, as of rubber.
 
 use fem_case::engineering::number;
-use fem_case::{Body, EffectsTable, Scene, Shape, Switch};
+use fem_case::{Body, EffectsTable, ModelChoice, Scene, Shape, Switch};
 use fem_laws::{Face, RelativeError, SurfaceSlip as Slip};
 use fem_material::Material;
 
+use super::doubt::{Doubt, Standing};
 use super::effect::Effect;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
@@ -22,6 +23,9 @@ use crate::softened::left_at;
 
 /// Below this κβR* materials are alike but for the rounding of their moduli.
 const ROUNDING: f64 = 1e-9;
+/// What a spring in series with the contact lacks of it, over a/R* of what it changes: explicit elements change 3 % less
+/// of approach, time and force at 0.03, 7 to 26 % less at 0.08 to 0.2.
+const NEXT_ORDER: f64 = 2.0;
 /// Change of the contact time that is worth a warning where it is left out.
 const SMALL_SHARE: f64 = 1e-3;
 
@@ -88,6 +92,20 @@ impl Effect for SurfaceSlip {
         }
         let [with, without] = [Switch::On, Switch::Off].map(|to| Self::switched(scene, to));
         Some(LeftOut::between(&with, &without, estimate.hertz.approach_speed()))
+    }
+
+    /// Where it is a spring in series, the next order of it; elements have it whole.
+    fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
+        let share = match (standing.is_lacking, scene.model()) {
+            (true, _) => 1.0,
+            (false, ModelChoice::Fem) => 0.0,
+            (false, _) => NEXT_ORDER * estimate.strain,
+        };
+        match &standing.left_out {
+            _ if share == 0.0 || !is_called_for(scene) => Doubt::NOTHING,
+            Some(left_out) => Doubt::of(left_out, estimate).times(share),
+            None => Doubt::default(),
+        }
     }
 }
 

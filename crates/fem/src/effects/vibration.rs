@@ -11,6 +11,7 @@ use super::effect::Effect;
 use super::finite_strain::relaxed_loss;
 use super::left_out::LeftOut;
 use super::need::{Need, percent};
+use super::partner_waves::PartnerWaves;
 use super::speed::{MACH_LIMIT, QUASI_STATIC_LIMIT, above, number};
 use crate::estimate::Estimate;
 use crate::softened::left_at;
@@ -20,8 +21,9 @@ pub(super) const ENOUGH_MODES: usize = 12;
 /// Vibration energy over the initial relative kinetic energy that closed forms may leave out.
 const LARGEST_VIBRATION: f64 = 0.01;
 
-/// What it takes of the restitution, over the bodies' own speeds in shear wave speeds ([`own_mach`]): explicit
-/// elements against quasi-static bodies lose 0.06 to 0.1 of it on a wall at 0.3 to 20 %, twice that at 40 %.
+/// What it takes of the restitution at least, over the bodies' own speeds in shear wave speeds ([`own_mach`]): explicit
+/// elements against quasi-static bodies lose 0.06 to 0.1 of it on a wall at 0.3 to 20 %, twice that at 40 %. A small ball
+/// leaves more in a large one, which hardly moves ([`PartnerWaves::left_ringing`]).
 const LOSS: f64 = 0.1;
 /// By how much it lengthens the contact and lowers the peak force, over what a body deforms less than at rest
 /// ([`slowness`]): elastic balls on a wall at 0.3 to 40 % of the shear wave speed and pairs at 1.5 to 18 %, explicit
@@ -75,7 +77,8 @@ impl Effect for Vibration {
         );
         let relaxed = 1.0 + OF_RELAXED * relaxed_loss(scene, estimate);
         // Fronts take more of it, the faster the more.
-        let loss = LOSS * mach * (1.0 + mach) + RINGING_LOSS * ringing;
+        let own = (LOSS * mach * (1.0 + mach)).max(PartnerWaves::left_ringing(scene, estimate));
+        let loss = own + RINGING_LOSS * ringing;
         Some(LeftOut { restitution: Some(loss * relaxed), ..lengths })
     }
 

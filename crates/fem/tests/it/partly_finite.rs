@@ -68,3 +68,23 @@ fn a_third_of_the_elements_is_at_finite_strain() {
     // What a looser tolerance bears is not at finite strain at all.
     assert_eq!(share(&["accuracy.tolerance='1 %'"]), 0.0);
 }
+
+/// The reason says how far from the contact elements have it, where not all do.
+#[test]
+fn results_say_how_far_it_reaches() {
+    let reason = |set: &[&str]| {
+        let simulation = simulation(ELASTIC, set);
+        let verdicts = &simulation.setup().decisions.verdicts;
+        verdicts.iter().find(|verdict| verdict.name == "finite strain").unwrap().reason.clone()
+    };
+    let near = reason(&[]);
+    assert!(
+        near.contains("elements within 1.") && near.contains(" mm of first touch, 5."),
+        "{near}"
+    );
+    assert!(near.contains("stay at small strain"), "{near}");
+    for set in [EVERYWHERE, NOWHERE, "accuracy.tolerance='1 %'"] {
+        let reason = reason(&[set]);
+        assert!(!reason.contains("first touch"), "{set}: {reason}");
+    }
+}

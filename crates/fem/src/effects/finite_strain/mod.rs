@@ -24,6 +24,7 @@ mod departure;
 mod measured;
 mod strained;
 
+use fem_case::engineering::show;
 use fem_case::{Body, EffectsTable, Scene, Switch};
 use fem_collision::{Collision, Headline};
 use fem_material::Material;
@@ -41,9 +42,6 @@ use crate::estimate::Estimate;
 use crate::expected::Expected;
 use crate::refusal::Refusal;
 
-/// Contact radius over the radius of a body, or its strain if that is more, beyond which nothing is foretold:
-/// collisions were computed up to 0.7.
-const FLATTEST: f64 = 1.0;
 /// What laws differ by is said from this share of the contact time on.
 const ROUNDING: f64 = 5e-5;
 /// d ln(1 − e) over −d ln T of what relaxes, about.
@@ -118,7 +116,9 @@ impl FiniteStrain {
         let is_open = scene.effects().finite_strain.is_none_or(|switch| switch == Switch::Auto);
         let is_asked = is_open && is_called_for(scene, estimate);
         let Some(strained) = unborne.next().filter(|_| is_asked) else {
-            return Self::of_stability(scene, estimate).unwrap_or(Answer::Computes { idle: "" });
+            let answer = Self::of_stability(scene, estimate);
+            let answer = answer.or_else(|| Self::of_nearness(scene, estimate));
+            return answer.unwrap_or(Answer::Computes { idle: "" });
         };
         let why = format!("called for, but {}", strained.not_borne());
         let left_out = FiniteStrain.left_out(scene, estimate).unwrap_or_default();
@@ -129,6 +129,27 @@ impl FiniteStrain {
 }
 
 impl FiniteStrain {
+    /// Of a scene that has it near the contact alone.
+    fn of_nearness(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
+        (Self::laws(scene, estimate) != [None; 2]).then_some(())?;
+        let within = Self::within(scene, estimate)?;
+        let is_partial = |body: &Body| body.diameter().is_none_or(|diameter| diameter > within);
+        scene
+            .bodies()
+            .iter()
+            .any(|body| body.material().is_some() && is_partial(body))
+            .then_some(())?;
+        let number = FiniteStrain.need(scene, estimate)?.number;
+        let nearness = format!(
+            "elements within {} of first touch, {:.1} contact radii, have it, and those farther away stay at small \
+             strain, which leaves out at most {} % of the tolerance",
+            show(within, "m"),
+            within / estimate.contact_radius,
+            100.0 * LEFT_FAR_AWAY,
+        );
+        Some(Answer::is(true, format!("{number}; {nearness}")))
+    }
+
     /// Of a scene that calls for it, and whose laws are foretold not to bear it.
     fn of_stability(scene: &Scene, estimate: &Estimate) -> Option<Answer> {
         let computed = Self::laws(scene, estimate);
@@ -192,15 +213,15 @@ fn is_forced_on(scene: &Scene) -> bool {
     scene.effects().finite_strain == Some(Switch::On)
 }
 
-/// Whether leaving it out would change more than the case allows.
+/// Whether leaving it out would change more than the case allows, or nothing tells how much.
 fn is_called_for(scene: &Scene, estimate: &Estimate) -> bool {
-    departure(scene, estimate).over(&scene.accuracy()) > 1.0
+    is_beyond(scene, estimate) || departure(scene, estimate).over(&scene.accuracy()) > 1.0
 }
 
 /// Whether a body is flatter than anything is foretold of.
 fn is_beyond(scene: &Scene, estimate: &Estimate) -> bool {
     let both = Strained::of_both(scene, estimate);
-    both.iter().flatten().any(|strained| strained.deformation.flatness > FLATTEST)
+    both.iter().flatten().any(Strained::is_beyond)
 }
 
 /// What leaving it out changes, in words.
@@ -221,7 +242,8 @@ fn laws_in_words(scene: &Scene, estimate: &Estimate) -> String {
     match spread > ROUNDING {
         false => names,
         true => format!(
-            "{names}, which the case does not say: laws differ by up to {} of the contact time",
+            "{names}, which the case does not say: laws differ by {} {} of the contact time",
+            if is_beyond(scene, estimate) { "more than" } else { "up to" },
             percent(spread)
         ),
     }
@@ -275,13 +297,14 @@ impl Effect for FiniteStrain {
     /// Of small strain all that it leaves out by any law that the materials may follow; of finite strain what
     /// their laws may differ from those that were computed where the case names none.
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
-        if is_beyond(scene, estimate) {
-            return Doubt::default();
-        }
         let computed = if standing.is_lacking { [None; 2] } else { Self::laws(scene, estimate) };
         let both = Strained::of_both(scene, estimate);
         let both =
             || both.iter().zip(computed).filter_map(|(body, law)| Some((body.as_ref()?, law)));
+        // Of a law that is named and computed nothing is left.
+        if both().any(|(body, law)| body.is_beyond() && body.may_differ_from(law)) {
+            return Doubt::default();
+        }
         let change = both().map(|(body, law)| body.doubt(law)).sum();
         let change = with_waves(scene, estimate, change);
         let Departure { restitution, contact_time, peak_force, peak_pressure } =
@@ -321,8 +344,9 @@ impl Effect for FiniteStrain {
         let has_end = collision.contact_time.is_some();
         let law = (has_end && spread > scene.accuracy().contact_time).then(|| {
             format!(
-                "how the materials go on beyond Hooke's law changes the contact time by up to {}, and \
-                 the case does not say: name a law (material.NAME.hyperelastic)",
+                "how the materials go on beyond Hooke's law changes the contact time by {} {}, and the case does \
+                 not say: name a law (material.NAME.hyperelastic)",
+                if is_beyond(scene, &found) { "more than" } else { "up to" },
                 percent(spread)
             )
         });

@@ -5,7 +5,7 @@ use fem_explicit::MOST_FINITE_STRAIN_TERMS;
 use fem_material::Material;
 use fem_material::finite::{AxisymmetricTensor, Hyperelastic, HyperelasticLaw};
 
-use super::departure::{Deformation, Departure};
+use super::departure::{Deformation, Departure, FLATTEST};
 use crate::estimate::Estimate;
 
 /// Largest Poisson's ratio that the elements bear at large strain: a step there is a seventh of that at 0.495,
@@ -47,6 +47,16 @@ impl<'a> Strained<'a> {
     /// The laws that it may follow for all that the case says.
     pub fn possible_laws(&self) -> Vec<HyperelasticLaw> {
         self.material.named_law().map_or(HyperelasticLaw::ALL.to_vec(), |law| vec![law])
+    }
+
+    /// Whether it is flatter than any sphere that was computed: nothing is foretold.
+    pub fn is_beyond(&self) -> bool {
+        self.deformation.flatness > FLATTEST
+    }
+
+    /// Whether it may follow another law than the one that was computed.
+    pub fn may_differ_from(&self, computed: Option<HyperelasticLaw>) -> bool {
+        self.possible_laws().into_iter().any(|law| Some(law) != computed)
     }
 
     /// How far the laws that it may follow are apart in what it changes of the contact time, as a share.
