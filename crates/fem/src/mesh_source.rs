@@ -86,26 +86,28 @@ pub(crate) fn mesh_refusal(error: &MeshError) -> Refusal {
 /// A file that holds none.
 pub(crate) fn import(k: usize, diameter: f64, path: &Path) -> Result<SphereMesh, Refusal> {
     read_sphere(diameter, path).map_err(|found| {
-        let message = format!("mesh {}: {found}", path.display());
-        Refusal::new(format!("body.{k}.sphere.mesh"), message).with_help(
+        let refusal = Refusal::new(format!("body.{k}.sphere.mesh"), format!("mesh {found}"));
+        refusal.with_help(
             "a .vtu file of quadrilaterals in the plane (r, y, 0), in metres: the half disc \
              r >= 0 of the sphere with its contact pole at the origin; \
-             `fem-run mesh CASE` writes such files",
+             `fem-run mesh CASE` writes such files, `meshio convert` makes them of gmsh's",
         )
     })
 }
 
+/// The mesh, or what is wrong with the file, by its path.
 #[cfg(feature = "files")]
 fn read_sphere(diameter: f64, path: &Path) -> Result<SphereMesh, String> {
     let mesh = fem_vtk::read_quad_mesh(path).map_err(|error| error.to_string())?;
+    let told = |fault: String| format!("{}: {fault}", path.display());
     if let Some(point) = mesh.points.iter().find(|point| point[2].abs() > 1e-6 * diameter) {
-        return Err(format!("a point lies at z = {} m, off the plane z = 0", point[2]));
+        return Err(told(format!("a point lies at z = {} m, off the plane z = 0", point[2])));
     }
     let nodes = mesh.points.iter().map(|point| [point[0], point[1]]).collect();
-    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| error.to_string())
+    SphereMesh::import(0.5 * diameter, nodes, mesh.quads).map_err(|error| told(error.to_string()))
 }
 
 #[cfg(not(feature = "files"))]
-fn read_sphere(_: f64, _: &Path) -> Result<SphereMesh, String> {
-    Err("no files are read here".to_string())
+fn read_sphere(_: f64, path: &Path) -> Result<SphereMesh, String> {
+    Err(format!("{}: no files are read here", path.display()))
 }

@@ -55,13 +55,28 @@ pub(crate) fn names() -> Vec<String> {
     materials().keys().map(|name| format!("{PREFIX}{name}")).collect()
 }
 
-/// The name, without `lib:`, that is nearest to one that is none.
+/// The name, without `lib:`, that is nearest to one that is none, or of the material whose title has that word.
 pub fn nearest_to(name: &str) -> Option<&'static str> {
     let names: Vec<&str> = materials().keys().map(String::as_str).collect();
     // Enough for what is in a name, `rubber`, and for a slip of the fingers.
     let within = names.iter().find(|known| name.len() > 2 && known.contains(name));
     let near = nearest(name, &names, 0.8);
+    let titled = || {
+        let lower = name.to_lowercase();
+        let has_word = |title: &str| {
+            let title = title.to_lowercase();
+            let mut words = title.split(|c: char| !c.is_alphanumeric());
+            words.any(|word| {
+                word.len() > 2 && (word == lower || word.len() > 5 && lower.starts_with(word))
+            })
+        };
+        materials()
+            .iter()
+            .find(|(_, entry)| has_word(&entry.title))
+            .map(|(known, _)| known.as_str())
+    };
     near.or(within.copied())
+        .or_else(titled)
         .and_then(|near| materials().get_key_value(near))
         .map(|(near, _)| near.as_str())
 }

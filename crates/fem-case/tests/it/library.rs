@@ -126,6 +126,15 @@ fn an_unknown_one_is_told_what_there_is() {
     let text = error.to_string();
     assert!(text.contains("did you mean `lib:pmma`?"), "{text}");
     assert!(text.contains("lib:alumina, lib:aluminium"), "{text}");
+    for (said, meant) in [
+        ("acrylic", "pmma"),
+        ("Plexiglass", "pmma"),
+        ("PDMS", "silicone"),
+        ("100Cr6", "bearing-steel"),
+    ] {
+        let told = fault(&[&format!("body.1.material='lib:{said}'")]);
+        assert!(told.contains(&format!("did you mean `lib:{meant}`?")), "{told}");
+    }
     assert!(fault(&["body.1.material='lib:'"]).contains("the library has"));
     assert!(fault(&["material=3"]).contains("material"));
     assert!(fault(&["material.'lib:pmma'=3"]).contains("lib:pmma"));

@@ -12,6 +12,7 @@ mod contours;
 mod curves;
 mod effects;
 mod hertz;
+mod kink;
 mod profile;
 mod record;
 mod view;
@@ -50,6 +51,7 @@ struct Page<'a> {
     price: String,
     warnings: Vec<String>,
     charts: Vec<String>,
+    kink: &'static str,
     frames: Vec<Shot>,
     /// The frame that is seen at first.
     opening: usize,
@@ -89,6 +91,7 @@ pub fn page(record: &Record) -> Result<String, Failure> {
         price: price(record),
         warnings: warnings(record),
         charts: drawn(charts),
+        kink: kink::words(record),
         frames: contour.as_ref().map(shots).unwrap_or_default(),
         opening: opening(record),
         bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),

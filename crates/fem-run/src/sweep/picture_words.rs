@@ -63,9 +63,11 @@ pub fn plain(value: &str) -> String {
     match inner.strip_prefix("law").map(|rest| rest.trim_start().trim_start_matches('=')) {
         Some(law) if law.trim_start().starts_with('{') => plain(law),
         _ => {
-            let bare = inner.replace(['"', '\''], "").replace("= {}", "");
-            let bracketed = bare.replace("= {", "(").replace('}', ")");
-            bracketed.replace("( ", "(").replace(" )", ")").trim().to_string()
+            // However it is spaced.
+            let apart = inner.replace(['"', '\''], "").replace('=', " = ");
+            let apart = apart.replace('{', " { ").replace('}', " } ");
+            let words = apart.split_whitespace().collect::<Vec<_>>().join(" ");
+            words.replace(" = { }", "").replace("= { ", "(").replace(" }", ")")
         }
     }
 }
@@ -95,6 +97,8 @@ mod tests {
         for (value, expected) in [
             ("10 mm", "10 mm"),
             ("{ ting = {} }", "ting"),
+            ("{condensed={}}", "condensed"),
+            ("{ting={finite_size=true}}", "ting (finite_size = true)"),
             ("{ ting = { finite_size = true } }", "ting (finite_size = true)"),
             ("{ law = { kuwabara_kono = { a = \"1e-6 s\" } } }", "kuwabara_kono (a = 1e-6 s)"),
         ] {

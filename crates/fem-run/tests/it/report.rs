@@ -19,6 +19,20 @@ fn stands_alone(page: &str) {
     assert!(page.contains("prefers-color-scheme: dark") && page.contains("@media print"));
 }
 
+/// Of a contact that shrinks at once after it has grown; not of one that turns as Hertz' does.
+#[test]
+fn a_kink_of_the_contact_radius_is_explained() {
+    let place = Place::new();
+    let of = |seconds: &str| {
+        let terms = format!("[{{ weight = 0.99, relaxation_time = {seconds} }}]");
+        let relaxation =
+            format!("material.glass.relaxation={{ acts_on = \"all\", terms = {terms} }}");
+        place.succeed(&[&TING[..], &["--set", &relaxation, "--out", seconds]].concat());
+        text(&place, &format!("{seconds}/report.html")).contains("has a kink at its largest")
+    };
+    assert!(of("2e-6") && !of("1.0"));
+}
+
 /// Numbers with their errors, curves beside Hertz, fields, effects in words, the case, how to cite.
 #[test]
 fn a_run_with_fields_has_all_of_it_on_a_page() {

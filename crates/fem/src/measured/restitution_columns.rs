@@ -7,10 +7,20 @@ use super::data_error::DataError;
 use super::restitutions::LARGEST_UNCERTAINTY;
 use super::table::Table;
 
-pub(super) const SPEEDS: [&str; 6] =
-    ["speed", "approach_speed", "impact_speed", "relative_speed", "velocity", "v"];
-pub(super) const RESTITUTIONS: [&str; 4] =
-    ["restitution", "coefficient_of_restitution", "cor", "e"];
+pub(super) const SPEEDS: [&str; 10] = [
+    "speed",
+    "approach_speed",
+    "impact_speed",
+    "relative_speed",
+    "incident_speed",
+    "velocity",
+    "impact_velocity",
+    "relative_velocity",
+    "incident_velocity",
+    "v",
+];
+pub(super) const RESTITUTIONS: [&str; 5] =
+    ["restitution", "coefficient_of_restitution", "restitution_coefficient", "cor", "e"];
 pub(super) const UNCERTAINTIES: [&str; 5] =
     ["restitution_uncertainty", "e_uncertainty", "uncertainty", "sigma", "standard_error"];
 pub(super) const CONTACT_TIMES: [&str; 2] = ["contact_time", "t_contact"];

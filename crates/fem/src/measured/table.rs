@@ -37,6 +37,9 @@ pub struct Table {
     named: Vec<usize>,
 }
 
+/// With what `.xlsx`, `.ods` and other packed files begin, and `.xls`, read as Latin-1.
+const PACKED: [&str; 2] = ["PK\u{3}\u{4}", "\u{d0}\u{cf}\u{11}\u{e0}"];
+
 /// Similarity of names above which one is the other misspelt: `diameter1`, `uncertanty` are, and
 /// `contact_radius` for `contact_time` is not.
 const MISSPELT: f64 = 0.9;
@@ -49,6 +52,11 @@ impl Table {
     pub fn parse(name: &str, text: &str) -> Result<Self, DataError> {
         let name = one_line(name);
         let text = text.trim_start_matches('\u{feff}');
+        if PACKED.iter().any(|mark| text.starts_with(mark)) {
+            let error =
+                DataError::new(&name, "this is a spreadsheet or another packed file, not text");
+            return Err(error.with_help("save the table as CSV, and name that file"));
+        }
         let text = &*tabs_for_blanks(text);
         let (separator, below) = separator(text);
         let n_above = text.lines().count() - below.lines().count();
@@ -275,9 +283,13 @@ impl Table {
         let cell = if self.has_decimal_commas { with_point(text) } else { text.into() };
         let (value, found) = parse_quantity(&cell).map_err(|_| {
             let fault = fault("which is not a number".to_string());
-            match text.contains('.') && text.contains(',') {
-                true => fault.with_help("take out what parts the thousands: 1000,5 or 1000.5"),
-                false => fault,
+            match (text.contains('.'), text.contains(',')) {
+                (true, true) => fault.with_help("take out what parts the thousands: 1000,5 or 1000.5"),
+                (false, true) if !self.has_decimal_commas => fault.with_help(
+                    "cells that are parted by commas have decimal points, 0.5; part them by semicolons or tabs \
+                     to write 0,5",
+                ),
+                _ => fault,
             }
         })?;
         let [m, kg, s] = dimension;

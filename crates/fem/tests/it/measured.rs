@@ -112,6 +112,7 @@ fn data_are_read_as_people_have_them() {
         ("v [cm/s];COR [%];u\n50;95;0,01\n75;92;0,02\n", &names),
         ("speed;COR;v;u\n9;0,95;0,5;0,01\n9;0,92;0,75;0,02\n", &names),
         ("Impact speed (m/s),Coefficient of restitution,sigma\n.5,.95,.01\n.75,.92,.02\n", &[]),
+        ("Impact velocity [cm/s];Restitution coefficient;sigma\n50;0,95;0,01\n75;0,92;0,02\n", &[]),
         ("v,e,u\n0.5,0.95,0.01\nnan,0.9,0.1\n0.6,,0.1\n0.75,0.92,0.02\n,,\n", &names[2..]),
         ("v,e,u\n0.5,0.95,0.01\n1,n/a,\n1,-,\n1,NaN,\n0.75,0.92,0.02\n", &names[2..]),
     ] {
@@ -134,6 +135,13 @@ fn data_are_read_as_people_have_them() {
     let table = Table::parse("e.csv", "sep=;\n# x\nv;e\n0,5;0,9\n1;viel\n").unwrap();
     let error = Restitutions::read(&table, spheres().scene()).unwrap_err();
     assert_eq!(error.place(), "e.csv:5");
+    let table = Table::parse("e.csv", "v,e\n0.5,\"0,9\"\n").unwrap();
+    let error = Restitutions::read(&table, spheres().scene()).unwrap_err();
+    assert!(error.help.is_some_and(|help| help.contains("decimal points")));
+    for packed in ["PK\u{3}\u{4}\u{14}", "\u{d0}\u{cf}\u{11}\u{e0}\u{a1}"] {
+        let error = Table::parse("e.xlsx", packed).unwrap_err();
+        assert!(error.help.is_some_and(|help| help.contains("as CSV")), "{packed}");
+    }
     let table = Table::parse("e.csv", "v,e\n1,0.9\n").unwrap();
     let error = table.renamed(&[("restitution", "COR")]).unwrap_err();
     assert_eq!(error.to_string(), "e.csv:1: there is no column COR; found are v, e");
