@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Body;
 use crate::contact_work::ContactWork;
 use crate::model::Model;
+use crate::nodal_sums::{NodalSums, Nodes};
 use crate::part::Accounts;
 use crate::state::{BodyState, Scratch, State};
 
@@ -351,20 +352,12 @@ fn balance_body(
             displacement: state.displacement[0][1],
         };
     }
-    // All sums in one pass: each waits for its own last term, not for the others.
-    let (mut first_moment, mut momentum) = (-0.0, -0.0);
-    let (mut twice_kinetic, mut total_force) = (0.0, 0.0);
-    let motion = state.displacement.iter().zip(&state.velocity);
     // Nothing is taken from the velocities of a free body.
     let far_velocity = if body.is_free() { 0.0 } else { body.velocity };
-    for ((mass, (u, v)), f) in body.nodal_mass.iter().zip(motion).zip(forces) {
-        let v = [v[0], v[1] - far_velocity];
-        first_moment += mass * u[1];
-        momentum += mass * v[1];
-        twice_kinetic +=
-            mass * (v[0] * v[0] + v[1] * v[1]) + time_step * (v[0] * f[0] + v[1] * f[1]);
-        total_force += f[1];
-    }
+    let BodyState { displacement, velocity, .. } = state;
+    let nodes = Nodes { mass: &body.nodal_mass, displacement, velocity, forces };
+    let NodalSums { first_moment, momentum, twice_kinetic, force } =
+        NodalSums::of(nodes, time_step, far_velocity);
     if !body.is_free() {
         return BodyBalance {
             kinetic: 0.5 * twice_kinetic,
@@ -376,7 +369,7 @@ fn balance_body(
     }
     let mass = body.mass();
     let before = momentum / mass;
-    let after = before + time_step * total_force / mass;
+    let after = before + time_step * force / mass;
     let vibration = 0.5 * (twice_kinetic - mass * before * after);
     BodyBalance {
         kinetic: 0.5 * twice_kinetic,

@@ -67,6 +67,7 @@ mod lumped;
 mod memory;
 mod model;
 mod motion;
+mod nodal_sums;
 mod observed;
 mod outcome;
 mod pace;

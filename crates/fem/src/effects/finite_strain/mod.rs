@@ -57,8 +57,10 @@ const RADIATED_OVER_TIME: f64 = 2.0;
 const FLAT: f64 = 0.1;
 /// Approach speed over that of shear waves from which on they are, too: waves bring strains of its size anywhere.
 const SLOW: f64 = 1e-3;
-/// Share of what a case allows of a number that may be left out in elements far from the contact.
-const LEFT_FAR_AWAY: f64 = 0.01;
+/// Share of what a case allows of a number that may be left out in elements far from the contact. Of elastic glass
+/// 7 % of what finite strain changes of the peak force was left out beyond two contact radii, 2.8 % beyond three and
+/// 0.5 % beyond five and a half: 0.6 to 0.9 of (a/R)³.
+const LEFT_FAR_AWAY: f64 = 0.03;
 /// Contact radii within which all elements are at finite strain, whatever the case allows.
 const NEAREST: f64 = 3.0;
 
