@@ -25,10 +25,10 @@ fn apart(one: &Collision, other: &Collision) -> [f64; 6] {
     })
 }
 
-/// What small strain leaves out far away is a hundredth of the tolerance at most, beside what it leaves out
+/// What small strain leaves out far away is three hundredths of the tolerance at most, beside what it leaves out
 /// everywhere.
 #[test]
-fn what_is_left_out_far_away_is_a_hundredth_of_the_tolerance() {
+fn what_is_left_out_far_away_is_three_hundredths_of_the_tolerance() {
     for case in [ELASTIC, RELAXING] {
         let run = |set: &[&str]| simulation(case, set).run(&mut ());
         let [near, everywhere, nowhere] = [run(&[]), run(&[EVERYWHERE]), run(&[NOWHERE])];
@@ -42,7 +42,7 @@ fn what_is_left_out_far_away_is_a_hundredth_of_the_tolerance() {
             Headline::PeakPressure,
         ] {
             let k = headline as usize;
-            assert!(left[k] < 1e-5, "{}: {left:?} of {whole:?}", headline.name());
+            assert!(left[k] < 3e-5, "{}: {left:?} of {whole:?}", headline.name());
         }
         let force = Headline::PeakForce as usize;
         assert!(whole[force] > 1e-3, "{whole:?}");
@@ -79,7 +79,7 @@ fn results_say_how_far_it_reaches() {
     };
     let near = reason(&[]);
     assert!(
-        near.contains("elements within 1.") && near.contains(" mm of first touch, 5."),
+        near.contains("elements within 8") && near.contains(" µm of first touch, 3."),
         "{near}"
     );
     assert!(near.contains("stay at small strain"), "{near}");
