@@ -1,12 +1,17 @@
-//! How long a run will take here: some of its steps are timed.
+//! How long a run will take here: some of its steps are timed. `check` and the run say the same.
 
 use std::time::{Duration, Instant};
 
-use fem::{Cost, Simulation};
+use fem::{Cost, Following, Simulation};
+use fem_case::engineering::show;
 use fem_collision::{Monitor, Phase, Progress};
 
-/// What the timing of steps may take, beside those of one report.
+/// What the timing of steps takes at least, ...
 const PATIENCE: Duration = Duration::from_millis(1);
+/// ... and until so many reports are timed, ...
+const REPORTS: u32 = 5;
+/// ... unless that takes longer.
+const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
 /// The same of condensed bodies, which begin with their slowest steps.
 const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
 /// Over a collision of condensed bodies what tells its error takes: a collision of a mesh of 1.5 times the elements
@@ -17,9 +22,81 @@ const COARSER_COMPANIONS: f64 = 0.7;
 /// Fewer elements across the contact have a finer companion.
 const FEW: f64 = 9.0;
 
+/// Collisions that take more element updates are not run to foretell: their companions take seconds.
+const QUICK: u64 = 30_000_000;
+
+/// What is known of a run of finite elements before it begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Forecast {
+    /// Seconds here, with what tells its error.
+    pub seconds: Option<f64>,
+    /// Element updates of the collision and of its companions.
+    element_updates: f64,
+    /// Finer meshes that may follow.
+    pub finer: Option<Finer>,
+}
+
+/// Finer meshes that follow where the mesh misses what the case allows, which only the run tells.
+#[derive(Clone, Copy, Debug)]
+pub struct Finer {
+    /// Those that coarser meshes foretell, where these are quick.
+    following: Option<Following>,
+    /// Element updates at most.
+    most: u64,
+    /// Of their companions over those of the collision.
+    companions: f64,
+    /// Seconds of an element update here.
+    each: f64,
+}
+
+impl Forecast {
+    /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow.
+    pub fn of(simulation: &Simulation, making: f64, is_open: bool) -> Self {
+        let seconds = seconds(simulation, making);
+        let companions = simulation.companion_updates().unwrap_or(0.0);
+        let Cost::Steps { element_updates, .. } = simulation.setup().cost else {
+            return Self { seconds, element_updates: 0.0, finer: None };
+        };
+        let all = (1.0 + companions) * element_updates as f64;
+        let most = simulation.most_of_finer_meshes().filter(|most| is_open && *most > 0);
+        let finer = seconds.zip(most).map(|(seconds, most)| {
+            let following = (element_updates < QUICK).then(|| simulation.following()).flatten();
+            Finer { following, most, companions, each: seconds / all }
+        });
+        Self { seconds, element_updates: all, finer }
+    }
+
+    /// Element updates that are expected in all.
+    pub fn all_element_updates(&self) -> f64 {
+        let following = self.finer.and_then(|finer| Some((finer.following?, finer.companions)));
+        let finer = following.map_or(0.0, |(following, companions)| {
+            (1.0 + companions) * following.element_updates as f64
+        });
+        self.element_updates + finer
+    }
+}
+
+impl Finer {
+    /// "coarser meshes foretell 1, about 6.0e6 element updates more, 8.1 s; at most 1.7e8 element updates more, 229 s".
+    pub fn in_words(&self) -> String {
+        let price = |updates: u64| {
+            let updates = (1.0 + self.companions) * updates as f64;
+            format!("{updates:.1e} element updates more, {}", show(self.each * updates, "s"))
+        };
+        let expected = match self.following {
+            Some(Following { meshes: 0, .. }) => "coarser meshes foretell none; ".to_string(),
+            Some(Following { meshes, element_updates }) => {
+                format!("coarser meshes foretell {meshes}, about {}; ", price(element_updates))
+            }
+            None => String::new(),
+        };
+        format!("{expected}at most {}", price(self.most))
+    }
+}
+
 /// Seconds of a run here, with what tells its error where that takes runs; nothing of a model without elements, nor of
 /// a ball that bounces, whose cost is that of one contact.
-pub fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
+fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
     if simulation.case().scene().gravity().is_some() {
         return None;
     }
@@ -35,12 +112,22 @@ pub fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
     }
 }
 
+/// The fewest seconds of a step among some reports: what else this machine does now and then is no part of it.
 fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
     let mut course = simulation.start();
     let begin = Instant::now();
-    while begin.elapsed() < PATIENCE && course.advance(&mut ()) {}
-    let (spent, done) = (begin.elapsed().as_secs_f64(), course.progress().step);
-    (done > 0).then(|| spent / done as f64)
+    let (mut fewest, mut before) = (None, (Duration::ZERO, 0));
+    let mut n_reports = 0;
+    let goes_on = |spent: Duration, n_reports: u32| {
+        spent < PATIENCE || (n_reports < REPORTS && spent < PATIENCE_WITH_REPORTS)
+    };
+    while goes_on(begin.elapsed(), n_reports) && course.advance(&mut ()) {
+        let now = (begin.elapsed(), course.progress().step);
+        let seconds = (now.0 - before.0).as_secs_f64() / (now.1 - before.1).max(1) as f64;
+        fewest = Some(fewest.map_or(seconds, |fewest: f64| fewest.min(seconds)));
+        (before, n_reports) = (now, n_reports + 1);
+    }
+    fewest
 }
 
 /// Of condensed bodies that took so long to make, s.

@@ -54,6 +54,34 @@ pub fn assess(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     warnings
 }
 
+/// By how much of the approach the surfaces overlap, where that is too much.
+pub(crate) fn overlap_of_approach(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let overlap = Run::of(simulation, collision)?.overlap()?;
+    (overlap.of_approach > LARGEST_PENETRATION).then_some(overlap.of_approach)
+}
+
+/// What of the energy does not add up over the initial one, where that is too much.
+pub(crate) fn unbalanced_energy(collision: &Collision) -> Option<f64> {
+    let residual = collision.residual_relative?;
+    // A residual that is no number is above every limit.
+    let is_sound = residual <= LARGEST_RESIDUAL;
+    (!is_sound).then_some(residual)
+}
+
+/// What a restitution is above 1, where that is no rounding.
+pub(crate) fn excess_of_restitution(collision: &Collision) -> Option<f64> {
+    let restitution = collision.restitution?;
+    // So is one that is no number.
+    let is_sound = restitution <= 1.0 + LARGEST_EXCESS;
+    (!is_sound).then_some(restitution - 1.0)
+}
+
+/// Scatter of the contact force from instant to instant over its peak, where that is too much.
+pub(crate) fn noise(collision: &Collision) -> Option<f64> {
+    let scatter = collision.force_scatter? / collision.peak_force?;
+    (scatter > LARGEST_NOISE).then_some(scatter)
+}
+
 /// That the surfaces overlap by too much.
 pub(crate) fn overlap_warning(simulation: &Simulation, collision: &Collision) -> Option<String> {
     Run::of(simulation, collision)?.penetration()
@@ -64,7 +92,7 @@ fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     // Of a mesh that resolves no contact nothing else is to be known.
     let penetration = run.penetration().filter(|_| !simulation.is_unresolved(collision));
     let early = EarlyPressure::warning(simulation, collision);
-    let warnings = [run.meshes(simulation), penetration, run.noise(), early];
+    let warnings = [simulation.mesh_warning_after(collision), penetration, run.noise(), early];
     warnings.into_iter().flatten().collect()
 }
 
@@ -94,30 +122,18 @@ fn energy_residual(collision: &Collision, remedy: &str) -> Option<String> {
     {
         return None;
     }
-    let residual = collision.residual_relative?;
-    // A residual that is no number is above every limit.
-    let is_sound = residual <= LARGEST_RESIDUAL;
-    (!is_sound).then(|| {
-        format!(
-            "the energy does not add up by {residual:.1e} of the initial, above \
-             {LARGEST_RESIDUAL:e}{}; {remedy}",
-            collision.residual_since.map_or(String::new(), |since| format!(" since {since}"))
-        )
-    })
-}
-
-/// Of the contact force, over its peak.
-fn scatter(collision: &Collision) -> Option<f64> {
-    Some(collision.force_scatter? / collision.peak_force?)
+    let residual = unbalanced_energy(collision)?;
+    Some(format!(
+        "the energy does not add up by {residual:.1e} of the initial, above \
+         {LARGEST_RESIDUAL:e}{}; {remedy}",
+        collision.residual_since.map_or(String::new(), |since| format!(" since {since}"))
+    ))
 }
 
 fn restitution(collision: &Collision) -> Option<String> {
+    excess_of_restitution(collision)?;
     let restitution = collision.restitution?;
-    // So is one that is no number.
-    let is_sound = restitution <= 1.0 + LARGEST_EXCESS;
-    (!is_sound).then(|| {
-        format!("the restitution {restitution:.6} is above 1: the numerical error is visible")
-    })
+    Some(format!("the restitution {restitution:.6} is above 1: the numerical error is visible"))
 }
 
 /// A positive number as it is advised: rounded up to two digits.
@@ -125,6 +141,14 @@ fn two_digits(value: f64) -> f64 {
     let step = 10.0_f64.powf(value.log10().floor() - 1.0);
     // Printed and read, a decimal number is the nearest there is.
     format!("{:.1e}", (value / step).ceil() * step).parse().unwrap_or(value)
+}
+
+/// Overlap of the surfaces at most.
+struct Overlap {
+    /// Over an element's length.
+    of_element: f64,
+    /// Over the largest approach.
+    of_approach: f64,
 }
 
 /// A run of finite elements.
@@ -146,21 +170,22 @@ impl<'a> Run<'a> {
         Some(Self { collision, plan, meshes, has_springs, quieter })
     }
 
-    /// Whether the meshes can carry the contact as wide as it came.
-    fn meshes(&self, simulation: &Simulation) -> Option<String> {
-        simulation.resolution_warning(simulation.carried_radius(self.collision)?)
-    }
-
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty
     /// stiffness per area.
-    fn penetration(&self) -> Option<String> {
+    fn overlap(&self) -> Option<Overlap> {
         let radius = self.collision.max_contact_radius.filter(|_| self.has_springs)?;
         // A contact of the poles alone has no pressure; that meshes cannot carry it is said.
         let radius = Some(radius).filter(|radius| *radius > 0.0)?;
         let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
         let of_element = mean_pressure / self.plan.contact_stiffness;
-        let of_approach =
-            of_element * longest_contact_edge(self.meshes, radius)? / self.collision.max_approach?;
+        let longest = longest_contact_edge(self.meshes, radius)?;
+        let of_approach = of_element * longest / self.collision.max_approach?;
+        Some(Overlap { of_element, of_approach })
+    }
+
+    /// That the surfaces overlap by too much.
+    fn penetration(&self) -> Option<String> {
+        let Overlap { of_element, of_approach } = self.overlap()?;
         let excess = of_approach / LARGEST_PENETRATION;
         (excess > 1.0).then(|| {
             format!(
@@ -179,17 +204,14 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Scatter of the contact force from instant to instant, over its peak.
+    /// That the contact force scatters by too much.
     fn noise(&self) -> Option<String> {
-        let scatter = scatter(self.collision)?;
-        (scatter > LARGEST_NOISE).then(|| {
-            format!(
-                "the contact force scatters by {:.1} % of its peak{}; above {} %, peaks are too high: {}",
-                100.0 * scatter,
-                self.collision.noisiest.map_or(String::new(), |at| format!(", most about {at}")),
-                100.0 * LARGEST_NOISE,
-                self.quieter.advice()
-            )
-        })
+        Some(format!(
+            "the contact force scatters by {:.1} % of its peak{}; above {} %, peaks are too high: {}",
+            100.0 * noise(self.collision)?,
+            self.collision.noisiest.map_or(String::new(), |at| format!(", most about {at}")),
+            100.0 * LARGEST_NOISE,
+            self.quieter.advice()
+        ))
     }
 }

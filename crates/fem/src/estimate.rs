@@ -57,13 +57,29 @@ impl Estimate {
                 .with_help("check sizes, densities, moduli and speeds, and their units")
         };
         // What overflows would count as a wall, and products of masses have to be numbers too.
-        let mut masses = scene.bodies().iter().filter_map(|body| Some((body, body.mass()?)));
-        if let Some((body, mass)) = masses.find(|(_, mass)| !(mass * mass).is_normal()) {
-            return Err(refused(format!(
-                "the mass of {} is {} kg; its square must be a number",
+        let bodies = scene.bodies().iter().enumerate();
+        let mut masses = bodies.filter_map(|(k, body)| Some((k, body, body.mass()?)));
+        if let Some((k, body, mass)) = masses.find(|(_, _, mass)| !(mass * mass).is_normal()) {
+            let (density, diameter) = (body.material().map(Material::density), body.diameter());
+            // Whichever is farther from 1 in SI, by the power it has in the mass.
+            let far = |value: Option<f64>| value.map_or(0.0, |value| value.log10().abs());
+            let is_density = far(density) > 3.0 * far(diameter);
+            let (part, of) = match is_density {
+                true => {
+                    ("material", format!("density is {} kg/m^3", number(density.unwrap_or(0.0), 4)))
+                }
+                false => (
+                    "sphere.diameter",
+                    format!("diameter is {} m", number(diameter.unwrap_or(0.0), 4)),
+                ),
+            };
+            let mut refusal = refused(format!(
+                "the mass of {} is {} kg, since its {of}; its square must be a number",
                 body.name(),
                 number(mass, 4)
-            )));
+            ));
+            refusal.key = format!("body.{k}.{part}");
+            return Err(refusal);
         }
         Self::of(scene).map_err(|error| refused(error.to_string()))
     }

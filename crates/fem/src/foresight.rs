@@ -2,10 +2,12 @@
 //!
 //! What explicit elements are off by, condensed companions tell without them (`accuracy/companion.rs`): the mesh is
 //! made finer by that before the first run ([`crate::refinement`]), and no run is thrown away. At finite strain
-//! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, and the
-//! run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
+//! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, of cheap runs
+//! the first itself, and the run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
 
-use crate::accuracy::{ByCoarser, companion_updates};
+use fem_collision::{Headline, Want};
+
+use crate::accuracy::{ByCoarser, ORDER, companion_updates};
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 use crate::method::Cost;
@@ -29,20 +31,56 @@ pub struct Following {
     pub element_updates: u64,
 }
 
+/// Element updates of a collision that is computed to foretell what follows: some tenths of a second.
+const CHEAP: u64 = 3_000_000;
+
+/// What tells what meshes are going to be off by.
+enum Told {
+    /// Errors of a collision on the first mesh, the restitution's absolute, others relative.
+    Trial([Option<f64>; 6]),
+    Coarser(ByCoarser),
+}
+
+impl Told {
+    /// None of a collision that does not come to its end.
+    fn by_trial(simulation: &Simulation) -> Option<Self> {
+        let want = Want { history_rows: simulation.want().history_rows, ..Want::quantities() };
+        let collision = simulation.model().collide(&simulation.setup().approach, &want, &mut ());
+        simulation.count_companion(&collision);
+        let doubt = simulation.discretisation(&collision);
+        let errors = Headline::ALL
+            .map(|headline| Some(doubt.size(headline)? / headline.scale(headline.of(&collision)?)));
+        errors[Headline::PeakForce as usize].map(|_| Self::Trial(errors))
+    }
+
+    /// What a finer mesh is going to be off by.
+    fn of(&self, first: &Simulation, finer: &Simulation) -> Option<[Option<f64>; 6]> {
+        let elements = finer.setup().elements.as_ref()?;
+        let size = first.setup().elements.as_ref()?.plan.contact_element_size;
+        let smaller = size / elements.plan.contact_element_size;
+        Some(match self {
+            Self::Trial(errors) => errors.map(|error| Some(error? / smaller.powf(ORDER))),
+            Self::Coarser(coarser) => coarser.told(smaller, elements.added_share),
+        })
+    }
+}
+
 impl Simulation {
-    /// The finer meshes that two coarser ones foretell to follow, which take [`Simulation::companion_updates`] of the
-    /// collision; none where these tell nothing.
+    /// The finer meshes that are foretold to follow, by a cheap collision itself and by two coarser meshes of others,
+    /// which take [`Simulation::companion_updates`] of it; none where these tell nothing.
     pub fn following(&self) -> Option<Following> {
-        let told = ByCoarser::of(self)?;
-        let size = |simulation: &Self| {
-            Some(simulation.setup().elements.as_ref()?.plan.contact_element_size)
+        let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
+        self.companion_updates()?;
+        let told = match element_updates <= CHEAP {
+            true => Told::by_trial(self),
+            false => None,
         };
+        let told = told.or_else(|| ByCoarser::of(self).map(Told::Coarser))?;
         let mut following = Following { meshes: 0, element_updates: 0 };
         let mut finest: Option<Self> = None;
         loop {
             let now = finest.as_ref().unwrap_or(self);
-            let added = now.setup().elements.as_ref()?.added_share;
-            let errors = told.told(size(self)? / size(now)?, added);
+            let errors = told.of(self, now)?;
             let miss = now.worst_miss(|headline| errors[headline as usize]);
             let Some(finer) = miss.and_then(|miss| now.finer_for(&miss)) else {
                 return Some(following);

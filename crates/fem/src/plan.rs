@@ -27,6 +27,8 @@ const PENALTY_OVER_MODULUS: f64 = 20.0;
 const STEP_FACTOR: f64 = 0.9;
 /// Lengths of elements of condensed bodies in an octave: a ninth more elements across the contact at most.
 const LENGTHS: f64 = 8.0;
+/// Of a length that was written and read.
+const ROUNDING: f64 = 1e-9;
 /// Default limits of `[limits]`.
 const MAX_ELEMENTS: u64 = 2_000_000;
 const MAX_ELEMENT_UPDATES: u64 = 1_000_000_000_000;
@@ -181,6 +183,19 @@ impl Plan {
         match self.finer_body {
             Some(finer) => staggered(length, divided_radius(&self.estimate), finer),
             None => [length; 2],
+        }
+    }
+
+    /// The key by which a case makes the mesh away from a contact of this radius, m, another one than is chosen, if it
+    /// does.
+    pub(crate) fn far_mesh_key(&self, scene: &Scene, contact_radius: f64) -> Option<&'static str> {
+        let chosen = REFINED_OVER_CONTACT * contact_radius;
+        let chosen = (1.0 - ROUNDING) * chosen.min(self.estimate.smallest_radius);
+        let is_smaller = scene.mesh().refined_radius.is_some_and(|given| given < chosen);
+        match (self.makes_meshes, self.growth.is_some(), is_smaller) {
+            (false, ..) | (_, false, false) => None,
+            (_, true, _) => Some("mesh.growth"),
+            _ => Some("mesh.refined_radius"),
         }
     }
 

@@ -25,8 +25,8 @@ use fem_collision::{Collision, Headline, Monitor, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
-use crate::accuracy::{foretold_errors, of_moved_mass};
-use crate::assess::overlap_warning;
+use crate::accuracy::{far_mesh_errors, far_mesh_key, foretold_errors, of_moved_mass};
+use crate::assess::{noise, overlap_warning};
 use crate::early_pressure::EarlyPressure;
 use crate::effects::percent;
 use crate::method::{Cost, ElementSetup};
@@ -122,14 +122,28 @@ enum Kept {
 enum Cause {
     MovedMass,
     SoftSprings,
+    RingingSprings,
+    /// The key that gives it.
+    FarMesh(&'static str),
 }
 
 impl Cause {
-    /// What numbers are off by, and what helps.
-    fn in_words(self) -> [&'static str; 2] {
+    /// What numbers are off by.
+    fn in_words(self) -> &'static str {
         match self {
-            Self::MovedMass => ["the mass that is moved", "leave time.mass_scaling out"],
-            Self::SoftSprings => ["springs that give way", "leave contact.penalty_factor out"],
+            Self::MovedMass => "the mass that is moved",
+            Self::SoftSprings => "springs that give way",
+            Self::RingingSprings => "springs that ring",
+            Self::FarMesh(_) => "the mesh away from the contact",
+        }
+    }
+
+    /// What helps without it.
+    fn key(self) -> &'static str {
+        match self {
+            Self::MovedMass => "time.mass_scaling",
+            Self::SoftSprings | Self::RingingSprings => "contact.penalty_factor",
+            Self::FarMesh(key) => key,
         }
     }
 }
@@ -264,7 +278,10 @@ impl Simulation {
         let plan = &self.setup().elements.as_ref()?.plan;
         let Some(miss) = self.missed(collision) else { return self.untold(collision) };
         // One word a cause.
-        if self.is_unresolved(collision) || overlap_warning(self, collision).is_some() {
+        if self.is_unresolved(collision)
+            || overlap_warning(self, collision).is_some()
+            || is_of_noise(&miss, collision)
+        {
             return None;
         }
         let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
@@ -275,9 +292,13 @@ impl Simulation {
             Ok(_) => write,
             Err(Kept::Given) => write,
             Err(Kept::Setting(setting)) => {
-                let [of, remedy] = setting.in_words();
-                cause = of;
-                remedy.to_string()
+                // One word a cause.
+                let of_mesh = self.mesh_warning_after(collision);
+                if of_mesh.is_some_and(|warning| warning.contains(setting.key())) {
+                    return None;
+                }
+                cause = setting.in_words();
+                format!("leave {} out", setting.key())
             }
             Err(Kept::FromFile) => "use meshes that are finer at the contact".to_string(),
             Err(Kept::Gravity) => {
@@ -326,7 +347,16 @@ impl Simulation {
         if scene.mass_scaling().is_some() && of_mass > miss.tolerance {
             return Some(Cause::MovedMass);
         }
+        if let Some(key) = far_mesh_key(self) {
+            let of_far_mesh = far_mesh_errors(self).and_then(|of| of[miss.headline as usize]);
+            if of_far_mesh.is_some_and(|of| of > miss.tolerance) {
+                return Some(Cause::FarMesh(key));
+            }
+        }
         let collision = met?;
+        if is_of_noise(miss, collision) {
+            return Some(Cause::RingingSprings);
+        }
         // On average springs overlap by half as much, and the contact lasts longer as the approach grows.
         let overlap = collision.deepest.map_or(0.0, |deepest| deepest.overlap);
         let of_springs = 0.5 * overlap / collision.max_approach?;
@@ -415,6 +445,12 @@ impl Simulation {
             _ => Ok(finer),
         }
     }
+}
+
+/// Whether a peak is missed that noise makes too high.
+fn is_of_noise(miss: &Miss, collision: &Collision) -> bool {
+    let is_peak = matches!(miss.headline, Headline::PeakForce | Headline::PeakPressure);
+    is_peak && noise(collision).is_some_and(|noise| noise > miss.tolerance)
 }
 
 /// What is known of one refinement holds for others that differ from it by less: those of one mesh, which its

@@ -1,6 +1,7 @@
 //! A case with the model that computes it, whichever that is.
 
 use std::borrow::Cow;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
 use fem_case::engineering::show;
@@ -8,7 +9,7 @@ use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
 use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
 
-use crate::accuracy::Beside;
+use crate::accuracy::{Beside, Coarser};
 use crate::course::{Course, begun};
 use crate::effects::{Decisions, Doubt, EFFECTS, Effect, LeftOut, Verdict, decide};
 use crate::estimate::{Estimate, mach};
@@ -72,6 +73,10 @@ pub struct Simulation {
     pub(crate) errors: Mutex<Option<(Seen, Doubt)>>,
     /// Condensed companions of explicit elements that meet like this.
     pub(crate) condensed: Mutex<Option<(Approach, Option<Beside>)>>,
+    /// Companions of its own model with longer elements.
+    pub(crate) coarser: Mutex<Vec<Coarser>>,
+    /// Element updates of all companions so far, those of coarser meshes that did not do included.
+    updates_of_companions: Arc<AtomicU64>,
 }
 
 impl Simulation {
@@ -119,12 +124,15 @@ impl Simulation {
             too_dear: Mutex::default(),
             errors: Mutex::default(),
             condensed: Mutex::default(),
+            coarser: Mutex::default(),
+            updates_of_companions: Arc::default(),
         })
     }
 
     /// The same on a finer mesh, asked for the same.
     pub(crate) fn refined(&self, refinement: f64, levels: Vec<Level>) -> Result<Self, CaseError> {
         let mut finer = Self::at(self.case.clone(), &self.shared, refinement, levels)?;
+        finer.updates_of_companions = Arc::clone(&self.updates_of_companions);
         let probes = std::mem::take(&mut finer.want.probes);
         finer.want = self.want.clone();
         if !self.want.probes.is_empty() {
@@ -164,6 +172,20 @@ impl Simulation {
     /// What the method refuses before it makes anything.
     pub fn price(case: &Case) -> Result<u64, CaseError> {
         price_of(case.scene()).map_err(|refusal| refusal.in_case(case))
+    }
+
+    /// Counts what a collision took that tells about others.
+    pub(crate) fn count_companion(&self, collision: &Collision) {
+        let updates = collision.element_updates.unwrap_or(0);
+        self.updates_of_companions.fetch_add(updates, Ordering::Relaxed);
+    }
+
+    /// Element updates so far of a collision, of coarser meshes that did not do, and of all that told what they are off by;
+    /// none of a model that takes none.
+    pub(crate) fn all_element_updates(&self, collision: &Collision) -> Option<u64> {
+        let before = self.levels.iter().filter_map(|level| level.element_updates);
+        let companions = self.updates_of_companions.load(Ordering::Relaxed);
+        Some(collision.element_updates? + before.sum::<u64>() + companions)
     }
 
     /// The case.
@@ -228,8 +250,19 @@ impl Simulation {
         })
     }
 
+    /// That the meshes cannot carry the contact as wide as it came.
+    pub(crate) fn mesh_warning_after(&self, collision: &Collision) -> Option<String> {
+        self.resolution_warning(self.carried_radius(collision)?)
+    }
+
+    /// What that says contact time and peak force are off by, as shares.
+    pub(crate) fn mesh_error_stated(&self, collision: &Collision) -> Option<[f64; 2]> {
+        let radius = self.carried_radius(collision)?;
+        Resolution::of(self.case.scene(), self.model.meshes(), radius)?.stated()
+    }
+
     /// That the meshes cannot carry a contact of this radius, m.
-    pub(crate) fn resolution_warning(&self, contact_radius: f64) -> Option<String> {
+    fn resolution_warning(&self, contact_radius: f64) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
         let (scene, meshes) = (self.case.scene(), self.model.meshes());
         let resolution = Resolution::of(scene, meshes, contact_radius)?;
@@ -322,7 +355,7 @@ impl Simulation {
         identity_of(&self.meeting(self.case.file().clone(), approach))
     }
 
-    fn meeting(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
+    pub(crate) fn meeting(&self, mut file: CaseFile, approach: &Approach) -> CaseFile {
         if *approach != self.setup().approach {
             let [lower, upper] = approach.velocities();
             // A speed is toward the other body; a body at rest has 0, never -0.

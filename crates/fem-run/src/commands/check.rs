@@ -3,23 +3,21 @@
 use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::{Cost, Following, ForceLaw, Foreseen, Simulation};
+use fem::{Cost, ForceLaw, Foreseen, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
-use fem_case::engineering::show;
+use fem_case::engineering::{number, show};
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::{CaseArguments, ToleranceArguments};
 use crate::failure::Failure;
-use crate::forecast::seconds;
+use crate::forecast::Forecast;
 use crate::report;
 use crate::standard_output;
 use crate::tables::{mesh_table, pairs, table};
 
 /// What companions may take before the mesh counts as open.
 const PATIENCE_WITH_COMPANIONS: Duration = Duration::from_secs(2);
-/// The same of coarser meshes, which foretell what follows where nothing else does, s.
-const SECONDS_OF_COARSER_MESHES: f64 = 1.5;
 
 /// Check a case and print it with all defaults filled in
 ///
@@ -61,42 +59,23 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let Foreseen { simulation, is_open } =
         simulation.foreseen(|| begin.elapsed() < PATIENCE_WITH_COMPANIONS);
     let setup = begin.elapsed().as_secs_f64();
-    let is_quick = is_open && companion_seconds(&simulation) < SECONDS_OF_COARSER_MESHES;
-    let following = is_quick.then(|| simulation.following()).flatten();
-    let spent = Making { making, setup, is_open, following };
+    let forecast = Forecast::of(&simulation, making, is_open);
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
     let heading = format!("{name} is sound. What to expect of a run:");
-    let expectation =
-        format!("{}\n\n{}", standard_output::one_line(&heading), expect(&simulation, &spent));
+    let expectation = format!(
+        "{}\n\n{}",
+        standard_output::one_line(&heading),
+        expect(&simulation, setup, &forecast)
+    );
     let text = format!("{}\n{resolved}", as_comment(&expectation));
     Ok((simulation, text))
 }
 
-/// What the coarser meshes of a run are expected to take, s.
-fn companion_seconds(simulation: &Simulation) -> f64 {
-    match (seconds(simulation, 0.0), simulation.companion_updates()) {
-        (Some(run), Some(share)) => run * share / (1.0 + share),
-        _ => f64::INFINITY,
-    }
-}
-
-/// What came before a run.
-struct Making {
-    /// Of its bodies at first, s.
-    making: f64,
-    /// All of it, companions too, which tell the mesh that is needed, s.
-    setup: f64,
-    /// Whether finer meshes may follow.
-    is_open: bool,
-    /// Finer meshes that coarser ones foretell.
-    following: Option<Following>,
-}
-
-/// What to expect of a run.
-fn expect(simulation: &Simulation, spent: &Making) -> String {
+/// What to expect of a run that took so long to set up, s.
+fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
     let setup = simulation.setup();
     let hertz = &setup.estimate.hertz;
     let closed_form = pairs([
@@ -106,7 +85,7 @@ fn expect(simulation: &Simulation, spent: &Making) -> String {
         ("largest contact radius", show(hertz.max_contact_radius(), "m")),
         ("peak pressure", show(hertz.peak_pressure(), "Pa")),
     ]);
-    let costs = costs(&setup.cost, time(simulation, spent));
+    let costs = costs(&setup.cost, Some(forecast), time(simulation, spent, forecast));
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
@@ -154,7 +133,7 @@ fn unforced(simulation: &Simulation) -> String {
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
         Some(Ok(planned)) if planned.setup().cost != simulation.setup().cost => {
-            let costs = costs(&planned.setup().cost, Vec::new());
+            let costs = costs(&planned.setup().cost, None, Vec::new());
             format!("\nCost if the plan decided on all effects\n{costs}")
         }
         _ => String::new(),
@@ -183,7 +162,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let tolerance = 100.0 * simulation.case().scene().accuracy().peak_force;
+    let tolerance = number(100.0 * simulation.case().scene().accuracy().peak_force, 3);
     let table = table(&[Left, Left], rows);
     format!("\nChosen for accuracy.tolerance, {tolerance} % of the peak force\n{table}")
 }
@@ -196,43 +175,26 @@ fn of_contacts(simulation: &Simulation) -> String {
     }
 }
 
-/// How long the making of the bodies took here, the steps will take, and what may follow.
-fn time(simulation: &Simulation, spent: &Making) -> Vec<[String; 2]> {
-    let making = show(spent.setup, "s");
-    let run = seconds(simulation, spent.making);
-    let time = match run {
-        Some(run) => format!("about {} here, after {making} of setup", show(run, "s")),
-        None => format!("{making} of setup here"),
+/// How long the setup took here, s, the steps will take, and what may follow.
+fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String; 2]> {
+    let setup = show(setup, "s");
+    let time = match forecast.seconds {
+        Some(run) => format!("about {} here, after {setup} of setup", show(run, "s")),
+        None => format!("{setup} of setup here"),
     };
     let mut rows = Vec::new();
     if let Some(why) = simulation.refined_because() {
         rows.push(["finer mesh".to_string(), why]);
     }
     rows.push(["time".to_string(), time]);
-    if spent.is_open
-        && let (Cost::Steps { element_updates, .. }, Some(run)) = (&simulation.setup().cost, run)
-        && let Some(most) = simulation.most_of_finer_meshes().filter(|most| *most > 0)
-    {
-        let each = run / *element_updates as f64;
-        let price = |updates: u64| {
-            let updates = updates as f64;
-            format!("{updates:.1e} element updates more, {}", show(each * updates, "s"))
-        };
-        let expected = match spent.following {
-            Some(Following { meshes: 0, .. }) => "coarser meshes foretell none; ".to_string(),
-            Some(Following { meshes, element_updates }) => {
-                format!("coarser meshes foretell {meshes}, about {}; ", price(element_updates))
-            }
-            None => String::new(),
-        };
+    rows.extend(forecast.finer.map(|finer| {
         let when = "where the mesh misses accuracy.tolerance, which only the run tells";
-        let most = price(most);
-        rows.push(["finer meshes".to_string(), format!("{when}: {expected}at most {most}")]);
-    }
+        ["finer meshes".to_string(), format!("{when}: {}", finer.in_words())]
+    }));
     rows
 }
 
-fn costs(cost: &Cost, time: Vec<[String; 2]>) -> String {
+fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> String {
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, value: String| rows.push([name.to_string(), value]);
     match *cost {
@@ -241,7 +203,12 @@ fn costs(cost: &Cost, time: Vec<[String; 2]>) -> String {
             let step = show(time_step, "s");
             row("time step", format!("{step} ({longer:.2} times that without mass scaling)"));
             row("steps", format!("about {}", HumanCount(steps)));
-            row("element updates", format!("about {:.1e}", element_updates as f64));
+            let all = forecast.map(Forecast::all_element_updates);
+            let all = all.filter(|all| *all > 1.05 * element_updates as f64);
+            let all = all.map_or(String::new(), |all| {
+                format!(", {all:.1e} with companions and the meshes that are foretold")
+            });
+            row("element updates", format!("about {:.1e}{all}", element_updates as f64));
             row("memory", format!("about {}", DecimalBytes(memory)));
         }
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {

@@ -14,7 +14,7 @@ use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::{CaseArguments, ToleranceArguments, parse_count};
 use crate::failure::Failure;
-use crate::forecast::seconds;
+use crate::forecast::Forecast;
 use crate::interrupt::Interrupt;
 use crate::place::ResultPlace;
 use crate::progress::Watch;
@@ -164,15 +164,12 @@ fn compute(
 
 /// Some words on stderr about what begins.
 fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlace, is_open: bool) {
-    let more = simulation.most_of_finer_meshes().filter(|more| is_open && *more > 0);
-    let more = more.map_or(String::new(), |more| {
-        format!(", up to {:.1e} element updates more if finer meshes have to follow", more as f64)
+    let forecast = Forecast::of(simulation, making, is_open);
+    let more = forecast.finer.map_or(String::new(), |finer| {
+        format!("; if finer meshes have to follow: {}", finer.in_words())
     });
-    let is_condensed = matches!(simulation.setup().cost, Cost::Factors { .. });
-    let time = is_condensed.then(|| seconds(simulation, making)).flatten();
-    let time = time.map_or(String::new(), |time| format!(", some {}", show(time, "s")));
-    let (price, out) = (price(simulation), place.out.display());
-    let mut line = format!("{case}: {price}{time}{more}; result: {out}");
+    let (price, out) = (price(simulation, forecast.seconds), place.out.display());
+    let mut line = format!("{case}: {price}{more}; result: {out}");
     if let Some(taken) = &place.taken {
         line += &format!(", since {} holds that of another case", taken.display());
     }
@@ -187,24 +184,30 @@ fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlac
 /// A word on stderr on a mesh that is made finer, if it is.
 fn tell_finer(simulation: &Simulation) {
     if let Some(why) = simulation.refined_because() {
-        let _ = writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation))));
+        let seconds = Forecast::of(simulation, 0.0, false).seconds;
+        let _ =
+            writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation, seconds))));
     }
 }
 
-/// The model and what it costs.
-fn price(simulation: &Simulation) -> String {
+/// The model and what it costs, in so many seconds where that is known.
+fn price(simulation: &Simulation, seconds: Option<f64>) -> String {
+    let time = |seconds: Option<f64>| {
+        seconds.map_or(String::new(), |seconds| format!(", some {}", show(seconds, "s")))
+    };
     match simulation.setup().cost {
-        Cost::Steps { elements, steps, seconds, memory, .. } => format!(
-            "{} elements, about {} steps, some {}, about {}",
+        Cost::Steps { elements, steps, seconds: expected, memory, .. } => format!(
+            "{} elements, about {} steps{}, about {}",
             HumanCount(elements),
             HumanCount(steps),
-            show(seconds, "s"),
+            time(seconds.or(Some(expected))),
             DecimalBytes(memory)
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
-            "{} elements condensed to {contact_points} contact points, factors of {}",
+            "{} elements condensed to {contact_points} contact points, factors of {}{}",
             HumanCount(elements),
-            DecimalBytes(factor_bytes)
+            DecimalBytes(factor_bytes),
+            time(seconds)
         ),
         Cost::Little { .. } => format!("{}, milliseconds", simulation.setup().description),
     }

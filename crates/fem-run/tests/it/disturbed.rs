@@ -58,8 +58,11 @@ fn velocities(memory: &Memory) -> Vec<f64> {
     list.iter().flat_map(|v| v.as_array().unwrap()).map(|v| v.as_f64().unwrap()).collect()
 }
 
+/// What a velocity becomes, by its place among them.
+type Change = fn(usize, f64) -> f64;
+
 /// A memory with other velocities of the lower body; a number that is none can be in its bytes alone.
-fn with(memory: &Memory, change: impl Fn(usize, f64) -> f64) -> Memory {
+fn with(memory: &Memory, change: Change) -> Memory {
     let mut bytes = postcard::to_stdvec(memory).unwrap();
     let old = velocities(memory);
     let as_bytes = |values: &[f64]| -> Vec<u8> {
@@ -99,10 +102,10 @@ fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
         let (stderr, summary) = gone_on(&place, set, &with(&memory, |_, v| v), &identity);
         assert_eq!(summary["complete"], true, "{name}: {stderr}");
         let whole = summary["steps"].as_u64().unwrap();
-        let faults: [(&str, &dyn Fn(usize, f64) -> f64); 3] = [
-            ("times the initial: the time integration is unstable", &|_, v| 1.5 * v),
-            ("is no number", &|k, v| if k == 41 { f64::NAN } else { v }),
-            ("is no number", &|k, v| if k == 40 { f64::INFINITY } else { v }),
+        let faults: [(&str, Change); 3] = [
+            ("times the initial: the time integration is unstable", |_, v| 1.5 * v),
+            ("is no number", |k, v| if k == 41 { f64::NAN } else { v }),
+            ("is no number", |k, v| if k == 40 { f64::INFINITY } else { v }),
         ];
         for (cause, change) in faults {
             let (stderr, summary) = gone_on(&place, set, &with(&memory, change), &identity);

@@ -77,6 +77,7 @@ fn the_summary_has_the_keys_of_the_contract() {
         "trials_s",
         "solve_s",
         "ns_per_element_update",
+        "all_element_updates",
         "threads",
         "peak_memory_bytes",
         "factor_bytes",

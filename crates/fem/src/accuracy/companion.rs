@@ -51,7 +51,7 @@ use crate::plan::Plan;
 use crate::simulation::Simulation;
 
 /// Errors of a sequence of meshes fall with this power of the length of their elements.
-const ORDER: f64 = 1.9;
+pub(crate) const ORDER: f64 = 1.9;
 /// Elements of coarser companions over those of the collision.
 const COARSER: [f64; 2] = [1.5, 2.0];
 /// Elements of the collision over those of the finer companion of condensed bodies: with half of the length it
@@ -119,6 +119,8 @@ const OF_FAST_TERMS: f64 = 3e-4;
 const AT_ONCE: f64 = 1e-3;
 /// Relative change for each share of mass that is moved.
 const OF_ADDED_MASS: [f64; 6] = [0.05, 0.25, 0.4, 0.45, 0.1, 0.2];
+/// Errors that are told over what the mesh away from the contact changes.
+const MARGIN_OF_FAR_MESH: f64 = 1.3;
 /// Contact radius over effective radius up to which meshes do at finite strain what they do at small strain:
 /// there the two differ by the same on all meshes with eight elements or more across, to 0.02 % of time and force.
 const FLAT: f64 = 0.1;
@@ -150,6 +152,12 @@ pub(crate) fn discretisation_errors(
     let condensed = match are_like && plan.makes_meshes && is_explicit {
         true => companions.of_condensed().map(|Beside { errors, .. }| errors),
         false => None,
+    };
+    // Condensed companions have it in their limit.
+    let far_mesh = match (condensed, is_explicit && !are_like) {
+        (Some(_), _) => None,
+        (None, true) => companions.of_strained_far_mesh().or_else(|| companions.of_far_mesh()),
+        (None, false) => companions.of_far_mesh(),
     };
     let is_few = across < 2.0 * FEW;
     let (errors, margin) = match condensed {
@@ -192,7 +200,8 @@ pub(crate) fn discretisation_errors(
     Doubt::by(|headline| {
         let k = headline as usize;
         let both = told[k].zip(values[k]);
-        both.map(|(error, value)| error * headline.scale(value) + of_relaxation(headline))
+        let far = far_mesh.and_then(|far| far[k]).unwrap_or(0.0);
+        both.map(|(error, value)| (error + far) * headline.scale(value) + of_relaxation(headline))
     })
 }
 
@@ -243,6 +252,22 @@ pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6
     let across = values[Headline::MaxContactRadius as usize]? / size;
     let (scatter, of_few) = beside_condensed(mach, is_finite);
     Some(told(errors, MARGIN, scatter, of_few, across, *added_share))
+}
+
+/// What the mesh away from the contact, as the case gives it, is going to take from numbers, the restitution's absolute,
+/// all others as shares; none where the case leaves it open.
+pub(crate) fn far_mesh_errors(simulation: &Simulation) -> Option<[Option<f64>; 6]> {
+    let setup = simulation.setup();
+    let plan = &setup.elements.as_ref()?.plan;
+    let (approach, size) = (setup.approach, plan.contact_element_size);
+    Companions { simulation, approach, plan, size }.of_far_mesh()
+}
+
+/// The key by which a case makes the mesh away from the contact another one than is chosen, if it does.
+pub(crate) fn far_mesh_key(simulation: &Simulation) -> Option<&'static str> {
+    let setup = simulation.setup();
+    let plan = &setup.elements.as_ref()?.plan;
+    plan.far_mesh_key(simulation.case().scene(), setup.estimate.contact_radius)
 }
 
 /// Coarser meshes that foretell may take so many times what is expected of them.
@@ -356,6 +381,24 @@ fn added_share(collision: &Collision) -> f64 {
     collision.added_shares().into_iter().flatten().fold(0.0, f64::max)
 }
 
+/// A companion of a model itself with longer elements.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Coarser {
+    /// How the bodies met.
+    approach: Approach,
+    /// Length of the elements at the contact, m.
+    size: f64,
+    /// In the order of [`Headline::ALL`].
+    values: [Option<f64>; 6],
+}
+
+/// How meshes go on away from the contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum FarMesh {
+    AsGiven,
+    Chosen,
+}
+
 /// Cheaper collisions of the same bodies.
 struct Companions<'a> {
     simulation: &'a Simulation,
@@ -401,6 +444,36 @@ impl Companions<'_> {
         self.beside_touching(same, if is_few { self.size } else { 2.0 * self.size })
     }
 
+    fn far_mesh_key(&self) -> Option<&'static str> {
+        let scene = self.simulation.case().scene();
+        let estimate = Estimate::at(scene, self.approach.speed()).ok()?;
+        self.plan.far_mesh_key(scene, estimate.contact_radius)
+    }
+
+    /// Errors by the mesh away from the contact, where the case gives it; the restitution's absolute, all others relative.
+    fn of_far_mesh(&self) -> Option<[Option<f64>; 6]> {
+        self.far_mesh_key()?;
+        let [given, chosen] = [FarMesh::AsGiven, FarMesh::Chosen].map(|far_mesh| {
+            let settings = [
+                Setting::Condensed { vibration_modes: 0, penalty_springs: true },
+                Setting::ElementSize(self.size),
+            ];
+            self.collide_within(&settings, far_mesh, u64::MAX)
+        });
+        Some(beside_chosen(given?, chosen?))
+    }
+
+    /// The same as the model itself tells it with longer elements: at large strains it is more.
+    fn of_strained_far_mesh(&self) -> Option<[Option<f64>; 6]> {
+        self.far_mesh_key()?;
+        let ratio = COARSER[0];
+        let size = Setting::ElementSize(ratio * self.size);
+        let staggered = Setting::Staggered(self.plan.finer_body.is_some());
+        let given = self.with_elements(ratio, u64::MAX)?;
+        let chosen = self.collide_within(&[size, staggered], FarMesh::Chosen, u64::MAX)?;
+        Some(beside_chosen(given, chosen))
+    }
+
     /// Errors of numbers beside the limit of nodes that touch exactly, which have no meshes that are staggered, with
     /// elements about as long (m) and half as long.
     fn beside_touching(&self, values: [Option<f64>; 6], size: f64) -> Option<[Option<f64>; 6]> {
@@ -408,12 +481,17 @@ impl Companions<'_> {
             Some(radius) if radius > size => radius / (radius / size).round(),
             _ => size,
         };
+        let far_mesh = match self.far_mesh_key() {
+            Some(_) => FarMesh::Chosen,
+            None => FarMesh::AsGiven,
+        };
         let [coarse, fine] = [size, 0.5 * size].map(|size| {
-            self.collide(&[
+            let settings = [
                 Setting::Condensed { vibration_modes: 0, penalty_springs: false },
                 Setting::ElementSize(size),
                 Setting::Staggered(false),
-            ])
+            ];
+            self.collide_within(&settings, far_mesh, u64::MAX)
         });
         Some(beside_limit(values, coarse?, fine?))
     }
@@ -430,11 +508,21 @@ impl Companions<'_> {
         })
     }
 
-    /// The numbers of the model itself with elements that are so many times longer; none of a run that takes more.
+    /// The numbers of the model itself with elements that are so many times longer; none of a run that takes more. They
+    /// are kept: they are asked for before a collision and after it.
     fn with_elements(&self, ratio: f64, most_element_updates: u64) -> Option<[Option<f64>; 6]> {
-        let size = Setting::ElementSize(ratio * self.size);
+        let size = ratio * self.size;
+        // Who panicked has left nothing half written.
+        let mut known = self.simulation.coarser.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_it = |one: &&Coarser| one.approach == self.approach && one.size == size;
+        if let Some(coarser) = known.iter().find(is_it) {
+            return Some(coarser.values);
+        }
         let staggered = Setting::Staggered(self.plan.finer_body.is_some());
-        self.collide_within(&[size, staggered], most_element_updates)
+        let settings = [Setting::ElementSize(size), staggered];
+        let values = self.collide_within(&settings, FarMesh::AsGiven, most_element_updates)?;
+        known.push(Coarser { approach: self.approach, size, values });
+        Some(values)
     }
 
     /// The same from the model itself with longer elements.
@@ -456,13 +544,14 @@ impl Companions<'_> {
 
     /// The numbers of the bodies' first contact with these settings; none where the model refuses them.
     fn collide(&self, settings: &[Setting]) -> Option<[Option<f64>; 6]> {
-        self.collide_within(settings, u64::MAX)
+        self.collide_within(settings, FarMesh::AsGiven, u64::MAX)
     }
 
     /// The same; none of a run that takes more element updates.
     fn collide_within(
         &self,
         settings: &[Setting],
+        far_mesh: FarMesh,
         most_element_updates: u64,
     ) -> Option<[Option<f64>; 6]> {
         let case = self.simulation.case().edited(|file| {
@@ -482,6 +571,11 @@ impl Companions<'_> {
             }
             for setting in settings {
                 setting.apply(file);
+            }
+            if let (FarMesh::Chosen, Some(mesh)) = (far_mesh, file.mesh.as_mut()) {
+                (mesh.growth, mesh.refined_radius) = (None, None);
+                // What is chosen goes by the speed.
+                *file = self.simulation.meeting(file.clone(), &self.approach);
             }
             if settings.iter().any(|it| matches!(it, Setting::ElementSize(_))) {
                 let spheres = file.body.iter_mut().filter_map(|body| body.sphere.as_mut());
@@ -504,9 +598,19 @@ impl Companions<'_> {
         let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
         let want = Want { most_element_updates, ..Want::quantities() };
         let collision = companion.model().collide(&self.approach, &want, &mut ());
+        self.simulation.count_companion(&collision);
         let values = Headline::ALL.map(|headline| headline.of(&collision));
         collision.is_complete().then_some(values)
     }
+}
+
+/// What the mesh away from the contact changes, with its margin, of numbers with the given and with the chosen one.
+fn beside_chosen(given: [Option<f64>; 6], chosen: [Option<f64>; 6]) -> [Option<f64>; 6] {
+    Headline::ALL.map(|headline| {
+        let k = headline as usize;
+        let (given, chosen) = (given[k]?, chosen[k]?);
+        Some(MARGIN_OF_FAR_MESH * (given - chosen).abs() / headline.scale(chosen))
+    })
 }
 
 /// Errors beside the limit of numbers with elements of some length and of half of it.

@@ -18,7 +18,8 @@ mod stress_places;
 mod study;
 
 pub(crate) use companion::{
-    Beside, ByCoarser, companion_updates, discretisation_errors, foretold_errors, of_moved_mass,
+    Beside, ByCoarser, Coarser, ORDER, companion_updates, discretisation_errors, far_mesh_errors,
+    far_mesh_key, foretold_errors, of_moved_mass,
 };
 pub use convergence::{Convergence, ObservedOrder};
 pub use error_parts::{ErrorPart, ErrorSource};

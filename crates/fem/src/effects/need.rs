@@ -15,7 +15,23 @@ pub struct Need {
     pub warning: Option<String>,
 }
 
-/// A share in per cent.
+/// A share in per cent; of what would be 0.00 the power of ten.
 pub(crate) fn percent(share: f64) -> String {
-    format!("{:.2} %", 100.0 * share)
+    let percent = 100.0 * share;
+    match percent != 0.0 && percent.abs() < 5e-3 {
+        true => format!("{percent:.1e} %"),
+        false => format!("{percent:.2} %"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_shares_keep_a_digit() {
+        let shares = [0.0, 1e-11, 4.9e-5, 5.1e-5, 0.01, 1.5];
+        let words = ["0.00 %", "1.0e-9 %", "4.9e-3 %", "0.01 %", "1.00 %", "150.00 %"];
+        assert_eq!(shares.map(percent), words);
+    }
 }

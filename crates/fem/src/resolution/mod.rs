@@ -119,6 +119,21 @@ impl Resolution {
         )
     }
 
+    /// Whether there is nothing to be known. What is no number is above every limit.
+    fn is_fine(&self) -> bool {
+        let largest = self.contact_time.max(self.peak_force);
+        largest <= LARGEST_ERROR && self.elements >= FEWEST_ELEMENTS
+    }
+
+    /// What the warning says contact time and peak force are off by, as shares; at least.
+    pub fn stated(&self) -> Option<[f64; 2]> {
+        let told = |error: f64| if error <= LARGEST_TOLD { error } else { LARGEST_TOLD };
+        match self.is_none_at_all() {
+            true => Some([LARGEST_TOLD; 2]),
+            false => (!self.is_fine()).then(|| [self.contact_time, self.peak_force].map(told)),
+        }
+    }
+
     /// What a user should know of it, of a contact of this radius, m.
     pub fn warning(
         &self,
@@ -127,10 +142,7 @@ impl Resolution {
         meshes: [Option<&SphereMesh>; 2],
         contact_radius: f64,
     ) -> Option<String> {
-        let largest = self.contact_time.max(self.peak_force);
-        // What is no number is above every limit.
-        let is_fine = largest <= LARGEST_ERROR && self.elements >= FEWEST_ELEMENTS;
-        let mesh = meshes[self.source.side].filter(|_| !is_fine)?;
+        let mesh = meshes[self.source.side].filter(|_| !self.is_fine())?;
         if self.is_none_at_all() {
             return Some(self.unresolved(scene, contact_radius));
         }
@@ -138,6 +150,7 @@ impl Resolution {
         let corners = mesh.corners(self.source.element);
         let [r, y] = middle(&corners);
         // The error falls with the square of the size.
+        let largest = self.contact_time.max(self.peak_force);
         let by_error = (SHARE_OF_ADVICE * LARGEST_ERROR / largest).sqrt();
         let shrink = by_error.min(self.elements / FEWEST_ELEMENTS);
         let edge = longest_edge(&corners);

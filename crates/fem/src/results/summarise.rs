@@ -68,6 +68,7 @@ impl Summary {
                 trials_s: spent.trials,
                 solve_s: spent.solve,
                 ns_per_element_update: updates.map(|updates| 1e9 * spent.solve / updates as f64),
+                all_element_updates: simulation.all_element_updates(collision),
                 threads: spent.threads,
                 peak_memory_bytes: spent.peak_memory,
                 factor_bytes: collision.factor_bytes,

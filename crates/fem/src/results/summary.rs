@@ -250,6 +250,8 @@ pub struct CostSummary {
     pub solve_s: f64,
     /// Time of an element and step, of the collision alone.
     pub ns_per_element_update: Option<f64>,
+    /// Of the collision, of coarser meshes that did not do, and of the companions that tell what they are off by.
+    pub all_element_updates: Option<u64>,
     /// Threads that the run used.
     pub threads: usize,
     /// Largest memory of the process.

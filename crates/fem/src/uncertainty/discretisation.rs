@@ -1,9 +1,10 @@
-//! What mesh, springs, added mass and steps may be off by.
+//! What mesh, springs, added mass and steps may be off by: what companions tell, and no less than warnings state.
 
 use std::sync::PoisonError;
 
 use fem_collision::{Approach, Collision, Headline};
 
+use super::stated::stated;
 use crate::accuracy::discretisation_errors;
 use crate::effects::{Doubt, FiniteStrain, Verdict};
 use crate::simulation::Simulation;
@@ -63,7 +64,12 @@ fn of(simulation: &Simulation, collision: &Collision) -> Doubt {
     match *simulation.scene_of_model().model() {
         Fem | Condensed(_) => {
             let is_finite = is_at_finite_strain(simulation, collision);
-            discretisation_errors(simulation, collision, is_finite)
+            let told = discretisation_errors(simulation, collision, is_finite);
+            Doubt::by(|headline| {
+                let floor = headline.scale(headline.of(collision)?)
+                    * stated(simulation, collision, headline);
+                told.size(headline).map(|size| size.max(floor))
+            })
         }
         Hertz { .. } => of_tolerance(collision, ROUNDING),
         Ting { tolerance, .. } | Law { tolerance, .. } => of_tolerance(collision, tolerance),

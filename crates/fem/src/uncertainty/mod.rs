@@ -8,6 +8,7 @@
 //! known. Of a contact law's own numbers, which are the user's, it knows nothing.
 
 mod discretisation;
+mod stated;
 
 pub(crate) use discretisation::Seen;
 

@@ -88,6 +88,131 @@ fn a_mesh_that_is_too_coarse_is_told_by_its_bar() {
     }
 }
 
+/// Meshes that coarsen fast, or begin to right under the pole, of either model, at small strain and at large.
+const FAR_MESHES: [&str; 6] = [
+    "mesh.growth=1.2",
+    "mesh.growth=1.4",
+    "mesh.growth=1.7",
+    "mesh.growth=2",
+    "mesh.refined_radius=1e-9",
+    "mesh.refined_radius=1e-4",
+];
+
+/// What a mesh does away from the contact no finer one of its kind shows; it is in the bar all the same.
+#[test]
+fn what_a_mesh_does_away_from_the_contact_is_in_its_bar() {
+    let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
+    for model in ["model.condensed={}", "model.fem={}"] {
+        for far_mesh in FAR_MESHES {
+            let ours = summary(BALL, &[model, far_mesh, &across(BALL, 6.0)]);
+            let checked = [Headline::ContactTime, Headline::PeakForce, Headline::MaxApproach];
+            for headline in checked {
+                let (value, bar) = told(&ours, headline);
+                let (exact, _) = told(&theory, headline);
+                let bar = bar.discretisation.unwrap() / exact;
+                let error = (value / exact - 1.0).abs();
+                let said = || format!("{model} {far_mesh} {headline:?} {error:e} {bar:e}");
+                assert!(error < bar + OF_THEORY, "{}", said());
+                assert!(bar < 5.0 * error + 0.02, "{}", said());
+            }
+        }
+    }
+}
+
+/// The same of large strains, against the mesh that is chosen, with three times the elements.
+#[test]
+fn what_a_mesh_does_away_from_a_large_contact_is_in_its_bar() {
+    let rubber =
+        BALL.replace("9.3e9", "1e6").replace("0.33 }", "0.45, hyperelastic = 'neo-hooke' }");
+    let set = ["effects.finite_strain='on'", "body.0.approach_speed=2"];
+    let with = |more: &[&str]| summary(&rubber, &[&set[..], more].concat());
+    let fine = with(&["mesh.contact_element_size='0.25 mm'"]);
+    for far_mesh in ["mesh.growth=2", "mesh.refined_radius=1e-9"] {
+        let ours = with(&["mesh.contact_element_size='0.75 mm'", far_mesh]);
+        for headline in [Headline::ContactTime, Headline::PeakForce, Headline::MaxApproach] {
+            let (value, bar) = told(&ours, headline);
+            let (limit, of_limit) = told(&fine, headline);
+            let room = bar.discretisation.unwrap() + of_limit.discretisation.unwrap();
+            assert!((value - limit).abs() < room, "{far_mesh} {headline:?} {value} {limit} {room}");
+        }
+    }
+}
+
+/// Springs that ring make peaks too high: how far from the truth is in the bars, and no finer mesh is advised for it.
+#[test]
+fn peaks_of_springs_that_ring_have_bars_as_wide() {
+    let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
+    for factor in ["30", "300"] {
+        let factor = format!("contact.penalty_factor={factor}");
+        let ours = summary(BALL, &[&across(BALL, 4.0), "contact.method='penalty'", &factor]);
+        assert!(ours.warnings.iter().any(|warning| warning.contains("scatters by")));
+        assert!(ours.warnings.iter().all(|w| !w.contains("because of")), "{:?}", ours.warnings);
+        for headline in [Headline::PeakForce, Headline::PeakPressure] {
+            let (value, bar) = told(&ours, headline);
+            let (exact, of_theory) = told(&theory, headline);
+            let room = bar.discretisation.unwrap() + of_theory.model.unwrap();
+            let error = (value - exact).abs();
+            assert!(
+                error < room + OF_THEORY * exact,
+                "{factor} {headline:?} {value} {exact} {room}"
+            );
+        }
+    }
+}
+
+/// The number of per cent right behind some words, as a share.
+fn share_behind(text: &str, words: &str) -> Option<f64> {
+    let rest = text.split(words).nth(1)?;
+    rest.split('%').next()?.trim().parse::<f64>().ok().map(|share| share / 100.0)
+}
+
+/// What a warning states a quantity to be off by is in its bar: no reader has to choose between two.
+#[test]
+fn no_bar_is_below_what_a_warning_states() {
+    let stated = [
+        ("contact time off by about", Headline::ContactTime),
+        ("peak force by about", Headline::PeakForce),
+        ("contact force scatters by", Headline::PeakForce),
+        ("surfaces overlap by about", Headline::MaxApproach),
+        ("contact time may be off by", Headline::ContactTime),
+        ("peak force may be off by", Headline::PeakForce),
+        ("peak pressure may be off by", Headline::PeakPressure),
+    ];
+    let [few, some] = [across(BALL, 2.0), across(BALL, 4.0)];
+    let scenes: [&[&str]; 9] = [
+        &[&few],
+        &["mesh.growth=2"],
+        &["mesh.growth=1.5"],
+        &["mesh.refined_radius=1e-9"],
+        &[&some, "contact.penalty_factor=0.02"],
+        &[&some, "contact.penalty_factor=0.3"],
+        &[&some, "contact.method='penalty'", "contact.penalty_factor=100", "time.mass_scaling=0"],
+        &[&some, "contact.method='node_to_surface'", "contact.penalty_factor=10"],
+        &["mesh.contact_element_size='0.8 mm'"],
+    ];
+    let mut n_stated = [0; 7];
+    for scene in scenes {
+        for model in ["model.fem={}", "model.condensed={penalty_springs=true}"] {
+            let is_springs_alone = scene.iter().any(|set| set.contains("method"));
+            if is_springs_alone && model != "model.fem={}" {
+                continue;
+            }
+            let ours = summary(BALL, &[&[model], scene].concat());
+            for warning in &ours.warnings {
+                for (k, (words, headline)) in stated.into_iter().enumerate() {
+                    let Some(share) = share_behind(warning, words) else { continue };
+                    let (value, bar) = told(&ours, headline);
+                    let bar = bar.discretisation.unwrap_or(f64::INFINITY) / value;
+                    n_stated[k] += 1;
+                    // Printed with a digit behind the point.
+                    assert!(bar > share - 6e-4, "{model} {scene:?}: {bar} beside “{warning}”");
+                }
+            }
+        }
+    }
+    assert!(n_stated[..4].iter().all(|n| *n > 0), "{n_stated:?}");
+}
+
 /// A mesh from a file has its bar, too: the truth is in it, and it is wide where only the pole is fine.
 #[test]
 fn a_mesh_of_a_file_has_its_bar() {

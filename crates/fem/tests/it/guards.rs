@@ -202,6 +202,20 @@ fn a_setting_far_from_its_default_is_blamed_itself() {
     }
 }
 
+/// What makes a mass no number is pointed at, and not a body as a whole.
+#[test]
+fn a_mass_that_is_no_number_points_at_what_makes_it() {
+    for (set, key, words) in [
+        ("material.glass.density=1e-300", "body.0.material", "density is 1e-300 kg/m^3"),
+        ("body.0.sphere.diameter=1e-110", "body.0.sphere.diameter", "diameter is 1e-110 m"),
+    ] {
+        let case = Case::parse("glass.toml", GLASS, Path::new("."), &[set.to_string()]);
+        let error = Simulation::new(case.unwrap()).unwrap_err();
+        assert_eq!(error.key(), Some(key), "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
+}
+
 /// Motion that is no number is why a run ends; what follows from it is no news, and told once.
 #[test]
 fn what_ended_a_run_is_told_once() {

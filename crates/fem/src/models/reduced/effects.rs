@@ -1,6 +1,6 @@
 //! What a reduced model has of each effect, and what it leaves out of a case that has it.
 
-use fem_case::{ModelChoice, Scene, Switch};
+use fem_case::{ModelChoice, Scene, Snapshots, Switch};
 
 use crate::effects::{
     Answer, DashpotEffect, Effect, FiniteSizeEffect, FiniteStrain, Gravity, PartnerWaves,
@@ -69,7 +69,13 @@ pub(super) fn has(
 /// What the case gives and a reduced model does not read.
 pub(super) fn unread_keys(scene: &Scene) -> Vec<String> {
     let name = describe(scene.model());
-    let snapshots = scene.snapshots().map(|_| ("snapshots", "to draw"));
+    // Who asks for none has them.
+    let is_asked = |asked: &&Snapshots| match asked {
+        Snapshots::Labels(labels) => !labels.is_empty(),
+        Snapshots::Count(n) => *n > 0,
+        Snapshots::Times(times) => !times.is_empty(),
+    };
+    let snapshots = scene.snapshots().filter(is_asked).map(|_| ("snapshots", "to draw"));
     let probes = scene.probes().first().map(|_| ("probe", "to tell of"));
     let warning = |(key, what)| format!("output.{key} has no effect: {name} has no fields {what}");
     snapshots.into_iter().chain(probes).map(warning).collect()
