@@ -92,6 +92,12 @@ pub(crate) struct Chain {
     n_modes: usize,
     /// Displacement of each point in each mode, mode by mode within a point, m/√J.
     shapes: Vec<f64>,
+    /// The same, point by point within a mode.
+    modes: Vec<f64>,
+    /// How many modes each point and those before it move: of constant Poisson's ratio Φ is triangular.
+    moved_by: Vec<usize>,
+    /// Modes that have moved, the first ones.
+    n_moved: usize,
     /// θ.
     share: Vec<f64>,
     /// κ.
@@ -110,14 +116,26 @@ pub(crate) struct Chain {
 impl Chain {
     /// At rest. `shapes` has a row a point and a column a mode.
     pub fn new(memory: Memory, shapes: Mat<f64>, share: &[f64]) -> Self {
-        let n_modes = shapes.ncols();
-        let flat = (0..shapes.nrows())
+        let (n_points, n_modes) = (shapes.nrows(), shapes.ncols());
+        let flat = (0..n_points)
             .flat_map(|i| (0..n_modes).map(move |j| (i, j)))
             .map(|place| shapes[place])
+            .collect();
+        let modes = shapes.col_iter().flat_map(|mode| mode.iter().copied()).collect();
+        let mut most = 0;
+        let moved_by = (0..n_points)
+            .map(|i| {
+                let last = (0..n_modes).rposition(|j| shapes[(i, j)] != 0.0);
+                most = last.map_or(most, |j| most.max(j + 1));
+                most
+            })
             .collect();
         Self {
             n_modes,
             shapes: flat,
+            modes,
+            moved_by,
+            n_moved: 0,
             share: share[..n_modes].to_vec(),
             spring: share[..n_modes].iter().map(|&share| memory.spring(share)).collect(),
             displacement: vec![0.0; n_modes],
@@ -184,47 +202,54 @@ impl Chain {
 
     /// Subtracts from the overlap (m) what the springs do without new forces.
     pub fn subtract_past(&mut self, overlap: &mut [f64]) {
-        let n = self.n_modes;
-        self.past.fill(0.0);
+        let n = self.n_moved;
+        let past = &mut self.past[..n];
+        past.fill(0.0);
         for (k, branch) in self.memory.branches.iter().enumerate() {
-            let q = &self.branch[k * n..][..n];
-            for ((past, q), z) in self.past.iter_mut().zip(q).zip(&self.displacement) {
+            let q = &self.branch[k * self.n_modes..][..n];
+            for ((past, q), z) in past.iter_mut().zip(q).zip(&self.displacement) {
                 *past += branch.weight * (branch.step.decay * q - branch.step.gain * z);
             }
         }
-        for (past, share) in self.past.iter_mut().zip(&self.share) {
+        for (past, share) in past.iter_mut().zip(&self.share) {
             *past *= share;
         }
         if let Some(inertia) = &self.inertia {
-            for j in 0..n {
-                let load = inertia.load(j, self.displacement[j]);
-                self.past[j] -= load;
+            for (j, past) in past.iter_mut().enumerate() {
+                *past -= inertia.load(j, self.displacement[j]);
             }
         }
-        for (past, spring) in self.past.iter_mut().zip(&self.spring) {
+        for (past, spring) in past.iter_mut().zip(&self.spring) {
             *past /= spring;
         }
-        for (point, overlap) in overlap.iter_mut().enumerate() {
-            *overlap += self.weight * dot(self.shape(point), &self.past);
+        for (past, mode) in past.iter().zip(self.modes.chunks_exact(overlap.len())) {
+            let moved = self.weight * past;
+            overlap.iter_mut().zip(mode).for_each(|(overlap, shape)| *overlap += moved * shape);
         }
     }
 
     /// Moves to the end of the step under the forces (N) at the points; follows
     /// [`Chain::subtract_past`].
     pub fn advance(&mut self, forces: &[f64]) {
-        let n = self.n_modes;
+        let reached = forces.len().checked_sub(1).map_or(0, |last| self.moved_by[last]);
+        self.n_moved = self.n_moved.max(reached);
+        let n = self.n_moved;
         let mut moved = std::mem::take(&mut self.past);
-        moved.iter_mut().for_each(|past| *past = -*past);
+        let load = &mut moved[..n];
+        for (load, spring) in load.iter_mut().zip(&self.spring) {
+            *load *= -spring;
+        }
         for (point, &force) in forces.iter().enumerate() {
             if force != 0.0 {
-                let shape = &self.shapes[point * n..][..n];
-                for ((moved, shape), spring) in moved.iter_mut().zip(shape).zip(&self.spring) {
-                    *moved += force * shape / spring;
-                }
+                let shape = &self.shapes[point * self.n_modes..][..self.moved_by[point]];
+                load.iter_mut().zip(shape).for_each(|(load, shape)| *load += force * shape);
             }
         }
+        for (moved, spring) in load.iter_mut().zip(&self.spring) {
+            *moved /= spring;
+        }
         for (k, branch) in self.memory.branches.iter().enumerate() {
-            let q = &mut self.branch[k * n..][..n];
+            let q = &mut self.branch[k * self.n_modes..][..n];
             for ((q, new), old) in q.iter_mut().zip(&moved).zip(&self.displacement) {
                 *q = branch.step.advance(*q, new - old);
             }
@@ -265,13 +290,13 @@ impl Chain {
 
     /// Stored energy (J) and dissipated power (W), negative for springs that are taken away.
     pub fn stored_and_dissipated(&self) -> (f64, f64) {
-        let n = self.n_modes;
+        let n = self.n_moved;
         let (mut stored, mut power) = (0.0, 0.0);
-        for (z, share) in self.displacement.iter().zip(&self.share) {
+        for (z, share) in self.displacement[..n].iter().zip(&self.share) {
             stored += 0.5 * (1.0 - share + share * self.memory.equilibrium) * z * z;
         }
         for (k, branch) in self.memory.branches.iter().enumerate() {
-            let q = &self.branch[k * n..][..n];
+            let q = &self.branch[k * self.n_modes..][..n];
             let energy: f64 = q.iter().zip(&self.share).map(|(q, share)| 0.5 * share * q * q).sum();
             stored += branch.weight * energy;
             power += 2.0 * branch.weight * energy / branch.relaxation_time;
@@ -298,5 +323,46 @@ impl Inertia {
         let acceleration = (new - self.predicted(j, old)) / (BETA * dt * dt);
         self.rate[j] += 0.5 * dt * (self.acceleration[j] + acceleration);
         self.acceleration[j] = acceleration;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fem_material::{ActsOn, PronyTerm};
+
+    use super::*;
+
+    const DECAY: PronyTerm = PronyTerm { weight: 0.6, relaxation_time: 2.0 };
+
+    /// Springs whose Φ is triangular, so that those of points that never close stay at rest, and the same
+    /// whose modes are told in another order, all of which move with the first point.
+    fn triangular_and_turned() -> [Chain; 2] {
+        let n = 5;
+        let shapes =
+            Mat::from_fn(n, n, |i, j| if i < j { 0.0 } else { 1.0 / (1 + 2 * i - j) as f64 });
+        let turned = Mat::from_fn(n, n, |i, j| shapes[(i, n - 1 - j)]);
+        [shapes, turned].map(|shapes| {
+            let series = PronySeries::new(vec![DECAY], ActsOn::All).unwrap();
+            Chain::new(Memory::new(&series, 0.1), shapes, &[1.0; 5])
+        })
+    }
+
+    /// Modes that have not moved cost nothing and change nothing, also where the contact grows and shrinks.
+    #[test]
+    fn what_has_not_moved_is_left_out() {
+        let [mut triangular, mut turned] = triangular_and_turned();
+        for (step, n_closed) in [1, 1, 2, 3, 3, 2, 1, 0, 0].into_iter().enumerate() {
+            let forces: Vec<f64> = (0..n_closed).map(|k| (1 + step + 3 * k) as f64).collect();
+            let [one, other] = [&mut triangular, &mut turned].map(|chain| {
+                let mut overlap = vec![1.0; 5];
+                chain.subtract_past(&mut overlap);
+                chain.advance(&forces);
+                (overlap, chain.stored_and_dissipated(), chain.displacement_at(4))
+            });
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-13 * (1.0 + a.abs());
+            assert!(one.0.iter().zip(&other.0).all(|(a, b)| near(*a, *b)), "{step}");
+            assert!(near(one.1.0, other.1.0) && near(one.1.1, other.1.1) && near(one.2, other.2));
+        }
+        assert_eq!([triangular.n_moved, turned.n_moved], [3, 5]);
     }
 }

@@ -7,22 +7,24 @@
 //! E (m/N) is what a force at a point closes at all points, b (m) the overlap that the forces have
 //! to undo. Points are numbered outward. If contact is a disc, the first n of them, then with
 //! E = L Lᵀ and L y = b forward substitution meets y_k ≤ 0 first at k = n: y_k L_kk is the overlap
-//! left at point k once all before it are in contact. L grows row by row as contacts grow, and a
-//! step costs n² operations without iteration. What the disc assumes is checked: no tension
-//! inside, no overlap outside; if it fails, [`crate::complementarity`] takes over.
+//! left at point k once all before it are in contact, and what is then left at the points outside is
+//! their overlap. A step costs n² operations without iteration. What the disc assumes is checked: no
+//! tension inside, no overlap outside; if it fails, [`crate::complementarity`] takes over.
 
 use faer::Mat;
 
 use crate::complementarity::{self, NoState, ROUNDING};
 
-/// A contact problem with its factor, which grows with the contact.
+/// A contact problem with its factor.
 #[derive(Debug, Clone)]
 pub(crate) struct DiscSolver {
     compliance: Mat<f64>,
-    /// Rows of L, one after another.
-    factor: Vec<f64>,
+    /// L by its rows and by its columns, as far as E is positive definite.
+    rows: Vec<f64>,
+    columns: Vec<f64>,
     n_factored: usize,
-    solution: Vec<f64>,
+    /// y inside of the disc, overlap that is left outside, m.
+    left: Vec<f64>,
     /// Forces of the last problem, if the disc was not its solution.
     fallback: Option<Vec<f64>>,
     /// Times the disc was not the solution.
@@ -40,42 +42,32 @@ impl DiscSolver {
     /// Of a symmetric positive definite compliance, m/N.
     pub fn new(compliance: Mat<f64>) -> Self {
         let n = compliance.nrows();
-        Self {
+        let mut solver = Self {
             compliance,
-            factor: Vec::with_capacity(n * (n + 1) / 2),
+            rows: vec![0.0; n * n],
+            columns: vec![0.0; n * n],
             n_factored: 0,
-            solution: vec![0.0; n],
+            left: vec![0.0; n],
             fallback: None,
             n_fallbacks: 0,
+        };
+        while solver.n_factored < n && solver.factor_row(solver.n_factored) {
+            solver.n_factored += 1;
         }
-    }
-
-    /// Row k of L.
-    fn row(&self, k: usize) -> &[f64] {
-        &self.factor[k * (k + 1) / 2..][..k + 1]
+        solver
     }
 
     /// Makes row k of L from the rows before it; false if E is not positive definite.
     fn factor_row(&mut self, k: usize) -> bool {
-        let mut row = vec![0.0; k + 1];
-        for j in 0..k {
-            let before = self.row(j);
-            row[j] = (self.compliance[(k, j)] - dot(&row[..j], &before[..j])) / before[j];
+        let n = self.left.len();
+        for j in 0..=k {
+            let [row, before] = [k, j].map(|i| &self.rows[i * n..][..j]);
+            let rest = self.compliance[(k, j)] - dot(row, before);
+            let entry = if j == k { rest.sqrt() } else { rest / self.rows[j * n + j] };
+            self.rows[k * n + j] = entry;
+            self.columns[j * n + k] = entry;
         }
-        let rest = self.compliance[(k, k)] - dot(&row[..k], &row[..k]);
-        row[k] = rest.sqrt();
-        self.factor.extend_from_slice(&row);
-        self.n_factored = k + 1;
-        rest > 0.0
-    }
-
-    /// Overlap that is left at point k, over L_kk: y_k.
-    fn forward(&mut self, k: usize, overlap: f64) -> Option<f64> {
-        if k >= self.n_factored && !self.factor_row(k) {
-            return None;
-        }
-        let row = self.row(k);
-        Some((overlap - dot(&row[..k], &self.solution[..k])) / row[k])
+        self.rows[k * n + k] > 0.0
     }
 
     /// Forces (N) that undo the overlaps (m).
@@ -85,25 +77,30 @@ impl DiscSolver {
     pub fn solve(&mut self, overlap: &[f64], forces: &mut [f64]) -> Result<Disc, NoState> {
         let n = overlap.len();
         forces.fill(0.0);
+        self.left.copy_from_slice(overlap);
         let mut n_closed = 0;
         for k in 0..n {
-            let y = self.forward(k, overlap[k]).ok_or(NoState)?;
+            if k >= self.n_factored {
+                return Err(NoState);
+            }
+            let column = &self.columns[k * n..][..n];
+            let y = self.left[k] / column[k];
             if y <= 0.0 {
                 break;
             }
-            self.solution[k] = y;
+            self.left[k] = y;
+            let outside = self.left[k + 1..].iter_mut().zip(&column[k + 1..]);
+            outside.for_each(|(left, entry)| *left -= entry * y);
             n_closed = k + 1;
         }
         for k in (0..n_closed).rev() {
-            // Column-oriented: what force k does to the unknowns before it.
-            let start = k * (k + 1) / 2;
-            let force = self.solution[k] / self.factor[start + k];
+            let row = &self.rows[k * n..][..=k];
+            let force = self.left[k] / row[k];
             forces[k] = force;
-            for j in 0..k {
-                self.solution[j] -= self.factor[start + j] * force;
-            }
+            let inside = self.left[..k].iter_mut().zip(row);
+            inside.for_each(|(left, entry)| *left -= entry * force);
         }
-        if self.is_solution(overlap, forces, n_closed) {
+        if self.is_solution(overlap, &forces[..n_closed]) {
             self.fallback = None;
         } else {
             self.n_fallbacks += 1;
@@ -118,16 +115,8 @@ impl DiscSolver {
         Ok(Disc { n_closed })
     }
 
-    /// Gap at point k, m.
-    fn gap(&self, k: usize, overlap: &[f64], forces: &[f64]) -> f64 {
-        let closed: f64 =
-            forces.iter().enumerate().map(|(j, force)| self.compliance[(j, k)] * force).sum();
-        closed - overlap[k]
-    }
-
     /// Whether nothing pulls inside the disc and nothing overlaps outside.
-    fn is_solution(&self, overlap: &[f64], forces: &[f64], n_closed: usize) -> bool {
-        let inside = &forces[..n_closed];
+    fn is_solution(&self, overlap: &[f64], inside: &[f64]) -> bool {
         let largest = inside.iter().copied().fold(0.0, f64::max);
         if inside.iter().any(|&force| force < -ROUNDING * largest) {
             return false;
@@ -135,10 +124,35 @@ impl DiscSolver {
         let scale = ROUNDING * overlap.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
         // The next point is open by construction; a point further out that b would close must
         // have been opened by the forces.
-        (n_closed + 1..overlap.len()).all(|k| self.gap(k, overlap, inside) >= -scale)
+        self.left.iter().skip(inside.len() + 1).all(|left| *left <= scale)
     }
 }
 
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What a disc leaves outside is what its forces leave of the overlap there.
+    #[test]
+    fn what_is_left_outside_is_the_overlap_there() {
+        let n = 6;
+        let near = |i: usize, j: usize| (-0.3 * i.abs_diff(j) as f64).exp();
+        let mut solver = DiscSolver::new(Mat::from_fn(n, n, near));
+        for height in [0.1, 1.0, 3.0] {
+            let overlap: Vec<f64> = (0..n).map(|k| height - 0.2 * (k * k) as f64).collect();
+            let mut forces = vec![0.0; n];
+            let Disc { n_closed } = solver.solve(&overlap, &mut forces).unwrap();
+            assert!(n_closed > 0 && n_closed < n && solver.n_fallbacks == 0);
+            for (k, overlap) in overlap.iter().enumerate() {
+                let closed: f64 = (0..n).map(|j| near(k, j) * forces[j]).sum();
+                let left = if k < n_closed { 0.0 } else { solver.left[k] };
+                assert!((overlap - closed - left).abs() < 1e-14, "{height} {k}");
+                assert!(forces[k] >= 0.0 && (k < n_closed || left <= 0.0));
+            }
+        }
+    }
 }

@@ -27,8 +27,8 @@ pub(crate) struct Dissection {
 #[derive(Debug, Clone, Copy)]
 struct Place {
     node: u32,
-    ring: i64,
-    along: i64,
+    /// Its ring, and its place in that.
+    numbers: [i32; 2],
 }
 
 impl Dissection {
@@ -44,8 +44,7 @@ impl Dissection {
             .filter(|&node| is_interior(node))
             .map(|node| Place {
                 node: node as u32,
-                ring: i64::from(rings[node]),
-                along: i64::from(from_axis[node]) - i64::from(from_surface[node]),
+                numbers: [rings[node] as i32, from_axis[node] as i32 - from_surface[node] as i32],
             })
             .collect();
         let mut dissection = Self { nodes: Vec::with_capacity(places.len()), ends: Vec::new() };
@@ -57,23 +56,23 @@ impl Dissection {
     /// Adds a set of nodes, parted as long as that helps.
     fn part(&mut self, places: &mut [Place], scratch: &mut Vec<Place>, counts: &mut Vec<u32>) {
         if places.len() > SMALLEST {
-            let [ring, along]: [fn(&Place) -> i64; 2] = [|place| place.ring, |place| place.along];
-            let mut directions =
-                [Direction::new(places, ring, 1), Direction::new(places, along, 2)];
+            let mut directions = Direction::both(places);
             // Across the longer extent.
             directions.sort_by_key(|direction| -direction.extent());
             if let Some(cut) = directions.iter().find_map(|direction| direction.cut(places, counts))
             {
+                let [n_below, n_between] = cut.sizes(counts);
+                let n_above = places.len() - n_below - n_between;
+                let mut next = [0, n_below, n_below + n_above];
                 scratch.clear();
-                let mut sizes = [0; 3];
-                for (which, size) in sizes.iter_mut().enumerate() {
-                    let before = scratch.len();
-                    scratch.extend(places.iter().filter(|place| cut.side(place) == which));
-                    *size = scratch.len() - before;
+                scratch.extend_from_slice(places);
+                for place in &*scratch {
+                    let next = &mut next[cut.side(place)];
+                    places[*next] = *place;
+                    *next += 1;
                 }
-                places.copy_from_slice(scratch);
-                let (sides, between) = places.split_at_mut(sizes[0] + sizes[1]);
-                let (below, above) = sides.split_at_mut(sizes[0]);
+                let (sides, between) = places.split_at_mut(n_below + n_above);
+                let (below, above) = sides.split_at_mut(n_below);
                 self.part(below, scratch, counts);
                 self.part(above, scratch, counts);
                 self.end(between);
@@ -89,40 +88,50 @@ impl Dissection {
     }
 }
 
+/// By what the ring and the place in it change within an element at most.
+const WIDTHS: [i32; 2] = [1, 2];
+
 /// A number of nodes by which a set may be parted.
 #[derive(Debug, Clone, Copy)]
 struct Direction {
-    number: fn(&Place) -> i64,
-    /// By what it changes within an element at most.
-    width: i64,
-    least: i64,
-    greatest: i64,
+    /// Which of [`Place::numbers`].
+    which: usize,
+    least: i32,
+    greatest: i32,
 }
 
 impl Direction {
-    fn new(places: &[Place], number: fn(&Place) -> i64, width: i64) -> Self {
-        let numbers = || places.iter().map(number);
-        let (least, greatest) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
-        Self { number, width, least, greatest }
+    fn both(places: &[Place]) -> [Self; 2] {
+        let first = places.first().map_or([0; 2], |place| place.numbers);
+        let mut both =
+            [0, 1].map(|which: usize| Self { which, least: first[which], greatest: first[which] });
+        for place in places {
+            for (direction, number) in both.iter_mut().zip(place.numbers) {
+                direction.least = direction.least.min(number);
+                direction.greatest = direction.greatest.max(number);
+            }
+        }
+        both
     }
 
     /// In elements.
-    fn extent(&self) -> i64 {
-        (self.greatest - self.least) / self.width
+    fn extent(&self) -> i32 {
+        (self.greatest - self.least) / WIDTHS[self.which]
     }
 
-    /// At the median; `None` where one side would be empty. `counts` is room to work.
+    /// At the median; `None` where one side would be empty. Leaves in `counts` how many nodes have each number.
     fn cut(&self, places: &[Place], counts: &mut Vec<u32>) -> Option<Cut> {
         counts.clear();
         counts.resize((self.greatest - self.least) as usize + 1, 0);
-        places.iter().for_each(|place| counts[((self.number)(place) - self.least) as usize] += 1);
+        let number = |place: &Place| (place.numbers[self.which] - self.least) as usize;
+        places.iter().for_each(|place| counts[number(place)] += 1);
         let mut below = 0;
         let median = counts.iter().position(|&count| {
             below += count as usize;
             2 * below > places.len()
         })?;
-        let from = self.least + median as i64;
-        let cut = Cut { number: self.number, from, to: from + self.width };
+        let from = self.least + median as i32;
+        let cut = Cut { which: self.which, least: self.least, from, to: from + WIDTHS[self.which] };
         (self.least < cut.from && cut.to <= self.greatest).then_some(cut)
     }
 }
@@ -130,19 +139,26 @@ impl Direction {
 /// What parts a set: all nodes whose number is at least `from` and less than `to`.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
-    number: fn(&Place) -> i64,
-    from: i64,
-    to: i64,
+    which: usize,
+    least: i32,
+    from: i32,
+    to: i32,
 }
 
 impl Cut {
     /// 0 below, 1 above, 2 between.
     fn side(&self, place: &Place) -> usize {
-        match (self.number)(place) {
+        match place.numbers[self.which] {
             number if number < self.from => 0,
             number if number >= self.to => 1,
             _ => 2,
         }
+    }
+
+    /// How many nodes are below and between, of how many have each number from the least on.
+    fn sizes(&self, counts: &[u32]) -> [usize; 2] {
+        let [from, to] = [self.from, self.to].map(|number| (number - self.least) as usize);
+        [&counts[..from], &counts[from..to]].map(|counts| counts.iter().sum::<u32>() as usize)
     }
 }
 

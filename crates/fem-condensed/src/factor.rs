@@ -94,7 +94,10 @@ impl Elimination {
         let mut memory = MemBuffer::try_new(request).map_err(|_| CondensedError::OutOfMemory)?;
         let mut place = vec![0; right.len()];
         let mut left: Vec<Vec<f64>> = vec![Vec::new(); symbolic.fronts.len()];
+        // Memory of fronts that are done with: pages of the system are dear.
+        let mut free: Vec<Vec<f64>> = Vec::new();
         let (mut forward, mut trailing, mut below) = (right, Mat::new(), Vec::new());
+        let mut places = Vec::new();
         for (number, front) in symbolic.fronts.iter().enumerate() {
             let own = front.columns.len();
             let later = &symbolic.later[front.later.clone()];
@@ -108,7 +111,7 @@ impl Elimination {
             if !keeps_factor {
                 panel.fill(0.0);
             }
-            let rest = vec![0.0; later.len() * later.len()];
+            let rest = cleared(free.pop().unwrap_or_default(), later.len());
             let mut sum = Sum { own, n_rows, panel, rest };
             for &element in symbolic.elements_of(number) {
                 sum.add_element(&elements[element as usize], &matrix(element as usize), &place);
@@ -116,7 +119,9 @@ impl Elimination {
             let mut child = symbolic.last_child[number];
             while child != NONE {
                 let rows = &symbolic.later[symbolic.fronts[child as usize].later.clone()];
-                sum.add_front(rows, &std::mem::take(&mut left[child as usize]), &place);
+                let of_child = std::mem::take(&mut left[child as usize]);
+                sum.add_front(rows, &of_child, &place, &mut places);
+                free.push(of_child);
                 child = symbolic.before[child as usize];
             }
             sum.eliminate(MemStack::new(&mut memory), params)?;
@@ -133,6 +138,17 @@ impl Elimination {
         let factor = keeps_factor.then_some(Factor { fronts, later, values });
         Ok(Self { factor, trailing, forward })
     }
+}
+
+/// So many columns whose lower triangle is zero, in memory that was used before where there is enough.
+fn cleared(mut values: Vec<f64>, n: usize) -> Vec<f64> {
+    if values.len() < n * n {
+        return vec![0.0; n * n];
+    }
+    for j in 0..n {
+        values[j * n + j..(j + 1) * n].fill(0.0);
+    }
+    values
 }
 
 /// L y = b for one right-hand side and the columns of a front, b of its later equations less what they take.
@@ -393,12 +409,12 @@ impl Sum<'_> {
         }
     }
 
-    /// Adds what a front has left on its later equations.
-    fn add_front(&mut self, rows: &[u32], left: &[f64], place: &[usize]) {
+    /// Adds what a front has left on its later equations. `places` is room to work.
+    fn add_front(&mut self, rows: &[u32], left: &[f64], place: &[usize], places: &mut Vec<usize>) {
+        places.clear();
+        places.extend(rows.iter().map(|&row| place[row as usize]));
         let n = rows.len();
-        for (j, &column) in rows.iter().enumerate() {
-            let column = place[column as usize];
-            let values = &left[j * n + j..(j + 1) * n];
+        for (j, &column) in places.iter().enumerate() {
             let (to, first) = match column.checked_sub(self.own) {
                 None => (&mut self.panel[column * self.n_rows..][..self.n_rows], 0),
                 Some(column) => {
@@ -406,8 +422,8 @@ impl Sum<'_> {
                     (&mut self.rest[column * n_later..][..n_later], self.own)
                 }
             };
-            for (value, &row) in values.iter().zip(&rows[j..]) {
-                to[place[row as usize] - first] += value;
+            for (value, &row) in left[j * n + j..(j + 1) * n].iter().zip(&places[j..]) {
+                to[row - first] += value;
             }
         }
     }
@@ -428,7 +444,11 @@ impl Sum<'_> {
         if n_later > 0 {
             solve_lower_triangular_in_place(top.rb(), bottom.rb_mut().transpose_mut(), Par::Seq);
             triangular::matmul(
-                MatMut::from_column_major_slice_mut(&mut self.rest, n_later, n_later),
+                MatMut::from_column_major_slice_mut(
+                    &mut self.rest[..n_later * n_later],
+                    n_later,
+                    n_later,
+                ),
                 BlockStructure::TriangularLower,
                 Accum::Add,
                 bottom.rb(),

@@ -5,6 +5,7 @@ use fem_collision::{StaticContact, Stop};
 use crate::disc::DiscSolver;
 use crate::error::CondensedError;
 use crate::pair::CondensedPair;
+use crate::pressure::Pressures;
 use crate::slip::motion;
 
 impl CondensedPair {
@@ -29,7 +30,8 @@ impl CondensedPair {
         let moved = self.inputs().each_ref().map(|input| {
             input.material().map_or(0.0, |material| force * motion(material.instantaneous()))
         });
-        let (radius, pressure) = self.radius_and_pressure(&contact, &forces, moved);
+        let (radius, pressure) =
+            self.radius_and_pressure(&contact, &forces, moved, &mut Pressures::default());
         Ok(StaticContact {
             force,
             approach,

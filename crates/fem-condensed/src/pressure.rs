@@ -6,6 +6,9 @@ use crate::disc::Disc;
 use crate::pair::CondensedPair;
 use crate::side::PressureNode;
 
+/// Room for the pressures at the nodes of both surfaces (r in m, p in Pa), which are read more than once.
+pub(crate) type Pressures = [Vec<(f64, f64)>; 2];
+
 impl CondensedPair {
     /// Radius at which the pressure falls to zero (m) and pressure on the axis (Pa); of surfaces that have
     /// slipped, q of each side, m².
@@ -14,11 +17,12 @@ impl CondensedPair {
         contact: &Disc,
         forces: &[f64],
         moved: [f64; 2],
+        room: &mut Pressures,
     ) -> (f64, f64) {
         if contact.n_closed == 0 {
             return (0.0, 0.0);
         }
-        let (radius, pressure) = self.read_out(forces);
+        let (radius, pressure) = self.read_out(forces, room);
         match &self.settings().slip {
             None => (radius, pressure),
             Some(slip) => slip.halfway([radius, pressure], forces.iter().sum(), moved),
@@ -26,14 +30,16 @@ impl CondensedPair {
     }
 
     /// The same of surfaces that do not slip, or as if they had not.
-    pub(crate) fn read_out(&self, forces: &[f64]) -> (f64, f64) {
+    pub(crate) fn read_out(&self, forces: &[f64], room: &mut Pressures) -> (f64, f64) {
         let barrier = self.barrier();
         let other = self.staggered.as_ref();
         let reading = other.map_or(Reading::Single(0), |other| Reading::Staggered(other.lengths));
-        let at = |surface: usize| {
-            let nodes = other.filter(|_| surface == 1).map_or(&self.nodes, |other| &other.nodes);
-            pressures(nodes, forces)
-        };
+        let surfaces = [Some(&self.nodes), other.map(|other| &other.nodes)];
+        for (room, nodes) in room.iter_mut().zip(surfaces) {
+            room.clear();
+            room.extend(nodes.into_iter().flat_map(|nodes| pressures(nodes, forces)));
+        }
+        let at = |surface: usize| room[surface].iter().copied();
         let radius = reading.radius(|surface| contact_radius(at(surface), barrier));
         let of_axis = |surface| centre_pressure(at(surface), radius, barrier);
         (radius, reading.pressure(of_axis))

@@ -6,6 +6,7 @@ use fem_contact::{Profile, facing};
 use crate::error::CondensedError;
 use crate::fields::Contact;
 use crate::pair::{CondensedPair, surface};
+use crate::pressure::Pressures;
 
 impl CondensedPair {
     /// The contact of an instant, whose fields and mean motions along the axis (m) are given. `is_whole`
@@ -33,8 +34,12 @@ impl CondensedPair {
         let nodes = self.nodal_pressure(&contact.forces);
         let at = |radius: f64| facing(surfaces.each_ref(), 0.0, radius, u);
         let along = nodes.clone().map(|(radius, _)| Some(at(radius)));
-        let mut profile =
-            Profile::new(nodes, self.read_out(&contact.forces).0, self.barrier(), along);
+        let mut profile = Profile::new(
+            nodes,
+            self.read_out(&contact.forces, &mut Pressures::default()).0,
+            self.barrier(),
+            along,
+        );
         let beyond = profile.nodes_beyond(surfaces.each_ref(), self.candidate_radius());
         profile = profile.extended(beyond.map(|radius| (radius, at(radius))));
         if !is_whole || self.settings().slip.is_some() {

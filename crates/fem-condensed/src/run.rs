@@ -10,6 +10,7 @@ use crate::instants::Trace;
 use crate::motion::{Energies, Motion};
 use crate::pair::CondensedPair;
 use crate::peak::Peak;
+use crate::pressure::Pressures;
 use crate::sample::Sample;
 
 /// Energy that does not add up, over what is at stake: the run is no longer one.
@@ -64,6 +65,7 @@ pub(crate) struct Run<'a> {
     last: Option<Sample>,
     opening: Option<[Sample; 3]>,
     trace: Vec<Trace>,
+    pressures: Pressures,
 }
 
 /// What came out of a run.
@@ -114,6 +116,7 @@ impl<'a> Run<'a> {
             last: None,
             opening: None,
             trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MOST_RESERVED)),
+            pressures: Pressures::default(),
             motion,
         }
     }
@@ -251,8 +254,12 @@ impl<'a> Run<'a> {
         let given = self.frame.weight() * time;
         let drift = self.frame.impulse(rate) + given - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
-        let (contact_radius, centre_pressure) =
-            self.pair.radius_and_pressure(&motion.contact, &motion.forces, motion.slipped());
+        let (contact_radius, centre_pressure) = self.pair.radius_and_pressure(
+            &motion.contact,
+            &motion.forces,
+            motion.slipped(),
+            &mut self.pressures,
+        );
         self.pulse.observe(time, self.even_impulse, contact_radius, centre_pressure);
         if self.episodes > 0 {
             self.aftermath.observe(self.was_closed, vibration);

@@ -46,6 +46,7 @@ pub(crate) struct QuadraturePoint {
 
 /// The 2 × 2 Gauss points, exact for every integral of a straight-sided quad's
 /// volume, mean gradients and lumped volumes.
+#[inline]
 pub(crate) fn quadrature(corners: &[[f64; 2]; 4]) -> [QuadraturePoint; 4] {
     const CORNER: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let point = 1.0 / 3f64.sqrt();
@@ -54,25 +55,41 @@ pub(crate) fn quadrature(corners: &[[f64; 2]; 4]) -> [QuadraturePoint; 4] {
         let shape = CORNER.map(|[x, e]| 0.25 * (1.0 + x * xi) * (1.0 + e * eta));
         let d_xi = CORNER.map(|[x, e]| 0.25 * x * (1.0 + e * eta));
         let d_eta = CORNER.map(|[x, e]| 0.25 * e * (1.0 + x * xi));
-        let sum = |d: &[f64; 4], axis: usize| (0..4).map(|a| d[a] * corners[a][axis]).sum::<f64>();
+        let sum = |d: &[f64; 4], axis: usize| {
+            d.iter().zip(corners).map(|(d, corner)| d * corner[axis]).sum::<f64>()
+        };
         let (r_xi, y_xi) = (sum(&d_xi, 0), sum(&d_xi, 1));
         let (r_eta, y_eta) = (sum(&d_eta, 0), sum(&d_eta, 1));
         let jacobian = r_xi * y_eta - r_eta * y_xi;
         let radius = sum(&shape, 0);
-        QuadraturePoint {
-            weight: 2.0 * PI * radius * jacobian,
-            radius,
-            shape,
-            gradient_r: std::array::from_fn(|a| (d_xi[a] * y_eta - d_eta[a] * y_xi) / jacobian),
-            gradient_y: std::array::from_fn(|a| (d_eta[a] * r_xi - d_xi[a] * r_eta) / jacobian),
+        let (mut gradient_r, mut gradient_y) = ([0.0; 4], [0.0; 4]);
+        for a in 0..4 {
+            gradient_r[a] = (d_xi[a] * y_eta - d_eta[a] * y_xi) / jacobian;
+            gradient_y[a] = (d_eta[a] * r_xi - d_xi[a] * r_eta) / jacobian;
         }
+        let weight = 2.0 * PI * radius * jacobian;
+        QuadraturePoint { weight, radius, shape, gradient_r, gradient_y }
     })
+}
+
+/// Σ of what points have of each corner, by their weights.
+#[inline]
+fn weighted(
+    points: &[QuadraturePoint; 4],
+    value: impl Fn(&QuadraturePoint, usize) -> f64,
+) -> [f64; 4] {
+    let mut sums = [0.0; 4];
+    for p in points {
+        for (a, sum) in sums.iter_mut().enumerate() {
+            *sum += p.weight * value(p, a);
+        }
+    }
+    sums
 }
 
 /// ∫ N_a 2πr dA, m³, of the quad with the given corners (r, y) in m: [`QuadGeometry::nodal_volumes`] alone.
 pub fn nodal_volumes(corners: &[[f64; 2]; 4]) -> [f64; 4] {
-    let points = quadrature(corners);
-    std::array::from_fn(|a| points.iter().map(|p| p.weight * p.shape[a]).sum())
+    weighted(&quadrature(corners), |p, a| p.shape[a])
 }
 
 impl QuadGeometry {
@@ -81,21 +98,19 @@ impl QuadGeometry {
     pub fn new(corners: &[[f64; 2]; 4]) -> Self {
         let points = quadrature(corners);
         let volume: f64 = points.iter().map(|p| p.weight).sum();
-        let mean = |value: &dyn Fn(&QuadraturePoint, usize) -> f64| -> [f64; 4] {
-            std::array::from_fn(|a| {
-                points.iter().map(|p| p.weight * value(p, a)).sum::<f64>() / volume
-            })
-        };
-        let gradient_r = mean(&|p, a| p.gradient_r[a]);
-        let gradient_y = mean(&|p, a| p.gradient_y[a]);
-        let hoop = mean(&|p, a| p.shape[a] / p.radius);
-        let nodal_volumes = mean(&|p, a| p.shape[a]).map(|share| share * volume);
+        let mean = |sums: [f64; 4]| sums.map(|sum| sum / volume);
+        let gradient_r = mean(weighted(&points, |p, a| p.gradient_r[a]));
+        let gradient_y = mean(weighted(&points, |p, a| p.gradient_y[a]));
+        let hoop = mean(weighted(&points, |p, a| p.shape[a] / p.radius));
+        let nodal_volumes = mean(weighted(&points, |p, a| p.shape[a])).map(|share| share * volume);
 
         let dot = |values: &[f64; 4]| (0..4).map(|a| HOURGLASS[a] * values[a]).sum::<f64>();
-        let h_r = dot(&std::array::from_fn(|a| corners[a][0]));
-        let h_y = dot(&std::array::from_fn(|a| corners[a][1]));
-        let hourglass =
-            std::array::from_fn(|a| HOURGLASS[a] - gradient_r[a] * h_r - gradient_y[a] * h_y);
+        let h_r = dot(&corners.map(|[r, _]| r));
+        let h_y = dot(&corners.map(|[_, y]| y));
+        let mut hourglass = HOURGLASS;
+        for (a, shape) in hourglass.iter_mut().enumerate() {
+            *shape = *shape - gradient_r[a] * h_r - gradient_y[a] * h_y;
+        }
         let (mean_r, mean_y) = (dot(&gradient_r), dot(&gradient_y));
         let mut hourglass_measures = [0.0; 3];
         for p in &points {

@@ -47,12 +47,10 @@ pub fn mean_gradient_stiffness(
     // κ tr ε² + 2 G (ε:ε − tr ε²/3), shear as γ²/2.
     let of_trace = volume * (bulk_modulus - 2.0 / 3.0 * shear_modulus);
     let (twice, once) = (2.0 * volume * shear_modulus, volume * shear_modulus);
-    let mut lower = [0.0; 36];
-    let mut entry = lower.iter_mut();
+    let (mut lower, mut next) = ([0.0; 36], 0);
     let mut put = |value: f64| {
-        if let Some(entry) = entry.next() {
-            *entry = value;
-        }
+        lower[next] = value;
+        next += 1;
     };
     for a in 0..4 {
         let (r, y, h) = (gradient_r[a], gradient_y[a], hoop[a]);

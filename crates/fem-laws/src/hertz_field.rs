@@ -39,7 +39,7 @@ impl HertzPressure {
 fn unit_stress(r: f64, z: f64, nu: f64) -> [f64; 4] {
     let (square, excess) = (r * r, r * r + z * z - 1.0);
     // The root of u² − (r² + z² − 1) u − z² = 0, without the difference of two large numbers.
-    let wide = 0.5 * (excess.abs() + excess.hypot(2.0 * z));
+    let wide = 0.5 * (excess.abs() + (excess * excess + 4.0 * z * z).sqrt());
     let u = if excess >= 0.0 { wide } else { z * z / wide };
     let root = u.sqrt();
     // z/√u tends to √(1 − r²) on the surface inside of the contact.

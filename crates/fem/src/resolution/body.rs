@@ -54,13 +54,13 @@ impl BodyLoss {
         for element in 0..mesh.quads().len() {
             let depth_first = mesh.corners(element).map(|[r, y]| [r, y.abs()]);
             let corners = depth_first.map(|corner| corner.map(|length| length / contact_radius));
-            let nearest = corners.iter().map(|[r, z]| r.hypot(*z)).fold(f64::INFINITY, f64::min);
-            if nearest > FAR {
+            let nearest = corners.iter().map(|[r, z]| r * r + z * z).fold(f64::INFINITY, f64::min);
+            if nearest > FAR * FAR {
                 continue;
             }
             let lost = element_loss(&corners, poissons_ratio) / total;
             let [r, z] = middle(&corners);
-            let part = match r.hypot(z) < UNDER_CONTACT {
+            let part = match r * r + z * z < UNDER_CONTACT * UNDER_CONTACT {
                 true => &mut losses.under,
                 false => &mut losses.around,
             };
@@ -82,9 +82,9 @@ pub(crate) fn middle(corners: &[[f64; 2]; 4]) -> [f64; 2] {
 pub(crate) fn longest_edge(corners: &[[f64; 2]; 4]) -> f64 {
     let edges = (0..4).map(|a| {
         let (p, q) = (corners[a], corners[(a + 1) % 4]);
-        (q[0] - p[0]).hypot(q[1] - p[1])
+        (q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2)
     });
-    edges.fold(0.0, f64::max)
+    edges.fold(0.0, f64::max).sqrt()
 }
 
 /// ∫ W*(σ − σ̄) dV of an element, for E, p₀ and a of 1; corners are (r, depth).
@@ -114,8 +114,9 @@ fn element_loss(corners: &[[f64; 2]; 4], nu: f64) -> f64 {
 
 /// Sub-cells along a side of an element, so that the field is nearly linear in each.
 fn sub_cells(corners: &[[f64; 2]; 4]) -> usize {
-    let distance = |[r, z]: [f64; 2]| (r - 1.0).max(0.0).hypot(z);
-    let nearest = corners.iter().map(|corner| distance(*corner)).fold(f64::INFINITY, f64::min);
+    let squared = |[r, z]: [f64; 2]| (r - 1.0).max(0.0).powi(2) + z * z;
+    let nearest = corners.iter().map(|corner| squared(*corner)).fold(f64::INFINITY, f64::min);
+    let nearest = nearest.sqrt();
     let size = (SUB_CELL * nearest).max(SMALLEST_SUB_CELL);
     (longest_edge(corners) / size).ceil().clamp(1.0, MOST_SUB_CELLS) as usize
 }
