@@ -70,7 +70,8 @@ impl Forecast {
     pub fn all_element_updates(&self) -> f64 {
         let following = self.finer.and_then(|finer| Some((finer.following?, finer.companions)));
         let finer = following.map_or(0.0, |(following, companions)| {
-            (1.0 + companions) * following.element_updates as f64
+            let trial = following.trial_updates as f64;
+            trial + (1.0 + companions) * following.element_updates as f64
         });
         self.element_updates + finer
     }
@@ -85,7 +86,7 @@ impl Finer {
         };
         let expected = match self.following {
             Some(Following { meshes: 0, .. }) => "coarser meshes foretell none; ".to_string(),
-            Some(Following { meshes, element_updates }) => {
+            Some(Following { meshes, element_updates, .. }) => {
                 format!("coarser meshes foretell {meshes}, about {}; ", price(element_updates))
             }
             None => String::new(),

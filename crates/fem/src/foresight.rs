@@ -29,6 +29,8 @@ pub struct Following {
     pub meshes: usize,
     /// What they take, without their companions.
     pub element_updates: u64,
+    /// What the collision took that foretold them, where it was that.
+    pub trial_updates: u64,
 }
 
 /// Element updates of a collision that is computed to foretell what follows: some tenths of a second.
@@ -75,8 +77,9 @@ impl Simulation {
             true => Told::by_trial(self),
             false => None,
         };
+        let trial_updates = if told.is_some() { element_updates } else { 0 };
         let told = told.or_else(|| ByCoarser::of(self).map(Told::Coarser))?;
-        let mut following = Following { meshes: 0, element_updates: 0 };
+        let mut following = Following { meshes: 0, element_updates: 0, trial_updates };
         let mut finest: Option<Self> = None;
         loop {
             let now = finest.as_ref().unwrap_or(self);
