@@ -189,8 +189,7 @@ impl Block {
     #[inline(always)]
     unsafe fn rate<L: Lanes>(&self, velocity: &Field) -> L {
         // SAFETY: the caller's promise.
-        let [(r0, y0), (r1, y1), (r2, y2), (r3, y3)] =
-            [0, 1, 2, 3].map(|a: usize| unsafe { L::gather(velocity, &self.corners[a]) });
+        let [(r0, y0), (r1, y1), (r2, y2), (r3, y3)] = unsafe { self.gathered::<L>(velocity) };
         let [b0, b1] = [L::load(&self.radial[0]), L::load(&self.radial[1])];
         let [b2, b3] = [L::load(&self.radial[2]), L::load(&self.radial[3])];
         let [a0, a1, a2] =
@@ -206,8 +205,21 @@ impl Block {
     #[inline(always)]
     unsafe fn around<L: Lanes>(&self, means: &Field) -> L {
         // SAFETY: the caller's promise.
-        let [m0, m1, m2, m3] =
-            [0, 1, 2, 3].map(|a: usize| unsafe { L::gather(means, &self.corners[a]).0 });
+        let [(m0, _), (m1, _), (m2, _), (m3, _)] = unsafe { self.gathered::<L>(means) };
         (m0 + m1) + (m2 + m3)
+    }
+
+    /// What a field holds at the four corners. Not by a closure, which would be compiled without the
+    /// instructions of the lanes.
+    ///
+    /// # Safety
+    /// Every corner is an index of `field`.
+    #[inline(always)]
+    unsafe fn gathered<L: Lanes>(&self, field: &Field) -> [(L, L); 4] {
+        let [a, b, c, d] = &self.corners;
+        // SAFETY: the caller's promise.
+        unsafe {
+            [L::gather(field, a), L::gather(field, b), L::gather(field, c), L::gather(field, d)]
+        }
     }
 }
