@@ -42,7 +42,7 @@ const FLUID: &[&str] = &[
 const ON_STEEL: &[&str] = &[
     "material.a={density=1000, youngs_modulus='1 MPa', poissons_ratio=0.3, hyperelastic='neo-hooke'}",
     "body.1.material='steel'",
-    "body.1.approach_speed='5 cm/s'",
+    "body.1.approach_speed='7 cm/s'",
 ];
 const FAST_RUBBER: &[&str] = &[
     "material.a={density=1100, youngs_modulus='1 MPa', poissons_ratio=0.45, hyperelastic='neo-hooke'}",
