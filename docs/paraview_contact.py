@@ -27,6 +27,8 @@ colours = pv.GetColorTransferFunction("sigma_yy")
 colours.ApplyPreset("Cool to Warm", True)
 colours.RescaleTransferFunction(-1e9, 1e9)
 shown.SetScalarBarVisibility(view, True)
+bar = pv.GetScalarBar(colours, view)
+bar.TitleColor = bar.LabelColor = [0, 0, 0]
 pv.SaveScreenshot("contact.png", view)
 
 points = whole.GetDataInformation().GetPointDataInformation()

@@ -26,7 +26,7 @@ const LINE: f64 = 19.0;
 const FONT_SIZE: f64 = 12.5;
 const SWATCH: f64 = 20.0;
 /// Farther from the drawn curve is no point, pixels.
-const TOLERANCE: f64 = 0.15;
+const TOLERANCE: f64 = 0.03;
 /// Most intervals between ticks.
 const N_TICKS: [usize; 2] = [9, 7];
 
@@ -231,7 +231,7 @@ fn paint(colour: &str, attribute: &str) -> String {
 fn path_of(points: &[[f64; 2]]) -> String {
     let mut data = String::new();
     for (k, [x, y]) in points.iter().enumerate() {
-        let _ = write!(data, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });
+        let _ = write!(data, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' });
     }
     data
 }

@@ -38,6 +38,7 @@ mod law_arguments;
 mod law_failures;
 mod occupant;
 mod output;
+mod own_file;
 mod page;
 mod peak_memory;
 mod place;

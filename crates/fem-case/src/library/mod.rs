@@ -75,8 +75,15 @@ pub fn nearest_to(name: &str) -> Option<&'static str> {
             .find(|(_, entry)| has_word(&entry.title))
             .map(|(known, _)| known.as_str())
     };
+    // A slip in a part of a name, `rubbr`.
+    let parts: Vec<&str> = names.iter().flat_map(|known| known.split('-')).collect();
+    let of_part = || {
+        let part = nearest(name, &parts, 0.9)?;
+        names.iter().find(|known| known.split('-').any(|own| own == part)).copied()
+    };
     near.or(within.copied())
         .or_else(titled)
+        .or_else(of_part)
         .and_then(|near| materials().get_key_value(near))
         .map(|(near, _)| near.as_str())
 }

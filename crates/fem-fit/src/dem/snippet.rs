@@ -189,8 +189,8 @@ impl Export {
 pub(crate) fn unpublished_loss(restitutions: &str, materials: &[String]) -> String {
     let materials = materials.join(" and ").replace(char::is_control, " ");
     format!(
-        "# WARNING: no loss of {materials} is known, and none is in {restitutions}: it is too high,\n\
-         # by how much is not known. Measure it, or give the material a relaxation.\n"
+        "# WARNING: no loss of {materials} is known, and none is in {restitutions}.\n\
+         # It is too high there, by how much is not known: measure it, or give the material a relaxation.\n"
     )
 }
 

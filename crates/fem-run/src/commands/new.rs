@@ -69,7 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let word = shell_word(&name);
     let beside = match wrote_schema {
         true => format!(", and beside it {SCHEMA_FILE} for your editor"),
-        false => String::new(),
+        false => format!(" ({SCHEMA_FILE} beside it is not of fem-run, and stays)"),
     };
     standard_output::print(&format!(
         "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   says what that \

@@ -1,12 +1,15 @@
 //! `fem-run plot FOLDER --what FIGURE`: one picture of a result as SVG, for a paper.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::own_file::OwnFile;
 use crate::page::{Plotted, Record, contour, energies, over_time, pressures, whole};
-use crate::standard_output::{self, one_line};
-use crate::whole_file::write_whole;
+use crate::standard_output;
 
+/// By what a picture is known.
+const PICTURE: OwnFile =
+    OwnFile { what: "picture", extension: "svg", mark: "<!-- fem-run plot -->", option: "--out" };
 /// Panels of contours at most.
 const MOST_PANELS: usize = 6;
 
@@ -19,7 +22,9 @@ pub struct Arguments {
     /// What to draw
     #[arg(long, value_name = "FIGURE")]
     what: Figure,
-    /// The picture [default: FIGURE.svg]
+    /// The picture, - for standard output [default: FIGURE.svg]
+    ///
+    /// An existing file is replaced only if it is such a picture.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Print nothing but errors and warnings
@@ -74,14 +79,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let name = clap::ValueEnum::to_possible_value(&figure);
     let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));
     let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
-    let shown = one_line(&path.display().to_string());
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    write_whole(&path, folder.unwrap_or(Path::new(".")), svg.as_bytes()).map_err(|error| {
-        Failure::bad_input(format!("{shown}: {error}"))
-            .with_help("name a file in a folder that you may write to with --out")
-    })?;
-    if arguments.quiet {
-        return Ok(());
+    let svg = svg.replacen('>', &format!(">\n{}", PICTURE.mark), 1);
+    match PICTURE.write(&path, &svg)? {
+        Some(written) if !arguments.quiet => standard_output::print(&written),
+        _ => Ok(()),
     }
-    standard_output::print(&format!("Picture: {shown}\n"))
 }

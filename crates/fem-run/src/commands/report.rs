@@ -1,16 +1,19 @@
 //! `fem-run report FOLDER...`: the page of a result, or of several beside each other.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::failure::Failure;
+use crate::own_file::OwnFile;
 use crate::page::{REPORT_FILE, Record, comparison, page};
-use crate::standard_output::{self, one_line};
-use crate::whole_file::write_whole;
+use crate::standard_output;
 
-/// By what a page of this program is known.
-const MARK: &str = "<meta name=\"generator\" content=\"fem-run\">";
-/// Bytes of a page within which its mark is.
-const HEAD: usize = 400;
+/// By what a page is known.
+const PAGE: OwnFile = OwnFile {
+    what: "page",
+    extension: "html",
+    mark: "<meta name=\"generator\" content=\"fem-run\">",
+    option: "--out",
+};
 
 /// Write the page of a result, or compare several on one
 ///
@@ -22,7 +25,7 @@ pub struct Arguments {
     /// Result folders of runs
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
-    /// The page [default: FOLDER/report.html; of several folders comparison.html]
+    /// The page, - for standard output [default: FOLDER/report.html; of several folders comparison.html]
     ///
     /// An existing file is replaced only if it is such a page.
     #[arg(long, value_name = "FILE")]
@@ -40,27 +43,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         _ => (comparison(&records)?, PathBuf::from("comparison.html")),
     };
     let path = arguments.out.clone().unwrap_or(usual);
-    write(&path, &text)?;
-    if arguments.quiet {
-        return Ok(());
+    match PAGE.write(&path, &text)? {
+        Some(written) if !arguments.quiet => standard_output::print(&written),
+        _ => Ok(()),
     }
-    standard_output::print(&format!("Page: {}\n", one_line(&path.display().to_string())))
-}
-
-/// Writes a page where none of someone else's is.
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    let shown = one_line(&path.display().to_string());
-    if path.exists() {
-        let old = std::fs::read(path).unwrap_or_default();
-        let head = String::from_utf8_lossy(&old[..old.len().min(HEAD)]);
-        if !head.contains(MARK) {
-            let message = format!("{shown}: this is no page of fem-run, and is not replaced");
-            return Err(Failure::bad_input(message).with_help("name another file with --out"));
-        }
-    }
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    write_whole(path, folder.unwrap_or(Path::new(".")), text.as_bytes()).map_err(|error| {
-        Failure::bad_input(format!("{shown}: {error}"))
-            .with_help("name a file in a folder that you may write to with --out")
-    })
 }

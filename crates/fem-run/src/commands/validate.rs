@@ -15,10 +15,19 @@ use rayon::prelude::*;
 use crate::case_arguments::parse_count;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::own_file::OwnFile;
 use crate::result_folder::{Replaces, ResultFolder};
 use crate::standard_output::{self, one_line};
 use crate::tables::table;
 use crate::validation::{Board, MADE_FROM, PAGE_FILE, write_files};
+
+/// By what a table in Markdown is known.
+const TABLE: OwnFile = OwnFile {
+    what: "table",
+    extension: "md",
+    mark: "<!-- Written by `fem-run validate",
+    option: "--table or --scenes",
+};
 
 /// Hold the program against theory, other programs and the paper
 ///
@@ -40,9 +49,13 @@ pub struct Arguments {
     force: bool,
     /// Also write the table as Markdown, and the pictures into images
     /// beside it; for all claims only
+    ///
+    /// An existing file is replaced only if it is such a table.
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
     /// Also write the hard scenes as Markdown; with the claim that has them
+    ///
+    /// An existing file is replaced only if it is such a table.
     #[arg(long, value_name = "FILE")]
     scenes: Option<PathBuf>,
     /// Threads to use [default: one a processor]
@@ -72,6 +85,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.scenes.is_some() && !claims.iter().any(has_hard_scenes) {
         return Err(Failure::bad_input("--scenes: no claim that is named has hard scenes")
             .with_help("name the claim: fem-run validate hard --scenes FILE"));
+    }
+    for path in arguments.table.iter().chain(&arguments.scenes) {
+        TABLE.check(path)?;
     }
     let replaces = Replaces::only(MADE_FROM, arguments.force);
     let folder = ResultFolder::claim(&arguments.out, ".summary.json.XXXXXX.tmp", replaces)?;

@@ -23,7 +23,13 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
     });
     let rows: Vec<_> = std::iter::once(header).chain(rows).collect();
     let mut text = table(&[Left, Left, Right, Right, Right], rows);
-    text += "evidence: the share of each among these laws; none need be right\n";
+    text += match ranking.laws.iter().any(|law| law.weight.is_some()) {
+        true => "evidence: the share of each among these laws; none need be right\n",
+        false => {
+            "the data are too few to tell laws apart, and the first is merely one of the fewest parameters: \
+             more speeds, or uncertainties, rank them\n"
+        }
+    };
     let mut of: Vec<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();
     of.dedup();
     for of in of {

@@ -19,6 +19,9 @@ const OF_THE_SCENE: [&str; 6] = ["material", "body", "start", "model", "gravity"
 /// Of more results the numbers have a row each, which a page is wide enough for.
 const MOST_COLUMNS: usize = 3;
 
+/// More than so much of another number is told as a multiple of it.
+const MANIFOLD: f64 = 3.0;
+
 #[derive(Template)]
 #[template(path = "comparison.html")]
 struct Comparison {
@@ -158,6 +161,7 @@ fn apart(own: (f64, Parts), from: (f64, Parts), headline: Headline) -> String {
     }
     let size = match headline {
         Headline::Restitution => format!("{difference:+.5}"),
+        _ if own.0 > MANIFOLD * from.0 && from.0 > 0.0 => format!("\u{d7} {:.3}", own.0 / from.0),
         _ => format!("{:+.2} %", 100.0 * difference / from.0),
     };
     let bars = own.1.sum().zip(from.1.sum()).map(|(a, b)| a + b);

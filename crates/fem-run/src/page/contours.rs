@@ -46,7 +46,22 @@ pub fn contour(record: &Record, most_frames: usize) -> Option<Contour> {
         |frame: &&Frame| format!("{}, {}", instant(&frame.label), time.show(frame.time - start));
     let titles = chosen.iter().map(title).collect();
     let rigid = |k: usize, side: usize, view: &View| rigid(record, side, chosen[k], view);
-    Some(picture(sections?, titles, near, rigid))
+    let mut contour = picture(sections?, titles, near, rigid);
+    if let [lower, upper] = names(record).as_slice() {
+        contour.y_label = format!("{lower} \u{2190} {} \u{2192} {upper}", contour.y_label);
+    }
+    Some(contour)
+}
+
+/// Of the lower and the upper body, so much of them as an axis has room for.
+fn names(record: &Record) -> Vec<String> {
+    const MOST: usize = 14;
+    let name = |body: &serde_json::Value| Some(body.get("name")?.as_str()?.to_string());
+    let short = |name: String| match name.chars().count() {
+        0..=MOST => name,
+        _ => name.chars().take(MOST - 1).chain(['\u{2026}']).collect(),
+    };
+    record.list("bodies").iter().filter_map(name).map(short).collect()
 }
 
 /// At most so many frames evenly, that nearest to the largest force among them.

@@ -179,12 +179,30 @@ fn grouped(count: f64) -> String {
     text
 }
 
-/// All but that the run is incomplete, which stands above.
+/// All but that the run is incomplete, which stands above; as HTML.
 fn warnings(record: &Record) -> Vec<String> {
     let stopped = record.text("stopped_because");
     let warnings = record.list("warnings").iter().filter_map(Value::as_str);
     let others = warnings.filter(|warning| stopped.is_empty() || !warning.contains(stopped));
-    others.map(String::from).collect()
+    others.map(with_keys).collect()
+}
+
+/// A text as HTML, what stands between backticks as code.
+fn with_keys(text: &str) -> String {
+    let escaped = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let mut parts = escaped.split('`').peekable();
+    let mut html = String::new();
+    let mut is_code = false;
+    while let Some(part) = parts.next() {
+        match is_code && parts.peek().is_some() {
+            true => html += &format!("<code>{part}</code>"),
+            // A backtick alone is what it is.
+            false if is_code => html += &format!("`{part}"),
+            false => html += part,
+        }
+        is_code = !is_code;
+    }
+    html
 }
 
 fn bounce(bounce: &Value) -> [String; 5] {
@@ -208,4 +226,19 @@ fn citation(record: &Record) -> String {
         record.text("numerics"),
         record.title()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_keys;
+
+    #[test]
+    fn keys_in_warnings_are_code_and_nothing_is_markup() {
+        assert_eq!(
+            with_keys("a<b & `x = {}` or `y`"),
+            "a&lt;b &amp; <code>x = {}</code> or <code>y</code>"
+        );
+        assert_eq!(with_keys("one ` alone"), "one ` alone");
+        assert_eq!(with_keys("`a` and ` alone"), "<code>a</code> and ` alone");
+    }
 }

@@ -1,7 +1,7 @@
 //! The contact pressure over the distance from the axis, as a chart.
 
-use fem_case::engineering::Unit;
-use fem_figure::{Axis, Chart, Curve, GREY};
+use fem_case::engineering::{Unit, show};
+use fem_figure::{Axis, Chart, Curve};
 
 use super::curves::telling;
 use super::hertz::Hertz;
@@ -37,7 +37,7 @@ pub fn pressures(records: &[Record]) -> Option<Chart> {
             curves.push((curves.len(), record, contact, label));
         }
     }
-    let mut of_hertz = Vec::new();
+    let mut of_hertz: Vec<(usize, Vec<(f64, f64)>)> = Vec::new();
     for (k, record, contact, label) in curves {
         let scaled = |(r, p): &(f64, f64)| (length.scaled(*r), stress.scaled(*p));
         let own = contact.pressure.iter().map(scaled).collect();
@@ -53,13 +53,23 @@ pub fn pressures(records: &[Record]) -> Option<Chart> {
                 // Closer together toward the edge, where the profile is steep.
                 let r = (std::f64::consts::FRAC_PI_2 * f64::from(k) / 40.0).sin()
                     * profile.contact_radius;
-                scaled(&(r, profile.pressure(r)))
+                (r, profile.pressure(r))
             };
-            of_hertz.push((0..=40).map(at).collect());
+            of_hertz.push((k, (0..=40).map(at).collect()));
         }
     }
-    let curve = |points| Curve::dashed("Hertz under the same force", points).coloured(GREY);
-    Some(of_hertz.into_iter().map(curve).fold(chart, Chart::with))
+    let largest =
+        of_hertz.iter().flat_map(|(_, points)| points).fold(0.0, |most: f64, p| most.max(p.1));
+    let mut name = "dashed: Hertz under the same force".to_string();
+    if largest > MOST_OVER_DATA * peak {
+        name += &format!(", up to {}", show(largest, "Pa"));
+    }
+    // Each in the colour of what it stands beside.
+    for (k, points) in of_hertz {
+        let points = points.iter().map(|(r, p)| (length.scaled(*r), stress.scaled(*p))).collect();
+        chart = chart.with(Curve::dashed(&name, points).like_curve(k));
+    }
+    Some(chart)
 }
 
 /// What a snapshot is called.

@@ -204,6 +204,45 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
     place.succeed(&["report", "runs/case"]);
 }
 
+/// Whatever command writes a single file where its user says.
+#[test]
+fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
+    let place = Place::new();
+    place.succeed(&TING);
+    place.succeed(&[&TING[..], &["--out", "runs/other"]].concat());
+    let summary = text(&place, "runs/case/summary.json");
+    fn own(name: &str) -> Vec<&str> {
+        vec!["plot", "runs/case", "--what", "force", "--out", name]
+    }
+    let mine = "mine: not to be lost";
+    for (command, name) in [
+        (own("mine.svg"), "mine.svg"),
+        (own("runs/case/summary.json"), "runs/case/summary.json"),
+        (own("mine.png"), "mine.png"),
+        (vec!["plot", "runs/case", "--what", "force"], "force.svg"),
+        (vec!["report", "runs/case", "--out", "mine.html"], "mine.html"),
+        (vec!["report", "runs/case", "--out", "case.toml"], "case.toml"),
+        (vec!["report", "runs/case", "runs/other"], "comparison.html"),
+    ] {
+        let old = match name {
+            "runs/case/summary.json" => summary.clone(),
+            _ => mine.to_string(),
+        };
+        place.write(name, &old);
+        let ran = place.run(&command);
+        assert_eq!(ran.code, Some(2), "{command:?}: {}", ran.stderr);
+        assert!(ran.stderr.contains(name) && ran.stderr.contains("--out"), "{}", ran.stderr);
+        assert_eq!(text(&place, name), old, "{command:?}");
+    }
+    // Its own are, and `-` is no file.
+    for _ in 0..2 {
+        place.succeed(&own("own.svg"));
+    }
+    let printed = place.run(&own("-"));
+    assert_eq!((printed.code, printed.stdout), (Some(0), text(&place, "own.svg")));
+    assert!(!place.path("-").exists());
+}
+
 /// Places (x, y) of the first curve of the first chart of a page, in its pixels.
 fn first_curve(page: &str) -> Vec<[f64; 2]> {
     let path = page.split("<path class=\"c0 stroke\"").nth(2).unwrap();

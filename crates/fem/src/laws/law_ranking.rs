@@ -52,7 +52,7 @@ impl RankedLaw {
 /// All laws on the same data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LawRanking {
-    /// The best first; laws without evidence last, by their rms.
+    /// The best first; laws without evidence last, those of fewer parameters first, then by their rms.
     pub laws: Vec<RankedLaw>,
     /// Those that make the curve of another one, and of which.
     pub twins: Vec<(String, &'static str)>,
@@ -108,11 +108,12 @@ impl LawRanking {
             law.weight = criterion.map(|own| share(own) / sum);
         }
         let place = |(law, _): &(RankedLaw, Option<f64>)| {
-            (law.difference.unwrap_or(f64::INFINITY), law.fit.rms)
+            // Without evidence a parameter more has earned nothing.
+            (law.difference.unwrap_or(f64::INFINITY), law.free.len(), law.fit.rms)
         };
         found.sort_by(|a, b| {
             let (a, b) = (place(a), place(b));
-            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+            a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.total_cmp(&b.2))
         });
         match (found.is_empty(), last) {
             (true, Some(fault)) => Err(fault),

@@ -151,6 +151,25 @@ fn elements_have_ting_in_their_place_if_a_body_relaxes() {
     assert!(curve.points.iter().all(|point| point.restitution < 1.0));
 }
 
+/// Of data that tell nothing apart the first is one of the fewest parameters, however well others fit.
+#[test]
+fn a_parameter_more_is_not_first_for_want_of_data() {
+    for points in [[(0.05, 0.93), (0.2, 0.9)].as_slice(), &[(0.05, 0.93), (0.1, 0.915), (0.2, 0.9)]]
+    {
+        let ranking = LawRanking::of(&ball(None), &Restitutions::of("few", points), None).unwrap();
+        let fewest = ranking.laws.iter().map(|law| law.free.len()).min().unwrap();
+        let most = ranking.laws.iter().map(|law| law.free.len()).max().unwrap();
+        assert!(
+            fewest < most && ranking.laws.iter().all(|law| law.weight.is_none()),
+            "{ranking:?}"
+        );
+        assert_eq!(ranking.laws[0].free.len(), fewest, "{ranking:?}");
+        let best = |law: &&RankedLaw| law.free.len() == fewest;
+        let least = ranking.laws.iter().filter(best).map(|law| law.fit.rms).reduce(f64::min);
+        assert_eq!(Some(ranking.laws[0].fit.rms), least, "{ranking:?}");
+    }
+}
+
 /// Data of one law with scatter of 0.003 either way: that law comes first, one that can do as well with
 /// a parameter more pays for it, and one that cannot has no share.
 #[test]
