@@ -1,7 +1,9 @@
 //! Hidden folders that results are made in, and what is left of those whose process was killed.
 //!
 //! A hidden folder lies beside the place of its result. In it is a file that its process holds locked
-//! and that says which place that is: whoever gets the lock knows that the process is gone.
+//! and that says which place that is: whoever gets the lock knows that the process is gone. That file is
+//! the first in the folder and the last to go, so that whoever is killed leaves a folder with it or an
+//! empty one.
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read, Write};
@@ -17,7 +19,7 @@ use crate::whole_file::{PREFIX, SUFFIX};
 pub const LOCK_FILE: &str = ".fem-run-lock";
 /// In it the older result waits while a new one takes its place.
 const OLD: &str = "old";
-/// What is left without a lock is not touched before that: it may have begun just now.
+/// A file that is being written has no lock, and is not touched before that.
 const GRACE: Duration = Duration::from_secs(3600);
 /// Folders that are swept away before they are locked.
 const TRIES: usize = 10;
@@ -28,6 +30,7 @@ pub struct HiddenFolder {
     folder: TempDir,
     /// None where the file system has no locks: then nobody sweeps.
     lock: Option<File>,
+    goes: bool,
 }
 
 impl HiddenFolder {
@@ -41,7 +44,10 @@ impl HiddenFolder {
         for _ in 0..TRIES {
             let folder = new_folder(parent)?;
             let path = folder.path().join(LOCK_FILE);
-            let mut file = File::create_new(&path)?;
+            let mut file = match File::create_new(&path) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+                file => file?,
+            };
             let lock = match file.try_lock() {
                 Err(TryLockError::WouldBlock) => continue,
                 Err(TryLockError::Error(_)) => None,
@@ -51,7 +57,7 @@ impl HiddenFolder {
                     Some(file)
                 }
             };
-            return Ok(Self { folder, lock });
+            return Ok(Self { folder, lock, goes: true });
         }
         Err(io::Error::other("other runs keep sweeping new folders away"))
     }
@@ -68,7 +74,7 @@ impl HiddenFolder {
 
     /// Leaves the folder where it is; what it holds is not lost.
     pub fn keep(&mut self) -> PathBuf {
-        self.folder.disable_cleanup(true);
+        self.hold();
         // Nobody sweeps what has no lock.
         let _ = fs::remove_file(self.path().join(LOCK_FILE));
         self.path().to_path_buf()
@@ -76,6 +82,7 @@ impl HiddenFolder {
 
     /// From now on it does not go when it is dropped.
     pub fn hold(&mut self) {
+        self.goes = false;
         self.folder.disable_cleanup(true);
     }
 
@@ -99,10 +106,37 @@ impl HiddenFolder {
         }
         fs::rename(self.path(), target)?;
         // Where it was there is nothing any more.
-        self.folder.disable_cleanup(true);
+        self.hold();
         let _ = fs::remove_file(target.join(LOCK_FILE));
         Ok(())
     }
+}
+
+impl Drop for HiddenFolder {
+    fn drop(&mut self) {
+        if self.goes {
+            let _ = remove_lock_last(self.path());
+        }
+    }
+}
+
+/// Removes a hidden folder with all that is in it.
+fn remove_lock_last(path: &Path) -> io::Result<()> {
+    for entry in lock_last(path)? {
+        match entry.symlink_metadata()?.is_dir() {
+            true => fs::remove_dir_all(entry)?,
+            false => fs::remove_file(entry)?,
+        }
+    }
+    fs::remove_dir(path)
+}
+
+/// What is in a hidden folder, in the order in which it may go.
+fn lock_last(path: &Path) -> io::Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(path)?.map(|entry| entry.map(|entry| entry.path()));
+    let mut entries = entries.collect::<io::Result<Vec<_>>>()?;
+    entries.sort_by_key(|entry| entry.ends_with(LOCK_FILE));
+    Ok(entries)
 }
 
 fn new_folder(parent: &Path) -> io::Result<TempDir> {
@@ -131,8 +165,9 @@ pub fn sweep_leftovers(parent: &Path) {
             } else if let Some((lock, target)) = abandoned(parent, &path) {
                 sweep_new(&path, &target);
                 drop(lock);
-            } else if is_past_grace(&path) {
-                // Of one that was killed before it had a lock: only removes what is empty.
+            } else {
+                // Only removes what is empty: of one that was killed before it had a lock. A living one takes
+                // another folder.
                 let _ = fs::remove_dir(&path);
             }
         } else if name.to_string_lossy().ends_with(SUFFIX) && is_past_grace(&path) {
@@ -173,12 +208,12 @@ fn sweep_new(path: &Path, target: &Path) {
             }
             Ok(_) => {
                 let moved = new.move_foreign_files(path, target);
-                let _ = moved.and_then(|()| new.remove_own_files(path));
+                let _ = moved.and_then(|()| remove_lock_last(path));
             }
             Err(_) => {}
         },
         // Not finished: there is nothing of the user's in it.
-        Ok(_) => drop(fs::remove_dir_all(path)),
+        Ok(_) => drop(remove_lock_last(path)),
         Err(_) => {}
     }
 }
@@ -203,4 +238,49 @@ fn sweep_old(path: &Path, target: &Path) {
 fn is_past_grace(path: &Path) -> bool {
     let changed = path.metadata().and_then(|metadata| metadata.modified());
     changed.is_ok_and(|time| time.elapsed().is_ok_and(|age| age > GRACE))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::thread;
+
+    use super::*;
+
+    /// Killed at any instant of it, one that removes a folder leaves what the next finds.
+    #[test]
+    fn the_lock_is_the_last_that_goes() {
+        let place = tempfile::tempdir().unwrap();
+        let hidden = HiddenFolder::beside(&place.path().join("out")).unwrap();
+        for name in [".a", "summary.json", "z"] {
+            fs::write(hidden.path().join(name), "").unwrap();
+        }
+        fs::create_dir(hidden.path().join("folder")).unwrap();
+        let order = lock_last(hidden.path()).unwrap();
+        assert_eq!(order.len(), 5);
+        assert!(order[4].ends_with(LOCK_FILE), "{order:?}");
+        drop(hidden);
+        assert!(fs::read_dir(place.path()).unwrap().next().is_none());
+    }
+
+    /// A folder that has no lock yet may be swept away; its process does not mind.
+    #[test]
+    fn folders_are_made_while_others_sweep() {
+        let place = tempfile::tempdir().unwrap();
+        let ends = AtomicBool::new(false);
+        thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| {
+                    while !ends.load(Ordering::Relaxed) {
+                        sweep_leftovers(place.path());
+                    }
+                });
+            }
+            let made: Vec<_> =
+                (0..2000).map(|_| HiddenFolder::beside(&place.path().join("out"))).collect();
+            ends.store(true, Ordering::Relaxed);
+            assert!(made.iter().flatten().all(|one| one.path().join(LOCK_FILE).exists()));
+            assert_eq!(made.iter().filter(|one| one.is_err()).count(), 0);
+        });
+    }
 }

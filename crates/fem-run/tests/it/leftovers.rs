@@ -127,6 +127,14 @@ fn what_is_replaced_goes() {
     assert_eq!(place.read("out/summary.json"), new);
 }
 
+/// Killed before it had a lock.
+#[test]
+fn an_empty_folder_goes() {
+    let place = Place::new();
+    fs::create_dir(place.path(".fem-run-a")).unwrap();
+    sweep(&place);
+}
+
 /// What has no lock may be somebody's.
 #[test]
 fn hidden_folders_of_others_stay() {
