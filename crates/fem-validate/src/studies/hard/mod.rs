@@ -229,7 +229,11 @@ impl Entry<'_> {
             |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.1e}"));
         let differences = self.differences(tried).unwrap_or_default();
         let [e, time, force, pressure] = differences.map(|two| number(two.map(|(off, _)| off)));
-        let invariants = [trial.growth(), trial.momentum()].map(number).join(", ");
+        let invariants: Vec<String> = [trial.growth(), trial.momentum()]
+            .into_iter()
+            .flatten()
+            .map(|it| number(Some(it)))
+            .collect();
         let verdict = if self.is_as_expected(tried) { "" } else { "UNEXPECTED: " };
         [
             self.scene.name.clone(),
@@ -240,7 +244,7 @@ impl Entry<'_> {
             time,
             force,
             pressure,
-            invariants,
+            invariants.join(", "),
             trial.cost().map_or(String::new(), |share| format!("{share:.2}")),
             format!("{verdict}{}", trial.words(folder)),
         ]
