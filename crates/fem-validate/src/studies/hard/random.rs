@@ -2,11 +2,11 @@
 //!
 //! Two models may differ by what the tolerances of the claim say, and by what the effects that one has
 //! and the other lacks are worth by the plan's own closed forms, which are good within a factor of
-//! three, and by a share of what waves take that a model has as a term only. What is beyond that with the meshes of
-//! `[run.base]` is computed again with those of `[run.fine]`, and what is still beyond is `unexplained`. Of
-//! `bar_seeds` two models may differ by both error bars, and of `extreme_seeds`, whose bodies are far from alike;
-//! what is beyond is `beyond_bars`. Neither counts what the cheaper model warned of. `NAME.median` is the median
-//! |Δe| of a pair of models, `finer` how many scenes were computed again.
+//! three, and by a share of what waves take that a model has as a term only. Scenes of `default_seeds` have the
+//! default settings, and what two models may differ by are both error bars; so have those of `extreme_seeds`, whose
+//! bodies are far from alike. What is beyond is `unexplained`, of
+//! scenes with default settings `beyond_bars`, unless the cheaper model warned of its result. `NAME.median` is
+//! the median |Δe| of a pair of models.
 
 use fem::effects::{LeftOut, PartnerWaves, Verdict};
 use fem::{Estimate, Simulation};
@@ -27,8 +27,6 @@ const FORETOLD_WITHIN: f64 = 3.0;
 const RADIATION_WITHIN: f64 = 0.15;
 /// From the most complete to the cheapest.
 const MODELS: [&str; 3] = ["fem={}", "condensed={}", "ting={finite_size=true}"];
-/// Those that are held against each other.
-const PAIRS: [(&str, [usize; 2]); 2] = [("explicit", [0, 1]), ("ting", [1, 2])];
 /// Worst scenes that are shown of each pair.
 const N_SHOWN: usize = 5;
 
@@ -36,9 +34,9 @@ const N_SHOWN: usize = 5;
 #[serde(deny_unknown_fields)]
 struct Parameters {
     seeds: Vec<u64>,
-    /// Of scenes that are held to the error bars.
-    bar_seeds: Vec<u64>,
-    /// Of those whose bodies are far from alike.
+    /// Of scenes with the default settings.
+    default_seeds: Vec<u64>,
+    /// Of scenes with the default settings whose bodies are far from alike.
     extreme_seeds: Vec<u64>,
     /// Of each seed.
     scenes: usize,
@@ -58,12 +56,11 @@ struct Tolerance {
     peak_force: f64,
 }
 
-/// What two models of a scene may differ by, beside what effects explain.
+/// Where mesh and steps of a scene come from.
 #[derive(Clone, Copy, PartialEq)]
-enum Allowed {
-    /// [`Tolerance`].
-    Claimed,
-    Bars,
+enum Settings {
+    Claim,
+    Default,
 }
 
 impl Tolerance {
@@ -81,7 +78,7 @@ struct Ran {
 /// Two models of a scene.
 struct Difference {
     scene: String,
-    allowed: Allowed,
+    settings: Settings,
     off: [f64; 3],
     /// Over what is allowed.
     share: f64,
@@ -93,42 +90,43 @@ struct Difference {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut scenes = Vec::new();
-    for (seeds, allowed, ratios, n) in [
-        (&parameters.seeds, Allowed::Claimed, Ratios::Usual, parameters.scenes),
-        (&parameters.bar_seeds, Allowed::Bars, Ratios::Usual, parameters.scenes),
-        (&parameters.extreme_seeds, Allowed::Bars, Ratios::Extreme, parameters.extreme_scenes),
+    for (seeds, settings, ratios, n) in [
+        (&parameters.seeds, Settings::Claim, Ratios::Usual, parameters.scenes),
+        (&parameters.default_seeds, Settings::Default, Ratios::Usual, parameters.scenes),
+        (&parameters.extreme_seeds, Settings::Default, Ratios::Extreme, parameters.extreme_scenes),
     ] {
         for &seed in seeds {
             let mut random = Random::new(seed);
-            scenes.extend((0..n).map(|_| (allowed, overrides_of(&mut random, ratios))));
+            scenes.extend((0..n).map(|_| (settings, overrides_of(&mut random, ratios))));
         }
     }
-    let tolerances = [parameters.explicit, parameters.ting];
-    let compared = scenes.par_iter().map(|(allowed, set)| {
-        let compared = compare(laboratory, "base", *allowed, set, tolerances)?;
-        match *allowed == Allowed::Claimed && !compared.is_within() {
-            true => {
-                let finer = compare(laboratory, "fine", *allowed, set, tolerances)?;
-                Ok((finer, true))
-            }
-            false => Ok((compared, false)),
-        }
+    let pairs = [("explicit", [0, 1], parameters.explicit), ("ting", [1, 2], parameters.ting)];
+    // What a scene takes, its bars too, is done at once, and its models and fields are not kept.
+    let compared = scenes.par_iter().map(|(settings, set)| {
+        let [fem, condensed, ting] = MODELS.map(|model| run(laboratory, *settings, set, model));
+        let runs = [fem?, condensed?, ting?];
+        let differences = pairs.map(|(_, pair, tolerance)| {
+            let [ours, theirs] = pair.map(|k| runs[k].as_ref().ok());
+            Some(difference(set, *settings, [ours?, theirs?], tolerance))
+        });
+        let stopped: Vec<String> = runs.into_iter().filter_map(Result::err).collect();
+        Ok::<_, StudyError>((differences, stopped))
     });
-    let compared = compared.collect::<Result<Vec<_>, StudyError>>()?;
+    let compared = compared.collect::<Result<Vec<_>, _>>()?;
+    let (differences, stopped): (Vec<_>, Vec<_>) = compared.into_iter().unzip();
     let mut findings = Findings::new();
     findings.measure("scenes", scenes.len() as f64);
-    findings.measure("finer", compared.iter().filter(|(_, is_finer)| *is_finer).count() as f64);
-    let (differences, stopped): (Vec<_>, Vec<_>) =
-        compared.into_iter().map(|(compared, _)| (compared.differences, compared.stopped)).unzip();
-    for (k, (name, _)) in PAIRS.into_iter().enumerate() {
+    for (k, (name, ..)) in pairs.into_iter().enumerate() {
         let mut differences: Vec<&Difference> =
             differences.iter().filter_map(|pairs| pairs[k].as_ref()).collect();
         findings.measure(format!("{name}.compared"), differences.len() as f64);
-        let beyond = differences.iter().copied().filter(|one| !one.is_within());
+        // A share that is no number is beyond every limit.
+        let is_within = |one: &&Difference| one.share <= 1.0;
+        let beyond = differences.iter().copied().filter(|one| !is_within(one));
         let (warned, beyond): (Vec<&Difference>, Vec<&Difference>) =
             beyond.partition(|one| one.warns);
         let (unexplained, beyond_bars): (Vec<&Difference>, Vec<&Difference>) =
-            beyond.into_iter().partition(|one| one.allowed == Allowed::Claimed);
+            beyond.into_iter().partition(|one| one.settings == Settings::Claim);
         findings.measure(format!("{name}.warned"), warned.len() as f64);
         findings.measure(format!("{name}.unexplained"), unexplained.len() as f64);
         findings.measure(format!("{name}.beyond_bars"), beyond_bars.len() as f64);
@@ -161,56 +159,20 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// The models of a scene, side by side.
-struct Compared {
-    differences: [Option<Difference>; PAIRS.len()],
-    /// What is said of the models that do not compute it.
-    stopped: Vec<String>,
-}
-
-impl Compared {
-    fn is_within(&self) -> bool {
-        self.differences.iter().flatten().all(Difference::is_within)
-    }
-}
-
-impl Difference {
-    /// A share that is no number is beyond every limit.
-    fn is_within(&self) -> bool {
-        self.share <= 1.0
-    }
-}
-
-/// A scene in all models, with the settings of a run of the claim. What it takes, its bars too, is done at once, and
-/// its models and fields are not kept.
-fn compare(
-    laboratory: &Laboratory,
-    name: &str,
-    allowed: Allowed,
-    set: &[String],
-    tolerances: [Tolerance; PAIRS.len()],
-) -> Result<Compared, StudyError> {
-    let [fem, condensed, ting] = MODELS.map(|model| run(laboratory, name, set, model));
-    let runs = [fem?, condensed?, ting?];
-    let differences = std::array::from_fn(|k| {
-        let [ours, theirs] = PAIRS[k].1.map(|model| runs[model].as_ref().ok());
-        Some(difference(set, allowed, [ours?, theirs?], tolerances[k]))
-    });
-    let stopped = runs.into_iter().filter_map(Result::err).collect();
-    Ok(Compared { differences, stopped })
-}
-
 /// A collision, or what the user is told instead.
 fn run(
     laboratory: &Laboratory,
-    name: &str,
+    settings: Settings,
     set: &[String],
     model: &str,
 ) -> Result<Result<Ran, String>, StudyError> {
-    let base = laboratory.claim().runs.get(name).ok_or_else(|| {
-        StudyError::parameters(format!("the claim has no [run.{name}], which the study needs"))
+    let base = laboratory.claim().runs.get("base").ok_or_else(|| {
+        StudyError::parameters("the claim has no [run.base], which the study needs")
     })?;
     let mut all = base.set.clone();
+    if let Settings::Default = settings {
+        all.push("accuracy={}".to_string());
+    }
     all.extend_from_slice(set);
     all.push(format!("model={{{model}}}"));
     let file = RunFile { case: base.case.clone(), set: all };
@@ -235,13 +197,13 @@ fn collide(case: Case) -> Result<Result<Ran, String>, CaseError> {
 /// What the cheaper model (`theirs`) is off, over what is allowed.
 fn difference(
     set: &[String],
-    allowed: Allowed,
+    settings: Settings,
     [ours, theirs]: [&Ran; 2],
     tolerance: Tolerance,
 ) -> Difference {
-    let base = match allowed {
-        Allowed::Claimed => tolerance.shares(),
-        Allowed::Bars => bars(ours, theirs),
+    let base = match settings {
+        Settings::Claim => tolerance.shares(),
+        Settings::Default => bars(ours, theirs),
     };
     let hertz = &ours.simulation.setup().estimate.hertz;
     let numbers = |ran: &Ran| {
@@ -263,7 +225,7 @@ fn difference(
     // What warnings need to know, companions tell, which take longer than the collision.
     let is_within = share <= 1.0;
     let warns = !is_within && theirs.warns();
-    Difference { scene: set.join(" "), allowed, off, share, warns }
+    Difference { scene: set.join(" "), settings, off, share, warns }
 }
 
 /// What both models say that mesh and steps leave open; shares as of Hertz.
