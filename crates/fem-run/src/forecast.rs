@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use fem::accuracy::condensed_companion_time;
 use fem::{Cost, Following, Simulation};
 use fem_case::engineering::show;
 use fem_collision::{Monitor, Phase, Progress};
@@ -14,13 +15,6 @@ const REPORTS: u32 = 5;
 const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
 /// The same of condensed bodies, which begin with their slowest steps.
 const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
-/// Over a collision of condensed bodies what tells its error takes: a collision of a mesh of 1.5 times the elements
-/// across where these are few, factors too, ...
-const FINER_COMPANION: f64 = 3.0;
-/// ... and else two of coarser ones.
-const COARSER_COMPANIONS: f64 = 0.7;
-/// Fewer elements across the contact have a finer companion.
-const FEW: f64 = 9.0;
 
 /// Collisions that take more element updates are not run to foretell: their companions take seconds.
 const QUICK: u64 = 30_000_000;
@@ -144,8 +138,7 @@ fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     let across = elements.map_or(f64::INFINITY, |elements| {
         simulation.setup().estimate.contact_radius / elements.plan.contact_element_size
     });
-    let companions = if across < FEW { FINER_COMPANION } else { COARSER_COMPANIONS };
-    collision + companions * (collision + making)
+    collision + condensed_companion_time(across) * (collision + making)
 }
 
 /// Stops a run after a while, and knows how far it was.

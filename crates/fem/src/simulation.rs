@@ -20,7 +20,7 @@ use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 use crate::probes::probes_of;
 use crate::refinement::Level;
 use crate::refusal::Refusal;
-use crate::resolution::Resolution;
+use crate::resolution::{Resolution, known_as_fine};
 use crate::soft_springs::softness;
 use crate::uncertainty::Seen;
 
@@ -257,16 +257,22 @@ impl Simulation {
 
     /// What that says contact time and peak force are off by, as shares.
     pub(crate) fn mesh_error_stated(&self, collision: &Collision) -> Option<[f64; 2]> {
-        let radius = self.carried_radius(collision)?;
-        Resolution::of(self.case.scene(), self.model.meshes(), radius)?.stated()
+        self.resolution(self.carried_radius(collision)?)?.stated()
     }
 
     /// That the meshes cannot carry a contact of this radius, m.
     fn resolution_warning(&self, contact_radius: f64) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
+        let resolution = self.resolution(contact_radius)?;
+        resolution.warning(self.case.scene(), plan, self.model.meshes(), contact_radius)
+    }
+
+    /// What the meshes foretell of a contact of this radius, m; none where it is known to be nothing.
+    fn resolution(&self, contact_radius: f64) -> Option<Resolution> {
         let (scene, meshes) = (self.case.scene(), self.model.meshes());
-        let resolution = Resolution::of(scene, meshes, contact_radius)?;
-        resolution.warning(scene, plan, meshes, contact_radius)
+        let plan = self.setup().elements.as_ref().map(|elements| &elements.plan);
+        let is_fine = plan.is_some_and(|plan| known_as_fine(scene, plan, meshes, contact_radius));
+        if is_fine { None } else { Resolution::of(scene, meshes, contact_radius) }
     }
 
     /// How wide the contact came, m, where it came to its end. One of the poles alone has no width; it is as wide as
@@ -280,9 +286,8 @@ impl Simulation {
 
     /// Whether the meshes do not resolve the contact of a collision at all.
     pub(crate) fn is_unresolved(&self, collision: &Collision) -> bool {
-        let resolution = self
-            .carried_radius(collision)
-            .and_then(|radius| Resolution::of(self.case.scene(), self.model.meshes(), radius));
+        let radius = self.carried_radius(collision);
+        let resolution = radius.and_then(|radius| self.resolution(radius));
         resolution.is_some_and(|resolution| resolution.is_none_at_all())
     }
 

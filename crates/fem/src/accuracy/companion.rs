@@ -21,9 +21,11 @@
 //! q(h) - q_0 \approx \frac{q(rh) - q(h)}{r^p-1}, \qquad r = \tfrac32,\ 2
 //! ```
 //!
-//! Meshes of three elements across the contact tell nothing: of condensed bodies with so few that a coarser
-//! one would be left with them, the companion is finer, r = ⅔, and cheap for the same reason. So it is of
-//! explicit elements that coarser meshes do not carry through the collision: they turn over or collapse.
+//! Of five to seven elements there is one coarser mesh, r = 3/2, and margins are wider, since the place of the edge shows
+//! more (`accuracy/coarser.rs`); where that tells more than the case allows, a finer one is asked. Meshes of three
+//! elements across the contact tell nothing: of condensed bodies with so few that a coarser one would be left with them,
+//! and of seven to nine, the companion is finer, r = ⅔. So it is of explicit elements that coarser meshes do not carry
+//! through the collision: they turn over or collapse.
 //!
 //! A mesh that was read from a file has neither coarser nor finer ones. Its limit is that of meshes that are made
 //! here, with elements as long as its own at the contact and twice as long, or half where they are few; its error
@@ -41,6 +43,7 @@ use fem_collision::{Approach, Collision, Headline, Want, longest_at_pole};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
+use super::coarser::ByCoarserMeshes;
 use super::ladder::first_contact;
 use super::setting::Setting;
 use crate::early_pressure::EarlyPressure;
@@ -53,16 +56,13 @@ use crate::simulation::Simulation;
 /// Errors of a sequence of meshes fall with this power of the length of their elements.
 pub(crate) const ORDER: f64 = 1.9;
 /// Elements of coarser companions over those of the collision.
-const COARSER: [f64; 2] = [1.5, 2.0];
+pub(super) const COARSER: [f64; 2] = [1.5, 2.0];
 /// Elements of the collision over those of the finer companion of condensed bodies: with half of the length it
 /// takes twice the time of the collision itself.
 const FINER: f64 = 1.5;
 /// Errors that are told over those that are estimated, in the order of [`Headline::ALL`]: by condensed
 /// bodies on the same mesh, ...
 const MARGIN: [f64; 6] = [1.3; 6];
-/// ... of condensed bodies by coarser ones, whose contact time and force converge faster than is counted
-/// with, ...
-const MARGIN_OF_CONDENSED: [f64; 6] = [1.6, 1.0, 0.5, 1.2, 0.7, 0.8];
 /// ... of condensed bodies by a finer one, whose force does not swing, ...
 const MARGIN_OF_FINER: [f64; 6] = [1.3, 1.3, 1.0, 1.3, 1.3, 1.3];
 /// ... and of explicit elements by coarser ones. What a contact with mass takes of the restitution falls with the
@@ -82,7 +82,7 @@ const CONDENSED_SCATTER: [f64; 6] = [1e-5, 1e-4, 2e-4, 1.5e-4, 3e-3, 1e-3];
 const OF_FEW: [f64; 6] = [1.6e-3, 0.008, 4e-3, 0.013, 0.05, 0.068];
 /// The same at finite strain.
 const OF_FEW_AT_FINITE_STRAIN: [f64; 6] = [1.6e-3, 0.02, 0.02, 0.013, 0.05, 0.1];
-const OF_FEW_CONDENSED: [f64; 6] = [1e-3, 0.01, 0.012, 0.008, 0.3, 0.1];
+pub(super) const OF_FEW_CONDENSED: [f64; 6] = [1e-3, 0.01, 0.012, 0.008, 0.3, 0.1];
 /// Over the shear wave speed the speed of an impact of which condensed bodies tell what meshes do: rubber on a
 /// wall at twice that is off by 1.4 % of the contact time where they find 0.3 %.
 const SLOW: f64 = 0.02;
@@ -110,7 +110,7 @@ const STEPS: f64 = 200.0;
 /// The same of condensed companions of condensed bodies, which may have more: a restitution to 1e-5, its scatter.
 const OWN_STEPS: f64 = 400.0;
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
-const FEW: f64 = 4.5;
+pub(super) const FEW: f64 = 4.5;
 /// What explicit elements lose of the restitution by terms of relaxation that are over at once, over the share of the
 /// moduli that they take: they damp what waves there are of first touch and of elements that open. 4e-4 of spheres of
 /// which 0.7 of the shear modulus is gone after a millionth of the contact, half of it beside moved mass.
@@ -160,6 +160,7 @@ pub(crate) fn discretisation_errors(
         (None, false) => companions.of_far_mesh(),
     };
     let is_few = across < 2.0 * FEW;
+    let by_coarser = ByCoarserMeshes::of(across).filter(|_| !is_explicit && plan.makes_meshes);
     let (errors, margin) = match condensed {
         _ if !plan.makes_meshes && is_explicit && !are_like => return Doubt::default(),
         _ if !plan.makes_meshes => {
@@ -168,20 +169,27 @@ pub(crate) fn discretisation_errors(
             (errors.unwrap_or_default(), MARGIN)
         }
         Some(errors) => (errors, MARGIN),
-        None if is_explicit => match companions.of_coarser(values) {
+        None if is_explicit => match companions.of_coarser(&COARSER, values) {
             // Coarser meshes have not gone through the collision.
             [None, ..] => (companions.of_finer(values, COARSER[0]), MARGIN_OF_STRAINED),
             errors => (errors, MARGIN_OF_STRAINED),
         },
-        None if is_few => (companions.of_finer(values, FINER), MARGIN_OF_FINER),
-        None => (companions.of_coarser(values), MARGIN_OF_CONDENSED),
+        None => match by_coarser {
+            Some(by_coarser) => {
+                (companions.of_coarser(by_coarser.ratios, values), by_coarser.margin)
+            }
+            None => (companions.of_finer(values, FINER), MARGIN_OF_FINER),
+        },
     };
     let (scatter, of_few) = match (is_explicit, condensed) {
         (true, _) if are_like && is_at_finite_strain => beside_condensed(mach, true),
         (true, Some(_)) => beside_condensed(mach, false),
         (true, None) if plan.makes_meshes => (SCATTER, of_few_strained(simulation, mach)),
         (true, None) => (SCATTER, OF_FEW),
-        (false, _) => (CONDENSED_SCATTER, OF_FEW_CONDENSED),
+        (false, _) => {
+            let of_few = by_coarser.map(|by_coarser| by_coarser.of_few(collision.restitution));
+            (CONDENSED_SCATTER, of_few.unwrap_or(OF_FEW_CONDENSED))
+        }
     };
     let fronts = match is_explicit && condensed.is_none() {
         true => FRONTS.map(|scatter| scatter * mach.min(FAST)),
@@ -196,7 +204,15 @@ pub(crate) fn discretisation_errors(
         _ => 0.0,
     };
     let scatter: [f64; 6] = std::array::from_fn(|k| scatter[k] + fronts[k]);
-    let told = told(errors, margin, scatter, of_few, across, added);
+    let coarse = told(errors, margin, scatter, of_few, across, added);
+    let misses = || simulation.worst_miss(|headline| coarse[headline as usize]).is_some();
+    let told = match by_coarser {
+        Some(by_coarser) if by_coarser.may_be_sharper() && misses() => {
+            let errors = companions.of_finer(values, FINER);
+            told(errors, MARGIN_OF_FINER, scatter, OF_FEW_CONDENSED, across, added)
+        }
+        _ => coarse,
+    };
     Doubt::by(|headline| {
         let k = headline as usize;
         let both = told[k].zip(values[k]);
@@ -525,10 +541,10 @@ impl Companions<'_> {
         Some(values)
     }
 
-    /// The same from the model itself with longer elements.
-    fn of_coarser(&self, values: [Option<f64>; 6]) -> [Option<f64>; 6] {
+    /// The same from the model itself with elements that are so many times longer.
+    fn of_coarser(&self, ratios: &[f64], values: [Option<f64>; 6]) -> [Option<f64>; 6] {
         let mut errors = [None; 6];
-        for ratio in COARSER {
+        for &ratio in ratios {
             let Some(coarse) = self.with_elements(ratio, u64::MAX) else { continue };
             for (k, headline) in Headline::ALL.into_iter().enumerate() {
                 let both = coarse[k].zip(values[k]);

@@ -5,6 +5,7 @@
 //! which it tends, how far each rung is from it, where its error comes from, and which rungs no other
 //! beats in both error and time.
 
+mod coarser;
 mod companion;
 mod convergence;
 mod error_parts;
@@ -17,6 +18,7 @@ mod setting;
 mod stress_places;
 mod study;
 
+pub use coarser::condensed_companion_time;
 pub(crate) use companion::{
     Beside, ByCoarser, Coarser, ORDER, companion_updates, discretisation_errors, far_mesh_errors,
     far_mesh_key, foretold_errors, of_moved_mass,

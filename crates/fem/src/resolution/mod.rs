@@ -27,6 +27,8 @@ const LARGEST_ERROR: f64 = 0.015;
 const FEWEST_ELEMENTS: f64 = 3.5;
 /// Fewer do not resolve it: no error is foretold of them.
 const NO_ELEMENTS: f64 = 1.0;
+/// Meshes that are made here and not told how to grow keep below [`LARGEST_ERROR`] with so many.
+const ENOUGH_ELEMENTS: f64 = 4.5;
 /// An error that is foretold above this is no number: elements lose more than half of the contact's energy.
 const LARGEST_TOLD: f64 = 0.5;
 /// Elements across the contact that are advised where there are none: those of 1 %.
@@ -196,6 +198,22 @@ impl Resolution {
     }
 }
 
+/// Whether there is nothing to be known of the meshes of a plan in a contact of this radius (m), without a look at each
+/// element: they are made here, square cells grow from a block that holds the contact, and they are enough.
+pub(crate) fn known_as_fine(
+    scene: &Scene,
+    plan: &Plan,
+    meshes: [Option<&SphereMesh>; 2],
+    contact_radius: f64,
+) -> bool {
+    let is_made_so = scene.bodies().iter().all(is_made_here)
+        && plan.growth.is_none()
+        && plan.refined_radius >= contact_radius;
+    is_made_so
+        && longest_contact_edge(meshes, contact_radius)
+            .is_some_and(|edge| contact_radius >= ENOUGH_ELEMENTS * edge)
+}
+
 /// "about 5.5 %".
 fn about(error: f64) -> String {
     match error <= LARGEST_TOLD {
@@ -224,3 +242,6 @@ pub(crate) fn longest_contact_edge(
 fn is_made_here(body: &Body) -> bool {
     !matches!(body.shape(), Shape::Sphere { mesh: Some(_), .. })
 }
+
+#[cfg(test)]
+mod tests;

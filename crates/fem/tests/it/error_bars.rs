@@ -248,7 +248,7 @@ fn a_mesh_of_a_file_has_its_bar() {
     }
 }
 
-/// What a bar costs is counted: condensed bodies are condensed once more, on a finer mesh, explicit elements
+/// What a bar costs is counted: condensed bodies are condensed once more, on another mesh, explicit elements
 /// three times, on their own mesh with springs and twice without, where the contact ends at a node; collisions of
 /// the same bodies share all but the last two, which follow the radius.
 #[test]
@@ -271,6 +271,53 @@ fn bars_cost_a_counted_number_of_factors() {
             assert_eq!(made, (own, of_bars), "{model} {speed}");
         }
     }
+}
+
+/// The bar of the mesh that condensed bodies have by default costs less than the collision: it is told by one mesh with
+/// elements 1.5 times as long, which is found among what companions have made.
+#[test]
+fn few_elements_are_told_by_one_coarser_mesh() {
+    let build = |set: &[String], shared: &Shared| {
+        let set = [&["model.condensed={}".to_string()], set].concat();
+        let case = Case::parse("ball.toml", BALL, std::path::Path::new("."), &set).unwrap();
+        Simulation::sharing(case, shared).unwrap()
+    };
+    let shared = Shared::default();
+    let simulation = build(&[], &shared);
+    let collision = simulation.run(&mut ());
+    let bars = simulation.summary(&collision).uncertainty;
+    assert!(bars.parts(Headline::PeakForce).discretisation.is_some());
+    assert_eq!(shared.companions.n_made(), 1);
+    let size = simulation.setup().elements.as_ref().unwrap().plan.contact_element_size;
+    let of_companions =
+        Shared { pairs: shared.companions.clone(), is_of_companions: true, ..Shared::default() };
+    let coarser = |ratio: f64| {
+        build(&[format!("mesh.contact_element_size={:?}", ratio * size)], &of_companions);
+        shared.companions.n_made()
+    };
+    assert_eq!(coarser(1.5), 1, "the companion's own");
+    assert_eq!(coarser(1.6), 2, "another one");
+}
+
+/// Where that tells more than the case allows, a finer mesh is asked before the collision is computed again: its bar is
+/// within the tolerance.
+#[test]
+fn a_bar_that_misses_the_tolerance_is_told_by_a_finer_mesh() {
+    let of = |tolerance: f64| {
+        let force = format!(
+            "accuracy.tolerance={{restitution=0.01,contact_time=0.01,peak_force={tolerance},peak_pressure=0.03}}"
+        );
+        let set = ["model.condensed={}".to_string(), force];
+        let case = Case::parse("ball.toml", BALL, std::path::Path::new("."), &set).unwrap();
+        let shared = Shared::default();
+        let simulation = Simulation::sharing(case, &shared).unwrap();
+        let (simulation, collision) = simulation.run_within_tolerance(&mut ());
+        assert!(simulation.levels().is_empty(), "{tolerance}");
+        let bar = simulation.summary(&collision).uncertainty.parts(Headline::PeakForce);
+        (bar.discretisation.unwrap() / collision.peak_force.unwrap(), shared.companions.n_made())
+    };
+    let ((wide, one), (sharp, two)) = (of(0.01), of(0.003));
+    assert!((one, two) == (1, 2) && wide > 3e-3 && sharp < 3e-3, "{one} {wide} {two} {sharp}");
 }
 
 /// Models of one degree of freedom are as good as their tolerance.
