@@ -3,6 +3,7 @@
 //! Half of the maximum approach is known only once the maximum is past, so a
 //! ladder of states is kept while the bodies approach: a rung each time the
 //! approach has grown by 3 %, rungs below half of the present approach dropped.
+//! Rungs that cannot be half of the maximum are counted, but their states are not taken.
 //! Snapshots spread evenly over the contact need its length; states are kept at
 //! an even spacing that doubles whenever there are too many.
 
@@ -21,6 +22,13 @@ use crate::state::{Scratch, State};
 const RUNG_RATIO: f64 = 1.03;
 /// Share of the expected approach at which the ladder begins.
 const LADDER_START: f64 = 0.02;
+/// Below this share of the expected approach a state is taken only of bodies that have been slowed down: what
+/// turns back at twice a small approach has.
+const SURE_SHARE: f64 = 0.25;
+/// Share of the speed at first touch above which bodies have not been slowed down. Of a force that grows with
+/// the power p of the approach 2^-(p + 1) of the energy is gone at half of the maximum: 0.18 of Hertz' force,
+/// where this is 0.02, and more of one that relaxes.
+const UNSLOWED: f64 = 0.99;
 
 /// What the recorder is told of a step.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +50,8 @@ pub(crate) struct Instant {
 pub(crate) struct Recorder {
     request: SnapshotRequest,
     expected_approach: f64,
+    /// Approach of the next rung of the ladder.
+    next_rung: f64,
     /// Rungs of the ladder, or evenly spaced states.
     kept: Vec<Snapshot>,
     /// Largest approach, once it is past.
@@ -68,6 +78,7 @@ impl Recorder {
         Self {
             request,
             expected_approach: expected.approach,
+            next_rung: LADDER_START * expected.approach,
             next_time: kept.len(),
             kept,
             max_approach: None,
@@ -109,18 +120,16 @@ impl Recorder {
                         self.maximum = Some(copy(None, Some(Label::Maximum)));
                     }
                 }
-                None if labels.contains(&Label::MidCompression) => {
-                    let rung = self
-                        .kept
-                        .last()
-                        .map_or(LADDER_START * self.expected_approach, |snapshot| {
-                            RUNG_RATIO * snapshot.approach
-                        });
-                    if now.approach >= rung {
-                        let half = 0.5 * now.approach / RUNG_RATIO;
-                        let first = self.kept.iter().position(|rung| rung.approach >= half);
-                        let n_dropped = first.unwrap_or(self.kept.len());
-                        pool.extend(self.kept.drain(..n_dropped));
+                None if labels.contains(&Label::MidCompression)
+                    && now.approach >= self.next_rung =>
+                {
+                    self.next_rung = RUNG_RATIO * now.approach;
+                    let half = 0.5 * now.approach / RUNG_RATIO;
+                    let first = self.kept.iter().position(|rung| rung.approach >= half);
+                    let n_dropped = first.unwrap_or(self.kept.len());
+                    pool.extend(self.kept.drain(..n_dropped));
+                    let is_slowed = now.approach_rate <= UNSLOWED * model.approach().speed();
+                    if is_slowed || now.approach >= SURE_SHARE * self.expected_approach {
                         let snapshot = copy(pool.pop(), Some(Label::MidCompression));
                         self.kept.push(snapshot);
                     }

@@ -72,6 +72,44 @@ fn ladder_finds_half_of_any_maximum() {
     }
 }
 
+/// A step that still approaches.
+fn approaching(approach: f64, approach_rate: f64) -> Instant {
+    Instant {
+        approach,
+        approach_rate,
+        is_closed: true,
+        is_first_contact: false,
+        is_last_contact: false,
+        stays_together: false,
+    }
+}
+
+/// Of bodies as fast as at first touch no state is taken until a quarter of the expected approach; of those that
+/// have been slowed down all rungs are. Either way the ladder has the same rungs.
+#[test]
+fn no_state_is_taken_of_bodies_that_nothing_has_slowed() {
+    let model = model();
+    let request = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let state = State::at_first_touch(&model);
+    let mut scratch = Scratch::new(&model);
+    let speed = model.approach().speed();
+    let mut kept_of = |rate: f64, upto: f64| {
+        let mut recorder = Recorder::new(&request, &model, expectation(1.0, CONTACT_TIME));
+        for k in 1..=1000 {
+            let now = approaching(upto * f64::from(k) / 1000.0, rate);
+            recorder.observe(&model, &state, &mut scratch, now);
+        }
+        recorder.kept.iter().map(|rung| rung.approach).collect::<Vec<_>>()
+    };
+    assert!(kept_of(speed, 0.249).is_empty());
+    assert!(kept_of(1.2 * speed, 0.249).is_empty());
+    let slowed = kept_of(0.98 * speed, 0.249);
+    assert!(slowed.len() > 20 && slowed[0] < 0.5 * 0.249, "{slowed:?}");
+    let unslowed = kept_of(speed, 0.4);
+    assert!(unslowed[0] >= 0.25 && unslowed.len() > 10, "{unslowed:?}");
+    assert!(kept_of(0.98 * speed, 0.4).ends_with(&unslowed), "{unslowed:?}");
+}
+
 #[test]
 fn labels_that_do_not_occur_are_named() {
     let model = model();

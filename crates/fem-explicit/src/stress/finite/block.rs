@@ -1,5 +1,7 @@
 //! Undeformed elements in blocks of lanes, as the loops of finite strain read them.
 
+use std::ops::Range;
+
 use fem_element::QuadGeometry;
 use fem_material::finite::AxisymmetricTensor;
 use fem_mesh::SphereMesh;
@@ -116,6 +118,8 @@ pub(super) struct Blocks {
     blocks: Vec<Block>,
     n_nodes: usize,
     n_elements: usize,
+    /// From the first corner of any element to the last; no number between them need be one.
+    nodes: Range<usize>,
 }
 
 impl Blocks {
@@ -132,12 +136,21 @@ impl Blocks {
             let (place, lane) = place(k, blocks.len());
             blocks[place].put(lane, &mesh.quads()[element], &geometries[element]);
         }
-        Self { blocks, n_nodes, n_elements }
+        let corners = || elements.iter().flat_map(|&element| mesh.quads()[element]);
+        let [first, last] = [corners().min(), corners().max()];
+        let nodes = first.map_or(0, |k| k as usize)..last.map_or(0, |k| k as usize + 1);
+        Self { blocks, n_nodes, n_elements, nodes }
     }
 
     /// Number of elements.
     pub fn n_elements(&self) -> usize {
         self.n_elements
+    }
+
+    /// Where in nodal fields the corners of the elements lie: of the elements of a mesh that are near its first
+    /// touch a part, if nodes are numbered from there.
+    pub fn nodes(&self) -> Range<usize> {
+        self.nodes.clone()
     }
 
     /// The blocks, after a check that nodal fields are long enough for them.

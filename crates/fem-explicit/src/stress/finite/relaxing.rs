@@ -105,18 +105,19 @@ impl Response for RelaxingStrain {
 
     fn subtract_forces(
         &self,
-        _: &Blocks,
+        blocks: &Blocks,
         _: &Field,
         history: &[NodalField],
         forces: &mut Field,
     ) -> bool {
         // Made by the last step; no numbers where an element has collapsed in it.
         let [n_element_fields, _] = self.n_history();
-        let own = &history[n_element_fields];
+        let own = &history[n_element_fields][blocks.nodes()];
         if own.first().is_some_and(|force| force[0].is_nan()) {
             return false;
         }
-        for (force, own) in forces.as_flattened_mut().iter_mut().zip(own.as_flattened()) {
+        let forces = forces[blocks.nodes()].as_flattened_mut();
+        for (force, own) in forces.iter_mut().zip(own.as_flattened()) {
             *force += own;
         }
         true
@@ -240,7 +241,8 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
         let Self { blocks, law, step, u } = self;
         let n_terms = law.weights().len();
         assert!(past::is_sound(of_elements, n_terms + 1, blocks.n_elements()));
-        forces.fill([0.0; 2]);
+        // Elsewhere they are always zero.
+        forces[blocks.nodes()].fill([0.0; 2]);
         let mut past = Past::<L>::none();
         let mut volumes = Volumes::<L>::new();
         for (place, block) in blocks.checked(&[u.len(), forces.len()]).iter().enumerate() {
@@ -270,7 +272,7 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
             unsafe { conjugate.scatter_subtract(block, forces) };
         }
         if !volumes.are_sound() {
-            forces.fill([f64::NAN; 2]);
+            forces[blocks.nodes()].fill([f64::NAN; 2]);
         }
     }
 }

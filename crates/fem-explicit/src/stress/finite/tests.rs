@@ -12,7 +12,7 @@ use super::law::ElasticLaw;
 use super::law::Law;
 use super::past::Past;
 use super::*;
-use crate::test_support::{geometries, ragged, unit_glass, unit_sphere, vector};
+use crate::test_support::{geometries, ragged, sphere, unit_glass, unit_sphere, vector};
 
 /// ν = 0.495 with the shear modulus of the unit glass.
 fn nearly_incompressible() -> Material {
@@ -53,6 +53,27 @@ fn energy(stress: &dyn Stress, u: &Field) -> f64 {
     let mut accounts = Accounts::default();
     stress.add_energies(&motion(u), &[], &mut accounts);
     accounts.energies.get(Account::Strain).unwrap()
+}
+
+/// What a step of elements near first touch clears and adds is counted here: nodes are numbered from there, and no
+/// more of them than 1.4 an element are gone through.
+#[test]
+fn elements_near_first_touch_have_the_first_nodes() {
+    let mesh = sphere(0.02, 0.1, Side::Above);
+    let middle = |element: &usize| {
+        let corners = mesh.corners(*element);
+        let [r, y] = [0, 1].map(|axis: usize| corners.iter().map(|x| x[axis]).sum::<f64>() / 4.0);
+        r.hypot(y)
+    };
+    for radius in [0.2, 0.5, 1.0] {
+        let n = mesh.quads().len();
+        let near: Vec<_> = (0..n).filter(|element| middle(element) <= radius).collect();
+        let nodes = Blocks::pack(&mesh, &geometries(&mesh), &near).nodes();
+        assert!(nodes.start == 0 && nodes.len() > near.len(), "{nodes:?}");
+        assert!(5 * nodes.len() < 7 * near.len(), "{radius}: {nodes:?} of {}", near.len());
+    }
+    assert_eq!(every(&mesh).nodes(), 0..mesh.nodes().len());
+    assert_eq!(Blocks::pack(&mesh, &geometries(&mesh), &[]).nodes(), 0..0);
 }
 
 /// Stretched by a third along y, pressed by a quarter along r, sheared, and ragged.
