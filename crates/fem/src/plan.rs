@@ -10,6 +10,7 @@ use fem_case::{
 use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius_of_waves};
 
 use crate::contact_method::contact_method;
+use crate::effects::percent;
 use crate::estimate::Estimate;
 use crate::fineness::{Fineness, touches_at_nodes};
 use crate::flow;
@@ -138,9 +139,9 @@ impl Plan {
         if let Some(reached) = fineness.reached.filter(|_| makes_meshes) {
             warnings.push(format!(
                 "accuracy.tolerance is out of reach: {:.0} elements across the contact are taken, for about \
-                 {:.2} % of the peak force; write mesh.contact_element_size for more",
+                 {} of the peak force; write mesh.contact_element_size for more",
                 fineness.across,
-                100.0 * reached
+                percent(reached)
             ));
         }
         let limits = scene.limits();

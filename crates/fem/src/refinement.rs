@@ -48,6 +48,9 @@ const MOST_ELEMENTS: u64 = 60_000;
 /// An error of more than so many times what soft springs change is one of the mesh: what is told has a margin, and
 /// force and pressure change by more than the contact time.
 const OF_SPRINGS: f64 = 4.0;
+/// Elements that would have to be smaller by more are named to nobody: what they are off by nobody has seen, and a
+/// tolerance that needs them is one of rounding.
+const MOST_NAMED: f64 = 100.0;
 /// An error of more is no number any more: it is not resolved at all.
 const LARGEST_TOLD: f64 = 0.5;
 
@@ -284,10 +287,18 @@ impl Simulation {
         {
             return None;
         }
-        let size = plan.contact_element_size / step(miss.excess(), f64::INFINITY);
+        let finer = step(miss.excess(), f64::INFINITY);
         let mut cause = "the mesh";
-        let write = format!("write mesh.contact_element_size = \"{}\"", length(size));
+        let size = length(plan.contact_element_size / finer);
+        let write = format!("write mesh.contact_element_size = \"{size}\"");
         let remedy = match self.finer_or_kept(&miss, Some(collision)) {
+            // A setting that is at fault comes first, whatever is asked.
+            kept if finer > MOST_NAMED && !matches!(kept, Err(Kept::Setting(_))) => {
+                return Some(format!(
+                    "{} because of {cause}, and no mesh can be told that does: allow more in accuracy.tolerance",
+                    miss.in_words()
+                ));
+            }
             // Who has the course decides.
             Ok(_) => write,
             Err(Kept::Given) => write,

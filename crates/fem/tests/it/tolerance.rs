@@ -148,6 +148,20 @@ fn a_mesh_that_has_to_stay_is_warned_of() {
     assert_eq!(warning(&simulation, &collision), None);
 }
 
+/// A tolerance of rounding: no size is named that nobody could compute, and no number is rounded to nothing.
+#[test]
+fn no_mesh_is_named_for_a_tolerance_that_none_serves() {
+    let set =
+        ["model.condensed={}", "mesh.contact_element_size='30 um'", "accuracy.tolerance=1e-9"];
+    let (simulation, collision) = computed(GLASS, &set);
+    let told = warning(&simulation, &collision).unwrap();
+    assert!(told.contains("no mesh can be told") && !told.contains("write"), "{told}");
+    let simulation = self::simulation(GLASS, &[FEM, "accuracy.tolerance=1e-9"]);
+    let warnings = simulation.warnings_before();
+    let told = warnings.iter().find(|warning| warning.contains("out of reach")).unwrap();
+    assert!(!told.contains("0.00 %"), "{told}");
+}
+
 /// A run that was put away on a finer mesh goes on there, to the same bits.
 /// What mass or springs, as the case gives them, are off by is not laid to the mesh, which would be made finer four
 /// times for it; without the key the tolerance is kept.
