@@ -29,7 +29,8 @@
 //! −γ F Ḟ and ∫γ Ḟ² as τ → 0, and the loss is right to the second order in τ over the contact time.
 //!
 //! Two bodies that radiate are one element of the sum of their γ. Limits: small losses; waves do not
-//! come back within the contact; of a body that relaxes, γ is that of its instantaneous moduli.
+//! come back within the contact; of a body that relaxes, γ is one number of the moduli that waves of the contact meet, and
+//! the lag, which is for its instantaneous stiffness, takes more of the loss the less of that is left.
 
 /// τ/(γ k): how many times the shortest lag that leaves the compliance positive.
 const LAG: f64 = 2.0;

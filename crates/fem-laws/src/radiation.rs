@@ -98,13 +98,19 @@ pub fn radiation_damping(material: &Material) -> f64 {
 /// Share of the energy of approach that an elastic impact radiates into a body of this material, as if
 /// it never ended.
 pub fn radiated_share(hertz: &HertzImpact, material: &Material) -> f64 {
-    share_of_damping(hertz, radiation_damping(material))
+    let sizes = [hertz.peak_force(), hertz.max_approach()];
+    share_of_damping(hertz, sizes, radiation_damping(material))
 }
 
-/// The same of γ, m s/N.
-pub(crate) fn share_of_damping(hertz: &HertzImpact, damping: f64) -> f64 {
-    let (force, speed) = (hertz.peak_force(), hertz.approach_speed());
-    let squared_rates = 1.8 * beta(0.8, 1.5) * force * force * speed / hertz.max_approach();
+/// The same of γ (m s/N) and of a pulse of Hertz' form with another peak force (N) and largest approach (m), as
+/// relaxation leaves them of an impact that would be `hertz`.
+pub(crate) fn share_of_damping(
+    hertz: &HertzImpact,
+    [force, approach]: [f64; 2],
+    damping: f64,
+) -> f64 {
+    let speed = hertz.approach_speed();
+    let squared_rates = 1.8 * beta(0.8, 1.5) * force * force * speed / approach;
     let energy = 0.5 * hertz.pair().effective_mass() * speed * speed;
     damping * squared_rates / energy
 }

@@ -127,7 +127,8 @@ impl Ting {
     }
 
     /// With the loss by waves into each body so large that they do not come back, given by its
-    /// material; none without such a body. Its instantaneous moduli are taken.
+    /// material; none without such a body. Its instantaneous moduli are taken: of one that relaxes within the
+    /// contact give the elastic material that waves of the contact meet.
     ///
     /// # Errors
     /// Moduli so extreme that γ leaves the range of f64.
@@ -191,13 +192,14 @@ impl Ting {
             Collision::new(contact, self.finite_size.as_ref(), self.tolerance, rate).run(&units)
         };
         let Some(damping) = self.radiation_damping else { return run(&contact) };
-        let (value, limit) = (share_of_damping(&hertz, damping), Self::MAX_RADIATED_SHARE);
+        let without = run(&contact)?;
+        let sizes = [without.peak_force, without.max_approach];
+        let (value, limit) = (share_of_damping(&hertz, sizes, damping), Self::MAX_RADIATED_SHARE);
         // A share that is no number is none that is small.
         if !(value <= limit || self.has_coarse_waves) {
             let quantity = "radiated energy / energy of approach";
             return Err(LawError::OutsideValidity { quantity, value, limit });
         }
-        let without = run(&contact)?;
         let radiation = Radiation::new(
             damping * units.force / (units.length * units.time),
             (without.max_contact_radius / units.radius).powi(2),

@@ -35,18 +35,18 @@ impl Expected {
             true => PartnerWaves::radiating_at_rest(scene, &estimate),
             false => PartnerWaves::radiating(scene, &estimate),
         };
-        let radiates = radiating != [None; 2];
+        let radiates = radiating != [None, None];
         if !radiates && !relaxes(scene) && !finite_size && !SurfaceSlip::is_on(scene) {
             return Ok(Self::from(&estimate.hertz));
         }
         let finish = |ting: Ting| ting.with_coarse_waves().with_tolerance(TOLERANCE);
         if radiates && !is_condensed {
-            let impact = radiating_impact(scene, radiating, speed, finite_size, finish)?;
+            let impact = radiating_impact(scene, &radiating, speed, finite_size, finish)?;
             return Ok(Self::from(&impact));
         }
         let size = finite_size.then(|| scene.finite_size()).transpose()?;
         let ting = finish(ting_of(scene, estimate.hertz.pair(), true, size)?)?;
-        let ting = ting.with_radiation(radiating.into_iter().flatten())?;
+        let ting = ting.with_radiation(radiating.iter().flatten())?;
         Ok(Self::from(&*known_impact(ting, speed)?))
     }
 }

@@ -26,7 +26,7 @@ use crate::quasi_static::{known_impact, ting_of};
 /// Numbers that the law refuses; waves that take more than a correction.
 pub(crate) fn radiating_impact(
     scene: &Scene,
-    radiating: [Option<&Material>; 2],
+    radiating: &[Option<Material>; 2],
     speed: f64,
     finite_size: bool,
     finish: impl FnOnce(Ting) -> Result<Ting, LawError>,
@@ -42,7 +42,7 @@ pub(crate) fn radiating_impact(
     let endless = partner.as_ref().map(|partner| scene.with_half_space(partner.side));
     let size = finite_size.then(|| endless.as_ref().unwrap_or(scene).finite_size()).transpose()?;
     let ting = finish(ting_of(scene, &pair, true, size)?)?;
-    let ting = ting.with_radiation(radiating.into_iter().flatten())?;
+    let ting = ting.with_radiation(radiating.iter().flatten())?;
     let impact = Rc::unwrap_or_clone(known_impact(ting, speed)?);
     Ok(match partner {
         Some(Partner { mass, mass_ratio, .. }) => of_mass_centres(impact, mass, mass_ratio, speed),
@@ -61,7 +61,7 @@ struct Partner {
 }
 
 impl Partner {
-    fn of(scene: &Scene, radiating: [Option<&Material>; 2]) -> Option<Self> {
+    fn of(scene: &Scene, radiating: &[Option<Material>; 2]) -> Option<Self> {
         let [below, above] = scene.bodies().each_ref().map(Body::mass);
         let (side, mass, its) = match radiating {
             [Some(_), None] => (0, above?, below?),

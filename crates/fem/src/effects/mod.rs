@@ -59,7 +59,6 @@ pub use mirror_symmetry::MirrorSymmetry;
 pub use need::Need;
 pub(crate) use need::percent;
 pub use partner_waves::PartnerWaves;
-pub(crate) use partner_waves::RADIATION_ERROR;
 pub use penalty_springs::PenaltySprings;
 pub use plastic_yield::PlasticYield;
 pub use rigid_partner::RigidPartner;

@@ -15,8 +15,8 @@ use serde::Serialize;
 
 use super::method_of;
 use crate::effects::{
-    Answer, Doubt, Effect, FiniteSizeEffect, FiniteStrain, PartnerWaves, RADIATION_ERROR, Standing,
-    Vibration, Viscoelasticity,
+    Answer, Doubt, Effect, FiniteSizeEffect, FiniteStrain, PartnerWaves, Standing, Vibration,
+    Viscoelasticity,
 };
 use crate::estimate::Estimate;
 use crate::flow;
@@ -372,7 +372,7 @@ impl Candidate {
         };
         match answer {
             Answer::Lacks => 1.0,
-            _ => RADIATION_ERROR,
+            _ => PartnerWaves::error_of_term(&scene, estimate),
         }
     }
 

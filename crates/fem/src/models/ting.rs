@@ -72,7 +72,7 @@ impl Motion for WithWaves {
             _ => {
                 let Self { scene, finite_size, tolerance, .. } = self;
                 let finish = |ting: Ting| weighed(ting, scene)?.with_tolerance(*tolerance);
-                radiating_impact(scene, radiating, speed, *finite_size, finish)
+                radiating_impact(scene, &radiating, speed, *finite_size, finish)
             }
         }
     }

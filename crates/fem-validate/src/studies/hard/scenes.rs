@@ -3,7 +3,7 @@
 //! Sizes span two decades and their ratio three, moduli four and three, densities one and three;
 //! Poisson's ratios are −0.3 to 0.48, speeds 1e-6 to 5e-4 of the slower wave speed. A body has up to three
 //! terms of relaxation with rates of 0.01 to 10 over a guess of the contact time. A tenth of the scenes is
-//! against a wall, a tenth of identical bodies.
+//! against a wall, a tenth of identical bodies, a tenth on a half-space.
 
 /// A generator of numbers in [0, 1): SplitMix64, Steele et al. 2014.
 pub(in crate::studies) struct Random(u64);
@@ -135,6 +135,7 @@ pub(in crate::studies) fn overrides_of(random: &mut Random, ratios: Ratios) -> V
     set.push(match partner {
         wall if wall < 0.1 => "body.1={name='b',wall={}}".to_string(),
         twin if twin < 0.2 => format!("body.1={}", sphere("b", diameters[0], "m0", 0.0)),
+        block if block < 0.3 => "body.1={name='b',half_space={},material='m1'}".to_string(),
         _ => format!("body.1={}", sphere("b", diameters[1], "m1", 0.0)),
     });
     set

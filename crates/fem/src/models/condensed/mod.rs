@@ -235,7 +235,7 @@ impl Condensed {
         let estimate = Estimate::at(&self.scene, speed)
             .map_err(|error| Stop::OutOfRange(error.to_string()))?;
         let radiating = PartnerWaves::radiating_at_rest(&self.scene, &estimate);
-        Ok(radiating.map(|material| material.map(radiation_damping)))
+        Ok(radiating.map(|material| Some(radiation_damping(&material?))))
     }
 
     /// The bodies condensed as far out as an approach asks for at first.
