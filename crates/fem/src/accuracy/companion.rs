@@ -106,9 +106,9 @@ const FRONTS: [f64; 6] = [0.0, 0.0, 5e-3, 0.0, 5e-3, 0.02];
 const FAST: f64 = 0.3;
 /// Steps of condensed companions of explicit elements over the elastic contact time: a restitution to 4e-5,
 /// and the same of all three, of which differences are taken.
-const STEPS: f64 = 200.0;
-/// The same of condensed companions of condensed bodies, which may have more: a restitution to 1e-5, its scatter.
-const OWN_STEPS: f64 = 400.0;
+const STEPS: f64 = 120.0;
+/// The same of condensed companions of condensed bodies, which may have more: a restitution to 2e-5.
+const OWN_STEPS: f64 = 160.0;
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
 pub(super) const FEW: f64 = 4.5;
 /// What explicit elements lose of the restitution by terms of relaxation that are over at once, over the share of the

@@ -134,7 +134,7 @@ impl Condensed {
         unread.extend(effects::unread_keys(scene, options));
         let approach = approach_of(scene)?;
         let slower = slower(scene, estimate, &approach);
-        let n_steps = slower.end * n_steps(options, slower) as f64;
+        let n_steps = slower.end * n_steps(options, slower, estimate.relaxed) as f64;
         let setup = Setup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
@@ -310,7 +310,7 @@ impl Model for Condensed {
             }
         };
         let slower = slower(&self.scene, &estimate, approach);
-        let n_steps = n_steps(self.options, slower);
+        let n_steps = n_steps(self.options, slower, estimate.relaxed);
         let duration = slower.end * (1.0 + FLIGHT_AFTER) * estimate.hertz.contact_time();
         let mut foretold = Foretold { monitor, begin: approach.first_touch(), duration };
         self.follow(approach, relaxations, n_steps, want, &mut foretold)
