@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use fem::accuracy::condensed_companion_time;
 use fem::{Cost, Following, Simulation};
 use fem_case::engineering::show;
-use fem_collision::{Monitor, Phase, Progress};
+use fem_collision::{Monitor, Phase, Progress, Want};
 
 /// What the timing of steps takes at least, ...
 const PATIENCE: Duration = Duration::from_millis(1);
@@ -13,8 +13,13 @@ const PATIENCE: Duration = Duration::from_millis(1);
 const REPORTS: u32 = 5;
 /// ... unless that takes longer.
 const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
-/// The same of condensed bodies, which begin with their slowest steps.
+/// The same of condensed bodies, ...
 const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
+/// ... of whose collision so large a share is enough.
+const SHARE_OF_CONDENSED: f64 = 0.2;
+/// Time of the fields of a snapshot of condensed bodies over that of making these: 0.08 of elastic ones, 0.1 of relaxing
+/// ones.
+const FIELDS: f64 = 0.1;
 
 /// Collisions that take more element updates are not run to foretell: their companions take seconds.
 const QUICK: u64 = 30_000_000;
@@ -128,20 +133,22 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
 /// Of condensed bodies that took so long to make, s.
 fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     let mut patient = Patient { begin: Instant::now(), seen: (0.0, 0.0), is_over: false };
-    let _ = simulation.run(&mut patient);
+    let approach = &simulation.setup().approach;
+    let _ = simulation.model().collide(approach, &Want::history(), &mut patient);
     let (spent, fraction) = match patient.is_over {
         true => patient.seen,
         false => (patient.begin.elapsed().as_secs_f64(), 1.0),
     };
     let collision = if fraction > 0.0 { spent / fraction } else { spent };
+    let fields = FIELDS * making * simulation.want().snapshots.len() as f64;
     let elements = simulation.setup().elements.as_ref();
     let across = elements.map_or(f64::INFINITY, |elements| {
         simulation.setup().estimate.contact_radius / elements.plan.contact_element_size
     });
-    collision + condensed_companion_time(across) * (collision + making)
+    collision + fields + condensed_companion_time(across) * (collision + making)
 }
 
-/// Stops a run after a while, and knows how far it was.
+/// Stops a run that tells enough, or after a while, and knows how far it was.
 struct Patient {
     begin: Instant,
     /// Seconds and share of the run.
@@ -155,7 +162,8 @@ impl Monitor for Patient {
     fn report(&mut self, progress: Progress) -> bool {
         let spent = self.begin.elapsed();
         self.seen = (spent.as_secs_f64(), progress.fraction);
-        self.is_over = spent > PATIENCE_WITH_CONDENSED && progress.fraction > 0.0;
+        let is_enough = progress.fraction >= SHARE_OF_CONDENSED;
+        self.is_over = is_enough || (spent > PATIENCE_WITH_CONDENSED && progress.fraction > 0.0);
         !self.is_over
     }
 }

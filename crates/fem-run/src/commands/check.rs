@@ -214,7 +214,9 @@ fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> St
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {
             row("contact points", format!("{contact_points} condensed"));
             row("steps", format!("about {}", HumanCount(steps)));
-            row("factors", DecimalBytes(factor_bytes).to_string());
+            if factor_bytes > 0 {
+                row("factors", DecimalBytes(factor_bytes).to_string());
+            }
         }
         Cost::Little { .. } => {}
     }

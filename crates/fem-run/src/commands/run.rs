@@ -204,9 +204,12 @@ fn price(simulation: &Simulation, seconds: Option<f64>) -> String {
             DecimalBytes(memory)
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
-            "{} elements condensed to {contact_points} contact points, factors of {}{}",
+            "{} elements condensed to {contact_points} contact points{}{}",
             HumanCount(elements),
-            DecimalBytes(factor_bytes),
+            match factor_bytes {
+                0 => String::new(),
+                bytes => format!(", factors of {}", DecimalBytes(bytes)),
+            },
             time(seconds)
         ),
         Cost::Little { .. } => format!("{}, milliseconds", simulation.setup().description),

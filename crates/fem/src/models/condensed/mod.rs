@@ -118,8 +118,10 @@ impl Condensed {
         check_memory(&plan, &sources)?;
         // Only the collision reads relaxations.
         let bodies = sources.map(BodySource::without_relaxation);
+        let asks_for_fields = !plan.snapshots.is_empty() || !scene.probes().is_empty();
         let settings = PairSettings {
-            keeps_factors: !shared.is_of_companions || needs_factors(scene, options),
+            keeps_factors: (asks_for_fields && !shared.is_of_companions)
+                || needs_factors(scene, options),
             ..settings(scene, &plan, options)
         };
         let key = PairKey { bodies, settings };
