@@ -21,14 +21,16 @@ const SHARE_OF_CONDENSED: f64 = 0.2;
 /// ones.
 const FIELDS: f64 = 0.1;
 
-/// Collisions that take more element updates are not run to foretell: their companions take seconds.
-const QUICK: u64 = 30_000_000;
+/// Element updates of collisions and their companions that `check` computes to foretell what follows: two or three seconds.
+pub const PATIENCE_OF_CHECK: u64 = 30_000_000;
 
 /// What is known of a run of finite elements before it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
     /// Seconds here, with what tells its error.
     pub seconds: Option<f64>,
+    /// Element updates of the collision over those that its cost announces.
+    pub longer: f64,
     /// Element updates of the collision and of its companions.
     element_updates: f64,
     /// Finer meshes that may follow.
@@ -49,28 +51,32 @@ pub struct Finer {
 }
 
 impl Forecast {
-    /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow.
-    pub fn of(simulation: &Simulation, making: f64, is_open: bool) -> Self {
-        let seconds = seconds(simulation, making);
+    /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow, which collisions of
+    /// no more than `patience` element updates are computed to foretell.
+    pub fn of(simulation: &Simulation, making: f64, is_open: bool, patience: u64) -> Self {
         let companions = simulation.companion_updates().unwrap_or(0.0);
         let Cost::Steps { element_updates, .. } = simulation.setup().cost else {
-            return Self { seconds, element_updates: 0.0, finer: None };
+            let seconds = seconds(simulation, making, 1.0);
+            return Self { seconds, longer: 1.0, element_updates: 0.0, finer: None };
         };
-        let all = (1.0 + companions) * element_updates as f64;
+        let (longer, following) = simulation.following(patience);
+        let seconds = seconds(simulation, making, longer);
+        let all = (1.0 + companions) * longer * element_updates as f64;
         let most = simulation.most_of_finer_meshes().filter(|most| is_open && *most > 0);
-        let finer = seconds.zip(most).map(|(seconds, most)| {
-            let following = (element_updates < QUICK).then(|| simulation.following()).flatten();
-            Finer { following, most, companions, each: seconds / all }
+        let finer = seconds.zip(most).map(|(seconds, most)| Finer {
+            following,
+            most,
+            companions,
+            each: seconds / all,
         });
-        Self { seconds, element_updates: all, finer }
+        Self { seconds, longer, element_updates: all, finer }
     }
 
     /// Element updates that are expected in all.
     pub fn all_element_updates(&self) -> f64 {
         let following = self.finer.and_then(|finer| Some((finer.following?, finer.companions)));
         let finer = following.map_or(0.0, |(following, companions)| {
-            let trial = following.trial_updates as f64;
-            trial + (1.0 + companions) * following.element_updates as f64
+            (1.0 + companions) * following.element_updates as f64
         });
         self.element_updates + finer
     }
@@ -96,7 +102,7 @@ impl Finer {
 
 /// Seconds of a run here, with what tells its error where that takes runs; nothing of a model without elements, nor of
 /// a ball that bounces, whose cost is that of one contact.
-fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
+fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
     if simulation.case().scene().gravity().is_some() {
         return None;
     }
@@ -105,7 +111,7 @@ fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
             let companions = simulation.companion_updates().unwrap_or(0.0);
             let timed = (1.0 + companions) * seconds_a_step(simulation)? * steps as f64;
             // The first steps have little contact, and are in the processor's cache.
-            Some(timed.max(seconds))
+            Some(longer * timed.max(seconds))
         }
         Cost::Factors { .. } => Some(of_condensed(simulation, making)),
         Cost::Little { .. } => None,
