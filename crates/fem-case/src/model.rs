@@ -70,7 +70,7 @@ pub struct CondensedOptions {
 
 impl Default for CondensedOptions {
     fn default() -> Self {
-        Self { vibration_modes: 0, steps: 1000, penalty_springs: false }
+        Self { vibration_modes: 0, steps: 250, penalty_springs: false }
     }
 }
 

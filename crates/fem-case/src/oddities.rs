@@ -49,6 +49,17 @@ impl Scene {
         })
     }
 
+    /// The sizes of spheres all of which are of a metre and more, which may well be meant, with the unit that they are
+    /// read in; none where one of them is [odd](Self::oddities).
+    pub fn large_spheres(&self) -> Option<String> {
+        let spheres: Vec<f64> = self.bodies.iter().filter_map(Body::diameter).collect();
+        let are_large =
+            spheres.iter().all(|diameter| (LARGE..=LARGEST_DIAMETER).contains(diameter));
+        let sizes: Vec<String> = spheres.iter().map(|diameter| show(*diameter, "m")).collect();
+        are_large
+            .then(|| format!("spheres of {} (bare numbers are in metres)", sizes.join(" and ")))
+    }
+
     /// What is so far from all bodies that a unit was probably forgotten, a sentence each.
     pub fn oddities(&self) -> Vec<String> {
         let mut found = Vec::new();

@@ -50,6 +50,20 @@ impl SnapshotRequest {
     pub fn none() -> Self {
         Self::Labels(Vec::new())
     }
+
+    /// How many are asked for.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Labels(labels) => labels.len(),
+            Self::Count(count) => *count,
+            Self::Times(times) => times.len(),
+        }
+    }
+
+    /// Whether none is.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// Nodal fields of one body; empty for a rigid body.

@@ -20,7 +20,7 @@ const FEWEST_STEPS: usize = 8;
 const MANY_REPEATED: f64 = 0.01;
 
 impl CondensedPair {
-    /// Steps over the elastic contact time that give a restitution to 4e-5.
+    /// Steps over the elastic contact time that give a restitution to 2e-5.
     pub const N_STEPS: usize = 200;
 
     /// The quantities of the collision at a relative speed (m/s) with what takes energy from

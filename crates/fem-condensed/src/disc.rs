@@ -25,10 +25,26 @@ pub(crate) struct DiscSolver {
     n_factored: usize,
     /// y inside of the disc, overlap that is left outside, m.
     left: Vec<f64>,
+    /// Of each point the overlap once all before it are closed, m, in the last problem and in the one before.
+    reach: Vec<f64>,
+    reach_before: Vec<f64>,
+    /// s² of L s = 1, N/m: what a point adds to the stiffness of those before it.
+    stiffness: Vec<f64>,
     /// Forces of the last problem, if the disc was not its solution.
     fallback: Option<Vec<f64>>,
+    /// Whether it was not that of the problem before, either.
+    was_fallback: bool,
     /// Times the disc was not the solution.
     pub n_fallbacks: usize,
+}
+
+/// What points change that join and leave between two problems, at a share ξ of the way, N/m.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Bends {
+    /// Σ ± s² [½ ξ(1 − ξ) − 1/12].
+    pub work: f64,
+    /// Σ ± s² ξ: what the change over the way has not of the slope at its end.
+    pub missed: f64,
 }
 
 /// What a contact problem leaves beside the forces.
@@ -48,13 +64,45 @@ impl DiscSolver {
             columns: vec![0.0; n * n],
             n_factored: 0,
             left: vec![0.0; n],
+            reach: vec![0.0; n],
+            reach_before: vec![0.0; n],
+            stiffness: vec![0.0; n],
             fallback: None,
+            was_fallback: false,
             n_fallbacks: 0,
         };
         while solver.n_factored < n && solver.factor_row(solver.n_factored) {
             solver.n_factored += 1;
         }
+        let mut s = vec![0.0; n];
+        for k in 0..solver.n_factored {
+            let row = &solver.rows[k * n..][..=k];
+            s[k] = (1.0 - dot(&row[..k], &s)) / row[k];
+            solver.stiffness[k] = s[k] * s[k];
+        }
         solver
+    }
+
+    /// The same with overlaps (m) of points that are all open.
+    pub fn opened(self, overlap: Vec<f64>) -> Self {
+        Self { reach: overlap, ..self }
+    }
+
+    /// What the points have changed that have joined since the problem before (+), which had so many closed, or left
+    /// (−). Of contacts that were no discs nothing.
+    pub fn bends(&self, before: usize, now: usize) -> Bends {
+        let mut bends = Bends::default();
+        if self.fallback.is_some() || self.was_fallback {
+            return bends;
+        }
+        let sign = if now > before { 1.0 } else { -1.0 };
+        for k in before.min(now)..before.max(now) {
+            let [then, now] = [self.reach_before[k], self.reach[k]];
+            let part = (then / (then - now)).clamp(0.0, 1.0);
+            bends.work += sign * self.stiffness[k] * (0.5 * part * (1.0 - part) - 1.0 / 12.0);
+            bends.missed += sign * self.stiffness[k] * part;
+        }
+        bends
     }
 
     /// Makes row k of L from the rows before it; false if E is not positive definite.
@@ -77,6 +125,8 @@ impl DiscSolver {
     pub fn solve(&mut self, overlap: &[f64], forces: &mut [f64]) -> Result<Disc, NoState> {
         let n = overlap.len();
         forces.fill(0.0);
+        self.was_fallback = self.fallback.is_some();
+        std::mem::swap(&mut self.reach, &mut self.reach_before);
         self.left.copy_from_slice(overlap);
         let mut n_closed = 0;
         for k in 0..n {
@@ -88,11 +138,12 @@ impl DiscSolver {
             if y <= 0.0 {
                 break;
             }
-            self.left[k] = y;
+            (self.reach[k], self.left[k]) = (self.left[k], y);
             let outside = self.left[k + 1..].iter_mut().zip(&column[k + 1..]);
             outside.for_each(|(left, entry)| *left -= entry * y);
             n_closed = k + 1;
         }
+        self.reach[n_closed..].copy_from_slice(&self.left[n_closed..]);
         for k in (0..n_closed).rev() {
             let row = &self.rows[k * n..][..=k];
             let force = self.left[k] / row[k];

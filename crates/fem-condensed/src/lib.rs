@@ -55,6 +55,7 @@
 //! # }
 //! ```
 
+mod between_steps;
 mod body;
 mod chain;
 mod collision;

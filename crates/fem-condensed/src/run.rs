@@ -20,6 +20,11 @@ const CREEPING: f64 = 0.1;
 /// Creeping bodies may take so many times as long to part as they came closer.
 const SLOWEST_PARTING: f64 = 2.0;
 
+/// Instants of a contact at which force, radius and pressure are told at least: the window of their peaks is a 64th.
+const INSTANTS: usize = 1000;
+/// The most of them within a step.
+const MOST_WITHIN_STEP: f64 = 8.0;
+
 /// Steps for whose trace there is room from the beginning.
 const MOST_RESERVED: usize = 1 << 16;
 
@@ -40,9 +45,12 @@ pub(crate) struct Run<'a> {
     /// What waves have taken out of each body, J, if any leave it.
     radiated: Option<[f64; 2]>,
     impulse: f64,
-    /// The same of the force less what is the nodes' of it ([`Motion::swing`]), and that force now, N.
+    /// The same of the force less what is the nodes' of it ([`Motion::swing`]).
     even_impulse: f64,
-    even_force: f64,
+    /// See [`Motion::missed_slope`], of the step before.
+    missed_slope: f64,
+    /// Instants of a step that are told, its end among them.
+    per_step: u64,
     worst_residual: f64,
     residual_since: Option<Moment>,
     growth: f64,
@@ -61,8 +69,9 @@ pub(crate) struct Run<'a> {
     give_up: f64,
     expected_end: f64,
     history: Option<History>,
-    /// The step before, and the end of contact after it with the steps around.
+    /// The step before and the one before that, and the end of contact after it with the steps around.
     last: Option<Sample>,
+    before_last: Option<Sample>,
     opening: Option<[Sample; 3]>,
     trace: Vec<Trace>,
     pressures: Pressures,
@@ -84,6 +93,9 @@ impl<'a> Run<'a> {
         n_steps: usize,
         elastic_contact_time: f64,
     ) -> Self {
+        let steps = elastic_contact_time / motion.time_step;
+        let instants = want.history_rows.max(INSTANTS) as f64;
+        let per_step = (instants / steps).round().clamp(1.0, MOST_WITHIN_STEP) as u64;
         Self {
             give_up: want.give_up_after * elastic_contact_time,
             expected_end: (1.0 + FLIGHT_AFTER) * elastic_contact_time,
@@ -98,7 +110,8 @@ impl<'a> Run<'a> {
             radiated: None,
             impulse: 0.0,
             even_impulse: 0.0,
-            even_force: 0.0,
+            missed_slope: 0.0,
+            per_step,
             worst_residual: 0.0,
             residual_since: None,
             growth: 0.0,
@@ -112,8 +125,9 @@ impl<'a> Run<'a> {
             standstill: Standstill::new(frame),
             turned: 0.0,
             history: (want.history_rows > 0)
-                .then(|| History::new(want.history_rows, n_steps as f64)),
+                .then(|| History::new(want.history_rows, per_step as f64 * steps)),
             last: None,
+            before_last: None,
             opening: None,
             trace: Vec::with_capacity(n_steps.saturating_mul(2).min(MOST_RESERVED)),
             pressures: Pressures::default(),
@@ -158,11 +172,11 @@ impl<'a> Run<'a> {
         }
         self.episodes += u64::from(is_closed && !self.was_closed);
         self.was_closed = is_closed;
-        let before = self.last;
         let stays = self.record();
-        if let (true, Some(before), Some(after)) = (opens, before, self.last) {
-            let end = Sample::between(&before, &after, self.last_contact);
-            self.opening = Some([before, end, after]);
+        if let (true, Some(before), Some(after)) = (opens, self.before_last, self.last) {
+            let share = (self.last_contact - before.time) / self.motion.time_step;
+            let end = Sample::within(None, &before, &after, Some(share), share);
+            self.opening = Some([before, self.with_residual(end), after]);
         }
         let flight = time - self.last_contact;
         if !is_closed && self.motion.rate < 0.0 && flight >= FLIGHT_AFTER * self.last_contact {
@@ -222,29 +236,40 @@ impl<'a> Run<'a> {
         if rate > 0.0 {
             self.turned = time;
         }
-        let even_force = motion.force - motion.swing();
+        let touches = self.was_closed || motion.step == 0;
         let Energies { stored, contact, power, vibration, radiated_power } = motion.energies();
-        if let Some(before) = &self.last {
-            let over_step = |before: f64, now: f64| 0.5 * (before + now) * motion.time_step;
-            self.dissipated += over_step(before.power, power);
-            self.impulse += over_step(before.contact_force, motion.force);
-            self.even_impulse += over_step(self.even_force, even_force);
-        }
-        self.even_force = even_force;
-        if let Some(now) = radiated_power {
-            let gone = self.radiated.get_or_insert([0.0; 2]);
-            let before = self.last.and_then(|last| last.radiated_power).unwrap_or_default();
-            for side in 0..2 {
-                gone[side] += 0.5 * (before[side] + now[side]) * motion.time_step;
-            }
-        }
-        let dissipated = self.dissipated;
-        let [lower, upper] = vibration;
-        let kinetic = 0.5 * self.pair.reduced_mass * rate * rate + lower + upper;
-        let radiated = self.radiated.map(|[lower, upper]| lower + upper);
-        let lost = radiated.map_or(dissipated, |radiated| dissipated + radiated);
-        let potential = self.frame.potential(motion.approach).unwrap_or(0.0);
-        let residual = kinetic + stored + contact + lost + potential - self.initial_energy;
+        let mut sample = Sample {
+            time,
+            touches,
+            contact_force: motion.force,
+            even_force: motion.force - motion.swing(),
+            contact_radius: 0.0,
+            approach: motion.approach,
+            centre_pressure: 0.0,
+            rate,
+            strain: stored,
+            contact,
+            power,
+            dissipated: self.dissipated,
+            radiated_power,
+            radiated: None,
+            residual: 0.0,
+            vibration,
+        };
+        (sample.contact_radius, sample.centre_pressure) = self.pair.radius_and_pressure(
+            &motion.contact,
+            &motion.forces,
+            motion.slipped(),
+            &mut self.pressures,
+        );
+        let begin = self.last;
+        // What came before something happened says nothing of what comes after.
+        let is_same = |other: &Sample| other.touches == touches;
+        let before =
+            self.before_last.filter(|before| is_same(before) && begin.is_some_and(|b| is_same(&b)));
+        sample = self.integrated(before.as_ref(), begin.as_ref(), sample);
+        let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
+        let residual = sample.residual;
         let at_stake = self.frame.energy_at_stake(self.approach.highest);
         self.worst_residual = worst(self.worst_residual, residual / at_stake);
         self.growth = highest(self.growth, (residual - lost) / at_stake);
@@ -254,44 +279,22 @@ impl<'a> Run<'a> {
         let given = self.frame.weight() * time;
         let drift = self.frame.impulse(rate) + given - self.impulse;
         self.worst_momentum = worst(self.worst_momentum, drift);
-        let (contact_radius, centre_pressure) = self.pair.radius_and_pressure(
-            &motion.contact,
-            &motion.forces,
-            motion.slipped(),
-            &mut self.pressures,
-        );
-        self.pulse.observe(time, self.even_impulse, contact_radius, centre_pressure);
         if self.episodes > 0 {
             self.aftermath.observe(self.was_closed, vibration);
         }
-        self.trace.push(Trace { approach: motion.approach, is_closed: self.was_closed });
-        let sample = Sample {
-            time,
-            contact_force: motion.force,
-            contact_radius,
-            approach: motion.approach,
-            centre_pressure,
-            rate,
-            strain: stored,
-            contact,
-            power,
-            dissipated,
-            radiated_power,
-            radiated,
-            residual,
-            vibration,
-        };
-        if let Some(history) = &mut self.history {
-            history.follow(motion.step as u64, self.was_closed, sample.row(self.frame));
-        }
-        self.last = Some(sample);
-        self.standstill.observe(&Held {
+        let approach = self.motion.approach;
+        self.trace.push(Trace { approach, is_closed: self.was_closed });
+        let potential = self.frame.potential(approach).unwrap_or(0.0);
+        let held = Held {
             time,
             is_closed: self.was_closed,
-            force: motion.force,
+            force: sample.contact_force,
             rate,
-            inner_energy: lower + upper + stored + contact + potential,
-        })
+            inner_energy: vibration[0] + vibration[1] + stored + contact + potential,
+        };
+        self.tell(before, begin, sample);
+        (self.before_last, self.last) = (begin, Some(sample));
+        self.standstill.observe(&held)
     }
 
     fn finish(self, ending: Ending) -> Finished {
@@ -377,5 +380,6 @@ impl<'a> Run<'a> {
     }
 }
 
+mod account;
 #[cfg(test)]
 mod tests;

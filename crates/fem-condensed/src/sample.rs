@@ -2,13 +2,19 @@
 
 use fem_collision::{Account, Book, Frame, Row};
 
+use crate::between_steps::OverStep;
+
 /// One instant of the relative motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sample {
     /// Since first touch, s.
     pub time: f64,
+    /// Whether the bodies touch, or begin to.
+    pub touches: bool,
     /// N.
     pub contact_force: f64,
+    /// The same less what is the nodes' of it ([`crate::motion::Motion::swing`]), N.
+    pub even_force: f64,
     /// m.
     pub contact_radius: f64,
     /// m.
@@ -36,26 +42,45 @@ pub(crate) struct Sample {
 }
 
 impl Sample {
-    /// The end of the contact between two steps, where the force is zero; the rest linearly.
-    pub fn between(before: &Self, after: &Self, time: f64) -> Self {
-        let part = (time - before.time) / (after.time - before.time);
-        let mean = |get: fn(&Self) -> f64| (1.0 - part) * get(before) + part * get(after);
+    /// At a share of the way to the next step, whose samples are given with the one before this if nothing has
+    /// happened since; of a contact that ends within the step at a share of it, where the force is zero.
+    pub fn within(
+        before: Option<&Self>,
+        begin: &Self,
+        end: &Self,
+        opens: Option<f64>,
+        theta: f64,
+    ) -> Self {
+        let over = |get: fn(&Self) -> f64| OverStep::new(before.map(get), get(begin), get(end));
+        let at = |get: fn(&Self) -> f64| over(get).at(theta);
+        let of_contact = |get: fn(&Self) -> f64| match opens {
+            Some(share) if theta < share => (1.0 - theta / share) * get(begin),
+            Some(_) => 0.0,
+            None => at(get),
+        };
+        // Nothing is radiated before first touch.
+        let of_waves = |get: &dyn Fn(&Self) -> Option<f64>| {
+            let end = get(end)?;
+            Some(OverStep::new(before.and_then(get), get(begin).unwrap_or(0.0), end).at(theta))
+        };
+        let power_of = |side: usize| of_waves(&|sample| Some(sample.radiated_power?[side]));
         Self {
-            time,
-            contact_force: 0.0,
-            contact_radius: 0.0,
-            centre_pressure: 0.0,
-            approach: mean(|sample| sample.approach),
-            rate: mean(|sample| sample.rate),
-            strain: mean(|sample| sample.strain),
-            contact: mean(|sample| sample.contact),
-            power: mean(|sample| sample.power),
-            dissipated: mean(|sample| sample.dissipated),
-            radiated_power: after.radiated_power,
-            radiated: before.radiated.zip(after.radiated).map(|(a, b)| (1.0 - part) * a + part * b),
-            residual: mean(|sample| sample.residual),
-            vibration: [0, 1]
-                .map(|side| (1.0 - part) * before.vibration[side] + part * after.vibration[side]),
+            time: begin.time + theta * (end.time - begin.time),
+            touches: opens.map_or(end.touches, |share| theta < share),
+            contact_force: of_contact(|sample| sample.contact_force),
+            even_force: of_contact(|sample| sample.even_force),
+            contact_radius: of_contact(|sample| sample.contact_radius),
+            centre_pressure: of_contact(|sample| sample.centre_pressure),
+            approach: at(|sample| sample.approach),
+            rate: at(|sample| sample.rate),
+            strain: at(|sample| sample.strain),
+            contact: at(|sample| sample.contact),
+            power: at(|sample| sample.power),
+            dissipated: at(|sample| sample.dissipated),
+            radiated_power: power_of(0).zip(power_of(1)).map(|(lower, upper)| [lower, upper]),
+            radiated: of_waves(&|sample| sample.radiated),
+            vibration: [at(|sample| sample.vibration[0]), at(|sample| sample.vibration[1])],
+            residual: at(|sample| sample.residual),
         }
     }
 

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use fem::accuracy::condensed_companion_time;
 use fem::{Cost, Following, Simulation};
 use fem_case::engineering::show;
-use fem_collision::{Monitor, Phase, Progress};
+use fem_collision::{Monitor, Phase, Progress, Want};
 
 /// What the timing of steps takes at least, ...
 const PATIENCE: Duration = Duration::from_millis(1);
@@ -13,17 +13,24 @@ const PATIENCE: Duration = Duration::from_millis(1);
 const REPORTS: u32 = 5;
 /// ... unless that takes longer.
 const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
-/// The same of condensed bodies, which begin with their slowest steps.
+/// The same of condensed bodies, ...
 const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
+/// ... of whose collision so large a share is enough.
+const SHARE_OF_CONDENSED: f64 = 0.2;
+/// Time of the fields of a snapshot of condensed bodies over that of making these: 0.08 of elastic ones, 0.1 of relaxing
+/// ones.
+const FIELDS: f64 = 0.1;
 
-/// Collisions that take more element updates are not run to foretell: their companions take seconds.
-const QUICK: u64 = 30_000_000;
+/// Element updates of collisions and their companions that `check` computes to foretell what follows: two or three seconds.
+pub const PATIENCE_OF_CHECK: u64 = 30_000_000;
 
 /// What is known of a run of finite elements before it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
     /// Seconds here, with what tells its error.
     pub seconds: Option<f64>,
+    /// Element updates of the collision over those that its cost announces.
+    pub longer: f64,
     /// Element updates of the collision and of its companions.
     element_updates: f64,
     /// Finer meshes that may follow.
@@ -44,28 +51,32 @@ pub struct Finer {
 }
 
 impl Forecast {
-    /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow.
-    pub fn of(simulation: &Simulation, making: f64, is_open: bool) -> Self {
-        let seconds = seconds(simulation, making);
+    /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow, which collisions of
+    /// no more than `patience` element updates are computed to foretell.
+    pub fn of(simulation: &Simulation, making: f64, is_open: bool, patience: u64) -> Self {
         let companions = simulation.companion_updates().unwrap_or(0.0);
         let Cost::Steps { element_updates, .. } = simulation.setup().cost else {
-            return Self { seconds, element_updates: 0.0, finer: None };
+            let seconds = seconds(simulation, making, 1.0);
+            return Self { seconds, longer: 1.0, element_updates: 0.0, finer: None };
         };
-        let all = (1.0 + companions) * element_updates as f64;
+        let (longer, following) = simulation.following(patience);
+        let seconds = seconds(simulation, making, longer);
+        let all = (1.0 + companions) * longer * element_updates as f64;
         let most = simulation.most_of_finer_meshes().filter(|most| is_open && *most > 0);
-        let finer = seconds.zip(most).map(|(seconds, most)| {
-            let following = (element_updates < QUICK).then(|| simulation.following()).flatten();
-            Finer { following, most, companions, each: seconds / all }
+        let finer = seconds.zip(most).map(|(seconds, most)| Finer {
+            following,
+            most,
+            companions,
+            each: seconds / all,
         });
-        Self { seconds, element_updates: all, finer }
+        Self { seconds, longer, element_updates: all, finer }
     }
 
     /// Element updates that are expected in all.
     pub fn all_element_updates(&self) -> f64 {
         let following = self.finer.and_then(|finer| Some((finer.following?, finer.companions)));
         let finer = following.map_or(0.0, |(following, companions)| {
-            let trial = following.trial_updates as f64;
-            trial + (1.0 + companions) * following.element_updates as f64
+            (1.0 + companions) * following.element_updates as f64
         });
         self.element_updates + finer
     }
@@ -91,7 +102,7 @@ impl Finer {
 
 /// Seconds of a run here, with what tells its error where that takes runs; nothing of a model without elements, nor of
 /// a ball that bounces, whose cost is that of one contact.
-fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
+fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
     if simulation.case().scene().gravity().is_some() {
         return None;
     }
@@ -100,7 +111,7 @@ fn seconds(simulation: &Simulation, making: f64) -> Option<f64> {
             let companions = simulation.companion_updates().unwrap_or(0.0);
             let timed = (1.0 + companions) * seconds_a_step(simulation)? * steps as f64;
             // The first steps have little contact, and are in the processor's cache.
-            Some(timed.max(seconds))
+            Some(longer * timed.max(seconds))
         }
         Cost::Factors { .. } => Some(of_condensed(simulation, making)),
         Cost::Little { .. } => None,
@@ -128,20 +139,22 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
 /// Of condensed bodies that took so long to make, s.
 fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     let mut patient = Patient { begin: Instant::now(), seen: (0.0, 0.0), is_over: false };
-    let _ = simulation.run(&mut patient);
+    let approach = &simulation.setup().approach;
+    let _ = simulation.model().collide(approach, &Want::history(), &mut patient);
     let (spent, fraction) = match patient.is_over {
         true => patient.seen,
         false => (patient.begin.elapsed().as_secs_f64(), 1.0),
     };
     let collision = if fraction > 0.0 { spent / fraction } else { spent };
+    let fields = FIELDS * making * simulation.want().snapshots.len() as f64;
     let elements = simulation.setup().elements.as_ref();
     let across = elements.map_or(f64::INFINITY, |elements| {
         simulation.setup().estimate.contact_radius / elements.plan.contact_element_size
     });
-    collision + condensed_companion_time(across) * (collision + making)
+    collision + fields + condensed_companion_time(across) * (collision + making)
 }
 
-/// Stops a run after a while, and knows how far it was.
+/// Stops a run that tells enough, or after a while, and knows how far it was.
 struct Patient {
     begin: Instant,
     /// Seconds and share of the run.
@@ -155,7 +168,8 @@ impl Monitor for Patient {
     fn report(&mut self, progress: Progress) -> bool {
         let spent = self.begin.elapsed();
         self.seen = (spent.as_secs_f64(), progress.fraction);
-        self.is_over = spent > PATIENCE_WITH_CONDENSED && progress.fraction > 0.0;
+        let is_enough = progress.fraction >= SHARE_OF_CONDENSED;
+        self.is_over = is_enough || (spent > PATIENCE_WITH_CONDENSED && progress.fraction > 0.0);
         !self.is_over
     }
 }

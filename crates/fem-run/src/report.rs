@@ -169,7 +169,8 @@ fn price(summary: &Summary) -> String {
     };
     let trials = (cost.trials_s > 0.1 * cost.solve_s)
         .then(|| format!(", after {} of trials", show(cost.trials_s, "s")));
-    let factors = cost.factor_bytes.map(|bytes| format!(", {} of it factors", DecimalBytes(bytes)));
+    let kept = cost.factor_bytes.filter(|bytes| *bytes > 0);
+    let factors = kept.map(|bytes| format!(", {} of it factors", DecimalBytes(bytes)));
     format!(
         "{solve} for {} steps of {} ({each}{} thread{}{memory}{}){}",
         HumanCount(steps),

@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
+use fem_case::engineering::show;
 use fem_collision::{Collision, LARGEST_RESIDUAL, Stop};
 use fem_mesh::SphereMesh;
 
 use crate::early_pressure::EarlyPressure;
-use crate::effects::{EFFECTS, Effect};
+use crate::effects::{EFFECTS, Effect, Vibration};
 use crate::method::ElementSetup;
 use crate::plan::Plan;
 use crate::quieter::Quieter;
@@ -20,6 +21,8 @@ const USUAL: f64 = 1.0;
 /// So much stiffer springs are advised than would just do. Soft springs widen the contact, so that their
 /// overlap falls slower than they grow stiffer: with the power 0.6 to 0.9 of their factor, from 0.02 to 1.
 const ROOM_OF_ADVICE: f64 = 1.2;
+/// Power by which elements become shorter for an overlap that is so many times smaller: it falls with their 0.85th.
+const SHORTER: f64 = 1.2;
 /// Scatter of the force over its peak.
 const LARGEST_NOISE: f64 = 0.005;
 /// Restitution above 1 that is no rounding.
@@ -89,10 +92,14 @@ pub(crate) fn overlap_warning(simulation: &Simulation, collision: &Collision) ->
 
 fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let Some(run) = Run::of(simulation, collision) else { return Vec::new() };
-    // Of a mesh that resolves no contact nothing else is to be known.
-    let penetration = run.penetration().filter(|_| !simulation.is_unresolved(collision));
+    let mesh = simulation.mesh_warning_after(collision);
+    // Of a mesh that resolves no contact nothing else is to be known, and where springs are not soft it is the mesh that
+    // lets surfaces overlap.
+    let is_of_mesh =
+        simulation.is_unresolved(collision) || (mesh.is_some() && run.plan.penalty_factor >= USUAL);
+    let penetration = run.penetration().filter(|_| !is_of_mesh);
     let early = EarlyPressure::warning(simulation, collision);
-    let warnings = [simulation.mesh_warning_after(collision), penetration, run.noise(), early];
+    let warnings = [mesh, penetration, run.noise(), early];
     warnings.into_iter().flatten().collect()
 }
 
@@ -100,7 +107,9 @@ fn of_elements(simulation: &Simulation, collision: &Collision) -> Vec<String> {
 fn of_numbers(simulation: &Simulation, collision: &Collision) -> Vec<String> {
     let remedy = match &simulation.setup().elements {
         Some(elements) => elements.quieter.advice_on_energy(),
-        None => "use model condensed or fem".to_string(),
+        None => {
+            format!("use model {}", Vibration::models_that_serve(&simulation.setup().estimate))
+        }
     };
     [incomplete(collision), energy_residual(collision, &remedy), restitution(collision)]
         .into_iter()
@@ -173,7 +182,9 @@ impl<'a> Run<'a> {
     /// The mean pressure F/πa² pushes the surfaces into each other by its ratio to the penalty
     /// stiffness per area.
     fn overlap(&self) -> Option<Overlap> {
-        let radius = self.collision.max_contact_radius.filter(|_| self.has_springs)?;
+        // Why a run stopped early is said, and what it came to is no contact of usual springs.
+        let is_sound = self.has_springs && self.collision.is_complete();
+        let radius = self.collision.max_contact_radius.filter(|_| is_sound)?;
         // A contact of the poles alone has no pressure; that meshes cannot carry it is said.
         let radius = Some(radius).filter(|radius| *radius > 0.0)?;
         let mean_pressure = self.collision.peak_force? / (PI * radius * radius);
@@ -190,18 +201,26 @@ impl<'a> Run<'a> {
         (excess > 1.0).then(|| {
             format!(
                 "the surfaces overlap by about {:.1} % of the approach and {:.1} % of an element{}; above {} \
-                 % of the approach, write contact.penalty_factor = {}, or use {}",
+                 % of the approach, write contact.penalty_factor = {}{}",
                 100.0 * of_approach,
                 100.0 * of_element,
                 self.collision.deepest.map_or(String::new(), |deepest| format!(", deepest {deepest}")),
                 100.0 * LARGEST_PENETRATION,
                 two_digits((ROOM_OF_ADVICE * excess.powf(1.5) * self.plan.penalty_factor).max(USUAL)),
-                match self.plan.makes_meshes {
-                    true => "a smaller mesh.contact_element_size",
-                    false => "meshes that are finer at the contact",
-                }
+                self.shorter_elements(excess)
             )
         })
+    }
+
+    /// What helps beside stiffer springs against an overlap of so many times the largest. Of springs that are softer than
+    /// usual these are at fault, and not the mesh.
+    fn shorter_elements(&self, excess: f64) -> String {
+        let size = self.plan.contact_element_size / (ROOM_OF_ADVICE * excess.powf(SHORTER));
+        match self.plan.makes_meshes {
+            _ if self.plan.penalty_factor < USUAL => String::new(),
+            true => format!(", or use a mesh.contact_element_size of {} or less", show(size, "m")),
+            false => ", or use meshes that are finer at the contact".to_string(),
+        }
     }
 
     /// That the contact force scatters by too much.

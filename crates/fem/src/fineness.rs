@@ -15,7 +15,7 @@
 //!
 //! C and c are measured: errors of 11 cases of this repository and 17 random scenes (walls, half-spaces,
 //! strong relaxation, size ratios to 30, moduli to 1:30) against limits of fine meshes, k = 3 to 11, μ = 2e-4 to 2e-2
-//! (docs/accuracy.md). The claim `tolerance` tries the rule on scenes that are drawn anew each time.
+//! (docs/accuracy.md). The claim `error_bars` tries the rule on random scenes.
 //!
 //! Of nodes that touch exactly the swing is known and taken off the peak force
 //! (`fem-condensed/src/curve.rs`). What is left of it, C = 0.05, is no more than what contact time (0.05/k²) and

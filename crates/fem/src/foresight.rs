@@ -3,11 +3,11 @@
 //! What explicit elements are off by, condensed companions tell without them (`accuracy/companion.rs`): the mesh is
 //! made finer by that before the first run ([`crate::refinement`]), and no run is thrown away. At finite strain
 //! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, of cheap runs
-//! the first itself, and the run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
+//! these themselves, and the run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
 
 use fem_collision::{Headline, Want};
 
-use crate::accuracy::{ByCoarser, ORDER, companion_updates};
+use crate::accuracy::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 use crate::method::Cost;
@@ -29,70 +29,113 @@ pub struct Following {
     pub meshes: usize,
     /// What they take, without their companions.
     pub element_updates: u64,
-    /// What the collision took that foretold them, where it was that.
-    pub trial_updates: u64,
 }
 
-/// Element updates of a collision that is computed to foretell what follows: some tenths of a second.
-const CHEAP: u64 = 3_000_000;
+/// What meshes are told to be off by falls with these powers of the length of their elements, in the order of
+/// [`Headline::ALL`], where one of them is known: of contact time and force, which swing with the place of the contact's
+/// edge, slower than by their order. Of 30 soft scenes six of 15 needed a second finer mesh for them.
+const FALL: [f64; 6] = [1.25, 1.25, 1.25, 1.25, 1.25, ORDER];
+/// Element updates of a coarser mesh that tells how long a run takes, where its companions would take much more.
+const LITTLE: u64 = 4_000_000;
+/// Element updates of a collision whose companions are computed before it.
+const QUICK: u64 = 30_000_000;
 
 /// What tells what meshes are going to be off by.
 enum Told {
-    /// Errors of a collision on the first mesh, the restitution's absolute, others relative.
-    Trial([Option<f64>; 6]),
-    Coarser(ByCoarser),
+    /// Errors of a collision with elements of this length (m), the restitution's absolute, others relative.
+    Trial { size: f64, errors: [Option<f64>; 6] },
+    /// What coarser meshes than one with elements of this length (m) tell.
+    Coarser { size: f64, coarser: ByCoarser },
 }
 
 impl Told {
-    /// None of a collision that does not come to its end.
-    fn by_trial(simulation: &Simulation) -> Option<Self> {
+    /// None of a collision that does not come to its end; with what it takes more than is announced.
+    fn by_trial(simulation: &Simulation) -> Option<(Self, f64)> {
         let want = Want { history_rows: simulation.want().history_rows, ..Want::quantities() };
         let collision = simulation.model().collide(&simulation.setup().approach, &want, &mut ());
         simulation.count_companion(&collision);
         let doubt = simulation.discretisation(&collision);
         let errors = Headline::ALL
             .map(|headline| Some(doubt.size(headline)? / headline.scale(headline.of(&collision)?)));
-        errors[Headline::PeakForce as usize].map(|_| Self::Trial(errors))
+        errors[Headline::PeakForce as usize]?;
+        let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
+        Some((Self::Trial { size, errors }, lengthening(simulation, &collision)?))
     }
 
-    /// What a finer mesh is going to be off by.
-    fn of(&self, first: &Simulation, finer: &Simulation) -> Option<[Option<f64>; 6]> {
+    /// By two coarser meshes.
+    fn by_coarser(simulation: &Simulation) -> Option<(Self, f64)> {
+        let coarser = ByCoarser::of(simulation)?;
+        let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
+        Some((Self::Coarser { size, coarser }, coarser.lengthening))
+    }
+
+    /// What a mesh is going to be off by that is no coarser.
+    fn of(&self, finer: &Simulation) -> Option<[Option<f64>; 6]> {
         let elements = finer.setup().elements.as_ref()?;
-        let size = first.setup().elements.as_ref()?.plan.contact_element_size;
-        let smaller = size / elements.plan.contact_element_size;
+        let smaller = |size: f64| size / elements.plan.contact_element_size;
         Some(match self {
-            Self::Trial(errors) => errors.map(|error| Some(error? / smaller.powf(ORDER))),
-            Self::Coarser(coarser) => coarser.told(smaller, elements.added_share),
+            Self::Trial { size, errors } => {
+                let fall = FALL.map(|order| smaller(*size).powf(order));
+                std::array::from_fn(|k| Some(errors[k]? / fall[k]))
+            }
+            Self::Coarser { size, coarser } => coarser.told(smaller(*size), elements.added_share),
         })
     }
 }
 
 impl Simulation {
-    /// The finer meshes that are foretold to follow, by a cheap collision itself and by two coarser meshes of others,
-    /// which take [`Simulation::companion_updates`] of it; none where these tell nothing.
-    pub fn following(&self) -> Option<Following> {
-        let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
-        self.companion_updates()?;
-        let told = match element_updates <= CHEAP {
-            true => Told::by_trial(self),
-            false => None,
-        };
-        let trial_updates = if told.is_some() { element_updates } else { 0 };
-        let told = told.or_else(|| ByCoarser::of(self).map(Told::Coarser))?;
-        let mut following = Following { meshes: 0, element_updates: 0, trial_updates };
+    /// Element updates of this collision over those that are announced, and the finer meshes that are foretold to follow
+    /// it, by coarser meshes, which take [`Simulation::companion_updates`] of it, and, of collisions that take no more
+    /// element updates than `patience` together with their companions, by these themselves; none where nothing tells it.
+    pub fn following(&self, patience: u64) -> (f64, Option<Following>) {
+        match self.announced() {
+            _ if self.case().scene().gravity().is_some() => (1.0, None),
+            Some(updates) if updates < QUICK => {
+                let told = self.told_following(patience);
+                told.map_or((1.0, None), |(longer, following)| (longer, Some(following)))
+            }
+            _ => (foretold_lengthening(self, LITTLE).unwrap_or(1.0), None),
+        }
+    }
+
+    fn announced(&self) -> Option<u64> {
+        match self.setup().cost {
+            Cost::Steps { element_updates, .. } => Some(element_updates),
+            _ => None,
+        }
+    }
+
+    fn told_following(&self, patience: u64) -> Option<(f64, Following)> {
+        let share = 1.0 + self.companion_updates()?;
+        let mut patience = patience as f64;
+        let mut following = Following { meshes: 0, element_updates: 0 };
         let mut finest: Option<Self> = None;
+        let mut known: Option<(Told, f64)> = None;
+        let mut first = None;
         loop {
             let now = finest.as_ref().unwrap_or(self);
-            let errors = told.of(self, now)?;
+            let longer = known.as_ref().map_or(1.0, |(_, longer)| *longer);
+            let price = share * longer * now.announced()? as f64;
+            if price <= patience {
+                patience -= price;
+                known = Told::by_trial(now).or(known);
+            }
+            if known.is_none() {
+                known = Told::by_coarser(now);
+            }
+            let (told, longer) = known.as_ref()?;
+            match first {
+                None => first = Some(*longer),
+                Some(_) => {
+                    following.element_updates += (longer * now.announced()? as f64) as u64;
+                }
+            }
+            let errors = told.of(now)?;
             let miss = now.worst_miss(|headline| errors[headline as usize]);
             let Some(finer) = miss.and_then(|miss| now.finer_for(&miss)) else {
-                return Some(following);
-            };
-            let Cost::Steps { element_updates, .. } = finer.setup().cost else {
-                return Some(following);
+                return Some((first?, following));
             };
             following.meshes += 1;
-            following.element_updates += element_updates;
             finest = Some(finer);
         }
     }

@@ -57,6 +57,8 @@ pub struct Plan {
     pub far_radius: Option<f64>,
     /// Whether any mesh is made here, and not read from a file.
     pub makes_meshes: bool,
+    /// Whether no mesh that is chosen serves the tolerance, which a warning says.
+    pub(crate) is_out_of_reach: bool,
     /// Radius out to which contact is looked for, m.
     pub candidate_radius: f64,
     /// How springs keep the surfaces apart.
@@ -136,10 +138,12 @@ impl Plan {
         if far_radius.is_none() && scene.mesh().far_radius.is_some() {
             warnings.push("mesh.far_radius has no effect: no body is a half-space".to_string());
         }
-        if let Some(reached) = fineness.reached.filter(|_| makes_meshes) {
+        let is_chosen = makes_meshes && scene.mesh().contact_element_size.is_none();
+        let out_of_reach = fineness.reached.filter(|_| is_chosen);
+        if let Some(reached) = out_of_reach {
             warnings.push(format!(
                 "accuracy.tolerance is out of reach: {:.0} elements across the contact are taken, for about \
-                 {} of the peak force; write mesh.contact_element_size for more",
+                 {} of the peak force: allow more of it",
                 fineness.across,
                 percent(reached)
             ));
@@ -154,6 +158,7 @@ impl Plan {
             growth: scene.mesh().growth,
             far_radius,
             makes_meshes,
+            is_out_of_reach: out_of_reach.is_some(),
             candidate_radius,
             contact_method: contact_method(scene),
             penalty_factor,

@@ -25,18 +25,23 @@ use fem_collision::{Collision, Headline, Monitor, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
-use crate::accuracy::{far_mesh_errors, far_mesh_key, foretold_errors, of_moved_mass};
-use crate::assess::{noise, overlap_warning};
+use crate::accuracy::{
+    FEW, far_mesh_errors, far_mesh_key, foretold_errors, of_moved_mass, scatter_of_any_mesh,
+};
+use crate::assess::overlap_warning;
 use crate::early_pressure::EarlyPressure;
 use crate::effects::percent;
 use crate::method::{Cost, ElementSetup};
 use crate::simulation::Simulation;
 use crate::soft_springs::softness;
+use crate::uncertainty::of_noise;
 
 /// Room beyond the error that is seen.
 const ROOM: f64 = 1.1;
 /// Power of h by which errors fall, about.
 const ORDER: f64 = 1.5;
+/// The same with fewer elements than [`FEW`] across the contact.
+const ORDER_OF_FEW: f64 = 3.0;
 /// Least and most by which elements become smaller at once.
 const STEPS: [f64; 2] = [1.25, 2.0];
 /// Finer meshes after the first.
@@ -51,6 +56,10 @@ const OF_SPRINGS: f64 = 4.0;
 /// Elements that would have to be smaller by more are named to nobody: what they are off by nobody has seen, and a
 /// tolerance that needs them is one of rounding.
 const MOST_NAMED: f64 = 100.0;
+/// Scatter over the tolerance below which it is left out where a finer mesh is chosen.
+const SCATTER_OF_TOLERANCE: f64 = 0.25;
+/// The key of their length.
+const SIZE: &str = "mesh.contact_element_size";
 /// An error of more is no number any more: it is not resolved at all.
 const LARGEST_TOLD: f64 = 0.5;
 
@@ -76,6 +85,8 @@ pub(crate) struct Miss {
     /// The restitution's as it is, others as shares.
     error: f64,
     tolerance: f64,
+    /// What of the error is told of every mesh.
+    scatter: f64,
 }
 
 impl Miss {
@@ -83,18 +94,36 @@ impl Miss {
         self.error / self.tolerance
     }
 
+    /// Whether a mesh could be fine enough.
+    fn is_of_mesh(&self) -> bool {
+        self.scatter < self.tolerance
+    }
+
+    /// By how many times what the mesh does is to become less. Where little is scatter that is the excess.
+    fn excess_of_mesh(&self) -> f64 {
+        match self.scatter < SCATTER_OF_TOLERANCE * self.tolerance {
+            true => self.excess(),
+            false => (self.error - self.scatter) / (self.tolerance - self.scatter),
+        }
+    }
+
     /// "peak force may be off by 1.7 % where 1 % is asked".
     fn in_words(&self) -> String {
-        let words = |size: f64| match self.headline {
-            Headline::Restitution => format!("{size:.1e}"),
-            _ => percent(size),
-        };
-        let (name, tolerance) = (self.headline.name(), words(self.tolerance));
+        let (name, tolerance) = (self.headline.name(), self.number(self.tolerance));
         match self.error <= LARGEST_TOLD {
             true => {
-                format!("{name} may be off by {} where {tolerance} is asked", words(self.error))
+                let error = self.number(self.error);
+                format!("{name} may be off by {error} where {tolerance} is asked")
             }
             false => format!("{name} may be off by more than half where {tolerance} is asked"),
+        }
+    }
+
+    /// An error of its quantity.
+    fn number(&self, error: f64) -> String {
+        match self.headline {
+            Headline::Restitution => format!("{error:.1e}"),
+            _ => percent(error),
         }
     }
 
@@ -113,6 +142,8 @@ enum Kept {
     Gravity,
     /// What else the case gives is off by more than it allows.
     Setting(Cause),
+    /// More than is allowed is told of every mesh.
+    Scatter(f64),
     Dear {
         updates: Option<u64>,
     },
@@ -232,7 +263,7 @@ impl Simulation {
     pub fn refined_because(&self) -> Option<String> {
         let level = self.levels.last()?;
         let headline = Headline::ALL.into_iter().find(|it| it.key() == level.quantity)?;
-        let miss = Miss { headline, error: level.error, tolerance: level.tolerance };
+        let miss = Miss { headline, error: level.error, tolerance: level.tolerance, scatter: 0.0 };
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
         // What was foretold was not run.
         let is_foretold =
@@ -260,11 +291,14 @@ impl Simulation {
         })
     }
 
-    /// The quantity that is off by most of what the case allows, if by more than that.
+    /// The quantity that is off by most of what the case allows, if by more than that; of those that a mesh helps before
+    /// the others.
     pub(crate) fn worst_miss(&self, error: impl Fn(Headline) -> Option<f64>) -> Option<Miss> {
         let accuracy = self.case().scene().accuracy();
+        let scatter = scatter_of_any_mesh(self);
         let of = |(headline, tolerance): (Headline, f64)| {
-            Some(Miss { headline, error: error(headline)?, tolerance })
+            let scatter = scatter[headline as usize];
+            Some(Miss { headline, error: error(headline)?, tolerance, scatter })
         };
         let all = [
             (Headline::Restitution, accuracy.restitution),
@@ -273,7 +307,8 @@ impl Simulation {
             (Headline::PeakPressure, accuracy.peak_pressure),
         ];
         let missed = all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0);
-        missed.max_by(|a, b| a.excess().total_cmp(&b.excess()))
+        let by_excess = |a: &Miss, b: &Miss| a.excess().total_cmp(&b.excess());
+        missed.max_by(|a, b| a.is_of_mesh().cmp(&b.is_of_mesh()).then(by_excess(a, b)))
     }
 
     /// What is to be known of a collision that misses its tolerance, and why its mesh is no finer.
@@ -287,12 +322,26 @@ impl Simulation {
         {
             return None;
         }
-        let finer = step(miss.excess(), f64::INFINITY);
+        // One word a cause: that one names what does for both.
+        if self.finest_needed(collision).is_some()
+            && self.mesh_warning_after(collision).is_some_and(|warning| warning.contains(SIZE))
+        {
+            return None;
+        }
+        let finer = self.finer_by(&miss, collision);
         let mut cause = "the mesh";
         let size = length(plan.contact_element_size / finer);
         let write = format!("write mesh.contact_element_size = \"{size}\"");
         let remedy = match self.finer_or_kept(&miss, Some(collision)) {
             // A setting that is at fault comes first, whatever is asked.
+            Err(Kept::Scatter(_)) if plan.is_out_of_reach => return None,
+            Err(Kept::Scatter(scatter)) => {
+                return Some(format!(
+                    "{}, and by {} on any mesh: allow more in accuracy.tolerance",
+                    miss.in_words(),
+                    miss.number(scatter)
+                ));
+            }
             kept if finer > MOST_NAMED && !matches!(kept, Err(Kept::Setting(_))) => {
                 return Some(format!(
                     "{} because of {cause}, and no mesh can be told that does: allow more in accuracy.tolerance",
@@ -333,6 +382,30 @@ impl Simulation {
             "{} because of {cause}: {remedy}, or allow more in accuracy.tolerance",
             miss.in_words()
         ))
+    }
+
+    /// By how much elements would have to be smaller for what a collision is off by. Errors that are told of few elements
+    /// fall faster than those of more.
+    fn finer_by(&self, miss: &Miss, collision: &Collision) -> f64 {
+        let size =
+            self.setup().elements.as_ref().map(|elements| elements.plan.contact_element_size);
+        let across =
+            collision.max_contact_radius.zip(size).map_or(FEW, |(radius, size)| radius / size);
+        let to_usual = (FEW / across).max(1.0);
+        let (excess, of_few) = (ROOM * miss.excess_of_mesh(), to_usual.powf(ORDER_OF_FEW));
+        match excess < of_few {
+            true => excess.powf(1.0 / ORDER_OF_FEW).max(STEPS[0]),
+            false => (to_usual * (excess / of_few).powf(1.0 / ORDER)).max(STEPS[0]),
+        }
+    }
+
+    /// Length of the elements (m) that a collision needs on whose mesh it misses its tolerance, where that was given.
+    pub(crate) fn finest_needed(&self, collision: &Collision) -> Option<f64> {
+        let miss = self.missed(collision)?;
+        let finer = self.finer_by(&miss, collision);
+        let is_given = matches!(self.finer_or_kept(&miss, Some(collision)), Err(Kept::Given));
+        let size = self.setup().elements.as_ref()?.plan.contact_element_size;
+        (is_given && finer <= MOST_NAMED).then_some(size / finer)
     }
 
     /// That nothing tells what the mesh of a collision is off by, where that was to be told.
@@ -405,6 +478,9 @@ impl Simulation {
         if let Some(cause) = self.other_cause(miss, met) {
             return Err(Kept::Setting(cause));
         }
+        if !miss.is_of_mesh() {
+            return Err(Kept::Scatter(miss.scatter));
+        }
         if self.has_mesh_file() {
             return Err(Kept::FromFile);
         }
@@ -421,7 +497,7 @@ impl Simulation {
         if self.levels.len() >= MOST_LEVELS {
             return Err(Kept::Dear { updates: None });
         }
-        let by = step(miss.excess(), STEPS[1]);
+        let by = step(miss.excess_of_mesh(), STEPS[1]);
         if let Some(updates) = self.known_as_too_dear(by) {
             return Err(Kept::Dear { updates: Some(updates) });
         }
@@ -458,10 +534,9 @@ impl Simulation {
     }
 }
 
-/// Whether a peak is missed that noise makes too high.
+/// Whether what is missed is what noise is off by.
 fn is_of_noise(miss: &Miss, collision: &Collision) -> bool {
-    let is_peak = matches!(miss.headline, Headline::PeakForce | Headline::PeakPressure);
-    is_peak && noise(collision).is_some_and(|noise| noise > miss.tolerance)
+    of_noise(collision, miss.headline) > miss.tolerance
 }
 
 /// What is known of one refinement holds for others that differ from it by less: those of one mesh, which its

@@ -20,7 +20,7 @@ use crate::models::{Chosen, Considered, chosen, model_of, price_of, resolved};
 use crate::probes::probes_of;
 use crate::refinement::Level;
 use crate::refusal::Refusal;
-use crate::resolution::{Resolution, known_as_fine};
+use crate::resolution::{Given, Resolution, known_as_fine};
 use crate::soft_springs::softness;
 use crate::uncertainty::Seen;
 
@@ -220,7 +220,7 @@ impl Simulation {
     /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
     /// what helps.
     pub fn mesh_warning(&self) -> Option<String> {
-        self.resolution_warning(self.setup().estimate.contact_radius)
+        self.resolution_warning(self.setup().estimate.contact_radius, None)
     }
 
     /// That explicit elements fold where bodies meet faster than shear waves leave the contact.
@@ -252,7 +252,8 @@ impl Simulation {
 
     /// That the meshes cannot carry the contact as wide as it came.
     pub(crate) fn mesh_warning_after(&self, collision: &Collision) -> Option<String> {
-        self.resolution_warning(self.carried_radius(collision)?)
+        let radius = self.carried_radius(collision)?;
+        self.resolution_warning(radius, self.finest_needed(collision))
     }
 
     /// What that says contact time and peak force are off by, as shares.
@@ -260,11 +261,12 @@ impl Simulation {
         self.resolution(self.carried_radius(collision)?)?.stated()
     }
 
-    /// That the meshes cannot carry a contact of this radius, m.
-    fn resolution_warning(&self, contact_radius: f64) -> Option<String> {
+    /// That the meshes cannot carry a contact of this radius, m, whose tolerance needs elements of some length, m.
+    fn resolution_warning(&self, contact_radius: f64, needed: Option<f64>) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
         let resolution = self.resolution(contact_radius)?;
-        resolution.warning(self.case.scene(), plan, self.model.meshes(), contact_radius)
+        let given = Given { plan, contact_radius, needed };
+        resolution.warning(self.case.scene(), self.model.meshes(), &given)
     }
 
     /// What the meshes foretell of a contact of this radius, m; none where it is known to be nothing.

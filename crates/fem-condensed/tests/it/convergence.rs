@@ -38,9 +38,10 @@ fn order_in_the_time_step() {
         })
         .collect();
     let found = order(&points);
-    // Fourth order where the force is smooth, second where nodes join and at the ends; 1.94 measured.
-    assert!(found > 1.6 && found < 2.4, "{found}");
-    assert!(points[2].1 < 2e-5, "{points:?}");
+    // Fourth order where the force is smooth, of third what is off where nodes join; 3.3 measured. Without what is given
+    // back there it is 1.9, and the third is 2e-5.
+    assert!(found > 2.6 && found < 4.4, "{found}");
+    assert!(points[2].1 < 1e-6, "{points:?}");
 }
 
 /// Contact time over a band of speeds whose contact radii span two elements, so that the edge takes
@@ -143,5 +144,22 @@ fn soft_bulk_and_strong_relaxation_have_the_blocks_they_need() {
         let [usual, eight] = [PairSettings::new(1.0).shear_blocks, 8].map(run);
         // 2e-7 measured.
         assert!((usual - eight).abs() < 1e-6, "{nu} {left}: {usual} {eight}");
+    }
+}
+
+/// What elastic bodies store comes back, wherever nodes join and leave between steps: also where the contact ends
+/// between two, and no step is its middle.
+#[test]
+fn elastic_bodies_lose_nothing_to_steps() {
+    for scene in
+        [Scene::paper(glass(), glass()), Scene { speed: 0.1, ..Scene::paper(glass(), glass()) }]
+    {
+        let pair = scene.condensed(6.0);
+        for n_steps in [61, 120, 250, 997] {
+            let e = crate::common::collide_in(&pair, scene.speed, n_steps).restitution.unwrap();
+            // 2e-9, 2e-10, 1e-11 and rounding; what joining nodes take by the trapezoidal rule is 1e-8 to 1e-9.
+            let allowed = (30.0 * (n_steps as f64).powi(-5)).max(1e-12);
+            assert!((e - 1.0).abs() < allowed, "{n_steps}: {:e}", e - 1.0);
+        }
     }
 }

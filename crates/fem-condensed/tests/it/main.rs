@@ -8,6 +8,7 @@ mod limits;
 mod quantities;
 mod refusals;
 mod rigid;
+mod rows;
 mod snapshots;
 mod springs;
 mod together;

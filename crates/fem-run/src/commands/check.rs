@@ -11,7 +11,7 @@ use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::{CaseArguments, ToleranceArguments};
 use crate::failure::Failure;
-use crate::forecast::Forecast;
+use crate::forecast::{Forecast, PATIENCE_OF_CHECK};
 use crate::report;
 use crate::standard_output;
 use crate::tables::{mesh_table, pairs, table};
@@ -59,12 +59,14 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     let Foreseen { simulation, is_open } =
         simulation.foreseen(|| begin.elapsed() < PATIENCE_WITH_COMPANIONS);
     let setup = begin.elapsed().as_secs_f64();
-    let forecast = Forecast::of(&simulation, making, is_open);
+    let forecast = Forecast::of(&simulation, making, is_open, PATIENCE_OF_CHECK);
     let resolved = simulation.resolved().to_toml();
     let resolved = resolved.map_err(|error| {
         Failure::failed(format!("the resolved case cannot be written as TOML: {error}"))
     })?;
-    let heading = format!("{name} is sound. What to expect of a run:");
+    let large = simulation.case().scene().large_spheres();
+    let large = large.map_or(String::new(), |spheres| format!(", with {spheres}"));
+    let heading = format!("{name} is sound{large}. What to expect of a run:");
     let expectation = format!(
         "{}\n\n{}",
         standard_output::one_line(&heading),
@@ -156,7 +158,12 @@ fn by_tolerance(simulation: &Simulation) -> String {
     }
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     if has_steps && open("time.mass_scaling") {
-        let text = format!("{:.2} % of the lighter body's mass", 100.0 * plan.mass_scaling);
+        let share = 100.0 * plan.mass_scaling;
+        let share = match share != 0.0 && share < 5e-3 {
+            true => format!("{share:.1e}"),
+            false => format!("{share:.2}"),
+        };
+        let text = format!("{share} % of the lighter body's mass");
         rows.push(["time.mass_scaling".to_string(), text]);
     }
     if rows.is_empty() {
@@ -202,19 +209,23 @@ fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> St
             let longer = time_step / plain_time_step;
             let step = show(time_step, "s");
             row("time step", format!("{step} ({longer:.2} times that without mass scaling)"));
-            row("steps", format!("about {}", HumanCount(steps)));
+            let longer = forecast.map_or(1.0, |forecast| forecast.longer);
+            row("steps", format!("about {}", HumanCount((longer * steps as f64) as u64)));
+            let element_updates = longer * element_updates as f64;
             let all = forecast.map(Forecast::all_element_updates);
-            let all = all.filter(|all| *all > 1.05 * element_updates as f64);
+            let all = all.filter(|all| *all > 1.05 * element_updates);
             let all = all.map_or(String::new(), |all| {
                 format!(", {all:.1e} with companions and the meshes that are foretold")
             });
-            row("element updates", format!("about {:.1e}{all}", element_updates as f64));
+            row("element updates", format!("about {element_updates:.1e}{all}"));
             row("memory", format!("about {}", DecimalBytes(memory)));
         }
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {
             row("contact points", format!("{contact_points} condensed"));
             row("steps", format!("about {}", HumanCount(steps)));
-            row("factors", DecimalBytes(factor_bytes).to_string());
+            if factor_bytes > 0 {
+                row("factors", DecimalBytes(factor_bytes).to_string());
+            }
         }
         Cost::Little { .. } => {}
     }

@@ -164,12 +164,14 @@ fn compute(
 
 /// Some words on stderr about what begins.
 fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlace, is_open: bool) {
-    let forecast = Forecast::of(simulation, making, is_open);
+    let forecast = Forecast::of(simulation, making, is_open, 0);
     let more = forecast.finer.map_or(String::new(), |finer| {
         format!("; if finer meshes have to follow: {}", finer.in_words())
     });
-    let (price, out) = (price(simulation, forecast.seconds), place.out.display());
-    let mut line = format!("{case}: {price}{more}; result: {out}");
+    let (price, out) = (price(simulation, &forecast), place.out.display());
+    let large = simulation.case().scene().large_spheres();
+    let large = large.map_or(String::new(), |spheres| format!("{spheres}; "));
+    let mut line = format!("{case}: {large}{price}{more}; result: {out}");
     if let Some(taken) = &place.taken {
         line += &format!(", since {} holds that of another case", taken.display());
     }
@@ -184,14 +186,14 @@ fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlac
 /// A word on stderr on a mesh that is made finer, if it is.
 fn tell_finer(simulation: &Simulation) {
     if let Some(why) = simulation.refined_because() {
-        let seconds = Forecast::of(simulation, 0.0, false).seconds;
+        let forecast = Forecast::of(simulation, 0.0, false, 0);
         let _ =
-            writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation, seconds))));
+            writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation, &forecast))));
     }
 }
 
-/// The model and what it costs, in so many seconds where that is known.
-fn price(simulation: &Simulation, seconds: Option<f64>) -> String {
+/// The model and what it is foretold to cost.
+fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) -> String {
     let time = |seconds: Option<f64>| {
         seconds.map_or(String::new(), |seconds| format!(", some {}", show(seconds, "s")))
     };
@@ -199,14 +201,17 @@ fn price(simulation: &Simulation, seconds: Option<f64>) -> String {
         Cost::Steps { elements, steps, seconds: expected, memory, .. } => format!(
             "{} elements, about {} steps{}, about {}",
             HumanCount(elements),
-            HumanCount(steps),
+            HumanCount((longer * steps as f64) as u64),
             time(seconds.or(Some(expected))),
             DecimalBytes(memory)
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
-            "{} elements condensed to {contact_points} contact points, factors of {}{}",
+            "{} elements condensed to {contact_points} contact points{}{}",
             HumanCount(elements),
-            DecimalBytes(factor_bytes),
+            match factor_bytes {
+                0 => String::new(),
+                bytes => format!(", factors of {}", DecimalBytes(bytes)),
+            },
             time(seconds)
         ),
         Cost::Little { .. } => format!("{}, milliseconds", simulation.setup().description),

@@ -73,3 +73,52 @@ fn check_tells_what_may_follow() {
     let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
     assert!(time.contains("about ") && time.contains("here, after"), "{time}");
 }
+
+/// Spheres of metres may be meant: their sizes are said with the unit, and nothing is warned of.
+#[test]
+fn spheres_of_metres_are_named_with_their_unit() {
+    let place = Place::new();
+    let sizes = |value: &str| {
+        let set = |k: usize| format!("body.{k}.sphere.diameter={value}");
+        [
+            "case.toml".into(),
+            "--set".into(),
+            set(0),
+            "--set".into(),
+            set(1),
+            "--set".into(),
+            "model=hertz".to_string(),
+        ]
+    };
+    let run = |command: &[&str], value: &str| {
+        let sizes = sizes(value);
+        let sizes = sizes.iter().map(String::as_str);
+        place.succeed(&command.iter().copied().chain(sizes).collect::<Vec<_>>())
+    };
+    for (value, is_told) in [("22.2", true), ("'2 m'", true), ("'99 cm'", false), ("0.0222", false)]
+    {
+        let words = "(bare numbers are in metres)";
+        let checked = run(&["check"], value);
+        assert_eq!(checked.stdout.contains(words), is_told, "{value}: {}", checked.stdout);
+        let ran = run(&["--force", "--out", "out"], value);
+        assert_eq!(ran.stderr.contains(words), is_told, "{value}: {}", ran.stderr);
+        assert!(!ran.stderr.contains("warning: the diameter"), "{}", ran.stderr);
+    }
+}
+
+/// What is moved of the mass is not rounded to nothing.
+#[test]
+fn little_mass_that_is_moved_is_not_none() {
+    let place = Place::new();
+    let tight = [
+        "check",
+        "case.toml",
+        "--set",
+        "accuracy.tolerance=1e-5",
+        "--set",
+        "mesh.contact_element_size='50 um'",
+    ];
+    let told = place.succeed(&tight).stdout;
+    let row = told.lines().find(|line| line.starts_with("# time.mass_scaling")).unwrap();
+    assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
+}

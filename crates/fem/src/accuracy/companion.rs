@@ -106,11 +106,11 @@ const FRONTS: [f64; 6] = [0.0, 0.0, 5e-3, 0.0, 5e-3, 0.02];
 const FAST: f64 = 0.3;
 /// Steps of condensed companions of explicit elements over the elastic contact time: a restitution to 4e-5,
 /// and the same of all three, of which differences are taken.
-const STEPS: f64 = 200.0;
-/// The same of condensed companions of condensed bodies, which may have more: a restitution to 1e-5, its scatter.
-const OWN_STEPS: f64 = 400.0;
+const STEPS: f64 = 120.0;
+/// The same of condensed companions of condensed bodies, which may have more: a restitution to 2e-5.
+const OWN_STEPS: f64 = 160.0;
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
-pub(super) const FEW: f64 = 4.5;
+pub(crate) const FEW: f64 = 4.5;
 /// What explicit elements lose of the restitution by terms of relaxation that are over at once, over the share of the
 /// moduli that they take: they damp what waves there are of first touch and of elements that open. 4e-4 of spheres of
 /// which 0.7 of the shear modulus is gone after a millionth of the contact, half of it beside moved mass.
@@ -270,6 +270,25 @@ pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6
     Some(told(errors, MARGIN, scatter, of_few, across, *added_share))
 }
 
+/// What is told of every mesh, the finest included, of a simulation's numbers: how they scatter. The restitution's
+/// absolute, all others relative, in the order of [`Headline::ALL`].
+pub(crate) fn scatter_of_any_mesh(simulation: &Simulation) -> [f64; 6] {
+    let setup = simulation.setup();
+    let Cost::Steps { .. } = setup.cost else { return CONDENSED_SCATTER };
+    let is_finite = setup.decisions.is_active(FiniteStrain::NAME);
+    let Estimate { mach, strain, .. } = setup.estimate;
+    match companion_updates([mach, strain], is_finite) {
+        None => beside_condensed(mach, is_finite).0,
+        Some(_) => with_fronts(mach),
+    }
+}
+
+/// How explicit elements scatter whose companions are explicit elements, of an impact with this speed over that of shear
+/// waves.
+fn with_fronts(mach: f64) -> [f64; 6] {
+    std::array::from_fn(|k| SCATTER[k] + FRONTS[k] * mach.min(FAST))
+}
+
 /// What the mesh away from the contact, as the case gives it, is going to take from numbers, the restitution's absolute,
 /// all others as shares; none where the case leaves it open.
 pub(crate) fn far_mesh_errors(simulation: &Simulation) -> Option<[Option<f64>; 6]> {
@@ -303,6 +322,8 @@ pub(crate) struct ByCoarser {
     scatter: [f64; 6],
     of_few: [f64; 6],
     across: f64,
+    /// Of the finer one of both, see [`lengthening`].
+    pub lengthening: f64,
 }
 
 impl ByCoarser {
@@ -319,19 +340,20 @@ impl ByCoarser {
             let foretold = element_updates as f64 / ratio.powi(3);
             companions.with_elements(ratio, (PATIENCE * foretold) as u64)
         });
-        let (near, far) = (near?, far?);
+        let (Coarser { values: near, lengthening, .. }, Coarser { values: far, .. }) =
+            (near?, far?);
         let fall = coarse.powf(ORDER) - fine.powf(ORDER);
         let errors = Headline::ALL.map(|headline| {
             let (near, far) = (near[headline as usize]?, far[headline as usize]?);
             Some((far - near).abs() / fall / headline.scale(near))
         });
         let mach = setup.estimate.mach;
-        let fronts = FRONTS.map(|scatter| scatter * mach.min(FAST));
         Some(Self {
             errors,
-            scatter: std::array::from_fn(|k| SCATTER[k] + fronts[k]),
+            scatter: with_fronts(mach),
             of_few: of_few_strained(simulation, mach),
             across: near[Headline::MaxContactRadius as usize]? / size,
+            lengthening,
         })
     }
 
@@ -341,6 +363,28 @@ impl ByCoarser {
         let errors = self.errors.map(|error| Some(error? / smaller.powf(ORDER)));
         told(errors, MARGIN_OF_STRAINED, self.scatter, self.of_few, smaller * self.across, added)
     }
+}
+
+/// Element updates of a collision over those that closed forms announce of it. Elements that are pressed flat have
+/// shorter steps, and a body that stiffens as it is strained parts sooner; coarser meshes have both.
+pub(crate) fn lengthening(simulation: &Simulation, collision: &Collision) -> Option<f64> {
+    let Cost::Steps { element_updates, .. } = simulation.setup().cost else { return None };
+    Some(collision.element_updates? as f64 / element_updates as f64)
+}
+
+/// The same, foretold by a coarser mesh that takes no more than some element updates, of explicit elements whose
+/// companions are explicit elements; none of others, and where a mesh does not carry the collision.
+pub(crate) fn foretold_lengthening(simulation: &Simulation, most: u64) -> Option<f64> {
+    simulation.companion_updates()?;
+    let setup = simulation.setup();
+    let Cost::Steps { element_updates, .. } = setup.cost else { return None };
+    let plan = &setup.elements.as_ref()?.plan;
+    let (approach, size) = (setup.approach, plan.contact_element_size);
+    // The usual companions are kept for the collision.
+    let by_price = (element_updates as f64 / most as f64).cbrt();
+    let ratio = if by_price <= COARSER[1] { COARSER[1] } else { by_price };
+    let companions = Companions { simulation, approach, plan, size };
+    Some(companions.with_elements(ratio, (PATIENCE * PATIENCE) as u64 * most)?.lengthening)
 }
 
 /// Scatter, and what grows where elements are few, of explicit elements whose companions are condensed bodies.
@@ -406,6 +450,8 @@ pub(crate) struct Coarser {
     size: f64,
     /// In the order of [`Headline::ALL`].
     values: [Option<f64>; 6],
+    /// See [`lengthening`].
+    lengthening: f64,
 }
 
 /// How meshes go on away from the contact.
@@ -485,7 +531,7 @@ impl Companions<'_> {
         let ratio = COARSER[0];
         let size = Setting::ElementSize(ratio * self.size);
         let staggered = Setting::Staggered(self.plan.finer_body.is_some());
-        let given = self.with_elements(ratio, u64::MAX)?;
+        let given = self.with_elements(ratio, u64::MAX)?.values;
         let chosen = self.collide_within(&[size, staggered], FarMesh::Chosen, u64::MAX)?;
         Some(beside_chosen(given, chosen))
     }
@@ -526,26 +572,30 @@ impl Companions<'_> {
 
     /// The numbers of the model itself with elements that are so many times longer; none of a run that takes more. They
     /// are kept: they are asked for before a collision and after it.
-    fn with_elements(&self, ratio: f64, most_element_updates: u64) -> Option<[Option<f64>; 6]> {
+    fn with_elements(&self, ratio: f64, most_element_updates: u64) -> Option<Coarser> {
         let size = ratio * self.size;
         // Who panicked has left nothing half written.
         let mut known = self.simulation.coarser.lock().unwrap_or_else(PoisonError::into_inner);
         let is_it = |one: &&Coarser| one.approach == self.approach && one.size == size;
         if let Some(coarser) = known.iter().find(is_it) {
-            return Some(coarser.values);
+            return Some(*coarser);
         }
         let staggered = Setting::Staggered(self.plan.finer_body.is_some());
         let settings = [Setting::ElementSize(size), staggered];
-        let values = self.collide_within(&settings, FarMesh::AsGiven, most_element_updates)?;
-        known.push(Coarser { approach: self.approach, size, values });
-        Some(values)
+        let (values, lengthening) =
+            self.computed(&settings, FarMesh::AsGiven, most_element_updates)?;
+        let coarser = Coarser { approach: self.approach, size, values, lengthening };
+        known.push(coarser);
+        Some(coarser)
     }
 
     /// The same from the model itself with elements that are so many times longer.
     fn of_coarser(&self, ratios: &[f64], values: [Option<f64>; 6]) -> [Option<f64>; 6] {
         let mut errors = [None; 6];
         for &ratio in ratios {
-            let Some(coarse) = self.with_elements(ratio, u64::MAX) else { continue };
+            let Some(Coarser { values: coarse, .. }) = self.with_elements(ratio, u64::MAX) else {
+                continue;
+            };
             for (k, headline) in Headline::ALL.into_iter().enumerate() {
                 let both = coarse[k].zip(values[k]);
                 let error = both.map(|(coarse, value)| {
@@ -570,6 +620,16 @@ impl Companions<'_> {
         far_mesh: FarMesh,
         most_element_updates: u64,
     ) -> Option<[Option<f64>; 6]> {
+        self.computed(settings, far_mesh, most_element_updates).map(|(values, _)| values)
+    }
+
+    /// The same, and by how many times it took more than closed forms announce.
+    fn computed(
+        &self,
+        settings: &[Setting],
+        far_mesh: FarMesh,
+        most_element_updates: u64,
+    ) -> Option<([Option<f64>; 6], f64)> {
         let case = self.simulation.case().edited(|file| {
             file.stop = first_contact(file);
             // Where the case leaves the model open, the one that was chosen.
@@ -616,7 +676,8 @@ impl Companions<'_> {
         let collision = companion.model().collide(&self.approach, &want, &mut ());
         self.simulation.count_companion(&collision);
         let values = Headline::ALL.map(|headline| headline.of(&collision));
-        collision.is_complete().then_some(values)
+        let longer = lengthening(&companion, &collision).unwrap_or(1.0);
+        collision.is_complete().then_some((values, longer))
     }
 }
 

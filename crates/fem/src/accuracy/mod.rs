@@ -20,8 +20,9 @@ mod study;
 
 pub use coarser::condensed_companion_time;
 pub(crate) use companion::{
-    Beside, ByCoarser, Coarser, ORDER, companion_updates, discretisation_errors, far_mesh_errors,
-    far_mesh_key, foretold_errors, of_moved_mass,
+    Beside, ByCoarser, Coarser, FEW, ORDER, companion_updates, discretisation_errors,
+    far_mesh_errors, far_mesh_key, foretold_errors, foretold_lengthening, lengthening,
+    of_moved_mass, scatter_of_any_mesh,
 };
 pub use convergence::{Convergence, ObservedOrder};
 pub use error_parts::{ErrorPart, ErrorSource};

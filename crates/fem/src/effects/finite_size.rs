@@ -10,6 +10,7 @@ use super::finite_strain::relaxed_loss;
 use super::left_out::LeftOut;
 use super::need::percent;
 use super::transformed::Computed;
+use super::vibration::Vibration;
 use crate::estimate::Estimate;
 use crate::expected::Expected;
 
@@ -52,10 +53,10 @@ impl FiniteSizeEffect {
                 false => "half-spaces, which this model takes the spheres for, are in doubt",
             };
             format!(
-                "the spheres' own compliance adds {} to Hertz' approach; above {} {doubt}: use \
-                 model condensed or fem",
+                "the spheres' own compliance adds {} to Hertz' approach; above {} {doubt}: use model {}",
                 percent(share),
-                percent(LARGEST_SHARE)
+                percent(LARGEST_SHARE),
+                Vibration::models_that_serve(estimate)
             )
         });
         Answer::is(is_there, reason).warning(warning)

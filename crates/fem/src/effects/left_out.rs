@@ -59,11 +59,20 @@ impl LeftOut {
             Some(Self::difference(&with.ok()?, &without.ok()?))
         };
         let silent = |scene: &Scene| PartnerWaves::switched(scene, Some(Switch::Off));
-        let size = has_finite_size(&with);
+        let size = Self::has_finite_size(&with);
         change(&with, &without, size)
             .or_else(|| change(&with, &without, false).filter(|_| size))
             .or_else(|| change(&silent(&with), &silent(&without), false))
             .unwrap_or_default()
+    }
+
+    /// Whether a scene's model has the spheres' own compliance.
+    pub(crate) fn has_finite_size(scene: &Scene) -> bool {
+        match scene.model() {
+            ModelChoice::Fem | ModelChoice::Condensed(_) => true,
+            ModelChoice::Ting { finite_size, .. } => *finite_size,
+            _ => false,
+        }
     }
 
     /// Between two impacts. Bodies that stay together have no contact time; one that loses more than all
@@ -78,15 +87,6 @@ impl LeftOut {
             contact_time_s: times.and_then(|(with, without)| finite(with - without)),
             peak_force_n: finite(with.peak_force - without.peak_force),
         }
-    }
-}
-
-/// Whether a scene's model has the spheres' own compliance.
-fn has_finite_size(scene: &Scene) -> bool {
-    match scene.model() {
-        ModelChoice::Fem | ModelChoice::Condensed(_) => true,
-        ModelChoice::Ting { finite_size, .. } => *finite_size,
-        _ => false,
     }
 }
 

@@ -167,6 +167,14 @@ impl Vibration {
         Self::beyond_modes(estimate).or(few)
     }
 
+    /// The models with elements that serve a scene: condensed bodies where modes carry what inertia does.
+    pub(crate) fn models_that_serve(estimate: &Estimate) -> &'static str {
+        match Self::beyond_modes(estimate) {
+            Some(_) => "fem",
+            None => "condensed or fem",
+        }
+    }
+
     /// Why no number of modes carries what inertia does in a scene, if none does.
     fn beyond_modes(estimate: &Estimate) -> Option<&'static str> {
         if estimate.softened_mach > MACH_LIMIT {

@@ -31,8 +31,8 @@ const NO_ELEMENTS: f64 = 1.0;
 const ENOUGH_ELEMENTS: f64 = 4.5;
 /// An error that is foretold above this is no number: elements lose more than half of the contact's energy.
 const LARGEST_TOLD: f64 = 0.5;
-/// Elements across the contact that are advised where there are none: those of 1 %.
-const ADVISED: f64 = 4.0;
+/// Elements across the contact that are advised where there are none: their companions tell less than 1 %.
+const ADVISED: f64 = 5.5;
 /// A length is advised that brings the error to this share of the largest.
 const SHARE_OF_ADVICE: f64 = 0.5;
 
@@ -58,6 +58,16 @@ struct Source {
     element: usize,
     /// What it adds to the error of the force.
     error: f64,
+}
+
+/// What a warning is about.
+pub(crate) struct Given<'a> {
+    /// How the meshes were chosen.
+    pub plan: &'a Plan,
+    /// Of the contact, m.
+    pub contact_radius: f64,
+    /// Length of the elements that the tolerance needs, where companions tell it, m.
+    pub needed: Option<f64>,
 }
 
 impl Resolution {
@@ -136,17 +146,16 @@ impl Resolution {
         }
     }
 
-    /// What a user should know of it, of a contact of this radius, m.
+    /// What a user should know of it.
     pub fn warning(
         &self,
         scene: &Scene,
-        plan: &Plan,
         meshes: [Option<&SphereMesh>; 2],
-        contact_radius: f64,
+        given: &Given,
     ) -> Option<String> {
         let mesh = meshes[self.source.side].filter(|_| !self.is_fine())?;
         if self.is_none_at_all() {
-            return Some(self.unresolved(scene, contact_radius));
+            return Some(self.unresolved(scene, given.contact_radius));
         }
         let body = &scene.bodies()[self.source.side];
         let corners = mesh.corners(self.source.element);
@@ -157,7 +166,7 @@ impl Resolution {
         let shrink = by_error.min(self.elements / FEWEST_ELEMENTS);
         let edge = longest_edge(&corners);
         let advice = match is_made_here(body) {
-            true => self.advice(plan, r.hypot(y), contact_radius, shrink),
+            true => self.advice(given, r.hypot(y), shrink),
             false => format!(
                 "use a mesh of {} with edges of {} there and finer everywhere by the same share, or \
                  leave body.{}.sphere.mesh out",
@@ -183,7 +192,8 @@ impl Resolution {
     }
 
     /// What helps a mesh that is made here, whose worst element is so far from the pole, m.
-    fn advice(&self, plan: &Plan, distance: f64, contact_radius: f64, shrink: f64) -> String {
+    fn advice(&self, given: &Given, distance: f64, shrink: f64) -> String {
+        let &Given { plan, contact_radius, needed } = given;
         if distance > plan.refined_radius && plan.growth.is_some() {
             return "leave mesh.growth out, or lower it".to_string();
         }
@@ -193,7 +203,8 @@ impl Resolution {
                 show(1.2 * contact_radius, "m")
             );
         }
-        let size = show(shrink * plan.contact_element_size, "m");
+        let size = shrink * plan.contact_element_size;
+        let size = show(needed.map_or(size, |needed| needed.min(size)), "m");
         format!("use a mesh.contact_element_size of {size} or less")
     }
 }

@@ -11,6 +11,7 @@ mod discretisation;
 mod stated;
 
 pub(crate) use discretisation::Seen;
+pub(crate) use stated::of_noise;
 
 use fem_collision::Collision;
 

@@ -336,3 +336,34 @@ fn bodies_that_nearly_flow_take_steps_as_long_as_they_are_slow() {
         }
     }
 }
+
+/// What a collision takes by default: some three hundred steps, a thousand rows all the same.
+#[test]
+fn few_steps_are_enough() {
+    let run = run(&[CONDENSED]);
+    let (steps, rows) = (run.steps.unwrap(), run.history.len());
+    assert!(steps < 320 && (1000..1400).contains(&rows), "{steps} steps, {rows} rows");
+    let e = self::run(&[CONDENSED, "material.glass.relaxation.terms.0.weight=0"]).restitution;
+    assert!((e.unwrap() - 1.0).abs() < 1e-10, "{e:?}");
+}
+
+/// Factors are kept where fields are asked for, and made where they are asked for later.
+#[test]
+fn what_needs_no_fields_keeps_no_factors() {
+    let kept = |more: &str| {
+        let simulation = simulation(&[CONDENSED, more]);
+        let fem::Cost::Factors { factor_bytes, .. } = simulation.setup().cost else { panic!() };
+        (factor_bytes, simulation)
+    };
+    assert!(kept("output.report=false").0 > 500_000);
+    let probe = "output={snapshots=[], probe=[{body='target', r='0 m', y='1 mm'}]}";
+    assert!(kept(probe).0 > 500_000);
+    let (bytes, simulation) = kept("output.snapshots=[]");
+    assert_eq!(bytes, 0);
+    let snapshots = kept("output.report=false").1.want().snapshots.clone();
+    assert_eq!(snapshots.len(), 4);
+    let asked = fem_collision::Want { snapshots, ..fem_collision::Want::quantities() };
+    let approach = simulation.setup().approach;
+    let collision = simulation.model().collide(&approach, &asked, &mut ());
+    assert_eq!(collision.snapshots.len(), 4);
+}

@@ -356,3 +356,31 @@ fn what_softens_has_wider_bars() {
         assert!(error < bar && bar < 2.0 * error, "{speed}: {value} beside {fine}, {bar:e}");
     }
 }
+
+/// Springs that rattle take their part of the restitution, and of what is read of the contact: their bars have it, beside
+/// the boundary without mass, which does not rattle.
+#[test]
+fn springs_that_rattle_are_told_by_the_bars() {
+    let glass = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+    let alike = ["effects.finite_strain='off'", "mesh.contact_element_size='40 um'"];
+    let quiet = summary(glass, &alike);
+    for method in ["penalty", "node_to_surface"] {
+        for factor in [3, 30, 300] {
+            let [method, factor] =
+                [format!("contact.method='{method}'"), format!("contact.penalty_factor={factor}")];
+            let ours = summary(glass, &[alike[0], alike[1], &method, &factor]);
+            for headline in Headline::ALL {
+                let (value, bar) = told(&ours, headline);
+                let (exact, own) = told(&quiet, headline);
+                let [bar, own] = [bar, own].map(|parts| parts.discretisation.unwrap());
+                let error = (value - exact).abs();
+                assert!(
+                    error < bar + own,
+                    "{method} {factor} {headline:?} {error:e} {bar:e} {own:e}"
+                );
+            }
+            let (_, bar) = told(&ours, Headline::Restitution);
+            assert!(bar.discretisation.unwrap() < 5e-3);
+        }
+    }
+}

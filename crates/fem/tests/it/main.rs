@@ -52,3 +52,4 @@ mod together;
 mod tolerance;
 mod uncertainty;
 mod unequal_bodies;
+mod warnings_tried;

@@ -163,14 +163,14 @@ fn a_mesh_that_resolves_nothing_is_told_so_once() {
                 let [one] = of_mesh[..] else { panic!("{model} {size} {when}: {warnings:#?}") };
                 assert!(one.contains("does not resolve the contact"), "{one}");
                 assert!(
-                    one.contains("use a mesh.contact_element_size of 55.77 µm or less"),
+                    one.contains("use a mesh.contact_element_size of 40.56 µm or less"),
                     "{one}"
                 );
                 assert!(!one.contains('%'), "{one}");
             }
         }
-        let (simulation, collision) = run(&of(model, &["mesh.contact_element_size='55 um'"]));
-        assert_eq!(simulation.mesh_warning(), None);
+        let (simulation, collision) = run(&of(model, &["mesh.contact_element_size='40.56 um'"]));
+        assert_eq!(simulation.warnings(&collision), [""; 0]);
         let hertz = simulation.setup().estimate.hertz.contact_time();
         assert!((collision.contact_time.unwrap() / hertz - 1.0).abs() < 0.015);
     }

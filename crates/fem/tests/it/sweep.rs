@@ -117,7 +117,7 @@ fn a_member_is_known_by_what_it_computes() {
     // What is written otherwise, or the default, computes the same.
     assert_eq!(edited(|file| file.body[0].approach_speed = Some("50 cm/s".into())), own);
     let default = |file: &mut CaseFile| {
-        let table = CondensedTable { steps: Some(1000.into()), ..Default::default() };
+        let table = CondensedTable { steps: Some(250.into()), ..Default::default() };
         file.model = Some(table.into());
     };
     assert_eq!(edited(default), own);

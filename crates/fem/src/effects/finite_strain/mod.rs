@@ -201,7 +201,11 @@ pub(super) fn relaxed_loss(scene: &Scene, estimate: &Estimate) -> f64 {
     if !materials.any(|material| material.relaxation().is_some()) {
         return 0.0;
     }
-    let impact = Expected::of(scene, estimate.hertz.approach_speed(), false).ok();
+    let speed = estimate.hertz.approach_speed();
+    // With the spheres' own compliance where the model has it: what relaxation is worth asks for that, too.
+    let size = LeftOut::has_finite_size(scene);
+    let sized = size.then(|| Expected::of(scene, speed, true).ok()).flatten();
+    let impact = sized.or_else(|| Expected::of(scene, speed, false).ok());
     let loss = impact.map_or(0.0, |impact| 1.0 - impact.restitution);
     (loss - PartnerWaves::loss(scene, estimate)).max(0.0)
 }

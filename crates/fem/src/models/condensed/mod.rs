@@ -118,8 +118,10 @@ impl Condensed {
         check_memory(&plan, &sources)?;
         // Only the collision reads relaxations.
         let bodies = sources.map(BodySource::without_relaxation);
+        let asks_for_fields = !plan.snapshots.is_empty() || !scene.probes().is_empty();
         let settings = PairSettings {
-            keeps_factors: !shared.is_of_companions || needs_factors(scene, options),
+            keeps_factors: (asks_for_fields && !shared.is_of_companions)
+                || needs_factors(scene, options),
             ..settings(scene, &plan, options)
         };
         let key = PairKey { bodies, settings };
@@ -134,7 +136,7 @@ impl Condensed {
         unread.extend(effects::unread_keys(scene, options));
         let approach = approach_of(scene)?;
         let slower = slower(scene, estimate, &approach);
-        let n_steps = slower.end * n_steps(options, slower) as f64;
+        let n_steps = slower.end * n_steps(options, slower, estimate.relaxed) as f64;
         let setup = Setup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
@@ -310,7 +312,7 @@ impl Model for Condensed {
             }
         };
         let slower = slower(&self.scene, &estimate, approach);
-        let n_steps = n_steps(self.options, slower);
+        let n_steps = n_steps(self.options, slower, estimate.relaxed);
         let duration = slower.end * (1.0 + FLIGHT_AFTER) * estimate.hertz.contact_time();
         let mut foretold = Foretold { monitor, begin: approach.first_touch(), duration };
         self.follow(approach, relaxations, n_steps, want, &mut foretold)

@@ -1,0 +1,246 @@
+//! Every remedy that a warning names is tried: it is read out of the warning, written into the case, and the warning is
+//! gone or its number smaller; nor does a warning of the same cause come in its place.
+//!
+//! Stops and refusals have theirs in `remedies_tried.rs`, energy that does not add up in `guards.rs`, limits on the way
+//! there, too.
+
+use std::path::Path;
+
+use fem::{Case, Simulation, WarningKinds};
+
+const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
+const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
+
+const CONDENSED: &str = "model={condensed={}}";
+const RUBBER: &str =
+    "material.rubber={density=1100, youngs_modulus='1.5 MPa', poissons_ratio=0.49}";
+
+const EARLY: &str =
+    "material.glass.relaxation={acts_on='all', terms=[{weight=0.99, relaxation_time='0.1 us'}]}";
+const FALLING: &str = "gravity={acceleration=9.81}";
+const HELD: &str =
+    "body.0={name='floor', sphere={diameter='22.2 mm'}, material='glass', held=true}";
+
+/// A scene that says something, and what of it.
+struct Row {
+    case: &'static str,
+    set: &'static [&'static str],
+    /// Words of the warning.
+    says: &'static str,
+    /// How many ways out it names.
+    n_remedies: usize,
+}
+
+const fn row(
+    case: &'static str,
+    set: &'static [&'static str],
+    says: &'static str,
+    n_remedies: usize,
+) -> Row {
+    Row { case, set, says, n_remedies }
+}
+
+const ROWS: [Row; 30] = [
+    row(
+        GLASS,
+        &[
+            "contact.method='penalty'",
+            "contact.penalty_factor=30",
+            "mesh.contact_element_size='40 um'",
+        ],
+        "scatters",
+        1,
+    ),
+    row(GLASS, &["contact.penalty_factor=0.02", "mesh.contact_element_size='60 um'"], "overlap", 1),
+    row(
+        GLASS,
+        &["contact.penalty_factor=0.02", "model={condensed={penalty_springs=true}}"],
+        "overlap",
+        1,
+    ),
+    row(SOFT, &["contact.penalty_factor=30"], "scatters", 1),
+    row(SOFT, &["contact.penalty_factor=0.02"], "overlap", 1),
+    row(GLASS, &["mesh.growth=2"], "too coarse around", 2),
+    row(GLASS, &["mesh.growth=2", CONDENSED], "too coarse around", 2),
+    row(GLASS, &["mesh.refined_radius=1e-9", CONDENSED], "too coarse around", 1),
+    row(GLASS, &["mesh.contact_element_size='90 um'"], "too coarse", 1),
+    row(GLASS, &["mesh.contact_element_size='90 um'", CONDENSED], "too coarse", 1),
+    row(GLASS, &["mesh.contact_element_size='1 mm'"], "does not resolve", 2),
+    row(GLASS, &["mesh.contact_element_size='1 mm'", CONDENSED], "does not resolve", 2),
+    row(GLASS, &["mesh.contact_element_size='55 um'"], "because of the mesh", 2),
+    row(GLASS, &["time.mass_scaling=0.1"], "mass scaling moves", 1),
+    row(GLASS, &["time.mass_scaling=0.1"], "because of the mass", 2),
+    row(GLASS, &["accuracy.tolerance=1e-5", CONDENSED], "out of reach", 1),
+    row(
+        GLASS,
+        &["accuracy.tolerance=5e-5", "mesh.contact_element_size='30 um'", CONDENSED],
+        "on any mesh",
+        1,
+    ),
+    row(GLASS, &[CONDENSED, "body.0.approach_speed=20"], "inertia", 2),
+    row(GLASS, &[CONDENSED, "body.0.approach_speed=100"], "steep fronts", 1),
+    row(GLASS, &["model={condensed={vibration_modes=100}}"], "modes of vibration asked", 1),
+    row(GLASS, &[CONDENSED, "material.glass.poissons_ratio=-0.99"], "it rings", 1),
+    row(GLASS, &["model={ting={}}", "body.0.approach_speed=200"], "own compliance", 1),
+    row(
+        GLASS,
+        &["model={hertz={finite_size=true}}", "material.glass.poissons_ratio=-0.9999"],
+        "add up",
+        1,
+    ),
+    row(SOFT, &[RUBBER], "name a law", 1),
+    row(SOFT, &["material.rubber.hyperelastic='saint-venant-kirchhoff'"], "lose its stability", 1),
+    row(
+        GLASS,
+        &["contact.penalty_factor=1e-3", "mesh.contact_element_size='60 um'"],
+        "give way",
+        1,
+    ),
+    row(GLASS, &[EARLY, CONDENSED], "largest early", 1),
+    row(GLASS, &[CONDENSED, "body.0.approach_speed=5"], "without plastic flow", 1),
+    row(SOFT, &["limits.element_updates=4e6"], "because of the mesh", 2),
+    row(
+        GLASS,
+        &[FALLING, HELD, "body.1.approach_speed='0.5 m/s'", "mesh.contact_element_size='90 um'"],
+        "too coarse",
+        1,
+    ),
+];
+
+fn parse(case: &str, set: &[String]) -> Case {
+    Case::parse("case.toml", case, Path::new("."), set).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// All that a case says, before and after it is computed.
+fn said(case: &str, set: &[String]) -> (Simulation, Vec<String>) {
+    let mut simulation = Simulation::new(parse(case, set)).unwrap();
+    simulation.skip_snapshots();
+    let (simulation, collision) = simulation.run_within_tolerance(&mut ());
+    let mut all = simulation.warnings_before();
+    all.extend(simulation.warnings(&collision));
+    (simulation, all)
+}
+
+/// The overrides that a warning names as ways out, each with those that the case had: those of `write`, `set`, `use` and
+/// `name` are added, of `leave out` taken away, of `smaller` halved.
+fn remedies(warning: &str, simulation: &Simulation, set: &[&str]) -> Vec<Vec<String>> {
+    let own = || set.iter().map(ToString::to_string);
+    let with = |more: String| own().chain([more]).collect::<Vec<_>>();
+    let advice = warning.rsplit([';', ':']).next().unwrap();
+    let advice = if advice.contains("above 1 %") {
+        advice.split(", ").skip(1).collect()
+    } else {
+        vec![advice]
+    };
+    let advice = advice.join(", ");
+    let value = |text: &str| {
+        let text = text.split(" to see").next().unwrap().split(" or less").next().unwrap();
+        text.split(" or more").next().unwrap().trim().to_string()
+    };
+    let mut all = Vec::new();
+    for way in advice.split(", or ").flat_map(|way| way.split(" or use ")).map(str::trim) {
+        if let Some((key, new)) = way
+            .strip_prefix("write ")
+            .or(way.strip_prefix("set "))
+            .and_then(|it| it.split_once(" = "))
+        {
+            all.push(with(format!("{key}={}", value(new))));
+        } else if let Some((key, new)) =
+            way.strip_prefix("use a ").and_then(|it| it.split_once(" of "))
+        {
+            all.push(with(format!("{key}='{}'", value(new))));
+        } else if let Some(models) = way.strip_prefix("use model ").or(way.strip_prefix("model ")) {
+            for model in models.split(" or ") {
+                all.push(with(format!("model={{{model}={{}}}}")));
+            }
+        } else if let Some(key) = way.strip_prefix("leave ").and_then(|it| it.split(" out").next())
+        {
+            let of_set = |set: &String| {
+                let is_it = key == "it" && set.starts_with("mesh.");
+                !is_it && !set.starts_with(key)
+            };
+            all.push(own().filter(of_set).collect());
+        } else if way == "lower it" {
+            all.push(with("mesh.growth=1.4".to_string()));
+        } else if way.contains("smaller time.mass_scaling") {
+            let halved = 0.5 * simulation.case().scene().mass_scaling().unwrap();
+            all.push(with(format!("time.mass_scaling={halved}")));
+        } else if way.contains("smaller mesh.contact_element_size") {
+            let plan = &simulation.setup().elements.as_ref().unwrap().plan;
+            all.push(with(format!(
+                "mesh.contact_element_size={}",
+                0.5 * plan.contact_element_size
+            )));
+        } else if let Some(key) = way.strip_prefix("raise ") {
+            all.push(with(format!("{key}=1e9")));
+        } else if way.contains("material.NAME.yield_strength") {
+            all.push(with("material.glass.yield_strength='20 GPa'".to_string()));
+        } else if way.contains("allow more") {
+            all.push(with("accuracy.tolerance=0.3".to_string()));
+        } else if way.contains("hyperelastic") {
+            all.push(with("material.rubber.hyperelastic='neo-hooke'".to_string()));
+        } else {
+            panic!("{way:?} of {warning}");
+        }
+    }
+    all
+}
+
+/// The first percentage in a warning, or the first number where it has none.
+fn number(warning: &str) -> f64 {
+    let words: Vec<&str> = warning.split_whitespace().collect();
+    let percentage = words.windows(2).find(|pair| pair[1].starts_with('%')).map(|pair| pair[0]);
+    let numbers = percentage.into_iter().chain(words);
+    numbers.filter_map(|word| word.parse().ok()).next().unwrap_or(0.0)
+}
+
+#[test]
+fn what_a_warning_names_helps() {
+    for Row { case, set, says, n_remedies } in &ROWS {
+        let own: Vec<String> = set.iter().map(ToString::to_string).collect();
+        let (simulation, before) = said(case, &own);
+        let warning = before.iter().find(|text| text.contains(says));
+        let warning = warning.unwrap_or_else(|| panic!("{set:?} says no {says}: {before:#?}"));
+        let ways = remedies(warning, &simulation, set);
+        assert_eq!(ways.len(), *n_remedies, "{warning}: {ways:?}");
+        let mut kinds = WarningKinds::default();
+        kinds.see(0, warning);
+        for way in ways {
+            let (_, after) = said(case, &way);
+            let still = after.iter().find(|text| kinds.all()[0].is_of(text));
+            let is_better = |still: &String| {
+                let is_more = warning.contains("resolves");
+                if is_more {
+                    number(still) > number(warning)
+                } else {
+                    number(still) < 0.7 * number(warning)
+                }
+            };
+            assert!(still.is_none_or(is_better), "{warning}\n{way:?}: {still:?}");
+        }
+    }
+}
+
+/// Where a mesh that was given is too coarse, one warning says so, and its size is enough for the tolerance, too.
+#[test]
+fn one_size_does_for_all() {
+    for model in ["model={fem={}}", CONDENSED] {
+        for size in ["65 um", "90 um", "0.2 mm", "1 mm"] {
+            let size = format!("mesh.contact_element_size='{size}'");
+            let (simulation, before) = said(GLASS, &[size.clone(), model.to_string()]);
+            let of_mesh: Vec<_> =
+                before.iter().filter(|text| text.contains("mesh.contact_element_size")).collect();
+            let last = of_mesh.last().unwrap_or_else(|| panic!("{size}: {before:#?}"));
+            let others = of_mesh
+                .iter()
+                .filter(|text| !text.contains("too coarse") && !text.contains("resolve"));
+            assert!(
+                others.count() <= usize::from(!last.contains("coarse")),
+                "{size}: {of_mesh:#?}"
+            );
+            let way = remedies(last, &simulation, &[&size, model]).remove(0);
+            let (_, after) = said(GLASS, &way);
+            assert_eq!(after, [""; 0], "{last} {way:?}");
+        }
+    }
+}
