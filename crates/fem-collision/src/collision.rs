@@ -14,8 +14,8 @@ use crate::snapshot::{Label, Snapshot};
 use crate::stop::Stop;
 
 /// What is said of a restitution of 0.
-pub const STAY_TOGETHER: &str =
-    "the bodies stay together: nothing drives them apart, and the contact has no end";
+pub const STAY_TOGETHER: &str = "the bodies stay together: what drives them apart is worth less than a thousandth of the speed of approach, and the \
+     contact is not followed to an end";
 
 /// Energy of a sound collision adds up to this share of the initial.
 pub const LARGEST_RESIDUAL: f64 = 1e-3;

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use fem_case::engineering::show;
 use fem_collision::{Monitor, Progress};
-use indicatif::{HumanCount, ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::interrupt::Interrupt;
 
@@ -27,7 +27,12 @@ pub struct Watch {
 enum Display {
     Nothing,
     Bar(ProgressBar),
-    Lines { next_share: f64, last_line: Instant },
+    /// With what the first report said, and when.
+    Lines {
+        next_share: f64,
+        last_line: Instant,
+        first: Option<(f64, Instant)>,
+    },
 }
 
 impl Watch {
@@ -40,7 +45,7 @@ impl Watch {
             let bar = ProgressBar::new(BAR_LENGTH);
             Display::Bar(style.map_or(bar.clone(), |style| bar.with_style(style)))
         } else {
-            Display::Lines { next_share: LINE_SHARE, last_line: Instant::now() }
+            Display::Lines { next_share: LINE_SHARE, last_line: Instant::now(), first: None }
         };
         Self { interrupt, display }
     }
@@ -61,13 +66,16 @@ impl Monitor for Watch {
                 bar.set_message(state(&progress));
                 bar.set_position((progress.fraction * BAR_LENGTH as f64) as u64);
             }
-            Display::Lines { next_share, last_line } => {
+            Display::Lines { next_share, last_line, first } => {
+                let (first_share, start) =
+                    *first.get_or_insert((progress.fraction, Instant::now()));
                 let silence = last_line.elapsed();
                 let is_due = progress.fraction >= *next_share && silence >= SHORTEST_SILENCE;
                 if is_due || silence >= LONGEST_SILENCE {
                     let percent = (100.0 * progress.fraction).floor();
+                    let left = left(start.elapsed(), first_share, progress.fraction);
                     // A closed stderr is no reason to end the run.
-                    let _ = writeln!(stderr(), "{percent:>3} %  {}", state(&progress));
+                    let _ = writeln!(stderr(), "{percent:>3} %  {}{left}", state(&progress));
                     *last_line = Instant::now();
                     *next_share = ((progress.fraction / LINE_SHARE).floor() + 1.0) * LINE_SHARE;
                 }
@@ -84,4 +92,28 @@ fn state(progress: &Progress) -> String {
         HumanCount(progress.step),
         show(progress.contact_force, "N")
     )
+}
+
+/// What is left at the pace so far, of a run that went from one share to another in so long; nothing where it has not moved.
+fn left(elapsed: Duration, first: f64, now: f64) -> String {
+    let seconds = elapsed.as_secs_f64() * (1.0 - now) / (now - first);
+    match Duration::try_from_secs_f64(seconds) {
+        Ok(left) => format!("  about {} left", HumanDuration(left)),
+        Err(_) => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_goes_by_the_pace_so_far() {
+        let ten = Duration::from_secs(10);
+        assert_eq!(left(ten, 0.0, 0.001), "  about 3 hours left");
+        assert_eq!(left(ten, 0.4, 0.6), "  about 20 seconds left");
+        for (first, now) in [(0.0, 0.0), (0.5, 0.4), (0.0, f64::NAN)] {
+            assert_eq!(left(ten, first, now), "");
+        }
+    }
 }

@@ -15,12 +15,14 @@ pub struct Need {
     pub warning: Option<String>,
 }
 
-/// A share in per cent; of what would be 0.00 the power of ten.
+/// A share in per cent; of what would be 0.00, or many digits, the power of ten.
 pub(crate) fn percent(share: f64) -> String {
     let percent = 100.0 * share;
-    match percent != 0.0 && percent.abs() < 5e-3 {
-        true => format!("{percent:.1e} %"),
-        false => format!("{percent:.2} %"),
+    let is_plain = percent == 0.0 || (5e-3..1e5).contains(&percent.abs());
+    match is_plain {
+        _ if !percent.is_finite() => "an untold share".to_string(),
+        true => format!("{percent:.2} %"),
+        false => format!("{percent:.1e} %"),
     }
 }
 
@@ -29,9 +31,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn small_shares_keep_a_digit() {
-        let shares = [0.0, 1e-11, 4.9e-5, 5.1e-5, 0.01, 1.5];
-        let words = ["0.00 %", "1.0e-9 %", "4.9e-3 %", "0.01 %", "1.00 %", "150.00 %"];
+    fn shares_of_any_size_are_short() {
+        let shares = [0.0, 1e-11, 4.9e-5, 5.1e-5, 0.01, 1.5, -1e60, f64::NAN, f64::INFINITY];
+        let words = [
+            "0.00 %",
+            "1.0e-9 %",
+            "4.9e-3 %",
+            "0.01 %",
+            "1.00 %",
+            "150.00 %",
+            "-1.0e62 %",
+            "an untold share",
+            "an untold share",
+        ];
         assert_eq!(shares.map(percent), words);
     }
 }

@@ -25,7 +25,7 @@ mod measured;
 mod strained;
 
 use fem_case::engineering::show;
-use fem_case::{Body, EffectsTable, Scene, Switch};
+use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
 use fem_collision::{Collision, Headline};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
@@ -337,10 +337,14 @@ impl Effect for FiniteStrain {
         let found = Estimate { strain, ..*estimate };
         let is_news = !is_called_for(scene, estimate) && is_called_for(scene, &found);
         let is_small = Self::laws(scene, estimate) == [None; 2];
+        let remedy = match scene.model() {
+            ModelChoice::Fem => "force finite strain on (effects.finite_strain)",
+            _ => "use model fem, which has finite strain",
+        };
         let news = (is_news && is_small).then(|| {
             format!(
                 "the contact radius grew to {:.0} % of the effective radius, where small strain is off \
-                 by {}; force finite strain on (effects.finite_strain)",
+                 by {}; {remedy}",
                 100.0 * strain,
                 in_words(scene, &found)
             )
