@@ -1,6 +1,6 @@
 //! The mesh that a run ends with, and what it takes, before it begins.
 //!
-//! What explicit elements are off by, condensed companions tell without them (`accuracy/companion.rs`): the mesh is
+//! What explicit elements are off by, condensed companions tell without them (`accuracy/foretold.rs`): the mesh is
 //! made finer by that before the first run ([`crate::refinement`]), and no run is thrown away. At finite strain
 //! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, of cheap runs
 //! these themselves, and the run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.

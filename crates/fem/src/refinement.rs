@@ -1,7 +1,7 @@
 //! Meshes that are made finer until a result is within the tolerance of its case.
 //!
 //! The plan chooses elements by a rule of closed forms ([`crate::Plan`]). What the mesh of a result is off by
-//! its companions tell when it is there (`accuracy/companion.rs`). Where that is more than `[accuracy]`
+//! its companions tell when it is there (`accuracy/discretisation.rs`). Where that is more than `[accuracy]`
 //! allows of one of its quantities and the case left the elements to the plan, they are made smaller by
 //!
 //! ```math

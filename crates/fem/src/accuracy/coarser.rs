@@ -5,7 +5,8 @@
 //! and nine elements a tolerance is tight, and bars of coarser meshes so wide (0.11 % of the contact time of glass spheres,
 //! which is off by 0.03 %) that the collision would be computed again on a finer one.
 
-use super::companion::{COARSER, FEW, OF_FEW_CONDENSED};
+use super::companion::COARSER;
+use super::margins::{FEW, OF_FEW_CONDENSED};
 
 /// Fewer elements across the contact leave coarser meshes nothing to tell.
 const FEWEST: f64 = 5.0;
