@@ -292,6 +292,23 @@ fn a_law_that_loses_its_stability_says_so() {
     assert!(stable.residual_relative.unwrap() < 1e-3);
 }
 
+/// Faster, and the energy of finer meshes adds up for long: the step follows the band of elements that gives way, and
+/// there the run ends.
+#[test]
+fn a_law_that_loses_its_stability_ends_the_run_at_any_speed() {
+    for speed in [12.0, 25.0, 50.0] {
+        let law = Some(HyperelasticLaw::SaintVenantKirchhoff);
+        let ball = Ball { nu: 0.47, speed, law, n: 12.0, ..Ball::default() };
+        let run = ball.run();
+        let Ending::Stopped(Stop::StabilityLost { step, .. }) = &run.ending else {
+            panic!("{speed}: {:?}", run.ending)
+        };
+        let n_steps = run.element_updates.unwrap() / ball.mesh().quads().len() as u64;
+        // Five thousand where nothing but the energy is asked.
+        assert!(n_steps < 500, "{speed}: {step} {n_steps}");
+    }
+}
+
 /// Stress is Cauchy's, force by the area that there is; in no time a relaxing body has that of the law.
 #[test]
 fn stress_is_that_of_the_deformed_body() {
