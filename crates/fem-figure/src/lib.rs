@@ -30,4 +30,4 @@ pub use chart::{Axis, Chart};
 pub use curve::{Curve, Mark};
 pub use grid::{legend_room, svg};
 pub use panel::panel;
-pub use style::{COLOURS, GREY, colour_along, tick};
+pub use style::{COLOURS, GREY, colour_along, escaped, tick};

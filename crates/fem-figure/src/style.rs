@@ -65,8 +65,8 @@ pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
 /// Width of a letter over the size of the font, about.
 pub(crate) const LETTER: f64 = 0.56;
 
-/// Text that is safe in SVG.
-pub(crate) fn escaped(text: &str) -> String {
+/// Text that is safe in SVG and HTML.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

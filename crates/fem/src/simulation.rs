@@ -220,7 +220,7 @@ impl Simulation {
     /// That the meshes cannot carry the contact that is expected, by how much results will be off, and
     /// what helps.
     pub fn mesh_warning(&self) -> Option<String> {
-        self.resolution_warning(self.setup().estimate.contact_radius, None)
+        self.resolution_warning(self.setup().estimate.contact_radius, || None)
     }
 
     /// That explicit elements fold where bodies meet faster than shear waves leave the contact.
@@ -253,7 +253,7 @@ impl Simulation {
     /// That the meshes cannot carry the contact as wide as it came.
     pub(crate) fn mesh_warning_after(&self, collision: &Collision) -> Option<String> {
         let radius = self.carried_radius(collision)?;
-        self.resolution_warning(radius, self.finest_needed(collision))
+        self.resolution_warning(radius, || self.finest_needed(collision))
     }
 
     /// What that says contact time and peak force are off by, as shares.
@@ -262,10 +262,14 @@ impl Simulation {
     }
 
     /// That the meshes cannot carry a contact of this radius, m, whose tolerance needs elements of some length, m.
-    fn resolution_warning(&self, contact_radius: f64, needed: Option<f64>) -> Option<String> {
+    fn resolution_warning(
+        &self,
+        contact_radius: f64,
+        needed: impl FnOnce() -> Option<f64>,
+    ) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
         let resolution = self.resolution(contact_radius)?;
-        let given = Given { plan, contact_radius, needed };
+        let given = Given { plan, contact_radius, needed: needed() };
         resolution.warning(self.case.scene(), self.model.meshes(), &given)
     }
 

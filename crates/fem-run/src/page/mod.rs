@@ -189,7 +189,7 @@ fn warnings(record: &Record) -> Vec<String> {
 
 /// A text as HTML, what stands between backticks as code.
 fn with_keys(text: &str) -> String {
-    let escaped = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let escaped = fem_figure::escaped(text);
     let mut parts = escaped.split('`').peekable();
     let mut html = String::new();
     let mut is_code = false;

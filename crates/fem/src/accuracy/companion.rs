@@ -81,7 +81,14 @@ pub(super) struct Companions<'a> {
     pub(super) size: f64,
 }
 
-impl Companions<'_> {
+impl<'a> Companions<'a> {
+    /// Of a collision that is planned; none of models without elements.
+    pub(super) fn of_what_is_planned(simulation: &'a Simulation) -> Option<Self> {
+        let setup = simulation.setup();
+        let plan = &setup.elements.as_ref()?.plan;
+        Some(Self { simulation, approach: setup.approach, plan, size: plan.contact_element_size })
+    }
+
     /// Errors of explicit elements, the restitution's absolute, all others relative; none where condensed
     /// bodies cannot be had. What they were is kept: they are asked for before a collision and after it.
     pub(super) fn of_condensed(&self) -> Option<Beside> {

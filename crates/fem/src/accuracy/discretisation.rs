@@ -39,8 +39,8 @@ use fem_collision::{Collision, Headline, longest_at_pole};
 use super::coarser::ByCoarserMeshes;
 use super::companion::{Beside, COARSER, Companions, FLAT, companion_updates};
 use super::margins::{
-    CONDENSED_SCATTER, FAST, FEW, FRONTS, MARGIN, MARGIN_OF_FINER, MARGIN_OF_STRAINED,
-    OF_FAST_TERMS, OF_FEW, OF_FEW_CONDENSED, SCATTER, added_share, beside_condensed, lost_at_once,
+    CONDENSED_SCATTER, FEW, MARGIN, MARGIN_OF_FINER, MARGIN_OF_STRAINED, OF_FAST_TERMS, OF_FEW,
+    OF_FEW_CONDENSED, SCATTER, added_share, beside_condensed, fronts, lost_at_once,
     of_few_strained, told,
 };
 use crate::early_pressure::EarlyPressure;
@@ -118,7 +118,7 @@ pub(crate) fn discretisation_errors(
         }
     };
     let fronts = match is_explicit && condensed.is_none() {
-        true => FRONTS.map(|scatter| scatter * mach.min(FAST)),
+        true => fronts(mach),
         false => [0.0; 6],
     };
     let added = added_share(collision);
@@ -150,10 +150,7 @@ pub(crate) fn discretisation_errors(
 /// What the mesh away from the contact, as the case gives it, is going to take from numbers, the restitution's absolute,
 /// all others as shares; none where the case leaves it open.
 pub(crate) fn far_mesh_errors(simulation: &Simulation) -> Option<[Option<f64>; 6]> {
-    let setup = simulation.setup();
-    let plan = &setup.elements.as_ref()?.plan;
-    let (approach, size) = (setup.approach, plan.contact_element_size);
-    Companions { simulation, approach, plan, size }.of_far_mesh()
+    Companions::of_what_is_planned(simulation)?.of_far_mesh()
 }
 
 /// The key by which a case makes the mesh away from the contact another one than is chosen, if it does.

@@ -22,10 +22,9 @@ pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6
     if !plan.makes_meshes || companion_updates([mach, strain], is_finite).is_some() {
         return None;
     }
-    let (approach, size) = (setup.approach, plan.contact_element_size);
-    let Beside { values, errors } =
-        Companions { simulation, approach, plan, size }.of_condensed()?;
-    let across = values[Headline::MaxContactRadius as usize]? / size;
+    let companions = Companions::of_what_is_planned(simulation)?;
+    let Beside { values, errors } = companions.of_condensed()?;
+    let across = values[Headline::MaxContactRadius as usize]? / companions.size;
     let (scatter, of_few) = beside_condensed(mach, is_finite);
     Some(told(errors, MARGIN, scatter, of_few, across, *added_share))
 }
@@ -56,9 +55,7 @@ impl ByCoarser {
     pub fn of(simulation: &Simulation) -> Option<Self> {
         simulation.companion_updates()?;
         let setup = simulation.setup();
-        let plan = &setup.elements.as_ref()?.plan;
-        let (approach, size) = (setup.approach, plan.contact_element_size);
-        let companions = Companions { simulation, approach, plan, size };
+        let companions = Companions::of_what_is_planned(simulation)?;
         let [fine, coarse] = COARSER;
         let Cost::Steps { element_updates, .. } = setup.cost else { return None };
         let [near, far] = [fine, coarse].map(|ratio| {
@@ -77,7 +74,7 @@ impl ByCoarser {
             errors,
             scatter: with_fronts(mach),
             of_few: of_few_strained(simulation, mach),
-            across: near[Headline::MaxContactRadius as usize]? / size,
+            across: near[Headline::MaxContactRadius as usize]? / companions.size,
             lengthening,
         })
     }
@@ -101,13 +98,10 @@ pub(crate) fn lengthening(simulation: &Simulation, collision: &Collision) -> Opt
 /// companions are explicit elements; none of others, and where a mesh does not carry the collision.
 pub(crate) fn foretold_lengthening(simulation: &Simulation, most: u64) -> Option<f64> {
     simulation.companion_updates()?;
-    let setup = simulation.setup();
-    let Cost::Steps { element_updates, .. } = setup.cost else { return None };
-    let plan = &setup.elements.as_ref()?.plan;
-    let (approach, size) = (setup.approach, plan.contact_element_size);
+    let Cost::Steps { element_updates, .. } = simulation.setup().cost else { return None };
     // The usual companions are kept for the collision.
     let by_price = (element_updates as f64 / most as f64).cbrt();
     let ratio = if by_price <= COARSER[1] { COARSER[1] } else { by_price };
-    let companions = Companions { simulation, approach, plan, size };
+    let companions = Companions::of_what_is_planned(simulation)?;
     Some(companions.with_elements(ratio, (PATIENCE * PATIENCE) as u64 * most)?.lengthening)
 }

@@ -50,9 +50,9 @@ const OF_FEW_STRAINED: [f64; 6] = [1.6e-3, 0.0, 0.0, 0.013, 0.35, 0.2];
 /// fronts raise the middle of a contact at one instant or another. Of soft balls on a wall at 0.16, 0.3 and 0.33 the
 /// pressure was off by 0.4, 2.0 and 1.4 % (of elements half as long, which may be off by 0.6, 1.9 and 2.8 % themselves)
 /// where coarser meshes told 1.4, 1.0 and 6 %, the force by 0.26 % of 0.28.
-pub(super) const FRONTS: [f64; 6] = [0.0, 0.0, 5e-3, 0.0, 5e-3, 0.02];
+const FRONTS: [f64; 6] = [0.0, 0.0, 5e-3, 0.0, 5e-3, 0.02];
 /// See [`FRONTS`].
-pub(super) const FAST: f64 = 0.3;
+const FAST: f64 = 0.3;
 /// With fewer elements across the contact errors are told larger by the square of what is missing.
 pub(crate) const FEW: f64 = 4.5;
 /// What explicit elements lose of the restitution by terms of relaxation that are over at once, over the share of the
@@ -110,7 +110,13 @@ pub(crate) fn scatter_of_any_mesh(simulation: &Simulation) -> [f64; 6] {
 /// How explicit elements scatter whose companions are explicit elements, of an impact with this speed over that of shear
 /// waves.
 pub(super) fn with_fronts(mach: f64) -> [f64; 6] {
-    std::array::from_fn(|k| SCATTER[k] + FRONTS[k] * mach.min(FAST))
+    let fronts = fronts(mach);
+    std::array::from_fn(|k| SCATTER[k] + fronts[k])
+}
+
+/// What of it fronts do.
+pub(super) fn fronts(mach: f64) -> [f64; 6] {
+    FRONTS.map(|scatter| scatter * mach.min(FAST))
 }
 
 /// Scatter, and what grows where elements are few, of explicit elements whose companions are condensed bodies.

@@ -16,7 +16,7 @@ pub struct Need {
 }
 
 /// A share in per cent; of what would be 0.00, or many digits, the power of ten.
-pub(crate) fn percent(share: f64) -> String {
+pub fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     let is_plain = percent == 0.0 || (5e-3..1e5).contains(&percent.abs());
     match is_plain {

@@ -67,13 +67,13 @@ impl PartnerWaves {
         match scene.effects().partner_waves {
             Some(Switch::Off) => [None, None],
             Some(Switch::On) => {
-                let passages = passages(scene, estimate);
-                let least =
-                    passages.iter().map(|(_, passage)| *passage).fold(f64::INFINITY, f64::min);
-                large(scene, estimate, RADIATION_LIMIT.max(least.next_up()))
+                let crossed = crossed(scene, estimate);
+                let passages = crossed.iter().flatten().map(|body| body.passage);
+                let least = passages.fold(f64::INFINITY, f64::min);
+                large(crossed, RADIATION_LIMIT.max(least.next_up()))
             }
             Some(Switch::Auto) | None => {
-                let radiating = large(scene, estimate, RADIATION_LIMIT);
+                let radiating = large(crossed(scene, estimate), RADIATION_LIMIT);
                 let hertz = &estimate.softened.hertz;
                 let shares = radiating.iter().flatten();
                 let share: f64 = shares.map(|material| radiated_share(hertz, material)).sum();
@@ -104,18 +104,18 @@ impl PartnerWaves {
 
     /// Restitution that waves which do not come back in time take of elastic bodies.
     pub(crate) fn loss(scene: &Scene, estimate: &Estimate) -> f64 {
-        lost(radiated(&passages(scene, estimate), estimate))
+        lost(radiated(&crossed(scene, estimate), estimate))
     }
 
     /// Restitution that waves take which come back within the contact, but not in its time: of elastic bodies, in
     /// whose vibrations it stays.
     pub(super) fn left_ringing(scene: &Scene, estimate: &Estimate) -> f64 {
-        lost(taken(&passages(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
+        lost(taken(&crossed(scene, estimate), estimate, |passage| passage >= RETURN_LIMIT))
     }
 
     /// What a term for them is off by, over what they take.
     pub(crate) fn error_of_term(scene: &Scene, estimate: &Estimate) -> f64 {
-        let missing = missing_of_term(&passages(scene, estimate), estimate);
+        let missing = missing_of_term(&crossed(scene, estimate), estimate);
         RADIATION_ERROR + missing / (1.0 + missing)
     }
 
@@ -135,9 +135,9 @@ impl PartnerWaves {
 
     /// What condensed bodies have of it: the term, or modes of vibration that resolve the waves.
     pub(crate) fn of_condensed(scene: &Scene, estimate: &Estimate) -> Answer {
-        let passages = passages(scene, estimate);
-        let is_resolved = |(_, passage): &(&Body, f64)| *passage >= RESOLVED_BY_MODES;
-        if n_modes(scene) >= ENOUGH_MODES && passages.iter().all(is_resolved) {
+        let mut crossed = crossed(scene, estimate).into_iter().flatten();
+        let are_resolved = crossed.all(|body| body.passage >= RESOLVED_BY_MODES);
+        if n_modes(scene) >= ENOUGH_MODES && are_resolved {
             return Answer::Inherent { idle: "" };
         }
         Self::of_term(scene, estimate, Self::radiating_at_rest)
@@ -152,13 +152,9 @@ fn n_modes(scene: &Scene) -> usize {
     }
 }
 
-/// The materials, as the contact meets them, of bodies with a T c_s/D below a limit.
-fn large(scene: &Scene, estimate: &Estimate, limit: f64) -> [Option<Material>; 2] {
-    let Softened { after, hertz, .. } = &estimate.softened;
-    scene.bodies().each_ref().map(|body| {
-        let met = left_at(body.material()?, *after);
-        (passage_in(body, &met, hertz.contact_time()) < limit).then_some(met)
-    })
+/// The materials of bodies with a T c_s/D below a limit.
+fn large(crossed: [Option<Crossed>; 2], limit: f64) -> [Option<Material>; 2] {
+    crossed.map(|body| body.filter(|body| body.passage < limit).map(|body| body.material))
 }
 
 impl Effect for PartnerWaves {
@@ -171,11 +167,12 @@ impl Effect for PartnerWaves {
     }
 
     fn need(&self, scene: &Scene, estimate: &Estimate) -> Option<Need> {
-        let passages = passages(scene, estimate);
-        let (largest, least) = passages.iter().copied().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
-        let share = radiated(&passages, estimate);
+        let crossed = crossed(scene, estimate);
+        let share = radiated(&crossed, estimate);
+        let largest =
+            crossed.iter().flatten().min_by(|one, other| one.passage.total_cmp(&other.passage))?;
+        let (name, least) = (largest.body.name(), largest.passage);
         let lost = lost(share);
-        let name = largest.name();
         let term = Self::of_term(scene, estimate, Self::radiating) != Answer::Lacks;
         let warning = (lost > SMALL_LOSS).then(|| {
             format!(
@@ -215,7 +212,7 @@ impl Effect for PartnerWaves {
             let own = if is_term { &with } else { &whole };
             let impacts = [own, &without].map(|scene| Expected::of(scene, speed, false));
             if let [Ok(one), Ok(without)] = impacts {
-                let missing = missing_of_term(&passages(&with, &estimate), &estimate);
+                let missing = missing_of_term(&crossed(&with, &estimate), &estimate);
                 let told = LeftOut::difference(&one, &without);
                 let whole = |part: f64| (part * (1.0 + missing)).clamp(-1.0, 1.0);
                 return Some(LeftOut { restitution: told.restitution.map(whole), ..told });
@@ -225,7 +222,7 @@ impl Effect for PartnerWaves {
                 return None;
             }
         }
-        let share = radiated(&passages(&with, &estimate), &estimate);
+        let share = radiated(&crossed(&with, &estimate), &estimate);
         (share > 0.0).then(|| LeftOut::restitution(lost(share)))
     }
 
@@ -233,10 +230,10 @@ impl Effect for PartnerWaves {
     fn doubt(&self, scene: &Scene, estimate: &Estimate, standing: &Standing) -> Doubt {
         let &Standing { is_lacking, left_out } = standing;
         let is_of_mesh = !is_lacking && *scene.model() == ModelChoice::Fem;
-        let part = if is_lacking { 1.0 } else { Self::error_of_term(scene, estimate) };
         let Some(left_out) = left_out.filter(|_| !is_of_mesh) else {
             return Doubt::NOTHING;
         };
+        let part = if is_lacking { 1.0 } else { Self::error_of_term(scene, estimate) };
         // Where closed forms tell the loss alone.
         let others = SHARE_OF_LOSS * left_out.restitution.unwrap_or(f64::NAN);
         let shares = LeftOut::shares(estimate, others, others);
@@ -249,36 +246,43 @@ impl Effect for PartnerWaves {
     }
 }
 
-/// T c_s/D of the bodies that have one, with the moduli that the contact meets.
-fn passages<'a>(scene: &'a Scene, estimate: &Estimate) -> Vec<(&'a Body, f64)> {
-    let softened = &estimate.softened;
-    let passage = |body: &'a Body| {
-        let material = left_at(body.material()?, softened.after);
-        Some((body, passage_in(body, &material, softened.hertz.contact_time())))
-    };
-    scene.bodies().iter().filter_map(passage).collect()
+/// A body that waves cross.
+struct Crossed<'a> {
+    body: &'a Body,
+    /// Elastic, with what is left of its moduli in the contact.
+    material: Material,
+    /// T c_s/D; nothing comes back from a half-space.
+    passage: f64,
+}
+
+/// The bodies that waves cross: those of a material.
+fn crossed<'a>(scene: &'a Scene, estimate: &Estimate) -> [Option<Crossed<'a>>; 2] {
+    let Softened { after, hertz, .. } = &estimate.softened;
+    scene.bodies().each_ref().map(|body| {
+        let material = left_at(body.material()?, *after);
+        let way = hertz.contact_time() * material.shear_wave_speed();
+        let passage = body.diameter().map_or(0.0, |diameter| way / diameter);
+        Some(Crossed { body, material, passage })
+    })
 }
 
 /// What a term of such bodies takes too little, over what it takes; nothing of elastic ones. See [`SMOOTHED`].
-fn missing_of_term(passages: &[(&Body, f64)], estimate: &Estimate) -> f64 {
+fn missing_of_term(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
     let modulus = |hertz: &HertzImpact| hertz.pair().contact_modulus();
     let kept = modulus(&estimate.softened.hertz) / modulus(&estimate.hertz);
-    (SMOOTHED * radiated(passages, estimate)).powi(2) * (kept.powi(-2) - 1.0).max(0.0)
+    (SMOOTHED * radiated(crossed, estimate)).powi(2) * (kept.powi(-2) - 1.0).max(0.0)
 }
 
 /// Share of the energy that bodies take along from which nothing comes back in time.
-fn radiated(passages: &[(&Body, f64)], estimate: &Estimate) -> f64 {
-    taken(passages, estimate, |passage| passage < RETURN_LIMIT)
+fn radiated(crossed: &[Option<Crossed>; 2], estimate: &Estimate) -> f64 {
+    taken(crossed, estimate, |passage| passage < RETURN_LIMIT)
 }
 
 /// Share of the energy that bodies of such passages keep.
-fn taken(passages: &[(&Body, f64)], estimate: &Estimate, counts: fn(f64) -> bool) -> f64 {
-    let bodies = passages.iter().filter(|(_, passage)| counts(*passage));
-    let share = |(body, passage): &(&Body, f64)| {
-        let Softened { after, hertz, .. } = &estimate.softened;
-        Some(radiated_share(hertz, &left_at(body.material()?, *after)) * kept(*passage))
-    };
-    bodies.filter_map(share).sum()
+fn taken(crossed: &[Option<Crossed>; 2], estimate: &Estimate, counts: fn(f64) -> bool) -> f64 {
+    let hertz = &estimate.softened.hertz;
+    let bodies = crossed.iter().flatten().filter(|body| counts(body.passage));
+    bodies.map(|body| radiated_share(hertz, &body.material) * kept(body.passage)).sum()
 }
 
 fn relaxes(materials: &[Option<&Material>; 2]) -> bool {
@@ -294,10 +298,4 @@ fn kept(passage: f64) -> f64 {
 /// Restitution that a share of the energy is worth.
 fn lost(share: f64) -> f64 {
     1.0 - (1.0 - share).max(0.0).sqrt()
-}
-
-/// T c_s/D of a body of a material in a contact of so long, s; nothing comes back from a half-space.
-fn passage_in(body: &Body, material: &Material, contact_time: f64) -> f64 {
-    let way = contact_time * material.shear_wave_speed();
-    body.diameter().map_or(0.0, |diameter| way / diameter)
 }
