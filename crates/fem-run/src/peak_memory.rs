@@ -1,5 +1,11 @@
 //! The most memory that this process ever held.
 
+/// Bytes that the process will have held when a run is through that takes so many: companions may have taken more
+/// before it.
+pub fn peak_memory_with(run: u64) -> u64 {
+    peak_memory().unwrap_or(0).max(run)
+}
+
 /// Bytes; `None` where the system does not tell.
 ///
 /// Linux: the high-water mark of the resident set since the program was loaded (`VmHWM`);

@@ -109,13 +109,30 @@ impl Miss {
 
     /// "peak force may be off by 1.7 % where 1 % is asked".
     fn in_words(&self) -> String {
-        let (name, tolerance) = (self.headline.name(), self.number(self.tolerance));
+        let (name, error, tolerance) =
+            (self.headline.name(), self.error_in_words(), self.number(self.tolerance));
+        format!("{name} may be off by {error} where {tolerance} is asked")
+    }
+
+    /// "peak force by 1.7 %", beside another one; with what is asked where that is another number.
+    fn beside(&self, first: &Self) -> String {
+        let (name, error, tolerance) =
+            (self.headline.name(), self.error_in_words(), self.number(self.tolerance));
+        let asked = match tolerance == first.number(first.tolerance) {
+            true => String::new(),
+            false => format!(" where {tolerance} is asked"),
+        };
+        let of_any_mesh = match self.is_of_mesh() {
+            true => String::new(),
+            false => format!(" ({} of it on any mesh)", self.number(self.scatter)),
+        };
+        format!("{name} by {error}{asked}{of_any_mesh}")
+    }
+
+    fn error_in_words(&self) -> String {
         match self.error <= LARGEST_TOLD {
-            true => {
-                let error = self.number(self.error);
-                format!("{name} may be off by {error} where {tolerance} is asked")
-            }
-            false => format!("{name} may be off by more than half where {tolerance} is asked"),
+            true => self.number(self.error),
+            false => "more than half".to_string(),
         }
     }
 
@@ -279,11 +296,17 @@ impl Simulation {
 
     /// The quantity of a collision that may be off by most of what the case allows, if by more than that.
     pub(crate) fn missed(&self, collision: &Collision) -> Option<Miss> {
+        self.all_missed(collision).into_iter().next()
+    }
+
+    /// The quantities of a collision that may be off by more than the case allows, in the order of
+    /// [`Simulation::misses`].
+    fn all_missed(&self, collision: &Collision) -> Vec<Miss> {
         let doubt = self.discretisation(collision);
         // Of a pressure that comes much too early there is a warning of its own.
         let early = EarlyPressure::of(self, collision);
         let is_early = early.as_ref().is_some_and(EarlyPressure::is_beyond_reach);
-        self.worst_miss(|headline| {
+        self.misses(|headline| {
             if headline == Headline::PeakPressure && is_early {
                 return None;
             }
@@ -291,9 +314,9 @@ impl Simulation {
         })
     }
 
-    /// The quantity that is off by most of what the case allows, if by more than that; of those that a mesh helps before
-    /// the others.
-    pub(crate) fn worst_miss(&self, error: impl Fn(Headline) -> Option<f64>) -> Option<Miss> {
+    /// The quantities that are off by more than the case allows, that which is off by most of it first; those that a
+    /// mesh helps before the others.
+    fn misses(&self, error: impl Fn(Headline) -> Option<f64>) -> Vec<Miss> {
         let accuracy = self.case().scene().accuracy();
         let scatter = scatter_of_any_mesh(self);
         let of = |(headline, tolerance): (Headline, f64)| {
@@ -306,19 +329,27 @@ impl Simulation {
             (Headline::PeakForce, accuracy.peak_force),
             (Headline::PeakPressure, accuracy.peak_pressure),
         ];
-        let missed = all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0);
-        let by_excess = |a: &Miss, b: &Miss| a.excess().total_cmp(&b.excess());
-        missed.max_by(|a, b| a.is_of_mesh().cmp(&b.is_of_mesh()).then(by_excess(a, b)))
+        let mut missed: Vec<Miss> =
+            all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0).collect();
+        let by_excess = |a: &Miss, b: &Miss| b.excess().total_cmp(&a.excess());
+        missed.sort_by(|a, b| b.is_of_mesh().cmp(&a.is_of_mesh()).then(by_excess(a, b)));
+        missed
+    }
+
+    /// The first of them.
+    pub(crate) fn worst_miss(&self, error: impl Fn(Headline) -> Option<f64>) -> Option<Miss> {
+        self.misses(error).into_iter().next()
     }
 
     /// What is to be known of a collision that misses its tolerance, and why its mesh is no finer.
     pub(crate) fn miss_warning(&self, collision: &Collision) -> Option<String> {
         let plan = &self.setup().elements.as_ref()?.plan;
-        let Some(miss) = self.missed(collision) else { return self.untold(collision) };
+        let missed = self.all_missed(collision);
+        let Some(miss) = missed.first() else { return self.untold(collision) };
         // One word a cause.
         if self.is_unresolved(collision)
             || overlap_warning(self, collision).is_some()
-            || is_of_noise(&miss, collision)
+            || is_of_noise(miss, collision)
         {
             return None;
         }
@@ -328,24 +359,29 @@ impl Simulation {
         {
             return None;
         }
-        let finer = self.finer_by(&miss, collision);
+        let finer = self.finer_by(&missed, collision);
+        let others: Vec<String> = missed[1..].iter().map(|other| other.beside(miss)).collect();
+        let others = match others.is_empty() {
+            true => String::new(),
+            false => format!("; also missed: {}", others.join(", ")),
+        };
+        let what = miss.in_words();
         let mut cause = "the mesh";
         let size = length(plan.contact_element_size / finer);
         let write = format!("write mesh.contact_element_size = \"{size}\"");
-        let remedy = match self.finer_or_kept(&miss, Some(collision)) {
+        let remedy = match self.finer_or_kept(miss, Some(collision)) {
             // A setting that is at fault comes first, whatever is asked.
             Err(Kept::Scatter(_)) if plan.is_out_of_reach => return None,
             Err(Kept::Scatter(scatter)) => {
                 return Some(format!(
-                    "{}, and by {} on any mesh: allow more in accuracy.tolerance",
-                    miss.in_words(),
+                    "{what}, and by {} on any mesh: allow more in accuracy.tolerance{others}",
                     miss.number(scatter)
                 ));
             }
             kept if finer > MOST_NAMED && !matches!(kept, Err(Kept::Setting(_))) => {
                 return Some(format!(
-                    "{} because of {cause}, and no mesh can be told that does: allow more in accuracy.tolerance",
-                    miss.in_words()
+                    "{what} because of {cause}, and no mesh can be told that does: allow more in \
+                     accuracy.tolerance{others}"
                 ));
             }
             // Who has the course decides.
@@ -379,20 +415,21 @@ impl Simulation {
             },
         };
         Some(format!(
-            "{} because of {cause}: {remedy}, or allow more in accuracy.tolerance",
-            miss.in_words()
+            "{what} because of {cause}: {remedy}, or allow more in accuracy.tolerance{others}"
         ))
     }
 
-    /// By how much elements would have to be smaller for what a collision is off by. Errors that are told of few elements
-    /// fall faster than those of more.
-    fn finer_by(&self, miss: &Miss, collision: &Collision) -> f64 {
+    /// By how much elements would have to be smaller for what a collision is off by, as far as a mesh can help. Errors
+    /// that are told of few elements fall faster than those of more.
+    fn finer_by(&self, missed: &[Miss], collision: &Collision) -> f64 {
+        let of_mesh = missed.iter().filter(|miss| miss.is_of_mesh());
+        let excess = of_mesh.map(Miss::excess_of_mesh).fold(1.0, f64::max);
         let size =
             self.setup().elements.as_ref().map(|elements| elements.plan.contact_element_size);
         let across =
             collision.max_contact_radius.zip(size).map_or(FEW, |(radius, size)| radius / size);
         let to_usual = (FEW / across).max(1.0);
-        let (excess, of_few) = (ROOM * miss.excess_of_mesh(), to_usual.powf(ORDER_OF_FEW));
+        let (excess, of_few) = (ROOM * excess, to_usual.powf(ORDER_OF_FEW));
         match excess < of_few {
             true => excess.powf(1.0 / ORDER_OF_FEW).max(STEPS[0]),
             false => (to_usual * (excess / of_few).powf(1.0 / ORDER)).max(STEPS[0]),
@@ -401,9 +438,10 @@ impl Simulation {
 
     /// Length of the elements (m) that a collision needs on whose mesh it misses its tolerance, where that was given.
     pub(crate) fn finest_needed(&self, collision: &Collision) -> Option<f64> {
-        let miss = self.missed(collision)?;
-        let finer = self.finer_by(&miss, collision);
-        let is_given = matches!(self.finer_or_kept(&miss, Some(collision)), Err(Kept::Given));
+        let missed = self.all_missed(collision);
+        let finer = self.finer_by(&missed, collision);
+        let kept = self.finer_or_kept(missed.first()?, Some(collision));
+        let is_given = matches!(kept, Err(Kept::Given));
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
         (is_given && finer <= MOST_NAMED).then_some(size / finer)
     }

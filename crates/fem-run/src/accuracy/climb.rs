@@ -53,7 +53,7 @@ pub fn climb(
             continue;
         }
         let end = started + Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX / 4);
-        let ran = time(rung, ladder.contact_radius, Deadline { end, interrupt })?;
+        let ran = time(rung, ladder.lengths.contact_radius, Deadline { end, interrupt })?;
         forecast.learn(rung, &ran);
         board.pass(rung, Some(ran.1));
         if Instant::now() < end || ran.0.is_complete {

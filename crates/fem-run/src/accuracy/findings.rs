@@ -123,7 +123,9 @@ pub fn json(findings: &Findings<'_>) -> Value {
         })
         .collect();
     let orders = findings.study.orders.iter();
-    let orders = orders.map(|(series, orders)| (series.name().to_string(), by_name(*orders)));
+    let orders = orders.map(|(series, orders)| {
+        (series.name().to_string(), by_name(orders.map(|found| Some(found?.order))))
+    });
     let parts = findings.study.parts.iter();
     let parts = parts.map(|part| (part.source.name().to_string(), by_name(part.errors)));
     object!({

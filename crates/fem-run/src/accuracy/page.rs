@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use comfy_table::CellAlignment::{Left, Right};
-use fem::accuracy::{ErrorPart, Series};
+use fem::accuracy::{ErrorPart, ObservedOrder, Series};
 use fem_case::engineering::show;
 use fem_collision::Headline;
 use indicatif::HumanCount;
@@ -159,7 +159,10 @@ fn error_parts(findings: &Findings<'_>) -> Rows {
 fn orders(findings: &Findings<'_>) -> Rows {
     let rows = findings.study.orders.iter().map(|(series, orders)| {
         let mut cells = vec![series.name().to_string()];
-        let order = |order: &Option<f64>| order.map_or(NONE.into(), |order| format!("{order:.1}"));
+        let order = |found: &Option<ObservedOrder>| match found {
+            Some(found) => format!("{:.1} ± {:.1}", found.order, found.standard_error),
+            None => NONE.into(),
+        };
         cells.extend(orders.iter().map(order));
         cells
     });
@@ -204,11 +207,19 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         Some(line) => sentences.push(format!("Within {asked}: {}.", told(&line))),
         None => sentences.push(format!("Nothing that was computed is within {asked}.")),
     }
-    let has_fields = |line: &Line<'_>| line.measurement.stress.is_some();
+    // Others are told against the finest one, of which nothing is told.
+    let allowed = findings.accuracy.peak_pressure;
+    let has_fields = |line: &Line<'_>| {
+        line.measurement.stress.is_some() && line.judged.stress_error.is_none_or(|e| e <= allowed)
+    };
     let with_fields = findings.lines().filter(has_fields).map(|line| line.index);
     let with_fields: Vec<usize> = with_fields.collect();
     if let Some(line) = cheapest(&|index| with_fields.contains(&index)) {
-        sentences.push(format!("With fields to draw: {}.", told(&line)));
+        sentences.push(format!(
+            "With fields to draw, the stress within {} %: {}.",
+            fem_figure::tick(100.0 * allowed),
+            told(&line)
+        ));
     }
     let explicit = cheapest(&|index| findings.ladder.rungs[index].is_explicit());
     if let Some(line) = explicit {
@@ -236,5 +247,5 @@ fn as_written<'a>(findings: &'a Findings<'_>) -> Option<Line<'a>> {
     let of = |series| findings.lines().filter(move |line| line.rung.series == series);
     of(Series::AsWritten)
         .next()
-        .or_else(|| of(Series::Explicit).find(|line| line.rung.has_planned_elements()))
+        .or_else(|| of(Series::Explicit).find(|line| line.rung.has_common_elements))
 }

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem::effects::percent;
 use fem::{Cost, ForceLaw, Foreseen, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
@@ -12,6 +13,7 @@ use indicatif::{DecimalBytes, HumanCount};
 use crate::case_arguments::{CaseArguments, ToleranceArguments};
 use crate::failure::Failure;
 use crate::forecast::{Forecast, PATIENCE_OF_CHECK};
+use crate::peak_memory::peak_memory_with;
 use crate::report;
 use crate::standard_output;
 use crate::tables::{mesh_table, pairs, table};
@@ -158,12 +160,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     }
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     if has_steps && open("time.mass_scaling") {
-        let share = 100.0 * plan.mass_scaling;
-        let share = match share != 0.0 && share < 5e-3 {
-            true => format!("{share:.1e}"),
-            false => format!("{share:.2}"),
-        };
-        let text = format!("{share} % of the lighter body's mass");
+        let text = format!("{} of the lighter body's mass", percent(plan.mass_scaling));
         rows.push(["time.mass_scaling".to_string(), text]);
     }
     if rows.is_empty() {
@@ -218,7 +215,7 @@ fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> St
                 format!(", {all:.1e} with companions and the meshes that are foretold")
             });
             row("element updates", format!("about {element_updates:.1e}{all}"));
-            row("memory", format!("about {}", DecimalBytes(memory)));
+            row("memory", format!("about {}", DecimalBytes(peak_memory_with(memory))));
         }
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {
             row("contact points", format!("{contact_points} condensed"));

@@ -16,6 +16,7 @@ use crate::case_arguments::{CaseArguments, ToleranceArguments, parse_count};
 use crate::failure::Failure;
 use crate::forecast::Forecast;
 use crate::interrupt::Interrupt;
+use crate::peak_memory::peak_memory_with;
 use crate::place::ResultPlace;
 use crate::progress::Watch;
 use crate::report::report;
@@ -203,7 +204,7 @@ fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) 
             HumanCount(elements),
             HumanCount((longer * steps as f64) as u64),
             time(seconds.or(Some(expected))),
-            DecimalBytes(memory)
+            DecimalBytes(peak_memory_with(memory))
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
             "{} elements condensed to {contact_points} contact points{}{}",

@@ -1,10 +1,13 @@
 //! The ways in which a scene is computed.
 
 use fem_case::schema::{ContactMethod, StopTable};
-use fem_case::{Case, CaseError, CaseFile, Quantity};
+use fem_case::{Case, CaseError, CaseFile, Quantity, Scene};
 
 use super::rung::{Rung, Series};
 use super::setting::Setting;
+use crate::contact_method::{contact_method, unread};
+use crate::effects::FiniteStrain;
+use crate::estimate::Estimate;
 use crate::fineness::Fineness;
 use crate::plan::{Plan, divided_radius};
 
@@ -14,7 +17,7 @@ const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
 const VIBRATING: [f64; 3] = [4.0, 8.0, 16.0];
 /// The same of explicit elements.
 const EXPLICIT: [f64; 8] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0];
-/// The same with much added mass, and with other springs.
+/// The same with much mass that is moved, and with other springs.
 const COMPARED: [f64; 5] = [3.0, 4.0, 5.0, 8.0, 11.0];
 /// The same at finite strain.
 const STRAINED: [f64; 2] = [4.0, 8.0];
@@ -22,8 +25,8 @@ const STRAINED: [f64; 2] = [4.0, 8.0];
 pub(super) const COMMON: f64 = 8.0;
 /// Modes of each body that vibrates.
 const MODES: u8 = 12;
-/// Added mass that shortens the run by half, as a share.
-const MUCH_MASS: f64 = 4e-3;
+/// Much mass that is moved, over what is beside a mesh: it shortens the run by half.
+const MUCH_MASS: f64 = 4.0;
 const PENALTY_FACTORS: [f64; 2] = [0.25, 4.0];
 const MASS_SCALINGS: [f64; 3] = [0.0, 1e-3, 2e-2];
 const STEP_FACTORS: [f64; 1] = [0.45];
@@ -33,13 +36,29 @@ const GROWN: f64 = 1.25;
 /// Keys that choose a mesh, a contact, a step or a model.
 const CHOSEN: [&str; 4] = ["mesh", "contact", "time", "model"];
 
+/// Lengths at the contact, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lengths {
+    /// Contact radius that closed forms foretell: what elements are counted across.
+    pub contact_radius: f64,
+    /// What elements divide.
+    pub(super) divided: f64,
+}
+
+impl Lengths {
+    /// The length of elements that divide it into so many.
+    pub(super) fn element(&self, across: f64) -> f64 {
+        short(self.divided / across)
+    }
+}
+
 /// A scene, computed in many ways.
 #[derive(Clone, Debug)]
 pub struct Ladder {
     /// The ways, those of a series beside each other, from coarse to fine.
     pub rungs: Vec<Rung>,
-    /// Contact radius (m) that closed forms foretell: what elements are counted across.
-    pub contact_radius: f64,
+    /// What elements are counted across and divide.
+    pub lengths: Lengths,
     /// The first of what was left out.
     refused: Option<CaseError>,
 }
@@ -59,7 +78,8 @@ impl Ladder {
         let contact_radius = plan.estimate.contact_radius;
         // Of a contact as wide as its sphere the plan counts elements across less than all of it.
         let unit = contact_radius.min(divided_radius(&plan.estimate));
-        let mut ladder = Self { rungs: Vec::new(), contact_radius, refused: None };
+        let lengths = Lengths { contact_radius, divided: unit };
+        let mut ladder = Self { rungs: Vec::new(), lengths, refused: None };
         if CHOSEN.iter().any(|key| case.gives(key)) {
             let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
             ladder.add(&own, Series::AsWritten, &[], None);
@@ -68,7 +88,7 @@ impl Ladder {
             ladder.add(&base, series, settings, value);
         };
         let made = plan.makes_meshes.then_some(plan.finer_body.is_some());
-        Self::fill(case, made, unit, add);
+        Self::fill(&base, made, &lengths, add);
         match ladder.refused.take() {
             // What has only closed forms has no limit to tell.
             Some(refused) if !ladder.rungs.iter().any(Rung::has_elements) => Err(refused),
@@ -79,15 +99,15 @@ impl Ladder {
     /// The ways that the scene calls for, a series after the other, on meshes that are staggered or not,
     /// unless they are read from files.
     fn fill(
-        case: &Case,
+        base: &Case,
         made: Option<bool>,
-        unit: f64,
+        lengths: &Lengths,
         mut add: impl FnMut(Series, &[Setting], Option<f64>),
     ) {
         for finite_size in [false, true] {
             add(Series::Hertz, &[Setting::Hertz { finite_size }], None);
         }
-        let relaxes = case.scene().bodies().iter().filter_map(|body| body.material());
+        let relaxes = base.scene().bodies().iter().filter_map(|body| body.material());
         if relaxes.into_iter().any(|material| material.relaxation().is_some()) {
             for finite_size in [false, true] {
                 add(Series::Ting, &[Setting::Ting { finite_size }], None);
@@ -95,9 +115,10 @@ impl Ladder {
         }
         let mut over_size = |series, across: &[f64], settings: &[Setting]| {
             let Some(is_staggered) = made else { return add(series, settings, None) };
+            let mass = if series == Series::ExplicitScaled { MUCH_MASS } else { 1.0 };
             for across in across {
-                let size = short(unit / across);
-                let settings = [settings, &own(settings, *across, is_staggered)].concat();
+                let size = lengths.element(*across);
+                let settings = [settings, &own(settings, *across, mass, is_staggered)].concat();
                 add(series, &[&settings[..], &[Setting::ElementSize(size)]].concat(), Some(size));
             }
         };
@@ -110,24 +131,28 @@ impl Ladder {
         }
         let explicit = Setting::Explicit;
         over_size(Series::Explicit, &EXPLICIT, &[explicit]);
-        let much = Setting::MassScaling(MUCH_MASS);
-        over_size(Series::ExplicitScaled, &COMPARED, &[explicit, much]);
         if made.is_some() {
+            over_size(Series::ExplicitScaled, &COMPARED, &[explicit]);
             over_size(Series::ExplicitGrown, &COMPARED, &[explicit, Setting::Growth(GROWN)]);
         }
         for (series, method) in [
             (Series::Penalty, ContactMethod::Penalty),
             (Series::NodeToSurface, ContactMethod::NodeToSurface),
         ] {
-            over_size(series, &COMPARED, &[explicit, Setting::ContactMethod(method)]);
+            let setting = Setting::ContactMethod(method);
+            if is_read(base, setting) {
+                over_size(series, &COMPARED, &[explicit, setting]);
+            }
         }
-        over_size(Series::FiniteStrain, &STRAINED, &[explicit, Setting::FiniteStrain]);
+        if !explicit_has_finite_strain(base) {
+            over_size(Series::FiniteStrain, &STRAINED, &[explicit, Setting::FiniteStrain]);
+        }
         let mut varied = |series, values: &[f64], setting: fn(f64) -> Setting| {
             for value in values {
                 let mut settings = vec![explicit];
                 if let Some(is_staggered) = made {
-                    settings.extend(own(&[explicit, setting(*value)], COMMON, is_staggered));
-                    settings.push(Setting::ElementSize(short(unit / COMMON)));
+                    settings.extend(own(&[explicit, setting(*value)], COMMON, 1.0, is_staggered));
+                    settings.push(Setting::ElementSize(lengths.element(COMMON)));
                 }
                 settings.push(setting(*value));
                 add(series, &settings, Some(*value));
@@ -140,7 +165,7 @@ impl Ladder {
 
     /// Adds what is not refused.
     fn add(&mut self, base: &Case, series: Series, settings: &[Setting], value: Option<f64>) {
-        match Rung::new(base, series, settings.to_vec(), value, self.contact_radius) {
+        match Rung::new(base, series, settings.to_vec(), value, &self.lengths) {
             Ok(rung) => self.rungs.push(rung),
             Err(refused) => {
                 self.refused.get_or_insert(refused);
@@ -157,16 +182,41 @@ impl Ladder {
     }
 }
 
-/// What goes with a mesh with so many elements across the contact, beside these settings: mass is moved as
-/// the plan would for it, and meshes with springs between them are staggered where those of the scene are.
-fn own(settings: &[Setting], across: f64, is_staggered: bool) -> Vec<Setting> {
+/// Whether explicit elements of a case take a contact method, and another one than they take without.
+fn is_read(case: &Case, method: Setting) -> bool {
+    let (Some(usual), Some(named)) = (explicit(case, &[]), explicit(case, &[method])) else {
+        return false;
+    };
+    let (usual, named) = (usual.scene(), named.scene());
+    unread(named, is_finite(named)).is_none() && contact_method(named) != contact_method(usual)
+}
+
+/// Whether explicit elements of a case are at finite strain if nothing else is said.
+fn explicit_has_finite_strain(case: &Case) -> bool {
+    explicit(case, &[]).is_some_and(|case| is_finite(case.scene()))
+}
+
+/// The case of explicit elements with settings.
+fn explicit(case: &Case, settings: &[Setting]) -> Option<Case> {
+    let all = [&[Setting::Explicit], settings].concat();
+    case.edited(|file| all.iter().for_each(|setting| setting.apply(file))).ok()
+}
+
+fn is_finite(scene: &Scene) -> bool {
+    Estimate::of(scene).is_ok_and(|estimate| FiniteStrain::laws(scene, &estimate) != [None; 2])
+}
+
+/// What goes with a mesh with so many elements across the contact, beside these settings: so many times the mass
+/// is moved that the plan would move for it, and meshes with springs between them are staggered where those of the scene are.
+fn own(settings: &[Setting], across: f64, mass: f64, is_staggered: bool) -> Vec<Setting> {
     let has = |wanted: fn(&Setting) -> bool| settings.iter().any(wanted);
     let is_explicit = has(|it| matches!(it, Setting::Explicit));
     let at_nodes = has(|it| matches!(it, Setting::Condensed { penalty_springs: false, .. }));
     let is_scaled = has(|it| matches!(it, Setting::MassScaling(_)));
     let mut own = Vec::new();
     if is_explicit && !is_scaled {
-        own.push(Setting::MassScaling(short(Fineness::mass_scaling_beside(across))));
+        let mass = mass * Fineness::mass_scaling_beside(across);
+        own.push(Setting::MassScaling(short(mass)));
     }
     if is_staggered && !at_nodes {
         own.push(Setting::Staggered(true));

@@ -12,7 +12,9 @@
 //!
 //! with D of the finest mesh that both have. Its uncertainty is that of L, found by leaving one level
 //! out, and how far D moves from the next coarser mesh to the finest. Where D is less than its own
-//! uncertainty it is left out and counts as uncertain.
+//! uncertainty it is left out and counts as uncertain. Condensed bodies with springs between them, whose
+//! stiffness grows as elements become smaller, tend to the same L: by what both limits differ beyond what is
+//! known of them, L is uncertain, too.
 
 use super::convergence::Convergence;
 
@@ -38,10 +40,14 @@ impl Limit {
         explicit: &[(f64, f64)],
     ) -> Option<Self> {
         let explicit = finest_first(explicit);
-        let Some(Convergence { limit: value, uncertainty, .. }) = Convergence::of(condensed) else {
+        let Some(Convergence { limit: value, uncertainty: own, .. }) = Convergence::of(condensed)
+        else {
             let Convergence { limit: value, uncertainty, .. } = Convergence::of(&explicit)?;
             return Some(Self { value, uncertainty, condensed: None, added: None });
         };
+        let beside = Convergence::of(springs)
+            .map_or(0.0, |other| (other.limit - value).abs() - other.uncertainty);
+        let uncertainty = own.max(beside);
         let own = |size: f64| {
             let same = |other: &&(f64, f64)| (other.0 / size - 1.0).abs() < 1e-9;
             springs.iter().find(same).map(|(_, value)| *value)
@@ -102,6 +108,19 @@ mod tests {
         let explicit = vec![(8.0, 3.64 - 0.02), (4.0, 3.16 + 0.01)];
         let limit = Limit::of(&condensed, &condensed, &explicit).unwrap();
         assert!((limit.value - 3.0).abs() < 1e-4 && limit.uncertainty >= 0.01, "{limit:?}");
+    }
+
+    /// Levels that pass for converged where they go on: the same limit by another way tells.
+    #[test]
+    fn a_limit_that_springs_do_not_share_is_less_certain() {
+        let sizes = [8.0, 5.6, 4.0, 2.8, 2.0, 1.4, 1.0];
+        let condensed = levels(&sizes, |h| 3.0 + 0.01 * h * h);
+        let springs = levels(&sizes, |h| 3.1 - 0.02 * h * h);
+        let limit = Limit::of(&condensed, &springs, &[]).unwrap();
+        assert!((limit.uncertainty - 0.1).abs() < 0.02, "{limit:?}");
+        let springs = levels(&sizes, |h| 3.0 - 0.02 * h * h);
+        let limit = Limit::of(&condensed, &springs, &[]).unwrap();
+        assert!(limit.uncertainty < 0.01, "{limit:?}");
     }
 
     #[test]

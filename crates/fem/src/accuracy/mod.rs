@@ -27,7 +27,7 @@ pub use convergence::{Convergence, ObservedOrder};
 pub(crate) use discretisation::{discretisation_errors, far_mesh_errors, far_mesh_key};
 pub use error_parts::{ErrorPart, ErrorSource};
 pub(crate) use foretold::{ByCoarser, foretold_errors, foretold_lengthening, lengthening};
-pub use ladder::Ladder;
+pub use ladder::{Ladder, Lengths};
 pub use limit::Limit;
 pub(crate) use margins::{FEW, of_moved_mass, scatter_of_any_mesh};
 pub use measurement::Measurement;

@@ -2,7 +2,7 @@
 
 use fem_case::{Case, CaseError, ModelChoice};
 
-use super::ladder::COMMON;
+use super::ladder::{COMMON, Lengths};
 use super::setting::Setting;
 use crate::simulation::Simulation;
 
@@ -71,7 +71,7 @@ impl Series {
             Self::CondensedSprings => "condensed, springs",
             Self::CondensedVibrating => "condensed, 12 modes",
             Self::Explicit => "explicit",
-            Self::ExplicitScaled => "explicit, mass scaling 0.4 %",
+            Self::ExplicitScaled => "explicit, four times the mass moved",
             Self::ExplicitGrown => "explicit, growth 1.25",
             Self::Penalty => "explicit, penalty",
             Self::NodeToSurface => "explicit, node to surface",
@@ -121,6 +121,8 @@ pub struct Rung {
     pub value: Option<f64>,
     /// Elements across the contact radius, where the mesh is of this program.
     pub elements_across: Option<f64>,
+    /// Whether its elements are as long as where one setting is varied by itself, of a mesh of this program.
+    pub has_common_elements: bool,
     /// What it has otherwise than the case.
     pub settings: Vec<Setting>,
     /// The case.
@@ -139,7 +141,7 @@ impl Rung {
         series: Series,
         settings: Vec<Setting>,
         value: Option<f64>,
-        contact_radius: f64,
+        lengths: &Lengths,
     ) -> Result<Self, CaseError> {
         let case = base.edited(|file| {
             for setting in &settings {
@@ -151,20 +153,14 @@ impl Rung {
             Setting::ElementSize(size) => Some(*size),
             _ => None,
         });
-        let elements_across = size.map(|size| contact_radius / size);
-        Ok(Self { series, value, elements_across, settings, case, price })
+        let elements_across = size.map(|size| lengths.contact_radius / size);
+        let has_common_elements = size.is_some_and(|size| size == lengths.element(COMMON));
+        Ok(Self { series, value, elements_across, has_common_elements, settings, case, price })
     }
 
     /// Whether explicit elements compute it.
     pub fn is_explicit(&self) -> bool {
         *self.case.scene().model() == ModelChoice::Fem
-    }
-
-    /// Whether its elements are as long as the plan has them, of a mesh of this program.
-    pub fn has_planned_elements(&self) -> bool {
-        /// Sizes of elements are rounded by less.
-        const ALIKE: f64 = 1e-3;
-        self.elements_across.is_some_and(|across| (across / COMMON - 1.0).abs() < ALIKE)
     }
 
     /// Whether it divides bodies into elements.

@@ -3,11 +3,11 @@
 use fem_case::Accuracy;
 use fem_collision::Headline;
 
+use super::convergence::{Convergence, ObservedOrder};
 use super::error_parts::{ErrorPart, ErrorSource};
 use super::ladder::Ladder;
 use super::limit::Limit;
 use super::measurement::Measurement;
-use super::power_law::PowerLaw;
 use super::rung::{Rung, Series};
 use super::stress_places::relative_difference;
 
@@ -45,8 +45,9 @@ pub struct Study {
     pub limits: [Option<Limit>; 6],
     /// What is known of each rung, in the order of the ladder; nothing of one that did not run.
     pub judged: Vec<Option<Judged>>,
-    /// Observed orders of convergence in the size of the elements, in the order of [`Headline::ALL`].
-    pub orders: Vec<(Series, [Option<f64>; 6])>,
+    /// Observed orders of convergence in the size of the elements, in the order of [`Headline::ALL`]; none where
+    /// levels do not tell one.
+    pub orders: Vec<(Series, [Option<ObservedOrder>; 6])>,
     /// Where the error of explicit elements comes from, eight of them across the contact.
     pub parts: Vec<ErrorPart>,
     /// The rung that stresses are told against.
@@ -110,7 +111,7 @@ impl Study {
         let orders = Series::ALL.into_iter().filter(|series| series.is_over_element_size());
         let orders = orders.filter_map(|series| {
             let orders = Headline::ALL.map(|headline| {
-                PowerLaw::fit(&levels(&ran, series, headline, FEWEST_ACROSS)).map(|fit| fit.order)
+                Convergence::of(&levels(&ran, series, headline, FEWEST_ACROSS))?.order
             });
             orders.iter().any(Option::is_some).then_some((series, orders))
         });
@@ -237,7 +238,7 @@ fn mark_frontier(ran: &[Run<'_>], judged: &mut [Option<Judged>]) {
 /// Where errors come from, as far as the rungs that tell it have run.
 fn parts(ran: &[Run<'_>], limits: &[Option<Limit>; 6]) -> Vec<ErrorPart> {
     let is_common =
-        |run: &&Run<'_>| run.rung.elements_across.is_none() || run.rung.has_planned_elements();
+        |run: &&Run<'_>| run.rung.elements_across.is_none() || run.rung.has_common_elements;
     let of = |series, value: Option<f64>| {
         let of_series = ran.iter().filter(|run| run.rung.series == series).filter(is_common);
         let mut same = of_series.filter(|run| value.is_none_or(|_| run.rung.value == value));

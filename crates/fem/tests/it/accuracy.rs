@@ -18,7 +18,7 @@ fn climb(text: &str, most_updates: u64) -> (Ladder, Vec<Option<(Measurement, f64
     let measure = |rung: &fem::accuracy::Rung| {
         let across = rung.elements_across.unwrap_or_default();
         let is_cheap = rung.price <= most_updates && across < 17.0;
-        let radius = ladder.contact_radius;
+        let radius = ladder.lengths.contact_radius;
         is_cheap.then(|| {
             (Measurement::of(rung, radius, &Shared::default(), &mut ()).unwrap(), 1.0 + across)
         })
@@ -112,6 +112,42 @@ fn parts_of_the_error_are_told() {
         // About 0.1 % at the default stiffness: docs/contact.md.
         let error = springs[headline as usize].unwrap();
         assert!((2e-4..5e-3).contains(&error), "{headline:?} {error:e}");
+    }
+}
+
+/// Every way is another one: none twice under two names, none whose setting the scene does not read; and of each model
+/// there is one with the elements of which parts of the error are told.
+#[test]
+fn no_way_is_there_twice() {
+    let relaxing = BALL.replace(
+        "poissons_ratio = 0.33 }",
+        "poissons_ratio = 0.33, relaxation = { acts_on = 'all', terms = [{ weight = 0.5, decay_rate = 1e4 }] } }",
+    );
+    let unlike = relaxing.replace("wall = {}", "sphere.diameter = '3 cm', material = 'steel'")
+        + "\nmaterial.steel = { density = 7800, youngs_modulus = 210e9, poissons_ratio = 0.3 }";
+    let soft = BALL.replace("9.3e9", "1e6").replace("approach_speed = 0.2", "approach_speed = 2");
+    for (text, slips, is_finite) in [
+        (BALL, false, false),
+        (&relaxing, false, false),
+        (&unlike, true, false),
+        (&soft, false, true),
+    ] {
+        let rungs = Ladder::of(&case(text)).unwrap().rungs;
+        for (k, rung) in rungs.iter().enumerate() {
+            let same = rungs[..k].iter().find(|other| other.case.scene() == rung.case.scene());
+            assert!(same.is_none(), "{text}: {:?} {same:?}", rung.overrides());
+        }
+        let has = |series| rungs.iter().any(|rung| rung.series == series);
+        assert_eq!(has(Series::NodeToSurface), !slips && !is_finite, "{text}");
+        assert_eq!([has(Series::Penalty), has(Series::FiniteStrain)], [!is_finite; 2], "{text}");
+        for series in [Series::Condensed, Series::CondensedSprings, Series::Explicit] {
+            let common = rungs.iter().filter(|rung| rung.has_common_elements);
+            assert_eq!(
+                common.filter(|rung| rung.series == series).count(),
+                1,
+                "{text}: {series:?}"
+            );
+        }
     }
 }
 

@@ -142,6 +142,16 @@ fn a_mesh_that_has_to_stay_is_warned_of() {
             assert!(warning.contains(words), "{set:?}: {warning}");
         }
     }
+    // Each number that misses is named: a coarse mesh misses the last three.
+    let coarse = [FEM, FAST, "mesh.contact_element_size='2 mm'"];
+    let (simulation, collision) = computed(RUBBER, &coarse);
+    let (told, summary) = (warning(&simulation, &collision), simulation.summary(&collision));
+    let names =
+        [Headline::Restitution, Headline::ContactTime, Headline::PeakForce, Headline::PeakPressure];
+    let missed = excesses(&summary).map(|excess| excess > 1.0);
+    assert!(missed.iter().filter(|is| **is).count() > 1, "{missed:?}");
+    let is_named = names.map(|headline| told.as_ref().unwrap().contains(headline.name()));
+    assert_eq!(is_named, missed, "{told:?}");
     // More allowed, nothing said.
     let wide = ["mesh.contact_element_size='2 mm'", "accuracy.tolerance='30 %'"];
     let (simulation, collision) = computed(RUBBER, &[&[FEM, FAST], &wide[..]].concat());

@@ -126,7 +126,8 @@ fn said(case: &str, set: &[String]) -> (Simulation, Vec<String>) {
 fn remedies(warning: &str, simulation: &Simulation, set: &[&str]) -> Vec<Vec<String>> {
     let own = || set.iter().map(ToString::to_string);
     let with = |more: String| own().chain([more]).collect::<Vec<_>>();
-    let advice = warning.rsplit([';', ':']).next().unwrap();
+    let first = warning.split("; also missed").next().unwrap();
+    let advice = first.rsplit([';', ':']).next().unwrap();
     let advice = if advice.contains("above 1 %") {
         advice.split(", ").skip(1).collect()
     } else {
