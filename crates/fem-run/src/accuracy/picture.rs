@@ -27,18 +27,14 @@ pub fn picture(findings: &Findings<'_>) -> Option<String> {
     };
     let three = [Headline::Restitution, Headline::ContactTime, Headline::PeakForce];
     let worst = three.into_iter().filter_map(uncertain).fold(LEAST, f64::max);
-    let pressure = Headline::PeakPressure;
+    let of = |headline: Headline, label: &str| {
+        let known = uncertain(headline).unwrap_or(LEAST);
+        panel(findings, label, known, |line| line.judged.sure[headline as usize])
+    };
     let panels = [
         panel(findings, "worst error of e, T and F", worst, |line| line.judged.worst),
-        panel(
-            findings,
-            "error of the peak pressure",
-            uncertain(pressure).unwrap_or(LEAST),
-            |line| line.judged.sure[pressure as usize],
-        ),
-        panel(findings, "error of the contact radius", LEAST, |line| {
-            line.judged.sure[Headline::MaxContactRadius as usize]
-        }),
+        of(Headline::PeakPressure, "error of the peak pressure"),
+        of(Headline::MaxContactRadius, "error of the contact radius"),
         panel(findings, "error of the stress field", LEAST, |line| line.judged.stress_error),
     ];
     fem_figure::svg(&panels)
