@@ -136,7 +136,8 @@ impl Condensed {
         unread.extend(effects::unread_keys(scene, options));
         let approach = approach_of(scene)?;
         let slower = slower(scene, estimate, &approach);
-        let n_steps = slower.end * n_steps(options, slower, estimate.relaxed) as f64;
+        let per_contact = n_steps(options, slower, estimate.relaxed) as f64;
+        let n_steps = slower.end * (1.0 + FLIGHT_AFTER) * per_contact;
         let setup = Setup {
             description: "model condensed, finite elements condensed to their contact".to_string(),
             approach,
