@@ -273,13 +273,10 @@ impl TermStep {
         let old =
             SymmetricTensor { rr: viscous.rr, yy: viscous.yy, tt: viscous_tt, ry: viscous.ry };
         let old = old.rescaled(excess);
-        let next = |old: N, before: N, after: N| {
-            after.minus_product(decay, before - old).minus_product(gain, after - before)
-        };
-        let rr = next(old.rr, before.rr, after.rr);
-        let yy = next(old.yy, before.yy, after.yy);
-        let ry = next(old.ry, before.ry, after.ry);
-        let tt = next(old.tt, before.tt, after.tt);
+        let rr = followed(old.rr, before.rr, after.rr, (decay, gain));
+        let yy = followed(old.yy, before.yy, after.yy, (decay, gain));
+        let ry = followed(old.ry, before.ry, after.ry, (decay, gain));
+        let tt = followed(old.tt, before.tt, after.tt, (decay, gain));
         let plane = (rr + yy).plus_product(rr, yy).minus_product(ry, ry);
         // Of second order in the step.
         let z = inverse_cube_root_change_near_one((plane + tt).plus_product(plane, tt));
@@ -288,4 +285,11 @@ impl TermStep {
         viscous.ry = ry.plus_product(z, ry);
         tt + z.plus_product(z, tt)
     }
+}
+
+/// A component of what has flowed, `old` before the step, beside that of the strain.
+// A closure would be a function of its own, compiled without the lanes' instructions.
+#[inline(always)]
+fn followed<N: Number>(old: N, before: N, after: N, (decay, gain): (N, N)) -> N {
+    after.minus_product(decay, before - old).minus_product(gain, after - before)
 }

@@ -122,7 +122,7 @@ impl<W: Law> LaneKernel<WIDE> for AtRest<'_, W> {
 
     #[inline(always)]
     fn on<L: Lanes<WIDE>>(self, bounds: &mut Vec<f64>) {
-        let past = Past::none();
+        let past: Past<L> = Past::none();
         for elements in self.elements.chunks(WIDE) {
             let (mut block, mut metric) = (Block::EMPTY, Metric::EMPTY);
             for (lane, LumpedElement { geometry, masses, on_axis }) in elements.iter().enumerate() {
@@ -160,7 +160,7 @@ impl<W: Law> LaneKernel<WIDE> for Bound<'_, W> {
         let Self { elements: Elements { blocks, law, history }, metrics, u } = self;
         let n_terms = if history.is_empty() { 0 } else { law.weights().len() };
         assert!(past::is_sound(history, n_terms, blocks.n_elements()));
-        let mut past = Past::<L>::none();
+        let mut past: Past<L> = Past::none();
         let both = blocks.checked(&[u.len(), bound.len()]).iter().zip(metrics);
         for (place, (block, metric)) in both.enumerate() {
             past.load(n_terms, history, blocks.slots(place));

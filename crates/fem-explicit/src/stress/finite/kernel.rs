@@ -30,7 +30,7 @@ impl<W: Law> Elements<'_, W> {
         let Self { blocks, law, history } = self;
         let n_terms = law.weights().len();
         assert!(past::is_sound(history, n_terms, blocks.n_elements()));
-        let mut past = Past::<L>::none();
+        let mut past: Past<L> = Past::none();
         let mut volumes = Volumes::<L>::new();
         for (place, block) in blocks.checked(&[u.len(), f.len()]).iter().enumerate() {
             if n_terms > 0 {
@@ -135,7 +135,12 @@ impl<L: Lanes<WIDE>> Strain<L> {
 
     /// Derivative of the energy, and J − 1.
     #[inline(always)]
-    pub fn conjugate<W: Law>(&self, block: &Block, law: &W, past: &Past<L>) -> (Conjugate<L>, L) {
+    pub fn conjugate<W: Law, const MOST: usize>(
+        &self,
+        block: &Block,
+        law: &W,
+        past: &Past<L, MOST>,
+    ) -> (Conjugate<L>, L) {
         let deformed = self.deformed(block, law);
         self.conjugate_of(&deformed, deformed.pull(self.q), block, law, past)
     }
@@ -148,13 +153,13 @@ impl<L: Lanes<WIDE>> Strain<L> {
 
     /// The same of elements that are known as `deformed`, and their amplitude in the undeformed element.
     #[inline(always)]
-    pub fn conjugate_of<W: Law>(
+    pub fn conjugate_of<W: Law, const MOST: usize>(
         &self,
         deformed: &Deformed<L>,
         own: (L, L),
         block: &Block,
         law: &W,
-        past: &Past<L>,
+        past: &Past<L, MOST>,
     ) -> (Conjugate<L>, L) {
         let weights = law.weights();
         let (p, volume_change) = law.first_piola(&self.h, &past.metrics[..weights.len()]);

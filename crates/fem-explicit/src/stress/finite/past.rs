@@ -28,21 +28,18 @@ pub(super) fn n_element_fields(n_terms: usize) -> usize {
     FIELDS_A_TERM * (n_terms + 1)
 }
 
-/// The past of lanes of elements, term by term.
-pub(super) struct Past<L> {
-    pub metrics: [InverseMetric<L>; MOST_FINITE_STRAIN_TERMS],
-    pub amplitudes: [(L, L); MOST_FINITE_STRAIN_TERMS],
+/// The past of lanes of elements, term by term, of up to `MOST` terms.
+pub(super) struct Past<L, const MOST: usize = MOST_FINITE_STRAIN_TERMS> {
+    pub metrics: [InverseMetric<L>; MOST],
+    pub amplitudes: [(L, L); MOST],
 }
 
-impl<L: Lanes<WIDE>> Past<L> {
+impl<L: Lanes<WIDE>, const MOST: usize> Past<L, MOST> {
     /// Of elements that nothing has ever strained.
     #[inline(always)]
     pub fn none() -> Self {
         let zero = L::splat(0.0);
-        Self {
-            metrics: [InverseMetric::none(); MOST_FINITE_STRAIN_TERMS],
-            amplitudes: [(zero, zero); MOST_FINITE_STRAIN_TERMS],
-        }
+        Self { metrics: [InverseMetric::none(); MOST], amplitudes: [(zero, zero); MOST] }
     }
 
     /// Reads the first terms of a block's elements.

@@ -237,13 +237,28 @@ impl<'a, W: Law> LaneKernel<WIDE> for Advance<'a, W> {
     type Output = Advanced<'a>;
 
     #[inline(always)]
-    fn on<L: Lanes<WIDE>>(self, Advanced { of_elements, forces }: &mut Advanced<'a>) {
+    fn on<L: Lanes<WIDE>>(self, advanced: &mut Advanced<'a>) {
+        // What one term remembers stays in registers.
+        match self.law.weights().len() {
+            ..=1 => self.of_terms::<L, 1>(advanced),
+            _ => self.of_terms::<L, MOST_FINITE_STRAIN_TERMS>(advanced),
+        }
+    }
+}
+
+impl<W: Law> Advance<'_, W> {
+    /// The loop for up to `MOST` terms; the same bits whatever that is.
+    #[inline(always)]
+    pub fn of_terms<L: Lanes<WIDE>, const MOST: usize>(
+        self,
+        Advanced { of_elements, forces }: &mut Advanced<'_>,
+    ) {
         let Self { blocks, law, step, u } = self;
         let n_terms = law.weights().len();
-        assert!(past::is_sound(of_elements, n_terms + 1, blocks.n_elements()));
+        assert!(n_terms <= MOST && past::is_sound(of_elements, n_terms + 1, blocks.n_elements()));
         // Elsewhere they are always zero.
         forces[blocks.nodes()].fill([0.0; 2]);
-        let mut past = Past::<L>::none();
+        let mut past = Past::<L, MOST>::none();
         let mut volumes = Volumes::<L>::new();
         for (place, block) in blocks.checked(&[u.len(), forces.len()]).iter().enumerate() {
             let slots = blocks.slots(place);

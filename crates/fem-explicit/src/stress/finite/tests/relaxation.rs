@@ -280,6 +280,44 @@ fn lanes_of_every_kind_relax_to_the_same_bits() {
     }
 }
 
+/// A single term has a loop of its own, which is that of many.
+#[test]
+fn one_term_relaxes_to_the_bits_of_many() {
+    use super::super::past::MOST_FINITE_STRAIN_TERMS;
+    use super::super::relaxing::{Advance, Advanced};
+    let mesh = mesh();
+    let material = relaxing_glass(&TERMS[..1], ActsOn::All);
+    let series = material.relaxation().unwrap();
+    let u = deformed(&mesh);
+    let blocks = Blocks::pack(&mesh, &geometries(&mesh), &leading(91));
+    let past: Vec<Vec<_>> = vec![ragged(&mesh, 5).iter().map(|x| x.map(|x| 0.2 * x)).collect(); 6];
+    let bits = |(history, forces): &(Vec<Vec<[f64; 2]>>, Vec<[f64; 2]>)| {
+        let all = history.iter().chain([forces]).flatten().flatten();
+        all.map(|x| x.to_bits()).collect::<Vec<_>>()
+    };
+    for law in HyperelasticLaw::ALL {
+        let solid = Hyperelastic::new(law, material.instantaneous());
+        let viscoelastic = Viscoelastic::new(&solid, series);
+        let step = Step::of(&viscoelastic, &[TERMS[0].1], 0.3);
+        let law = Relaxing::of(&viscoelastic, solid.shear_modulus(), series);
+        for step in [None, Some(&step)] {
+            let advance = Advance { blocks: &blocks, law: &law, step, u: &u };
+            let start = || (past.clone(), vec![[0.0; 2]; u.len()]);
+            let [mut one, mut many] = [start(), start()];
+            advance.of_terms::<Plain<WIDE>, 1>(&mut Advanced {
+                of_elements: &mut one.0,
+                forces: &mut one.1,
+            });
+            advance.of_terms::<Plain<WIDE>, MOST_FINITE_STRAIN_TERMS>(&mut Advanced {
+                of_elements: &mut many.0,
+                forces: &mut many.1,
+            });
+            assert!(vector(&one.1).amax() > 1e-3);
+            assert!(bits(&one) == bits(&many), "{law:?}");
+        }
+    }
+}
+
 /// Each element has a place of its own, also where lanes are empty.
 #[test]
 fn slots_hold_each_element_once() {
