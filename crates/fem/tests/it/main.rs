@@ -13,6 +13,7 @@ mod contact_method;
 mod contact_profile;
 mod courses;
 mod effects;
+mod elastic_null;
 mod error_bars;
 mod finite_strain;
 mod folded_terms;
