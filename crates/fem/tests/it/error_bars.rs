@@ -304,20 +304,22 @@ fn few_elements_are_told_by_one_coarser_mesh() {
 #[test]
 fn a_bar_that_misses_the_tolerance_is_told_by_a_finer_mesh() {
     let of = |tolerance: f64| {
-        let force = format!(
-            "accuracy.tolerance={{restitution=0.01,contact_time=0.01,peak_force={tolerance},peak_pressure=0.03}}"
+        let tolerances = format!(
+            "accuracy.tolerance={{restitution=0.01,contact_time=0.01,peak_force=0.01,peak_pressure={tolerance}}}"
         );
-        let set = ["model.condensed={}".to_string(), force];
+        let set = ["model.condensed={}".to_string(), tolerances];
         let case = Case::parse("ball.toml", BALL, std::path::Path::new("."), &set).unwrap();
         let shared = Shared::default();
         let simulation = Simulation::sharing(case, &shared).unwrap();
         let (simulation, collision) = simulation.run_within_tolerance(&mut ());
         assert!(simulation.levels().is_empty(), "{tolerance}");
-        let bar = simulation.summary(&collision).uncertainty.parts(Headline::PeakForce);
-        (bar.discretisation.unwrap() / collision.peak_force.unwrap(), shared.companions.n_made())
+        let pressure = Headline::PeakPressure;
+        let bar = simulation.summary(&collision).uncertainty.parts(pressure);
+        let relative = bar.discretisation.unwrap() / pressure.of(&collision).unwrap();
+        (relative, shared.companions.n_made())
     };
-    let ((wide, one), (sharp, two)) = (of(0.01), of(0.003));
-    assert!((one, two) == (1, 2) && wide > 3e-3 && sharp < 3e-3, "{one} {wide} {two} {sharp}");
+    let ((wide, one), (sharp, two)) = (of(0.03), of(0.012));
+    assert!((one, two) == (1, 2) && wide > 0.012 && sharp < 0.012, "{one} {wide} {two} {sharp}");
 }
 
 /// Models of one degree of freedom are as good as their tolerance.
