@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use fem::accuracy::condensed_companion_time;
-use fem::{Cost, Following, Simulation};
+use fem::{Cost, Following, MostFiner, Simulation};
 use fem_case::engineering::show;
 use fem_collision::{Monitor, Phase, Progress, Want};
 
@@ -20,83 +20,116 @@ const SHARE_OF_CONDENSED: f64 = 0.2;
 /// Time of the fields of a snapshot of condensed bodies over that of making these: 0.08 of elastic ones, 0.1 of relaxing
 /// ones.
 const FIELDS: f64 = 0.1;
+/// The same of its file, 0.2 to 0.6, ...
+const FILE: f64 = 0.4;
+/// ... and of the report of a run with snapshots.
+const REPORT: f64 = 0.8;
 
 /// Element updates of collisions and their companions that `check` computes to foretell what follows: two or three seconds.
 pub const PATIENCE_OF_CHECK: u64 = 30_000_000;
 
-/// What is known of a run of finite elements before it begins.
+/// What is known of a run with elements before it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
     /// Seconds here, with what tells its error.
     pub seconds: Option<f64>,
     /// Element updates of the collision over those that its cost announces.
     pub longer: f64,
-    /// Element updates of the collision and of its companions.
+    /// Element updates of the collision and of its companions; none of what takes none.
     element_updates: f64,
     /// Finer meshes that may follow.
     pub finer: Option<Finer>,
 }
 
 /// Finer meshes that follow where the mesh misses what the case allows, which only the run tells.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finer {
-    /// Those that coarser meshes foretell, where these are quick.
-    following: Option<Following>,
-    /// Element updates at most.
-    most: u64,
-    /// Of their companions over those of the collision.
-    companions: f64,
-    /// Seconds of an element update here.
-    each: f64,
+    /// Those that coarser meshes foretell, or the collision itself, where these are quick.
+    foretold: Option<Foretold>,
+    /// Those that may follow.
+    most: MostFiner,
+    /// What the collision takes with its companions: element updates and seconds.
+    first: (f64, f64),
+}
+
+/// Finer meshes that are expected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Foretold {
+    meshes: usize,
+    /// Element updates with those of their companions over those of the first mesh.
+    over_first: f64,
 }
 
 impl Forecast {
     /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow, which collisions of
     /// no more than `patience` element updates are computed to foretell.
     pub fn of(simulation: &Simulation, making: f64, is_open: bool, patience: u64) -> Self {
-        let companions = simulation.companion_updates().unwrap_or(0.0);
-        let Cost::Steps { element_updates, .. } = simulation.setup().cost else {
-            let seconds = seconds(simulation, making, 1.0);
-            return Self { seconds, longer: 1.0, element_updates: 0.0, finer: None };
-        };
         let (longer, following) = simulation.following(patience);
         let seconds = seconds(simulation, making, longer);
-        let all = (1.0 + companions) * longer * element_updates as f64;
-        let most = simulation.most_of_finer_meshes().filter(|most| is_open && *most > 0);
+        let (companions, announced) = match simulation.setup().cost {
+            Cost::Steps { element_updates, .. } => {
+                (simulation.companion_updates().unwrap_or(0.0), element_updates as f64)
+            }
+            _ => (0.0, 0.0),
+        };
+        let element_updates = (1.0 + companions) * longer * announced;
+        let most = is_open.then(|| simulation.most_of_finer_meshes()).flatten();
         let finer = seconds.zip(most).map(|(seconds, most)| Finer {
-            following,
+            foretold: following.map(|Following { meshes, element_updates }| Foretold {
+                meshes,
+                over_first: element_updates as f64 / (longer * announced),
+            }),
             most,
-            companions,
-            each: seconds / all,
+            first: (element_updates, seconds),
         });
-        Self { seconds, longer, element_updates: all, finer }
+        Self { seconds, longer, element_updates, finer }
     }
 
     /// Element updates that are expected in all.
     pub fn all_element_updates(&self) -> f64 {
-        let following = self.finer.and_then(|finer| Some((finer.following?, finer.companions)));
-        let finer = following.map_or(0.0, |(following, companions)| {
-            (1.0 + companions) * following.element_updates as f64
-        });
-        self.element_updates + finer
+        self.element_updates * self.over_first()
+    }
+
+    /// Seconds here in all.
+    pub fn all_seconds(&self) -> Option<f64> {
+        Some(self.over_first() * self.seconds?)
+    }
+
+    /// Seconds here with all finer meshes that may follow.
+    pub fn most_seconds(&self) -> Option<f64> {
+        let most = self.finer.map_or(0.0, |finer| finer.most.over_first);
+        Some(self.over_first().max(1.0 + most) * self.seconds?)
+    }
+
+    /// What is expected in all, over what the first mesh takes.
+    fn over_first(&self) -> f64 {
+        let foretold = self.finer.and_then(|finer| finer.foretold);
+        1.0 + foretold.map_or(0.0, |foretold| foretold.over_first)
     }
 }
 
 impl Finer {
-    /// "coarser meshes foretell 1, about 6.0e6 element updates more, 8.1 s; at most 1.7e8 element updates more, 229 s".
+    /// "1 foretold, about 6.0e6 element updates more, 8.1 s; at most 1.7e8 element updates more, 229 s".
     pub fn in_words(&self) -> String {
-        let price = |updates: u64| {
-            let updates = (1.0 + self.companions) * updates as f64;
-            format!("{updates:.1e} element updates more, {}", show(self.each * updates, "s"))
-        };
-        let expected = match self.following {
-            Some(Following { meshes: 0, .. }) => "coarser meshes foretell none; ".to_string(),
-            Some(Following { meshes, element_updates, .. }) => {
-                format!("coarser meshes foretell {meshes}, about {}; ", price(element_updates))
+        let (updates, seconds) = self.first;
+        let price = |over_first: f64| {
+            let time = show(over_first * seconds, "s");
+            match updates > 0.0 {
+                true => format!("{:.1e} element updates more, {time}", over_first * updates),
+                false => format!("{time} more"),
             }
-            None => String::new(),
         };
-        format!("{expected}at most {}", price(self.most))
+        let MostFiner { meshes, over_first: most } = self.most;
+        match self.foretold {
+            Some(Foretold { meshes, over_first }) => {
+                let most = price(most.max(over_first));
+                match meshes {
+                    0 => format!("none is foretold; at most {most}"),
+                    _ => format!("{meshes} foretold, about {}; at most {most}", price(over_first)),
+                }
+            }
+            None => format!("at most {meshes}, {}", price(most)),
+        }
     }
 }
 
@@ -138,32 +171,50 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
 
 /// Of condensed bodies that took so long to make, s.
 fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
-    let mut patient = Patient { begin: Instant::now(), seen: (0.0, 0.0), is_over: false };
+    let begin = Instant::now();
+    let mut patient = Patient { begin, before: 0.0, seen: (0.0, 0.0), is_over: false };
     let approach = &simulation.setup().approach;
     let _ = simulation.model().collide(approach, &Want::history(), &mut patient);
-    let (spent, fraction) = match patient.is_over {
-        true => patient.seen,
-        false => (patient.begin.elapsed().as_secs_f64(), 1.0),
-    };
-    let collision = if fraction > 0.0 { spent / fraction } else { spent };
-    let fields = FIELDS * making * simulation.want().snapshots.len() as f64;
+    if !patient.is_over {
+        patient.seen = (begin.elapsed().as_secs_f64(), 1.0);
+    }
+    let collision = patient.collision();
+    let n_snapshots = simulation.want().snapshots.len();
+    let has_report = simulation.case().scene().wants_report() && n_snapshots > 0;
+    let of_report = if has_report { REPORT } else { 0.0 };
+    let files = making * ((FIELDS + FILE) * n_snapshots as f64 + of_report);
     let elements = simulation.setup().elements.as_ref();
     let across = elements.map_or(f64::INFINITY, |elements| {
         simulation.setup().estimate.contact_radius / elements.plan.contact_element_size
     });
-    collision + fields + condensed_companion_time(across) * (collision + making)
+    collision + files + condensed_companion_time(across) * (collision + making)
 }
 
 /// Stops a run that tells enough, or after a while, and knows how far it was.
 struct Patient {
     begin: Instant,
+    /// Seconds until the first step: factors of bodies that relax are made before it.
+    before: f64,
     /// Seconds and share of the run.
     seen: (f64, f64),
     is_over: bool,
 }
 
+impl Patient {
+    /// Seconds of the whole collision.
+    fn collision(&self) -> f64 {
+        let (spent, fraction) = self.seen;
+        let steps = spent - self.before;
+        self.before + if fraction > 0.0 { steps / fraction } else { steps }
+    }
+}
+
 impl Monitor for Patient {
-    fn enter(&mut self, _: Phase) {}
+    fn enter(&mut self, phase: Phase) {
+        if phase == Phase::Collision {
+            self.before = self.begin.elapsed().as_secs_f64();
+        }
+    }
 
     fn report(&mut self, progress: Progress) -> bool {
         let spent = self.begin.elapsed();
@@ -171,5 +222,20 @@ impl Monitor for Patient {
         let is_enough = progress.fraction >= SHARE_OF_CONDENSED;
         self.is_over = is_enough || (spent > PATIENCE_WITH_CONDENSED && progress.fraction > 0.0);
         !self.is_over
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A fifth of the steps took a second: all take five, after four of factors.
+    #[test]
+    fn factors_are_made_once() {
+        let patient =
+            Patient { begin: Instant::now(), before: 4.0, seen: (5.0, 0.2), is_over: true };
+        assert!((patient.collision() - 9.0).abs() < 1e-12);
+        let nothing = Patient { seen: (5.0, 0.0), ..patient };
+        assert!((nothing.collision() - 5.0).abs() < 1e-12);
     }
 }

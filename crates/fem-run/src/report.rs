@@ -134,8 +134,12 @@ fn balances(summary: &Summary) -> String {
     });
     let null = summary.elastic_null.map(|null| {
         let lost = null.one_minus_restitution;
+        let how = match null.estimated {
+            true => "estimated",
+            false => "by a coarser run without it",
+        };
         let text = format!(
-            "with relaxation off these settings lose {} of the restitution (estimated)",
+            "with relaxation off these settings lose {} of the restitution ({how})",
             number(lost, 1)
         );
         ["elastic null".to_string(), text]

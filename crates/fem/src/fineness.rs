@@ -26,6 +26,7 @@
 //! through zero: k = n + 0.35 with springs at points between nodes.
 
 use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
+use fem_collision::Headline;
 
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
@@ -76,6 +77,8 @@ pub(crate) struct Fineness {
     pub mass_scaling: f64,
     /// The tolerance that these serve, where that of the case is out of reach.
     pub reached: Option<f64>,
+    /// The quantity that asks for most, and its tolerance.
+    pub asked_by: (Headline, f64),
 }
 
 impl Fineness {
@@ -91,7 +94,8 @@ impl Fineness {
             false => (&BOUNDS, FEWEST),
         };
         let late = if at_nodes && scene.gravity().is_some() { LATE } else { 1.0 };
-        let tolerance = share * tolerance(&scene.accuracy(), bounds);
+        let (least, asked_by) = tolerance(&scene.accuracy(), bounds);
+        let tolerance = share * least;
         let error = match at_nodes {
             true => AT_NODES,
             false => {
@@ -110,6 +114,7 @@ impl Fineness {
             across,
             mass_scaling: (MASS_OVER_TOLERANCE * tolerance.max(reached)).min(MOST_MASS),
             reached: (asked_for > MOST).then_some(reached),
+            asked_by,
         }
     }
 
@@ -131,10 +136,18 @@ fn of_waves(mach: f64) -> f64 {
 }
 
 /// The tolerance of the peak force at which all tolerances are met.
-fn tolerance(accuracy: &Accuracy, bounds: &[f64; 4]) -> f64 {
+fn tolerance(accuracy: &Accuracy, bounds: &[f64; 4]) -> (f64, (Headline, f64)) {
     let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
-    let all = [peak_force, contact_time, restitution, peak_pressure].into_iter().zip(bounds);
-    all.map(|(tolerance, bound)| tolerance / bound).fold(f64::INFINITY, f64::min)
+    let all = [
+        (Headline::PeakForce, peak_force),
+        (Headline::ContactTime, contact_time),
+        (Headline::Restitution, restitution),
+        (Headline::PeakPressure, peak_pressure),
+    ];
+    let all = all.into_iter().zip(bounds).map(|(asked, bound)| (asked.1 / bound, asked));
+    all.fold((f64::INFINITY, (Headline::PeakForce, peak_force)), |least, one| {
+        if one.0 < least.0 { one } else { least }
+    })
 }
 
 #[cfg(test)]

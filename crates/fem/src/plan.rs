@@ -7,7 +7,9 @@ use fem_case::schema::{
 use fem_case::{
     Body, Case, CaseError, CaseFile, ContactMethod, ModelChoice, Quantity, Scene, Shape, Snapshots,
 };
-use fem_collision::{Label, SnapshotRequest, Want, far_radius_at_rest, far_radius_of_waves};
+use fem_collision::{
+    Headline, Label, SnapshotRequest, Want, far_radius_at_rest, far_radius_of_waves,
+};
 
 use crate::contact_method::contact_method;
 use crate::effects::percent;
@@ -49,6 +51,8 @@ pub struct Plan {
     pub contact_element_size: f64,
     /// The body with the smaller elements, where the meshes are staggered about that length.
     pub finer_body: Option<usize>,
+    /// The quantity whose tolerance asks for most of the mesh and the mass that is moved, and that tolerance.
+    pub asked_by: (Headline, f64),
     /// Half-width of the fine block, m.
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
@@ -154,6 +158,7 @@ impl Plan {
             gap: scene.gap().unwrap_or(0.0),
             contact_element_size,
             finer_body,
+            asked_by: fineness.asked_by,
             refined_radius,
             growth: scene.mesh().growth,
             far_radius,

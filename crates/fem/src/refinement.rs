@@ -43,13 +43,13 @@ const ORDER: f64 = 1.5;
 /// The same with fewer elements than [`FEW`] across the contact.
 const ORDER_OF_FEW: f64 = 3.0;
 /// Least and most by which elements become smaller at once.
-const STEPS: [f64; 2] = [1.25, 2.0];
+pub(crate) const STEPS: [f64; 2] = [1.25, 2.0];
 /// Finer meshes after the first.
-const MOST_LEVELS: usize = 4;
+pub(crate) const MOST_LEVELS: usize = 4;
 /// Element updates of a finer mesh, where the case gives no limit: some seconds.
-const MOST_UPDATES: u64 = 150_000_000;
+pub(crate) const MOST_UPDATES: u64 = 150_000_000;
 /// Elements of a finer mesh of condensed bodies, which take no updates: a second.
-const MOST_ELEMENTS: u64 = 60_000;
+pub(crate) const MOST_ELEMENTS: u64 = 60_000;
 /// An error of more than so many times what soft springs change is one of the mesh: what is told has a margin, and
 /// force and pressure change by more than the contact time.
 const OF_SPRINGS: f64 = 4.0;
@@ -111,7 +111,12 @@ impl Miss {
     fn in_words(&self) -> String {
         let (name, error, tolerance) =
             (self.headline.name(), self.error_in_words(), self.number(self.tolerance));
-        format!("{name} may be off by {error} where {tolerance} is asked")
+        match error == tolerance {
+            true => {
+                format!("{name} may be off by a little more than the {tolerance} that is asked")
+            }
+            false => format!("{name} may be off by {error} where {tolerance} is asked"),
+        }
     }
 
     /// "peak force by 1.7 %", beside another one; with what is asked where that is another number.
@@ -239,23 +244,6 @@ impl Simulation {
     /// and a finer mesh may be had.
     pub fn finer(&self, collision: &Collision) -> Option<Self> {
         self.finer_or_kept(&self.missed(collision)?, Some(collision)).ok()
-    }
-
-    /// Element updates of the finer meshes that may follow, all together, at most; none of what takes no updates, and
-    /// where the elements stay.
-    pub fn most_of_finer_meshes(&self) -> Option<u64> {
-        let Cost::Steps { element_updates, .. } = self.setup().cost else { return None };
-        let most = self.case().scene().limits().element_updates.unwrap_or(MOST_UPDATES) as f64;
-        let least = STEPS[0].powi(3);
-        let (mut one, mut sum) = (element_updates as f64, 0.0);
-        for _ in self.levels.len()..MOST_LEVELS {
-            if least * one > most {
-                break;
-            }
-            one = (STEPS[1].powi(3) * one).min(most);
-            sum += one;
-        }
-        self.may_be_refined().then_some(sum as u64)
     }
 
     /// Whether meshes of the case may be made finer for its tolerance.

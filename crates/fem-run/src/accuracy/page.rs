@@ -182,12 +182,12 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         let gap = if describe.is_empty() { "" } else { ", " };
         let settings: Vec<String> =
             line.rung.overrides().iter().map(|set| format!("--set '{set}'")).collect();
-        format!(
-            "{}{gap}{describe}: {} (`{}`)",
-            line.rung.series.name(),
-            show(line.seconds, "s"),
-            settings.join(" ")
-        )
+        let settings = match settings.is_empty() {
+            true => String::new(),
+            false => format!(" (`{}`)", settings.join(" ")),
+        };
+        let (name, time) = (line.rung.series.name(), show(line.seconds, "s"));
+        format!("{name}{gap}{describe}: {time}{settings}")
     };
     let asked = {
         let accuracy = findings.accuracy;
@@ -210,7 +210,8 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
     // Others are told against the finest one, of which nothing is told.
     let allowed = findings.accuracy.peak_pressure;
     let has_fields = |line: &Line<'_>| {
-        line.measurement.stress.is_some() && line.judged.stress_error.is_none_or(|e| e <= allowed)
+        line.measurement.stress.is_some()
+            && line.judged.sure_stress_error.is_none_or(|e| e <= allowed)
     };
     let with_fields = findings.lines().filter(has_fields).map(|line| line.index);
     let with_fields: Vec<usize> = with_fields.collect();
@@ -222,14 +223,21 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         ));
     }
     let explicit = cheapest(&|index| findings.ladder.rungs[index].is_explicit());
-    if let Some(line) = explicit {
-        let own = as_written(findings).filter(|own| own.index != line.index);
-        let own = own.and_then(|own| {
-            let (took, share) = (show(own.seconds, "s"), own.judged.in_tolerances?);
-            Some(format!(" The case as written: {took}, {share:.2} times what is allowed."))
-        });
-        let own = own.unwrap_or_default();
-        sentences.push(format!("With explicit elements: {}.{own}", told(&line)));
+    if let Some(line) = &explicit {
+        sentences.push(format!("With explicit elements: {}.", told(line)));
+    }
+    let own = findings.lines().find(|line| line.rung.series == Series::AsWritten);
+    let is_told = |own: &Line<'_>| explicit.as_ref().is_some_and(|line| line.index == own.index);
+    if let Some(own) = own.filter(|own| !is_told(own))
+        && let Some(share) = own.judged.in_tolerances
+    {
+        let goes_on = share > 1.0 && findings.ladder.is_open;
+        let goes_on = if goes_on { "; its run goes on with a finer mesh" } else { "" };
+        sentences.push(format!(
+            "The case as written, {}: {}, {share:.2} times what is allowed{goes_on}.",
+            own.rung.describe(),
+            show(own.seconds, "s")
+        ));
     }
     if findings.left_out > 0 {
         sentences.push(format!(
@@ -240,12 +248,4 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         ));
     }
     sentences
-}
-
-/// The case as written; where it leaves everything to the plan, that is the plan's.
-fn as_written<'a>(findings: &'a Findings<'_>) -> Option<Line<'a>> {
-    let of = |series| findings.lines().filter(move |line| line.rung.series == series);
-    of(Series::AsWritten)
-        .next()
-        .or_else(|| of(Series::Explicit).find(|line| line.rung.has_common_elements))
 }

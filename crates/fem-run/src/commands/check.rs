@@ -8,6 +8,7 @@ use fem::{Cost, ForceLaw, Foreseen, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
+use fem_collision::Headline;
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::case_arguments::{CaseArguments, ToleranceArguments};
@@ -166,9 +167,13 @@ fn by_tolerance(simulation: &Simulation) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let tolerance = number(100.0 * simulation.case().scene().accuracy().peak_force, 3);
-    let table = table(&[Left, Left], rows);
-    format!("\nChosen for accuracy.tolerance, {tolerance} % of the peak force\n{table}")
+    let (headline, tolerance) = plan.asked_by;
+    let tolerance = match headline {
+        Headline::Restitution => number(tolerance, 3),
+        _ => format!("{} %", number(100.0 * tolerance, 3)),
+    };
+    let (table, name) = (table(&[Left, Left], rows), headline.name());
+    format!("\nChosen for accuracy.tolerance, {tolerance} of the {name}\n{table}")
 }
 
 /// Of which contact the cost is, where there are several.
@@ -183,7 +188,13 @@ fn of_contacts(simulation: &Simulation) -> String {
 fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String; 2]> {
     let setup = show(setup, "s");
     let time = match forecast.seconds {
-        Some(run) => format!("about {} here, after {setup} of setup", show(run, "s")),
+        Some(run) => {
+            let all = forecast.all_seconds().filter(|all| *all > run);
+            let all =
+                all.map(|all| format!(", {} with the meshes that are foretold", show(all, "s")));
+            let all = all.unwrap_or_default();
+            format!("about {} here{all}, after {setup} of setup", show(run, "s"))
+        }
         None => format!("{setup} of setup here"),
     };
     let mut rows = Vec::new();

@@ -86,12 +86,13 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let mut keeper = Keeper::new(&folder, &identity, options.restart);
     let mut memory = memory;
     let mut left: &[&str] = &[];
+    let mut known = Instant::now();
     let (simulation, collision) = simulation.within_tolerance(|simulation| {
         if memory.is_none() && !options.quiet {
-            tell_finer(simulation);
+            tell_finer(simulation, known.elapsed().as_secs_f64());
         }
         let (collision, kept) = compute(simulation, memory.take(), &mut keeper, &mut watch)?;
-        left = kept;
+        (left, known) = (kept, Instant::now());
         Ok::<_, Failure>(collision)
     })?;
     let (stopwatch, watch) = watch.stop();
@@ -166,7 +167,9 @@ fn compute(
 /// Some words on stderr about what begins.
 fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlace, is_open: bool) {
     let forecast = Forecast::of(simulation, making, is_open, 0);
-    let more = forecast.finer.map_or(String::new(), |finer| {
+    // Of condensed bodies the most is seconds beside milliseconds, and few go on.
+    let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
+    let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
         format!("; if finer meshes have to follow: {}", finer.in_words())
     });
     let (price, out) = (price(simulation, &forecast), place.out.display());
@@ -184,10 +187,10 @@ fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlac
     }
 }
 
-/// A word on stderr on a mesh that is made finer, if it is.
-fn tell_finer(simulation: &Simulation) {
+/// A word on stderr on a mesh that is made finer, if it is, whose bodies took so long to make, s.
+fn tell_finer(simulation: &Simulation, making: f64) {
     if let Some(why) = simulation.refined_because() {
-        let forecast = Forecast::of(simulation, 0.0, false, 0);
+        let forecast = Forecast::of(simulation, making, false, 0);
         let _ =
             writeln!(stderr(), "{}", one_line(&format!("{why}; {}", price(simulation, &forecast))));
     }

@@ -1,5 +1,6 @@
 //! `fem-run sweep SWEEP.toml`: computes the members of a sweep, all or a shard of them, here or by Slurm.
 
+use std::cell::OnceCell;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
@@ -12,8 +13,8 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output;
 use crate::sweep::{
-    Batch, Checking, Choice, Collected, Collector, Job, Mark, Shard, SlurmOptions, SweepFolder,
-    Whose, announce, conclude, report, run_members, status, warnings,
+    Batch, Checking, Choice, Collected, Collector, Expected, Job, Mark, Shard, SlurmOptions,
+    SweepFolder, Whose, announce, conclude, report, run_members, status, warnings,
 };
 
 /// Compute many members of a case: lists of values for some of its keys
@@ -71,6 +72,8 @@ struct Work<'a> {
     out: &'a Path,
     pool: &'a ThreadPool,
     interrupt: Interrupt,
+    /// What the members that are left take, once it is asked for.
+    expected: OnceCell<Expected>,
 }
 
 /// Computes a sweep.
@@ -85,7 +88,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         None => Path::new("runs").join(stem_of(&arguments.sweep)),
     };
     let pool = pool(arguments.threads)?;
-    let work = Work { arguments, sweep: &sweep, out: &out, pool: &pool, interrupt };
+    let work = Work {
+        arguments,
+        sweep: &sweep,
+        out: &out,
+        pool: &pool,
+        interrupt,
+        expected: OnceCell::new(),
+    };
     match arguments.shard {
         Some(shard) if arguments.no_merge => work.compute_shard(shard),
         shard => work.compute(shard.unwrap_or(Shard::WHOLE)),
@@ -114,7 +124,7 @@ impl Work<'_> {
             return Ok(());
         }
         let batch = match arguments.slurm.options() {
-            Some(options) => Some(Batch::of(self.sweep, &checked, options)?),
+            Some(options) => Some(Batch::of(sweep, &checked, self.expected(&checked), options)?),
             None => None,
         };
         let mark = Mark { sweep, members, set: &arguments.set };
@@ -193,11 +203,16 @@ impl Work<'_> {
         }
     }
 
+    fn expected(&self, checked: &Checked) -> &Expected {
+        self.expected.get_or_init(|| Expected::of(self.sweep, checked, self.pool))
+    }
+
     fn announce(&self, checked: &Checked, n_own: usize) {
         let Self { arguments, sweep, pool, .. } = self;
         if !arguments.quiet {
             let name = arguments.sweep.display().to_string();
-            announce(&name, sweep, checked, n_own, pool.current_num_threads());
+            let expected = self.expected(checked);
+            announce(&name, sweep, checked, expected, n_own, pool.current_num_threads());
         }
         standard_output::warn(told(checked).cloned());
     }

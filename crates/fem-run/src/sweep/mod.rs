@@ -17,6 +17,7 @@ mod board;
 mod checking;
 mod collect;
 mod duration;
+mod expected;
 mod folder;
 mod mark;
 mod packs;
@@ -35,6 +36,7 @@ pub mod warnings;
 
 pub use checking::Checking;
 pub use collect::{Collected, Collector};
+pub use expected::Expected;
 pub use folder::SweepFolder;
 pub use mark::Mark;
 pub use packs::Whose;

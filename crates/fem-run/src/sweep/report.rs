@@ -11,23 +11,34 @@ use indicatif::DecimalBytes;
 
 use super::collect::Collected;
 use super::duration::duration;
+use super::expected::{Expected, Total};
 use super::packs::LINE_BYTES;
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 use crate::tables::table;
 
 /// One line on stderr about what begins and what it takes.
-pub fn announce(name: &str, sweep: &Sweep, checked: &Checked, n_own: usize, n_threads: usize) {
+pub fn announce(
+    name: &str,
+    sweep: &Sweep,
+    checked: &Checked,
+    expected: &Expected,
+    n_own: usize,
+    n_threads: usize,
+) {
     let n_members = sweep.n_members();
     let n_left = checked.left.len();
     let shard = if n_own == n_members { String::new() } else { format!(", {n_own} in this shard") };
     let name = one_line(name);
     let time = match n_left {
         0 => String::new(),
-        _ => format!(
-            ", some {} on {n_threads} threads",
-            duration(checked.seconds / n_threads as f64)
-        ),
+        _ => {
+            let on_threads = |total: Total| duration(total.on(n_threads));
+            let most = expected.most.map_or(String::new(), |most| {
+                format!(", up to {} if finer meshes have to follow", on_threads(most))
+            });
+            format!(", some {} on {n_threads} threads{most}", on_threads(expected.all))
+        }
     };
     let kept = match sweep.keep {
         Keep::Packed if n_left > 0 => {

@@ -15,6 +15,7 @@ use fem::sweep::Checked;
 use fem_case::{Keep, Sweep};
 
 use super::duration::duration;
+use super::expected::Expected;
 use super::folder::SweepFolder;
 use super::report::packed_bytes;
 use crate::case_arguments::{parse_count, stem_of};
@@ -69,7 +70,12 @@ impl Batch {
     /// # Errors
     /// Options that the script gives itself, or that are not of one line; more shards than members or than
     /// an array has.
-    pub fn of(sweep: &Sweep, checked: &Checked, options: &SlurmOptions) -> Result<Self, Failure> {
+    pub fn of(
+        sweep: &Sweep,
+        checked: &Checked,
+        expected: &Expected,
+        options: &SlurmOptions,
+    ) -> Result<Self, Failure> {
         let text = options.slurm.clone().unwrap_or_default().trim().to_string();
         let refuse = |found: String, help: &str| Err(Failure::bad_input(found).with_help(help));
         if text.contains(char::is_control) {
@@ -86,7 +92,7 @@ impl Batch {
         }
         let most = MOST_TASKS.min(sweep.n_members());
         let threads = cpus_per_task(&text) as f64;
-        let wanted = (checked.seconds / (TASK_SECONDS * threads)).ceil() as usize;
+        let wanted = (expected.all.seconds / (TASK_SECONDS * threads)).ceil() as usize;
         let n_shards = match options.shards.map(NonZeroUsize::get) {
             Some(n) if n > most => {
                 let help = format!(
@@ -98,7 +104,7 @@ impl Batch {
             Some(n) => n,
             None => wanted.clamp(1, most),
         };
-        let seconds = checked.seconds / (n_shards as f64 * threads);
+        let seconds = expected.all.on(n_shards * threads as usize);
         Ok(Self {
             options: text,
             n_shards,

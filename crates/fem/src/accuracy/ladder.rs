@@ -9,7 +9,9 @@ use crate::contact_method::{contact_method, unread};
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
 use crate::fineness::Fineness;
+use crate::foresight::Foreseen;
 use crate::plan::{Plan, divided_radius};
+use crate::simulation::Simulation;
 
 /// Elements across the contact radius, of condensed bodies.
 const CONDENSED: [f64; 9] = [3.0, 4.0, 5.0, 6.0, 8.0, 11.0, 16.0, 23.0, 32.0];
@@ -32,9 +34,6 @@ const MASS_SCALINGS: [f64; 3] = [0.0, 1e-3, 2e-2];
 const STEP_FACTORS: [f64; 1] = [0.45];
 /// Growth of a mesh of half as many elements.
 const GROWN: f64 = 1.25;
-
-/// Keys that choose a mesh, a contact, a step or a model.
-const CHOSEN: [&str; 4] = ["mesh", "contact", "time", "model"];
 
 /// Lengths at the contact, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +58,8 @@ pub struct Ladder {
     pub rungs: Vec<Rung>,
     /// What elements are counted across and divide.
     pub lengths: Lengths,
+    /// Whether a run of the case goes on with a finer mesh where that of its rung does not do.
+    pub is_open: bool,
     /// The first of what was left out.
     refused: Option<CaseError>,
 }
@@ -79,10 +80,14 @@ impl Ladder {
         // Of a contact as wide as its sphere the plan counts elements across less than all of it.
         let unit = contact_radius.min(divided_radius(&plan.estimate));
         let lengths = Lengths { contact_radius, divided: unit };
-        let mut ladder = Self { rungs: Vec::new(), lengths, refused: None };
-        if CHOSEN.iter().any(|key| case.gives(key)) {
-            let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
-            ladder.add(&own, Series::AsWritten, &[], None);
+        let mut ladder = Self { rungs: Vec::new(), lengths, is_open: false, refused: None };
+        let own = case.edited(|file| (file.output, file.stop) = (None, first_contact(file)))?;
+        match as_it_runs(own) {
+            Ok((own, is_open)) => {
+                ladder.add(&own, Series::AsWritten, &[], None);
+                ladder.is_open = is_open;
+            }
+            Err(refused) => ladder.refused = Some(refused),
         }
         let add = |series, settings: &[Setting], value| {
             ladder.add(&base, series, settings, value);
@@ -180,6 +185,13 @@ impl Ladder {
         order.sort_by_key(|&k| self.rungs[k].price);
         order
     }
+}
+
+/// A case with the model, the mesh and the settings with which it is run, as far as companions foretell them; and whether
+/// more may follow.
+fn as_it_runs(case: Case) -> Result<(Case, bool), CaseError> {
+    let Foreseen { simulation, is_open } = Simulation::new(case)?.foreseen(|| true);
+    Ok((Case::of(simulation.resolved().clone())?, is_open))
 }
 
 /// Whether explicit elements of a case take a contact method, and another one than they take without.

@@ -4,6 +4,7 @@ use fem_case::{Case, CaseError, ModelChoice};
 
 use super::ladder::{COMMON, Lengths};
 use super::setting::Setting;
+use crate::models::chosen;
 use crate::simulation::Simulation;
 
 /// Ways that differ in one thing.
@@ -13,7 +14,7 @@ pub enum Series {
     Hertz,
     /// Ting's half-spaces, without and with the spheres' finite size.
     Ting,
-    /// With all settings that the case itself gives.
+    /// The case itself, on the mesh that is chosen for it.
     AsWritten,
     /// Condensed bodies over the size of the elements.
     Condensed,
@@ -158,14 +159,21 @@ impl Rung {
         Ok(Self { series, value, elements_across, has_common_elements, settings, case, price })
     }
 
+    /// What computes it; of a case that leaves it open, what is chosen.
+    fn model(&self) -> ModelChoice {
+        let scene = self.case.scene();
+        let chosen = chosen(scene).ok().flatten();
+        chosen.map_or(scene.model().clone(), |chosen| chosen.scene.model().clone())
+    }
+
     /// Whether explicit elements compute it.
     pub fn is_explicit(&self) -> bool {
-        *self.case.scene().model() == ModelChoice::Fem
+        self.model() == ModelChoice::Fem
     }
 
     /// Whether it divides bodies into elements.
     pub(super) fn has_elements(&self) -> bool {
-        matches!(self.case.scene().model(), ModelChoice::Fem | ModelChoice::Condensed(_))
+        matches!(self.model(), ModelChoice::Fem | ModelChoice::Condensed(_))
     }
 
     /// What in its series it is, in words.
@@ -183,7 +191,8 @@ impl Rung {
             _ => None,
         });
         let across = self.elements_across.map(|across| format!("a/h = {across:.1}"));
-        [across, own].into_iter().flatten().collect::<Vec<_>>().join(", ")
+        let model = (self.series == Series::AsWritten).then(|| self.model().name().to_string());
+        [model, across, own].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
     /// What to write beside the case's own keys for it: `--set KEY=VALUE`, in order.

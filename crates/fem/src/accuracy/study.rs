@@ -29,6 +29,8 @@ pub struct Judged {
     /// Root mean square error of σ_yy around the contact at the largest approach, over its own root mean
     /// square; none of the rung that it is told against.
     pub stress_error: Option<f64>,
+    /// The same, and no smaller than that of any finer rung of its series.
+    pub sure_stress_error: Option<f64>,
     /// Worst of restitution, contact time and peak force, of what is sure.
     pub worst: Option<f64>,
     /// Worst of these and the peak pressure in tolerances of the case, what is uncertain in the limits
@@ -93,12 +95,14 @@ impl Study {
             });
             let sample =
                 run.measurement.stress.as_deref().filter(|_| finest_field != Some(run.index));
+            let stress_error = sample
+                .zip(reference)
+                .and_then(|(sample, reference)| relative_difference(sample, reference));
             judged[run.index] = Some(Judged {
                 errors,
                 sure: errors.map(|error| error.map(f64::abs)),
-                stress_error: sample
-                    .zip(reference)
-                    .and_then(|(sample, reference)| relative_difference(sample, reference)),
+                stress_error,
+                sure_stress_error: stress_error,
                 ..Judged::default()
             });
         }
@@ -210,10 +214,11 @@ fn take_luck_away(ran: &[Run<'_>], judged: &mut [Option<Judged>]) {
             ran.iter().filter(|run| run.rung.series == series).collect();
         let size = |run: &Run<'_>| run.rung.value.unwrap_or(f64::INFINITY);
         of_series.sort_by(|a, b| size(a).total_cmp(&size(b)));
-        let mut worst = [None; 6];
+        let mut worst = [None; 7];
         for run in of_series {
             let Some(judged) = judged[run.index].as_mut() else { continue };
-            for (worst, sure) in worst.iter_mut().zip(&mut judged.sure) {
+            let sure = judged.sure.iter_mut().chain([&mut judged.sure_stress_error]);
+            for (worst, sure) in worst.iter_mut().zip(sure) {
                 // An error that is not there is below any that is.
                 *sure = sure.map(|sure| worst.map_or(sure, |worst: f64| worst.max(sure)));
                 *worst = sure.or(*worst);

@@ -1,7 +1,7 @@
 //! What accuracy costs: the ladder of a scene and what is made of it.
 
 use fem::accuracy::{ErrorSource, Ladder, Measurement, Series, Study};
-use fem::{Case, Shared};
+use fem::{Case, Shared, Simulation};
 use fem_collision::Headline;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
@@ -71,6 +71,13 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
         let mut judged = of_series.filter(|(rung, _)| rung.series == series).map(|(_, j)| j);
         judged.nth(k).unwrap().unwrap().stress_error
     };
+    for series in [Series::Condensed, Series::Explicit] {
+        let of_series = ladder.rungs.iter().zip(&study.judged);
+        let of_series = of_series.filter(|(rung, _)| rung.series == series);
+        let sure = of_series.filter_map(|(_, judged)| judged.as_ref()?.sure_stress_error);
+        let sure: Vec<f64> = sure.collect();
+        assert!(sure.len() >= 3 && sure.is_sorted_by(|coarse, fine| coarse >= fine), "{sure:?}");
+    }
     let (coarse, fine) = (stress(Series::Condensed, 0), stress(Series::Condensed, 5));
     assert!(coarse > fine.map(|fine| 3.0 * fine), "{coarse:?} {fine:?}");
 }
@@ -157,7 +164,11 @@ fn no_way_is_there_twice() {
 fn what_a_scene_does_not_call_for_is_no_rung() {
     let ladder = Ladder::of(&case(BALL)).unwrap();
     let has = |ladder: &Ladder, series| ladder.rungs.iter().any(|rung| rung.series == series);
-    assert!(!has(&ladder, Series::Ting) && !has(&ladder, Series::AsWritten));
+    assert!(!has(&ladder, Series::Ting) && has(&ladder, Series::AsWritten));
+    // The case as written is what a run of it computes.
+    let own = ladder.rungs.iter().find(|rung| rung.series == Series::AsWritten).unwrap();
+    let run = Simulation::new(case(BALL)).unwrap().foreseen(|| true).simulation;
+    assert_eq!(own.case.file().mesh, run.resolved().mesh);
     let relaxing = BALL.replace(
         "poissons_ratio = 0.33 }",
         "poissons_ratio = 0.33, relaxation = { acts_on = 'all', terms = [{ weight = 0.5, decay_rate = 1e4 }] } }",
