@@ -52,9 +52,13 @@ const HEAD: &str = "\
 /// What kind of machine the times are of.
 fn machine() -> String {
     #[cfg(target_arch = "x86_64")]
-    let lanes = if std::arch::is_x86_feature_detected!("avx2") { " with AVX2" } else { "" };
+    let lanes = [
+        (" with AVX-512", std::arch::is_x86_feature_detected!("avx512f")),
+        (" with AVX2 and FMA", std::arch::is_x86_feature_detected!("avx2")),
+    ];
     #[cfg(not(target_arch = "x86_64"))]
-    let lanes = "";
+    let lanes: [(&str, bool); 0] = [];
+    let lanes = lanes.into_iter().find_map(|(name, has)| has.then_some(name)).unwrap_or_default();
     let machine = std::env::consts::ARCH;
     format!(
         "On {machine}{lanes}, one thread: medians of {N_RUNS} runs of each side, which take turns.\n"
