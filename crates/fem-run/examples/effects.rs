@@ -12,6 +12,8 @@
     reason = "a benchmark has the clock and prints what it found"
 )]
 
+#[path = "page/machine.rs"]
+mod machine;
 #[path = "page/mod.rs"]
 mod page;
 #[path = "effects/rows.rs"]
@@ -36,7 +38,10 @@ struct Cost {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let table = ROWS.iter().map(line).collect::<String>();
-    let table = format!("{}\n{HEAD}{table}", machine());
+    let machine = machine::machine();
+    let table = format!(
+        "{machine}: medians of {N_RUNS} runs of each side, which take turns.\n\n{HEAD}{table}"
+    );
     match std::env::args().nth(1) {
         Some(path) => page::put(Path::new(&path), "table", &table)?,
         None => print!("{table}"),
@@ -48,22 +53,6 @@ const HEAD: &str = "\
 | effect | kind | ns an update, off | on | ratio | element updates, off | on | bytes of state, off | on |
 |---|---|---|---|---|---|---|---|---|
 ";
-
-/// What kind of machine the times are of.
-fn machine() -> String {
-    #[cfg(target_arch = "x86_64")]
-    let lanes = [
-        (" with AVX-512", std::arch::is_x86_feature_detected!("avx512f")),
-        (" with AVX2 and FMA", std::arch::is_x86_feature_detected!("avx2")),
-    ];
-    #[cfg(not(target_arch = "x86_64"))]
-    let lanes: [(&str, bool); 0] = [];
-    let lanes = lanes.into_iter().find_map(|(name, has)| has.then_some(name)).unwrap_or_default();
-    let machine = std::env::consts::ARCH;
-    format!(
-        "On {machine}{lanes}, one thread: medians of {N_RUNS} runs of each side, which take turns.\n"
-    )
-}
 
 /// A line of the table.
 fn line(row: &Row) -> String {

@@ -16,6 +16,8 @@
 mod bodies;
 #[path = "performance/elements.rs"]
 mod elements;
+#[path = "page/machine.rs"]
+mod machine;
 #[path = "page/mod.rs"]
 mod page;
 #[path = "../../fem-explicit/benches/plain/mod.rs"]
@@ -38,25 +40,11 @@ fn main() -> Result<(), Error> {
         }
         Ok(())
     };
-    put("machine", &machine())?;
+    put("machine", &format!("{}.", machine::machine()))?;
     put("elements", &elements::table()?)?;
     put("processes", &processes::table()?)?;
     put("profile", &profile::table()?)?;
     Ok(())
-}
-
-/// What kind of machine the times are of.
-fn machine() -> String {
-    #[cfg(target_arch = "x86_64")]
-    let lanes = [
-        ("AVX-512", std::arch::is_x86_feature_detected!("avx512f")),
-        ("AVX2 and FMA", std::arch::is_x86_feature_detected!("avx2")),
-    ];
-    #[cfg(not(target_arch = "x86_64"))]
-    let lanes: [(&str, bool); 0] = [];
-    let lanes = lanes.into_iter().find_map(|(name, has)| has.then_some(name));
-    let lanes = lanes.map_or(String::new(), |name| format!(" with {name}"));
-    format!("On {}{lanes}, one thread.", std::env::consts::ARCH)
 }
 
 /// The middle one.

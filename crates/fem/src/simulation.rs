@@ -75,6 +75,8 @@ pub struct Simulation {
     pub(crate) condensed: Mutex<Option<(Approach, Option<Beside>)>>,
     /// Companions of its own model with longer elements.
     pub(crate) coarser: Mutex<Vec<Coarser>>,
+    /// 1 less the restitution of the companion that does not relax and meets like this, once it is computed.
+    pub(crate) elastic: Mutex<Option<(Approach, Option<f64>)>>,
     /// Element updates of all companions so far, those of coarser meshes that did not do included.
     updates_of_companions: Arc<AtomicU64>,
 }
@@ -125,6 +127,7 @@ impl Simulation {
             errors: Mutex::default(),
             condensed: Mutex::default(),
             coarser: Mutex::default(),
+            elastic: Mutex::default(),
             updates_of_companions: Arc::default(),
         })
     }

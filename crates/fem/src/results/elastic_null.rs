@@ -13,12 +13,15 @@
 //! run with relaxation off on the same mesh. Where next to nothing of the vibrations is left that tells of them, a run
 //! with relaxation off on a mesh 1.5 times as coarse tells it: 0.6 to 2.8 times that of the same mesh.
 
+use std::sync::PoisonError;
+
+use fem_case::Case;
 use fem_case::schema::{OutputTable, Switch};
-use fem_case::{Case, Quantity};
-use fem_collision::{Account, Collision, Want};
+use fem_collision::{Account, Approach, Collision, Want};
 use fem_material::PronySeries;
 use serde::Serialize;
 
+use crate::accuracy::Setting;
 use crate::simulation::Simulation;
 
 /// Since when vibrations relax, over the contact time.
@@ -63,7 +66,8 @@ pub(super) fn elastic_null(simulation: &Simulation, collision: &Collision) -> Op
         lost += vibrations;
     }
     if is_gone {
-        return by_elastic_run(simulation, collision);
+        let one_minus_restitution = by_elastic_run(simulation, collision.approach)?;
+        return Some(ElasticNull { one_minus_restitution, estimated: false });
     }
     for account in [Account::Radiated, Account::BulkViscosity, Account::ContactDamping] {
         lost += collision.energies.get(account).unwrap_or(0.0);
@@ -75,21 +79,34 @@ pub(super) fn elastic_null(simulation: &Simulation, collision: &Collision) -> Op
     })
 }
 
-/// Of the same bodies that do not relax, on a coarser mesh; nothing of meshes from files.
-fn by_elastic_run(simulation: &Simulation, collision: &Collision) -> Option<ElasticNull> {
+/// 1 less the restitution of the same bodies that do not relax, on a coarser mesh; nothing of meshes from files. It is
+/// kept: a result may be asked for again.
+fn by_elastic_run(simulation: &Simulation, approach: Approach) -> Option<f64> {
+    // Who panicked has left nothing half written.
+    let mut known = simulation.elastic.lock().unwrap_or_else(PoisonError::into_inner);
+    match *known {
+        Some((of, lost)) if of == approach => lost,
+        _ => {
+            let lost = elastic_run(simulation, &approach);
+            *known = Some((approach, lost));
+            lost
+        }
+    }
+}
+
+fn elastic_run(simulation: &Simulation, approach: &Approach) -> Option<f64> {
     let plan = &simulation.setup().elements.as_ref()?.plan;
-    let mut file = simulation.resolved_at(&collision.approach);
+    let mut file = simulation.resolved_at(approach);
     file.effects.get_or_insert_default().viscoelasticity = Some(Switch::Off);
     file.output = Some(OutputTable { report: Some(false), ..OutputTable::default() });
-    file.mesh.as_mut()?.contact_element_size =
-        Some(Quantity::from_si(COARSER * plan.contact_element_size));
+    Setting::ElementSize(COARSER * plan.contact_element_size).apply(&mut file);
     let case = Case::of(file).ok().filter(|_| plan.makes_meshes)?;
     let shared = simulation.shared().of_companions();
     let elastic = Simulation::sharing(case, &shared).ok()?;
-    let elastic = elastic.model().collide(&collision.approach, &Want::quantities(), &mut ());
+    let elastic = elastic.model().collide(approach, &Want::quantities(), &mut ());
     simulation.count_companion(&elastic);
     let restitution = elastic.restitution.filter(|_| elastic.is_complete())?;
-    Some(ElasticNull { one_minus_restitution: (1.0 - restitution).max(0.0), estimated: false })
+    Some((1.0 - restitution).max(0.0))
 }
 
 /// −Ġ/G of a sudden strain, 1/s.

@@ -14,10 +14,13 @@ const SOFT: &str = "
     model.fem = {}
     output.snapshots = []";
 
-fn summary(set: &[&str]) -> Summary {
+fn simulation(set: &[&str]) -> Simulation {
     let set: Vec<String> = set.iter().map(ToString::to_string).collect();
-    let case = Case::parse("soft.toml", SOFT, Path::new("."), &set).unwrap();
-    let simulation = Simulation::new(case).unwrap();
+    Simulation::new(Case::parse("soft.toml", SOFT, Path::new("."), &set).unwrap()).unwrap()
+}
+
+fn summary(set: &[&str]) -> Summary {
+    let simulation = simulation(set);
     let collision = simulation.run(&mut ());
     simulation.summary(&collision)
 }
@@ -40,4 +43,15 @@ fn it_is_that_of_elastic_runs_however_fast_bodies_relax() {
         // What told it is counted.
         assert!(is_estimated || all.unwrap() > own, "{all:?} {own}");
     }
+}
+
+/// The run that tells it is computed once.
+#[test]
+fn a_summary_that_is_asked_for_again_takes_nothing() {
+    let simulation =
+        simulation(&["material.soft.relaxation.terms=[{weight=0.3,relaxation_time='4 us'}]"]);
+    let collision = simulation.run(&mut ());
+    let [first, second] = [simulation.summary(&collision), simulation.summary(&collision)];
+    assert!(first.elastic_null.is_some() && first.elastic_null == second.elastic_null);
+    assert_eq!(first.cost.all_element_updates, second.cost.all_element_updates);
 }
