@@ -1,9 +1,13 @@
 //! The most memory that this process ever held.
 
-/// Bytes that the process will have held when a run is through that takes so many: companions may have taken more
-/// before it.
-pub fn peak_memory_with(run: u64) -> u64 {
-    peak_memory().unwrap_or(0).max(run)
+use fem::Simulation;
+
+/// Bytes that the process will have held when a run is through: its companions may have taken more before it, or take
+/// more after it. None of models without elements.
+pub fn peak_memory_with(simulation: &Simulation) -> Option<u64> {
+    let (run, companions) = simulation.memory_ahead()?;
+    let held = peak_memory().unwrap_or(0);
+    Some(run.max(held + companions.unwrap_or(0)))
 }
 
 /// Bytes; `None` where the system does not tell.

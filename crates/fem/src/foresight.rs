@@ -5,6 +5,8 @@
 //! and beside waves the companions are runs themselves: two of the coarser ones tell what is to be expected, of cheap runs
 //! these themselves, and the run decides. Of condensed bodies a collision is as cheap as any forecast: of these only bounds are known.
 
+use std::sync::PoisonError;
+
 use fem_collision::{Headline, Want};
 
 use crate::accuracy::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
@@ -165,6 +167,20 @@ impl Simulation {
                 Some(finer) => simulation = finer,
                 None => return Foreseen { simulation, is_open: false },
             }
+        }
+    }
+
+    /// Bytes that the collision takes, and those of the condensed bodies that tell what it is off by, if they are
+    /// still to be computed; none of models without elements.
+    pub fn memory_ahead(&self) -> Option<(u64, Option<u64>)> {
+        match self.setup().cost {
+            Cost::Steps { memory, companion_memory, .. } => {
+                // Who panicked has left nothing half written.
+                let known = self.condensed.lock().unwrap_or_else(PoisonError::into_inner);
+                Some((memory, companion_memory.filter(|_| known.is_none())))
+            }
+            Cost::Factors { memory, .. } => Some((memory, None)),
+            Cost::Little { .. } => None,
         }
     }
 

@@ -165,6 +165,8 @@ pub enum Cost {
         seconds: f64,
         /// Memory of the run, bytes.
         memory: u64,
+        /// The same of the condensed bodies that tell what it is off by, where they do.
+        companion_memory: Option<u64>,
         /// Time step, s.
         time_step: f64,
         /// What it would be without mass scaling, s.
@@ -180,6 +182,8 @@ pub enum Cost {
         steps: u64,
         /// Bytes of the factors.
         factor_bytes: u64,
+        /// Memory of the run, bytes.
+        memory: u64,
     },
     /// Milliseconds, without any mesh.
     Little {

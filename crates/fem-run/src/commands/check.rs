@@ -90,7 +90,7 @@ fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
         ("largest contact radius", show(hertz.max_contact_radius(), "m")),
         ("peak pressure", show(hertz.peak_pressure(), "Pa")),
     ]);
-    let costs = costs(&setup.cost, Some(forecast), time(simulation, spent, forecast));
+    let costs = costs(simulation, Some(forecast), time(simulation, spent, forecast));
     let model = match &setup.cost {
         Cost::Steps { .. } | Cost::Factors { .. } => {
             let meshes = mesh_table(simulation.case().scene(), simulation.model().meshes());
@@ -138,7 +138,7 @@ fn unforced(simulation: &Simulation) -> String {
     let planned = is_forced.then(|| simulation.case().edited(|file| file.effects = None));
     match planned.and_then(Result::ok).map(Simulation::new) {
         Some(Ok(planned)) if planned.setup().cost != simulation.setup().cost => {
-            let costs = costs(&planned.setup().cost, None, Vec::new());
+            let costs = costs(&planned, None, Vec::new());
             format!("\nCost if the plan decided on all effects\n{costs}")
         }
         _ => String::new(),
@@ -209,11 +209,11 @@ fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String
     rows
 }
 
-fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> String {
+fn costs(simulation: &Simulation, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> String {
     let mut rows: Vec<[String; 2]> = Vec::new();
     let mut row = |name: &str, value: String| rows.push([name.to_string(), value]);
-    match *cost {
-        Cost::Steps { steps, element_updates, memory, time_step, plain_time_step, .. } => {
+    match simulation.setup().cost {
+        Cost::Steps { steps, element_updates, time_step, plain_time_step, .. } => {
             let longer = time_step / plain_time_step;
             let step = show(time_step, "s");
             row("time step", format!("{step} ({longer:.2} times that without mass scaling)"));
@@ -226,7 +226,6 @@ fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> St
                 format!(", {all:.1e} with companions and the meshes that are foretold")
             });
             row("element updates", format!("about {element_updates:.1e}{all}"));
-            row("memory", format!("about {}", DecimalBytes(peak_memory_with(memory))));
         }
         Cost::Factors { contact_points, steps, factor_bytes, .. } => {
             row("contact points", format!("{contact_points} condensed"));
@@ -236,6 +235,9 @@ fn costs(cost: &Cost, forecast: Option<&Forecast>, time: Vec<[String; 2]>) -> St
             }
         }
         Cost::Little { .. } => {}
+    }
+    if let Some(bytes) = peak_memory_with(simulation) {
+        row("memory", format!("about {}", DecimalBytes(bytes)));
     }
     rows.extend(time);
     table(&[Left, Left], rows)

@@ -201,16 +201,17 @@ fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) 
     let time = |seconds: Option<f64>| {
         seconds.map_or(String::new(), |seconds| format!(", some {}", show(seconds, "s")))
     };
+    let memory = peak_memory_with(simulation);
+    let memory = memory.map_or(String::new(), |bytes| format!(", about {}", DecimalBytes(bytes)));
     match simulation.setup().cost {
-        Cost::Steps { elements, steps, seconds: expected, memory, .. } => format!(
-            "{} elements, about {} steps{}, about {}",
+        Cost::Steps { elements, steps, seconds: expected, .. } => format!(
+            "{} elements, about {} steps{}{memory}",
             HumanCount(elements),
             HumanCount((longer * steps as f64) as u64),
-            time(seconds.or(Some(expected))),
-            DecimalBytes(peak_memory_with(memory))
+            time(seconds.or(Some(expected)))
         ),
         Cost::Factors { elements, contact_points, factor_bytes, .. } => format!(
-            "{} elements condensed to {contact_points} contact points{}{}",
+            "{} elements condensed to {contact_points} contact points{}{}{memory}",
             HumanCount(elements),
             match factor_bytes {
                 0 => String::new(),

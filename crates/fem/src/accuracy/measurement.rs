@@ -48,7 +48,7 @@ impl Measurement {
         let collision = simulation.run(monitor);
         let (elements, memory) = match simulation.setup().cost {
             Cost::Steps { elements, memory, .. } => (elements, Some(memory)),
-            Cost::Factors { elements, factor_bytes, .. } => (elements, Some(factor_bytes)),
+            Cost::Factors { elements, memory, .. } => (elements, Some(memory)),
             Cost::Little { .. } => (0, None),
         };
         let is_complete = collision.is_complete();

@@ -4,6 +4,7 @@ use fem_case::{Body, Scene};
 use fem_explicit::Model as Bodies;
 use fem_material::{Material, PronySeries};
 
+use super::condensed_bytes;
 use crate::accuracy::companion_updates;
 use crate::duration::expected_duration;
 use crate::effects::{BulkViscosity, FiniteStrain};
@@ -51,6 +52,7 @@ pub(super) fn cost(scene: &Scene, model: &Bodies, plan: &Plan) -> Result<Cost, R
         element_updates,
         seconds: with_companions(scene, plan, elements, steps * seconds_a_step(scene, model, plan)),
         memory,
+        companion_memory: companion_memory(scene, model, plan),
         time_step: model.time_step(),
         plain_time_step: model.plain_time_step(),
     })
@@ -65,6 +67,18 @@ fn with_companions(scene: &Scene, plan: &Plan, elements: u64, seconds: f64) -> f
         Some(share) => (1.0 + share) * seconds,
         None => seconds + SECONDS_OF_CONDENSED_COMPANIONS * elements as f64,
     }
+}
+
+/// Bytes of condensed companions, the largest of which have elements of half the length; none where they are not made.
+fn companion_memory(scene: &Scene, model: &Bodies, plan: &Plan) -> Option<u64> {
+    let is_finite = FiniteStrain::laws(scene, &plan.estimate) != [None; 2];
+    let Estimate { mach, strain, .. } = plan.estimate;
+    let are_condensed = companion_updates([mach, strain], is_finite).is_none();
+    let [lower, upper] = scene.bodies();
+    let [of_lower, of_upper] = model.bodies().each_ref().map(|body| 4 * body.n_elements() as u64);
+    let are_allowed = condensed_bytes::MOST * (of_lower + of_upper) <= plan.max_memory;
+    (are_condensed && plan.makes_meshes && are_allowed)
+        .then(|| condensed_bytes::expected([(lower, of_lower), (upper, of_upper)], false))
 }
 
 /// Seconds that a step of both bodies takes.

@@ -3,6 +3,7 @@
 mod auto;
 mod bouncing;
 mod condensed;
+mod condensed_bytes;
 mod explicit;
 mod explicit_cost;
 mod hertz;

@@ -14,11 +14,12 @@ use fem_collision::{
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
+use fem_material::PronySeries;
 use fem_material::engineering::Unit;
-use fem_material::{ActsOn, PronySeries};
 use fem_mesh::SphereMesh;
 
 use self::pace::{Foretold, n_steps};
+use super::condensed_bytes::{self, relaxes_in_shear};
 use super::mirrored::{Mirrored, plan_of_half};
 use crate::approach::{approach_of, frame_of};
 use crate::body_source::BodySource;
@@ -41,8 +42,6 @@ const CANDIDATES_OVER_REFINED: f64 = 1.125;
 const CANDIDATES_OVER_CONTACT: f64 = 1.3;
 /// Least half-width of the condensed region, in elements of the contact.
 const CANDIDATE_ELEMENTS: f64 = 3.0;
-/// Bytes an element takes: factor, assembly, a share of fields.
-const BYTES_PER_ELEMENT: u64 = 8_000;
 
 /// Linear finite elements condensed to their contact, `[model] condensed = {}`.
 #[derive(Clone, Copy, Debug)]
@@ -145,7 +144,7 @@ impl Condensed {
             estimate: plan.estimate,
             decisions,
             unread,
-            cost: cost_of(&pair, n_steps as u64),
+            cost: cost_of(scene, &pair, n_steps as u64),
             elements: Some(ElementSetup {
                 has_springs: options.penalty_springs,
                 added_share: 0.0,
@@ -345,13 +344,19 @@ fn options(scene: &Scene) -> CondensedOptions {
     }
 }
 
-fn cost_of(pair: &CondensedPair, steps: u64) -> Cost {
-    let meshes = pair.inputs().iter().filter_map(BodyInput::mesh);
+fn cost_of(scene: &Scene, pair: &CondensedPair, steps: u64) -> Cost {
+    let elements = pair.inputs().each_ref().map(|input| {
+        let mesh = input.mesh();
+        mesh.map_or(0, |mesh| mesh.quads().len() as u64)
+    });
+    let [lower, upper] = scene.bodies();
+    let bodies = [(lower, elements[0]), (upper, elements[1])];
     Cost::Factors {
-        elements: meshes.map(|mesh| mesh.quads().len() as u64).sum(),
+        elements: elements.iter().sum(),
         contact_points: pair.n_points() as u64,
         steps,
         factor_bytes: pair.factor_bytes() as u64,
+        memory: condensed_bytes::expected(bodies, pair.settings().keeps_factors),
     }
 }
 
@@ -392,18 +397,17 @@ fn settings(scene: &Scene, plan: &Plan, options: CondensedOptions) -> PairSettin
 
 /// Whether a collision needs more of the bodies than their compliance, even if no fields are asked for.
 fn needs_factors(scene: &Scene, options: CondensedOptions) -> bool {
-    let mut series = scene.bodies().iter().filter_map(|body| body.material()?.relaxation());
-    options.vibration_modes > 0 || series.any(|series| series.acts_on() == ActsOn::Shear)
+    options.vibration_modes > 0 || scene.bodies().iter().any(relaxes_in_shear)
 }
 
 fn check_memory(plan: &Plan, sources: &[BodySource; 2]) -> Result<(), Refusal> {
     let elements = sources[0].n_elements()? + sources[1].n_elements()?;
-    let bytes = BYTES_PER_ELEMENT.saturating_mul(elements as u64);
+    let bytes = condensed_bytes::MOST.saturating_mul(elements as u64);
     if bytes <= plan.max_memory {
         return Ok(());
     }
     let shown = |bytes: u64| Unit::fitting(bytes as f64, "B").with_digits(2).show(bytes as f64);
-    let message = format!("the factors would take about {} of memory", shown(bytes));
+    let message = format!("the factors may take up to {} of memory", shown(bytes));
     Err(Refusal::new("limits.memory", message).with_help(format!(
         "at most {} are allowed; use a larger mesh.contact_element_size, or raise limits.memory",
         shown(plan.max_memory)
