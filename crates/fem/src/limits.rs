@@ -1,6 +1,6 @@
 //! `[limits]`: a run that needs more is refused before it starts.
 
-use fem_case::{Scene, Shape};
+use fem_case::{ModelChoice, Scene, Shape};
 use fem_explicit::n_states;
 use fem_material::engineering::show;
 use fem_mesh::MeshError;
@@ -77,7 +77,12 @@ pub(crate) fn check_size(scene: &Scene, plan: &Plan) -> Result<(), Refusal> {
         }
     }
     check_elements(scene, plan, elements)?;
-    check_memory(scene, plan, elements, explicit_memory(scene, plan, elements, branches))
+    let memory = match scene.model() {
+        // They have a bound of their own beside the states.
+        ModelChoice::Condensed(_) => state_memory(plan, elements),
+        _ => explicit_memory(scene, plan, elements, branches),
+    };
+    check_memory(scene, plan, elements, memory)
 }
 
 fn state_memory(plan: &Plan, elements: u64) -> u64 {

@@ -304,9 +304,13 @@ fn limits_are_told() {
     warned(&[CONDENSED, "contact.penalty_factor=2"], "contact.penalty_factor has no effect");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "vibration_modes = 12");
     warned(&[CONDENSED, "body.0.approach_speed=30"], "small strain is off by");
-    let tight = parse(&[CONDENSED, "limits.memory=1000"]).unwrap();
-    let error = Simulation::new(tight).unwrap_err();
+    let refused = |overrides: &[&str]| Simulation::new(parse(overrides).unwrap()).unwrap_err();
+    // That of the factors, and not of what explicit elements would take.
+    let error = refused(&[CONDENSED, "limits.memory=1000", "mesh.contact_element_size='60 um'"]);
+    assert!(error.message().contains("factors"), "{error}");
     assert!(error.help().is_some_and(|help| help.contains("limits.memory")), "{error}");
+    let error = refused(&[CONDENSED, "output.snapshots=100000"]);
+    assert!(error.help().is_some_and(|help| help.contains("fewer output.snapshots")), "{error}");
 }
 
 /// What stops bodies that nearly flow is slow: they take as many steps as others, not a hundred times as
