@@ -73,7 +73,7 @@ impl Scene {
         self.step_factor
     }
 
-    /// Largest added mass as a fraction of the lighter body's mass, in [0, 0.1].
+    /// Largest mass that is moved as a fraction of the lighter body's mass, in [0, 0.1], where both give way alike.
     pub fn mass_scaling(&self) -> Option<f64> {
         self.mass_scaling
     }

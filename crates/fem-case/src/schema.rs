@@ -169,7 +169,8 @@ pub struct TimeTable {
     /// Times the critical time step, > 0 and at most 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_factor: Option<Quantity<Number>>,
-    /// Largest mass that is moved to light nodes, as a fraction of the lighter body's mass, 0 to 0.1; 0 forbids it.
+    /// Largest mass that is moved to light nodes, as a fraction of the lighter body's mass, and of several times that in a
+    /// body that gives way less, but no more than of its own; 0 to 0.1; 0 forbids it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_scaling: Option<Quantity<Number>>,
 }

@@ -25,9 +25,12 @@ pub struct Settings {
     pub candidate_radius: f64,
     /// Time step over critical time step, in (0, 1].
     pub step_factor: f64,
-    /// Largest mass that is added in a body, as a fraction of the mass of the lighter one of both, in [0, 1):
-    /// at the contact of a large body with a small one nodes move as the small one does.
+    /// Largest mass that is moved in a body, as a fraction of its mass or of `mass_times` that of the lighter one of
+    /// both, whichever is less, in [0, 1).
     pub mass_scaling: f64,
+    /// See [`Settings::mass_scaling`], of the lower and of the upper body. With 1, mass at the contact of a large body
+    /// with a small one goes as the small one does; that of a body that hardly gives way does not.
+    pub mass_times: [f64; 2],
 }
 
 /// Parts of a model beyond what its bodies and settings ask for by themselves: none by default.
@@ -130,11 +133,14 @@ impl Model {
             movable.iter().flatten().map(step).fold(f64::INFINITY, f64::min)
         };
         let plain = smallest(&LumpedBody::critical_time_step);
-        // What is moved to the contact goes with it, and so with the lighter body.
         let masses = movable.each_ref().map(|body| body.as_ref().and_then(LumpedBody::mass));
         let lightest = masses.into_iter().flatten().reduce(f64::min).unwrap_or_default();
-        let budget = settings.mass_scaling * lightest;
-        let critical = smallest(&|body| body.scaled_time_step(budget));
+        let critical = movable.iter().zip(settings.mass_times).filter_map(|(body, times)| {
+            let body = body.as_ref()?;
+            let whole = body.mass().unwrap_or(f64::INFINITY).min(times * lightest);
+            Some(body.scaled_time_step(settings.mass_scaling * whole))
+        });
+        let critical = critical.fold(f64::INFINITY, f64::min);
         let time_step = settings.step_factor * critical;
         if !(time_step > 0.0 && time_step.is_finite()) {
             return Err(ModelError::NoStep { time_step });
@@ -311,13 +317,17 @@ pub(crate) fn surface(input: &BodyInput) -> Result<Surface, ContactError> {
 }
 
 fn check(settings: &Settings) -> Result<(), ModelError> {
-    let &Settings { step_factor, mass_scaling, .. } = settings;
+    let &Settings { step_factor, mass_scaling, mass_times, .. } = settings;
     check_step_factor(step_factor)?;
-    if (0.0..1.0).contains(&mass_scaling) {
-        return Ok(());
-    }
     let (name, allowed) = ("mass scaling", "at least 0 and below 1");
-    Err(ModelError::Setting { name, value: mass_scaling, allowed })
+    if !(0.0..1.0).contains(&mass_scaling) {
+        return Err(ModelError::Setting { name, value: mass_scaling, allowed });
+    }
+    let (name, allowed) = ("times of the lighter mass", "positive and finite");
+    match mass_times.into_iter().find(|times| !(*times > 0.0 && times.is_finite())) {
+        Some(value) => Err(ModelError::Setting { name, value, allowed }),
+        None => Ok(()),
+    }
 }
 
 pub(crate) fn check_step_factor(value: f64) -> Result<(), ModelError> {

@@ -58,6 +58,7 @@ pub fn collide(
 /// #     candidate_radius: 0.8e-3,
 /// #     step_factor: 0.9,
 /// #     mass_scaling: 1e-3,
+/// #     mass_times: [1.0; 2],
 /// # };
 /// let bodies = [BodyInput::Sphere { mesh, material }, BodyInput::Wall];
 /// let model = Model::new(bodies, Approach::at(0.5)?, &settings)?;

@@ -48,7 +48,13 @@ pub(crate) fn sphere(size: f64, refined_radius: f64, side: Side) -> SphereMesh {
 
 /// Settings with a far-away contact and no mass scaling.
 pub(crate) fn settings() -> Settings {
-    Settings { contact_stiffness: 1.0, candidate_radius: 0.3, step_factor: 0.9, mass_scaling: 0.0 }
+    Settings {
+        contact_stiffness: 1.0,
+        candidate_radius: 0.3,
+        step_factor: 0.9,
+        mass_scaling: 0.0,
+        mass_times: [1.0; 2],
+    }
 }
 
 /// A sphere alone and at rest: a wall far below never meets it.

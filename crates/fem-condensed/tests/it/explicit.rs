@@ -20,6 +20,7 @@ fn run_explicit(scene: &Scene) -> Collision {
         step_factor: 0.9,
         // 3e-5 of the mass moves T by as much.
         mass_scaling: 3e-5,
+        mass_times: [1.0; 2],
     };
     let model =
         Model::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings).unwrap();

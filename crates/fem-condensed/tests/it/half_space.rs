@@ -108,6 +108,7 @@ impl Ball {
             candidate_radius,
             step_factor: 0.9,
             mass_scaling: 2e-4,
+            mass_times: [1.0; 2],
         };
         let bodies = [self.half_space(far_radius), self.sphere()];
         let approach = Approach::new([0.0, -self.speed], 0.0).unwrap();

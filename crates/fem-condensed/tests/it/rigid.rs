@@ -166,6 +166,7 @@ fn a_rigid_partner_is_the_explicit_one() {
             candidate_radius,
             step_factor: 0.9,
             mass_scaling: 3e-5,
+            mass_times: [1.0; 2],
         };
         let model = Model::new(inputs.clone(), Approach::at(0.5).unwrap(), &settings).unwrap();
         let expected =

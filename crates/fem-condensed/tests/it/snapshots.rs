@@ -250,6 +250,7 @@ fn fields_are_the_explicit_ones() {
         candidate_radius: 1.5 * hertz.max_contact_radius(),
         step_factor: 0.9,
         mass_scaling: 3e-5,
+        mass_times: [1.0; 2],
     };
     let model = fem_explicit::Model::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
     let request = SnapshotRequest::Labels(vec![Label::Maximum]);

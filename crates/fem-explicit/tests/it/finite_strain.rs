@@ -88,6 +88,7 @@ impl Ball {
             candidate_radius: 0.95 * RADIUS,
             step_factor: 0.9,
             mass_scaling: 1e-3,
+            mass_times: [1.0; 2],
         };
         let approach = Approach::new([0.0, -self.speed], 0.0).unwrap();
         let parts = Parts { finite_strain: [None, self.law], ..Parts::default() };

@@ -29,6 +29,7 @@ fn run(bodies: [BodyInput; 2], speed: f64) -> Collision {
         candidate_radius: 0.999 * radii[0].min(radii[1]),
         step_factor: 0.9,
         mass_scaling: 2e-4,
+        mass_times: [1.0; 2],
     };
     let law = Some(HyperelasticLaw::NeoHooke);
     let parts = Parts { finite_strain: [law; 2], ..Parts::default() };

@@ -112,6 +112,7 @@ impl Ball {
             candidate_radius,
             step_factor: 0.9,
             mass_scaling: self.mass_scaling,
+            mass_times: [1.0; 2],
         };
         Model::new(bodies, Approach::new(velocities, 0.0).unwrap(), &settings).unwrap()
     }
@@ -183,6 +184,7 @@ fn a_partner_forty_times_larger_is_a_half_space() {
         candidate_radius: 1.5 * hertz.contact_radius,
         step_factor: 0.9,
         mass_scaling: 0.0,
+        mass_times: [1.0; 2],
     };
     let large = Model::new(bodies, *model.approach(), &settings).unwrap();
     let expected = Ball::default().expected();
@@ -331,6 +333,7 @@ fn a_half_space_meets_a_sphere() {
         candidate_radius: 0.1,
         step_factor: 0.9,
         mass_scaling: 0.0,
+        mass_times: [1.0; 2],
     };
     for upper in [BodyInput::Wall, block(Side::Above)] {
         let bodies = [block(Side::Below), upper];

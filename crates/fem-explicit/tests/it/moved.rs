@@ -86,6 +86,7 @@ fn slip_of_unlike_bodies_is_there() {
         candidate_radius: 1.5 * contact_radius,
         step_factor: 0.9,
         mass_scaling: 2e-4,
+        mass_times: [1.0; 2],
     };
     let expected = Expectation { contact_time: 67e-6, approach: 12e-6 };
     let run = |moved: bool| {
@@ -146,6 +147,7 @@ fn rubber(element_size: f64, candidate_radius: f64) -> ([BodyInput; 2], Settings
         candidate_radius,
         step_factor: 0.9,
         mass_scaling: 2e-4,
+        mass_times: [1.0; 2],
     };
     ([BodyInput::Wall, BodyInput::Sphere { mesh, material }], settings)
 }

@@ -22,6 +22,7 @@ fn model(n: f64) -> Model {
         candidate_radius: 0.3,
         step_factor: 0.9,
         mass_scaling: 0.0,
+        mass_times: [1.0; 2],
     };
     Model::new([BodyInput::Wall, sphere], Approach::at(1.0).unwrap(), &settings).unwrap()
 }

@@ -136,6 +136,7 @@ impl Pair<'_> {
             candidate_radius: BLOCK * self.sizes[0].max(self.sizes[1]),
             step_factor: 1.0,
             mass_scaling: self.scaling,
+            mass_times: [1.0; 2],
         };
         let bodies = [body(0, Side::Below)?, body(1, Side::Above)?];
         Ok(Model::new(bodies, Approach::at(1.0)?, &settings)?)

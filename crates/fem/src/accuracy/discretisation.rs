@@ -121,7 +121,7 @@ pub(crate) fn discretisation_errors(
         true => fronts(mach),
         false => [0.0; 6],
     };
-    let added = added_share(collision);
+    let added = added_share(simulation, collision);
     let early = EarlyPressure::of(simulation, collision);
     let fast = if is_explicit { OF_FAST_TERMS * lost_at_once(simulation, collision) } else { 0.0 };
     let of_relaxation = |headline| match headline {

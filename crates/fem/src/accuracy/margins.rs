@@ -7,7 +7,7 @@ use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
 use super::companion::{SLOW, companion_updates};
-use crate::effects::FiniteStrain;
+use crate::effects::{FiniteStrain, MassScaling};
 use crate::estimate::Estimate;
 use crate::method::Cost;
 use crate::simulation::Simulation;
@@ -149,7 +149,10 @@ pub(crate) fn of_moved_mass(added: f64, headline: Headline) -> f64 {
     added * OF_ADDED_MASS[headline as usize]
 }
 
-/// The most mass that is moved in a body over that of the lighter one.
-pub(super) fn added_share(collision: &Collision) -> f64 {
-    collision.added_shares().into_iter().flatten().fold(0.0, f64::max)
+/// The most mass that is moved in a body over that of the lighter one; of one that gives way less, that share over how many
+/// times as much may be moved.
+pub(super) fn added_share(simulation: &Simulation, collision: &Collision) -> f64 {
+    let shares =
+        collision.added_shares().into_iter().zip(MassScaling::times(simulation.case().scene()));
+    shares.filter_map(|(share, times)| Some(share? / times)).fold(0.0, f64::max)
 }

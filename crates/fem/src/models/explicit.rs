@@ -122,7 +122,7 @@ impl Explicit {
         let approach = approach_of(scene)?;
         let made = Made {
             scene: scene.clone(),
-            settings: settings(&plan),
+            settings: settings(scene, &plan),
             contact_element_size: plan.contact_element_size,
             method: method(plan.contact_method),
             penalty_factor: plan.penalty_factor,
@@ -149,7 +149,7 @@ impl Explicit {
                 quieter: Quieter::of_elements(scene, &plan),
                 plan,
                 has_springs: true,
-                added_share: added_share(&bodies),
+                added_share: added_share(scene, &bodies),
             }),
         };
         Ok(Self { setup, made: Arc::new(made), frame, bodies: Arc::new(bodies) })
@@ -378,12 +378,13 @@ fn inputs(scene: &Scene, plan: &Plan) -> Result<[BodyInput; 2], Refusal> {
     Ok([lower.build(0)?, upper.build(1)?])
 }
 
-fn settings(plan: &Plan) -> Settings {
+fn settings(scene: &Scene, plan: &Plan) -> Settings {
     Settings {
         contact_stiffness: plan.contact_stiffness,
         candidate_radius: plan.candidate_radius,
         step_factor: plan.step_factor,
         mass_scaling: plan.mass_scaling,
+        mass_times: MassScaling::times(scene),
     }
 }
 
@@ -425,8 +426,10 @@ fn mass_scaling(scene: &Scene, model: &Bodies) -> Answer {
     MassScaling::of(scene, masses, added, model.time_step() / model.plain_time_step())
 }
 
-/// The larger share of the lighter body's mass that is moved in a body.
-fn added_share(model: &Bodies) -> f64 {
+/// The larger share of the lighter body's mass that is moved in a body; of one that gives way less, that share over how
+/// many times as much may be moved.
+fn added_share(scene: &Scene, model: &Bodies) -> f64 {
     let lightest = model.bodies().iter().map(|body| body.mass()).fold(f64::INFINITY, f64::min);
-    model.bodies().iter().map(|body| body.added_mass() / lightest).fold(0.0, f64::max)
+    let shares = model.bodies().iter().map(|body| body.added_mass() / lightest);
+    shares.zip(MassScaling::times(scene)).map(|(share, times)| share / times).fold(0.0, f64::max)
 }

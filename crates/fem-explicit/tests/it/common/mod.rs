@@ -102,6 +102,7 @@ impl Pair {
             candidate_radius: self.candidate_radius * length,
             step_factor: self.step_factor,
             mass_scaling: 2e-4,
+            mass_times: [1.0; 2],
         }
     }
 

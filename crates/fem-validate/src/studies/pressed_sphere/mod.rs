@@ -76,8 +76,13 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<Row>, u64), StudyError
     let contact_stiffness = PENALTY_FACTOR * moduli.plane_strain_modulus();
     let far_plate = FarPlate::new(&mesh, contact_stiffness / element_size, speed);
     let bodies = [BodyInput::Wall, BodyInput::Sphere { mesh, material }];
-    let settings =
-        Settings { contact_stiffness, candidate_radius: 0.97, step_factor: 0.8, mass_scaling: 0.0 };
+    let settings = Settings {
+        contact_stiffness,
+        candidate_radius: 0.97,
+        step_factor: 0.8,
+        mass_scaling: 0.0,
+        mass_times: [1.0; 2],
+    };
     let approach = Approach::new([0.0, -speed], 0.0)?;
     let contact = MovedContact::new(&bodies, 0.0, &settings).map_err(ModelError::from)?;
     let far: Box<dyn NodeForce> = Box::new(far_plate);
