@@ -3,6 +3,8 @@
 
     compare_builds.py OLD NEW            every shipped case with every model, sweeps, all commands
     compare_builds.py OLD NEW --quick    two cases and no sweep, after each small move
+    compare_builds.py OLD NEW --reworded the same without texts, after a change of words
+    compare_builds.py OLD NEW --new-bars the same without error bars, after a change of their estimate
     compare_builds.py OLD NEW --times N  instead of results, N interleaved pairs of timed runs a row
 
 Both get the same commands (compare_jobs.py) on the cases and data of this checkout. Compared are exit
@@ -40,7 +42,7 @@ BEFORE, AFTER = 20, 40
 # What a page of a result says that its other files do not: what the run took.
 NOT_COMPARED = {"report.html"}
 MEASURED = re.compile(
-    r"(^|\.)cost\.(wall_s|setup_s|solve_s|ns_per_element_update|peak_memory_bytes)$"
+    r"(^|\.)cost\.(wall_s|setup_s|solve_s|trials_s|ns_per_element_update|peak_memory_bytes)$"
     r"|^claims\.\d+\.seconds$")
 # ... parts of what is printed, and of the page of claims.
 COST_LINE = re.compile(r"^(cost  ).*$", re.MULTILINE)
@@ -114,12 +116,22 @@ def flatten(value, path=""):
         yield path, value
 
 
+# What `--reworded` leaves out: files to read, and texts of JSON that are no names.
+PAGES = {".html", ".md", ".svg", ".txt"}
+WORDS = re.compile(r"(^|\.)(warnings|reason|stopped_because|message|title)(\.\d+)?$")
+# What `--new-bars` leaves out.
+BARS = re.compile(r"(^|\.)uncertainty\.|(^|\.)cost\.|error_if_left_out|elastic_null|tolerance")
+left_out = {"words": False, "bars": False}
+
+
 def json_entries(text):
     """Numbers stay as they are written; of a measured one it counts only whether it is there."""
     number = "number {}".format
     entries = flatten(json.loads(text, parse_float=number, parse_int=number))
     return [(key, "measured" if value and MEASURED.search(key) else value)
-            for key, value in entries if key not in ("version", "numerics")]
+            for key, value in entries if key not in ("version", "numerics")
+            and not (left_out["words"] and WORDS.search(key))
+            and not (left_out["bars"] and BARS.search(key))]
 
 
 def json_difference(old, new):
@@ -149,6 +161,8 @@ def file_difference(old, new, members):
         return "only the old build writes it" if new is None else "only the new build writes it"
     texts = [without_names(text_of(path.read_bytes()), names)
              for path, names in zip((old, new), members)]
+    if left_out["words"] and old.suffix in PAGES:
+        return None
     if old.suffix == ".json":
         with contextlib.suppress(json.JSONDecodeError):
             return json_difference(*texts)
@@ -171,6 +185,8 @@ def differences(binaries, job):
         found = {name: text_difference(*(without_names(side.get(name, ""), names)
                                          for side, names in zip(told, members)))
                  for name in told[0] | told[1]}
+        if left_out["words"]:
+            found = {name: what for name, what in found.items() if name.startswith("exit status")}
         names = sorted(left[0] | left[1])
         found |= {name: file_difference(left[0].get(name), left[1].get(name), members)
                   for name in names}
@@ -251,12 +267,15 @@ def main():
     parser.add_argument("old", metavar="OLD", type=os.path.abspath)
     parser.add_argument("new", metavar="NEW", type=os.path.abspath)
     parser.add_argument("--quick", action="store_true", help="two cases and no sweep")
+    parser.add_argument("--reworded", action="store_true", help="leave out texts")
+    parser.add_argument("--new-bars", action="store_true", help="leave out error bars too")
     parser.add_argument("--times", metavar="N", type=int, help="pairs of timed runs a row, from 2")
     arguments = parser.parse_args()
     binaries = [arguments.old, arguments.new]
     for binary in binaries:
         if not os.access(binary, os.X_OK):
             parser.error(f"{binary} is no program")
+    left_out.update(words=arguments.reworded or arguments.new_bars, bars=arguments.new_bars)
     if arguments.times is None:
         sys.exit(1 if compare(binaries, quick_jobs() if arguments.quick else all_jobs()) else 0)
     if arguments.times < 2:
