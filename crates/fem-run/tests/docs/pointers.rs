@@ -8,8 +8,8 @@ use crate::pages::{Page, root};
 /// Folders at the top that a path may begin with; any other path begins in `crates/`.
 const TOP: [&str; 8] =
     ["crates/", ".ci/", "cases/", "docs/", "fuzz/", "meshes/", "validation/", "clippy.toml"];
-/// A crate that is not in `crates/`, and where it is.
-const APART: (&str, &str) = ("fem-fuzz", "fuzz");
+/// Crates outside `crates/`, and their folders.
+const APART: [(&str, &str); 2] = [("fem-fuzz", "fuzz"), ("fem-validate", "validation")];
 /// What a path stands for that is no file of the repository.
 const PLACEHOLDERS: [&str; 5] = ["NAME", "CASE", "<", "*", "…"];
 /// What defines an item.
@@ -39,10 +39,11 @@ impl<'a> Pointer<'a> {
 
     fn fault(&self) -> Option<String> {
         let is_top = TOP.iter().any(|folder| self.path.starts_with(folder));
-        let place = match (is_top, self.path == APART.0) {
-            (true, _) => root().join(self.path),
-            (_, true) => root().join(APART.1),
-            _ => root().join("crates").join(self.path),
+        let apart = APART.iter().find(|(name, _)| *name == self.path);
+        let place = match apart {
+            Some((_, folder)) => root().join(folder),
+            None if is_top => root().join(self.path),
+            None => root().join("crates").join(self.path),
         };
         if !place.exists() {
             return Some(format!("there is no {}", self.path));

@@ -10,7 +10,7 @@ mod digest;
 
 use digest::{crates_below, digest};
 
-const ABOVE: [&str; 3] = ["fem-figure", "fem-run", "fem-validate"];
+const ABOVE: [&str; 2] = ["fem-figure", "fem-run"];
 
 fn own() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))

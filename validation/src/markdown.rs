@@ -23,9 +23,9 @@ fn pictures_of(result: &ClaimResult) -> impl Iterator<Item = (String, &Figure)> 
 /// run on the same program: no times, no machine.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
-        "<!-- Written by `fem-run validate --table docs/validation.md`; not by hand. -->\n\
+        "<!-- Written by `fem-run validate --table validation/claims.md`; not by hand. -->\n\
          # What is claimed, and how far it holds\n\n\
-         Each claim is a folder in [validation](../validation): cases, references with their \
+         Each claim is a folder in this directory: cases, references with their \
          sources, tolerances with their reasons. `fem-run validate` runs them all and writes a \
          page with the pictures; this table is made by the same command.\n\n\
          The *kind* of a reference says what it is worth: **analytic**, a closed form or a \
@@ -72,11 +72,11 @@ pub fn hard_scenes(results: &[ClaimResult]) -> String {
     let hard = results.iter().filter(|result| has_hard_scenes(&result.claim));
     let tables = hard.flat_map(|result| &result.findings.tables);
     let mut text = String::from(
-        "<!-- Written by `fem-run validate hard --scenes docs/hard-cases.md`; not by hand. -->\n\
+        "<!-- Written by `fem-run validate hard --scenes validation/hard/scenes.md`; not by hand. -->\n\
          # Hard scenes\n\n\
          From one extreme to the other of every axis, with every model: the right answer, or why there is \
          none. What each scene is made of, is held against and has to say stands in \
-         [validation/hard](../validation/hard/claim.toml); the claim holds all of it.\n\n\
+         [claim.toml](claim.toml); the claim holds all of it.\n\n\
          *Δe*, *ΔT/T*, *ΔF/F* and *Δp/p* (peak pressure) are what a run is off its reference, where it has one. *Growth* is the most that \
          the bodies hold at any instant above what they had and were given, over what they had; *momentum* its \
          largest drift over what went in; *cost* element updates over those that were announced. Of a ball that \
@@ -97,7 +97,7 @@ pub fn hard_scenes(results: &[ClaimResult]) -> String {
 
 fn rows(text: &mut String, result: &ClaimResult) {
     let name = &result.claim.name;
-    let link = format!("[{name}](../validation/{name}/claim.toml)");
+    let link = format!("[{name}]({name}/claim.toml)");
     if let Some(error) = &result.error {
         let error = error.to_string().replace('\n', " ");
         let _ = writeln!(text, "| {link} | {} | | | | | | FAIL |", cell(&error));
