@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
-"""The JSON schemas against a validator that others wrote: they take every case and sweep of the
-repository, as written and as resolved, and refuse what the program refuses for its keys and types.
+"""Holds the JSON schemas of cases and sweeps against the validator `jsonschema` and against the program.
+
+Both must accept every case and sweep of the repository, as written and as resolved, and every way to write a unit;
+both must reject what differs from a good case by one wrong key or value.
 
     check_schema.py FEM_RUN          FEM_RUN is the built command
 """
@@ -16,6 +18,73 @@ import tomllib
 import jsonschema
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+GOOD = tomllib.loads((ROOT / "cases/glass_0.5ms.toml").read_text())
+GLASS = "/material/glass"
+ABSENT = object()
+
+# What schema and program both reject: the place of one changed value, and the value.
+REJECTED = [
+    ("/titel", "x"),
+    ("/body", ABSENT),
+    ("/body/1", ABSENT),
+    ("/body/0/name", ABSENT),
+    ("/body/0/sphere", ABSENT),
+    ("/body/0/sphere", "22.2 mm"),
+    ("/body/0/wall", {}),
+    ("/body/0/material", ABSENT),
+    ("/body/0/material", "lib:stel"),
+    ("/body/0/sphere/diameter", "22.2 s"),
+    ("/body/0/sphere/diameter", "22.2 mmm"),
+    ("/body/0/sphere/diameter", "22,2 mm"),
+    ("/body/0/sphere/diameter", "-22.2 mm"),
+    ("/body/0/sphere/diameter", -1),
+    ("/body/0/sphere/diameter", "22.2 m/s"),
+    ("/body/0/sphere/radius", 1),
+    ("/body/0/approach_speed", "0.5 m"),
+    ("/body/0/approach_speed", "1e-3 kg/s"),
+    ("/body/0/held", "yes"),
+    (f"{GLASS}/density", ABSENT),
+    (f"{GLASS}/density", "dense"),
+    (f"{GLASS}/density", True),
+    (f"{GLASS}/density", "2390 kg/m^2"),
+    (f"{GLASS}/density", 0),
+    (f"{GLASS}/youngs_modulus", "63 gigapascal"),
+    (f"{GLASS}/youngs_modulus", "63 N/m"),
+    (f"{GLASS}/shear_modulus", "25 GPa"),
+    (f"{GLASS}/poissons_ratio", ABSENT),
+    (f"{GLASS}/poissons_ratio", 0.5),
+    (f"{GLASS}/relaxation/terms/0/relaxation_time", "1 s"),
+    (f"{GLASS}/relaxation/terms/0/decay_rate", "2708 s"),
+    (f"{GLASS}/relaxation/terms/0/weight", 1.5),
+    (f"{GLASS}/relaxation/acts_on", "bulk"),
+    ("/model", {"ting": {}, "hertz": {}}),
+    ("/model", {}),
+    ("/model", "tinge"),
+    ("/model/law", {"end": "zero_force"}),
+    ("/model/law/tsuji", {"k": 1}),
+    ("/model/law/tsuji", {"e": 0.9, "alpha": 0.1}),
+    ("/model/law/tsuji", {"e": 1.1}),
+    ("/model/law/falcon", {}),
+    ("/model/law/linear", {"k": 1e7, "e": 0.9}),
+    ("/contact/method", "sticky"),
+    ("/time/step_factor", 1.5),
+    ("/mesh/growth", 1),
+    ("/stop/bounces", 0),
+    ("/accuracy/tolerance/force", 0.1),
+    ("/accuracy/tolerance/peak_force", 0.9),
+    ("/output/snapshots", ["middle"]),
+    ("/effects/gravity", "on"),
+]
+# Every way to write a unit that the program reads.
+ACCEPTED = {
+    "/body/0/sphere/diameter": ["22.2 mm", "22.2mm", "14 µm", "1 in", "0.1 ft", "2e-2 m"],
+    "/body/0/approach_speed": ["50 cm/s", "1.8 km/h", "1 mph", "0.5 m s^-1", "0.5 m s⁻¹", "0.5 m·s-1"],
+    f"{GLASS}/density": ["2390 kg/m^3", "2.39 g/cm³", "2.39 g cm^-3", "2.39 kg/L", "2.39 t/m**3"],
+    f"{GLASS}/youngs_modulus": ["63 GPa", "63e9 N/m^2", "63 kN/mm²", "9e6 psi", "63e9 kg/(m s^2)"],
+    f"{GLASS}/relaxation/terms/0/decay_rate": ["2708 1/s", "2708 /s", "2.708 kHz", "2708 s^-1", "2.7 1/ms"],
+    f"{GLASS}/relaxation/terms/0/weight": ["50 %", "0.5"],
+    "/limits/memory": ["8 GB", "8 GiB"],
+}
 
 
 def validator(command, of):
@@ -24,42 +93,40 @@ def validator(command, of):
     return jsonschema.Draft7Validator(schema)
 
 
-def faults(command, cases):
-    """What schema and program both refuse; each differs from a good case in one key."""
-    good = tomllib.loads((ROOT / "cases/glass_0.5ms.toml").read_text())
+def changed(pointer, value):
+    """The good case with one value at another place, or without it."""
+    case = copy.deepcopy(GOOD)
+    *tables, key = pointer.strip("/").split("/")
+    at = case
+    for part in tables:
+        at = at[int(part)] if isinstance(at, list) else at.setdefault(part, {})
+    key = int(key) if isinstance(at, list) else key
+    if value is ABSENT:
+        del at[key]
+    else:
+        at[key] = value
+    return case
 
-    def broken(change):
-        case = copy.deepcopy(good)
-        change(case)
-        return case
 
-    material, body = (lambda case: case["material"]["glass"]), (lambda case: case["body"][0])
-    return [
-        broken(lambda case: case.update(titel="x")),
-        broken(lambda case: case["body"].pop()),
-        broken(lambda case: case.pop("body")),
-        broken(lambda case: material(case).update(density="dense")),
-        broken(lambda case: material(case).update(density=True)),
-        broken(lambda case: material(case).pop("density")),
-        broken(lambda case: material(case)["relaxation"].update(acts_on="bulk")),
-        broken(lambda case: body(case).update(sphere="22.2 mm")),
-        broken(lambda case: body(case).update(sphere={"radius": 1})),
-        broken(lambda case: body(case).update(held="yes")),
-        broken(lambda case: case.update(output={"snapshots": ["middle"]})),
-        broken(lambda case: case.update(contact={"method": "sticky"})),
-        broken(lambda case: case.update(model={"law": {"tsuji": {"k": 1}}})),
-        broken(lambda case: case.update(model="tinge")),
-        broken(lambda case: case.update(effects={"gravity": "on"})),
-        broken(lambda case: case.update(accuracy={"tolerance": {"force": 0.1}})),
-        broken(lambda case: body(case).update(sphere={"diameter": "22.2 s"})),
-        broken(lambda case: body(case).update(sphere={"diameter": -1})),
-        broken(lambda case: body(case).update(wall={})),
-        broken(lambda case: body(case).update(material="lib:stel")),
-        broken(lambda case: material(case).update(density="2390 kg/m^2")),
-        broken(lambda case: material(case).update(shear_modulus="25 GPa")),
-        broken(lambda case: case.update(model={"ting": {}, "hertz": {}})),
-        broken(lambda case: case.update(model={"law": {"tsuji": {"e": 1.1}}})),
-    ]
+def status(command, case):
+    """The exit status of `fem-run check`."""
+    with tempfile.NamedTemporaryFile("w", suffix=".toml", encoding="utf-8") as file:
+        file.write(toml_of(case))
+        file.flush()
+        return subprocess.run([command, "check", file.name], capture_output=True).returncode
+
+
+def toml_of(case):
+    """TOML of a case, with the values of the top-level keys inline."""
+
+    def inline(value):
+        if isinstance(value, dict):
+            return "{" + ", ".join(f"{json.dumps(k)} = {inline(v)}" for k, v in value.items()) + "}"
+        if isinstance(value, list):
+            return "[" + ", ".join(map(inline, value)) + "]"
+        return json.dumps(value)
+
+    return "".join(f"{json.dumps(key)} = {inline(value)}\n" for key, value in case.items())
 
 
 def main(command):
@@ -74,33 +141,20 @@ def main(command):
             printed = subprocess.check_output([command, "check", str(path)], text=True)
             cases.validate(tomllib.loads(printed))
     assert n["case"] > 10 and n["sweep"] > 1, n
-    good = tomllib.loads((ROOT / "cases/glass_0.5ms.toml").read_text())
     for model in ("ting", {"law": "hertz"}, {"condensed": {"steps": 400}}):
-        cases.validate(good | {"model": model})
-    for case in faults(command, cases):
-        assert not cases.is_valid(case), f"the schema takes {case}"
-        # JSON is no TOML, but this program's cases as code are: let Python write what it refuses.
-        with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
-            file.write(toml_of(case))
-            file.flush()
-            ran = subprocess.run([command, "check", file.name], capture_output=True, text=True)
-        assert ran.returncode == 2, (case, ran.stdout, ran.stderr)
+        cases.validate(GOOD | {"model": model})
+    for pointer, value in REJECTED:
+        case = changed(pointer, value)
+        assert not cases.is_valid(case), f"the schema accepts {pointer} = {value}"
+        assert status(command, case) == 2, f"the program accepts {pointer} = {value}"
+    for pointer, texts in ACCEPTED.items():
+        for text in texts:
+            case = changed(pointer, text)
+            assert status(command, case) == 0, f"the program rejects {pointer} = {text}"
+            cases.validate(case)
     for sweep in ({"case": "a.toml"}, {"vary": {"a": [1]}}, {"case": "a.toml", "vary": {}, "keep": 1}):
-        assert not sweeps.is_valid(sweep), f"the schema takes {sweep}"
-    print(f"schemas: {n['case']} cases as written and resolved, {n['sweep']} sweeps, faults refused")
-
-
-def toml_of(case):
-    """Top-level keys as inline values."""
-
-    def inline(value):
-        if isinstance(value, dict):
-            return "{" + ", ".join(f"{json.dumps(k)} = {inline(v)}" for k, v in value.items()) + "}"
-        if isinstance(value, list):
-            return "[" + ", ".join(map(inline, value)) + "]"
-        return json.dumps(value)
-
-    return "".join(f"{json.dumps(key)} = {inline(value)}\n" for key, value in case.items())
+        assert not sweeps.is_valid(sweep), f"the schema accepts {sweep}"
+    print(f"schemas: {n['case']} cases as written and resolved, {n['sweep']} sweeps, {len(REJECTED)} faults rejected")
 
 
 if __name__ == "__main__":

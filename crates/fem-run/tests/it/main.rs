@@ -19,7 +19,6 @@ mod replacing;
 mod report;
 mod restart;
 mod result_folder;
-mod schema;
 #[cfg(unix)]
 mod slurm;
 mod stopping;
