@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Cost, Side, Simulation};
 use fastrand::Rng;
+use fem::{Case, Collision, Cost, Side, Simulation};
 
 /// A material in SI; terms of weight and rate over a guess of the inverse contact time.
 #[derive(Clone, Debug)]
