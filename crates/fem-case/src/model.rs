@@ -1,6 +1,6 @@
 //! The model that a case chooses, its numbers checked. One variant a model.
 
-use fem_laws::{EndRule, Family};
+use fem_laws::{EndRule, LawFamily};
 
 /// How the collision is computed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -174,20 +174,20 @@ pub enum Dashpot {
 
 impl Law {
     /// Which law it is.
-    pub fn family(&self) -> Family {
+    pub fn family(&self) -> LawFamily {
         match self {
-            Law::Linear { .. } | Law::LinearFromRestitution { .. } => Family::Linear,
-            Law::Power { .. } => Family::Power,
-            Law::Hertz => Family::Hertz,
-            Law::KuwabaraKono(_) => Family::KuwabaraKono,
-            Law::HuntCrossley { .. } => Family::HuntCrossley,
-            Law::Tsuji(_) => Family::Tsuji,
-            Law::ZhangWhiten(_) => Family::ZhangWhiten,
-            Law::Falcon { .. } => Family::Falcon,
-            Law::MishraMurty { .. } => Family::MishraMurty,
-            Law::SchwagerPoeschel(_) => Family::SchwagerPoeschel,
-            Law::MorgadoOppenheim { .. } => Family::MorgadoOppenheim,
-            Law::BordbarHyppanen { .. } => Family::BordbarHyppanen,
+            Law::Linear { .. } | Law::LinearFromRestitution { .. } => LawFamily::Linear,
+            Law::Power { .. } => LawFamily::Power,
+            Law::Hertz => LawFamily::Hertz,
+            Law::KuwabaraKono(_) => LawFamily::KuwabaraKono,
+            Law::HuntCrossley { .. } => LawFamily::HuntCrossley,
+            Law::Tsuji(_) => LawFamily::Tsuji,
+            Law::ZhangWhiten(_) => LawFamily::ZhangWhiten,
+            Law::Falcon { .. } => LawFamily::Falcon,
+            Law::MishraMurty { .. } => LawFamily::MishraMurty,
+            Law::SchwagerPoeschel(_) => LawFamily::SchwagerPoeschel,
+            Law::MorgadoOppenheim { .. } => LawFamily::MorgadoOppenheim,
+            Law::BordbarHyppanen { .. } => LawFamily::BordbarHyppanen,
         }
     }
 

@@ -379,15 +379,15 @@ pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use fem_laws::Family;
+    use fem_laws::LawFamily;
 
     use super::*;
 
     /// What a fit prints can be written into a case: every law, every key, in the same unit.
     #[test]
     fn tables_are_those_of_the_families() {
-        let families = || Family::ALL.into_iter().filter(|family| *family != Family::Ting);
-        assert_eq!(families().map(Family::name).collect::<Vec<_>>(), LawTable::NAMES);
+        let families = || LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Ting);
+        assert_eq!(families().map(LawFamily::name).collect::<Vec<_>>(), LawTable::NAMES);
         for family in families() {
             for parameter in family.parameters() {
                 let is_it =

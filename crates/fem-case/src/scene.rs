@@ -1,7 +1,7 @@
 //! A validated case in SI units: two bodies that are about to meet, and what the case says on
 //! how to compute it. `None` is left to the plan.
 
-use fem_laws::{Face, FiniteSize, LawError, Pair, SurfaceSlip, compliance_shares};
+use fem_laws::{SlipSurface, FiniteSize, LawError, Pair, SurfaceSlip, compliance_shares};
 
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};
@@ -270,7 +270,7 @@ impl Scene {
     pub fn surface_slip(&self) -> SurfaceSlip {
         SurfaceSlip::new(self.bodies.each_ref().map(|body| {
             let curvature = body.diameter().map_or(0.0, |diameter| 2.0 / diameter);
-            Face::new(curvature, body.material())
+            SlipSurface::new(curvature, body.material())
         }))
     }
 }

@@ -4,7 +4,7 @@
 //! size and each crossing refined. There may be several: a solid that does not flow loses most at
 //! the rate that fits the contact time, and less beyond it on both sides.
 
-use fem_laws::Role;
+use fem_laws::ParameterRole;
 use fem_laws::bisection::falling_zero;
 
 use crate::error::FitError;
@@ -47,11 +47,11 @@ pub fn invert(
     }
     let parameter = &model.family().parameters()[index];
     let size = model.natural_size(parameter, values, speed)?;
-    let is_number = parameter.role == Role::Number;
+    let is_number = parameter.role == ParameterRole::Number;
     let value_at = |theta: f64| if is_number { theta } else { size * 10f64.powf(theta) };
     let (low, high) = match parameter.role {
-        Role::Number => parameter.limits,
-        Role::Rate => (-DECADES_OF_A_RATE, DECADES_OF_A_RATE),
+        ParameterRole::Number => parameter.limits,
+        ParameterRole::Rate => (-DECADES_OF_A_RATE, DECADES_OF_A_RATE),
         _ => (-DECADES, DECADES),
     };
     let excess = |theta: f64| {
@@ -80,7 +80,7 @@ pub fn invert(
         }
         previous = Some((theta, here));
         // More damping leaves less, and its creep takes long to follow.
-        if parameter.role == Role::Damping && here + restitution < NOTHING {
+        if parameter.role == ParameterRole::Damping && here + restitution < NOTHING {
             break;
         }
     }

@@ -13,7 +13,7 @@
 //!
 //! ```
 //! use fem_fit::{Model, Point, Problem};
-//! use fem_laws::{EndRule, Family, Pair, Partner};
+//! use fem_laws::{EndRule, LawFamily, Pair, Partner};
 //! use fem_material::{ElasticModuli, Material};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -23,7 +23,7 @@
 //! let pair = Pair::new(sphere, sphere)?;
 //!
 //! // One measured restitution determines A, and leaves nothing to judge the law by.
-//! let model = Model::new(&pair, [None, None], Family::KuwabaraKono, EndRule::ZeroForce)?;
+//! let model = Model::new(&pair, [None, None], LawFamily::KuwabaraKono, EndRule::ZeroForce)?;
 //! let points = [Point::new(0.5, 0.925)];
 //! let fit = Problem::new(&model, &points, &["a"])?.fit(0.95)?;
 //! assert!(fit.rms < 1e-8 && fit.estimates[0].interval.is_none());

@@ -1,11 +1,11 @@
-//! A pair of bodies under a law of a [`Family`]: parameters to restitution and contact time.
+//! A pair of bodies under a law of a [`LawFamily`]: parameters to restitution and contact time.
 
 use std::f64::consts::PI;
 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
-    EndRule, Family, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation,
-    Parameter, Role, Ting,
+    EndRule, LawFamily, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation,
+    LawParameter, ParameterRole, Ting,
 };
 use fem_material::{Material, PronySeries, PronyTerm};
 use statrs::function::gamma::gamma;
@@ -20,7 +20,7 @@ const TOLERANCE: f64 = 1e-10;
 pub struct Model {
     pair: Pair,
     materials: [Option<Material>; 2],
-    family: Family,
+    family: LawFamily,
     end_rule: EndRule,
     finite_size: Option<FiniteSize>,
 }
@@ -36,27 +36,27 @@ pub struct Outcome {
 
 impl Model {
     /// Of a pair and the materials of its bodies (`None` is a rigid wall), which only
-    /// [`Family::Ting`] looks at.
+    /// [`LawFamily::Ting`] looks at.
     ///
     /// # Errors
-    /// [`Family::Ting`] without a body that relaxes; a law that ends by its definition otherwise.
+    /// [`LawFamily::Ting`] without a body that relaxes; a law that ends by its definition otherwise.
     pub fn new(
         pair: &Pair,
         materials: [Option<Material>; 2],
-        family: Family,
+        family: LawFamily,
         end_rule: EndRule,
     ) -> Result<Self, FitError> {
         if family.end_rule().is_some_and(|own| own != end_rule) {
             return Err(FitError::OwnEnd { law: family.name() });
         }
         let model = Self { pair: *pair, materials, family, end_rule, finite_size: None };
-        if family == Family::Ting && model.fastest_rate().is_none() {
+        if family == LawFamily::Ting && model.fastest_rate().is_none() {
             return Err(FitError::NoRelaxation);
         }
         Ok(model)
     }
 
-    /// This model with the spheres' own compliance in series, which only [`Family::Ting`] looks at.
+    /// This model with the spheres' own compliance in series, which only [`LawFamily::Ting`] looks at.
     pub fn with_finite_size(self, finite_size: FiniteSize) -> Self {
         Self { finite_size: Some(finite_size), ..self }
     }
@@ -65,7 +65,7 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::new`].
-    pub fn with_family(&self, family: Family) -> Result<Self, FitError> {
+    pub fn with_family(&self, family: LawFamily) -> Result<Self, FitError> {
         let end_rule = family.end_rule().unwrap_or(self.end_rule);
         let model = Self::new(&self.pair, self.materials.clone(), family, end_rule)?;
         Ok(Self { finite_size: self.finite_size.clone(), ..model })
@@ -77,7 +77,7 @@ impl Model {
     }
 
     /// The law.
-    pub fn family(&self) -> Family {
+    pub fn family(&self) -> LawFamily {
         self.family
     }
 
@@ -86,7 +86,7 @@ impl Model {
         self.end_rule
     }
 
-    /// The law with values for all parameters; `None` for [`Family::Ting`].
+    /// The law with values for all parameters; `None` for [`LawFamily::Ting`].
     ///
     /// # Errors
     /// Values without a meaning.
@@ -160,7 +160,7 @@ impl Model {
     /// Those of Hertz' impact.
     pub fn natural_size(
         &self,
-        parameter: &Parameter,
+        parameter: &LawParameter,
         values: &[f64],
         speed: f64,
     ) -> Result<f64, LawError> {
@@ -173,8 +173,8 @@ impl Model {
         }
         let law = || self.family.law(&self.pair, &unit);
         let size = match parameter.role {
-            Role::Rate => hertz.contact_time().recip(),
-            Role::Damping => match law() {
+            ParameterRole::Rate => hertz.contact_time().recip(),
+            ParameterRole::Damping => match law() {
                 Some(law) => {
                     let law = law?;
                     let braking = law.damping() * hertz.max_approach().powf(law.damping_exponent());
@@ -182,16 +182,16 @@ impl Model {
                 }
                 None => 1.0,
             },
-            Role::Stiffness => match law() {
+            ParameterRole::Stiffness => match law() {
                 Some(law) => {
                     let exponent = law?.elastic_exponent();
                     hertz.peak_force() / hertz.max_approach().powf(exponent)
                 }
                 None => 1.0,
             },
-            Role::Speed | Role::Number => parameter.guess(speed),
+            ParameterRole::Speed | ParameterRole::Number => parameter.guess(speed),
         };
-        if size.is_finite() && (size > 0.0 || parameter.role == Role::Number) {
+        if size.is_finite() && (size > 0.0 || parameter.role == ParameterRole::Number) {
             Ok(size)
         } else {
             Err(LawError::NotPositive { quantity: parameter.key, value: size })
@@ -258,10 +258,10 @@ mod tests {
         let sphere = fem_laws::Partner::solid_sphere(15.9e-3, &glass);
         let pair = Pair::new(sphere, sphere).unwrap();
         for (family, mut values) in [
-            (Family::Linear, vec![1.0, 0.0]),
-            (Family::MishraMurty, vec![1.0, 0.0]),
-            (Family::Power, vec![1.0, 1.5, 0.0, 0.5]),
-            (Family::Power, vec![1.0, 3.0, 0.0, 0.5]),
+            (LawFamily::Linear, vec![1.0, 0.0]),
+            (LawFamily::MishraMurty, vec![1.0, 0.0]),
+            (LawFamily::Power, vec![1.0, 1.5, 0.0, 0.5]),
+            (LawFamily::Power, vec![1.0, 3.0, 0.0, 0.5]),
         ] {
             let model = Model::new(&pair, [None, None], family, EndRule::ZeroForce).unwrap();
             for speed in [0.01, 2.0] {

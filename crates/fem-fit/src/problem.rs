@@ -1,6 +1,6 @@
 //! What is fitted: data, the free parameters of a law, and the residuals between them.
 
-use fem_laws::{Parameter, Role};
+use fem_laws::{LawParameter, ParameterRole};
 
 use crate::error::FitError;
 use crate::least_squares::minimise;
@@ -84,7 +84,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The parameter at a place.
-    pub fn parameter(&self, index: usize) -> &'static Parameter {
+    pub fn parameter(&self, index: usize) -> &'static LawParameter {
         &self.model.family().parameters()[index]
     }
 
@@ -142,7 +142,7 @@ impl<'a> Problem<'a> {
     }
 
     pub(crate) fn is_logarithmic(&self, free: &Free) -> bool {
-        self.parameter(free.index).role != Role::Number
+        self.parameter(free.index).role != ParameterRole::Number
     }
 
     /// Values of all parameters at the least sum of squares, and that sum.
@@ -229,11 +229,11 @@ impl<'a> Problem<'a> {
         if self.is_logarithmic(free) { value.ln() } else { value }
     }
 
-    fn default_bounds(&self, parameter: &Parameter, size: f64) -> (f64, f64) {
+    fn default_bounds(&self, parameter: &LawParameter, size: f64) -> (f64, f64) {
         match parameter.role {
-            Role::Number => parameter.limits,
+            ParameterRole::Number => parameter.limits,
             // C of ξⁿ spans many decades with n: what is natural at n = 0.5 is not at n = 3.
-            Role::Damping => (size / WIDEST.powi(2), size * WIDEST.powi(2)),
+            ParameterRole::Damping => (size / WIDEST.powi(2), size * WIDEST.powi(2)),
             _ => (size / WIDEST, size * WIDEST),
         }
     }

@@ -1,12 +1,13 @@
-//! What two answers to one collision differ by.
+//! Differences between two results of one collision, and the error of a rigid partner.
 
 use crate::hertz::HertzImpact;
 use crate::impact::Impact;
+use crate::pair::{Pair, Partner};
 
 /// Differences of two collisions' results, the first's less the second's; also the error of leaving
 /// something out, estimated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Difference {
+pub struct ImpactDifference {
     /// Of the restitution.
     pub restitution: f64,
     /// Of the contact time, s; `None` if bodies stay together in either.
@@ -15,7 +16,7 @@ pub struct Difference {
     pub peak_force: f64,
 }
 
-impl Difference {
+impl ImpactDifference {
     /// `found` less `reference`: with `found` left something out, its error.
     pub fn of(found: &Impact, reference: &Impact) -> Self {
         let times = found.contact_time.zip(reference.contact_time);
@@ -41,8 +42,8 @@ pub struct RelativeError {
 
 impl RelativeError {
     /// Of the time, s, and the force, N, of an elastic impact.
-    pub fn of(&self, hertz: &HertzImpact) -> Difference {
-        Difference {
+    pub fn of(&self, hertz: &HertzImpact) -> ImpactDifference {
+        ImpactDifference {
             restitution: self.restitution,
             contact_time: Some(self.contact_time * hertz.contact_time()),
             peak_force: self.peak_force * hertz.peak_force(),
@@ -55,4 +56,28 @@ impl RelativeError {
             && self.contact_time.abs() <= tolerance.contact_time
             && self.peak_force.abs() <= tolerance.peak_force
     }
+}
+
+/// Returns the error of taking this partner of the pair as rigid; `None` if the other one is rigid.
+///
+/// The contact lacks the body's share s = E*/E′ of its compliance, E′ = E/(1−ν²), so that E* becomes
+/// E*/(1−s), and by Hertz' powers
+///
+/// ```math
+/// \frac{\Delta T}T = (1-s)^{2/5}-1, \qquad \frac{\Delta F}F = (1-s)^{-2/5}-1.
+/// ```
+///
+/// The restitution stays as long as the body is elastic and radiates nothing. A sphere's finite size is
+/// of a smaller order, (a/R) s.
+pub fn rigid_partner(pair: &Pair, partner: &Partner) -> Option<RelativeError> {
+    let share = pair.contact_modulus() / partner.plane_strain_modulus();
+    // E* of a pair with one rigid body is the other's E′ itself.
+    (share < 1.0).then(|| {
+        let logarithm = 0.4 * (-share).ln_1p();
+        RelativeError {
+            restitution: 0.0,
+            contact_time: logarithm.exp_m1(),
+            peak_force: (-logarithm).exp_m1(),
+        }
+    })
 }

@@ -1,16 +1,15 @@
 //! Laws by name, with their parameters and how they are made of them: the one list that case files,
 //! fits and inverse problems read.
 
-use crate::end_rule::EndRule;
 use crate::error::LawError;
 use crate::laws;
-use crate::laws::ContactLaw;
+use crate::laws::{ContactLaw, EndRule};
 use crate::pair::Pair;
 
 /// A law with parameters of its own. Values of parameters always come in the order of
-/// [`Family::parameters`].
+/// [`LawFamily::parameters`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Family {
+pub enum LawFamily {
     /// [`laws::linear`].
     Linear,
     /// [`laws::power`].
@@ -41,7 +40,7 @@ pub enum Family {
 
 /// One parameter of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter {
+pub struct LawParameter {
     /// Its name: the key of a case file.
     pub key: &'static str,
     /// Its SI unit; empty for a plain number.
@@ -49,22 +48,22 @@ pub struct Parameter {
     /// Exponents of metre, kilogram, second.
     pub dimension: [i32; 3],
     /// What it does to the motion.
-    pub role: Role,
+    pub role: ParameterRole,
     /// Value that it has unless it is given; `None` if it must be given or be free.
     pub default: Option<f64>,
     /// Values that have a meaning.
     pub limits: (f64, f64),
 }
 
-impl Parameter {
+impl LawParameter {
     /// A value to begin with that has a meaning, near a collision at `speed`, m/s.
     pub fn guess(&self, speed: f64) -> f64 {
         self.default.unwrap_or(match (self.role, self.key) {
-            (Role::Speed, _) => speed,
-            (Role::Number, "e") => 0.8,
+            (ParameterRole::Speed, _) => speed,
+            (ParameterRole::Number, "e") => 0.8,
             // Like Poisson's ratio; at 0, the middle, nothing depends on it in first order.
-            (Role::Number, "eta_2") => 0.25,
-            (Role::Number, _) => 0.5 * (self.limits.0 + self.limits.1),
+            (ParameterRole::Number, "eta_2") => 0.25,
+            (ParameterRole::Number, _) => 0.5 * (self.limits.0 + self.limits.1),
             _ => 1.0,
         })
     }
@@ -72,7 +71,7 @@ impl Parameter {
 
 /// What a parameter does, and so how it is varied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
+pub enum ParameterRole {
     /// A factor of the damping: varied by its logarithm.
     Damping,
     /// A factor of the elastic force: varied by its logarithm.
@@ -91,21 +90,21 @@ const fn parameter(
     key: &'static str,
     unit: &'static str,
     dimension: [i32; 3],
-    role: Role,
-) -> Parameter {
-    Parameter { key, unit, dimension, role, default: None, limits: ANY }
+    role: ParameterRole,
+) -> LawParameter {
+    LawParameter { key, unit, dimension, role, default: None, limits: ANY }
 }
 
-const fn number(key: &'static str, default: Option<f64>, limits: (f64, f64)) -> Parameter {
-    Parameter { key, unit: "", dimension: [0; 3], role: Role::Number, default, limits }
+const fn number(key: &'static str, default: Option<f64>, limits: (f64, f64)) -> LawParameter {
+    LawParameter { key, unit: "", dimension: [0; 3], role: ParameterRole::Number, default, limits }
 }
 
 /// A, s: C = 2 A E* R*^(1−n).
-const A: Parameter = parameter("a", "s", [0, 0, 1], Role::Damping);
+const A: LawParameter = parameter("a", "s", [0, 0, 1], ParameterRole::Damping);
 /// Of the damping, ξⁿ.
-const N: Parameter = number("n", Some(0.5), (0.0, 3.0));
+const N: LawParameter = number("n", Some(0.5), (0.0, 3.0));
 
-impl Family {
+impl LawFamily {
     /// All families, the laws of the overlap first.
     pub const ALL: [Self; 13] = [
         Self::Linear,
@@ -148,33 +147,33 @@ impl Family {
     }
 
     /// Its parameters. The first one that damps is what is free unless something else is asked.
-    pub fn parameters(self) -> &'static [Parameter] {
-        const LINEAR: &[Parameter] = &[
-            parameter("k", "N/m", [0, 1, -2], Role::Stiffness),
-            parameter("c", "N s/m", [0, 1, -1], Role::Damping),
+    pub fn parameters(self) -> &'static [LawParameter] {
+        const LINEAR: &[LawParameter] = &[
+            parameter("k", "N/m", [0, 1, -2], ParameterRole::Stiffness),
+            parameter("c", "N s/m", [0, 1, -1], ParameterRole::Damping),
         ];
-        const POWER: &[Parameter] = &[
-            parameter("k", "N/m^gamma", [0; 3], Role::Stiffness),
+        const POWER: &[LawParameter] = &[
+            parameter("k", "N/m^gamma", [0; 3], ParameterRole::Stiffness),
             number("gamma", Some(1.5), (0.1, 5.0)),
-            parameter("c", "N s/m^(n+1)", [0; 3], Role::Damping),
+            parameter("c", "N s/m^(n+1)", [0; 3], ParameterRole::Damping),
             N,
         ];
-        const KUWABARA_KONO: &[Parameter] = &[A];
-        const HUNT_CROSSLEY: &[Parameter] =
-            &[number("e", None, (1e-6, 1.0)), parameter("v", "m/s", [1, 0, -1], Role::Speed)];
-        const TSUJI: &[Parameter] = &[parameter("alpha", "", [0; 3], Role::Damping)];
-        const FALCON: &[Parameter] = &[parameter("c", "N s/m^(5/4)", [0; 3], Role::Damping)];
-        const MISHRA_MURTY: &[Parameter] = &[
-            parameter("k", "N/m^(8/5)", [0; 3], Role::Stiffness),
-            parameter("c", "N s/m^(9/5)", [0; 3], Role::Damping),
+        const KUWABARA_KONO: &[LawParameter] = &[A];
+        const HUNT_CROSSLEY: &[LawParameter] =
+            &[number("e", None, (1e-6, 1.0)), parameter("v", "m/s", [1, 0, -1], ParameterRole::Speed)];
+        const TSUJI: &[LawParameter] = &[parameter("alpha", "", [0; 3], ParameterRole::Damping)];
+        const FALCON: &[LawParameter] = &[parameter("c", "N s/m^(5/4)", [0; 3], ParameterRole::Damping)];
+        const MISHRA_MURTY: &[LawParameter] = &[
+            parameter("k", "N/m^(8/5)", [0; 3], ParameterRole::Stiffness),
+            parameter("c", "N s/m^(9/5)", [0; 3], ParameterRole::Damping),
         ];
-        const SCHWAGER_POESCHEL: &[Parameter] = &[A];
-        const MORGADO_OPPENHEIM: &[Parameter] = &[
-            parameter("eta_1", "Pa s", [-1, 1, -1], Role::Damping),
+        const SCHWAGER_POESCHEL: &[LawParameter] = &[A];
+        const MORGADO_OPPENHEIM: &[LawParameter] = &[
+            parameter("eta_1", "Pa s", [-1, 1, -1], ParameterRole::Damping),
             number("eta_2", None, (-0.99, 0.99)),
         ];
-        const BORDBAR_HYPPANEN: &[Parameter] = &[A, N];
-        const TING: &[Parameter] = &[parameter("decay_rate", "1/s", [0, 0, -1], Role::Rate)];
+        const BORDBAR_HYPPANEN: &[LawParameter] = &[A, N];
+        const TING: &[LawParameter] = &[parameter("decay_rate", "1/s", [0, 0, -1], ParameterRole::Rate)];
         match self {
             Self::Linear => LINEAR,
             Self::Power => POWER,
@@ -194,7 +193,7 @@ impl Family {
     /// Index of the parameter that stands for the loss: the first one that damps, or else the first;
     /// `None` of a law without any.
     pub fn loss_parameter(self) -> Option<usize> {
-        let damps = |parameter: &Parameter| matches!(parameter.role, Role::Damping | Role::Rate);
+        let damps = |parameter: &LawParameter| matches!(parameter.role, ParameterRole::Damping | ParameterRole::Rate);
         let first = (!self.parameters().is_empty()).then_some(0);
         self.parameters().iter().position(damps).or(first)
     }
@@ -204,7 +203,7 @@ impl Family {
         matches!(self, Self::ZhangWhiten | Self::Ting).then_some(EndRule::ZeroForce)
     }
 
-    /// The law of a pair; `None` for [`Family::Ting`], which is no law of the overlap.
+    /// The law of a pair; `None` for [`LawFamily::Ting`], which is no law of the overlap.
     ///
     /// # Errors
     /// Values without a meaning.

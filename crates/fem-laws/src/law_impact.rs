@@ -31,11 +31,10 @@ use differential_equations::ode::{ODE, solve_ode};
 use differential_equations::solout::Solout;
 use differential_equations::solution::Solution;
 
-use crate::bisection::falling_zero;
-use crate::end_rule::EndRule;
 use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
 use crate::impact::{Impact, ImpactInstant};
-use crate::laws::ContactLaw;
+use crate::laws::{ContactLaw, EndRule};
+use crate::numerics::bisection::falling_zero;
 use crate::pair::Pair;
 
 /// A pair with a contact law.

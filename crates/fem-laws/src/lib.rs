@@ -10,9 +10,9 @@
 //! - [`LawImpact`]: any law F(ξ, ξ̇) of [`laws`], integrated in time.
 //!
 //! Each gives an [`Impact`], summary and history; [`ImpactPath`] is its state at any time. What leaving
-//! something out costs is a [`Difference`] of two impacts, or a [`RelativeError`] in closed form: of
-//! relaxation that is not followed in time ([`Folded`]), of a [`rigid_partner`].
-//! One law a file; [`Family`] lists them by name, with their parameters. Everything is SI; forces and
+//! something out costs is a [`ImpactDifference`] of two impacts, or a [`RelativeError`] in closed form: of
+//! relaxation that is not followed in time ([`FastSlowLimits`]), of a [`rigid_partner`].
+//! One law a file; [`LawFamily`] lists them by name, with their parameters. Everything is SI; forces and
 //! pressures of a closed contact are positive, stresses are positive in tension.
 //!
 //! ```
@@ -38,57 +38,40 @@
 //! # }
 //! ```
 
-pub mod bisection;
-mod collocation;
 mod difference;
-mod end_rule;
 mod error;
 mod family;
-mod finite_coefficient;
-mod finite_correction;
+mod fast_slow_limits;
 mod finite_size;
-mod folded;
-mod functions;
 mod hertz;
-mod hertz_field;
-mod hertz_history;
-mod hertz_pressure;
 mod impact;
 mod impact_path;
-mod interlacing;
 mod law_impact;
 pub mod laws;
+mod numerics;
 mod pair;
 mod pair_relaxation;
 mod plastic_yield;
 mod radiation;
-mod rigid_partner;
-mod sphere_compliance;
-mod static_hertz;
 mod surface_slip;
 mod ting;
-mod ting_collision;
-mod ting_radiation;
-mod ting_record;
-mod ting_step;
 
-pub use difference::{Difference, RelativeError};
-pub use end_rule::EndRule;
+pub use difference::{ImpactDifference, RelativeError, rigid_partner};
 pub use error::LawError;
-pub use family::{Family, Parameter, Role};
+pub use family::{LawFamily, LawParameter, ParameterRole};
+pub use fast_slow_limits::FastSlowLimits;
 pub use finite_size::FiniteSize;
-pub use folded::Folded;
-pub use hertz::{HertzImpact, contact_time_coefficient};
-pub use hertz_history::HertzInstant;
-pub use hertz_pressure::{AxisStress, HertzPressure};
+pub use hertz::{
+    AxisStress, HertzImpact, HertzInstant, HertzPressure, StaticHertz, contact_time_coefficient,
+};
 pub use impact::{Impact, ImpactInstant};
 pub use impact_path::ImpactPath;
 pub use law_impact::LawImpact;
+pub use laws::EndRule;
+pub use numerics::bisection;
 pub use pair::{Pair, Partner, compliance_shares, restitution_of_mass_centres, sphere_mass};
 pub use pair_relaxation::PairRelaxation;
 pub use plastic_yield::{FirstYield, largest_von_mises};
 pub use radiation::{radiated_share, radiation_coefficient, radiation_damping};
-pub use rigid_partner::rigid_partner;
-pub use static_hertz::StaticHertz;
-pub use surface_slip::{Face, SurfaceSlip};
+pub use surface_slip::{SlipSurface, SurfaceSlip};
 pub use ting::Ting;

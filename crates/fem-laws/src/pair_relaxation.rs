@@ -23,7 +23,7 @@
 use fem_material::{ActsOn, Material, PronyTerm, relaxation_at};
 
 use crate::error::{LawError, positive};
-use crate::interlacing::{Pole, merged, zeros};
+use crate::numerics::secular_equation::{Pole, merged, zeros};
 
 /// E*(t)/E*(0) of a pair as a Prony series of its own.
 #[derive(Debug, Clone, PartialEq)]

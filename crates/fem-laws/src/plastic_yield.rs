@@ -30,7 +30,7 @@
 use std::f64::consts::PI;
 
 use crate::hertz::HertzImpact;
-use crate::hertz_pressure::HertzPressure;
+use crate::hertz::HertzPressure;
 
 /// Dynamic hardness over yield strength.
 const HARDNESS: f64 = 3.0;

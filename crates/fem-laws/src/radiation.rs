@@ -23,8 +23,8 @@ use std::f64::consts::PI;
 use fem_material::Material;
 use statrs::function::beta::beta;
 
-use crate::functions::sin_cos;
 use crate::hertz::HertzImpact;
+use crate::numerics::functions::sin_cos;
 
 /// Points of the midpoint rule over each stretch; the integrands are smooth and periodic in the angle
 /// that takes their place, so that it converges faster than any power.
@@ -88,7 +88,7 @@ fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
 ///
 /// with the instantaneous moduli. A material that relaxes within the contact radiates more: by up to
 /// (G₀/G∞)^(3/2) at a given force, where all of it is over long before the contact ends. Moduli
-/// without such terms are [`crate::Folded`].
+/// without such terms are [`crate::FastSlowLimits`].
 pub fn radiation_damping(material: &Material) -> f64 {
     let moduli = material.instantaneous();
     let impedance = moduli.shear_modulus() * material.shear_wave_speed();

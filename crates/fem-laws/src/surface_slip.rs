@@ -43,20 +43,20 @@ use fem_material::{ActsOn, Material, PronyTerm};
 use statrs::function::beta::beta;
 
 use crate::difference::RelativeError;
-use crate::finite_correction::{Correction, RelaxingCorrection};
+use crate::finite_size::correction::{Correction, RelaxingCorrection};
 use crate::pair::compliance_shares;
 use crate::pair_relaxation::PairRelaxation;
 
 /// One of two surfaces, as it bends and gives way.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Face {
+pub struct SlipSurface {
     /// 1/m; 0 of a plane.
     curvature: f64,
     /// None of a rigid body.
     material: Option<Material>,
 }
 
-impl Face {
+impl SlipSurface {
     /// Of a curvature, 1/m, and a material; none is rigid.
     pub fn new(curvature: f64, material: Option<&Material>) -> Self {
         Self { curvature, material: material.cloned() }
@@ -102,7 +102,7 @@ fn tangential_compliance(material: &Material, left: f64) -> f64 {
 /// Slip of the surfaces of two bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SurfaceSlip {
-    faces: [Face; 2],
+    faces: [SlipSurface; 2],
     /// κ, 1/m.
     curvature: f64,
     /// s of both.
@@ -111,15 +111,15 @@ pub struct SurfaceSlip {
 
 impl SurfaceSlip {
     /// Of two bodies, the lower one first; at most one of them is rigid.
-    pub fn new(faces: [Face; 2]) -> Self {
-        let shares = compliance_shares(faces.each_ref().map(Face::normal));
+    pub fn new(faces: [SlipSurface; 2]) -> Self {
+        let shares = compliance_shares(faces.each_ref().map(SlipSurface::normal));
         let curvature = shares[0] * faces[1].curvature - shares[1] * faces[0].curvature;
         Self { faces, curvature, shares }
     }
 
     /// c before any relaxation, m/N; negative where the stiffer body is the more curved one.
     pub fn compliance(&self) -> f64 {
-        let [lower, upper] = self.faces.each_ref().map(Face::tangential);
+        let [lower, upper] = self.faces.each_ref().map(SlipSurface::tangential);
         self.compliance_of(upper - lower)
     }
 
@@ -140,7 +140,7 @@ impl SurfaceSlip {
 
     /// κβ, 1/m, with the sign of c.
     pub fn mismatch(&self) -> f64 {
-        let [lower, upper] = self.faces.each_ref().map(Face::normal);
+        let [lower, upper] = self.faces.each_ref().map(SlipSurface::normal);
         let modulus = 2.0 / (lower + upper);
         PI * modulus * self.compliance()
     }
@@ -173,7 +173,7 @@ impl SurfaceSlip {
                 of(upper - lower)
             })
             .collect();
-        let [lower, upper] = self.faces.each_ref().map(Face::tangential);
+        let [lower, upper] = self.faces.each_ref().map(SlipSurface::tangential);
         let mut equilibrium = of(upper - lower);
         for fading in &fading {
             equilibrium.add(fading, -1.0);
@@ -212,7 +212,7 @@ mod tests {
     }
 
     fn slip(materials: [&Material; 2]) -> SurfaceSlip {
-        SurfaceSlip::new([0, 1].map(|i| Face::new(RADII[i].recip(), Some(materials[i]))))
+        SurfaceSlip::new([0, 1].map(|i| SlipSurface::new(RADII[i].recip(), Some(materials[i]))))
     }
 
     fn pair(materials: [&Material; 2]) -> Pair {
@@ -238,7 +238,7 @@ mod tests {
         let force = 2.0 / 3.0 * PI * a * a * p0;
         assert!((2.0 * PI * all / force - 1.0).abs() < 1e-6);
         for r in [0.2, 0.5, 0.9] {
-            let inward = |face: &Face| 0.5 * face.tangential() / r * enclosed(r);
+            let inward = |face: &SlipSurface| 0.5 * face.tangential() / r * enclosed(r);
             for (face, material) in both.faces.iter().zip([&lower, &upper]) {
                 let (e, nu) = (
                     material.instantaneous().youngs_modulus(),
@@ -269,7 +269,7 @@ mod tests {
         let [soft, hard] = materials();
         let [a, b] = [1.0, 2.0];
         let of = |first: (f64, Option<&Material>), second: (f64, Option<&Material>)| {
-            SurfaceSlip::new([first, second].map(|(c, m)| Face::new(c, m))).compliance()
+            SurfaceSlip::new([first, second].map(|(c, m)| SlipSurface::new(c, m))).compliance()
         };
         assert_eq!(of((a, Some(&soft)), (b, Some(&soft))), 0.0);
         assert_eq!(of((0.0, None), (b, Some(&soft))), 0.0);
@@ -320,7 +320,7 @@ mod tests {
             let relaxation = PairRelaxation::new(Some(&soft), Some(&upper)).unwrap();
             let found = both.correction(1.0, 1.0, &relaxation);
             let at_rest = slip([&soft.at_equilibrium().unwrap(), &upper]);
-            let [t1, t2] = at_rest.faces.each_ref().map(Face::tangential);
+            let [t1, t2] = at_rest.faces.each_ref().map(SlipSurface::tangential);
             let expected = both.compliance_of(t2 - t1) * relaxation.equilibrium_weight();
             let equilibrium = found.equilibrium.alpha;
             assert!((equilibrium / expected - 1.0).abs() < 1e-12, "{equilibrium:e} {expected:e}");

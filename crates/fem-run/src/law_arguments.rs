@@ -2,7 +2,7 @@
 
 use fem::laws::{ChosenLaw, ParameterError, find_parameter, parse_value};
 use fem_case::{Case, nearest, parse_quantity};
-use fem_laws::{EndRule, Family};
+use fem_laws::{EndRule, LawFamily};
 
 use crate::failure::Failure;
 
@@ -47,7 +47,7 @@ impl LawArguments {
     ///
     /// # Errors
     /// Keys that the law does not have, values without a meaning; see [`ChosenLaw::of`].
-    pub fn choose(&self, case: &Case, family: Family) -> Result<ChosenLaw, Failure> {
+    pub fn choose(&self, case: &Case, family: LawFamily) -> Result<ChosenLaw, Failure> {
         let parse = |text: &String| {
             let (key, value) = split(text, "--param")?;
             let parameter = &family.parameters()[find_key(family, key, "--param")?];
@@ -64,9 +64,9 @@ impl LawArguments {
 ///
 /// # Errors
 /// No such law.
-pub fn parse_family(name: &str) -> Result<Family, String> {
-    Family::from_name(name).ok_or_else(|| {
-        let names: Vec<_> = Family::ALL.iter().map(|family| family.name()).collect();
+pub fn parse_family(name: &str) -> Result<LawFamily, String> {
+    LawFamily::from_name(name).ok_or_else(|| {
+        let names: Vec<_> = LawFamily::ALL.iter().map(|family| family.name()).collect();
         let near = nearest(name, &names, 0.8);
         let asked = near.map_or(String::new(), |law| format!("did you mean {law}? "));
         format!("{asked}the laws are {}", names.join(", "))
@@ -77,7 +77,7 @@ pub fn parse_family(name: &str) -> Result<Family, String> {
 ///
 /// # Errors
 /// No such key.
-pub fn find_key(family: Family, key: &str, option: &str) -> Result<usize, Failure> {
+pub fn find_key(family: LawFamily, key: &str, option: &str) -> Result<usize, Failure> {
     find_parameter(family, key)
         .map_err(|error| with_help(format!("{option}: {error}"), error.help()))
 }

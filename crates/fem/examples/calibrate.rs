@@ -7,7 +7,7 @@
 use std::error::Error;
 
 use fem::calibrate::{Calibration, SettingNames, Settings};
-use fem::laws::{ChosenLaw, Family, LawFit};
+use fem::laws::{ChosenLaw, LawFamily, LawFit};
 use fem::measured::{Restitutions, Table};
 use fem::schema::{BodyTable, MaterialTable, ModelTable};
 use fem::{Case, CaseFile, collide};
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let measured = Restitutions::read(&table, case.scene())?;
 
     // A spring and a dashpot of the overlap, as DEM codes have them.
-    let law = ChosenLaw::of(&case, Family::KuwabaraKono, &[], None)?;
+    let law = ChosenLaw::of(&case, LawFamily::KuwabaraKono, &[], None)?;
     let fit = LawFit::of(&measured, law.problem(&measured.points, &["a"])?, 0.95)?;
     println!(
         "kuwabara_kono: a = {:.2e} s, rms {:.1} uncertainties",

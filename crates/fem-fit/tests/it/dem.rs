@@ -11,7 +11,7 @@ use fem_fit::dem::{
     yade_betan, yade_snippets,
 };
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
-use fem_laws::{EndRule, Family, HertzImpact, LawImpact, Pair, Partner};
+use fem_laws::{EndRule, LawFamily, HertzImpact, LawImpact, Pair, Partner};
 
 fn export() -> Export {
     let glass = glass(None);
@@ -25,7 +25,7 @@ fn export() -> Export {
     Export {
         title: "Glass".to_string(),
         spheres: vec![sphere(22.2e-3), sphere(15.9e-3)],
-        pair: *glass_model(Family::Tsuji, None).pair(),
+        pair: *glass_model(LawFamily::Tsuji, None).pair(),
         speeds: (0.1, 1.0),
         tolerance: 0.01,
         hertz: Elastic { restitution: 0.92, validity },
@@ -224,7 +224,7 @@ fn contact_times_of_the_two_ends_differ() {
         };
         time(EndRule::ZeroOverlap) - time(EndRule::ZeroForce)
     };
-    for family in [Family::Tsuji, Family::KuwabaraKono] {
+    for family in [LawFamily::Tsuji, LawFamily::KuwabaraKono] {
         let model = glass_model(family, None);
         let found = fem_fit::invert(&model, 0, &[1.0], 0.5, 0.92).unwrap().solutions[0];
         let microseconds = 1e6 * difference(model.law(&[found]).unwrap().unwrap());

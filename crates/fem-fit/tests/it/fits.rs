@@ -2,7 +2,7 @@
 
 use crate::common::{bridges, glass_model, ice_model};
 use fem_fit::{FitError, Model, Point, Problem};
-use fem_laws::{EndRule, Family};
+use fem_laws::{EndRule, LawFamily};
 
 /// Data that a model makes, e and T.
 fn made_by(model: &Model, values: &[f64], speeds: &[f64]) -> Vec<Point> {
@@ -25,7 +25,7 @@ fn assert_close(found: f64, expected: f64, relative: f64) {
 /// A = 2.35e-4 s at n = 0.65 (the project's reference calculation, by another program).
 #[test]
 fn published_error_over_the_exponent() {
-    let (model, points) = (ice_model(Family::BordbarHyppanen), bridges());
+    let (model, points) = (ice_model(LawFamily::BordbarHyppanen), bridges());
     for (n, rms) in [(0.5, 0.084), (0.65, 0.040), (0.7, 0.033), (0.8, 0.036), (1.0, 0.075)] {
         let mut problem = Problem::new(&model, &points, &["a"]).unwrap();
         problem.values[1] = n;
@@ -42,7 +42,7 @@ fn published_error_over_the_exponent() {
 /// the table's 0.8, and both intervals hold the paper's neighbour 0.7.
 #[test]
 fn ice_with_both_parameters_free() {
-    let (model, points) = (ice_model(Family::BordbarHyppanen), bridges());
+    let (model, points) = (ice_model(LawFamily::BordbarHyppanen), bridges());
     let problem = Problem::new(&model, &points, &["a", "n"]).unwrap();
     let fit = problem.fit(0.95).unwrap();
     assert!(0.65 < fit.values[1] && fit.values[1] < 0.8 && fit.rms < 0.033);
@@ -64,13 +64,13 @@ fn ice_with_both_parameters_free() {
 #[test]
 fn exact_data_give_back_the_parameters() {
     let speeds = [0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
-    let cases: [(Family, &[f64], &[&str]); 6] = [
-        (Family::KuwabaraKono, &[1e-6], &["a"]),
-        (Family::BordbarHyppanen, &[2e-4, 0.9], &["a", "n"]),
-        (Family::SchwagerPoeschel, &[1e-6], &["a"]),
-        (Family::Falcon, &[500.0], &["c"]),
-        (Family::Tsuji, &[0.2], &["alpha"]),
-        (Family::MorgadoOppenheim, &[5e4, 0.244], &["eta_1"]),
+    let cases: [(LawFamily, &[f64], &[&str]); 6] = [
+        (LawFamily::KuwabaraKono, &[1e-6], &["a"]),
+        (LawFamily::BordbarHyppanen, &[2e-4, 0.9], &["a", "n"]),
+        (LawFamily::SchwagerPoeschel, &[1e-6], &["a"]),
+        (LawFamily::Falcon, &[500.0], &["c"]),
+        (LawFamily::Tsuji, &[0.2], &["alpha"]),
+        (LawFamily::MorgadoOppenheim, &[5e4, 0.244], &["eta_1"]),
     ];
     for (family, values, free) in cases {
         let model = glass_model(family, None);
@@ -93,7 +93,7 @@ fn exact_data_give_back_the_parameters() {
 /// A linear law has no scale of its own: contact times fix k, restitutions c.
 #[test]
 fn contact_times_fix_the_stiffness() {
-    let model = glass_model(Family::Linear, None);
+    let model = glass_model(LawFamily::Linear, None);
     let points = made_by(&model, &[1e7, 20.0], &[0.1, 0.5, 2.0]);
     let fit = Problem::new(&model, &points, &["k", "c"]).unwrap().fit(0.95).unwrap();
     assert_close(fit.values[0], 1e7, 1e-6);
@@ -108,7 +108,7 @@ fn contact_times_fix_the_stiffness() {
 /// s/√N, and its interval Student's, t = 2.776 for 4 degrees of freedom (any table).
 #[test]
 fn interval_of_a_mean_is_students() {
-    let model = glass_model(Family::Tsuji, None);
+    let model = glass_model(LawFamily::Tsuji, None);
     let data = [0.90, 0.91, 0.92, 0.93, 0.94];
     let points: Vec<Point> =
         data.iter().zip([0.1, 0.2, 0.5, 1.0, 2.0]).map(|(e, v)| Point::new(v, *e)).collect();
@@ -133,7 +133,7 @@ fn interval_of_a_mean_is_students() {
 /// interval, and the normal quantile.
 #[test]
 fn uncertainties_scale_the_interval() {
-    let model = glass_model(Family::Tsuji, None);
+    let model = glass_model(LawFamily::Tsuji, None);
     let width = |uncertainty: f64| {
         let point =
             |(v, e)| Point { restitution_uncertainty: Some(uncertainty), ..Point::new(v, e) };
@@ -148,7 +148,7 @@ fn uncertainties_scale_the_interval() {
 
 #[test]
 fn what_the_data_do_not_determine_is_refused() {
-    let model = glass_model(Family::BordbarHyppanen, None);
+    let model = glass_model(LawFamily::BordbarHyppanen, None);
     let refusal = |points: &[Point], free: &[&str]| {
         Problem::new(&model, points, free).unwrap().fit(0.95).unwrap_err()
     };
@@ -164,7 +164,7 @@ fn what_the_data_do_not_determine_is_refused() {
     assert_eq!(refusal(&one, &[]), FitError::NothingFree);
     // Both coefficients of Morgado & Oppenheim are one factor; so are e and v of Hunt & Crossley.
     for (family, free) in
-        [(Family::MorgadoOppenheim, ["eta_1", "eta_2"]), (Family::HuntCrossley, ["e", "v"])]
+        [(LawFamily::MorgadoOppenheim, ["eta_1", "eta_2"]), (LawFamily::HuntCrossley, ["e", "v"])]
     {
         let model = glass_model(family, None);
         let points = [Point::new(0.1, 0.95), Point::new(0.5, 0.92), Point::new(1.0, 0.91)];
@@ -178,7 +178,7 @@ fn what_the_data_do_not_determine_is_refused() {
 /// One point determines one parameter, exactly, and leaves nothing for an interval.
 #[test]
 fn one_point_and_one_parameter() {
-    let model = glass_model(Family::BordbarHyppanen, None);
+    let model = glass_model(LawFamily::BordbarHyppanen, None);
     let points = [Point::new(0.5, 0.925)];
     let mut problem = Problem::new(&model, &points, &["a"]).unwrap();
     problem.values[1] = 1.0;
@@ -190,7 +190,7 @@ fn one_point_and_one_parameter() {
 /// Data without any loss have no best A: the search ends at its bound, and says so.
 #[test]
 fn no_loss_is_a_bound_or_a_refusal() {
-    let model = glass_model(Family::KuwabaraKono, None);
+    let model = glass_model(LawFamily::KuwabaraKono, None);
     let points = [Point::new(0.1, 1.0), Point::new(1.0, 1.0)];
     match Problem::new(&model, &points, &["a"]).unwrap().fit(0.95) {
         Ok(fit) => assert!(fit.estimates[0].is_at_bound, "{fit:?}"),
@@ -201,10 +201,10 @@ fn no_loss_is_a_bound_or_a_refusal() {
 /// The end rule belongs to the law: the same data, another A.
 #[test]
 fn end_rule_is_part_of_the_fit() {
-    let force = glass_model(Family::Tsuji, None);
+    let force = glass_model(LawFamily::Tsuji, None);
     let glass = crate::common::glass(None);
     let materials = [Some(glass.clone()), Some(glass)];
-    let overlap = Model::new(force.pair(), materials, Family::Tsuji, EndRule::ZeroOverlap).unwrap();
+    let overlap = Model::new(force.pair(), materials, LawFamily::Tsuji, EndRule::ZeroOverlap).unwrap();
     let points = [Point::new(0.5, 0.92)];
     let alpha = |model: &Model| Problem::new(model, &points, &["alpha"]).unwrap().fit(0.9).unwrap();
     // exp(−πζ/√(1−ζ²)) = 0.92 with ζ = α/√5.
@@ -218,9 +218,9 @@ fn end_rule_is_part_of_the_fit() {
 /// to be there.
 #[test]
 fn a_best_value_at_a_bound_is_found() {
-    let (model, points) = (ice_model(Family::HuntCrossley), bridges());
+    let (model, points) = (ice_model(LawFamily::HuntCrossley), bridges());
     let fit = Problem::new(&model, &points, &["e"]).unwrap().fit(0.95).unwrap();
-    let bound = Family::HuntCrossley.parameters()[0].limits.0;
+    let bound = LawFamily::HuntCrossley.parameters()[0].limits.0;
     assert!((fit.values[0] - bound).abs() < 1e-9, "{fit:?}");
     assert!(fit.estimates[0].is_at_bound);
     // A grid of e: nothing is better.

@@ -2,7 +2,7 @@
 
 use crate::common::{glass, glass_model};
 use fem_fit::{FitError, Model, Point, Problem, invert};
-use fem_laws::{EndRule, Family};
+use fem_laws::{EndRule, LawFamily};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
 /// 0.92 at 0.5 m/s: β = 2982 1/s with constant ν, 4173 1/s with an elastic bulk modulus (the
@@ -10,7 +10,7 @@ use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 #[test]
 fn decay_rate_of_the_glass() {
     for (acts_on, expected) in [(ActsOn::All, 2982.0), (ActsOn::Shear, 4173.0)] {
-        let model = glass_model(Family::Ting, Some((2708.0, acts_on)));
+        let model = glass_model(LawFamily::Ting, Some((2708.0, acts_on)));
         let found = invert(&model, 0, &[2708.0], 0.5, 0.92).unwrap();
         assert_eq!(found.solutions.len(), 1);
         // Printed to a unit.
@@ -23,14 +23,14 @@ fn decay_rate_of_the_glass() {
 /// Every law, every parameter that damps: what is found gives what was wanted.
 #[test]
 fn every_law_has_an_inverse() {
-    for family in Family::ALL.into_iter().filter(|family| *family != Family::Ting) {
+    for family in LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Ting) {
         // Nothing of Hertz' is lost.
         let Some(index) = family.loss_parameter() else { continue };
         let model = glass_model(family, None);
         let mut values = Problem::new(&model, &[Point::new(0.5, 0.9)], &[]).unwrap().values;
         for wanted in [0.99, 0.92, 0.5, 0.1] {
             // Their coefficient is first order in 1 − e: the smallest e entered makes 0.66.
-            if family == Family::HuntCrossley && wanted < 0.7 {
+            if family == LawFamily::HuntCrossley && wanted < 0.7 {
                 let error = invert(&model, index, &values, 0.5, wanted).unwrap_err();
                 assert!(matches!(error, FitError::NoSolution { .. }));
                 continue;
@@ -49,9 +49,9 @@ fn every_law_has_an_inverse() {
 #[test]
 fn tsuji_is_its_closed_form() {
     let glass = glass(None);
-    let pair = *glass_model(Family::Tsuji, None).pair();
+    let pair = *glass_model(LawFamily::Tsuji, None).pair();
     let materials = [Some(glass.clone()), Some(glass)];
-    let model = Model::new(&pair, materials, Family::Tsuji, EndRule::ZeroOverlap).unwrap();
+    let model = Model::new(&pair, materials, LawFamily::Tsuji, EndRule::ZeroOverlap).unwrap();
     let found = invert(&model, 0, &[0.1], 0.5, 0.92).unwrap().solutions[0];
     let loss = 0.92f64.ln().abs();
     let exact = 5f64.sqrt() * loss / std::f64::consts::PI.hypot(loss);
@@ -66,9 +66,9 @@ fn a_solid_has_two_rates_or_none() {
     let term = PronyTerm { weight: 0.5, relaxation_time: 1e-5 };
     let series = PronySeries::new(vec![term], ActsOn::All).unwrap();
     let solid = Material::new(2390.0, moduli, Some(series)).unwrap();
-    let pair = *glass_model(Family::Tsuji, None).pair();
+    let pair = *glass_model(LawFamily::Tsuji, None).pair();
     let materials = [Some(solid.clone()), Some(solid)];
-    let model = Model::new(&pair, materials, Family::Ting, EndRule::ZeroForce).unwrap();
+    let model = Model::new(&pair, materials, LawFamily::Ting, EndRule::ZeroForce).unwrap();
     let found = invert(&model, 0, &[1e5], 0.5, 0.92).unwrap();
     assert_eq!(found.solutions.len(), 2);
     for rate in &found.solutions {
@@ -82,13 +82,13 @@ fn a_solid_has_two_rates_or_none() {
 
 #[test]
 fn impossible_wishes_are_refused() {
-    let model = glass_model(Family::KuwabaraKono, None);
+    let model = glass_model(LawFamily::KuwabaraKono, None);
     for wanted in [0.0, 1.0, -0.5, 1.1, f64::NAN] {
         let error = invert(&model, 0, &[1e-6], 0.5, wanted).unwrap_err();
         assert!(matches!(error, FitError::OutOfRange { quantity: "restitution", .. }));
     }
     assert!(invert(&model, 0, &[1e-6], 0.0, 0.9).is_err());
     let pair = *model.pair();
-    let elastic = Model::new(&pair, [Some(glass(None)), None], Family::Ting, EndRule::ZeroForce);
+    let elastic = Model::new(&pair, [Some(glass(None)), None], LawFamily::Ting, EndRule::ZeroForce);
     assert_eq!(elastic.unwrap_err(), FitError::NoRelaxation);
 }

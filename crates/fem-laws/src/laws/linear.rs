@@ -18,10 +18,9 @@
 
 use std::f64::consts::PI;
 
-use super::power::{ContactLaw, power};
-use crate::bisection::last_where;
-use crate::end_rule::EndRule;
+use super::power::{ContactLaw, EndRule, power};
 use crate::error::{LawError, positive, restitution as checked};
+use crate::numerics::bisection::last_where;
 use crate::pair::Pair;
 
 /// The law of a stiffness K, N/m, and a damping C, N s/m.

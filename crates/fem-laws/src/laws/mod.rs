@@ -11,7 +11,6 @@ mod morgado_oppenheim;
 mod power;
 mod schwager_poeschel;
 mod tsuji;
-mod zhang_whiten;
 
 pub use bordbar_hyppanen::bordbar_hyppanen;
 pub use falcon::falcon;
@@ -21,7 +20,6 @@ pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono};
 pub use linear::{linear, linear_from_restitution};
 pub use mishra_murty::mishra_murty;
 pub use morgado_oppenheim::morgado_oppenheim;
-pub use power::{ContactLaw, power};
+pub use power::{ContactLaw, EndRule, power};
 pub use schwager_poeschel::{dissipation_time, schwager_poeschel};
-pub use tsuji::{tsuji, tsuji_coefficient};
-pub use zhang_whiten::zhang_whiten_coefficient;
+pub use tsuji::{tsuji, tsuji_coefficient, zhang_whiten_coefficient};

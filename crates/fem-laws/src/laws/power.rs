@@ -20,6 +20,16 @@ pub struct ContactLaw {
     damping_exponent: f64,
 }
 
+/// When a contact is over.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum EndRule {
+    /// The force falls to zero: the surfaces cannot pull (Schwager & Pöschel 2007).
+    #[default]
+    ZeroForce,
+    /// The overlap falls to zero; until then the dashpot may pull.
+    ZeroOverlap,
+}
+
 /// The law of K in N/m^γ, γ, C in N s/m^(n+1), n.
 ///
 /// # Errors

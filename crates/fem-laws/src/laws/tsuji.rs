@@ -4,8 +4,8 @@
 //! F = K\xi^{3/2} + \alpha\sqrt{m^*K}\,\xi^{1/4}\dot\xi
 //! ```
 //!
-//! Tsuji, Tanaka & Ishida (1992); Zhang & Whiten (1996) end the contact at zero force instead of
-//! zero overlap. With y = ξ^(5/4) and ds = ξ^(1/4) dt the motion is y″ + α y′ + (5/4) y = 0 in
+//! Tsuji, Tanaka & Ishida (1992). Zhang & Whiten (1996) end the contact at zero force instead of
+//! zero overlap, before spring and dashpot pull the bodies together. With y = ξ^(5/4) and ds = ξ^(1/4) dt the motion is y″ + α y′ + (5/4) y = 0 in
 //! suitable units, a linear oscillator of the damping ratio ζ = α/√5, so that at zero overlap
 //!
 //! ```math
@@ -13,12 +13,20 @@
 //! \alpha = \frac{-\sqrt5\,\ln e}{\sqrt{\pi^2+\ln^2 e}}
 //! ```
 //!
-//! (Antypov & Elliott 2011). Limits: a restitution that is to be the same at every speed.
+//! (Antypov & Elliott 2011). The end at zero force is that of the same oscillator, y″ = 0, so that with
+//! φ = arccos ζ
+//!
+//! ```math
+//! e = \exp\frac{-2\zeta\varphi}{\sqrt{1-\zeta^2}},
+//! ```
+//!
+//! solved for ζ by bisection. Limits: a restitution that is the same at every speed.
 
 use std::f64::consts::PI;
 
 use super::hertz::hertz_stiffness;
-use super::power::{ContactLaw, power};
+use super::linear::damping_ratio;
+use super::power::{ContactLaw, EndRule, power};
 use crate::error::{LawError, not_negative, restitution as checked};
 use crate::pair::Pair;
 
@@ -39,4 +47,13 @@ pub fn tsuji(pair: &Pair, damping_coefficient: f64) -> Result<ContactLaw, LawErr
 pub fn tsuji_coefficient(restitution: f64) -> Result<f64, LawError> {
     let loss = checked(restitution)?.recip().ln();
     Ok(5f64.sqrt() * loss / PI.hypot(loss))
+}
+
+/// α of a restitution, in (0, 1], at the end of force.
+///
+/// # Errors
+/// A restitution outside (0, 1].
+pub fn zhang_whiten_coefficient(restitution: f64) -> Result<f64, LawError> {
+    let loss = checked(restitution)?.recip().ln();
+    Ok(5f64.sqrt() * damping_ratio(loss, EndRule::ZeroForce))
 }

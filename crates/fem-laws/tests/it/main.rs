@@ -1,7 +1,7 @@
 //! The laws from outside, in one program: linked once, its tests run side by side.
 
 mod direct;
-mod folded;
+mod fast_slow_limits;
 mod gravity;
 mod hertz;
 mod hertz_pressure;

@@ -2,7 +2,7 @@
 
 use crate::direct::{Direct, direct};
 use fem_laws::{
-    Face, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, SurfaceSlip, Ting,
+    SlipSurface, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, SurfaceSlip, Ting,
 };
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
@@ -223,7 +223,7 @@ fn impossible_data_are_refused() {
 #[test]
 fn a_step_that_gets_nowhere_is_the_last() {
     let glass = glass(ActsOn::Shear, &[(0.15, 2708.0)]);
-    let face = |material| Face::new(1.0 / 7.95e-3, material);
+    let face = |material| SlipSurface::new(1.0 / 7.95e-3, material);
     let ting = ting(&glass).with_surface_slip(SurfaceSlip::new([face(Some(&glass)), face(None)]));
     for speed in [1e12, 1e15, 1e18] {
         match ting.impact(speed) {

@@ -7,7 +7,7 @@ use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
 use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_fit::{Free, Problem};
-use fem_laws::Family;
+use fem_laws::LawFamily;
 use serde_json::Value;
 
 use crate::case_arguments::{CaseArguments, stem_of};
@@ -53,7 +53,7 @@ pub struct Arguments {
     profile: Option<String>,
     /// Fit this law too, for comparison, its damping free; may be repeated
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
-    compare: Vec<Family>,
+    compare: Vec<LawFamily>,
     /// Fit the column contact_time_s as well
     #[arg(long)]
     contact_time: bool,
@@ -71,7 +71,7 @@ pub struct Arguments {
 /// Which law is fitted.
 #[derive(Clone, Copy, Debug)]
 enum Wanted {
-    One(Family),
+    One(LawFamily),
     /// The best of all.
     All,
 }
@@ -144,7 +144,7 @@ fn fitted<T>(
     if let Some(ranking) = &ranking {
         fitted = fitted.compared_with_ranked(ranking);
     }
-    let is_ranked = |family: &&Family| {
+    let is_ranked = |family: &&LawFamily| {
         ranking.as_ref().is_some_and(|all| all.laws.iter().any(|law| law.family() == **family))
     };
     for family in arguments.compare.iter().filter(|family| !is_ranked(family)) {
@@ -208,7 +208,7 @@ fn problem<'a>(
     Ok(problem)
 }
 
-fn bound(problem: &mut Problem<'_>, family: Family, text: &str) -> Result<(), Failure> {
+fn bound(problem: &mut Problem<'_>, family: LawFamily, text: &str) -> Result<(), Failure> {
     let (key, range) = split(text, "--bounds")?;
     let index = find_key(family, key, "--bounds")?;
     let parameter = &family.parameters()[index];

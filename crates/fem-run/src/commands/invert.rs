@@ -5,7 +5,7 @@ use fem::laws::{LawFault, LawInversion, family_of, needs_more};
 use fem_case::Case;
 use fem_case::engineering::{number, show};
 use fem_fit::FitError;
-use fem_laws::Family;
+use fem_laws::LawFamily;
 use serde_json::{Value, json};
 
 use crate::case_arguments::CaseArguments;
@@ -28,7 +28,7 @@ pub struct Arguments {
     restitution: f64,
     /// The law [default: that of the case's model, or else all]
     #[arg(long, value_name = "LAW", value_parser = parse_family)]
-    law: Option<Family>,
+    law: Option<LawFamily>,
     /// The parameter to find [default: the one that damps]
     #[arg(long, value_name = "KEY")]
     find: Option<String>,
@@ -46,7 +46,7 @@ pub struct Arguments {
 enum Answer {
     Solved(Box<LawInversion>),
     /// Why it has no parameter that would do.
-    Unsolved(Family, String),
+    Unsolved(LawFamily, String),
 }
 
 /// Solves and prints.
@@ -121,7 +121,7 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
         let message = format!("{option}: of which law?");
         return Err(Failure::bad_input(message).with_help("name it with --law"));
     }
-    let families: Vec<Family> = law.map_or(Family::ALL.to_vec(), |law| vec![law]);
+    let families: Vec<LawFamily> = law.map_or(LawFamily::ALL.to_vec(), |law| vec![law]);
     let mut answers = Vec::new();
     for family in families {
         match solve(arguments, case, family, speed) {
@@ -148,7 +148,7 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
 fn solve(
     arguments: &Arguments,
     case: &Case,
-    family: Family,
+    family: LawFamily,
     speed: f64,
 ) -> Result<LawInversion, Failure> {
     let law = arguments.values.choose(case, family)?;
@@ -157,7 +157,7 @@ fn solve(
     }
     let key = arguments.find.as_deref();
     LawInversion::of(&law, key, speed, arguments.restitution).map_err(|fault| match fault {
-        LawFault::Fit(error @ FitError::NoSolution { .. }) if family == Family::HuntCrossley => {
+        LawFault::Fit(error @ FitError::NoSolution { .. }) if family == LawFamily::HuntCrossley => {
             Failure::bad_input(error.to_string())
                 .with_help("its coefficient holds for mild losses only; take another law")
         }

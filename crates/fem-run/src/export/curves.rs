@@ -5,7 +5,7 @@ use fem::laws::{DemExport, FittedLaw};
 use fem_case::engineering::{Unit, number, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, Mark};
 use fem_fit::dem::{Export, Snippet};
-use fem_laws::Family;
+use fem_laws::LawFamily;
 
 use crate::standard_output;
 use crate::tables::table;
@@ -61,7 +61,7 @@ pub fn export_picture(fitted: &DemExport) -> String {
                  y: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {
         // The linear law hides the other constant one.
         let mark = |law: &FittedLaw| match law.model.family() {
-            Family::Linear => Mark::Dashed,
+            LawFamily::Linear => Mark::Dashed,
             _ => Mark::Line,
         };
         let law = |(law, colour): (&FittedLaw, &'static str)| {

@@ -6,7 +6,7 @@ use fem_case::engineering::{Unit, show};
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_fit::{Fit, Model};
 use fem_laws::laws::hertz;
-use fem_laws::{Impact, LawError, LawImpact, Role};
+use fem_laws::{Impact, LawError, LawImpact, ParameterRole};
 
 use super::ranking::evidence;
 
@@ -58,7 +58,7 @@ pub fn fit_picture(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String 
         let best = vec![(fitted.fit.values[profile.index], fitted.fit.rms)];
         let unit = if parameter.unit.is_empty() { "" } else { &format!(" [{}]", parameter.unit) };
         let axis = Axis::new(format!("{}{unit}", parameter.key));
-        let axis = if parameter.role == Role::Number { axis } else { axis.logarithmic() };
+        let axis = if parameter.role == ParameterRole::Number { axis } else { axis.logarithmic() };
         charts.push(
             Chart::new(axis, Axis::new("rms error, the others fitted"))
                 .with(Curve::line("", points).like_curve(0))

@@ -5,7 +5,7 @@ use fem::laws::{ChosenLaw, LawFit, StandIn};
 use fem_case::engineering::show;
 use fem_case::schema::End;
 use fem_fit::{Estimate, Profile};
-use fem_laws::Family;
+use fem_laws::LawFamily;
 
 use crate::tables::{show_value, table};
 
@@ -60,7 +60,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
     let rates = model.decay_rates(fit.values[0]);
     let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
-    if model.family() == Family::Ting && others.count() > 0 {
+    if model.family() == LawFamily::Ting && others.count() > 0 {
         text += "decay_rate is the largest; all others keep their ratio to it\n";
     }
     for (model, fit) in &fitted.compared {

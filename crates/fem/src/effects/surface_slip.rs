@@ -11,7 +11,7 @@
 
 use fem_case::engineering::number;
 use fem_case::{Body, EffectsTable, ModelChoice, Scene, Shape, Switch};
-use fem_laws::{Face, RelativeError, SurfaceSlip as Slip};
+use fem_laws::{SlipSurface, RelativeError, SurfaceSlip as Slip};
 use fem_material::Material;
 
 use super::doubt::{Doubt, Standing};
@@ -152,7 +152,7 @@ fn largest(scene: &Scene, estimate: &Estimate) -> Slip {
     let relaxed = Slip::new(scene.bodies().each_ref().map(|body| {
         let curvature = body.diameter().map_or(0.0, |diameter| 2.0 / diameter);
         let material = body.material().map(|m| left_at(m, estimate.contact_time));
-        Face::new(curvature, material.as_ref())
+        SlipSurface::new(curvature, material.as_ref())
     }));
     if relaxed.mismatch().abs() > now.mismatch().abs() { relaxed } else { now }
 }

@@ -2,10 +2,10 @@
 //!
 //! Decided by the share of the modulus that is lost over one contact time, Σ g (1 − exp(−T/τ)), and a term at
 //! a time: one that is over before the force has risen, or has not begun when the contact ends, is folded
-//! into the moduli ([`Folded`]).
+//! into the moduli ([`FastSlowLimits`]).
 
 use fem_case::{Body, EffectsTable, Scene, Switch};
-use fem_laws::{Folded, RelativeError};
+use fem_laws::{FastSlowLimits, RelativeError};
 use fem_material::Material;
 
 use super::answer::Answer;
@@ -112,7 +112,7 @@ impl Effect for Viscoelasticity {
 
 impl Viscoelasticity {
     /// The materials without the terms that need not be followed; nothing where all are.
-    fn folded(&self, scene: &Scene, estimate: &Estimate) -> Option<Folded> {
+    fn folded(&self, scene: &Scene, estimate: &Estimate) -> Option<FastSlowLimits> {
         // What is too slow for a contact is not for a ball that rests on it.
         if scene.gravity().is_some() {
             return None;
@@ -121,7 +121,7 @@ impl Viscoelasticity {
             let tolerance =
                 RelativeError { restitution: share, contact_time: share, peak_force: share };
             let contact_time = estimate.hertz.contact_time();
-            let folded = Folded::new(materials(scene), contact_time, &tolerance).ok()?;
+            let folded = FastSlowLimits::new(materials(scene), contact_time, &tolerance).ok()?;
             let n_folded: usize = folded.n_fast.into_iter().chain(folded.n_slow).sum();
             (n_folded > 0).then_some(folded)
         };
@@ -142,7 +142,7 @@ fn loss(scene: &Scene, estimate: &Estimate) -> Option<f64> {
 }
 
 /// How many terms are followed, and what the others are worth.
-fn in_words(need: &Need, folded: &Folded, estimate: &Estimate, n_kept: usize) -> String {
+fn in_words(need: &Need, folded: &FastSlowLimits, estimate: &Estimate, n_kept: usize) -> String {
     let sum = |counts: [usize; 2]| counts.iter().sum::<usize>();
     let (n_fast, n_slow) = (sum(folded.n_fast), sum(folded.n_slow));
     let RelativeError { restitution, contact_time, peak_force } = folded.error;

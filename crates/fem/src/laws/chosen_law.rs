@@ -3,7 +3,7 @@
 
 use fem_case::{Case, ModelChoice, Scene};
 use fem_fit::{FitError, Model, Point, Problem};
-use fem_laws::{EndRule, Family, Role};
+use fem_laws::{EndRule, LawFamily, ParameterRole};
 
 use super::law_fault::LawFault;
 use super::parameter::{check_value, find_parameter, loss_parameter};
@@ -14,7 +14,7 @@ use crate::models::Reduced;
 /// # Errors
 /// Numbers so extreme that they leave the range of f64; Ting's model of bodies that do not relax; a
 /// law with another end of its own.
-pub fn model_of(scene: &Scene, family: Family, end_rule: EndRule) -> Result<Model, FitError> {
+pub fn model_of(scene: &Scene, family: LawFamily, end_rule: EndRule) -> Result<Model, FitError> {
     let pair = scene.pair()?;
     let materials = scene.bodies().each_ref().map(|body| body.material().cloned());
     let model = Model::new(&pair, materials, family, end_rule)?;
@@ -25,9 +25,9 @@ pub fn model_of(scene: &Scene, family: Family, end_rule: EndRule) -> Result<Mode
 }
 
 /// The law that `[model]` names, if it names one.
-pub fn family_of(scene: &Scene) -> Option<Family> {
+pub fn family_of(scene: &Scene) -> Option<LawFamily> {
     match scene.model() {
-        ModelChoice::Ting { .. } => Some(Family::Ting),
+        ModelChoice::Ting { .. } => Some(LawFamily::Ting),
         ModelChoice::Law { law, .. } => Some(law.family()),
         _ => None,
     }
@@ -47,11 +47,11 @@ pub fn family_of(scene: &Scene) -> Option<Family> {
 /// # material = 'ice'
 /// # approach_speed = 0.1";
 /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-/// use fem::laws::{ChosenLaw, Family, LawFit};
+/// use fem::laws::{ChosenLaw, LawFamily, LawFit};
 /// use fem::measured::Restitutions;
 ///
 /// let ice = Restitutions::of("ice", &[(0.05, 0.7), (0.1, 0.62), (0.2, 0.55), (0.4, 0.45)]);
-/// let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[("n", 0.65)], None)?;
+/// let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[("n", 0.65)], None)?;
 /// let fit = LawFit::of(&ice, law.problem(&ice.points, &["a"])?, 0.95)?;
 /// assert!(fit.fit.rms < 0.05 && fit.fit.estimates[0].key == "a");
 /// # Ok::<(), fem::laws::LawFault>(())
@@ -100,7 +100,7 @@ impl ChosenLaw {
     /// Keys that the law does not have, values without a meaning; see [`model_of`].
     pub fn of(
         case: &Case,
-        family: Family,
+        family: LawFamily,
         given: &[(&str, f64)],
         end_rule: Option<EndRule>,
     ) -> Result<Self, LawFault> {
@@ -129,7 +129,7 @@ impl ChosenLaw {
     }
 
     /// Which law.
-    pub fn family(&self) -> Family {
+    pub fn family(&self) -> LawFamily {
         self.model.family()
     }
 
@@ -156,7 +156,7 @@ impl ChosenLaw {
             let found = free.iter().map(|key| find_parameter(self.family(), key));
             indices = found.collect::<Result<_, _>>()?;
         }
-        let is_stiffness = |index: &&usize| parameters[**index].role == Role::Stiffness;
+        let is_stiffness = |index: &&usize| parameters[**index].role == ParameterRole::Stiffness;
         if let (false, Some(index)) = (has_times, indices.iter().find(is_stiffness)) {
             let (law, key) = (self.family().name(), parameters[*index].key);
             return Err(LawFault::NeedsTimes { law, key });
@@ -193,9 +193,9 @@ impl ChosenLaw {
             return None;
         }
         match (parameter.role, parameter.key) {
-            (Role::Stiffness, _) => Some(StandIn::HertzTime),
-            (Role::Speed, _) => Some(StandIn::MiddleSpeed),
-            (Role::Number, "eta_2") => Some(StandIn::PoissonsRatio),
+            (ParameterRole::Stiffness, _) => Some(StandIn::HertzTime),
+            (ParameterRole::Speed, _) => Some(StandIn::MiddleSpeed),
+            (ParameterRole::Number, "eta_2") => Some(StandIn::PoissonsRatio),
             _ => None,
         }
     }

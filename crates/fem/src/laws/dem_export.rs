@@ -8,7 +8,7 @@ use fem_fit::dem::{
 };
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
-use fem_laws::{EndRule, Family, LawError};
+use fem_laws::{EndRule, LawFamily, LawError};
 
 use super::chosen_law::model_of;
 use super::impact_curve::ImpactCurve;
@@ -90,7 +90,7 @@ impl DemExport {
         let (force, overlap) = (EndRule::ZeroForce, EndRule::ZeroOverlap);
         let constant = FittedLaw {
             name: "one e for all speeds, Hertz",
-            model: model_of(scene, Family::Tsuji, overlap)?,
+            model: model_of(scene, LawFamily::Tsuji, overlap)?,
             values: vec![tsuji_coefficient(e)?],
             validity: constant_validity,
         };
@@ -99,7 +99,7 @@ impl DemExport {
         let law = linear_from_restitution(&pair, e, contact_time, overlap)?;
         let linear = FittedLaw {
             name: "linear",
-            model: model_of(scene, Family::Linear, overlap)?,
+            model: model_of(scene, LawFamily::Linear, overlap)?,
             values: vec![law.stiffness(), law.damping()],
             validity: constant_validity,
         };
@@ -154,7 +154,7 @@ fn viscoelastic(
     tolerance: f64,
     end_rule: EndRule,
 ) -> Result<FittedLaw, FitError> {
-    let model = model_of(scene, Family::KuwabaraKono, end_rule)?;
+    let model = model_of(scene, LawFamily::KuwabaraKono, end_rule)?;
     let timeless = |point: &Point| Point { contact_time: None, ..*point };
     let points: Vec<Point> = curve.points.iter().map(timeless).collect();
     let values = Problem::new(&model, &points, &["a"])?.fit(CONFIDENCE)?.values;

@@ -2,7 +2,7 @@
 
 use fem_fit::Point;
 use fem_fit::dem::{Snippet, Sphere, restitution_of};
-use fem_laws::Family;
+use fem_laws::LawFamily;
 use serde::{Serialize, Serializer};
 
 use super::dem_export::DemExport;
@@ -114,7 +114,7 @@ impl DemExport {
         let [from, to, worst] = snippet.validity;
         // What depends on speed is the viscoelastic damping.
         let mut laws = self.laws.iter();
-        let viscoelastic = laws.find(|law| law.model.family() == Family::KuwabaraKono);
+        let viscoelastic = laws.find(|law| law.model.family() == LawFamily::KuwabaraKono);
         let at_speed = |point: &Point| match (snippet.restitution, snippet.entries.first()) {
             (Some(restitution), _) => Some(restitution),
             (None, Some(("dissipation", d))) => Some(restitution_of(d * point.speed)),

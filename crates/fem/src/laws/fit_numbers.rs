@@ -2,7 +2,7 @@
 
 use fem_case::schema::End;
 use fem_fit::{Fit, Model, Profile};
-use fem_laws::Parameter;
+use fem_laws::LawParameter;
 use serde::Serialize;
 
 use super::law_fit::LawFit;
@@ -122,7 +122,7 @@ impl LawFit<'_> {
         }
     }
 
-    fn parameter(&self, index: usize, parameter: &Parameter) -> ParameterNumbers {
+    fn parameter(&self, index: usize, parameter: &LawParameter) -> ParameterNumbers {
         let estimate = self.fit.estimates.iter().find(|estimate| estimate.index == index);
         let profile = self.profile.as_ref().filter(|profile| profile.index == index);
         ParameterNumbers {

@@ -3,7 +3,7 @@
 use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
 use fem_fit::{FitError, Point};
-use fem_laws::{EndRule, Family, HertzImpact, Pair};
+use fem_laws::{EndRule, LawFamily, HertzImpact, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;
@@ -112,7 +112,7 @@ fn reduced(case: &Case) -> Result<Reduced, LawFault> {
     if !matches!(case.scene().model(), ModelChoice::Fem | ModelChoice::Condensed(_)) {
         return Ok(of(case)?);
     }
-    model_of(case.scene(), Family::Ting, EndRule::ZeroForce).map_err(LawFault::NoStandIn)?;
+    model_of(case.scene(), LawFamily::Ting, EndRule::ZeroForce).map_err(LawFault::NoStandIn)?;
     let half_spaces = TingTable { finite_size: Some(false), ..TingTable::default() };
     let model = ModelTable { ting: Some(half_spaces), ..ModelTable::default() };
     Ok(of(&case.edited(|file| file.model = Some(model))?)?)

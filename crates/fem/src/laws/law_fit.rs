@@ -1,7 +1,7 @@
 //! A law that is fitted to restitutions, and how far the fit can be trusted.
 
 use fem_fit::{Fit, FitError, Free, Model, Problem, Profile};
-use fem_laws::{Family, Role};
+use fem_laws::{LawFamily, ParameterRole};
 
 use super::law_fault::LawFault;
 use super::law_ranking::LawRanking;
@@ -73,13 +73,13 @@ impl<'a> LawFit<'a> {
     ///
     /// # Errors
     /// A law without a loss, or that cannot be fitted.
-    pub fn compared_with(mut self, family: Family) -> Result<Self, LawFault> {
+    pub fn compared_with(mut self, family: LawFamily) -> Result<Self, LawFault> {
         let model = self.problem.model.with_family(family)?;
         let mut free = vec![family.parameters()[loss_parameter(family)?].key];
         // Restitutions do not depend on it.
         if self.data.points.iter().any(|point| point.contact_time.is_some()) {
             let parameters = family.parameters().iter();
-            let stiff = parameters.filter(|parameter| parameter.role == Role::Stiffness);
+            let stiff = parameters.filter(|parameter| parameter.role == ParameterRole::Stiffness);
             free.extend(stiff.map(|parameter| parameter.key));
         }
         let problem = Problem::new(&model, &self.data.points, &free)?;

@@ -1,7 +1,7 @@
 //! The parameter of a law that gives a wanted restitution at one speed.
 
 use fem_fit::{Inversion, Model, Point, Problem, invert};
-use fem_laws::{Family, Parameter, Role};
+use fem_laws::{LawFamily, LawParameter, ParameterRole};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
@@ -42,9 +42,9 @@ impl LawInversion {
     /// # material = 'ice'
     /// # approach_speed = 0.1";
     /// # let case = fem_case::Case::parse("ball.toml", text, Path::new("."), &[])?;
-    /// use fem::laws::{ChosenLaw, Family, LawInversion};
+    /// use fem::laws::{ChosenLaw, LawFamily, LawInversion};
     ///
-    /// let law = ChosenLaw::of(&case, Family::Tsuji, &[], None)?;
+    /// let law = ChosenLaw::of(&case, LawFamily::Tsuji, &[], None)?;
     /// let found = LawInversion::of(&law, None, 0.1, 0.9)?;
     /// assert_eq!(found.parameter().key, "alpha");
     /// let [(alpha, _)] = found.solutions()[..] else { panic!("one") };
@@ -65,7 +65,7 @@ impl LawInversion {
         };
         // A speed is that of the collision.
         let is_known =
-            |other: usize| other == index || family.parameters()[other].role == Role::Speed;
+            |other: usize| other == index || family.parameters()[other].role == ParameterRole::Speed;
         if let Some(key) = law.missing(is_known) {
             return Err(LawFault::Missing { law: family.name(), key, free: Vec::new() });
         }
@@ -77,7 +77,7 @@ impl LawInversion {
     }
 
     /// The parameter that is found.
-    pub fn parameter(&self) -> &'static Parameter {
+    pub fn parameter(&self) -> &'static LawParameter {
         &self.model.family().parameters()[self.index]
     }
 
@@ -93,10 +93,10 @@ impl LawInversion {
 }
 
 /// Whether a law has numbers beside its loss that no theory gives.
-pub fn needs_more(family: Family) -> bool {
+pub fn needs_more(family: LawFamily) -> bool {
     let Some(loss) = family.loss_parameter() else { return true };
     let mut parameters = family.parameters().iter().enumerate();
     parameters.any(|(index, parameter)| {
-        index != loss && parameter.default.is_none() && parameter.role != Role::Speed
+        index != loss && parameter.default.is_none() && parameter.role != ParameterRole::Speed
     })
 }

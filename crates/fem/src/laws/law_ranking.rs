@@ -14,7 +14,7 @@
 
 use fem_case::Case;
 use fem_fit::{Fit, Model};
-use fem_laws::{EndRule, Family};
+use fem_laws::{EndRule, LawFamily};
 
 use super::chosen_law::ChosenLaw;
 use super::law_fault::LawFault;
@@ -44,7 +44,7 @@ pub struct RankedLaw {
 
 impl RankedLaw {
     /// Its family.
-    pub fn family(&self) -> Family {
+    pub fn family(&self) -> LawFamily {
         self.model.family()
     }
 }
@@ -126,10 +126,10 @@ impl LawRanking {
 }
 
 /// Laws that lose energy, with their damping free, and with an exponent that has a default free, too.
-fn candidates() -> impl Iterator<Item = (Family, Option<&'static str>)> {
+fn candidates() -> impl Iterator<Item = (LawFamily, Option<&'static str>)> {
     // The general law last: what it makes at its defaults has a name of its own.
-    let named = Family::ALL.into_iter().filter(|family| *family != Family::Power);
-    let lossy = named.chain([Family::Power]).filter(|family| loss_parameter(*family).is_ok());
+    let named = LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Power);
+    let lossy = named.chain([LawFamily::Power]).filter(|family| loss_parameter(*family).is_ok());
     lossy.flat_map(|family| {
         let has_default = |key: &&'static str| {
             let mut parameters = family.parameters().iter();
@@ -144,7 +144,7 @@ fn candidates() -> impl Iterator<Item = (Family, Option<&'static str>)> {
 fn fitted(
     case: &Case,
     data: &Restitutions,
-    (family, exponent): (Family, Option<&'static str>),
+    (family, exponent): (LawFamily, Option<&'static str>),
     end_rule: Option<EndRule>,
 ) -> Result<RankedLaw, LawFault> {
     let end_rule = end_rule.filter(|_| family.end_rule().is_none());
@@ -169,7 +169,7 @@ fn fitted(
 }
 
 /// A law by its name, and by its exponent where that is held and could be free.
-fn name(family: Family, exponent: Option<&str>) -> String {
+fn name(family: LawFamily, exponent: Option<&str>) -> String {
     let exponents = family.parameters().iter().filter(|parameter| parameter.key == "n");
     match exponents.filter_map(|n| n.default).next() {
         Some(default) if exponent.is_none() => format!("{} with n = {default}", family.name()),

@@ -36,4 +36,4 @@ pub use pair_export::{FittedPair, PairExport, PairNumbers};
 pub use parameter::{ParameterError, check_value, find_parameter, loss_parameter, parse_value};
 
 pub use fem_fit::FitError;
-pub use fem_laws::{EndRule, Family};
+pub use fem_laws::{EndRule, LawFamily};

@@ -1,7 +1,7 @@
 //! Parameters of laws as callers write them: `a = 0.2 ms`, `n = 0.65`.
 
 use fem_case::{UnitError, parse_quantity};
-use fem_laws::{Family, Parameter, Role};
+use fem_laws::{LawFamily, LawParameter, ParameterRole};
 
 /// What is wrong with a parameter that a caller names or gives a value.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -75,7 +75,7 @@ impl ParameterError {
 ///
 /// # Errors
 /// No such key.
-pub fn find_parameter(family: Family, key: &str) -> Result<usize, ParameterError> {
+pub fn find_parameter(family: LawFamily, key: &str) -> Result<usize, ParameterError> {
     let key = key.trim();
     let known = || family.parameters().iter().map(|parameter| parameter.key);
     known().position(|found| found == key).ok_or_else(|| ParameterError::Unknown {
@@ -89,7 +89,7 @@ pub fn find_parameter(family: Family, key: &str) -> Result<usize, ParameterError
 ///
 /// # Errors
 /// A law without a loss.
-pub fn loss_parameter(family: Family) -> Result<usize, ParameterError> {
+pub fn loss_parameter(family: LawFamily) -> Result<usize, ParameterError> {
     family.loss_parameter().ok_or(ParameterError::Lossless { law: family.name() })
 }
 
@@ -99,9 +99,9 @@ pub fn loss_parameter(family: Family) -> Result<usize, ParameterError> {
 /// No number, another dimension, a value without a meaning.
 ///
 /// ```
-/// use fem::laws::{Family, parse_value};
+/// use fem::laws::{LawFamily, parse_value};
 ///
-/// let dissipation_time = &Family::KuwabaraKono.parameters()[0];
+/// let dissipation_time = &LawFamily::KuwabaraKono.parameters()[0];
 /// assert_eq!(parse_value(dissipation_time, "0.2 ms")?, 2e-4);
 ///
 /// let error = parse_value(dissipation_time, "1 kg").unwrap_err();
@@ -109,8 +109,8 @@ pub fn loss_parameter(family: Family) -> Result<usize, ParameterError> {
 /// assert_eq!(error.help().unwrap(), "a is in s; bare numbers are SI");
 /// # Ok::<(), fem::laws::ParameterError>(())
 /// ```
-pub fn parse_value(parameter: &Parameter, text: &str) -> Result<f64, ParameterError> {
-    let Parameter { key, unit, dimension: [m, kg, s], .. } = *parameter;
+pub fn parse_value(parameter: &LawParameter, text: &str) -> Result<f64, ParameterError> {
+    let LawParameter { key, unit, dimension: [m, kg, s], .. } = *parameter;
     let text = text.trim().trim_matches(['"', '\'']);
     let (value, dimension) = parse_quantity(text).map_err(|error| {
         let text = text.to_string();
@@ -127,14 +127,14 @@ pub fn parse_value(parameter: &Parameter, text: &str) -> Result<f64, ParameterEr
 ///
 /// # Errors
 /// Which values have one.
-pub fn check_value(parameter: &Parameter, value: f64) -> Result<(), ParameterError> {
-    let Parameter { key, role, limits: (low, high), .. } = *parameter;
+pub fn check_value(parameter: &LawParameter, value: f64) -> Result<(), ParameterError> {
+    let LawParameter { key, role, limits: (low, high), .. } = *parameter;
     let is_allowed = value >= low && value <= high && value.is_finite();
-    if is_allowed && (role == Role::Number || value > 0.0) {
+    if is_allowed && (role == ParameterRole::Number || value > 0.0) {
         return Ok(());
     }
     let allowed = match role {
-        Role::Number => format!("it must be from {low} to {high}"),
+        ParameterRole::Number => format!("it must be from {low} to {high}"),
         _ => "it must be greater than 0".to_string(),
     };
     Err(ParameterError::OutOfRange { key, value, allowed })
@@ -146,12 +146,12 @@ mod tests {
 
     #[test]
     fn parameters_are_found_and_their_values_have_a_meaning() {
-        let family = Family::BordbarHyppanen;
+        let family = LawFamily::BordbarHyppanen;
         assert_eq!(find_parameter(family, " n "), Ok(1));
         let error = find_parameter(family, "b").unwrap_err();
         assert_eq!(error.help().unwrap(), "its parameters are a, n");
         assert_eq!(loss_parameter(family), Ok(0));
-        let error = loss_parameter(Family::Hertz).unwrap_err();
+        let error = loss_parameter(LawFamily::Hertz).unwrap_err();
         assert_eq!(error.to_string(), "hertz loses nothing: it has no parameter to find");
         let [a, n] = family.parameters() else { panic!("two parameters") };
         assert_eq!(parse_value(n, "'0.65'"), Ok(0.65));

@@ -1,7 +1,7 @@
 //! Fits, inversions and exports as a library user has them.
 
 use fem::laws::{
-    ChosenLaw, DemExport, EndRule, Family, FitError, ImpactCurve, LawFault, LawFit, LawInversion,
+    ChosenLaw, DemExport, EndRule, LawFamily, FitError, ImpactCurve, LawFault, LawFit, LawInversion,
     LawRanking, ParameterError, RankedLaw, StandIn, family_of, needs_more,
 };
 use fem::measured::Restitutions;
@@ -24,7 +24,7 @@ fn tsuji(restitution: f64) -> ModelTable {
 /// Restitutions that Bordbar and Hyppänen's law makes with n = 0.65.
 fn made(dissipation_time: f64, speeds: &[f64]) -> Restitutions {
     let case = ball(None);
-    let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[], None).unwrap();
+    let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[], None).unwrap();
     let point = |speed: &f64| {
         let made = law.model().outcome(&[dissipation_time, 0.65], *speed).unwrap();
         (*speed, made.restitution)
@@ -35,11 +35,11 @@ fn made(dissipation_time: f64, speeds: &[f64]) -> Restitutions {
 #[test]
 fn a_law_that_made_the_data_is_found_again() {
     let (case, data) = (ball(None), made(1e-6, &[0.02, 0.05, 0.1, 0.2, 0.5]));
-    let law = ChosenLaw::of(&case, Family::BordbarHyppanen, &[], None).unwrap();
+    let law = ChosenLaw::of(&case, LawFamily::BordbarHyppanen, &[], None).unwrap();
     let problem = law.problem(&data.points, &["a", "n"]).unwrap();
     let exponent = problem.free[1];
     let fit = LawFit::of(&data, problem, 0.95).unwrap().with_profile(&exponent).unwrap();
-    let fit = fit.compared_with(Family::KuwabaraKono).unwrap();
+    let fit = fit.compared_with(LawFamily::KuwabaraKono).unwrap();
     // The fit's own accuracy: differences of 1e-4 that are good to 1e-5.
     assert!((fit.fit.values[0] / 1e-6 - 1.0).abs() < 1e-3, "{:?}", fit.fit.values);
     assert!((fit.fit.values[1] - 0.65).abs() < 1e-3, "{:?}", fit.fit.values);
@@ -58,16 +58,16 @@ fn a_law_that_made_the_data_is_found_again() {
 #[test]
 fn what_is_given_goes_before_the_case_and_is_where_a_search_begins() {
     let case = ball(Some(tsuji(0.9)));
-    assert_eq!(family_of(case.scene()), Some(Family::Tsuji));
+    assert_eq!(family_of(case.scene()), Some(LawFamily::Tsuji));
     let data = Restitutions::of("e", &[(0.1, 0.8), (0.2, 0.8)]);
-    let own = ChosenLaw::of(&case, Family::Tsuji, &[], None).unwrap();
+    let own = ChosenLaw::of(&case, LawFamily::Tsuji, &[], None).unwrap();
     let problem = own.problem(&data.points, &[]).unwrap();
     // The case's value is known, and no place to begin.
     assert!(problem.values[0] > 0.0 && problem.free[0].start.is_none());
-    let given = ChosenLaw::of(&case, Family::Tsuji, &[("alpha", 0.3)], None).unwrap();
+    let given = ChosenLaw::of(&case, LawFamily::Tsuji, &[("alpha", 0.3)], None).unwrap();
     assert_eq!(given.problem(&data.points, &[]).unwrap().free[0].start, Some(0.3));
     let wall_end = Some(EndRule::ZeroOverlap);
-    let end = ChosenLaw::of(&case, Family::Tsuji, &[], wall_end).unwrap();
+    let end = ChosenLaw::of(&case, LawFamily::Tsuji, &[], wall_end).unwrap();
     assert_eq!(end.model().end_rule(), EndRule::ZeroOverlap);
 }
 
@@ -75,21 +75,21 @@ fn what_is_given_goes_before_the_case_and_is_where_a_search_begins() {
 fn what_no_law_can_do_is_refused() {
     let case = ball(None);
     let of = |family, given: &[(&str, f64)], end| ChosenLaw::of(&case, family, given, end);
-    let unknown = of(Family::Tsuji, &[("n", 0.5)], None).unwrap_err();
+    let unknown = of(LawFamily::Tsuji, &[("n", 0.5)], None).unwrap_err();
     assert!(matches!(unknown, LawFault::Parameter(ParameterError::Unknown { .. })));
-    let nan = of(Family::Tsuji, &[("alpha", f64::NAN)], None).unwrap_err();
+    let nan = of(LawFamily::Tsuji, &[("alpha", f64::NAN)], None).unwrap_err();
     assert!(matches!(nan, LawFault::Parameter(ParameterError::OutOfRange { .. })));
-    let end = of(Family::ZhangWhiten, &[], Some(EndRule::ZeroOverlap)).unwrap_err();
+    let end = of(LawFamily::ZhangWhiten, &[], Some(EndRule::ZeroOverlap)).unwrap_err();
     assert_eq!(end, LawFault::Fit(FitError::OwnEnd { law: "zhang_whiten" }));
-    assert_eq!(of(Family::Ting, &[], None).unwrap_err(), LawFault::Fit(FitError::NoRelaxation));
+    assert_eq!(of(LawFamily::Ting, &[], None).unwrap_err(), LawFault::Fit(FitError::NoRelaxation));
 
     let data = Restitutions::of("e", &[(0.1, 0.8)]);
-    let hunt = of(Family::HuntCrossley, &[], None).unwrap();
+    let hunt = of(LawFamily::HuntCrossley, &[], None).unwrap();
     let missing = hunt.problem(&data.points, &["v"]).unwrap_err();
     let expected = LawFault::Missing { law: "hunt_crossley", key: "e", free: vec!["v"] };
     let words = "hunt_crossley needs a value of e";
     assert_eq!((missing.to_string().as_str(), missing), (words, expected));
-    let lossless = of(Family::Hertz, &[], None).unwrap();
+    let lossless = of(LawFamily::Hertz, &[], None).unwrap();
     let fault = LawInversion::of(&lossless, None, 0.1, 0.9).unwrap_err();
     assert_eq!(fault, LawFault::Parameter(ParameterError::Lossless { law: "hertz" }));
 }
@@ -97,7 +97,7 @@ fn what_no_law_can_do_is_refused() {
 #[test]
 fn every_law_that_needs_no_more_is_inverted() {
     let case = ball(None);
-    for family in Family::ALL.into_iter().filter(|family| *family != Family::Ting) {
+    for family in LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Ting) {
         if needs_more(family) {
             continue;
         }
@@ -108,7 +108,7 @@ fn every_law_that_needs_no_more_is_inverted() {
             assert!(value > 0.0 && contact_time.unwrap() > 0.0, "{}", family.name());
         }
     }
-    assert!(needs_more(Family::Linear) && needs_more(Family::Hertz));
+    assert!(needs_more(LawFamily::Linear) && needs_more(LawFamily::Hertz));
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn a_parameter_more_is_not_first_for_want_of_data() {
 fn laws_are_ranked_by_their_evidence() {
     let case = ball(None);
     let speeds: Vec<f64> = (0..8).map(|k| 0.02 * 1.8_f64.powi(k)).collect();
-    let law = ChosenLaw::of(&case, Family::KuwabaraKono, &[], None).unwrap();
+    let law = ChosenLaw::of(&case, LawFamily::KuwabaraKono, &[], None).unwrap();
     let scatter = [1.0, -1.0, -1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
     let point = |(speed, sign): (&f64, f64)| {
         (*speed, law.model().outcome(&[1e-6], *speed).unwrap().restitution + 0.003 * sign)
@@ -188,12 +188,12 @@ fn laws_are_ranked_by_their_evidence() {
             data.set_uncertainty(0.003).unwrap();
         }
         let ranking = LawRanking::of(&case, &data, None).unwrap();
-        let place = |family: Family, n_free: usize| {
+        let place = |family: LawFamily, n_free: usize| {
             let is_it = |law: &&RankedLaw| (law.family(), law.free.len()) == (family, n_free);
             ranking.laws.iter().find(is_it).unwrap()
         };
-        assert_eq!(ranking.laws[0].family(), Family::KuwabaraKono, "{ranking:?}");
-        let (own, more) = (place(Family::KuwabaraKono, 1), place(Family::BordbarHyppanen, 2));
+        assert_eq!(ranking.laws[0].family(), LawFamily::KuwabaraKono, "{ranking:?}");
+        let (own, more) = (place(LawFamily::KuwabaraKono, 1), place(LawFamily::BordbarHyppanen, 2));
         assert!(more.fit.rms <= own.fit.rms && own.difference == Some(0.0), "{ranking:?}");
         // By hand: what a parameter more costs of 8 data, less what it gains in the misfit.
         let (n, ratio) = (8.0, (more.fit.rms / own.fit.rms).powi(2));
@@ -205,7 +205,7 @@ fn laws_are_ranked_by_their_evidence() {
         let q = if is_weighted { 1.0 } else { 2.0 };
         let expected = misfit + price(q + 1.0) - price(q);
         assert!((more.difference.unwrap() - expected).abs() < 1e-9, "{ranking:?}");
-        assert!(place(Family::Linear, 1).weight.unwrap() < 1e-3, "{ranking:?}");
+        assert!(place(LawFamily::Linear, 1).weight.unwrap() < 1e-3, "{ranking:?}");
         let sum: f64 = ranking.laws.iter().filter_map(|law| law.weight).sum();
         assert!((sum - 1.0).abs() < 1e-12);
         // One curve has one place, and a law that has one is in no other list.
@@ -227,12 +227,12 @@ fn a_law_is_fitted_by_its_loss_alone() {
     let points: Vec<(f64, f64)> = vec![(0.02, 0.9), (0.1, 0.85), (0.5, 0.8)];
     let data = Restitutions::of("made", &points);
     let fit = |given: &[(&str, f64)]| {
-        let law = ChosenLaw::of(&case, Family::Linear, given, None).unwrap();
+        let law = ChosenLaw::of(&case, LawFamily::Linear, given, None).unwrap();
         let fit = LawFit::of(&data, law.problem(&data.points, &[]).unwrap(), 0.95).unwrap().fit;
         (fit.values, fit.rms, fit.estimates.len())
     };
     let (values, rms, n) = fit(&[]);
-    let law = ChosenLaw::of(&case, Family::Linear, &[], None).unwrap();
+    let law = ChosenLaw::of(&case, LawFamily::Linear, &[], None).unwrap();
     assert_eq!((law.stand_in(0), n), (Some(StandIn::HertzTime), 1));
     // Hertz' contact time at 0.1 m/s, T = π√(m*/k) of the spring.
     let time = fem_laws::HertzImpact::new(law.model().pair(), 0.1).unwrap().contact_time();
@@ -243,7 +243,7 @@ fn a_law_is_fitted_by_its_loss_alone() {
     assert!((other[1] / values[1] - 7.0_f64.sqrt()).abs() < 1e-5 && (rms - other_rms).abs() < 1e-8);
     let refused = law.problem(&data.points, &["c", "k"]).unwrap_err();
     assert!(matches!(refused, LawFault::NeedsTimes { key: "k", .. }), "{refused}");
-    let hunt = ChosenLaw::of(&case, Family::HuntCrossley, &[], None).unwrap();
+    let hunt = ChosenLaw::of(&case, LawFamily::HuntCrossley, &[], None).unwrap();
     let problem = hunt.problem(&data.points, &[]).unwrap();
     assert!((problem.values[1] - 0.1).abs() < 1e-12, "{:?}", problem.values);
 }

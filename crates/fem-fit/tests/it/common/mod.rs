@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "no test file uses all of it")]
 
 use fem_fit::{Model, Point};
-use fem_laws::{EndRule, Family, Pair, Partner};
+use fem_laws::{EndRule, LawFamily, Pair, Partner};
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 
 /// Table 1, with a decay rate, 1/s.
@@ -17,7 +17,7 @@ pub fn glass(decay: Option<(f64, ActsOn)>) -> Material {
 }
 
 /// 22.2 mm and 15.9 mm.
-pub fn glass_model(family: Family, decay: Option<(f64, ActsOn)>) -> Model {
+pub fn glass_model(family: LawFamily, decay: Option<(f64, ActsOn)>) -> Model {
     let glass = glass(decay);
     let sphere = |diameter| Partner::solid_sphere(diameter, &glass);
     let pair = Pair::new(sphere(22.2e-3), sphere(15.9e-3)).unwrap();
@@ -25,7 +25,7 @@ pub fn glass_model(family: Family, decay: Option<(f64, ActsOn)>) -> Model {
 }
 
 /// Two ice spheres of 2 cm.
-pub fn ice_model(family: Family) -> Model {
+pub fn ice_model(family: LawFamily) -> Model {
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(10e9, 0.3).unwrap();
     let ice = Material::new(1000.0, moduli, None).unwrap();
     let sphere = Partner::solid_sphere(2e-2, &ice);

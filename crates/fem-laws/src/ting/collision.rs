@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
-use crate::bisection::last_where;
-use crate::collocation::{Interpolation, N, POINTS, evaluate};
 use crate::error::LawError;
 use crate::finite_size::FiniteSize;
-use crate::functions::power;
 use crate::hertz::HertzImpact;
 use crate::impact::{Impact, ImpactInstant};
+use crate::numerics::bisection::last_where;
+use crate::numerics::functions::power;
 use crate::ting::Ting;
-use crate::ting_record::{Contact, Record, peak};
-use crate::ting_step::{Solved, State, Stepper};
+use crate::ting::collocation::{Interpolation, N, POINTS, evaluate};
+use crate::ting::loading_record::{Contact, Record, peak};
+use crate::ting::step::{Solved, State, Stepper};
 
 /// Local error of the rate over the tolerance. A collision takes some tens of steps.
 const LOCAL_SHARE: f64 = 0.1;

@@ -43,7 +43,7 @@ const FAST: [f64; 3] = [FAST_LOSS, 1.0 - 0.1 * FAST_LOSS, 0.6 * FAST_LOSS];
 
 /// Two bodies of a contact whose materials need follow fewer terms in time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Folded {
+pub struct FastSlowLimits {
     /// Of each body; `None` is a rigid one. The instantaneous moduli lack the fast terms', the weights
     /// refer to them, and slow terms are part of what does not relax. Without a term left the material
     /// is elastic; with nothing folded it is as it was.
@@ -64,7 +64,7 @@ enum Fate {
     Slow,
 }
 
-impl Folded {
+impl FastSlowLimits {
     /// Of the materials of two bodies, `None` for a rigid one, and the contact time, s, of Hertz'
     /// impact with their instantaneous moduli; as many terms as the tolerance, of all of them
     /// together, lets go.
@@ -119,8 +119,8 @@ impl Folding<'_> {
         candidates.into_iter().map(|(_, side, index, fate)| (side, index, fate)).collect()
     }
 
-    fn as_it_was(&self) -> Folded {
-        Folded {
+    fn as_it_was(&self) -> FastSlowLimits {
+        FastSlowLimits {
             materials: self.bodies.map(Option::<&Material>::cloned),
             n_fast: [0; 2],
             n_slow: [0; 2],
@@ -129,7 +129,7 @@ impl Folding<'_> {
     }
 
     /// `None` if nothing is left of a modulus.
-    fn fold(&self, fates: &[Vec<Fate>; 2]) -> Option<Folded> {
+    fn fold(&self, fates: &[Vec<Fate>; 2]) -> Option<FastSlowLimits> {
         let mut folded = self.as_it_was();
         for side in 0..2 {
             if let Some(body) = self.bodies[side] {

@@ -18,7 +18,7 @@
 //!
 //! Tension positive. Limits: a half-space, so distances well below the sphere's size.
 
-use crate::hertz_pressure::HertzPressure;
+use crate::hertz::HertzPressure;
 
 /// Distance from the axis over the distance from the contact below which the terms in 1/r² are
 /// taken by their limit: their next term is of the order of the square.

@@ -29,9 +29,9 @@
 //!
 //! Everything is dimensionless; see [`crate::ting`].
 
-use crate::collocation::{Interpolation, N, POINTS, Vector, derivative, dot, fading_moments};
-use crate::finite_correction::Correction;
-use crate::functions::exp;
+use crate::finite_size::correction::Correction;
+use crate::numerics::functions::exp;
+use crate::ting::collocation::{Interpolation, N, POINTS, Vector, derivative, dot, fading_moments};
 
 /// Times γ F′(u_max) that τ is at least.
 const STIFFNESS_TIMES: f64 = 2.5;

@@ -5,14 +5,14 @@
 //! the step is a fraction of the contact's period or of its viscous braking time, however fast
 //! the relaxation.
 
-use crate::collocation::{
+use crate::finite_size::correction::Correction;
+use crate::numerics::functions::exp;
+use crate::ting::collocation::{
     Interpolation, N, POINTS, Vector, dot, double_integral_moments, fading_moments, finest_detail,
     integral_moments,
 };
-use crate::finite_correction::Correction;
-use crate::functions::exp;
-use crate::ting_radiation::SlowForce;
-use crate::ting_record::{Contact, FORCE, Memory, PRESSURE, Record, SURFACE, Step};
+use crate::ting::loading_record::{Contact, FORCE, Memory, PRESSURE, Record, SURFACE, Step};
+use crate::ting::radiation_compliance::SlowForce;
 
 /// Where the motion stands.
 #[derive(Debug, Clone)]

@@ -4,13 +4,13 @@
 //! drives, each M_k(t) = ∫₀ᵗ e^(−b_k(t−s)) f(s) ds: of u^(3/2) the force, of u the condition on
 //! t₁, of √u the pressure on the axis.
 
-use crate::collocation::dot;
-use crate::collocation::{
+use crate::finite_size::correction::Correction;
+use crate::numerics::functions::exp;
+use crate::ting::collocation::dot;
+use crate::ting::collocation::{
     Interpolation, POINTS, Vector, double_integral, evaluate, fading_moments, integral,
 };
-use crate::finite_correction::Correction;
-use crate::functions::exp;
-use crate::ting_radiation::Radiation;
+use crate::ting::radiation_compliance::Radiation;
 
 /// What a Maxwell element remembers of d(u^(3/2)), du and d√u.
 pub(crate) type Memory = [f64; 3];
@@ -277,7 +277,7 @@ impl Record {
 
 /// The largest value on 0 ..= `end` of a polynomial that rises, then perhaps falls.
 pub(crate) fn peak(coefficients: &Vector, end: f64) -> f64 {
-    let rising = |theta: f64| crate::collocation::derivative(coefficients, theta) > 0.0;
-    let top = crate::bisection::last_where(0.0, end, rising);
+    let rising = |theta: f64| crate::ting::collocation::derivative(coefficients, theta) > 0.0;
+    let top = crate::numerics::bisection::last_where(0.0, end, rising);
     evaluate(coefficients, top).max(evaluate(coefficients, end))
 }

@@ -8,7 +8,7 @@
 //! \delta = \delta_{\text{Hertz}} + \sum_i c_i\frac{F}{E_iR_i},
 //! ```
 //!
-//! c of [`crate::finite_coefficient`]. Limits: a/R at most [`FiniteSize::MAX_CONTACT_RATIO`].
+//! c of [`crate::finite_size::coefficient`]. Limits: a/R at most [`FiniteSize::MAX_CONTACT_RATIO`].
 //!
 //! A relaxing sphere has c/E of its moduli in Carson's transform, and F is E*(s) times the
 //! pseudo-force K u^(3/2). With E*(s)/E*₀ = g∞ + Σ g_k s/(s+p_k) of [`crate::PairRelaxation`],
@@ -24,13 +24,17 @@
 //! correction is the instantaneous one. With an elastic bulk modulus ν rises as the shear modulus
 //! relaxes, and the correction of glass grows by some per cent of itself.
 
+mod coefficient;
+pub(crate) mod correction;
+mod sphere_compliance;
+
 use fem_material::Material;
 
 use crate::error::LawError;
-use crate::finite_correction::{Correction, RelaxingCorrection};
-use crate::functions::ln;
+use crate::finite_size::correction::{Correction, RelaxingCorrection};
+use crate::finite_size::sphere_compliance::{Parts, SphereCompliance};
+use crate::numerics::functions::ln;
 use crate::pair_relaxation::PairRelaxation;
-use crate::sphere_compliance::{Parts, SphereCompliance};
 
 /// The finite size of up to two spheres.
 #[derive(Debug, Clone, PartialEq)]

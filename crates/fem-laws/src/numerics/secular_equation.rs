@@ -10,7 +10,7 @@
 //! rank one; as in LAPACK's `dlaed4`, each zero is sought as its distance from the nearer pole,
 //! which keeps f and its slope accurate to rounding however close to the pole the zero lies.
 
-use crate::bisection::last_where;
+use crate::numerics::bisection::last_where;
 
 /// w/(x−d).
 #[derive(Debug, Clone, Copy, PartialEq)]

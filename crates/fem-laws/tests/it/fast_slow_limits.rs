@@ -1,7 +1,7 @@
-//! Folded terms: Ting's model with and without them.
+//! FastSlowLimits terms: Ting's model with and without them.
 
 use fem_laws::{
-    Difference, Folded, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner,
+    ImpactDifference, FastSlowLimits, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner,
     RelativeError, Ting,
 };
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -40,9 +40,9 @@ fn of_each(tolerance: f64) -> RelativeError {
     RelativeError { restitution: tolerance, contact_time: tolerance, peak_force: tolerance }
 }
 
-fn folded(materials: [&Material; 2], tolerance: f64) -> Folded {
+fn folded(materials: [&Material; 2], tolerance: f64) -> FastSlowLimits {
     let time = hertz(materials).contact_time();
-    Folded::new(materials.map(Some), time, &of_each(tolerance)).unwrap()
+    FastSlowLimits::new(materials.map(Some), time, &of_each(tolerance)).unwrap()
 }
 
 /// Foretold and found, each as restitution, relative time, relative force.
@@ -50,8 +50,8 @@ fn foretold_and_found(materials: [&Material; 2], tolerance: f64) -> [[f64; 3]; 2
     let folded = folded(materials, tolerance);
     let without = folded.materials.each_ref().map(|material| material.as_ref().unwrap());
     let reference = ting(materials);
-    let Difference { restitution, contact_time, peak_force } =
-        Difference::of(&ting(without), &reference);
+    let ImpactDifference { restitution, contact_time, peak_force } =
+        ImpactDifference::of(&ting(without), &reference);
     let time = contact_time.unwrap() / reference.contact_time.unwrap();
     let error = folded.error;
     [
@@ -181,7 +181,7 @@ fn the_sum_keeps_the_tolerance() {
 #[test]
 fn rigid_and_elastic_bodies_have_no_terms() {
     let steel = steel();
-    let folded = Folded::new([Some(&steel), None], 1e-5, &of_each(1e-4)).unwrap();
+    let folded = FastSlowLimits::new([Some(&steel), None], 1e-5, &of_each(1e-4)).unwrap();
     assert_eq!(folded.materials, [Some(steel), None]);
     assert_eq!(folded.error, RelativeError::default());
 }
@@ -189,10 +189,10 @@ fn rigid_and_elastic_bodies_have_no_terms() {
 #[test]
 fn impossible_data_are_refused() {
     let steel = steel();
-    assert_eq!(Folded::new([None; 2], 1e-5, &of_each(1e-4)), Err(LawError::TwoWalls));
+    assert_eq!(FastSlowLimits::new([None; 2], 1e-5, &of_each(1e-4)), Err(LawError::TwoWalls));
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(Folded::new([Some(&steel); 2], bad, &of_each(1e-4)).is_err());
-        assert!(Folded::new([Some(&steel); 2], 1e-5, &of_each(bad)).is_err());
+        assert!(FastSlowLimits::new([Some(&steel); 2], bad, &of_each(1e-4)).is_err());
+        assert!(FastSlowLimits::new([Some(&steel); 2], 1e-5, &of_each(bad)).is_err());
     }
 }
 
@@ -200,10 +200,10 @@ fn impossible_data_are_refused() {
 fn differences_are_found_less_reference() {
     let (elastic, relaxing) = (steel(), glass(&[(0.3, 1.0)], ActsOn::All));
     let (found, reference) = (ting([&elastic; 2]), ting([&relaxing; 2]));
-    let difference = Difference::of(&found, &reference);
+    let difference = ImpactDifference::of(&found, &reference);
     assert_eq!(difference.restitution, found.restitution - reference.restitution);
     assert!(difference.restitution > 0.0 && difference.contact_time.unwrap() < 0.0);
     assert_eq!(difference.peak_force, found.peak_force - reference.peak_force);
     let fluid = ting([&glass(&[(1.0, 1e6)], ActsOn::All); 2]);
-    assert_eq!(Difference::of(&fluid, &reference).contact_time, None);
+    assert_eq!(ImpactDifference::of(&fluid, &reference).contact_time, None);
 }

@@ -17,13 +17,20 @@
 //! Limits: a ≪ R, small strain, no friction, no vibration (v far below the wave speeds), no loss.
 //! A sphere is a little stiffer than a half-space, by first order in a/R.
 
+mod history;
+mod pressure;
+mod static_contact;
+mod stress_field;
+
 use std::f64::consts::PI;
 
 use statrs::function::gamma::gamma;
 
 use crate::error::{LawError, positive};
-use crate::hertz_pressure::HertzPressure;
 use crate::pair::Pair;
+pub use history::HertzInstant;
+pub use pressure::{AxisStress, HertzPressure};
+pub use static_contact::StaticHertz;
 
 /// One collision, from first touch to separation.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,7 +3,7 @@
 //! By the correspondence principle it is, in Carson's transform, the elastic one with the moduli
 //! G(s) = G₀g(s) and K(s). With y = 3K/G₀ and constant K, P = g c(ν)/E has its poles in g at −y
 //! (the half-space's, of second order in the logarithm's part) and between −y and −4.75 y (those
-//! of s_n, see [`crate::finite_coefficient`]), far from 0 ≤ g ≤ 1 unless ν < 0. So P is taken as the
+//! of s_n, see [`crate::finite_size::coefficient`]), far from 0 ≤ g ≤ 1 unless ν < 0. So P is taken as the
 //! function with a pole at −y that agrees with the elastic one at g = 1, l and the midpoint m:
 //!
 //! ```math
@@ -19,8 +19,8 @@
 use fem_material::{ActsOn, Material, PronyTerm};
 
 use crate::error::{LawError, positive};
-use crate::finite_coefficient::coefficient;
-use crate::interlacing::{Pole, merged};
+use crate::finite_size::coefficient::coefficient;
+use crate::numerics::secular_equation::{Pole, merged};
 
 /// Equilibrium weights above this are inside the interpolation, to keep its nodes apart.
 const HIGHEST_NODE: f64 = 0.9;

@@ -34,7 +34,7 @@
 //! With a [`SurfaceSlip`] its compliance comes beside that of finite size in the same way.
 //!
 //! With bodies that radiate, −γ Ḟ of each comes beside them in δ: [`crate::radiation_damping`], in the
-//! passive form of `ting_radiation.rs`, by the force itself, in loading and unloading. The contact then is
+//! passive form of `radiation_compliance.rs`, by the force itself, in loading and unloading. The contact then is
 //! largest a little before the approach is, and t₁ looks back from there.
 //!
 //! With gravity, δ̈ = g − F/m*. A ball that turns back while it still touches, or that creeps under its
@@ -43,21 +43,27 @@
 //! Limits: those of [`crate::HertzImpact`], but with loss; a restitution below 1e-8, with waves
 //! 1e-6, is returned as bodies that stay together.
 
+mod collision;
+mod collocation;
+mod loading_record;
+mod radiation_compliance;
+mod step;
+
 use fem_material::Material;
 
 use crate::error::{LawError, not_negative, positive, tolerance as checked_tolerance};
-use crate::finite_correction::RelaxingCorrection;
 use crate::finite_size::FiniteSize;
-use crate::functions::power;
+use crate::finite_size::correction::RelaxingCorrection;
 use crate::hertz::HertzImpact;
 use crate::impact::Impact;
+use crate::numerics::functions::power;
 use crate::pair::Pair;
 use crate::pair_relaxation::PairRelaxation;
 use crate::radiation::{radiation_damping, share_of_damping};
 use crate::surface_slip::SurfaceSlip;
-use crate::ting_collision::{Collision, Units};
-use crate::ting_radiation::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
-use crate::ting_record::{Contact, Element, Settling};
+use crate::ting::collision::{Collision, Units};
+use crate::ting::loading_record::{Contact, Element, Settling};
+use crate::ting::radiation_compliance::{COARSE_SHARE_OF_CONTACT, Radiation, SHARE_OF_CONTACT};
 
 /// Faster relaxation leaves a force of 1e-15.
 const MAX_RATE: f64 = 1e15;
