@@ -1,7 +1,7 @@
 //! A validated case in SI units: two bodies that are about to meet, and what the case says on
 //! how to compute it. `None` is left to the plan.
 
-use fem_laws::{SlipSurface, FiniteSize, LawError, Pair, SurfaceSlip, compliance_shares};
+use fem_laws::{FiniteSize, LawError, Pair, SlipSurface, SurfaceSlip, compliance_shares};
 
 use crate::body::{Body, Shape};
 use crate::gravity::{Gravity, impact_speed};

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use fem_laws::laws::ContactLaw;
 use fem_laws::{
-    EndRule, LawFamily, FiniteSize, HertzImpact, Impact, LawError, LawImpact, Pair, PairRelaxation,
-    LawParameter, ParameterRole, Ting,
+    EndRule, FiniteSize, HertzImpact, Impact, LawError, LawFamily, LawImpact, LawParameter, Pair,
+    PairRelaxation, ParameterRole, Ting,
 };
 use fem_material::{Material, PronySeries, PronyTerm};
 use statrs::function::gamma::gamma;

@@ -159,10 +159,13 @@ impl LawFamily {
             N,
         ];
         const KUWABARA_KONO: &[LawParameter] = &[A];
-        const HUNT_CROSSLEY: &[LawParameter] =
-            &[number("e", None, (1e-6, 1.0)), parameter("v", "m/s", [1, 0, -1], ParameterRole::Speed)];
+        const HUNT_CROSSLEY: &[LawParameter] = &[
+            number("e", None, (1e-6, 1.0)),
+            parameter("v", "m/s", [1, 0, -1], ParameterRole::Speed),
+        ];
         const TSUJI: &[LawParameter] = &[parameter("alpha", "", [0; 3], ParameterRole::Damping)];
-        const FALCON: &[LawParameter] = &[parameter("c", "N s/m^(5/4)", [0; 3], ParameterRole::Damping)];
+        const FALCON: &[LawParameter] =
+            &[parameter("c", "N s/m^(5/4)", [0; 3], ParameterRole::Damping)];
         const MISHRA_MURTY: &[LawParameter] = &[
             parameter("k", "N/m^(8/5)", [0; 3], ParameterRole::Stiffness),
             parameter("c", "N s/m^(9/5)", [0; 3], ParameterRole::Damping),
@@ -173,7 +176,8 @@ impl LawFamily {
             number("eta_2", None, (-0.99, 0.99)),
         ];
         const BORDBAR_HYPPANEN: &[LawParameter] = &[A, N];
-        const TING: &[LawParameter] = &[parameter("decay_rate", "1/s", [0, 0, -1], ParameterRole::Rate)];
+        const TING: &[LawParameter] =
+            &[parameter("decay_rate", "1/s", [0, 0, -1], ParameterRole::Rate)];
         match self {
             Self::Linear => LINEAR,
             Self::Power => POWER,
@@ -193,7 +197,9 @@ impl LawFamily {
     /// Index of the parameter that stands for the loss: the first one that damps, or else the first;
     /// `None` of a law without any.
     pub fn loss_parameter(self) -> Option<usize> {
-        let damps = |parameter: &LawParameter| matches!(parameter.role, ParameterRole::Damping | ParameterRole::Rate);
+        let damps = |parameter: &LawParameter| {
+            matches!(parameter.role, ParameterRole::Damping | ParameterRole::Rate)
+        };
         let first = (!self.parameters().is_empty()).then_some(0);
         self.parameters().iter().position(damps).or(first)
     }

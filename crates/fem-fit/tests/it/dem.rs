@@ -11,7 +11,7 @@ use fem_fit::dem::{
     yade_betan, yade_snippets,
 };
 use fem_laws::laws::{kuwabara_kono, linear, power, tsuji};
-use fem_laws::{EndRule, LawFamily, HertzImpact, LawImpact, Pair, Partner};
+use fem_laws::{EndRule, HertzImpact, LawFamily, LawImpact, Pair, Partner};
 
 fn export() -> Export {
     let glass = glass(None);

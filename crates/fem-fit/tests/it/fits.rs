@@ -204,7 +204,8 @@ fn end_rule_is_part_of_the_fit() {
     let force = glass_model(LawFamily::Tsuji, None);
     let glass = crate::common::glass(None);
     let materials = [Some(glass.clone()), Some(glass)];
-    let overlap = Model::new(force.pair(), materials, LawFamily::Tsuji, EndRule::ZeroOverlap).unwrap();
+    let overlap =
+        Model::new(force.pair(), materials, LawFamily::Tsuji, EndRule::ZeroOverlap).unwrap();
     let points = [Point::new(0.5, 0.92)];
     let alpha = |model: &Model| Problem::new(model, &points, &["alpha"]).unwrap().fit(0.9).unwrap();
     // exp(−πζ/√(1−ζ²)) = 0.92 with ζ = α/√5.

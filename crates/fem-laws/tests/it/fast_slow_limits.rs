@@ -1,7 +1,7 @@
 //! FastSlowLimits terms: Ting's model with and without them.
 
 use fem_laws::{
-    ImpactDifference, FastSlowLimits, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner,
+    FastSlowLimits, HertzImpact, Impact, ImpactDifference, LawError, Pair, PairRelaxation, Partner,
     RelativeError, Ting,
 };
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};

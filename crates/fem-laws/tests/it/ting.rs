@@ -2,7 +2,7 @@
 
 use crate::direct::{Direct, direct};
 use fem_laws::{
-    SlipSurface, HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, SurfaceSlip, Ting,
+    HertzImpact, Impact, LawError, Pair, PairRelaxation, Partner, SlipSurface, SurfaceSlip, Ting,
 };
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
 

@@ -11,7 +11,7 @@
 
 use fem_case::engineering::number;
 use fem_case::{Body, EffectsTable, ModelChoice, Scene, Shape, Switch};
-use fem_laws::{SlipSurface, RelativeError, SurfaceSlip as Slip};
+use fem_laws::{RelativeError, SlipSurface, SurfaceSlip as Slip};
 use fem_material::Material;
 
 use super::doubt::{Doubt, Standing};

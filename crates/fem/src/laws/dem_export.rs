@@ -8,7 +8,7 @@ use fem_fit::dem::{
 };
 use fem_fit::{FitError, Model, Outcome, Point, Problem};
 use fem_laws::laws::{linear_from_restitution, tsuji_coefficient};
-use fem_laws::{EndRule, LawFamily, LawError};
+use fem_laws::{EndRule, LawError, LawFamily};
 
 use super::chosen_law::model_of;
 use super::impact_curve::ImpactCurve;

@@ -3,7 +3,7 @@
 use fem_case::schema::{ModelTable, TingTable};
 use fem_case::{Case, ModelChoice, Scene};
 use fem_fit::{FitError, Point};
-use fem_laws::{EndRule, LawFamily, HertzImpact, Pair};
+use fem_laws::{EndRule, HertzImpact, LawFamily, Pair};
 
 use super::chosen_law::model_of;
 use super::law_fault::LawFault;

@@ -64,8 +64,9 @@ impl LawInversion {
             None => loss_parameter(family)?,
         };
         // A speed is that of the collision.
-        let is_known =
-            |other: usize| other == index || family.parameters()[other].role == ParameterRole::Speed;
+        let is_known = |other: usize| {
+            other == index || family.parameters()[other].role == ParameterRole::Speed
+        };
         if let Some(key) = law.missing(is_known) {
             return Err(LawFault::Missing { law: family.name(), key, free: Vec::new() });
         }

@@ -1,8 +1,8 @@
 //! Fits, inversions and exports as a library user has them.
 
 use fem::laws::{
-    ChosenLaw, DemExport, EndRule, LawFamily, FitError, ImpactCurve, LawFault, LawFit, LawInversion,
-    LawRanking, ParameterError, RankedLaw, StandIn, family_of, needs_more,
+    ChosenLaw, DemExport, EndRule, FitError, ImpactCurve, LawFamily, LawFault, LawFit,
+    LawInversion, LawRanking, ParameterError, RankedLaw, StandIn, family_of, needs_more,
 };
 use fem::measured::Restitutions;
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable, TsujiTable};
