@@ -15,12 +15,11 @@ mod fault;
 mod library_entry;
 pub mod module;
 mod outcome;
-mod outline;
 mod session;
 mod sharing;
 
 pub use charts::{ChartSpec, Charts, CurveSpec, MarkSpec};
-pub use contour::Picture;
+pub use contour::StressPicture;
 pub use fault::Fault;
 pub use library_entry::LibraryEntry;
 pub use outcome::{Begun, Frame, Outcome, Price};

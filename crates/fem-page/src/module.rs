@@ -92,7 +92,7 @@ pub extern "C" fn page_finish(seconds: f64) {
 }
 
 /// Draws the bodies at an instant, in a window of so many contact radii to each side of the contact.
-/// The answer is a [`Picture`](crate::Picture), or null.
+/// The answer is a [`StressPicture`](crate::StressPicture), or null.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_picture(index: usize, half_width: f64) {
     with(|page| answer_json(&page.session.picture(index, half_width)));

@@ -11,7 +11,7 @@ use fem::{
 };
 
 use crate::charts::Charts;
-use crate::contour::{Picture, picture};
+use crate::contour::{StressPicture, picture};
 use crate::outcome::{Begun, Frame, Outcome};
 use crate::sharing::{Sharing, common_of};
 
@@ -127,7 +127,7 @@ impl Session {
 
     /// The bodies at an instant, in a window of so many contact radii to each side of the contact; none of a
     /// model without fields.
-    pub fn picture(&self, index: usize, half_width: f64) -> Option<Picture> {
+    pub fn picture(&self, index: usize, half_width: f64) -> Option<StressPicture> {
         picture(self.simulation.as_ref()?, self.collision.as_ref()?, index, half_width)
     }
 }

@@ -1,57 +1,65 @@
-//! `fit.svg`: data, curves and profile; `histories.svg`: what the fitted law does in time.
+//! Figures of fits, calibrations, exports and cradle experiments.
 
-use fem::laws::{LawFit, LawRanking};
+use fem::calibrate::{Abscissa, Calibration};
+use fem::laws::{DemExport, FittedLaw, LawFit, LawRanking};
 use fem_case::Scene;
-use fem_case::engineering::{Unit, show};
+use fem_case::engineering::show;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
-use fem_fit::{Fit, Model};
+use fem_fit::cradle::{Swing, Trial};
+use fem_fit::{Fit, FitError, Model};
 use fem_laws::laws::hertz;
-use fem_laws::{Impact, LawError, LawImpact, ParameterRole};
+use fem_laws::{LawFamily, Impact, LawError, LawImpact, ParameterRole};
 
-use super::ranking::evidence;
+use crate::quantity_axis::{QuantityAxis, chart_axes};
 
 /// Points of a curve.
-const N: usize = 80;
-/// Speeds of the overlaps that are drawn, in the speed that is asked for.
-const RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
+const N_POINTS: usize = 80;
+/// Speeds of the overlap curves over the given speed.
+const SPEED_RATIOS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
-/// e(v), of all laws of a ranking with their shares of the evidence, and the rms error over the profiled parameter.
-pub fn fit_picture(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
-    let points = fitted.problem.points;
+/// Returns a share of the evidence in percent.
+pub fn evidence(weight: f64) -> String {
+    format!("{:.1} %", 100.0 * weight)
+}
+
+/// Returns `fit.svg`: restitution over speed for the fitted law, for those that it is compared with and for
+/// the data, and the rms error over the profiled parameter. Laws of a ranking are labelled with their
+/// evidence.
+pub fn fit_figure(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String {
+    let data = fitted.problem.points;
     let (low, high) = fitted.data.speeds();
     let (low, high) = if low < high { (low, high) } else { (low / 2.0, high * 2.0) };
-    let unit = Unit::fitting(high, "m/s");
+    let x = QuantityAxis::linear("impact speed v", "m/s", high).logarithmic();
     let curve = |model: &Model, fit: &Fit| -> Vec<(f64, f64)> {
-        let speed = |k: usize| low * (high / low).powf(k as f64 / (N - 1) as f64);
+        let speed = |k: usize| low * (high / low).powf(k as f64 / (N_POINTS - 1) as f64);
         let point = |k| {
             let outcome = model.outcome(&fit.values, speed(k)).ok()?;
-            Some((unit.scaled(speed(k)), outcome.restitution))
+            Some((x.scaled(speed(k)), outcome.restitution))
         };
-        (0..N).filter_map(point).collect()
+        (0..N_POINTS).filter_map(point).collect()
     };
     let model = fitted.problem.model;
-    let share = |place: usize| -> String {
-        let weight = ranking.and_then(|ranking| ranking.laws.get(place)?.weight);
+    let share = |rank: usize| -> String {
+        let weight = ranking.and_then(|ranking| ranking.laws.get(rank)?.weight);
         weight.map_or(String::new(), |weight| format!(", evidence {}", evidence(weight)))
     };
-    let label = |place: usize, model: &Model, fit: &Fit| {
+    let label = |rank: usize, model: &Model, fit: &Fit| {
         let numbers = model.family().parameters().iter().zip(&fit.values);
         let exponent = numbers.filter(|(parameter, _)| parameter.key == "n");
         let exponent = exponent.map(|(_, n)| format!(", n = {n:.3}")).next();
-        format!("{}{}{}", model.family().name(), exponent.unwrap_or_default(), share(place))
+        format!("{}{}{}", model.family().name(), exponent.unwrap_or_default(), share(rank))
     };
-    let speed_axis = Axis::new(format!("impact speed v [{}]", unit.symbol())).logarithmic();
-    let mut chart = Chart::new(speed_axis, Axis::new("restitution e"))
+    let mut chart = Chart::new(x.axis(), Axis::new("restitution e"))
         .with(Curve::line(label(0, model, &fitted.fit), curve(model, &fitted.fit)).like_curve(0));
-    // The law and the data have the first two colours.
+    // The fitted law and the data have the first two colours.
     for (k, (model, fit)) in fitted.compared.iter().enumerate() {
         let curve = Curve::dashed(label(k + 1, model, fit), curve(model, fit));
         chart = chart.with(curve.like_curve(k + 2));
     }
-    let data = points.iter().map(|point| (unit.scaled(point.speed), point.restitution)).collect();
-    let errors = points.iter().map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
+    let points = data.iter().map(|point| (x.scaled(point.speed), point.restitution)).collect();
+    let errors = data.iter().map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
     let mut charts =
-        vec![chart.with(Curve::points("data", data).with_errors(errors).like_curve(1))];
+        vec![chart.with(Curve::points("data", points).with_errors(errors).like_curve(1))];
     if let Some(profile) = &fitted.profile {
         let parameter = fitted.problem.parameter(profile.index);
         let points = profile.points.iter().map(|point| (point.value, point.rms)).collect();
@@ -60,7 +68,7 @@ pub fn fit_picture(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String 
         let axis = Axis::new(format!("{}{unit}", parameter.key));
         let axis = if parameter.role == ParameterRole::Number { axis } else { axis.logarithmic() };
         charts.push(
-            Chart::new(axis, Axis::new("rms error, the others fitted"))
+            Chart::new(axis, Axis::new("rms error, other parameters refitted"))
                 .with(Curve::line("", points).like_curve(0))
                 .with(Curve::points("best fit", best).like_curve(3)),
         );
@@ -68,12 +76,12 @@ pub fn fit_picture(fitted: &LawFit<'_>, ranking: Option<&LawRanking>) -> String 
     fem_figure::svg(&charts).unwrap_or_default()
 }
 
-/// Relative velocity and the first body's at one speed, elastic and with the law, and the overlap at
-/// several speeds.
+/// Returns `histories.svg`: approach rate and velocity of the first body over time at one speed (m/s),
+/// elastic and with the law, and the overlap at several speeds.
 ///
 /// # Errors
-/// Collisions that cannot be computed.
-pub fn histories_picture(
+/// A collision cannot be computed.
+pub fn histories_figure(
     scene: &Scene,
     model: &Model,
     values: &[f64],
@@ -82,37 +90,32 @@ pub fn histories_picture(
     let elastic = LawImpact::new(model.pair(), hertz(model.pair())?).impact(speed)?;
     let damped = model.impact(values, speed)?;
     let name = model.family().name();
-    let time = Unit::fitting(elastic.contact_time.unwrap_or(1.0), "s");
-    let rate = Unit::fitting(speed, "m/s");
+    let time = QuantityAxis::linear("time", "s", elastic.contact_time.unwrap_or(1.0));
     let series = |impact: &Impact, label: &str, colour, mark, y: &dyn Fn(f64) -> f64| {
         let instants = impact.history.iter();
-        let points = instants.map(|now| (time.scaled(now.time), rate.scaled(y(now.approach_rate))));
+        let points = instants.map(|now| (time.scaled(now.time), y(now.approach_rate)));
         Curve::new(label, mark, points.collect()).coloured(colour)
     };
-    // The first body moves with v at first and the second rests, as in the paper's figure.
+    // At first touch the first body moves with v and the second rests, as in the paper's figure.
     let share = scene.bodies()[0].material().map_or(0.0, |_| mass_share(scene));
     let first = |rate: f64| speed - share * (speed - rate);
-    let both = |y: &dyn Fn(f64) -> f64| {
-        [
-            series(&elastic, "elastic", GREY, Mark::Dashed, y),
-            series(&damped, name, COLOURS[0], Mark::Line, y),
-        ]
-    };
-    let panel = |label: String, curves: [Curve; 2]| {
-        let chart = Chart::new(time_axis(&time), Axis::new(label));
-        curves.into_iter().fold(chart, Chart::with)
+    let panel = |label: &str, y: &dyn Fn(f64) -> f64| {
+        let rate = QuantityAxis::linear(label, "m/s", speed);
+        let scaled = |value: f64| rate.scaled(y(value));
+        chart_axes(&time, &rate)
+            .with(series(&elastic, "elastic", GREY, Mark::Dashed, &scaled))
+            .with(series(&damped, name, COLOURS[0], Mark::Line, &scaled))
     };
     let first_name = &scene.bodies()[0].name();
-    let overlaps = overlaps(model, values, speed, &time)?;
     let charts = [
-        panel(format!("approach rate [{}]", rate.symbol()), both(&|rate| rate)),
-        panel(format!("velocity of {first_name} [{}]", rate.symbol()), both(&first)),
-        overlaps,
+        panel("approach rate", &|rate| rate),
+        panel(&format!("velocity of {first_name}"), &first),
+        overlap_chart(model, values, speed, &time)?,
     ];
     Ok(fem_figure::svg(&charts).unwrap_or_default())
 }
 
-/// m*/m₁: the share of a change of the relative velocity that the first body takes.
+/// Returns m*/m₁, the share of a change of the relative velocity that the first body takes.
 fn mass_share(scene: &Scene) -> f64 {
     let mass = |index: usize| {
         let body = &scene.bodies()[index];
@@ -123,23 +126,132 @@ fn mass_share(scene: &Scene) -> f64 {
     1.0 / (1.0 + mass(0) / mass(1))
 }
 
-fn overlaps(model: &Model, values: &[f64], speed: f64, time: &Unit) -> Result<Chart, LawError> {
-    let impacts: Vec<(f64, Impact)> = RATIOS
+fn overlap_chart(
+    model: &Model,
+    values: &[f64],
+    speed: f64,
+    time: &QuantityAxis,
+) -> Result<Chart, LawError> {
+    let impacts: Vec<(f64, Impact)> = SPEED_RATIOS
         .iter()
         .map(|ratio| Ok((ratio * speed, model.impact(values, ratio * speed)?)))
         .collect::<Result<_, LawError>>()?;
     let deepest = impacts.iter().map(|(_, impact)| impact.max_approach).fold(0.0, f64::max);
-    let length = Unit::fitting(deepest, "m");
+    let overlap = QuantityAxis::linear("overlap", "m", deepest);
     let curves = impacts.iter().zip(&COLOURS[2..]).map(|((speed, impact), colour)| {
         let instants = impact.history.iter();
-        let points = instants.map(|now| (time.scaled(now.time), length.scaled(now.approach)));
+        let points = instants.map(|now| (time.scaled(now.time), overlap.scaled(now.approach)));
         let label = format!("overlap at {}", show(*speed, "m/s"));
         Curve::line(label, points.collect()).coloured(*colour)
     });
-    let label = format!("overlap [{}]", length.symbol());
-    Ok(curves.fold(Chart::new(time_axis(time), Axis::new(label)), Chart::with))
+    Ok(curves.fold(chart_axes(time, &overlap), Chart::with))
 }
 
-fn time_axis(time: &Unit) -> Axis {
-    Axis::new(format!("time [{}]", time.symbol()))
+/// Returns `export.svg`: restitution and contact time over speed, of the data and of three kinds of law.
+pub fn export_figure(fitted: &DemExport) -> String {
+    let (curve, fastest) = (&fitted.curve, fitted.curve.speeds().1);
+    let longest = curve.points.iter().filter_map(|point| point.contact_time).fold(0.0, f64::max);
+    let speed = QuantityAxis::linear("impact speed v", "m/s", fastest).logarithmic();
+    let panel = |y: &QuantityAxis,
+                 (is_measured, data): (bool, Vec<(f64, f64)>),
+                 of_law: &dyn Fn(&FittedLaw, f64) -> Option<f64>| {
+        // The linear law covers the other law with a constant restitution.
+        let mark = |law: &FittedLaw| match law.model.family() {
+            LawFamily::Linear => Mark::Dashed,
+            _ => Mark::Line,
+        };
+        let law = |(law, colour): (&FittedLaw, &'static str)| {
+            let points: Vec<(f64, f64)> = curve
+                .points
+                .iter()
+                .filter_map(|point| Some((point.speed, of_law(law, point.speed)?)))
+                .collect();
+            Curve::new(law.name, mark(law), speed.points(y, &points)).coloured(colour)
+        };
+        let laws = fitted.laws.iter().zip([COLOURS[0], COLOURS[2], COLOURS[3]]).map(law);
+        laws.fold(chart_axes(&speed, y), Chart::with).with(
+            Curve::points(
+                if is_measured { "data" } else { "Hertz, in place of data" },
+                speed.points(y, &data),
+            )
+            .like_curve(if is_measured { 1 } else { 6 }),
+        )
+    };
+    let points = || curve.points.iter();
+    let e_data = points().map(|point| (point.speed, point.restitution)).collect();
+    let t_data = points().filter_map(|point| Some((point.speed, point.contact_time?))).collect();
+    let charts = [
+        panel(&QuantityAxis::linear("restitution e", "", 1.0), (true, e_data), &|law, speed| {
+            law.outcome(speed).map(|outcome| outcome.restitution)
+        }),
+        panel(
+            &QuantityAxis::linear("contact time T", "s", longest),
+            (!curve.has_hertz_times, t_data),
+            &|law, speed| law.outcome(speed)?.contact_time,
+        ),
+    ];
+    fem_figure::svg(&charts).unwrap_or_default()
+}
+
+/// Returns `cradle.svg`: the restitution of each trial over its approach speed.
+pub fn cradle_figure(swings: &[(Trial, Swing)]) -> String {
+    let points = swings.iter().map(|(_, swing)| (swing.before.value, swing.restitution.value));
+    let has_errors = swings.iter().all(|(_, swing)| swing.restitution.uncertainty > 0.0);
+    let errors = swings.iter().filter(|_| has_errors);
+    let errors = errors.map(|(_, swing)| swing.restitution.uncertainty).collect();
+    let trials = Curve::points("trials", points.collect()).with_errors(errors);
+    let chart = Chart::new(Axis::new("approach speed [m/s]"), Axis::new("restitution"));
+    fem_figure::svg(&[chart.with(trials)]).unwrap_or_default()
+}
+
+/// Returns `calibrate.svg`: restitution over speed or contact time, and the weights with their ranges over
+/// relaxation time.
+///
+/// # Errors
+/// A collision cannot be computed.
+pub fn calibration_figure(found: &Calibration) -> Result<String, FitError> {
+    let charts = [restitution_chart(found)?, weight_chart(found)];
+    Ok(fem_figure::svg(&charts).unwrap_or_default())
+}
+
+fn restitution_chart(found: &Calibration) -> Result<Chart, FitError> {
+    let curves = found.curves()?;
+    let (symbol, name) = match curves.over {
+        Abscissa::Speed => ("m/s", "approach speed"),
+        Abscissa::ContactTime => ("s", "elastic contact time"),
+    };
+    let x = QuantityAxis::linear(name, symbol, curves.range.1).logarithmic();
+    let scaled = |curve: Vec<(f64, f64)>| -> Vec<(f64, f64)> {
+        curve.into_iter().map(|(at, e)| (x.scaled(at), e)).collect()
+    };
+    let (best, power) = (scaled(curves.best), curves.over.steepest_loss());
+    let (middle, level) = best[best.len() / 2];
+    let limit =
+        |x: f64, sign: f64| (1.0 - (1.0 - level) * (x / middle).powf(sign * power)).max(0.0);
+    let band = best.iter().map(|&(x, _)| (x, limit(x, 1.0), limit(x, -1.0))).collect();
+    let errors = found.measured.data.points.iter();
+    let errors = errors.map(|point| point.restitution_uncertainty.unwrap_or(0.0)).collect();
+    Ok(Chart::new(x.axis(), Axis::new("restitution"))
+        .with_band("slopes of any Prony series", band, GREY)
+        .with(Curve::dashed("single Maxwell term", scaled(curves.maxwell)).like_curve(2))
+        .with(Curve::line("best fit", best).like_curve(0))
+        .with(Curve::points("data", scaled(curves.data)).with_errors(errors).like_curve(1)))
+}
+
+fn weight_chart(found: &Calibration) -> Chart {
+    let (first, last) = found.contact_times();
+    let x = QuantityAxis::linear("relaxation time", "s", last).logarithmic();
+    let mut chart = Chart::new(x.axis(), Axis::new("weight").from_to(0.0, 1.0));
+    for time in [first, last] {
+        let line = vec![(x.scaled(time), 0.0), (x.scaled(time), 1.0)];
+        chart = chart.with(Curve::dashed("contact times of the data", line).coloured(GREY));
+    }
+    let label = format!("{} % range, all others free", 100.0 * found.confidence);
+    for (time, range) in found.times.iter().zip(&found.fit.weight_ranges) {
+        let line = vec![(x.scaled(*time), range.low), (x.scaled(*time), range.high)];
+        chart = chart.with(Curve::line(label.clone(), line).coloured(COLOURS[3]));
+    }
+    let weights = found.times.iter().zip(&found.fit.weights);
+    let weights = weights.map(|(time, weight)| (x.scaled(*time), *weight)).collect();
+    chart.with(Curve::points("weight found", weights).like_curve(0))
 }

@@ -9,6 +9,7 @@ use std::ops::Range;
 use std::process::ExitCode;
 
 use fem_case::CaseError;
+use fem_report::report::ReportError;
 use miette::{Diagnostic, LabeledSpan, MietteHandlerOpts, NamedSource, ReportHandler, SourceCode};
 use textwrap::{WordSeparator, WordSplitter};
 
@@ -145,6 +146,15 @@ impl From<CaseError> for Failure {
             place,
             case: Some(Box::new(error)),
             others,
+        }
+    }
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        match error.help() {
+            Some(help) => Self::bad_input(error.to_string()).with_help(help),
+            None => Self::failed(error.to_string()),
         }
     }
 }

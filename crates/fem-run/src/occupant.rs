@@ -10,7 +10,7 @@ use serde::Deserialize;
 use fem::results::{PROGRAM, SUMMARY_FILE};
 
 use crate::hidden_folder::LOCK_FILE;
-use crate::page::REPORT_FILE;
+use fem_report::report::REPORT_FILE;
 use crate::restart::{RESTART_FILE, head_of};
 
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.

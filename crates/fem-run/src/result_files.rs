@@ -16,8 +16,9 @@ use fem_case::Keep;
 use fem_collision::Collision;
 
 use crate::failure::Failure;
-use crate::last_sound::write_last_sound;
-use crate::page::{REPORT_FILE, Record, page};
+use fem_report::report::{REPORT_FILE, StoredResult, report_page};
+
+use crate::failure_figure::write_failure_figure;
 use crate::stopwatch::Stopwatch;
 use crate::whole_file::write_whole;
 
@@ -91,7 +92,7 @@ pub fn write_result(
 /// the summary has to do without and says so.
 fn with_page(folder: &Path, summary: &mut Summary, text: String) -> (String, Option<String>) {
     let write = || -> Result<(), Box<dyn std::error::Error>> {
-        let page = page(&Record::of(folder, &text)?).map_err(|failure| failure.to_string())?;
+        let page = report_page(&StoredResult::of(folder, &text)?)?;
         Ok(write_whole(&folder.join(REPORT_FILE), folder, page.as_bytes())?)
     };
     match write() {
@@ -179,7 +180,7 @@ fn write_fields(
 ) -> Result<(), String> {
     let written = write_snapshots(folder, stem, simulation, collision)
         .map_err(|error| format!("the snapshots cannot be written: {error}"))
-        .and_then(|files| Ok((files, write_last_sound(folder, stem, simulation, collision)?)));
+        .and_then(|files| Ok((files, write_failure_figure(folder, stem, simulation, collision)?)));
     let ((files, left_out), picture) =
         written.inspect_err(|_| remove_snapshots(folder, stem, &summary.files))?;
     summary.files.extend(files.into_iter().chain(picture));

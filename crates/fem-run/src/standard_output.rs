@@ -4,6 +4,8 @@ use std::io::{ErrorKind, Write, stderr, stdout};
 
 use crate::failure::Failure;
 
+pub use fem_report::number_text::one_line;
+
 /// Prints to stdout. A reader that has gone away (`fem-run check CASE | head`) is no fault.
 ///
 /// # Errors
@@ -24,9 +26,4 @@ pub fn warn(warnings: impl IntoIterator<Item = String>) {
         // Nobody is left to tell if stderr is closed.
         let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
     }
-}
-
-/// Text of a case that is safe to show on a terminal and in one line.
-pub fn one_line(text: &str) -> String {
-    text.replace(char::is_control, "\u{fffd}")
 }

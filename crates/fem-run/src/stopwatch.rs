@@ -1,6 +1,5 @@
 //! What a run takes, by the clock.
 
-use fem_case::engineering::Unit;
 use std::time::{Duration, Instant};
 
 use fem::results::Spent;
@@ -74,24 +73,5 @@ impl Stopwatch {
             threads: THREADS,
             peak_memory: peak_memory(),
         }
-    }
-}
-
-/// A time that was spent, s, as people read it.
-pub fn spent(seconds: f64) -> String {
-    match seconds {
-        // No clock is that fine.
-        seconds if seconds < 1e-3 => "less than 1 ms".to_string(),
-        seconds => Unit::fitting(seconds, "s").with_digits(3).show(seconds),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_time_is_none() {
-        assert_eq!([0.0, 4e-4, 0.0123].map(spent), ["less than 1 ms", "less than 1 ms", "12.3 ms"]);
     }
 }

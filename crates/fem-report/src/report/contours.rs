@@ -1,4 +1,4 @@
-//! σ_yy around the contact at the snapshots, from their files.
+//! The axial stress around the contact at the snapshots, from their files.
 
 use std::collections::{HashMap, HashSet};
 
@@ -6,72 +6,77 @@ use fem_case::engineering::Unit;
 use fem_figure::contour::{Contour, Section};
 use fem_vtk::{Numbers, VtuFile};
 
-use super::profile::instant;
-use super::record::{Frame, Record};
-use super::view::{View, WHOLE, centred, nearness, picture};
+use super::pressure_chart::instant_name;
+use super::stored_result::{FieldFile, StoredResult};
+use crate::section_view::{SectionWindow, WHOLE, centre, contour_of_frames, half_width};
 
-/// How far from the axis and the pole elements are kept, over half of the window's width.
+/// Distance from the axis and from the pole up to which elements are kept, over the window's half width.
 const KEPT: f64 = 2.5;
-/// A body of all frames, as far as it is seen.
-struct Body {
-    /// Which points of the file it has.
+
+/// The kept part of a body's mesh, the same for all frames.
+struct BodyPart {
+    /// Indices of its points in the file.
     points: Vec<usize>,
-    /// (r, y) of them, m.
+    /// Their undeformed positions (r, y), m.
     places: Vec<[f64; 2]>,
-    /// Of its own points.
+    /// Elements by indices into `points`.
     quads: Vec<[u32; 4]>,
-    /// From the pole on.
+    /// The surface from the pole outward.
     outline: Vec<u32>,
 }
 
-/// The picture, one panel a frame, at most so many evenly over the snapshots, of half sections; `None` of a
-/// result without fields.
-pub fn contour(record: &Record, most_frames: usize) -> Option<Contour> {
-    let chosen: Vec<&Frame> =
-        chosen(record, most_frames).into_iter().filter_map(|k| record.frames.get(k)).collect();
-    let radius = record.number(&["max_contact_radius_m"]).unwrap_or(0.0);
-    let near = nearness(radius, record.number(&["max_approach_m"]).unwrap_or(0.0))?;
+/// Returns the picture of one panel per frame, at most `most_frames` evenly spaced snapshots, in half
+/// sections; `None` for a result without fields.
+pub fn contour_of_result(result: &StoredResult, most_frames: usize) -> Option<Contour> {
+    let chosen: Vec<&FieldFile> = chosen_frames(result, most_frames)
+        .into_iter()
+        .filter_map(|k| result.frames.get(k))
+        .collect();
+    let radius = result.number(&["max_contact_radius_m"]).unwrap_or(0.0);
+    let near = half_width(radius, result.number(&["max_approach_m"]).unwrap_or(0.0))?;
     let first = VtuFile::open(&chosen.first()?.path).ok()?;
     let bodies = bodies(&first, near)?;
-    // Files of fine meshes take most of a page's time.
+    // Reading files of fine meshes takes most of the time of a page: in parallel.
     let sections: Option<Vec<[Section; 2]>> = std::thread::scope(|scope| {
         let bodies = &bodies;
         let readers: Vec<_> =
             chosen.iter().map(|frame| scope.spawn(move || sections(bodies, frame))).collect();
         readers.into_iter().map(|reader| reader.join().ok().flatten()).collect()
     });
-    let start = record.first_touch();
-    let time = Unit::fitting(record.last_touch() - start, "s").with_digits(3);
-    let title =
-        |frame: &&Frame| format!("{}, {}", instant(&frame.label), time.show(frame.time - start));
+    let start = result.first_touch();
+    let time = Unit::fitting(result.last_touch() - start, "s").with_digits(3);
+    let title = |frame: &&FieldFile| {
+        format!("{}, {}", instant_name(&frame.label), time.show(frame.time - start))
+    };
     let titles = chosen.iter().map(title).collect();
-    let rigid = |k: usize, side: usize, view: &View| rigid(record, side, chosen[k], view);
-    let mut contour = picture(sections?, titles, near, rigid);
-    if let [lower, upper] = names(record).as_slice() {
+    let rigid = |k: usize, side: usize, window: &SectionWindow| {
+        rigid_section(result, side, chosen[k], window)
+    };
+    let mut contour = contour_of_frames(sections?, titles, near, rigid);
+    if let [lower, upper] = short_names(result).as_slice() {
         contour.y_label = format!("{lower} \u{2190} {} \u{2192} {upper}", contour.y_label);
     }
     Some(contour)
 }
 
-/// Of the lower and the upper body, so much of them as an axis has room for.
-fn names(record: &Record) -> Vec<String> {
+/// Returns the names of the bodies, shortened to the room beside an axis.
+fn short_names(result: &StoredResult) -> Vec<String> {
     const MOST: usize = 14;
-    let name = |body: &serde_json::Value| Some(body.get("name")?.as_str()?.to_string());
     let short = |name: String| match name.chars().count() {
         0..=MOST => name,
         _ => name.chars().take(MOST - 1).chain(['\u{2026}']).collect(),
     };
-    record.list("bodies").iter().filter_map(name).map(short).collect()
+    result.body_names().into_iter().map(short).collect()
 }
 
-/// At most so many frames evenly, that nearest to the largest force among them.
-pub fn chosen(record: &Record, most: usize) -> Vec<usize> {
-    let n = record.frames.len().min(most);
+/// Returns at most `most` evenly spaced frames, among them the one nearest to the peak force.
+pub fn chosen_frames(result: &StoredResult, most: usize) -> Vec<usize> {
+    let n = result.frames.len().min(most);
     let mut chosen: Vec<usize> =
-        (0..n).map(|k| k * (record.frames.len() - 1) / (n - 1).max(1)).collect();
-    let peak = record.peak_time();
-    let distance = |k: &usize| (record.frames[*k].time - peak).abs();
-    let fullest = (0..record.frames.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        (0..n).map(|k| k * (result.frames.len() - 1) / (n - 1).max(1)).collect();
+    let peak = result.peak_time();
+    let distance = |k: &usize| (result.frames[*k].time - peak).abs();
+    let fullest = (0..result.frames.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
     if let Some(fullest) = fullest
         && let Some(nearest) = chosen.iter_mut().min_by_key(|k| k.abs_diff(fullest))
     {
@@ -80,16 +85,22 @@ pub fn chosen(record: &Record, most: usize) -> Vec<usize> {
     chosen
 }
 
-/// The surface of a rigid body where the other body's pole is at 0, with its inside as far as it is seen;
-/// `None` where the files do not tell the gap.
-fn rigid(record: &Record, side: usize, frame: &Frame, view: &View) -> Option<Section> {
+/// Returns the visible part of a rigid body, where the other body's pole is at height 0; `None` if the
+/// files do not contain the gap.
+fn rigid_section(
+    result: &StoredResult,
+    side: usize,
+    frame: &FieldFile,
+    window: &SectionWindow,
+) -> Option<Section> {
     const N: u32 = 48;
-    let contact = record.contacts.iter().find(|contact| contact.time == frame.time)?;
-    let shape = record.summary.get("case")?.get("body")?.get(side)?;
+    let contact = result.contacts.iter().find(|contact| contact.time == frame.time)?;
+    let shape = result.summary.get("case")?.get("body")?.get(side)?;
     let diameter = shape.get("sphere").and_then(|sphere| sphere.get("diameter"));
     let radius = diameter.and_then(serde_json::Value::as_f64).map_or(f64::INFINITY, |d| 0.5 * d);
     let sign = if side == 0 { -1.0 } else { 1.0 };
-    let (end, floor) = ((1.4 * view.half_width).min(radius), contact.gap + 1.3 * view.depths[side]);
+    let end = (1.4 * window.half_width).min(radius);
+    let floor = contact.gap + 1.3 * window.depths[side];
     let along = (0..=N).map(|k| end * f64::from(k) / f64::from(N));
     let depth = |r: f64| r * (r / radius) / (1.0 + (1.0 - (r / radius).powi(2)).max(0.0).sqrt());
     let mut points: Vec<[f64; 2]> = along.map(|r| [r, sign * (contact.gap + depth(r))]).collect();
@@ -98,8 +109,9 @@ fn rigid(record: &Record, side: usize, frame: &Frame, view: &View) -> Option<Sec
     Some(Section { values: vec![0.0; points.len()], points, quads: Vec::new(), outline })
 }
 
-/// Both bodies of a file, without what is further than [`KEPT`] from where they touch of one that is not seen whole.
-fn bodies(file: &VtuFile, near: f64) -> Option<[Body; 2]> {
+/// Returns both bodies of a file. A body that is not shown whole is cut off at [`KEPT`] half widths from
+/// the contact.
+fn bodies(file: &VtuFile, near: f64) -> Option<[BodyPart; 2]> {
     let mesh = file.quad_mesh().ok()?;
     let body = file.cell_data("body").ok()?;
     let sides = body.as_integer()?;
@@ -134,14 +146,13 @@ fn bodies(file: &VtuFile, near: f64) -> Option<[Body; 2]> {
         let quads: Vec<[u32; 4]> = quads.iter().map(renumbered).collect();
         let places: Vec<[f64; 2]> = points.iter().map(|point| place(*point)).collect();
         let outline = outline(&quads, &places, sign);
-        Body { points: points.iter().map(|k| *k as usize).collect(), places, quads, outline }
+        BodyPart { points: points.iter().map(|k| *k as usize).collect(), places, quads, outline }
     };
     Some([body(0), body(1)])
 }
 
-/// The bodies deformed, heights measured from the middle between the poles; `None` of a file that cannot be
-/// read or is of another mesh.
-fn sections(bodies: &[Body; 2], frame: &Frame) -> Option<[Section; 2]> {
+/// Returns the deformed bodies at a frame; `None` if its file cannot be read or has another mesh.
+fn sections(bodies: &[BodyPart; 2], frame: &FieldFile) -> Option<[Section; 2]> {
     let file = VtuFile::open(&frame.path).ok()?;
     let values = |name: &str| match file.point_data(name).ok()?.values {
         Numbers::Float(values) => Some(values),
@@ -163,19 +174,19 @@ fn sections(bodies: &[Body; 2], frame: &Frame) -> Option<[Section; 2]> {
         both.push(section);
     }
     let mut both: [Section; 2] = both.try_into().ok()?;
-    centred(&mut both);
+    centre(&mut both);
     Some(both)
 }
 
-/// The points along the border from the pole on; sides on the axis are no border. `sign` is 1 of the body
-/// whose pole is its highest point, −1 of that whose pole is its lowest.
+/// Returns the points of the surface from the pole outward; the axis is no surface. `sign` is 1 for the body
+/// whose pole is its highest point, −1 for the one whose pole is its lowest.
 fn outline(quads: &[[u32; 4]], points: &[[f64; 2]], sign: f64) -> Vec<u32> {
     let ends = |a: u32, b: u32| [a.min(b), a.max(b)];
     let sides = |quad: &[u32; 4]| [0, 1, 2, 3].map(|k: usize| ends(quad[k], quad[(k + 1) % 4]));
     let mut all: Vec<[u32; 2]> = quads.iter().flat_map(sides).collect();
     all.sort_unstable();
     let is_on_axis = |point: u32| points[point as usize][0] == 0.0;
-    // A side of one element alone.
+    // Sides that belong to one element only.
     let border = all.chunk_by(|a, b| a == b).filter_map(|same| match same {
         [[a, b]] if !(is_on_axis(*a) && is_on_axis(*b)) => Some([*a, *b]),
         _ => None,

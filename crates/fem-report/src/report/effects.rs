@@ -1,67 +1,67 @@
-//! Effects in plain words.
+//! The effects of a result: which are on, which are off, and why.
 
 use fem_case::engineering::show;
 use serde_json::Value;
 
-use super::cards::rounded;
-use super::record::Record;
+use super::stored_result::StoredResult;
+use crate::number_text::rounded;
 
-/// What an effect is, said once and without a number.
-const WORDS: [(&str, &str); 16] = [
+/// What each effect is, in one sentence.
+const EXPLANATIONS: [(&str, &str); 16] = [
     (
         "viscoelasticity",
-        "A material that relaxes while it is squeezed gives back less than it took.",
+        "The material relaxes while it is compressed and gives back less energy than it took.",
     ),
-    ("finite strain", "Where strains are not small, the changed shapes change the forces."),
-    ("surface slip", "Unlike surfaces slide on each other as they spread."),
-    ("plastic yield", "Beyond its strength a material flows; that is not computed."),
-    ("partner waves", "Waves that do not come back from a large body in time take energy along."),
-    ("mirror symmetry", "Of two like bodies one is computed, against a plane."),
-    ("rigid partner", "A partner that hardly gives way is taken as rigid."),
-    ("hourglass control", "Elements with one stress each get the stiffness that they lack."),
-    ("bulk viscosity", "Steep fronts of fast impacts are spread over some elements."),
+    ("finite strain", "At large strains the change of shape changes stiffness and contact."),
+    ("surface slip", "Surfaces of unlike materials slide on each other as they deform."),
+    ("plastic yield", "Above its strength a material flows plastically; that is not computed."),
+    ("partner waves", "Waves that do not return from a large body in time carry energy away."),
+    ("mirror symmetry", "Two equal bodies are computed as one body against a plane."),
+    ("rigid partner", "A much stiffer partner is treated as rigid."),
+    ("hourglass control", "Elements with one stress point get the stiffness that they lack."),
+    ("bulk viscosity", "Steep wave fronts of fast impacts are spread over a few elements."),
     ("gravity", "Weight acts before, during and after the contact."),
-    ("contact search", "Contact is looked for as far out as it can reach."),
-    ("mass scaling", "Mass is moved to the lightest nodes, for longer steps."),
-    ("dashpot", "The law's damper resists the speed of the approach and takes energy."),
-    ("finite size", "A sphere gives way as a whole, too, not at its contact alone."),
-    ("vibration", "What is struck goes on ringing, and keeps that energy."),
-    ("penalty springs", "Springs between the surfaces keep them apart, and give way a little."),
+    ("contact search", "Contact is searched for as far out as it can reach."),
+    ("mass scaling", "Mass is moved to the lightest nodes, which allows longer time steps."),
+    ("dashpot", "The law's dashpot resists the approach and dissipates energy."),
+    ("finite size", "A sphere also deforms as a whole, not only at its contact."),
+    ("vibration", "A struck body keeps vibrating and retains that energy."),
+    ("penalty springs", "Penalty springs keep the surfaces apart and are slightly compliant."),
 ];
 
 /// An effect of a result.
-pub struct Effect {
+pub struct EffectEntry {
     pub name: String,
     pub is_on: bool,
-    pub words: &'static str,
+    pub explanation: &'static str,
     pub reason: String,
-    /// By how much numbers change without it.
-    pub worth: String,
+    /// The change of the results without it.
+    pub neglect_error: String,
 }
 
-/// Effects of the numbers alone.
+/// Effects of the numerical method, which are not physics.
 const NUMERICAL: [&str; 5] =
     ["contact search", "mass scaling", "hourglass control", "mirror symmetry", "bulk viscosity"];
 
-/// Those that are on, those of the numbers alone that are, and those that are off.
-pub fn effects(record: &Record) -> [Vec<Effect>; 3] {
+/// Returns the physical effects that are on, the numerical ones that are on, and those that are off.
+pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 3] {
     let effect = |value: &Value| {
         let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default();
         let name = text("name").to_string();
-        let words = WORDS.iter().find(|(known, _)| *known == name).map_or("", |(_, words)| words);
+        let explanation = EXPLANATIONS.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text);
         let is_on = value.get("active").and_then(Value::as_bool).unwrap_or(false);
-        let worth = value.get("error_if_left_out").map(worth).unwrap_or_default();
-        Effect { name, is_on, words, reason: text("reason").to_string(), worth }
+        let neglect_error = value.get("error_if_left_out").map(neglect_error).unwrap_or_default();
+        EffectEntry { name, is_on, explanation, reason: text("reason").to_string(), neglect_error }
     };
-    let (on, off): (Vec<Effect>, Vec<Effect>) =
-        record.list("effects").iter().map(effect).partition(|effect| effect.is_on);
-    let is_physical = |effect: &Effect| !NUMERICAL.contains(&effect.name.as_str());
+    let (on, off): (Vec<EffectEntry>, Vec<EffectEntry>) =
+        result.list("effects").iter().map(effect).partition(|effect| effect.is_on);
+    let is_physical = |effect: &EffectEntry| !NUMERICAL.contains(&effect.name.as_str());
     let (physical, numerical) = on.into_iter().partition(is_physical);
     [physical, numerical, off]
 }
 
-/// `e by 0.072, T by 0.39 µs, F by 3.5 N`; nothing of what changes nothing.
-fn worth(left_out: &Value) -> String {
+/// Returns `e by 0.072, T by 0.39 µs, F by 3.5 N`, without what does not change.
+fn neglect_error(left_out: &Value) -> String {
     let number = |key: &str| left_out.get(key).and_then(Value::as_f64).filter(|size| *size != 0.0);
     let parts = [
         number("restitution").map(|size| format!("e by {}", rounded(size))),

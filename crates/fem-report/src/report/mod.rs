@@ -1,21 +1,19 @@
-//! `report.html`: a result as a page that needs nothing else, and several results beside each other.
+//! The report page of a run, `report.html`, and the comparison of several results on one page.
 //!
-//! Drawn from the files of a result folder alone, so that an old result has the same page as a new one.
-//! Nothing in it is computed but Hertz' curves, scaled to the summary's; pictures are SVG within the page,
-//! whose style sheet has light, dark and paper.
+//! A page is drawn from the files of its result folder alone, so an old result gets the same page as a new
+//! one. The page is self-contained: pictures are SVG within it, and one style sheet serves light screens,
+//! dark screens and paper.
 
 mod cards;
-mod case_text;
-mod columns;
+mod case_keys;
 mod comparison;
+mod contact_radius_kink;
 mod contours;
-mod curves;
 mod effects;
-mod hertz;
-mod kink;
-mod profile;
-mod record;
-mod view;
+mod hertz_curves;
+mod history_charts;
+mod pressure_chart;
+mod stored_result;
 
 use askama::Template;
 use fem_case::engineering::show;
@@ -23,22 +21,19 @@ use fem_figure::Chart;
 use fem_figure::contour::{Contour, Panel};
 use serde_json::Value;
 
-use crate::failure::Failure;
-use crate::stopwatch::spent;
+use crate::number_text::{elapsed, grouped, power_of_ten};
 use cards::Card;
-use curves::Quantity;
-use effects::Effect;
+use effects::EffectEntry;
 
-pub use comparison::comparison;
-pub use contours::contour;
-pub use curves::{Quantity as Plotted, energies, over_time};
-pub use profile::pressures;
-pub use record::Record;
-pub use view::{centred, nearness, picture, whole};
+pub use comparison::comparison_page;
+pub use contours::contour_of_result;
+pub use history_charts::{Quantity, energy_chart, history_chart};
+pub use pressure_chart::pressure_chart;
+pub use stored_result::{ReportError, StoredResult};
 
 /// The name of the page in a result folder.
 pub const REPORT_FILE: &str = "report.html";
-/// Frames that a page has room and time for.
+/// Most frames of the film on a page, which limits its size and the time to draw it.
 const MOST_FRAMES: usize = 12;
 
 #[derive(Template)]
@@ -52,143 +47,130 @@ struct Page<'a> {
     warnings: Vec<String>,
     charts: Vec<String>,
     kink: &'static str,
-    frames: Vec<Shot>,
-    /// The frame that is seen at first.
+    frames: Vec<FilmFrame>,
+    /// Index of the frame that is visible when the page opens.
     opening: usize,
     bar: String,
     dark_rules: String,
     bounces: Vec<[String; 5]>,
-    on: Vec<Effect>,
-    numerical: Vec<Effect>,
-    off: Vec<Effect>,
+    on: Vec<EffectEntry>,
+    numerical: Vec<EffectEntry>,
+    off: Vec<EffectEntry>,
     profile: String,
     case: Vec<(String, String)>,
     cite: Vec<String>,
 }
 
-/// A frame of the film.
-struct Shot {
+/// One frame of the film of stresses.
+struct FilmFrame {
     caption: String,
     svg: String,
 }
 
-/// The page of one result.
+/// Returns the report page of one result as HTML.
 ///
 /// # Errors
-/// None that depend on the result.
-pub fn page(record: &Record) -> Result<String, Failure> {
-    let contour = contour(record, MOST_FRAMES);
-    let of_time = Quantity::ALL.map(|q| over_time(std::slice::from_ref(record), q));
-    let [force, approach, radius, _] = of_time;
-    let charts = [force, approach, radius, energies(record)];
-    let profile = drawn([pressures(std::slice::from_ref(record))]).pop().unwrap_or_default();
-    let [on, numerical, off] = effects::effects(record);
+/// The template cannot be rendered; no result causes that.
+pub fn report_page(result: &StoredResult) -> Result<String, ReportError> {
+    let contour = contour_of_result(result, MOST_FRAMES);
+    let of_one = std::slice::from_ref(result);
+    let charts = [
+        history_chart(of_one, Quantity::Force),
+        history_chart(of_one, Quantity::Approach),
+        history_chart(of_one, Quantity::Radius),
+        energy_chart(result),
+    ];
+    let [on, numerical, off] = effects::effects(result);
     let page = Page {
-        title: record.title(),
-        subtitle: subtitle(record),
-        stopped: record.text("stopped_because"),
-        cards: cards::cards(record),
-        price: price(record),
-        warnings: warnings(record),
+        title: result.title(),
+        subtitle: subtitle(result),
+        stopped: result.text("stopped_because"),
+        cards: cards::cards(result),
+        price: price(result),
+        warnings: warnings(result),
         charts: drawn(charts),
-        kink: kink::words(record),
-        frames: contour.as_ref().map(shots).unwrap_or_default(),
-        opening: opening(record),
+        kink: contact_radius_kink::explanation(result),
+        frames: contour.as_ref().map(film).unwrap_or_default(),
+        opening: opening(result),
         bar: contour.as_ref().map(Contour::bar).unwrap_or_default(),
         dark_rules: contour.as_ref().map(Contour::dark_rules).unwrap_or_default(),
-        bounces: record.list("bounces").iter().map(bounce).collect(),
+        bounces: result.list("bounces").iter().map(bounce).collect(),
         on,
         numerical,
         off,
-        profile,
-        case: record.summary.get("case").map(case_text::keys).unwrap_or_default(),
-        cite: vec![citation(record)],
+        profile: drawn([pressure_chart(of_one)]).pop().unwrap_or_default(),
+        case: result.summary.get("case").map(case_keys::keys).unwrap_or_default(),
+        cite: vec![citation(result)],
     };
-    page.render().map_err(|error| Failure::failed(format!("the page cannot be made: {error}")))
+    Ok(page.render()?)
 }
 
 fn drawn(charts: impl IntoIterator<Item = Option<Chart>>) -> Vec<String> {
     charts.into_iter().flatten().filter_map(|chart| fem_figure::panel(&chart)).collect()
 }
 
-fn shots(contour: &Contour) -> Vec<Shot> {
-    let shot = |panel: &Panel| Shot { caption: panel.title.clone(), svg: contour.frame(panel) };
+/// Draws the frames in parallel.
+fn film(contour: &Contour) -> Vec<FilmFrame> {
+    let frame =
+        |panel: &Panel| FilmFrame { caption: panel.title.clone(), svg: contour.frame(panel) };
     std::thread::scope(|scope| {
         let drawers: Vec<_> =
-            contour.panels.iter().map(|panel| scope.spawn(move || shot(panel))).collect();
+            contour.panels.iter().map(|panel| scope.spawn(move || frame(panel))).collect();
         drawers.into_iter().filter_map(|drawer| drawer.join().ok()).collect()
     })
 }
 
-/// The frame at the largest force.
-fn opening(record: &Record) -> usize {
-    let peak = record.peak_time();
-    let shown = contours::chosen(record, MOST_FRAMES);
-    let distance = |k: &usize| (record.frames[shown[*k]].time - peak).abs();
+/// Returns the index of the frame nearest to the peak force.
+fn opening(result: &StoredResult) -> usize {
+    let peak = result.peak_time();
+    let shown = contours::chosen_frames(result, MOST_FRAMES);
+    let distance = |k: &usize| (result.frames[shown[*k]].time - peak).abs();
     (0..shown.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
 }
 
-fn subtitle(record: &Record) -> String {
-    let name = |body: &Value| body.get("name").and_then(Value::as_str).map(String::from);
-    let names: Vec<String> = record.list("bodies").iter().filter_map(name).collect();
-    let model = record.summary.get("case").and_then(|case| case.get("model"));
+fn subtitle(result: &StoredResult) -> String {
+    let model = result.summary.get("case").and_then(|case| case.get("model"));
     let model = model.and_then(Value::as_object).and_then(|model| model.keys().next());
     let model = match model.map_or("", String::as_str) {
         "fem" => "explicit finite elements",
-        "condensed" => "bodies condensed to their contact",
+        "condensed" => "the condensed finite-element model",
         "ting" => "Ting's viscoelastic contact",
-        "hertz" => "Hertz' contact",
+        "hertz" => "Hertz' elastic contact",
         "law" => "a contact law",
         other => other,
     };
-    format!("{}, by {model}", names.join(" and "))
+    format!("{}, computed with {model}", result.body_names().join(" and "))
 }
 
-/// What the run took.
-fn price(record: &Record) -> String {
-    let elements: f64 = record
-        .list("bodies")
-        .iter()
-        .filter_map(|body| body.get("elements").and_then(Value::as_f64))
-        .sum();
-    let seconds = record.number(&["cost", "solve_s"]).unwrap_or(0.0);
-    let mut parts = vec![format!("computed in {}", spent(seconds))];
+/// Returns the cost of the run in one line.
+fn price(result: &StoredResult) -> String {
+    let elements = |body: &Value| body.get("elements").and_then(Value::as_f64);
+    let elements: f64 = result.list("bodies").iter().filter_map(elements).sum();
+    let seconds = result.number(&["cost", "solve_s"]).unwrap_or(0.0);
+    let thin_space = '\u{202f}';
+    let mut parts = vec![format!("computed in {}", elapsed(seconds))];
     if elements > 0.0 {
-        parts.push(format!("{} elements", grouped(elements)));
+        parts.push(format!("{} elements", grouped(elements, thin_space)));
     }
-    if let Some((steps, step)) = record.number(&["steps"]).zip(record.number(&["time_step_s"])) {
-        parts.push(format!("{} steps of {}", grouped(steps), show(step, "s")));
+    if let Some((steps, step)) = result.number(&["steps"]).zip(result.number(&["time_step_s"])) {
+        parts.push(format!("{} steps of {}", grouped(steps, thin_space), show(step, "s")));
     }
-    if let Some(residual) = record.number(&["energy", "residual_relative"]) {
-        let residual = cards::power_of_ten(residual);
-        parts.push(format!("energy adds up to {residual} of the initial"));
+    if let Some(residual) = result.number(&["energy", "residual_relative"]) {
+        parts.push(format!("energy residual {} of the initial energy", power_of_ten(residual)));
     }
     parts.join(" · ")
 }
 
-/// With thin spaces between thousands.
-fn grouped(count: f64) -> String {
-    let digits = format!("{count:.0}");
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// All but that the run is incomplete, which stands above; as HTML.
-fn warnings(record: &Record) -> Vec<String> {
-    let stopped = record.text("stopped_because");
-    let warnings = record.list("warnings").iter().filter_map(Value::as_str);
+/// Returns the warnings as HTML, without the one that the run is incomplete, which stands above.
+fn warnings(result: &StoredResult) -> Vec<String> {
+    let stopped = result.text("stopped_because");
+    let warnings = result.list("warnings").iter().filter_map(Value::as_str);
     let others = warnings.filter(|warning| stopped.is_empty() || !warning.contains(stopped));
-    others.map(with_keys).collect()
+    others.map(with_code).collect()
 }
 
-/// A text as HTML, what stands between backticks as code.
-fn with_keys(text: &str) -> String {
+/// Returns text as HTML, with the parts between backticks as code.
+fn with_code(text: &str) -> String {
     let escaped = fem_figure::escaped(text);
     let mut parts = escaped.split('`').peekable();
     let mut html = String::new();
@@ -196,7 +178,7 @@ fn with_keys(text: &str) -> String {
     while let Some(part) = parts.next() {
         match is_code && parts.peek().is_some() {
             true => html += &format!("<code>{part}</code>"),
-            // A backtick alone is what it is.
+            // A single backtick stays.
             false if is_code => html += &format!("`{part}"),
             false => html += part,
         }
@@ -217,28 +199,28 @@ fn bounce(bounce: &Value) -> [String; 5] {
     ]
 }
 
-fn citation(record: &Record) -> String {
-    let made_from: String = record.text("made_from").chars().take(12).collect();
+fn citation(result: &StoredResult) -> String {
+    let made_from: String = result.text("made_from").chars().take(12).collect();
     format!(
         "fem-run {}, {}. Result of case {made_from}, numerics {}: \u{201c}{}\u{201d}.",
-        record.text("version"),
+        result.text("version"),
         env!("CARGO_PKG_REPOSITORY"),
-        record.text("numerics"),
-        record.title()
+        result.text("numerics"),
+        result.title()
     )
 }
 
 #[cfg(test)]
 mod tests {
-    use super::with_keys;
+    use super::with_code;
 
     #[test]
     fn keys_in_warnings_are_code_and_nothing_is_markup() {
         assert_eq!(
-            with_keys("a<b & `x = {}` or `y`"),
+            with_code("a<b & `x = {}` or `y`"),
             "a&lt;b &amp; <code>x = {}</code> or <code>y</code>"
         );
-        assert_eq!(with_keys("one ` alone"), "one ` alone");
-        assert_eq!(with_keys("`a` and ` alone"), "<code>a</code> and ` alone");
+        assert_eq!(with_code("one ` alone"), "one ` alone");
+        assert_eq!(with_code("`a` and ` alone"), "<code>a</code> and ` alone");
     }
 }

@@ -1,47 +1,47 @@
-//! What the picture of a sweep shows: which columns against which key, and what tells curves apart.
+//! The choice of what a sweep's figure shows: columns, the horizontal key, and the keys that distinguish curves.
 
 use fem::sweep::{COLUMNS, KeyNumbers};
 use fem_case::{CaseError, Combine, Sweep};
 
-/// Panels unless the sweep file names others.
+/// Columns that are drawn by default.
 const DEFAULT_COLUMNS: [&str; 4] =
     ["restitution", "contact_time_s", "peak_force_n", "max_contact_radius_m"];
-/// Columns of text or of yes and no.
+/// Columns of text or of true and false.
 const NOT_NUMBERS: [&str; 3] = ["complete", "radius_and_pressure", "stopped_because"];
 
-/// Which columns are drawn against which key.
+/// The columns that are drawn, and the key that they are drawn over.
 #[derive(Clone, Debug)]
-pub struct Choice {
-    /// What is along the horizontal.
-    pub x: Horizontal,
+pub struct FigureChoice {
+    /// The horizontal key.
+    pub x: HorizontalKey,
     /// Columns of the table, one panel each.
     pub y: Vec<&'static str>,
-    /// The axes whose values tell curves apart.
+    /// The axes whose values distinguish curves.
     pub series: Vec<usize>,
-    /// The values of the only one of those, if they are numbers.
+    /// Values of the only such axis, if they are numbers.
     pub series_values: Option<Vec<f64>>,
 }
 
-/// A varied key along the horizontal of the picture.
+/// The varied key along the horizontal axis.
 #[derive(Clone, Debug)]
-pub struct Horizontal {
-    /// Which.
+pub struct HorizontalKey {
+    /// Index of the key.
     pub key: usize,
-    /// The axis that it is on.
+    /// Axis of the sweep that the key belongs to.
     pub axis: usize,
-    /// Its values, SI; counted from 1 if they are no numbers.
+    /// Values in SI, or counted from 1 if they are not numbers.
     pub values: Vec<f64>,
-    /// Their unit.
+    /// Unit of the values.
     pub unit: Option<&'static str>,
-    /// Whether they are counted.
+    /// Whether the values are counted.
     pub is_counted: bool,
 }
 
-impl Choice {
-    /// The choice of a sweep file, or its default.
+impl FigureChoice {
+    /// Returns the choice of a sweep file, or the default.
     ///
     /// # Errors
-    /// Keys that are not varied, a horizontal key whose values are not numbers, unknown columns.
+    /// A key that is not varied, a horizontal key whose values are not numbers, or an unknown column.
     pub fn of(sweep: &Sweep, numbers: &KeyNumbers) -> Result<Self, CaseError> {
         let keys: Vec<&str> = sweep.keys().map(|swept| swept.key.as_str()).collect();
         let places: Vec<(usize, usize)> = sweep.places().collect();
@@ -54,19 +54,19 @@ impl Choice {
         let horizontal = |key: usize| {
             let (axis, unit) = (places[key].0, numbers.unit(key).filter(|unit| !unit.is_empty()));
             let values = numbers.of_key(key)?;
-            Some(Horizontal { key, axis, values, unit, is_counted: false })
+            Some(HorizontalKey { key, axis, values, unit, is_counted: false })
         };
         let x = match &sweep.plot.x {
             Some(key) => {
                 let key = find("plot.x", key)?;
                 horizontal(key).ok_or_else(|| {
-                    let error = sweep.error_at("plot.x", format!("{} has no numbers", keys[key]));
+                    let error = sweep.error_at("plot.x", format!("the values of {} are not numbers", keys[key]));
                     error.with_help("name a varied key whose values are numbers")
                 })?
             }
             None => {
                 let all = (0..keys.len()).filter_map(horizontal);
-                // Of equal ones `max_by_key` takes the last.
+                // `max_by_key` takes the last of equal ones.
                 let longest = all.rev().max_by_key(|x| {
                     (n_distinct(&x.values), keys[x.key].ends_with("approach_speed"))
                 });
@@ -75,12 +75,12 @@ impl Choice {
         };
         let named = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
         if named == Some(x.key) {
-            let error = sweep.error_at("plot.series", "x and series are the same key");
-            return Err(error.with_help("series tells curves apart; leave it out"));
+            let error = sweep.error_at("plot.series", "x and series name the same key");
+            return Err(error.with_help("leave series out, or name a key that distinguishes curves"));
         }
         let series = match (named, sweep.combine) {
             (Some(key), _) => vec![places[key].0],
-            // Paired keys run along with x, as linked ones do.
+            // Paired keys vary together with x.
             (None, Combine::Paired) => Vec::new(),
             (None, Combine::All) => (0..sweep.axes.len()).filter(|axis| *axis != x.axis).collect(),
         };
@@ -111,18 +111,18 @@ fn column(sweep: &Sweep, k: usize, name: &str) -> Result<&'static str, CaseError
     numbers().find(|column| *column == name).ok_or_else(|| {
         let list: Vec<_> = numbers().collect();
         sweep
-            .error_at(&format!("plot.y.{k}"), format!("{name} is no column with numbers"))
-            .with_help(format!("the columns with numbers are {}", list.join(", ")))
+            .error_at(&format!("plot.y.{k}"), format!("{name} is not a column of numbers"))
+            .with_help(format!("the columns of numbers are {}", list.join(", ")))
     })
 }
 
-/// The longest axis of a sweep that has no numbers, its values counted.
-fn counted(sweep: &Sweep) -> Horizontal {
+/// Returns the longest axis of a sweep without numbers, with its values counted.
+fn counted(sweep: &Sweep) -> HorizontalKey {
     let lengths = sweep.axes.iter().map(|axis| axis.elements.len()).enumerate();
     let (axis, n) = lengths.rev().max_by_key(|(_, n)| *n).unwrap_or((0, 0));
     let key = sweep.places().position(|(of_key, _)| of_key == axis).unwrap_or(0);
     let values = (1..=n).map(|k| k as f64).collect();
-    Horizontal { key, axis, values, unit: None, is_counted: true }
+    HorizontalKey { key, axis, values, unit: None, is_counted: true }
 }
 
 fn n_distinct(values: &[f64]) -> usize {

@@ -1,37 +1,37 @@
-//! The curves of a panel of a sweep's picture, and what they are called.
+//! The curves of a panel of a sweep's figure, and their labels.
 
 use std::collections::HashMap;
 
 use fem_case::Sweep;
 
-use super::picture_data::Choice;
-use super::picture_points::PicturePoint;
-use super::picture_words::{plain, short_role};
+use super::choice::FigureChoice;
+use super::labels::{plain, short_role};
+use super::points::FigurePoint;
 
-/// Points that belong together.
+/// The members that differ only in the horizontal key.
 #[derive(Clone, Debug)]
-pub struct Curve {
-    /// What tells it apart; empty if it is the only one.
+pub struct SweepCurve {
+    /// Values of the other keys; empty if it is the only curve.
     pub label: String,
-    /// Its number, if a number tells it apart.
+    /// Value of the other key, if there is one and it is a number.
     pub number: Option<f64>,
-    /// SI, by increasing x: x, y and how far that may be off.
+    /// (x, y, error of y) in SI, by increasing x.
     pub points: Vec<(f64, f64, f64)>,
-    /// What they are compared with; empty if there is nothing. Of the table: the same members by Hertz.
+    /// Reference points: Hertz' results of the same members, or the limit; may be empty.
     pub reference: Vec<(f64, f64)>,
 }
 
-/// The curves of the panel that `panel` counts, in the order of the sweep.
-pub fn curves(sweep: &Sweep, points: &[PicturePoint], choice: &Choice, panel: usize) -> Vec<Curve> {
+/// Returns the curves of the k-th panel, in the order of the sweep.
+pub fn curves(sweep: &Sweep, points: &[FigurePoint], choice: &FigureChoice, panel: usize) -> Vec<SweepCurve> {
     let mut places: HashMap<Vec<usize>, usize> = HashMap::new();
-    let mut curves: Vec<Curve> = Vec::new();
+    let mut curves: Vec<SweepCurve> = Vec::new();
     for point in points {
         let elements = sweep.choice(point.index);
         let own: Vec<usize> = choice.series.iter().map(|axis| elements[*axis]).collect();
         let number = choice.series_values.as_ref().map(|values| values[own[0]]);
         let place = *places.entry(own).or_insert_with(|| {
             let label = label(sweep, &elements, &choice.series);
-            curves.push(Curve { label, number, points: Vec::new(), reference: Vec::new() });
+            curves.push(SweepCurve { label, number, points: Vec::new(), reference: Vec::new() });
             curves.len() - 1
         });
         let x = choice.x.values[elements[choice.x.axis]];
@@ -47,7 +47,7 @@ pub fn curves(sweep: &Sweep, points: &[PicturePoint], choice: &Choice, panel: us
     curves
 }
 
-/// What a curve is called: the values of the axes that tell it apart.
+/// Returns the label of a curve: the values of the axes that distinguish it.
 fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
     let part = |axis: &usize| {
         let of = &sweep.axes[*axis];
@@ -61,7 +61,7 @@ fn label(sweep: &Sweep, elements: &[usize], axes: &[usize]) -> String {
         names.dedup();
         values.dedup();
         let (names, values) = (names.join(", "), values.join(" and "));
-        // A model or a material says what it is.
+        // The value of a model or a material needs no name.
         if names == "model" || names == "material" { values } else { format!("{names} = {values}") }
     };
     axes.iter().map(part).collect::<Vec<_>>().join(", ")

@@ -1,6 +1,6 @@
-//! What axes and curves of a sweep's picture are called.
+//! Labels of the axes and curves of a sweep's figure.
 
-/// Keys, and what an axis calls them.
+/// Keys and their names with symbols.
 const ROLES: [(&str, &str); 12] = [
     ("approach_speed", "impact speed v"),
     ("diameter", "diameter D"),
@@ -15,7 +15,8 @@ const ROLES: [(&str, &str); 12] = [
     ("contact_element_size", "element size h"),
     ("penalty_factor", "penalty factor f"),
 ];
-/// A key as people call what it is, with its symbol.
+
+/// Returns the name of a key with its owner and symbol: `diameter of body 2 D`.
 pub fn role(key: &str) -> String {
     let parts: Vec<&str> = key.split('.').collect();
     let last = parts.last().copied().unwrap_or_default();
@@ -39,13 +40,13 @@ pub fn role(key: &str) -> String {
     }
 }
 
-/// As [`role`], of linked keys: of none of the bodies alone.
+/// Returns the name of linked keys, without an owner.
 pub fn role_of_all(key: &str) -> String {
     let last = key.rsplit('.').next().unwrap_or(key);
     role(last)
 }
 
-/// A key in few letters: its symbol, else its last part.
+/// Returns the symbol of a key, or its last part.
 pub fn short_role(key: &str) -> String {
     let last = key.rsplit('.').next().unwrap_or(key);
     let role = ROLES.iter().find(|(known, _)| *known == last).map(|(_, role)| *role);
@@ -53,8 +54,8 @@ pub fn short_role(key: &str) -> String {
     symbol.map_or_else(|| last.replace('_', " "), String::from)
 }
 
-/// A value as people say it: a table that holds one name alone is that name, `{ law = { tsuji = { alpha = 1 } } }`
-/// is `tsuji (alpha = 1)`.
+/// Returns a value in short form: a table that contains only a name becomes that name, and
+/// `{ law = { tsuji = { alpha = 1 } } }` becomes `tsuji (alpha = 1)`.
 pub fn plain(value: &str) -> String {
     let Some(inner) = value.trim().strip_prefix('{').and_then(|rest| rest.strip_suffix('}')) else {
         return value.trim().to_string();
@@ -63,7 +64,6 @@ pub fn plain(value: &str) -> String {
     match inner.strip_prefix("law").map(|rest| rest.trim_start().trim_start_matches('=')) {
         Some(law) if law.trim_start().starts_with('{') => plain(law),
         _ => {
-            // However it is spaced.
             let apart = inner.replace(['"', '\''], "").replace('=', " = ");
             let apart = apart.replace('{', " { ").replace('}', " } ");
             let words = apart.split_whitespace().collect::<Vec<_>>().join(" ");

@@ -1,69 +1,75 @@
-//! `sweep.svg`: one panel a column, curves over one varied key, Hertz dashed beside. Over what makes members
-//! finer a second panel shows how far they are from their limit, and the limit stands in the place of Hertz.
+//! The figure of a sweep, `sweep.svg`: one panel per column, over one varied key, with Hertz dashed.
+//!
+//! Over a key that controls the resolution, such as the element size, each column gets a second panel with
+//! its convergence, and the extrapolated limit takes the place of Hertz.
+
+mod choice;
+mod convergence;
+mod curves;
+mod labels;
+mod points;
 
 use fem::sweep::{column_unit, column_words};
 use fem_case::Sweep;
-use fem_case::engineering::Unit;
-use fem_figure::{Axis, COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
+use fem_figure::{COLOURS, Chart, Curve as Line, GREY, colour_along, legend_room};
 
-use super::picture_convergence::{self, Converging, Fineness};
-use super::picture_curves::{Curve, curves};
-use super::picture_data::Choice;
-use super::picture_points::PicturePoint;
-use super::picture_words::{plain, role, role_of_all};
+use crate::quantity_axis::{QuantityAxis, chart_axes, range};
+use convergence::{ConvergingCurve, ResolutionKey, convergence_chart};
+use curves::{SweepCurve, curves};
+use labels::{plain, role, role_of_all};
 
-/// What curves are compared with, in the legend.
+pub use choice::{FigureChoice, HorizontalKey};
+pub use points::{FigurePoint, PanelValues};
+
+/// Legend entries of the dashed reference curves.
 const HERTZ: &str = "Hertz";
-/// The same where members converge.
 const LIMIT: &str = "extrapolated limit";
-/// Lines of a legend beside curves: what they are compared with, what failed, how many are not named.
+/// Lines of the legend that are not curves: the reference, failed members, curves without a name.
 const NOTES: usize = 3;
-/// Steps between the entries of a colour map.
+/// Curves between two legend entries of a colour map.
 const MAP_ENTRIES: usize = 8;
-/// Letters below a panel.
+/// Most characters of an axis label.
 const LONGEST_LABEL: usize = 60;
 /// Free space above and below the data over their range.
 const MARGIN: f64 = 0.06;
-/// Data that are less than this share of the range with what they are compared with are shown without it.
+/// The reference is left outside the axis if the data would fill less than this share of it.
 const LEAST_SHARE: f64 = 0.2;
-/// No axis shows less than this share of its values: what differs by less is noise.
+/// Smallest relative range of an axis; smaller differences are noise.
 const NOISE: f64 = 1e-4;
-/// Values that span this ratio go on a logarithmic axis.
-const LOGARITHMIC_FROM: f64 = 10.0;
 
-/// The picture, or none if there is nothing to draw; so many members failed.
-pub fn picture(
+/// Returns the figure as SVG, or `None` if there is nothing to draw; `n_failed` members are mentioned in
+/// the legend.
+pub fn sweep_figure(
     sweep: &Sweep,
-    points: &[PicturePoint],
-    choice: &Choice,
+    points: &[FigurePoint],
+    choice: &FigureChoice,
     n_failed: usize,
 ) -> Option<String> {
     let key = sweep.keys().nth(choice.x.key).map_or("", |swept| swept.key.as_str());
-    let fineness = Fineness::of(key).filter(|_| !choice.x.is_counted);
-    let n_panels = choice.y.len() * if fineness.is_some() { 2 } else { 1 };
+    let resolution = ResolutionKey::of(key).filter(|_| !choice.x.is_counted);
+    let n_panels = choice.y.len() * if resolution.is_some() { 2 } else { 1 };
     let room = legend_room(n_panels).saturating_sub(NOTES);
     let panels = choice.y.iter().enumerate().flat_map(|(k, column)| {
         let mut curves = curves(sweep, points, choice, k);
-        let errors = fineness.and_then(|fineness| {
-            let of_curve = |curve: &Curve| Converging::of(fineness, column, curve);
+        let converging = resolution.and_then(|resolution| {
+            let of_curve = |curve: &SweepCurve| ConvergingCurve::of(resolution, column, curve);
             let converging: Vec<_> = curves.iter().map(of_curve).collect();
-            // Where no curve has levels enough there is nothing to converge.
-            converging.iter().any(Option::is_some).then_some((fineness, converging))
+            // Without a curve of enough levels there is no convergence to show.
+            converging.iter().any(Option::is_some).then_some((resolution, converging))
         });
-        let reference = if errors.is_some() { LIMIT } else { HERTZ };
-        if let Some((_, converging)) = &errors {
+        let reference = if converging.is_some() { LIMIT } else { HERTZ };
+        if let Some((_, converging)) = &converging {
             for (curve, one) in curves.iter_mut().zip(converging) {
-                curve.reference = one.as_ref().map(Converging::limit).unwrap_or_default();
+                curve.reference = one.as_ref().map(ConvergingCurve::limit).unwrap_or_default();
             }
         }
-        let value = chart(sweep, choice, column, (&curves, reference), room);
-        let errors = errors.map(|(fineness, converging)| {
+        let value = value_chart(sweep, choice, column, (&curves, reference), room);
+        let errors = converging.map(|(resolution, converging)| {
             let x = curves.iter().flat_map(|curve| curve.points.iter().map(|point| point.0));
-            let horizontal = Scale::of(x, choice.x.unit).logarithmic();
-            let (axis, paint) = (horizontal.axis(&along(sweep, choice)), Paint::of(&curves));
-            let place = |x: f64| horizontal.scaled(x);
-            let drawn = |line: Line, k: usize| paint.on(line, k);
-            picture_convergence::chart(fineness, column, &converging, (axis, &place), &drawn)
+            let x = horizontal_axis(sweep, choice, x).logarithmic_if_positive();
+            let colours = CurveColours::of(&curves);
+            let coloured = |line: Line, k: usize| colours.on(line, k);
+            convergence_chart(resolution, column, &converging, &x, &coloured)
         });
         [Some(value), errors]
     });
@@ -75,76 +81,82 @@ pub fn picture(
     fem_figure::svg(&panels.flatten().map(with_note).collect::<Vec<_>>())
 }
 
-/// A line of the legend that is no curve.
+/// Returns a line of the legend that is no curve.
 fn note(text: &str) -> Line {
     Line::line(text, Vec::new()).coloured("none")
 }
 
-/// Curves of a column, and beside them what they are compared with, by its name.
-fn chart(
+fn horizontal_axis(
     sweep: &Sweep,
-    choice: &Choice,
-    column: &str,
-    (curves, reference_name): (&[Curve], &'static str),
+    choice: &FigureChoice,
+    values: impl Iterator<Item = f64>,
+) -> QuantityAxis {
+    QuantityAxis::fitting(horizontal_label(sweep, choice), choice.x.unit.unwrap_or(""), values)
+}
+
+/// Returns the chart of a column: its curves, and their references under `reference_name`.
+fn value_chart(
+    sweep: &Sweep,
+    choice: &FigureChoice,
+    column: &'static str,
+    (curves, reference_name): (&[SweepCurve], &'static str),
     room: usize,
 ) -> Chart {
     let own = || curves.iter().flat_map(|curve| &curve.points);
     let reference = || curves.iter().flat_map(|curve| &curve.reference);
     let x = own().map(|point| point.0).chain(reference().map(|point| point.0));
-    let horizontal = Scale::of(x, choice.x.unit).linear_if(choice.x.is_counted);
-    let horizontal = if reference_name == LIMIT { horizontal.logarithmic() } else { horizontal };
+    let x = horizontal_axis(sweep, choice, x);
+    let x = if choice.x.is_counted { x.not_logarithmic() } else { x };
+    let x = if reference_name == LIMIT { x.logarithmic_if_positive() } else { x };
     let y = own().map(|point| point.1).chain(reference().map(|point| point.1));
-    let vertical = Scale::of(y, Some(column_unit(column)));
-    let scaled = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-        points.iter().map(|(x, y)| (horizontal.scaled(*x), vertical.scaled(*y))).collect()
-    };
-    // Bars of many curves cover each other.
+    let y = QuantityAxis::fitting(column_words(column), column_unit(column), y);
+    // Error bars of many curves would cover each other.
     let has_errors = curves.len() <= COLOURS.len();
-    let bar = |(_, y, error): &(f64, f64, f64)| {
-        let is_drawn = has_errors && !(vertical.is_logarithmic && error >= y);
-        if is_drawn { vertical.scaled(*error) } else { 0.0 }
+    let bar = |(_, value, error): &(f64, f64, f64)| {
+        let is_drawn = has_errors && !(y.is_logarithmic() && error >= value);
+        if is_drawn { *error } else { 0.0 }
     };
-    let own_range = own().map(|point| vertical.scaled(point.1));
-    let bars = own().map(|point| (vertical.scaled(point.1), bar(point)));
-    let y = vertical.axis(&column_words(column));
-    let of_reference = reference().map(|point| vertical.scaled(point.1));
-    let y = match shown(with_bars(own_range, bars), of_reference)
-        .filter(|_| !vertical.is_logarithmic)
-    {
+    let bars = own().map(|point| (point.1, bar(point)));
+    let shown = shown_range(
+        with_bars(own().map(|point| point.1), bars),
+        reference().map(|point| point.1),
+    );
+    let errors = |curve: &SweepCurve| curve.points.iter().map(|at| y.scaled(bar(at))).collect();
+    let errors: Vec<Vec<f64>> = curves.iter().map(errors).collect();
+    let y = match shown.filter(|_| !y.is_logarithmic()) {
         Some((from, to)) => y.from_to(from, to),
         None => y,
     };
-    let mut chart = Chart::new(horizontal.axis(&along(sweep, choice)), y);
-    // Between what is counted there is nothing.
+    let mut chart = chart_axes(&x, &y);
+    // Nothing lies between values that are only counted.
     let reference_line = if choice.x.is_counted { Line::points } else { Line::dashed };
-    let named = Named::of(curves, room);
-    if let Some(heading) = &named.heading {
+    let legend = LegendChoice::of(curves, room);
+    if let Some(heading) = &legend.heading {
         chart = chart.with(note(heading));
     }
-    let paint = Paint::of(curves);
+    let colours = CurveColours::of(curves);
     let is_one = curves.windows(2).all(|pair| pair[0].reference == pair[1].reference);
-    for (k, curve) in curves.iter().enumerate() {
+    for (k, (curve, errors)) in curves.iter().zip(errors).enumerate() {
         let label = match curves.len() {
             1 => "computed",
-            _ if named.has(k) => &curve.label,
+            _ if legend.has(k) => &curve.label,
             _ => "",
         };
         let points: Vec<(f64, f64)> = curve.points.iter().map(|(x, y, _)| (*x, *y)).collect();
-        let errors = curve.points.iter().map(bar).collect();
         let line = match choice.x.is_counted {
-            true => Line::points(label, scaled(&points)),
-            false => Line::points_on_line(label, scaled(&points)),
+            true => Line::points(label, x.points(&y, &points)),
+            false => Line::points_on_line(label, x.points(&y, &points)),
         };
-        chart = chart.with(paint.on(line, k).with_errors(errors));
-        let reference = reference_line("", scaled(&curve.reference));
+        chart = chart.with(colours.on(line, k).with_errors(errors));
+        let reference = reference_line("", x.points(&y, &curve.reference));
         chart = match (is_one, k) {
             (true, 0) => chart.with(reference.coloured(GREY)),
-            (false, k) if has_errors => chart.with(paint.on(reference, k)),
+            (false, k) if has_errors => chart.with(colours.on(reference, k)),
             _ => chart,
         };
     }
-    if let Some(note_of_rest) = &named.rest {
-        chart = chart.with(note(note_of_rest));
+    if let Some(rest) = &legend.rest {
+        chart = chart.with(note(rest));
     }
     if curves.iter().any(|curve| !curve.reference.is_empty()) && (is_one || has_errors) {
         chart = chart.with(reference_line(reference_name, Vec::new()).coloured(GREY));
@@ -152,8 +164,8 @@ fn chart(
     chart
 }
 
-/// What is along the horizontal, in words; of what is counted what the numbers stand for.
-fn along(sweep: &Sweep, choice: &Choice) -> String {
+/// Returns the label of the horizontal axis; for counted values, what each number stands for.
+fn horizontal_label(sweep: &Sweep, choice: &FigureChoice) -> String {
     let name = sweep.keys().nth(choice.x.key).map_or("", |swept| &swept.key);
     if !choice.x.is_counted {
         let of_all = sweep.axes[choice.x.axis].keys.len() > 1;
@@ -168,20 +180,20 @@ fn along(sweep: &Sweep, choice: &Choice) -> String {
     }
 }
 
-/// What tells curves apart: colours in turn and, once all were used, other dashes; of more than there are
-/// colours for a map of colours if a number tells them apart.
-struct Paint {
+/// The colours of curves: in turn with other dashes once all are used, or a colour map if there are more
+/// curves than colours and a number distinguishes them.
+struct CurveColours {
     is_map: bool,
     ranks: Vec<usize>,
 }
 
-impl Paint {
-    fn of(curves: &[Curve]) -> Self {
+impl CurveColours {
+    fn of(curves: &[SweepCurve]) -> Self {
         let has_numbers = curves.iter().all(|curve| curve.number.is_some());
         Self { is_map: curves.len() > COLOURS.len() && has_numbers, ranks: ranks(curves) }
     }
 
-    /// A line of the k-th curve.
+    /// Returns a line in the colour of the k-th curve.
     fn on(&self, line: Line, k: usize) -> Line {
         match self.is_map {
             true => line.coloured(colour_along(self.ranks[k], self.ranks.len())),
@@ -190,8 +202,8 @@ impl Paint {
     }
 }
 
-/// Places of the curves by their numbers; in the order of the sweep if they have none.
-fn ranks(curves: &[Curve]) -> Vec<usize> {
+/// Returns the ranks of the curves by their numbers, or in the order of the sweep if they have none.
+fn ranks(curves: &[SweepCurve]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..curves.len()).collect();
     order.sort_by(|a, b| {
         let number = |k: &usize| curves[*k].number.unwrap_or(*k as f64);
@@ -202,9 +214,9 @@ fn ranks(curves: &[Curve]) -> Vec<usize> {
     ranks
 }
 
-/// Which curves the legend names: all that it has room for. Of more that a number tells apart it is a colour
-/// map, some of them evenly from the first to the last.
-struct Named {
+/// The curves that the legend names: as many as it has room for or, for a colour map, evenly spaced ones from
+/// the first to the last.
+struct LegendChoice {
     stride: usize,
     n: usize,
     n_curves: usize,
@@ -212,15 +224,15 @@ struct Named {
     rest: Option<String>,
 }
 
-impl Named {
-    fn of(curves: &[Curve], room: usize) -> Self {
+impl LegendChoice {
+    fn of(curves: &[SweepCurve], room: usize) -> Self {
         let n_curves = curves.len();
         if n_curves <= room {
             return Self { stride: 1, n: n_curves, n_curves, heading: None, rest: None };
         }
         if curves.iter().all(|curve| curve.number.is_some()) {
             let stride = (n_curves - 1).div_ceil(MAP_ENTRIES);
-            let heading = Some(format!("{n_curves} curves, colours run on between:"));
+            let heading = Some(format!("{n_curves} curves, colours continue between:"));
             return Self { stride, n: n_curves, n_curves, heading, rest: None };
         }
         let rest = Some(format!("… and {} more", n_curves - room));
@@ -232,8 +244,8 @@ impl Named {
     }
 }
 
-/// Values with the ends of their error bars. Beyond the values they go by no more than their range: what is
-/// compared stays apart; where all bars are longer than that, nothing is told apart, and all are whole.
+/// Returns the ends of the error bars, cut off at one range beyond the values so that the values stay
+/// distinguishable; if all bars are longer than that, none is cut off.
 fn with_bars(
     own: impl Iterator<Item = f64>,
     bars: impl Iterator<Item = (f64, f64)> + Clone,
@@ -245,22 +257,17 @@ fn with_bars(
         .map(move |end: f64| end.max(from - room).min(to + room))
 }
 
-/// What an axis shows of its own values and of what they are compared with: all of the former, and the latter
-/// unless they would take most of it. A range so small that rounding and noise fill it is widened.
-fn shown(
+/// Returns the range of an axis: all values, and the references unless they would take most of it. A range
+/// that is filled by rounding and noise is widened.
+fn shown_range(
     own: impl Iterator<Item = f64>,
     reference: impl Iterator<Item = f64>,
 ) -> Option<(f64, f64)> {
-    let range = |values: &mut dyn Iterator<Item = f64>| {
-        values
-            .filter(|value| value.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
-    };
-    let (mut from, mut to) = range(&mut { own });
+    let (mut from, mut to) = range(own);
     if from > to {
         return None;
     }
-    let (least, most) = range(&mut { reference });
+    let (least, most) = range(reference);
     if to - from > LEAST_SHARE * (most.max(to) - least.min(from)) {
         (from, to) = (from.min(least), to.max(most));
     }
@@ -270,60 +277,6 @@ fn shown(
     Some((middle - (0.5 + MARGIN) * span, middle + (0.5 + MARGIN) * span))
 }
 
-/// How numbers stand on an axis.
-struct Scale {
-    /// None: no unit, or one that takes no prefix.
-    unit: Option<Unit>,
-    symbol: Option<&'static str>,
-    is_positive: bool,
-    is_logarithmic: bool,
-}
-
-impl Scale {
-    fn of(values: impl Iterator<Item = f64> + Clone, symbol: Option<&'static str>) -> Self {
-        let smallest = values.clone().fold(f64::INFINITY, f64::min);
-        let largest = values.fold(f64::NEG_INFINITY, f64::max);
-        let takes_prefix =
-            symbol.is_some_and(|unit| ["m", "m/s", "s", "N", "Pa", "J"].contains(&unit));
-        let unit = symbol.filter(|_| takes_prefix);
-        let unit = unit.map(|unit| Unit::fitting(largest.abs().max(smallest.abs()), unit));
-        Self {
-            symbol,
-            is_positive: smallest > 0.0,
-            is_logarithmic: smallest > 0.0 && largest >= LOGARITHMIC_FROM * smallest,
-            unit,
-        }
-    }
-
-    /// The same, not logarithmic if `linear`.
-    fn linear_if(mut self, linear: bool) -> Self {
-        self.is_logarithmic &= !linear;
-        self
-    }
-
-    /// The same, logarithmic if its values are positive.
-    fn logarithmic(mut self) -> Self {
-        self.is_logarithmic |= self.is_positive;
-        self
-    }
-
-    fn scaled(&self, value: f64) -> f64 {
-        self.unit.as_ref().map_or(value, |unit| unit.scaled(value))
-    }
-
-    fn axis(&self, name: &str) -> Axis {
-        let axis = Axis::new(self.label(name));
-        if self.is_logarithmic { axis.logarithmic() } else { axis }
-    }
-
-    fn label(&self, name: &str) -> String {
-        match self.unit.as_ref().map(Unit::symbol).or(self.symbol) {
-            Some("") | None => name.to_string(),
-            Some(symbol) => format!("{name} [{symbol}]"),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -331,21 +284,23 @@ mod tests {
     #[test]
     fn axes_show_the_data_and_no_noise() {
         let shown =
-            |own: &[f64], hertz: &[f64]| shown(own.iter().copied(), hertz.iter().copied()).unwrap();
+            |own: &[f64], hertz: &[f64]| {
+                shown_range(own.iter().copied(), hertz.iter().copied()).unwrap()
+            };
         // Hertz is far away: the data fill the axis.
         let (from, to) = shown(&[0.921, 0.929], &[1.0]);
         assert!(from > 0.92 && to < 0.93, "{from} {to}");
-        // He is near: both are shown.
+        // Hertz is near: both are shown.
         let (from, to) = shown(&[60.0, 62.0], &[60.5, 62.6]);
         assert!(from < 60.0 && to > 62.6, "{from} {to}");
         // A millionth is no curve.
         let (from, to) = shown(&[1.0 - 2e-6, 1.0 - 1e-6], &[1.0]);
         assert!(to - from > 1e-4, "{from} {to}");
-        assert!(super::shown([f64::NAN].into_iter(), [1.0].into_iter()).is_none());
-        // A bar that is longer than all the rest is cut off; one alone, and bars that are all so long, are whole.
+        assert!(shown_range([f64::NAN].into_iter(), [1.0].into_iter()).is_none());
+        // A bar longer than the range is cut off, unless all bars are.
         let ends = |bars: &[(f64, f64)]| {
             let bars = bars.iter().copied();
-            super::with_bars(bars.clone().map(|(value, _)| value), bars).collect::<Vec<_>>()
+            with_bars(bars.clone().map(|(value, _)| value), bars).collect::<Vec<_>>()
         };
         assert_eq!(ends(&[(1.0, 5.0), (2.0, 0.5)]), [0.0, 3.0, 1.5, 2.5]);
         assert_eq!(ends(&[(1.0, 5.0), (2.0, 4.0)]), [-4.0, 6.0, -2.0, 6.0]);

@@ -8,9 +8,10 @@ use fem::measured::{MeasuredPairs, Table, UncertaintyError};
 use fem_case::Case;
 use fem_case::parse_quantity;
 use fem_case::schema::ActsOn;
+use fem_report::law_figures::calibration_figure;
 use serde_json::Value;
 
-use crate::calibrate::{calibration_picture, calibration_text};
+use crate::calibrate::{calibration_text};
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
@@ -91,7 +92,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load_and_warn()?;
     let table = arguments.columns.read(&arguments.data)?;
     let (found, warnings) = found(arguments, &case, &table)?;
-    let picture = calibration_picture(&found).map_err(CalibrationFault::Fit)?;
+    let picture = calibration_figure(&found).map_err(CalibrationFault::Fit)?;
     let columns = arguments.columns.text();
     let inputs = [case_identity(&case), arguments.data.display().to_string() + &columns];
     let inputs = inputs.each_ref().map(String::as_str);

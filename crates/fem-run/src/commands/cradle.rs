@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::measured::{Kind, NotMeasured, Table, cradle_trials, parse_measured};
-use fem_figure::{Axis, Chart, Curve};
 use fem_fit::cradle::{Cradle, Measured, STANDARD_GRAVITY, Swing, Trial, masses_of_balls};
+use fem_report::law_figures::cradle_figure;
 use serde_json::{Value, json};
 
 use crate::case_arguments::stem_of;
@@ -120,7 +120,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ]
     });
     output.write_table("cradle.csv", &header, rows)?;
-    output.write("cradle.svg", picture(&swings))?;
+    output.write("cradle.svg", cradle_figure(&swings))?;
     let [first, second] = cradle.masses;
     let place = output.publish(&json!({
         "data": path.display().to_string(),
@@ -256,17 +256,4 @@ fn many(cradle: &Cradle, swings: &[(Trial, Swing)]) -> String {
         }
     }
     text
-}
-
-fn picture(swings: &[(Trial, Swing)]) -> String {
-    let points = swings.iter().map(|(_, swing)| (swing.before.value, swing.restitution.value));
-    let errors = swings.iter().map(|(_, swing)| swing.restitution.uncertainty);
-    let errors: Vec<f64> = if swings.iter().all(|(_, swing)| swing.restitution.uncertainty > 0.0) {
-        errors.collect()
-    } else {
-        Vec::new()
-    };
-    let trials = Curve::points("trials", points.collect()).with_errors(errors);
-    let chart = Chart::new(Axis::new("approach speed [m/s]"), Axis::new("restitution"));
-    fem_figure::svg(&[chart.with(trials)]).unwrap_or_default()
 }

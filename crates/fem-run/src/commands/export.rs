@@ -8,11 +8,12 @@ use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_fit::FitError;
 use fem_fit::dem::{Snippet, grain_snippets};
+use fem_report::law_figures::export_figure;
 use serde_json::Value;
 
 use crate::case_arguments::CaseArguments;
 use crate::data_file::ColumnArguments;
-use crate::export::{export_picture, export_text, pairs_csv, pairs_json, pairs_text};
+use crate::export::{export_text, pairs_csv, pairs_json, pairs_text};
 use crate::failure::Failure;
 use crate::jobs::value_of;
 use crate::law_arguments::{parse_length, parse_share, parse_speed};
@@ -67,7 +68,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for snippet in &snippets {
         output.write(snippet.name, &snippet.text)?;
     }
-    output.write("export.svg", export_picture(&fitted))?;
+    output.write("export.svg", export_figure(&fitted))?;
     let name = arguments.input.name();
     let place = output.publish(&fitted.numbers(&name, &snippets))?;
     if arguments.output.quiet {

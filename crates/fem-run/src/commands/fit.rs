@@ -8,12 +8,13 @@ use fem::measured::{Restitutions, Table};
 use fem_case::Case;
 use fem_fit::{Free, Problem};
 use fem_laws::LawFamily;
+use fem_report::law_figures::{fit_figure, histories_figure};
 use serde_json::Value;
 
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;
-use crate::fit::{fit_picture, fit_text, histories_picture, ranking_csv, ranking_text};
+use crate::fit::{fit_text, ranking_csv, ranking_text};
 use crate::jobs::value_of;
 use crate::law_arguments::{
     End, LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
@@ -163,9 +164,9 @@ fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Fa
     if let Some(ranking) = ranking {
         output.write("ranking.csv", ranking_csv(ranking))?;
     }
-    output.write("fit.svg", fit_picture(fitted, ranking.as_ref()))?;
+    output.write("fit.svg", fit_figure(fitted, ranking.as_ref()))?;
     let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
-    let histories = histories_picture(case.scene(), law.model(), &fitted.fit.values, speed)?;
+    let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
     output.write("histories.svg", histories)?;
     let place = output.publish(&fitted.numbers(&arguments.input.name()))?;
     standard_output::warn(fitted.warnings());

@@ -2,9 +2,13 @@
 
 use std::path::PathBuf;
 
+use fem_report::report::{
+    Quantity, StoredResult, contour_of_result, energy_chart, history_chart, pressure_chart,
+};
+use fem_report::section_view::mirrored;
+
 use crate::failure::Failure;
 use crate::own_file::OwnFile;
-use crate::page::{Plotted, Record, contour, energies, over_time, pressures, whole};
 use crate::standard_output;
 
 /// By what a picture is known.
@@ -53,7 +57,7 @@ pub enum Figure {
 
 /// Writes a picture and says where it is.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let (records, figure) = (Record::read_all(&arguments.folders)?, arguments.what);
+    let (records, figure) = (StoredResult::read_all(&arguments.folders)?, arguments.what);
     let of_one = |name: &str| match records.as_slice() {
         [record] => Ok(record),
         _ => Err(Failure::bad_input(format!("--what {name}: this figure is of one result"))
@@ -61,15 +65,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let chart = match figure {
         Figure::Contours => None,
-        Figure::Force => over_time(&records, Plotted::Force),
-        Figure::Approach => over_time(&records, Plotted::Approach),
-        Figure::Radius => over_time(&records, Plotted::Radius),
-        Figure::Pressure => over_time(&records, Plotted::Pressure),
-        Figure::Energy => energies(of_one("energy")?),
-        Figure::Profile => pressures(&records),
+        Figure::Force => history_chart(&records, Quantity::Force),
+        Figure::Approach => history_chart(&records, Quantity::Approach),
+        Figure::Radius => history_chart(&records, Quantity::Radius),
+        Figure::Pressure => history_chart(&records, Quantity::Pressure),
+        Figure::Energy => energy_chart(of_one("energy")?),
+        Figure::Profile => pressure_chart(&records),
     };
     let svg = match figure {
-        Figure::Contours => contour(of_one("contours")?, MOST_PANELS).map(|c| whole(c).svg()),
+        Figure::Contours => contour_of_result(of_one("contours")?, MOST_PANELS).map(|c| mirrored(c).svg()),
         _ => chart.and_then(|chart| fem_figure::panel(&chart)),
     };
     let Some(svg) = svg else {

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use fem_report::report::{REPORT_FILE, StoredResult, comparison_page, report_page};
+
 use crate::failure::Failure;
 use crate::own_file::OwnFile;
-use crate::page::{REPORT_FILE, Record, comparison, page};
 use crate::standard_output;
 
 /// By what a page is known.
@@ -37,10 +38,10 @@ pub struct Arguments {
 
 /// Writes a page and says where it is.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let records = Record::read_all(&arguments.folders)?;
+    let records = StoredResult::read_all(&arguments.folders)?;
     let (text, usual) = match (records.as_slice(), arguments.folders.as_slice()) {
-        ([record], [folder]) => (page(record)?, folder.join(REPORT_FILE)),
-        _ => (comparison(&records)?, PathBuf::from("comparison.html")),
+        ([record], [folder]) => (report_page(record)?, folder.join(REPORT_FILE)),
+        _ => (comparison_page(&records)?, PathBuf::from("comparison.html")),
     };
     let path = arguments.out.clone().unwrap_or(usual);
     match PAGE.write(&path, &text)? {

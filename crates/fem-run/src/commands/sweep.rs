@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use fem::sweep::{Checked, KeyNumbers, Member, Row, check, check_some, load};
 use fem_case::{CaseFile, Sweep};
+use fem_report::sweep::FigureChoice;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::case_arguments::{parse_count, stem_of};
@@ -13,7 +14,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output;
 use crate::sweep::{
-    Batch, Checking, Choice, Collected, Collector, Expected, Job, Mark, Shard, SlurmOptions,
+    Batch, Checking, Collected, Collector, Expected, Job, Mark, Shard, SlurmOptions,
     SweepFolder, Whose, announce, conclude, report, run_members, status, warnings,
 };
 
@@ -117,7 +118,7 @@ impl Work<'_> {
         let is_done = |member: &Member| folder.has(&member.identity(), sweep.keep);
         let checked = pool.install(|| check(*sweep, |index| shard.has(index), is_done, see))?;
         let Checked { members, left, .. } = &checked;
-        let choice = Choice::of(sweep, &numbers)?;
+        let choice = FigureChoice::of(sweep, &numbers)?;
         let n_own = shard.places(members.len()).len();
         if arguments.dry_run {
             self.announce(&checked, n_own);

@@ -2,6 +2,7 @@
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::laws::LawRanking;
+use fem_report::law_figures::evidence;
 
 use crate::standard_output::one_line;
 use crate::tables::table;
@@ -41,11 +42,6 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
         text += &format!("not ranked: {law}: {}\n", one_line(why));
     }
     text + "\n"
-}
-
-/// A share of the evidence.
-pub fn evidence(weight: f64) -> String {
-    format!("{:.1} %", 100.0 * weight)
 }
 
 /// `ranking.csv`.

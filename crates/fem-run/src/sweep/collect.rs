@@ -8,12 +8,10 @@ use std::io;
 use fem::WarningKinds;
 use fem::sweep::{Columns, KeyNumbers, Member, NumberColumn, Row, SWEEP_FILE, sweep_csv};
 use fem_case::Sweep;
+use fem_report::sweep::{FigureChoice, FigurePoint, sweep_figure};
 use serde_json::Value;
 
 use super::folder::{PICTURE_FILE, SweepFolder};
-use super::picture::picture;
-use super::picture_data::Choice;
-use super::picture_points::PicturePoint;
 use crate::failure::Failure;
 use crate::standard_output::one_line;
 
@@ -44,7 +42,7 @@ struct Look {
     collected: Collected,
     is_there: Vec<bool>,
     columns: Columns,
-    points: Vec<PicturePoint>,
+    points: Vec<FigurePoint>,
     /// Of all members, whose ever they are.
     n_failed: usize,
 }
@@ -60,7 +58,7 @@ pub struct Collector<'a> {
     /// The values of its keys.
     pub numbers: &'a KeyNumbers,
     /// What is drawn.
-    pub choice: &'a Choice,
+    pub choice: &'a FigureChoice,
 }
 
 impl Collector<'_> {
@@ -98,7 +96,7 @@ impl Collector<'_> {
             look.is_there[member.index] = true;
             look.columns.see(&row.summary);
             look.n_failed += usize::from(!row.is_complete());
-            look.points.extend(PicturePoint::of(&row, self.choice, self.members.len()));
+            look.points.extend(FigurePoint::of(&row, self.choice, self.members.len()));
             look.collected.take(row, self.sweep, is_own(member.index));
         }
         look
@@ -122,7 +120,7 @@ impl Collector<'_> {
                 sweep_csv(file, keys, &look.columns.names(), rows).map_err(io::Error::from)
             })
             .map_err(|error| fault(SWEEP_FILE, &error))?;
-        match picture(self.sweep, &look.points, self.choice, look.n_failed) {
+        match sweep_figure(self.sweep, &look.points, self.choice, look.n_failed) {
             Some(svg) => folder
                 .write(PICTURE_FILE, |file| file.write_all(svg.as_bytes()))
                 .map_err(|error| fault(PICTURE_FILE, &error))?,

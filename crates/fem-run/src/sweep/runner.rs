@@ -8,6 +8,7 @@ use fem::sweep::{Member, Observer, Ran, Runner};
 use fem::{CaseError, Shared};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
+use fem_report::number_text::elapsed;
 use rayon::ThreadPool;
 
 use super::board::{Board, MemberWatch};
@@ -18,7 +19,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::result_files::{longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::stopwatch::{Stopwatch, Timed, spent};
+use crate::stopwatch::{Stopwatch, Timed};
 
 /// What members are run with.
 pub struct Job<'a> {
@@ -155,6 +156,6 @@ fn in_a_few_words(summary: &Summary) -> String {
         "restitution {}, contact time {}, {}",
         summary.collision.restitution.map_or("-".into(), |value| format!("{value:.5}")),
         quantity(summary.collision.contact_time_s, "s"),
-        spent(summary.cost.solve_s)
+        elapsed(summary.cost.solve_s)
     )
 }

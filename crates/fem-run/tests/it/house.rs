@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Every crate, what it is (the `description` of its manifest), and the crates that it stands on.
 /// A crate comes after those that it stands on.
-const HOUSE: [(&str, &str, &[&str]); 18] = [
+const HOUSE: [(&str, &str, &[&str]); 19] = [
     (
         "fem-material",
         "Isotropic viscoelastic materials: elastic moduli, Prony relaxation, hyperelastic laws",
@@ -79,6 +79,11 @@ const HOUSE: [(&str, &str, &[&str]); 18] = [
         ],
     ),
     (
+        "fem-report",
+        "Reports and figures of results: the report page, charts of sweeps and fits, stress in section",
+        &["fem", "fem-case", "fem-collision", "fem-figure", "fem-fit", "fem-laws", "fem-vtk"],
+    ),
+    (
         "fem-validate",
         "Claims about collisions, each held against an independent reference",
         &[
@@ -97,7 +102,7 @@ const HOUSE: [(&str, &str, &[&str]); 18] = [
     (
         "fem-page",
         "A page that computes collisions in the browser: the front door in WebAssembly",
-        &["fem", "fem-case", "fem-figure"],
+        &["fem", "fem-case", "fem-figure", "fem-report"],
     ),
     (
         COMMAND,
@@ -110,6 +115,7 @@ const HOUSE: [(&str, &str, &[&str]); 18] = [
             "fem-fit",
             "fem-laws",
             "fem-mesh",
+            "fem-report",
             "fem-validate",
             "fem-vtk",
         ],

@@ -28,7 +28,7 @@ fn a_kink_of_the_contact_radius_is_explained() {
         let relaxation =
             format!("material.glass.relaxation={{ acts_on = \"all\", terms = {terms} }}");
         place.succeed(&[&TING[..], &["--set", &relaxation, "--out", seconds]].concat());
-        text(&place, &format!("{seconds}/report.html")).contains("has a kink at its largest")
+        text(&place, &format!("{seconds}/report.html")).contains("has a kink at its maximum")
     };
     assert!(of("2e-6") && !of("1.0"));
 }
@@ -51,7 +51,7 @@ fn a_run_with_fields_has_all_of_it_on_a_page() {
         "Hertz under the same force",
         "mid-compression, ",
         "last contact, ",
-        "A material that relaxes while it is squeezed",
+        "The material relaxes while it is compressed",
         "body.0.approach_speed",
         "How to cite",
     ] {
@@ -292,7 +292,7 @@ fn a_contact_without_an_end_does_not_squeeze_the_others() {
     let page = text(&place, "stays/report.html");
     let value = page.split("<small>restitution</small><b>").nth(1).unwrap();
     assert!(value.starts_with("0.000 ± 0.0"), "{}", &value[..40]);
-    assert!(page.contains("effects left out 0.0"));
+    assert!(page.contains("neglected effects 0.0"));
 }
 
 /// Eight colours there are not: the eighth curve has other dashes. The numbers of many results have rows.

@@ -1,8 +1,8 @@
-//! The case of a result as text, and where cases differ.
+//! The case of a result as a list of keys, and the keys in which cases differ.
 
 use serde_json::Value;
 
-/// Keys by their dotted paths, with their values.
+/// Returns all keys of a case by their dotted paths, with their values.
 pub fn keys(value: &Value) -> Vec<(String, String)> {
     let mut keys = Vec::new();
     flatten("", value, &mut keys);
@@ -23,7 +23,7 @@ fn flatten(path: &str, value: &Value, keys: &mut Vec<(String, String)>) {
     }
 }
 
-/// Keys whose values are not the same in all cases, and the values; blank where there is no such key.
+/// Returns the keys whose values differ between cases, with the values; a case without the key has a blank.
 pub fn differences(cases: &[&Value]) -> Vec<(String, Vec<String>)> {
     let all: Vec<Vec<(String, String)>> = cases.iter().map(|case| keys(case)).collect();
     let mut paths: Vec<&String> = Vec::new();
@@ -48,7 +48,7 @@ pub fn differences(cases: &[&Value]) -> Vec<(String, Vec<String>)> {
     .collect()
 }
 
-/// Six digits of a number that was computed, anything else as it is.
+/// Returns six digits of a computed number, and any other value unchanged.
 fn shortened(value: &str) -> String {
     let digits = value.chars().filter(char::is_ascii_digit).count();
     match value.parse::<f64>() {
@@ -64,7 +64,7 @@ fn shortened(value: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Twenty digits bury what differs, six do not, unless all there is to tell is beyond them.
+    /// Six digits are shown, unless the values differ only beyond them.
     #[test]
     fn computed_numbers_are_short() {
         let of = |size: f64| serde_json::json!({ "size": size });

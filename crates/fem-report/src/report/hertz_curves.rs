@@ -1,12 +1,14 @@
-//! Hertz' collision over time, scaled to what a summary has of it.
+//! Hertz' elastic collision over time, scaled to the closed-form numbers of a summary.
 
 use fem_laws::{HertzImpact, HertzPressure, ImpactInstant, Pair, Partner};
 
-use super::record::Record;
+use super::stored_result::StoredResult;
 
-/// Hertz' collision of a result. That of any pair has the same shape over its own contact time and
-/// approach, so the one drawn is of bodies of unit size, scaled.
-pub struct Hertz {
+/// Hertz' collision of a result's bodies.
+///
+/// All pairs share one curve if time is divided by the contact time and approach by its maximum, so the
+/// collision of bodies of unit size is computed and scaled.
+pub struct HertzCurves {
     shape: HertzImpact,
     contact_time: f64,
     peak_force: f64,
@@ -14,21 +16,21 @@ pub struct Hertz {
     peak: HertzPressure,
 }
 
-/// An instant, SI.
+/// An instant of Hertz' collision, SI.
 pub struct HertzInstant {
-    /// Since first touch.
+    /// Time since first touch.
     pub time: f64,
     pub approach: f64,
     pub force: f64,
     pub contact_radius: f64,
-    /// What Hertz' spring holds.
+    /// Elastic energy.
     pub energy: f64,
 }
 
-impl Hertz {
-    /// Of a summary that has all of it.
-    pub fn of(record: &Record) -> Option<Self> {
-        let number = |key: &str| record.number(&["hertz", key]).filter(|number| *number > 0.0);
+impl HertzCurves {
+    /// Reads the closed-form numbers of a result; `None` if one is missing.
+    pub fn of(result: &StoredResult) -> Option<Self> {
+        let number = |key: &str| result.number(&["hertz", key]).filter(|number| *number > 0.0);
         let ball = Partner::Sphere { radius: 1.0, mass: 1.0, plane_strain_modulus: 1.0 };
         let shape = HertzImpact::new(&Pair::new(ball, Partner::Wall).ok()?, 1.0).ok()?;
         Some(Self {
@@ -43,11 +45,11 @@ impl Hertz {
         })
     }
 
-    /// From first touch to separation.
+    /// Returns the instants from first touch to separation.
     pub fn history(&self) -> Vec<HertzInstant> {
         let shape = &self.shape;
         let initial = 0.5 * shape.pair().effective_mass() * shape.approach_speed().powi(2);
-        // All of it is in the spring at the largest approach: ∫F dδ of F ∝ δ^(3/2).
+        // At the largest approach all energy is elastic: ∫F dδ with F ∝ δ^(3/2).
         let whole = 0.4 * self.peak_force * self.max_approach;
         let at = |instant: &ImpactInstant| HertzInstant {
             time: instant.time / shape.contact_time() * self.contact_time,
@@ -59,17 +61,17 @@ impl Hertz {
         shape.impact().history.iter().map(at).collect()
     }
 
-    /// The pressure at an approach, m.
+    /// Returns the pressure distribution at an approach, m.
     pub fn pressure(&self, approach: f64) -> HertzPressure {
         self.scaled(approach / self.max_approach * self.shape.max_approach())
     }
 
-    /// The pressure under a force, N: Hertz' approach is as F^(2/3).
+    /// Returns the pressure distribution under a force, N; the approach grows with F^(2/3).
     pub fn pressure_under(&self, force: f64) -> HertzPressure {
         self.pressure((force / self.peak_force).max(0.0).cbrt().powi(2) * self.max_approach)
     }
 
-    /// Of an approach of the unit bodies.
+    /// Scales the pressure at an approach of the unit bodies.
     fn scaled(&self, approach: f64) -> HertzPressure {
         let (own, most) =
             (self.shape.pressure(approach), self.shape.pressure(self.shape.max_approach()));

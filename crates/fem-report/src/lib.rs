@@ -1,0 +1,23 @@
+//! Everything that is drawn or laid out from results.
+//!
+//! ```text
+//! result folder ── report ─────────┐
+//! collision ────── section_view ───┼─ fem-figure ─ SVG, in HTML pages or alone
+//! sweep's members ─ sweep ─────────┤
+//! fits, exports ── law_figures ────┘
+//! ```
+//!
+//! [`report`] makes the report page of one run and the comparison of several, [`sweep`] the figure of a sweep,
+//! [`law_figures`] those of fits, calibrations and exports. [`section_view`] draws the axial stress in both
+//! bodies, for the report page, for a failed run and for the page in the browser. Nothing is computed
+//! here but Hertz' curves.
+
+pub mod law_figures;
+pub mod number_text;
+pub mod quantity_axis;
+#[cfg(feature = "files")]
+pub mod report;
+pub mod section_view;
+pub mod sweep;
+
+pub use quantity_axis::{QuantityAxis, chart_axes};
