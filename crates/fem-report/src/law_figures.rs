@@ -8,7 +8,7 @@ use fem_figure::{Axis, COLOURS, Chart, Curve, GREY, Mark};
 use fem_fit::cradle::{Swing, Trial};
 use fem_fit::{Fit, FitError, Model};
 use fem_laws::laws::hertz;
-use fem_laws::{LawFamily, Impact, LawError, LawImpact, ParameterRole};
+use fem_laws::{Impact, LawError, LawFamily, LawImpact, ParameterRole};
 
 use crate::quantity_axis::{QuantityAxis, chart_axes};
 

@@ -162,10 +162,8 @@ pub fn contour(
         section.values.iter_mut().for_each(|value| *value = stress.scaled(*value));
         section
     };
-    let panel = |(title, both): (String, [Section; 2])| Panel {
-        title,
-        sections: both.map(drawn).into(),
-    };
+    let panel =
+        |(title, both): (String, [Section; 2])| Panel { title, sections: both.map(drawn).into() };
     Contour {
         quantity: format!("σ_yy [{}]", stress.symbol()),
         x_label: format!("r [{}]", length.symbol()),

@@ -10,8 +10,8 @@ use serde::Deserialize;
 use fem::results::{PROGRAM, SUMMARY_FILE};
 
 use crate::hidden_folder::LOCK_FILE;
-use fem_report::report::REPORT_FILE;
 use crate::restart::{RESTART_FILE, head_of};
+use fem_report::report::REPORT_FILE;
 
 /// Files by which a result folder is known: of a run, and of the commands with one of their own.
 const MARK_FILES: [&str; 6] =

@@ -166,8 +166,11 @@ fn difference_text(own: (f64, Parts), from: (f64, Parts), headline: Headline) ->
         _ => format!("{:+.2} %", 100.0 * difference / from.0),
     };
     let bars = own.1.sum().zip(from.1.sum()).map(|(a, b)| a + b);
-    let within =
-        if bars.is_some_and(|bars| difference.abs() < bars) { ", within the error bars" } else { "" };
+    let within = if bars.is_some_and(|bars| difference.abs() < bars) {
+        ", within the error bars"
+    } else {
+        ""
+    };
     format!("{size}{within}").replace('-', "\u{2212}")
 }
 

@@ -48,7 +48,8 @@ pub fn effects(result: &StoredResult) -> [Vec<EffectEntry>; 3] {
     let effect = |value: &Value| {
         let text = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default();
         let name = text("name").to_string();
-        let explanation = EXPLANATIONS.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text);
+        let explanation =
+            EXPLANATIONS.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text);
         let is_on = value.get("active").and_then(Value::as_bool).unwrap_or(false);
         let neglect_error = value.get("error_if_left_out").map(neglect_error).unwrap_or_default();
         EffectEntry { name, is_on, explanation, reason: text("reason").to_string(), neglect_error }

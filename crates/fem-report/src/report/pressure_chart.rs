@@ -25,7 +25,8 @@ pub fn pressure_chart(results: &[StoredResult]) -> Option<Chart> {
         return None;
     }
     let x = QuantityAxis::linear("distance from the axis r", "m", reach);
-    let y = QuantityAxis::linear("Contact pressure p", "Pa", peak).from_to(0.0, MOST_OVER_DATA * peak);
+    let y =
+        QuantityAxis::linear("Contact pressure p", "Pa", peak).from_to(0.0, MOST_OVER_DATA * peak);
     let mut chart = chart_axes(&x, &y);
     let mut curves = Vec::new();
     for (k, result) in results.iter().enumerate() {

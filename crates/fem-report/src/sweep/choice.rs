@@ -60,7 +60,8 @@ impl FigureChoice {
             Some(key) => {
                 let key = find("plot.x", key)?;
                 horizontal(key).ok_or_else(|| {
-                    let error = sweep.error_at("plot.x", format!("the values of {} are not numbers", keys[key]));
+                    let error = sweep
+                        .error_at("plot.x", format!("the values of {} are not numbers", keys[key]));
                     error.with_help("name a varied key whose values are numbers")
                 })?
             }
@@ -76,7 +77,9 @@ impl FigureChoice {
         let named = sweep.plot.series.as_ref().map(|key| find("plot.series", key)).transpose()?;
         if named == Some(x.key) {
             let error = sweep.error_at("plot.series", "x and series name the same key");
-            return Err(error.with_help("leave series out, or name a key that distinguishes curves"));
+            return Err(
+                error.with_help("leave series out, or name a key that distinguishes curves")
+            );
         }
         let series = match (named, sweep.combine) {
             (Some(key), _) => vec![places[key].0],

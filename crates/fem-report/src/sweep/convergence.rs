@@ -63,7 +63,8 @@ impl ConvergingCurve {
     /// Extrapolates a curve; `None` if it has fewer than three levels, or two of the same size.
     pub fn of(resolution: ResolutionKey, column: &str, curve: &SweepCurve) -> Option<Self> {
         let usable = curve.points.iter().filter(|(x, y, _)| *x > 0.0 && y.is_finite());
-        let levels: Vec<(f64, f64)> = usable.map(|(x, y, _)| (resolution.of_value(*x), *y)).collect();
+        let levels: Vec<(f64, f64)> =
+            usable.map(|(x, y, _)| (resolution.of_value(*x), *y)).collect();
         let mut sizes: Vec<f64> = levels.iter().map(|(h, _)| *h).collect();
         sizes.sort_by(f64::total_cmp);
         sizes.dedup();
@@ -207,7 +208,8 @@ mod tests {
         let scattered = |h: f64| 6e-5 * (1.0 + 1e-2 * (h * 1e6).sin());
         assert_eq!(order(size, &sizes, scattered), None);
         let all = curve(&sizes, noise);
-        let converging = ConvergingCurve::of(ResolutionKey::of(size).unwrap(), "contact_time_s", &all);
+        let converging =
+            ConvergingCurve::of(ResolutionKey::of(size).unwrap(), "contact_time_s", &all);
         assert_eq!(title("T", &[converging]), "T: all within 1e-6");
         // Two levels are too few, and equal sizes vary something else.
         assert_eq!(order(size, &sizes[..2], |h| h), None);

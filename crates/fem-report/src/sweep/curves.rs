@@ -22,7 +22,12 @@ pub struct SweepCurve {
 }
 
 /// Returns the curves of the k-th panel, in the order of the sweep.
-pub fn curves(sweep: &Sweep, points: &[FigurePoint], choice: &FigureChoice, panel: usize) -> Vec<SweepCurve> {
+pub fn curves(
+    sweep: &Sweep,
+    points: &[FigurePoint],
+    choice: &FigureChoice,
+    panel: usize,
+) -> Vec<SweepCurve> {
     let mut places: HashMap<Vec<usize>, usize> = HashMap::new();
     let mut curves: Vec<SweepCurve> = Vec::new();
     for point in points {

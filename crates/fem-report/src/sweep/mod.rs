@@ -117,10 +117,8 @@ fn value_chart(
         if is_drawn { *error } else { 0.0 }
     };
     let bars = own().map(|point| (point.1, bar(point)));
-    let shown = shown_range(
-        with_bars(own().map(|point| point.1), bars),
-        reference().map(|point| point.1),
-    );
+    let shown =
+        shown_range(with_bars(own().map(|point| point.1), bars), reference().map(|point| point.1));
     let errors = |curve: &SweepCurve| curve.points.iter().map(|at| y.scaled(bar(at))).collect();
     let errors: Vec<Vec<f64>> = curves.iter().map(errors).collect();
     let y = match shown.filter(|_| !y.is_logarithmic()) {
@@ -283,10 +281,9 @@ mod tests {
 
     #[test]
     fn axes_show_the_data_and_no_noise() {
-        let shown =
-            |own: &[f64], hertz: &[f64]| {
-                shown_range(own.iter().copied(), hertz.iter().copied()).unwrap()
-            };
+        let shown = |own: &[f64], hertz: &[f64]| {
+            shown_range(own.iter().copied(), hertz.iter().copied()).unwrap()
+        };
         // Hertz is far away: the data fill the axis.
         let (from, to) = shown(&[0.921, 0.929], &[1.0]);
         assert!(from > 0.92 && to < 0.93, "{from} {to}");

@@ -11,7 +11,7 @@ use fem_case::schema::ActsOn;
 use fem_report::law_figures::calibration_figure;
 use serde_json::Value;
 
-use crate::calibrate::{calibration_text};
+use crate::calibrate::calibration_text;
 use crate::case_arguments::{CaseArguments, stem_of};
 use crate::data_file::ColumnArguments;
 use crate::failure::Failure;

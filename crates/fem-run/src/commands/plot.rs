@@ -73,7 +73,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Figure::Profile => pressure_chart(&records),
     };
     let svg = match figure {
-        Figure::Contours => contour_of_result(of_one("contours")?, MOST_PANELS).map(|c| mirrored(c).svg()),
+        Figure::Contours => {
+            contour_of_result(of_one("contours")?, MOST_PANELS).map(|c| mirrored(c).svg())
+        }
         _ => chart.and_then(|chart| fem_figure::panel(&chart)),
     };
     let Some(svg) = svg else {

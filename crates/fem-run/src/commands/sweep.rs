@@ -14,8 +14,8 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::standard_output;
 use crate::sweep::{
-    Batch, Checking, Collected, Collector, Expected, Job, Mark, Shard, SlurmOptions,
-    SweepFolder, Whose, announce, conclude, report, run_members, status, warnings,
+    Batch, Checking, Collected, Collector, Expected, Job, Mark, Shard, SlurmOptions, SweepFolder,
+    Whose, announce, conclude, report, run_members, status, warnings,
 };
 
 /// Compute many members of a case: lists of values for some of its keys

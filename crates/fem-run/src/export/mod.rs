@@ -3,5 +3,5 @@
 mod curves;
 mod pairs;
 
-pub use curves::{export_text};
+pub use curves::export_text;
 pub use pairs::{pairs_csv, pairs_json, pairs_text};
