@@ -1,8 +1,8 @@
 //! What finite strain changes of collisions, what of it the plan foretells, and how its numbers converge with
-//! the mesh. Writes the tables of docs/finite-strain.md, and prints the numbers that the plan foretells from,
+//! the mesh. Writes the tables of validation/finite_strain_tables.md, and prints the numbers that the plan foretells from,
 //! `fem/src/effects/finite_strain/measured.rs`.
 //!
-//! `cargo run --release -p fem-run --example finite_strain -- docs/finite-strain.md`
+//! `cargo run --release -p fem-run --example finite_strain -- validation/finite_strain_tables.md`
 //!
 //! A second word, `spheres`, `pairs` or `meshes`, writes that table alone. Widths and heights of pulses are those
 //! of [`fem_validate::Pulse`].

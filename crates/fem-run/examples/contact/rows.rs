@@ -4,7 +4,7 @@ use fem::{Case, Collision, Simulation, Want};
 use std::path::Path;
 
 /// A scene, and where its restitution, contact time (s) and peak force (N) go as elements get small:
-/// docs/theory.md.
+/// docs/accuracy.md.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
     /// What is said of it.

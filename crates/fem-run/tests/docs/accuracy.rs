@@ -1,4 +1,4 @@
-//! The table of what accuracy costs in docs/theory.md, times aside.
+//! The table of what accuracy costs in docs/accuracy.md, times aside.
 
 use crate::common::Place;
 use crate::pages::{Page, root};
@@ -13,7 +13,7 @@ const COLUMNS: [(&str, &str, f64); 4] = [
 
 #[test]
 fn what_accuracy_costs_is_what_is_computed() {
-    let (page, place) = (Page::load("docs/theory.md"), Place::new());
+    let (page, place) = (Page::load("docs/accuracy.md"), Place::new());
     let rows =
         page.text.lines().skip_while(|line| !line.starts_with("| elements at the contact |"));
     let rows = rows.skip(2).take_while(|line| line.starts_with('|') && !line.contains("limit"));

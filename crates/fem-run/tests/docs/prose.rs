@@ -76,7 +76,7 @@ const HARD: &str =
 const SAID: [Said; 13] = [
     Said {
         page: "README.md",
-        words: "some 7 % of the velocity is lost",
+        words: "about 7 % of the relative velocity is lost",
         cases: &[GLASS],
         what: lost_speed,
         from_to: (0.065, 0.075),
@@ -97,14 +97,14 @@ const SAID: [Said; 13] = [
     },
     Said {
         page: "docs/gallery.md",
-        words: "Seven per cent of the velocity are lost",
+        words: "7 % of the velocity is lost",
         cases: &[GLASS],
         what: lost_speed,
         from_to: (0.065, 0.075),
     },
     Said {
         page: "docs/gallery.md",
-        words: "one per cent of the energy",
+        words: "they take 1 % of the energy",
         cases: &[BLOCK],
         what: lost_energy,
         from_to: (0.005, 0.015),
@@ -118,7 +118,7 @@ const SAID: [Said; 13] = [
     },
     Said {
         page: "docs/gallery.md",
-        words: "Small strain is off by one to three per cent",
+        words: "Small strain has an error of 1 to 3 %",
         cases: &[
             "cases/soft_sphere.toml",
             "cases/soft_sphere.toml --set effects.finite_strain=off --out small",
@@ -135,7 +135,7 @@ const SAID: [Said; 13] = [
     },
     Said {
         page: "docs/why-balls-bounce.md",
-        words: "a marble is in contact for some 30 µs",
+        words: "a marble is in contact for about 30 µs",
         cases: &[MARBLE],
         what: |of| number(&of[0], "contact_time_s"),
         from_to: (25e-6, 35e-6),
@@ -149,22 +149,22 @@ const SAID: [Said; 13] = [
     },
     Said {
         page: "docs/why-balls-bounce.md",
-        words: "The first loses three tenths of the speed",
+        words: "The first ball loses three tenths of the speed",
         cases: &[DULL],
         what: lost_speed,
         from_to: (0.25, 0.35),
     },
     Said {
         page: "docs/why-balls-bounce.md",
-        words: "a million times slower, nothing that shows",
+        words: "a million times more slowly, and its loss is not visible",
         cases: &[SLOW],
         what: lost_speed,
         from_to: (0.0, 1e-5),
     },
     Said {
         page: "docs/why-balls-bounce.md",
-        words: "steel does so from a millimetre a second on, one of hardened steel, of nine times the \
-                strength, from some decimetres",
+        words: "structural steel yields from a millimetre per second, one of hardened steel with nine \
+                times the strength from a few decimetres per second",
         cases: &[STEEL, HARD],
         what: |of| {
             // From the one the other follows by the power 5/2 of the strength.

@@ -16,7 +16,7 @@
 //! large partner goes as the contact time to the power of −2, and adds 2 (1 − e) ΔT/T.
 //!
 //! Held against runs at a/R* from 0.1 to 0.7 and ν of 0.2 and 0.45, of like, softer, stiffer and steel balls
-//! on a half-space, unlike ones of a size, and like ones of sizes 1:3 (`docs/finite-strain.md`): where it matters
+//! on a half-space, unlike ones of a size, and like ones of sizes 1:3 (`validation/finite_strain_tables.md`): where it matters
 //! never less than a third of what is found, and at most three times as much but of half-spaces at ν = 0.2 or
 //! pressed by a harder ball, and where a change has turned its sign.
 
