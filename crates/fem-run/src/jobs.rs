@@ -1,8 +1,7 @@
-//! What commands compute, without their files and what they print: for front doors that are not a shell, such as
-//! Python's.
+//! Jobs of the command without files and printed text, for front ends other than a shell, such as Python.
 //!
-//! The words are the options of the command, so that both have the same ones, the same checks and the same
-//! messages. Case and data are given as they are in memory; in messages and results they have their names.
+//! A job takes the options of its command, so both share names, checks and messages. Case and data are
+//! passed in memory; messages and results call them by their names.
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser};
 use fem::measured::Table;
@@ -13,14 +12,14 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::commands;
-use crate::failure::Failure;
+use crate::text::failure::Failure;
 
-/// What a job is given in place of files.
+/// The input of a job.
 #[derive(Clone, Debug, Default)]
 pub struct Given {
     /// The case.
     pub case: Option<Case>,
-    /// What messages call it.
+    /// The name of the case in messages.
     pub name: String,
     /// Measured data.
     pub table: Option<Table>,
@@ -33,7 +32,7 @@ struct Line<A: Args> {
     arguments: A,
 }
 
-/// The arguments that these options of a job are, behind those that `before` names.
+/// Parses the options of a job after the words `before`.
 fn parsed<A: Args>(job: &'static str, before: &[&str], options: &[String]) -> Result<A, Failure> {
     let words = before.iter().map(ToString::to_string).chain(options.iter().cloned());
     let words = std::iter::once(job.to_string()).chain(words);
@@ -47,7 +46,7 @@ fn parsed<A: Args>(job: &'static str, before: &[&str], options: &[String]) -> Re
     })
 }
 
-/// Numbers as JSON.
+/// Returns numbers as JSON.
 pub(crate) fn value_of(numbers: &impl Serialize) -> Result<Value, Failure> {
     serde_json::to_value(numbers).map_err(|error| Failure::failed(error.to_string()))
 }
@@ -61,75 +60,75 @@ impl Given {
         self.table.as_ref().ok_or_else(|| Failure::bad_input("data are missing"))
     }
 
-    /// The name of the data as an option.
+    /// Returns the name of the data as an option.
     fn data(&self) -> Vec<&str> {
         self.table.as_ref().map_or(Vec::new(), |table| vec!["--data", table.name()])
     }
 }
 
-/// `fem-run fit`.
+/// Runs `fem-run fit`.
 ///
 /// # Errors
-/// Options, data or a case that the command refuses, in its words.
+/// Options, data or a case that the command rejects, with its messages.
 pub fn fit(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let before = [&[given.name.as_str()][..], &given.data()].concat();
-    commands::fit::numbers(&parsed("fit", &before, options)?, given.case()?, given.table()?)
+    commands::laws::fit::numbers(&parsed("fit", &before, options)?, given.case()?, given.table()?)
 }
 
-/// `fem-run invert`.
+/// Runs `fem-run invert`.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn invert(given: &Given, options: &[String]) -> Result<Value, Failure> {
-    commands::invert::numbers(&parsed("invert", &[&given.name], options)?, given.case()?)
+    commands::laws::invert::numbers(&parsed("invert", &[&given.name], options)?, given.case()?)
 }
 
-/// `fem-run export`; `texts` has the snippets.
+/// Runs `fem-run export`; `texts` contains the snippets.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn export(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let before = [&[given.name.as_str()][..], &given.data()].concat();
     let arguments = parsed("export", &before, options)?;
-    commands::export::numbers(&arguments, given.case()?, given.table.as_ref())
+    commands::laws::export::numbers(&arguments, given.case()?, given.table.as_ref())
 }
 
-/// `fem-run calibrate`; `relaxation_toml` is the table to paste into a case.
+/// Runs `fem-run calibrate`; `relaxation_toml` is the table to paste into a case.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn calibrate(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let before = [&[given.name.as_str()][..], &given.data()].concat();
     let arguments = parsed("calibrate", &before, options)?;
-    commands::calibrate::numbers(&arguments, given.case()?, given.table()?)
+    commands::laws::calibrate::numbers(&arguments, given.case()?, given.table()?)
 }
 
-/// `fem-run cradle`: an object a trial, a list of them where there is a table.
+/// Runs `fem-run cradle` and returns one object per trial, in a list if there is a table.
 ///
 /// # Errors
 /// As [`fit`].
 pub fn cradle(given: &Given, options: &[String]) -> Result<Value, Failure> {
     let arguments = parsed("cradle", &given.data(), options)?;
-    commands::cradle::numbers(&arguments, given.table.as_ref())
+    commands::laws::cradle::numbers(&arguments, given.table.as_ref())
 }
 
-/// `fem-run check`: the resolved case, with comments on what to expect of a run.
+/// Runs `fem-run check` and returns the resolved case with comments on the expected run.
 ///
 /// # Errors
-/// What the case's model refuses.
+/// The model rejects the case.
 pub fn check(given: &Given) -> Result<String, Failure> {
     commands::check::text(given.case()?.clone(), &given.name)
 }
 
-/// Why a collision did not come to its end, as `fem-run CASE` says it; none where it did.
+/// Returns why a collision stopped early, as `fem-run CASE` reports it; `None` if it is complete.
 pub fn stopped(collision: &Collision, summary: &Summary, kept: &str) -> Option<Failure> {
     collision.stop().map(|stop| commands::run::stopped(stop, summary, kept))
 }
 
-/// `fem-run materials NAME`.
+/// Runs `fem-run materials NAME`.
 ///
 /// # Errors
-/// No such material.
+/// There is no such material.
 pub fn material(name: &str) -> Result<String, Failure> {
     commands::materials::one(name)
 }

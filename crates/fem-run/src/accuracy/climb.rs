@@ -1,14 +1,13 @@
 //! Computes the rungs of a ladder and times them.
 
-use std::io::{IsTerminal, Write, stderr};
 use std::time::{Duration, Instant};
 
 use fem::accuracy::{Ladder, Measurement, Rung};
 use fem::{CaseError, Monitor, Progress, Shared};
 use fem_case::engineering::show;
-use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::interrupt::Interrupt;
+use crate::progress::ItemProgress;
+use crate::progress::interrupt::Interrupt;
 
 /// What takes less is timed three times, and the median taken.
 const TIMED_THRICE: Duration = Duration::from_millis(500);
@@ -39,7 +38,7 @@ pub fn climb(
     interrupt: &Interrupt,
     quiet: bool,
 ) -> Result<Climb, CaseError> {
-    let board = Board::new(ladder.rungs.len(), quiet);
+    let progress = ItemProgress::new(interrupt.clone(), "variants", ladder.rungs.len(), quiet);
     let started = Instant::now();
     let mut measured = vec![None; ladder.rungs.len()];
     let mut forecast = Forecast { update: UPDATE, condensed: 0.0 };
@@ -49,20 +48,20 @@ pub fn climb(
         let left = budget - started.elapsed().as_secs_f64();
         if interrupt.is_requested() || forecast.seconds(rung) > left {
             left_out += 1;
-            board.pass(rung, None);
+            progress.finish_item(&line(rung, None));
             continue;
         }
         let end = started + Duration::try_from_secs_f64(budget).unwrap_or(Duration::MAX / 4);
         let ran = time(rung, ladder.lengths.contact_radius, Deadline { end, interrupt })?;
         forecast.learn(rung, &ran);
-        board.pass(rung, Some(ran.1));
+        progress.finish_item(&line(rung, Some(ran.1)));
         if Instant::now() < end || ran.0.is_complete {
             measured[index] = Some(ran);
         } else {
             left_out += 1;
         }
     }
-    board.finish();
+    progress.finish();
     Ok(Climb { measured, left_out })
 }
 
@@ -124,41 +123,7 @@ impl Forecast {
     }
 }
 
-/// How far the study is, on stderr: a bar on a terminal, a line a rung elsewhere.
-struct Board {
-    bar: Option<ProgressBar>,
-    is_quiet: bool,
-}
-
-impl Board {
-    fn new(n_rungs: usize, quiet: bool) -> Self {
-        let bar = (!quiet && stderr().is_terminal()).then(|| {
-            let style = ProgressStyle::with_template("{bar:32} {pos} of {len}  {elapsed}  {msg}");
-            let bar = ProgressBar::new(n_rungs as u64);
-            style.map_or(bar.clone(), |style| bar.with_style(style))
-        });
-        Self { bar, is_quiet: quiet }
-    }
-
-    fn pass(&self, rung: &Rung, seconds: Option<f64>) {
-        let took = seconds.map_or("no time left".to_string(), |seconds| show(seconds, "s"));
-        let line = format!("{took:>12}  {}  {}", rung.series.name(), rung.describe());
-        match &self.bar {
-            Some(bar) => {
-                bar.set_message(line);
-                bar.inc(1);
-            }
-            None if self.is_quiet => {}
-            // A closed stderr is no reason to end.
-            None => {
-                let _ = writeln!(stderr(), "{line}");
-            }
-        }
-    }
-
-    fn finish(&self) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
-    }
+fn line(rung: &Rung, seconds: Option<f64>) -> String {
+    let took = seconds.map_or("no time left".to_string(), |seconds| show(seconds, "s"));
+    format!("{took:>12}  {}  {}", rung.series.name(), rung.describe())
 }

@@ -5,8 +5,8 @@ use fem_case::{Accuracy, CaseFile};
 use fem_collision::Headline;
 use serde_json::{Value, json as object};
 
-use crate::failure::Failure;
-use crate::output::Output;
+use crate::result_folder::command_output::CommandOutput;
+use crate::text::failure::Failure;
 
 /// All of it.
 pub struct Findings<'a> {
@@ -59,7 +59,7 @@ impl Findings<'_> {
 ///
 /// # Errors
 /// The file system.
-pub fn write_csv(output: &mut Output, findings: &Findings<'_>) -> Result<(), Failure> {
+pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<(), Failure> {
     let failed =
         |error: csv::Error| Failure::failed(format!("accuracy.csv cannot be written: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());

@@ -9,8 +9,8 @@ use fem_collision::Headline;
 use indicatif::HumanCount;
 
 use super::findings::{Findings, Line};
-use crate::standard_output::one_line;
-use crate::tables::table;
+use crate::text::standard_output::one_line;
+use crate::text::tables::table;
 
 /// Shown for a number that there is not.
 const NONE: &str = "-";

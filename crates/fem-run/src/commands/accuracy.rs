@@ -1,4 +1,4 @@
-//! `fem-run accuracy CASE`: how far each way to compute a case is off, and what it takes.
+//! `fem-run accuracy CASE`: errors and run times of all models and many settings.
 
 use std::io::{Write, stderr};
 
@@ -8,25 +8,25 @@ use fem_case::engineering::show;
 use indicatif::HumanCount;
 
 use crate::accuracy::{Climb, Findings, climb, json, markdown, picture, report, write_csv};
-use crate::case_arguments::{CaseArguments, ToleranceArguments};
-use crate::failure::Failure;
-use crate::interrupt::Interrupt;
-use crate::output::OutputArguments;
-use crate::standard_output::{self, one_line};
+use crate::arguments::case::{CaseArguments, ToleranceArguments};
+use crate::progress::interrupt::Interrupt;
+use crate::result_folder::command_output::OutputArguments;
+use crate::text::failure::Failure;
+use crate::text::standard_output::{self, one_line};
 
-/// What accuracy costs: every model and many settings, their errors and their seconds
+/// Compare models and settings by their errors and run times
 ///
-/// The collision of a case is computed by closed forms, condensed bodies and explicit elements, over
-/// the size of the elements and all that costs time. Prints how far each is from the limit, which are
-/// the fastest at their accuracy, where errors come from, and what to take; writes a table
-/// (accuracy.csv), a page (accuracy.md) and a picture (accuracy.svg).
+/// Computes the collision of a case with closed forms, condensed bodies and explicit elements, over the
+/// element size and other settings that cost time. Prints the error of each against the extrapolated limit,
+/// the fastest at each accuracy, the sources of error, and what to choose. Writes a table (accuracy.csv), a
+/// page (accuracy.md) and a figure (accuracy.svg).
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
     input: CaseArguments,
     #[command(flatten)]
     within: ToleranceArguments,
-    /// Seconds after which nothing more is begun, and what runs is given up
+    /// Time budget in seconds; what is running then is abandoned
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     budget: f64,
     #[command(flatten)]
@@ -38,7 +38,7 @@ fn seconds(text: &str) -> Result<f64, String> {
     seconds.ok_or_else(|| "seconds are a number greater than 0".to_string())
 }
 
-/// Computes the ladder of a case.
+/// Runs the study of a case.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let interrupt = Interrupt::listen();
     let case = arguments.input.load_within(&arguments.within)?;
@@ -82,7 +82,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&format!("{}\nResult: {place}\n", report(&findings)))
 }
 
-/// One line on stderr about what begins.
+/// Prints one line on stderr about the study.
 fn announce(case: &str, ladder: &Ladder, budget: f64) {
     let updates = ladder.rungs.iter().fold(0u64, |sum, rung| sum.saturating_add(rung.price));
     let _ = writeln!(

@@ -11,13 +11,13 @@ use fem_case::engineering::{number, show};
 use fem_collision::Headline;
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::case_arguments::{CaseArguments, ToleranceArguments};
-use crate::failure::Failure;
+use crate::arguments::case::{CaseArguments, ToleranceArguments};
 use crate::forecast::{Forecast, PATIENCE_OF_CHECK};
-use crate::peak_memory::peak_memory_with;
-use crate::report;
-use crate::standard_output;
-use crate::tables::{mesh_table, pairs, table};
+use crate::progress::stopwatch::peak_memory_with;
+use crate::text::failure::Failure;
+use crate::text::run_report;
+use crate::text::standard_output;
+use crate::text::tables::{mesh_table, pairs, table};
 
 /// What companions may take before the mesh counts as open.
 const PATIENCE_WITH_COMPANIONS: Duration = Duration::from_secs(2);
@@ -105,7 +105,7 @@ fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
         models(simulation),
         unforced(simulation),
         effects(simulation),
-        report::warnings(&simulation.warnings_before()),
+        run_report::warnings(&simulation.warnings_before()),
     )
 }
 
@@ -113,7 +113,9 @@ fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
 fn models(simulation: &Simulation) -> String {
     match simulation.considered() {
         [] => String::new(),
-        considered => format!("Models, and what they are off by\n{}\n", report::models(considered)),
+        considered => {
+            format!("Models, and what they are off by\n{}\n", run_report::models(considered))
+        }
     }
 }
 
@@ -123,8 +125,8 @@ fn effects(simulation: &Simulation) -> String {
     let header = ["", "", "restitution", "contact time", "peak force", ""].map(String::from);
     let rows = setup.decisions.verdicts.iter().map(|verdict| {
         let left_out = simulation.left_out(verdict, &setup.estimate).unwrap_or_default();
-        let [restitution, time, force] = report::changes(&left_out);
-        let switch = report::on_or_off(verdict).to_string();
+        let [restitution, time, force] = run_report::changes(&left_out);
+        let switch = run_report::on_or_off(verdict).to_string();
         [switch, verdict.name.to_string(), restitution, time, force, verdict.reason.clone()]
     });
     let alignments = [Left, Left, Right, Right, Right, Left];

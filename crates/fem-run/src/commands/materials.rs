@@ -8,22 +8,21 @@ use fem_case::schema::BodyTable;
 use fem_case::{Case, CaseError};
 use textwrap::{Options, WordSeparator, WordSplitter};
 
-use crate::failure::Failure;
-use crate::standard_output;
-use crate::tables::table;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+use crate::text::tables::table;
 
 /// List the materials that a case can name as "lib:NAME", or print one of them
 ///
-/// One is printed as the table of a case, with its source and the range in which its numbers hold:
-/// to be copied into a case and changed there. A case that writes material = "lib:NAME" needs no
-/// table.
+/// One material is printed as the table of a case, with its source and its range of validity, to be copied
+/// into a case and changed there. A case with material = "lib:NAME" needs no table.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     /// A material of the list
     name: Option<String>,
 }
 
-/// Prints the list or the one.
+/// Prints the list or one material.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     match &arguments.name {
         None => standard_output::print(&list()?),
@@ -31,11 +30,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// A material of the library as a case has it, its source and range as comments; `lib:` before the
-/// name may be left out.
+/// Returns a material of the library as a table of a case, with source and range as comments; `lib:` before
+/// the name is optional.
 ///
 /// # Errors
-/// No such material.
+/// There is no such material.
 pub fn one(name: &str) -> Result<String, Failure> {
     let name = name.strip_prefix("lib:").unwrap_or(name);
     let found = materials().get(name).zip(table_text(name));

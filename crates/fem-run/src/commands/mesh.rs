@@ -6,18 +6,18 @@ use fem::{Plan, build_meshes};
 use fem_mesh::SphereMesh;
 use fem_vtk::{VtuFile, VtuWriter};
 
-use crate::case_arguments::CaseArguments;
-use crate::failure::Failure;
-use crate::standard_output;
-use crate::tables::mesh_table;
+use crate::arguments::case::CaseArguments;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+use crate::text::tables::mesh_table;
 
-/// Field data by which a file that this command wrote is known.
+/// Field data that identifies a file of this command.
 const MARK: &str = "fem-run mesh";
 
 /// Write the mesh of each sphere as BODY.vtu
 ///
-/// The coordinates are (r, y, 0) in metres with the contact pole at the origin. Such a file, from
-/// here or elsewhere, replaces the built-in mesh: sphere = { diameter = …, mesh = "BODY.vtu" }.
+/// The coordinates are (r, y, 0) in metres with the contact pole at the origin. Such a file, from here or
+/// elsewhere, replaces the built-in mesh: sphere = { diameter = …, mesh = "BODY.vtu" }.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -32,7 +32,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Writes meshes and prints their quality.
+/// Writes the meshes and prints their quality.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let case = arguments.input.load()?;
     let meshes = build_meshes(case.scene(), &Plan::of_case(&case)?)
@@ -61,7 +61,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&(table + "\n" + &written.collect::<String>()))
 }
 
-/// Refuses to write over a file that is not this command's.
+/// Refuses to overwrite a file of another program.
 fn check_place(path: &Path) -> Result<(), Failure> {
     let is_free = path.symlink_metadata().is_err();
     if is_free || VtuFile::open(path).is_ok_and(|file| file.field_data(MARK).is_ok()) {

@@ -1,29 +1,25 @@
-//! The jobs of the command line: one variant and one file a job.
+//! The commands: one variant and one file each.
 
 pub mod accuracy;
-pub mod calibrate;
 pub mod check;
-pub mod completions;
-pub mod cradle;
-pub mod export;
-pub mod fit;
-pub mod invert;
-pub mod man;
+pub mod laws;
 pub mod materials;
 pub mod mesh;
 pub mod new;
-pub mod plot;
 pub mod report;
 pub mod run;
 pub mod schema;
+pub mod shell;
 pub mod sweep;
 pub mod validate;
+mod validation_files;
 
 use clap::Subcommand;
 
-use crate::failure::Failure;
+use crate::text::failure::Failure;
+use laws::{calibrate, cradle, export, fit, invert};
 
-/// Another job than to run a case.
+/// A job other than running a case.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     New(new::Arguments),
@@ -39,14 +35,14 @@ pub enum Command {
     Export(export::Arguments),
     Cradle(cradle::Arguments),
     Schema(schema::Arguments),
-    Report(report::Arguments),
-    Plot(plot::Arguments),
-    Completions(completions::Arguments),
-    Man(man::Arguments),
+    Report(report::ReportArguments),
+    Plot(report::PlotArguments),
+    Completions(shell::CompletionArguments),
+    Man(shell::ManArguments),
 }
 
 impl Command {
-    /// Does the job; `whole` makes the whole command line, which completions need.
+    /// Runs the command; `whole` returns the whole command line, for completions and the manual.
     pub fn execute(self, whole: fn() -> clap::Command) -> Result<(), Failure> {
         match self {
             Self::New(arguments) => new::execute(&arguments),
@@ -62,10 +58,10 @@ impl Command {
             Self::Export(arguments) => export::execute(&arguments),
             Self::Cradle(arguments) => cradle::execute(&arguments),
             Self::Schema(arguments) => schema::execute(&arguments),
-            Self::Report(arguments) => report::execute(&arguments),
-            Self::Plot(arguments) => plot::execute(&arguments),
-            Self::Completions(arguments) => completions::execute(&arguments, whole()),
-            Self::Man(arguments) => man::execute(&arguments, whole()),
+            Self::Report(arguments) => report::report(&arguments),
+            Self::Plot(arguments) => report::plot(&arguments),
+            Self::Completions(arguments) => shell::complete(&arguments, whole()),
+            Self::Man(arguments) => shell::man(&arguments, whole()),
         }
     }
 }

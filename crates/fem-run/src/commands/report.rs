@@ -1,32 +1,37 @@
-//! `fem-run report FOLDER...`: the page of a result, or of several beside each other.
+//! `fem-run report FOLDER...`: the report page of a result, or the comparison of several; and `fem-run plot
+//! FOLDER --what FIGURE`: one figure of a result as SVG, for a paper.
 
 use std::path::PathBuf;
 
-use fem_report::report::{REPORT_FILE, StoredResult, comparison_page, report_page};
+use fem_report::report::{
+    Quantity, REPORT_FILE, StoredResult, comparison_page, contour_of_result, energy_chart,
+    history_chart, pressure_chart, report_page,
+};
+use fem_report::section_view::mirrored;
 
-use crate::failure::Failure;
-use crate::own_file::OwnFile;
-use crate::standard_output;
+use crate::result_folder::whole_file::OwnedFileKind;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
 
-/// By what a page is known.
-const PAGE: OwnFile = OwnFile {
+/// Identifies the pages of this command.
+const PAGE: OwnedFileKind = OwnedFileKind {
     what: "page",
     extension: "html",
-    mark: "<meta name=\"generator\" content=\"fem-run\">",
+    marker: "<meta name=\"generator\" content=\"fem-run\">",
     option: "--out",
 };
 
-/// Write the page of a result, or compare several on one
+/// Write the report page of a result, or compare several results on one page
 ///
-/// One folder gets its report.html, as its run has written it or would have. Of several folders one page
-/// has curves over each other, the differences of their numbers from the first and where their cases
-/// differ.
+/// For one folder, writes its report.html as a run does. For several folders, writes one page with their
+/// curves over each other, the differences of their numbers from the first, and the differences of their
+/// cases.
 #[derive(clap::Args, Debug)]
-pub struct Arguments {
+pub struct ReportArguments {
     /// Result folders of runs
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
-    /// The page, - for standard output [default: FOLDER/report.html; of several folders comparison.html]
+    /// The page, - for standard output [default: FOLDER/report.html; for several folders comparison.html]
     ///
     /// An existing file is replaced only if it is such a page.
     #[arg(long, value_name = "FILE")]
@@ -36,8 +41,8 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Writes a page and says where it is.
-pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+/// Writes a page and prints where it is.
+pub fn report(arguments: &ReportArguments) -> Result<(), Failure> {
     let records = StoredResult::read_all(&arguments.folders)?;
     let (text, usual) = match (records.as_slice(), arguments.folders.as_slice()) {
         ([record], [folder]) => (report_page(record)?, folder.join(REPORT_FILE)),
@@ -45,6 +50,91 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let path = arguments.out.clone().unwrap_or(usual);
     match PAGE.write(&path, &text)? {
+        Some(written) if !arguments.quiet => standard_output::print(&written),
+        _ => Ok(()),
+    }
+}
+
+/// Identifies the pictures of this command.
+const PICTURE: OwnedFileKind = OwnedFileKind {
+    what: "picture",
+    extension: "svg",
+    marker: "<!-- fem-run plot -->",
+    option: "--out",
+};
+/// Most panels of contours.
+const MOST_PANELS: usize = 6;
+
+/// Draw one figure of a result as SVG
+#[derive(clap::Args, Debug)]
+pub struct PlotArguments {
+    /// Result folders of runs; the curves of several are drawn over each other
+    #[arg(value_name = "FOLDER", required = true)]
+    folders: Vec<PathBuf>,
+    /// What to draw
+    #[arg(long, value_name = "FIGURE")]
+    what: Figure,
+    /// The file, - for standard output [default: FIGURE.svg]
+    ///
+    /// An existing file is replaced only if it is such a picture.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print nothing but errors and warnings
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Figure {
+    /// Axial stress around the contact at the snapshots
+    Contours,
+    /// Contact force over time
+    Force,
+    /// Approach over time
+    Approach,
+    /// Contact radius over time
+    Radius,
+    /// Pressure on the axis over time
+    Pressure,
+    /// Energies over time
+    Energy,
+    /// Contact pressure over the distance from the axis
+    Profile,
+}
+
+/// Writes a figure and prints where it is.
+pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
+    let (records, figure) = (StoredResult::read_all(&arguments.folders)?, arguments.what);
+    let of_one = |name: &str| match records.as_slice() {
+        [record] => Ok(record),
+        _ => Err(Failure::bad_input(format!("--what {name}: this figure is of one result"))
+            .with_help("name one folder")),
+    };
+    let chart = match figure {
+        Figure::Contours => None,
+        Figure::Force => history_chart(&records, Quantity::Force),
+        Figure::Approach => history_chart(&records, Quantity::Approach),
+        Figure::Radius => history_chart(&records, Quantity::Radius),
+        Figure::Pressure => history_chart(&records, Quantity::Pressure),
+        Figure::Energy => energy_chart(of_one("energy")?),
+        Figure::Profile => pressure_chart(&records),
+    };
+    let svg = match figure {
+        Figure::Contours => {
+            contour_of_result(of_one("contours")?, MOST_PANELS).map(|c| mirrored(c).svg())
+        }
+        _ => chart.and_then(|chart| fem_figure::panel(&chart)),
+    };
+    let Some(svg) = svg else {
+        return Err(Failure::bad_input("there is nothing to draw: the result has no such data")
+            .with_help("fields and profiles need [output] snapshots and a model with elements"));
+    };
+    let name = clap::ValueEnum::to_possible_value(&figure);
+    let name = name.map_or(String::new(), |value| format!("{}.svg", value.get_name()));
+    let path = arguments.out.clone().unwrap_or_else(|| PathBuf::from(name));
+    let svg = svg.replacen('>', &format!(">\n{}", PICTURE.marker), 1);
+    match PICTURE.write(&path, &svg)? {
         Some(written) if !arguments.quiet => standard_output::print(&written),
         _ => Ok(()),
     }

@@ -12,46 +12,48 @@ use fem_case::engineering::show;
 use fem_collision::{Collision, Monitor, Phase, Stop};
 use indicatif::{DecimalBytes, HumanCount};
 
-use crate::case_arguments::{CaseArguments, ToleranceArguments, parse_count};
-use crate::failure::Failure;
+use crate::arguments::case::{CaseArguments, ToleranceArguments, parse_count};
 use crate::forecast::Forecast;
-use crate::interrupt::Interrupt;
-use crate::peak_memory::peak_memory_with;
-use crate::place::ResultPlace;
-use crate::progress::Watch;
-use crate::report::report;
-use crate::restart::{self, Keeper, RESTART_FILE, RestartArguments};
-use crate::result_files::{Written, longest_name, write_result};
+use crate::progress::RunProgress;
+use crate::progress::interrupt::Interrupt;
+use crate::progress::stopwatch::Timed;
+use crate::progress::stopwatch::peak_memory_with;
+use crate::result_folder::ResultPath;
+use crate::result_folder::restart::{
+    RESTART_FILE, RestartArguments, RestartWriter, announce_restart, read_restart,
+};
+use crate::result_folder::run_files::{WrittenResult, longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::standard_output::{self, one_line};
-use crate::stopwatch::Timed;
+use crate::text::failure::Failure;
+use crate::text::run_report::report;
+use crate::text::standard_output::{self, one_line};
 
 /// How to run a case.
 #[derive(clap::Args, Debug)]
 pub struct Options {
     /// Folder for the result [default: runs/<the case file's stem>]
     ///
-    /// An existing folder is replaced only if it is empty or the result of the same case; other
-    /// output is no other case. Files of your own in it are kept. Without --out the result of
-    /// another case is left alone too: then the run takes a folder beside it and says which.
+    /// An existing folder is replaced only if it is empty or the result of the same case; cases that differ
+    /// only in [output] count as the same. Files of your own in it are kept. Without --out the result of
+    /// another case is left alone too: the run then takes a folder beside it and says which.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Replace the result of another case
     #[arg(long)]
     force: bool,
-    /// Most threads to use; a single run uses one, which is the fastest
+    /// Maximum number of threads; a single run uses one, which is the fastest
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
-    /// How far results may be off
+    /// The tolerance of the results.
     #[command(flatten)]
     within: ToleranceArguments,
-    /// How the run is kept, to go on with it
+    /// Whether to write or read a restart file.
     #[command(flatten)]
     restart: RestartArguments,
-    /// Print the summary alone on stdout, as it is in summary.json
+    /// Print only the summary on stdout, as in summary.json
     #[arg(long)]
     json: bool,
-    /// Print nothing but errors and warnings, and the summary if --json asks for it
+    /// Print nothing but errors and warnings, and the summary with --json
     #[arg(long, short)]
     quiet: bool,
 }
@@ -65,7 +67,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     let identity = Identity::of(simulation.case())?;
     let stem = input.stem();
     let replaces = Replaces::only(&identity.case, options.force);
-    let place = ResultPlace::of(options.out.as_deref(), &stem, &identity.case, &replaces);
+    let place = ResultPath::choose(options.out.as_deref(), &stem, &identity.case, &replaces);
     let memory = match options.restart.restart {
         true => memory(&place, &identity)?,
         false => None,
@@ -78,12 +80,12 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     if !options.quiet {
         announce(&simulation, making, &input.name(), &place, is_open);
         if options.restart.restart {
-            restart::tell(memory.as_ref());
+            announce_restart(memory.as_ref());
         }
     }
 
-    let mut watch = Timed::since(started, Watch::new(interrupt, options.quiet));
-    let mut keeper = Keeper::new(&folder, &identity, options.restart);
+    let mut watch = Timed::since(started, RunProgress::new(interrupt, options.quiet));
+    let mut writer = RestartWriter::new(&folder, &identity, options.restart);
     let mut memory = memory;
     let mut left: &[&str] = &[];
     let mut known = Instant::now();
@@ -91,7 +93,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
         if memory.is_none() && !options.quiet {
             tell_finer(simulation, known.elapsed().as_secs_f64());
         }
-        let (collision, kept) = compute(simulation, memory.take(), &mut keeper, &mut watch)?;
+        let (collision, kept) = compute(simulation, memory.take(), &mut writer, &mut watch)?;
         (left, known) = (kept, Instant::now());
         Ok::<_, Failure>(collision)
     })?;
@@ -100,7 +102,7 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
 
     let written =
         write_result(folder.path(), &stem, &simulation, &collision, &stopwatch, Keep::All, left);
-    let Written { summary, text, fault } = written;
+    let WrittenResult { summary, text, fault } = written;
     let published = match summary.files.is_empty() {
         true => Ok(None),
         false => folder.publish(fault.is_none()).map(Some),
@@ -127,47 +129,47 @@ pub fn execute(input: &CaseArguments, options: &Options, started: Instant) -> Re
     }
 }
 
-/// What the restart file in the folder of the result knows. Where the usual folder is another case's,
-/// that is in this case's own folder; if there is none either, the other case's file is refused.
-fn memory(place: &ResultPlace, identity: &Identity) -> Result<Option<Memory>, Failure> {
-    let own = restart::memory_in(&place.out, identity)?;
+/// Returns the restart state in the result folder. If the default folder belongs to another case, the state
+/// is looked for in this case's own folder; if there is none either, the other case's file is rejected.
+fn memory(place: &ResultPath, identity: &Identity) -> Result<Option<Memory>, Failure> {
+    let own = read_restart(&place.out, identity)?;
     match (&own, &place.taken) {
-        (None, Some(taken)) => restart::memory_in(taken, identity),
+        (None, Some(taken)) => read_restart(taken, identity),
         _ => Ok(own),
     }
 }
 
-/// The collision, and the names of files that it has left in the folder.
+/// Returns the collision, and the names of files that the run has left in the folder.
 fn compute(
     simulation: &Simulation,
     memory: Option<Memory>,
-    keeper: &mut Keeper<'_>,
+    writer: &mut RestartWriter<'_>,
     monitor: &mut dyn Monitor,
 ) -> Result<(Collision, &'static [&'static str]), Failure> {
     let mut course = match memory {
         Some(memory) => simulation.resume(memory)?,
-        None if !keeper.keeps() => return Ok((simulation.run(monitor), &[])),
+        None if !writer.is_on() => return Ok((simulation.run(monitor), &[])),
         None => simulation.start(),
     };
-    keeper.begin(course.as_ref());
+    writer.begin(course.as_ref());
     monitor.enter(Phase::Collision);
     loop {
         if !monitor.report(course.progress()) {
             let left: &[&str] =
-                if keeper.leave(simulation, course.as_ref()) { &[RESTART_FILE] } else { &[] };
+                if writer.leave(simulation, course.as_ref()) { &[RESTART_FILE] } else { &[] };
             return Ok((course.finish(), left));
         }
         if !course.advance(monitor) {
             return Ok((course.finish(), &[]));
         }
-        keeper.look_at(simulation, course.as_ref());
+        writer.update(simulation, course.as_ref());
     }
 }
 
-/// Some words on stderr about what begins.
-fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlace, is_open: bool) {
+/// Prints what begins on stderr.
+fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPath, is_open: bool) {
     let forecast = Forecast::of(simulation, making, is_open, 0);
-    // Of condensed bodies the most is seconds beside milliseconds, and few go on.
+    // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
         format!("; if finer meshes have to follow: {}", finer.in_words())
@@ -187,7 +189,7 @@ fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPlac
     }
 }
 
-/// A word on stderr on a mesh that is made finer, if it is, whose bodies took so long to make, s.
+/// Prints on stderr that the mesh is refined; making its bodies took `making` seconds.
 fn tell_finer(simulation: &Simulation, making: f64) {
     if let Some(why) = simulation.refined_because() {
         let forecast = Forecast::of(simulation, making, false, 0);
@@ -196,7 +198,7 @@ fn tell_finer(simulation: &Simulation, making: f64) {
     }
 }
 
-/// The model and what it is foretold to cost.
+/// Returns the model and its cost estimate.
 fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) -> String {
     let time = |seconds: Option<f64>| {
         seconds.map_or(String::new(), |seconds| format!(", some {}", show(seconds, "s")))
@@ -223,7 +225,7 @@ fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) 
     }
 }
 
-/// Why a run did not come to its end; `kept` says where what was computed is.
+/// Returns why a run stopped early; `kept` says where its results are.
 pub fn stopped(stop: &Stop, summary: &Summary, kept: &str) -> Failure {
     let Some(remedy) = remedy_of(stop) else {
         return Failure::interrupted(stop.to_string()).with_help(kept);

@@ -3,18 +3,18 @@
 use fem_case::json_schema;
 use serde_json::Value;
 
-use crate::failure::Failure;
-use crate::standard_output;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
 
-/// Print the JSON schema of case files, or of sweep files
+/// Print the JSON schema of case files or of sweep files
 ///
-/// An editor that knows TOML (Even Better TOML, Taplo, Zed, Helix) completes and checks keys by it: save
-/// it as fem-run.schema.json and begin a case with the line #:schema ./fem-run.schema.json, as fem-run
-/// new does. It knows keys, types, words, units and ranges; what keys have to do with each other,
-/// fem-run check knows.
+/// Editors with TOML support (Even Better TOML, Taplo, Zed, Helix) use it to complete and check keys: save
+/// it as fem-run.schema.json and begin a case with the line #:schema ./fem-run.schema.json, as fem-run new
+/// does. The schema covers keys, types, words, units and ranges; fem-run check also checks how keys depend
+/// on each other.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// Of which files
+    /// The kind of file
     #[arg(value_enum, default_value_t = Of::Case)]
     of: Of,
 }
@@ -27,7 +27,7 @@ enum Of {
     Sweep,
 }
 
-/// Prints it.
+/// Prints the schema.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let schema = match arguments.of {
         Of::Case => json_schema::of_cases(),
@@ -36,7 +36,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&text_of(&schema))
 }
 
-/// A schema as its file has it.
+/// Returns the text of a schema file.
 pub fn text_of(schema: &Value) -> String {
     format!("{schema:#}\n")
 }

@@ -1,4 +1,4 @@
-//! `fem-run sweep SWEEP.toml`: computes the members of a sweep, all or a shard of them, here or by Slurm.
+//! `fem-run sweep SWEEP.toml`: computes all members of a sweep or a shard of them, here or with Slurm.
 
 use std::cell::OnceCell;
 use std::num::NonZeroUsize;
@@ -9,53 +9,54 @@ use fem_case::{CaseFile, Sweep};
 use fem_report::sweep::FigureChoice;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::case_arguments::{parse_count, stem_of};
-use crate::failure::Failure;
-use crate::interrupt::Interrupt;
-use crate::standard_output;
+use crate::arguments::case::{parse_count, stem_of};
+use crate::progress::CheckProgress;
+use crate::progress::interrupt::Interrupt;
 use crate::sweep::{
-    Batch, Checking, Collected, Collector, Expected, Job, Mark, Shard, SlurmOptions, SweepFolder,
-    Whose, announce, conclude, report, run_members, status, warnings,
+    Collector, Manifest, Shard, ShardFilter, SlurmBatch, SlurmOptions, SweepCost, SweepFolder,
+    SweepJob, SweepOutcome, announce, conclude, report, run_members, status, warning_lines,
 };
+use crate::text::failure::Failure;
+use crate::text::standard_output;
 
 /// Compute many members of a case: lists of values for some of its keys
 ///
-/// Writes sweep.csv, sweep.svg and a summary of each member into a folder. The same command on
-/// the folder of a stopped sweep goes on where it was; members that are done are taken.
+/// Writes sweep.csv, sweep.svg and a summary of each member into a folder. The same command on the folder
+/// of a stopped sweep continues it; members that are done are not computed again.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// The sweep file, TOML: a case, and under vary dotted keys with values; with --status a sweep's folder
+    /// The sweep file, TOML: a case, and in [vary] dotted keys with values; with --status a sweep's folder
     #[arg(value_name = "SWEEP")]
     sweep: PathBuf,
     /// Folder for the results [default: runs/<the sweep file's stem>]
     ///
-    /// An existing folder must be empty or that of a sweep, which then goes on.
+    /// An existing folder must be empty or that of a sweep, which is then continued.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Override a key of the base case by its dotted path; may be repeated
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Members that run at the same time [default: one a processor]
+    /// Number of members that run at the same time [default: one per processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
     /// Run only the K-th of N shards: every N-th member, from the K-th
     ///
-    /// Shards may run at any time, on several machines, into the same folder; the last one leaves
-    /// the same files as the whole sweep.
+    /// Shards may run at any time, on several machines, into the same folder; the last one leaves the same
+    /// files as the whole sweep.
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
-    /// Leave table, picture and sweep.json to a later --merge: for shards of large sweeps
+    /// Leave table, figure and sweep.json to a later --merge, for shards of large sweeps
     #[arg(long, requires = "shard")]
     no_merge: bool,
-    /// Compute nothing: make table and picture of the members that are done
+    /// Compute nothing; write table and figure of the members that are done
     #[arg(long, conflicts_with_all = ["shard", "dry_run"])]
     merge: bool,
-    /// Say how far the sweep in the folder SWEEP is, whoever computes it
+    /// Print the progress of the sweep in the folder SWEEP, whoever computes it
     #[arg(long, conflicts_with_all = ["out", "set", "threads", "shard", "dry_run", "merge", "slurm"])]
     status: bool,
     #[command(flatten)]
     slurm: SlurmOptions,
-    /// Check all members and say how many are to run; compute and write nothing
+    /// Check all members and print how many are to run; compute and write nothing
     #[arg(long)]
     dry_run: bool,
     /// Print nothing but errors and warnings
@@ -63,21 +64,21 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Oddities of scenes that are told.
+/// Most implausible values that are reported.
 const MOST_ODDITIES: usize = 5;
 
-/// A sweep, where it goes and what computes it.
+/// A sweep, its folder and its threads.
 struct Work<'a> {
     arguments: &'a Arguments,
     sweep: &'a Sweep,
     out: &'a Path,
     pool: &'a ThreadPool,
     interrupt: Interrupt,
-    /// What the members that are left take, once it is asked for.
-    expected: OnceCell<Expected>,
+    /// Cost estimate of the members that are left, made when it is first needed.
+    expected: OnceCell<SweepCost>,
 }
 
-/// Computes a sweep.
+/// Runs a sweep.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.status {
         return standard_output::print(&status(&arguments.sweep)?);
@@ -104,13 +105,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Work<'_> {
-    /// Computes a shard, mostly the whole, and makes table and picture of what is there then.
+    /// Computes a shard, usually the whole, and then writes table and figure of all members that are done.
     fn compute(&self, shard: Shard) -> Result<(), Failure> {
         let Self { arguments, sweep, out, pool, .. } = self;
-        let mut folder = SweepFolder::at(out, Whose::All);
+        let mut folder = SweepFolder::at(out, ShardFilter::All);
         folder.check()?;
         let mut numbers = KeyNumbers::new(sweep);
-        let mut checking = Checking::new(sweep.n_members(), arguments.quiet);
+        let mut checking = CheckProgress::new(sweep.n_members(), arguments.quiet);
         let see = |member: &Member, case: &CaseFile| {
             checking.tick();
             numbers.see(sweep, member.index, case);
@@ -125,10 +126,12 @@ impl Work<'_> {
             return Ok(());
         }
         let batch = match arguments.slurm.options() {
-            Some(options) => Some(Batch::of(sweep, &checked, self.expected(&checked), options)?),
+            Some(options) => {
+                Some(SlurmBatch::of(sweep, &checked, self.expected(&checked), options)?)
+            }
             None => None,
         };
-        let mark = Mark { sweep, members, set: &arguments.set };
+        let mark = Manifest { sweep, members, set: &arguments.set };
         folder.claim(|file| mark.write(file))?;
         if let Some(batch) = batch {
             return self.hand_over(&batch, &folder, &checked);
@@ -142,7 +145,7 @@ impl Work<'_> {
         let mut collector = Collector { sweep, members, folder: &mut folder, numbers, choice };
         let collected = collector.collect(|index| shard.has(index))?;
         ran?;
-        standard_output::warn(warnings::lines(&collected.warnings, sweep, told(&checked)));
+        standard_output::warn(warning_lines(&collected.warnings, sweep, reported(&checked)));
         if !arguments.quiet {
             let text = report(sweep, &collected, members.len(), folder.path());
             standard_output::print(&text)?;
@@ -156,13 +159,13 @@ impl Work<'_> {
         conclude(&collected, n_own, self.interrupt.is_requested())
     }
 
-    /// Computes a shard and looks at no other member.
+    /// Computes a shard and reads no other member.
     fn compute_shard(&self, shard: Shard) -> Result<(), Failure> {
         let Self { arguments, sweep, out, pool, .. } = self;
-        let mut folder = SweepFolder::at(out, Whose::Shard(shard));
+        let mut folder = SweepFolder::at(out, ShardFilter::Shard(shard));
         folder.check()?;
         let places = shard.places(sweep.n_members());
-        let mut checking = Checking::new(places.len(), arguments.quiet);
+        let mut checking = CheckProgress::new(places.len(), arguments.quiet);
         let see = |_: &Member, _: &CaseFile| checking.tick();
         let is_done = |member: &Member| folder.has(&member.identity(), sweep.keep);
         let checked = pool.install(|| check_some(*sweep, &places, |_| true, is_done, see))?;
@@ -170,11 +173,11 @@ impl Work<'_> {
         if arguments.dry_run {
             return Ok(());
         }
-        let mark = Mark { sweep, members: &checked.members, set: &arguments.set };
+        let mark = Manifest { sweep, members: &checked.members, set: &arguments.set };
         folder.join(|file| mark.write(file))?;
         run_members(&self.job(&folder, &checked.members, shard), &checked.left)?;
         folder.refresh();
-        let mut collected = Collected::default();
+        let mut collected = SweepOutcome::default();
         let identities = checked.members.iter().map(Member::identity);
         for (member, summary) in checked.members.iter().zip(folder.summaries(identities)) {
             if let Some(summary) = summary {
@@ -182,14 +185,14 @@ impl Work<'_> {
                 collected.take(row, sweep, true);
             }
         }
-        standard_output::warn(warnings::lines(&collected.warnings, sweep, told(&checked)));
+        standard_output::warn(warning_lines(&collected.warnings, sweep, reported(&checked)));
         conclude(&collected, places.len(), self.interrupt.is_requested())
     }
 
-    /// Writes the script of a batch system, and submits it if that is asked for.
+    /// Writes the script for Slurm, and submits it on request.
     fn hand_over(
         &self,
-        batch: &Batch,
+        batch: &SlurmBatch,
         folder: &SweepFolder,
         checked: &Checked,
     ) -> Result<(), Failure> {
@@ -204,8 +207,8 @@ impl Work<'_> {
         }
     }
 
-    fn expected(&self, checked: &Checked) -> &Expected {
-        self.expected.get_or_init(|| Expected::of(self.sweep, checked, self.pool))
+    fn expected(&self, checked: &Checked) -> &SweepCost {
+        self.expected.get_or_init(|| SweepCost::of(self.sweep, checked, self.pool))
     }
 
     fn announce(&self, checked: &Checked, n_own: usize) {
@@ -215,17 +218,22 @@ impl Work<'_> {
             let expected = self.expected(checked);
             announce(&name, sweep, checked, expected, n_own, pool.current_num_threads());
         }
-        standard_output::warn(told(checked).cloned());
+        standard_output::warn(reported(checked).cloned());
     }
 
-    fn job<'j>(&'j self, folder: &'j SweepFolder, members: &'j [Member], shard: Shard) -> Job<'j> {
+    fn job<'j>(
+        &'j self,
+        folder: &'j SweepFolder,
+        members: &'j [Member],
+        shard: Shard,
+    ) -> SweepJob<'j> {
         let (sweep, pool, quiet) = (self.sweep, self.pool, self.arguments.quiet);
-        Job { sweep, members, folder, shard, pool, quiet, interrupt: self.interrupt.clone() }
+        SweepJob { sweep, members, folder, shard, pool, quiet, interrupt: self.interrupt.clone() }
     }
 }
 
-/// Oddities of scenes that are told before the sweep.
-fn told(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
+/// Returns the implausible values that are reported before the sweep.
+fn reported(checked: &Checked) -> impl Iterator<Item = &String> + Clone {
     checked.oddities.iter().take(MOST_ODDITIES)
 }
 

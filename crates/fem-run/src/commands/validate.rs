@@ -1,10 +1,11 @@
-//! `fem-run validate [NAME…]`: runs the claims of a folder and says which hold.
+//! `fem-run validate [NAME…]`: evaluates the claims of a folder and reports which hold.
 
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use comfy_table::CellAlignment::{Left, Right};
+use fem_case::engineering::show;
 use fem_validate::{
     Claim, ClaimError, ClaimResult, Section, Shelf, evaluate, hard_scenes, has_hard_scenes,
     load_claims, markdown, pictures,
@@ -12,30 +13,31 @@ use fem_validate::{
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
-use crate::case_arguments::parse_count;
-use crate::failure::Failure;
-use crate::interrupt::Interrupt;
-use crate::own_file::OwnFile;
+use super::validation_files::{MADE_FROM, PAGE_FILE, write_files};
+use crate::arguments::case::parse_count;
+use crate::progress::ItemProgress;
+use crate::progress::interrupt::Interrupt;
+use crate::result_folder::whole_file::OwnedFileKind;
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::standard_output::{self, one_line};
-use crate::tables::table;
-use crate::validation::{Board, MADE_FROM, PAGE_FILE, write_files};
+use crate::text::failure::Failure;
+use crate::text::standard_output::{self, one_line};
+use crate::text::tables::table;
 
-/// By what a table in Markdown is known.
-const TABLE: OwnFile = OwnFile {
+/// Identifies the Markdown tables of this command.
+const TABLE: OwnedFileKind = OwnedFileKind {
     what: "table",
     extension: "md",
-    mark: "<!-- Written by `fem-run validate",
+    marker: "<!-- Written by `fem-run validate",
     option: "--table or --scenes",
 };
 
-/// Hold the program against theory, other programs and the paper
+/// Check the program against theory, other programs and the paper
 ///
-/// Runs the claims of a folder, all or those that are named, prints a table and writes a page with
-/// pictures that needs nothing else. Exit status 1 if a claim fails.
+/// Evaluates the claims of a folder, all or those named, prints a table and writes a self-contained page
+/// with pictures. Exit status 1 if a claim fails.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
-    /// Claims to run, by the names of their folders [default: all]
+    /// Claims to evaluate, by the names of their folders [default: all]
     #[arg(value_name = "NAME")]
     names: Vec<String>,
     /// Folder of the claims
@@ -47,8 +49,7 @@ pub struct Arguments {
     /// Replace the result of a case or of another command
     #[arg(long)]
     force: bool,
-    /// Also write the table as Markdown, and the pictures into images
-    /// beside it; for all claims only
+    /// Also write the table as Markdown, and the pictures into images beside it; for all claims only
     ///
     /// An existing file is replaced only if it is such a table.
     #[arg(long, value_name = "FILE")]
@@ -58,10 +59,10 @@ pub struct Arguments {
     /// An existing file is replaced only if it is such a table.
     #[arg(long, value_name = "FILE")]
     scenes: Option<PathBuf>,
-    /// Threads to use [default: one a processor]
+    /// Number of threads [default: one per processor]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_count)]
     threads: Option<NonZeroUsize>,
-    /// List the claims and run none
+    /// List the claims and evaluate none
     #[arg(long)]
     list: bool,
     /// Print nothing but errors and warnings
@@ -69,7 +70,7 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Runs claims.
+/// Evaluates claims.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {
@@ -119,7 +120,7 @@ fn refused(error: ClaimError) -> Failure {
     }
 }
 
-/// The results of the claims that were not interrupted.
+/// Returns the results of the claims that were not interrupted.
 fn run(
     claims: &[Claim],
     arguments: &Arguments,
@@ -128,25 +129,27 @@ fn run(
     let threads = arguments.threads.map_or(0, NonZeroUsize::get);
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
-    let board = Board::new(interrupt.clone(), claims.len(), arguments.quiet);
+    let progress = ItemProgress::new(interrupt.clone(), "claims", claims.len(), arguments.quiet);
     let shelf = Shelf::default();
     let results = pool.install(|| {
         let evaluated = claims.par_iter().map(|claim| {
-            let result = evaluate(claim, &shelf, &board);
-            if !board.was_interrupted() {
-                board.finish_claim(&result);
+            let result = evaluate(claim, &shelf, &progress);
+            if !progress.is_stopped() {
+                let verdict = if result.passed() { "pass" } else { "FAIL" };
+                let seconds = show(result.price.seconds, "s");
+                progress.finish_item(&format!("{verdict}  {}  {seconds}", result.claim.name));
             }
             result
         });
         evaluated.collect::<Vec<_>>()
     });
-    board.finish();
+    progress.finish();
     let is_whole =
         |result: &ClaimResult| !matches!(result.error, Some(fem_validate::StudyError::Interrupted));
     Ok(results.into_iter().filter(is_whole).collect())
 }
 
-/// The Markdown table, and its pictures beside it.
+/// Writes the Markdown table and its pictures.
 fn write_table(path: &Path, results: &[ClaimResult]) -> Result<(), Failure> {
     write_text(path, &markdown(results))?;
     for (name, figure) in pictures(results) {
@@ -168,7 +171,7 @@ fn listing(claims: &[Claim]) -> String {
     table(&[Left, Left, Left], rows)
 }
 
-/// All checks by section, and where the page is.
+/// Returns all checks by section, and where the page is.
 fn report(results: &[ClaimResult], place: &Path) -> String {
     let mut text = String::new();
     for section in Section::ALL {
@@ -213,7 +216,7 @@ fn rows(result: &ClaimResult) -> Vec<[String; 7]> {
     result.checks.iter().enumerate().map(row).collect()
 }
 
-/// Success, or which claims failed, or that not all were tried.
+/// Returns success, or which claims failed, or that the evaluation was interrupted.
 fn conclude(results: &[ClaimResult], n_claims: usize) -> Result<(), Failure> {
     let failed: Vec<&str> = results
         .iter()

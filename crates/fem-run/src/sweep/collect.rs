@@ -1,7 +1,7 @@
-//! From the members' summaries to table and picture.
+//! Table and figure of a sweep from the summaries of its members.
 //!
-//! Members are read some at a time, twice: once for what the whole table and the picture have, once for the rows.
-//! What is kept of each is a bit, and of some what is drawn or shown.
+//! Summaries are read in portions, twice: once for the columns and the figure, once for the rows. In memory
+//! stay one bit per member and the values that are drawn or printed.
 
 use std::io;
 
@@ -11,66 +11,66 @@ use fem_case::Sweep;
 use fem_report::sweep::{FigureChoice, FigurePoint, sweep_figure};
 use serde_json::Value;
 
-use super::folder::{PICTURE_FILE, SweepFolder};
-use crate::failure::Failure;
-use crate::standard_output::one_line;
+use super::folder::{FIGURE_FILE, SweepFolder};
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
 
-/// Rows that are shown; all are in the table.
+/// Most rows that are printed; the table has all.
 const MOST_SHOWN: usize = 40;
-/// Members that are named which failed.
+/// Most failed members that are named.
 const MOST_NAMED: usize = 40;
 
-/// What the members of a sweep came to.
+/// What is known of a sweep's members.
 #[derive(Clone, Debug, Default)]
-pub struct Collected {
-    /// How many are done.
+pub struct SweepOutcome {
+    /// Members that are done.
     pub n_done: usize,
-    /// How many of those that are this process's own.
+    /// Members of this process that are done.
     pub n_own_done: usize,
     /// The first rows.
     pub shown: Vec<Row>,
-    /// How many of its own failed.
+    /// Members of this process that failed.
     pub n_failed: usize,
-    /// The first of them, and why.
+    /// The first failed members, each with the reason.
     pub failed: Vec<String>,
-    /// What its own members warn of.
+    /// Warnings of this process' members.
     pub warnings: WarningKinds,
 }
 
-/// What one look at all members found.
-struct Look {
-    collected: Collected,
+/// The outcome of one reading of all summaries.
+struct MemberScan {
+    collected: SweepOutcome,
     is_there: Vec<bool>,
     columns: Columns,
     points: Vec<FigurePoint>,
-    /// Of all members, whose ever they are.
+    /// All failed members, of any process.
     n_failed: usize,
 }
 
-/// A sweep and where its members' results are.
+/// A sweep and the place of its results.
 pub struct Collector<'a> {
     /// The sweep.
     pub sweep: &'a Sweep,
     /// All members.
     pub members: &'a [Member],
-    /// Where their results are.
+    /// The folder of the results.
     pub folder: &'a mut SweepFolder,
-    /// The values of its keys.
+    /// The values of the varied keys.
     pub numbers: &'a KeyNumbers,
-    /// What is drawn.
+    /// What the figure shows.
     pub choice: &'a FigureChoice,
 }
 
 impl Collector<'_> {
-    /// Writes table and picture of what is there and returns what it is; `is_own` says which members are
-    /// this process's.
+    /// Writes table and figure of the members that are done and returns what is known of them; `is_own`
+    /// selects the members of this process.
     ///
-    /// Another process may finish a member after this one has looked, and write its table before this
-    /// one does. Whoever looks again after writing and finds no more than it wrote is the last.
+    /// Another process may finish a member after this one has read the folder, and write its table before
+    /// this one. A process that looks again after writing and finds nothing new is the last.
     ///
     /// # Errors
     /// The file system.
-    pub fn collect(&mut self, is_own: impl Fn(usize) -> bool) -> Result<Collected, Failure> {
+    pub fn collect(&mut self, is_own: impl Fn(usize) -> bool) -> Result<SweepOutcome, Failure> {
         loop {
             self.folder.refresh();
             let look = self.look(&is_own);
@@ -83,9 +83,9 @@ impl Collector<'_> {
         }
     }
 
-    fn look(&self, is_own: &impl Fn(usize) -> bool) -> Look {
-        let mut look = Look {
-            collected: Collected::default(),
+    fn look(&self, is_own: &impl Fn(usize) -> bool) -> MemberScan {
+        let mut look = MemberScan {
+            collected: SweepOutcome::default(),
             is_there: vec![false; self.members.len()],
             columns: Columns::default(),
             points: Vec::new(),
@@ -102,7 +102,7 @@ impl Collector<'_> {
         look
     }
 
-    fn write(&self, look: &Look) -> Result<(), Failure> {
+    fn write(&self, look: &MemberScan) -> Result<(), Failure> {
         let folder = &*self.folder;
         let fault = |name: &str, error: &io::Error| {
             let place = folder.path().join(name);
@@ -122,9 +122,9 @@ impl Collector<'_> {
             .map_err(|error| fault(SWEEP_FILE, &error))?;
         match sweep_figure(self.sweep, &look.points, self.choice, look.n_failed) {
             Some(svg) => folder
-                .write(PICTURE_FILE, |file| file.write_all(svg.as_bytes()))
-                .map_err(|error| fault(PICTURE_FILE, &error))?,
-            None => folder.remove(PICTURE_FILE),
+                .write(FIGURE_FILE, |file| file.write_all(svg.as_bytes()))
+                .map_err(|error| fault(FIGURE_FILE, &error))?,
+            None => folder.remove(FIGURE_FILE),
         }
         Ok(())
     }
@@ -136,7 +136,7 @@ impl Collector<'_> {
         self.folder.summaries(members.map(Member::identity))
     }
 
-    /// The rows of those that are done.
+    /// Returns the rows of the members that are done.
     fn rows<'m>(
         &'m self,
         members: impl Iterator<Item = &'m Member> + Clone + 'm,
@@ -147,15 +147,15 @@ impl Collector<'_> {
         })
     }
 
-    /// A row with its values in SI.
+    /// Adds the values in SI to a row.
     fn numbered(&self, row: Row, columns: &[NumberColumn]) -> Row {
         let numbers = self.numbers.row(self.sweep, columns, row.index);
         row.with_numbers(numbers)
     }
 }
 
-impl Collected {
-    /// Takes the row of a member that is done.
+impl SweepOutcome {
+    /// Counts a member that is done.
     pub fn take(&mut self, row: Row, sweep: &Sweep, is_own: bool) {
         self.n_done += 1;
         self.n_own_done += usize::from(is_own);

@@ -1,5 +1,7 @@
-//! The folder of a sweep: `sweep.json` by which it is known, in `members/` one folder a member or
-//! [packs](super::packs), table and picture. Several processes may write into it at the same time.
+//! The folder of a sweep: `sweep.json`, which identifies it, the results of members in `members/`, table
+//! and figure. Several processes may write into it at the same time.
+//!
+//! A member has a folder of its own, or a line in a [member file](super::member_store).
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -9,41 +11,41 @@ use fem::results::{HISTORY_FILE, PROGRAM, SUMMARY_FILE};
 use fem_case::Keep;
 use serde_json::Value;
 
-use super::packs::{Pack, Packs, Whose};
+use super::member_store::{MemberFile, MemberStore, ShardFilter};
 use super::shard::Shard;
-use crate::failure::Failure;
-use crate::hidden_folder::sweep_leftovers;
-use crate::occupant::missing_parents;
-use crate::standard_output::one_line;
-use crate::whole_file::{PREFIX, write_streamed};
+use crate::result_folder::missing_parents;
+use crate::result_folder::recover_leftovers;
+use crate::result_folder::whole_file::{PREFIX, write_streamed};
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
 
-/// What the sweep is: its keys and the members' values and folders.
-pub const MARK_FILE: &str = "sweep.json";
-/// The plot.
-pub const PICTURE_FILE: &str = "sweep.svg";
+/// The manifest: the varied keys, and the values and identities of the members.
+pub const MANIFEST_FILE: &str = "sweep.json";
+/// The figure.
+pub const FIGURE_FILE: &str = "sweep.svg";
 const MEMBERS: &str = "members";
 /// Summaries that are in memory at the same time.
 const AT_ONCE: usize = 1024;
-/// Of a mark what tells that it is one.
+/// Bytes that identify a manifest.
 const HEAD: u64 = 256;
 
-/// A folder for a sweep.
+/// The folder of a sweep.
 #[derive(Debug)]
 pub struct SweepFolder {
     path: PathBuf,
-    packs: Packs,
+    store: MemberStore,
 }
 
 impl SweepFolder {
-    /// The folder as it is, to look into; it may not be there. `whose` packs are looked at.
-    pub fn at(out: &Path, whose: Whose) -> Self {
-        Self { path: out.to_path_buf(), packs: Packs::of(out.join(MEMBERS), whose) }
+    /// Opens a folder, which may not exist yet; `filter` selects the member files that are read.
+    pub fn at(out: &Path, filter: ShardFilter) -> Self {
+        Self { path: out.to_path_buf(), store: MemberStore::of(out.join(MEMBERS), filter) }
     }
 
-    /// Whether it can be claimed, as far as that can be told without writing.
+    /// Checks whether the folder can be claimed, without writing.
     ///
     /// # Errors
-    /// A place that holds something else than a sweep.
+    /// The place holds something other than a sweep.
     pub fn check(&self) -> Result<(), Failure> {
         let out = &self.path;
         let named = one_line(&out.display().to_string());
@@ -71,10 +73,10 @@ impl SweepFolder {
         Ok(())
     }
 
-    /// Takes a new or empty folder or that of an earlier sweep, and writes what `mark` writes into it.
+    /// Claims a new or empty folder or that of an earlier sweep, and writes the manifest.
     ///
     /// # Errors
-    /// A place that cannot be written, or that holds something else.
+    /// The place cannot be written, or holds something else.
     pub fn claim(
         &self,
         mark: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -82,12 +84,12 @@ impl SweepFolder {
         self.check()?;
         let out = &self.path;
         let named = one_line(&out.display().to_string());
-        sweep_leftovers(out);
-        sweep_leftovers(&out.join(MEMBERS));
+        recover_leftovers(out);
+        recover_leftovers(&out.join(MEMBERS));
         let made: Vec<_> = missing_parents(&out.join(MEMBERS));
         self.prepare(mark).map_err(|error| {
             for folder in &made {
-                // Only removes what is empty.
+                // Removes a folder only if it is empty.
                 let _ = fs::remove_dir(folder);
             }
             let message = format!("--out {named}: a sweep cannot be written here: {error}");
@@ -95,58 +97,59 @@ impl SweepFolder {
         })
     }
 
-    /// As [`SweepFolder::claim`], of a folder that may hold this sweep already: its mark is left as it is.
+    /// Claims a folder that may hold this sweep already, filter manifest is then left unchanged.
     ///
     /// # Errors
     /// As [`SweepFolder::claim`].
     pub fn join(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
-        match self.path.join(MARK_FILE).is_file() && is_ours(&self.path).unwrap_or(false) {
+        match self.path.join(MANIFEST_FILE).is_file() && is_ours(&self.path).unwrap_or(false) {
             true => Ok(()),
             false => self.claim(mark),
         }
     }
 
-    /// The mark comes first: a folder without it is not taken for a sweep's.
+    /// The manifest is written first: it identifies the folder.
     fn prepare(&self, mark: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         fs::create_dir_all(&self.path)?;
-        self.write(MARK_FILE, mark)?;
+        self.write(MANIFEST_FILE, mark)?;
         fs::create_dir_all(self.path.join(MEMBERS))
     }
 
-    /// The folder, as the user named it.
+    /// Returns the folder, as the user named it.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where the result of a member goes.
+    /// Returns the folder for the result of a member.
     pub fn member(&self, identity: &str) -> PathBuf {
         self.path.join(MEMBERS).join(identity)
     }
 
-    /// A pack for this process.
-    pub fn pack(&self, shard: Shard) -> Pack {
-        Pack::new(&self.path.join(MEMBERS), shard)
+    /// Returns the member file of this process.
+    pub fn pack(&self, shard: Shard) -> MemberFile {
+        MemberFile::new(&self.path.join(MEMBERS), shard)
     }
 
-    /// Whether all that is to be kept of a member is there.
+    /// Whether everything that is to be kept of a member exists.
     pub fn has(&self, identity: &str, keep: Keep) -> bool {
         match keep {
             Keep::All => {
-                self.member(identity).join(HISTORY_FILE).is_file() && self.alone(identity).is_some()
+                self.member(identity).join(HISTORY_FILE).is_file()
+                    && self.in_folder(identity).is_some()
             }
-            Keep::Summary => self.packs.has(identity) || self.alone(identity).is_some(),
-            // Of a million members no file system is asked for what is not there.
-            Keep::Packed => self.packs.has(identity) || self.unpacked(identity).is_some(),
+            Keep::Summary => self.store.has(identity) || self.in_folder(identity).is_some(),
+            // The file system is not asked for a million missing folders.
+            Keep::Packed => self.store.has(identity) || self.unpacked(identity).is_some(),
         }
     }
 
-    /// Looks at what other processes and this one have added.
+    /// Reads what this and other processes have added.
     pub fn refresh(&mut self) {
-        self.packs.refresh();
+        self.store.refresh();
     }
 
-    /// The summaries of members that have been computed, in the order of the members; some are in memory at
-    /// a time.
+    /// Returns the summaries of the given members, `None` for those that are not done. Summaries are read
+    /// in portions.
     pub fn summaries<'a>(
         &'a self,
         mut identities: impl Iterator<Item = String> + 'a,
@@ -154,7 +157,7 @@ impl SweepFolder {
         std::iter::from_fn(move || {
             let some: Vec<String> = identities.by_ref().take(AT_ONCE).collect();
             (!some.is_empty()).then(|| {
-                let packed = self.packs.summaries(&some);
+                let packed = self.store.summaries(&some);
                 let both = some.into_iter().zip(packed);
                 both.map(|(identity, packed)| packed.or_else(|| self.unpacked(&identity)))
             })
@@ -162,19 +165,19 @@ impl SweepFolder {
         .flatten()
     }
 
-    /// As `alone`, asked where the last look has found folders.
+    /// As `in_folder`, but only if the last look has found folders of members.
     fn unpacked(&self, identity: &str) -> Option<Value> {
-        self.packs.has_others().then(|| self.alone(identity)).flatten()
+        self.store.has_others().then(|| self.in_folder(identity)).flatten()
     }
 
-    /// The summary of a member in a folder of its own.
-    fn alone(&self, identity: &str) -> Option<Value> {
+    /// Returns the summary of a member that has a folder of its own.
+    fn in_folder(&self, identity: &str) -> Option<Value> {
         let bytes = fs::read(self.member(identity).join(SUMMARY_FILE)).ok()?;
         let summary: Value = serde_json::from_slice(&bytes).ok()?;
         (summary["program"] == PROGRAM && summary["complete"].is_boolean()).then_some(summary)
     }
 
-    /// Writes a file in one go: readers see the old one or the new one.
+    /// Replaces a file in one step: readers see the old content or the new one.
     ///
     /// # Errors
     /// The file system.
@@ -186,31 +189,31 @@ impl SweepFolder {
         write_streamed(&self.path.join(name), &self.path, write)
     }
 
-    /// Removes a file that is out of date, if it is there.
+    /// Removes an outdated file, if it exists.
     pub fn remove(&self, name: &str) {
         let _ = fs::remove_file(self.path.join(name));
     }
 }
 
-/// Whether the folder is empty or a sweep's, perhaps one that another process is just making.
+/// Whether the folder is empty or that of a sweep, perhaps one that another process is just creating.
 fn is_ours(path: &Path) -> io::Result<bool> {
-    if has_mark(path) {
+    if has_manifest(path) {
         return Ok(true);
     }
     for entry in fs::read_dir(path)? {
         if !entry?.file_name().to_string_lossy().starts_with(PREFIX) {
-            // The mark may have come in between.
-            return Ok(has_mark(path));
+            // The manifest may have been written in the meantime.
+            return Ok(has_manifest(path));
         }
     }
     Ok(true)
 }
 
-/// Whether there is a mark, which begins with the program whatever its spaces; of a million members it is
-/// long.
-fn has_mark(path: &Path) -> bool {
+/// Whether there is a manifest. It begins with the program's name; that of a million members is too long to
+/// be read whole.
+fn has_manifest(path: &Path) -> bool {
     let mut head = Vec::new();
-    let file = File::open(path.join(MARK_FILE));
+    let file = File::open(path.join(MANIFEST_FILE));
     let _ = file.and_then(|file| file.take(HEAD).read_to_end(&mut head));
     head.retain(|byte| !byte.is_ascii_whitespace());
     head.starts_with(format!("{{\"program\":\"{PROGRAM}\",").as_bytes())

@@ -2,40 +2,34 @@
 //!
 //! ```text
 //! fem::sweep ─ runner ──── member folders ─ collect ─ table (sweep.csv)
-//! members,     progress,   members/ID/       rows      picture (sweep.svg)
+//! members,     progress,   members/ID/       rows      figure (sweep.svg)
 //! threads      keeping     renamed into place
 //! ```
 //!
-//! `slurm` writes a script that has shards computed by a batch system, `status` says how far they are.
+//! `slurm` writes a script with which a batch system computes shards, `status` prints the progress.
 //!
-//! The file system is all that processes share. A member is known by what it computes, so the
-//! same command goes on where another one stopped, and shards of a batch system fill one folder.
-//! Table and picture are made from what is in `members/` alone, by whoever finishes one: the same
-//! bytes whatever the order.
+//! Processes share nothing but the file system. A member is identified by its input, so the same command
+//! continues a stopped sweep, and shards on several machines fill one folder. Table and figure are made from
+//! the content of `members/` alone, by every process that finishes: the same bytes in any order.
 
-mod board;
-mod checking;
 mod collect;
-mod duration;
-mod expected;
+mod cost_estimate;
 mod folder;
-mod mark;
-mod packs;
+mod manifest;
+mod member_store;
 mod report;
 mod runner;
 mod shard;
 mod slurm;
 mod status;
-pub mod warnings;
 
-pub use checking::Checking;
-pub use collect::{Collected, Collector};
-pub use expected::Expected;
+pub use collect::{Collector, SweepOutcome};
+pub use cost_estimate::SweepCost;
 pub use folder::SweepFolder;
-pub use mark::Mark;
-pub use packs::Whose;
-pub use report::{announce, conclude, report};
-pub use runner::{Job, run_members};
+pub use manifest::Manifest;
+pub use member_store::ShardFilter;
+pub use report::{announce, conclude, report, warning_lines};
+pub use runner::{SweepJob, run_members};
 pub use shard::Shard;
-pub use slurm::{Batch, SlurmOptions};
+pub use slurm::{SlurmBatch, SlurmOptions};
 pub use status::status;

@@ -1,28 +1,29 @@
-//! What a sweep says: before it begins, when it is done, and how it ends.
+//! Messages of a sweep: before it begins, when it is done, and how it ends.
 
 use std::io::{Write, stderr};
 use std::path::Path;
+use std::time::Duration;
 
 use comfy_table::CellAlignment::{Left, Right};
 use fem::sweep::{Checked, Row, SWEEP_FILE};
+use fem::{WarningKind, WarningKinds};
 use fem_case::engineering::show;
 use fem_case::{Keep, Sweep};
-use indicatif::DecimalBytes;
+use indicatif::{DecimalBytes, HumanDuration};
 
-use super::collect::Collected;
-use super::duration::duration;
-use super::expected::{Expected, Total};
-use super::packs::LINE_BYTES;
-use crate::failure::Failure;
-use crate::standard_output::one_line;
-use crate::tables::table;
+use super::collect::SweepOutcome;
+use super::cost_estimate::{SweepCost, TotalTime};
+use super::member_store::LINE_BYTES;
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
+use crate::text::tables::table;
 
-/// One line on stderr about what begins and what it takes.
+/// Prints one line on stderr about the members and their cost.
 pub fn announce(
     name: &str,
     sweep: &Sweep,
     checked: &Checked,
-    expected: &Expected,
+    expected: &SweepCost,
     n_own: usize,
     n_threads: usize,
 ) {
@@ -33,7 +34,7 @@ pub fn announce(
     let time = match n_left {
         0 => String::new(),
         _ => {
-            let on_threads = |total: Total| duration(total.on(n_threads));
+            let on_threads = |total: TotalTime| duration(total.on(n_threads));
             let most = expected.most.map_or(String::new(), |most| {
                 format!(", up to {} if finer meshes have to follow", on_threads(most))
             });
@@ -42,7 +43,7 @@ pub fn announce(
     };
     let kept = match sweep.keep {
         Keep::Packed if n_left > 0 => {
-            format!("; one file of summaries, some {}", packed_bytes(n_left))
+            format!("; one file of summaries, some {}", member_file_size(n_left))
         }
         _ => String::new(),
     };
@@ -56,13 +57,13 @@ pub fn announce(
     }
 }
 
-/// What the summaries of so many members take, packed.
-pub fn packed_bytes(n_members: usize) -> DecimalBytes {
+/// Returns the size of a member file with the summaries of `n_members` members.
+pub fn member_file_size(n_members: usize) -> DecimalBytes {
     DecimalBytes(LINE_BYTES * n_members as u64)
 }
 
-/// The main results of each member, and where the rest is.
-pub fn report(sweep: &Sweep, collected: &Collected, n_members: usize, folder: &Path) -> String {
+/// Returns the main results of each member, and where the rest is.
+pub fn report(sweep: &Sweep, collected: &SweepOutcome, n_members: usize, folder: &Path) -> String {
     let keys = sweep.keys().map(|swept| swept.key.as_str());
     let quantities = ["restitution", "contact time", "/ Hertz", "peak force", "/ Hertz"];
     let header: Vec<String> = keys.chain(quantities).map(one_line).collect();
@@ -107,12 +108,16 @@ fn result_cells(row: &Row) -> [String; 5] {
     ]
 }
 
-/// Success, or which members failed, or how to go on.
+/// Returns success, or which members failed, or how to continue.
 ///
 /// # Errors
 /// Members that are not done, or that failed.
-pub fn conclude(collected: &Collected, n_own: usize, is_interrupted: bool) -> Result<(), Failure> {
-    let Collected { n_own_done, n_failed, failed, .. } = collected;
+pub fn conclude(
+    collected: &SweepOutcome,
+    n_own: usize,
+    is_interrupted: bool,
+) -> Result<(), Failure> {
+    let SweepOutcome { n_own_done, n_failed, failed, .. } = collected;
     if is_interrupted && *n_own_done < n_own {
         let message = format!("interrupted: {n_own_done} of {n_own} members are done");
         return Err(Failure::interrupted(message)
@@ -129,4 +134,53 @@ pub fn conclude(collected: &Collected, n_own: usize, is_interrupted: bool) -> Re
         "{lines}\nthe others are done; run a failed one alone with --set for the cause and remedy, or \
          change its value: the same command then computes what is new"
     )))
+}
+
+/// Most kinds that are printed.
+const MOST_KINDS: usize = 20;
+
+/// Returns one line per kind, the most frequent first, and the number of kinds left out. Kinds that were
+/// printed `before` are skipped.
+pub fn warning_lines<'t>(
+    warnings: &WarningKinds,
+    sweep: &Sweep,
+    before: impl Iterator<Item = &'t String> + Clone,
+) -> Vec<String> {
+    let is_new = |kind: &&WarningKind| !before.clone().any(|text| kind.is_of(text));
+    let mut kinds: Vec<&WarningKind> = warnings.all().iter().filter(is_new).collect();
+    kinds.sort_by_key(|kind| std::cmp::Reverse(kind.count));
+    let line = |kind: &&WarningKind| {
+        let (text, first) = (&kind.first, sweep.describe(kind.place));
+        one_line(&match kind.count {
+            1 => format!("{text} (1 member: {first})"),
+            n => format!("{text} ({n} members, numbers are of the first: {first})"),
+        })
+    };
+    let mut lines: Vec<String> = kinds.iter().take(MOST_KINDS).map(line).collect();
+    let n_omitted = kinds.len().saturating_sub(MOST_KINDS) + warnings.n_others();
+    if n_omitted > 0 {
+        lines.push(format!("… and {n_omitted} more, in the column `warnings` of sweep.csv"));
+    }
+    lines
+}
+
+/// Returns `12 ms`, `40 s`, `3 minutes` or `2 days`.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 60.0 {
+        return show(seconds, "s");
+    }
+    HumanDuration(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_times_are_in_minutes_and_days() {
+        assert_eq!(duration(0.25), show(0.25, "s"));
+        assert_eq!(duration(180.0), "3 minutes");
+        assert_eq!(duration(2.0 * 86_400.0), "2 days");
+        assert!(!duration(f64::INFINITY).is_empty());
+    }
 }

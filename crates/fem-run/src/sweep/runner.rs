@@ -1,4 +1,4 @@
-//! Runs the members of a sweep and puts their results into its folder.
+//! Runs the members of a sweep and writes their results.
 
 use std::sync::Mutex;
 use std::time::Instant;
@@ -11,84 +11,84 @@ use fem_case::{Keep, Sweep};
 use fem_report::number_text::elapsed;
 use rayon::ThreadPool;
 
-use super::board::{Board, MemberWatch};
 use super::folder::SweepFolder;
-use super::packs::Pack;
+use super::member_store::MemberFile;
 use super::shard::Shard;
-use crate::failure::Failure;
-use crate::interrupt::Interrupt;
-use crate::result_files::{longest_name, write_result};
+use crate::progress::interrupt::Interrupt;
+use crate::progress::stopwatch::{Stopwatch, Timed};
+use crate::progress::{ItemMonitor, ItemProgress};
+use crate::result_folder::run_files::{longest_name, write_result};
 use crate::result_folder::{Replaces, ResultFolder};
-use crate::stopwatch::{Stopwatch, Timed};
+use crate::text::failure::Failure;
 
-/// What members are run with.
-pub struct Job<'a> {
+/// The members to run and their environment.
+pub struct SweepJob<'a> {
     /// The sweep.
     pub sweep: &'a Sweep,
-    /// The members, in order, those that run among them.
+    /// The members in order, those to run among them.
     pub members: &'a [Member],
-    /// Where results go.
+    /// The folder of the results.
     pub folder: &'a SweepFolder,
-    /// Which of them are this process's.
+    /// The part of the sweep that this process computes.
     pub shard: Shard,
-    /// Threads that they run on.
+    /// The threads that members run on.
     pub pool: &'a ThreadPool,
-    /// Show no progress.
+    /// Shows no progress.
     pub quiet: bool,
-    /// Whether the user wants the sweep to end.
+    /// Whether the user has asked to end.
     pub interrupt: Interrupt,
 }
 
-impl Job<'_> {
-    /// What the member at a place is known by.
+impl SweepJob<'_> {
+    /// Returns the identity of the member with this index.
     fn identity(&self, index: usize) -> String {
         let place = self.members.binary_search_by_key(&index, |member| member.index);
         place.map_or(String::new(), |place| self.members[place].identity())
     }
 }
 
-/// Runs these members in this order; those that another process finishes first are left out.
-/// An interrupted member leaves nothing.
+/// Runs these members in this order, without those that another process finishes first. An interrupted
+/// member leaves nothing.
 ///
 /// # Errors
-/// A result that cannot be written. The other members end early.
-pub fn run_members(job: &Job<'_>, left: &[usize]) -> Result<(), Failure> {
-    let board = Board::new(job.interrupt.clone(), left.len(), job.quiet);
+/// A result cannot be written; the other members end early then.
+pub fn run_members(job: &SweepJob<'_>, left: &[usize]) -> Result<(), Failure> {
+    let progress = ItemProgress::new(job.interrupt.clone(), "members", left.len(), job.quiet);
     let pack = job.folder.pack(job.shard);
-    let keeper = Keeper { job, board: &board, pack, first_failure: Mutex::new(None) };
+    let keeper = ResultKeeper { job, progress: &progress, pack, first_failure: Mutex::new(None) };
     let shared = Shared::default();
     let runner = Runner::new(job.sweep, &shared);
     let runner = if job.sweep.keep == Keep::All { runner } else { runner.without_fields() };
     job.pool.install(|| runner.run_all(left, &keeper));
-    board.finish();
+    progress.finish();
     keeper.first_failure.into_inner().ok().flatten().map_or(Ok(()), Err)
 }
 
-/// Puts each member's result into the sweep's folder when it has ended.
-struct Keeper<'a> {
-    job: &'a Job<'a>,
-    board: &'a Board,
-    pack: Pack,
+/// Writes the result of each member when it has ended.
+struct ResultKeeper<'a> {
+    job: &'a SweepJob<'a>,
+    progress: &'a ItemProgress,
+    pack: MemberFile,
     first_failure: Mutex<Option<Failure>>,
 }
 
-impl<'a> Observer for Keeper<'a> {
-    type Watch = Timed<MemberWatch<'a>>;
+impl<'a> Observer for ResultKeeper<'a> {
+    type Watch = Timed<ItemMonitor<'a>>;
 
     fn admits(&self, index: usize) -> bool {
-        if self.board.is_stopped() {
+        if self.progress.is_stopped() {
             return false;
         }
-        let Job { sweep, folder, .. } = self.job;
+        let SweepJob { sweep, folder, .. } = self.job;
         let is_done = folder.has(&self.job.identity(index), sweep.keep);
         if is_done {
-            self.board.finish_member(&format!("{}: done elsewhere", sweep.describe(index)));
+            self.progress.finish_item(&format!("{}: done elsewhere", sweep.describe(index)));
         }
         !is_done
     }
 
     fn begin(&self, _: usize) -> Self::Watch {
-        Timed::since(Instant::now(), MemberWatch::new(self.board))
+        Timed::since(Instant::now(), self.progress.begin())
     }
 
     fn end(&self, index: usize, watch: Self::Watch, ran: Result<&Ran, &CaseError>) {
@@ -102,10 +102,10 @@ impl<'a> Observer for Keeper<'a> {
             Ok(summary) => {
                 watch.finish();
                 let name = self.job.sweep.describe(index);
-                self.board.finish_member(&format!("{name}: {}", in_a_few_words(&summary)));
+                self.progress.finish_item(&format!("{name}: {}", in_a_few_words(&summary)));
             }
             Err(failure) => {
-                self.board.abort();
+                self.progress.abort();
                 if let Ok(mut first) = self.first_failure.lock() {
                     first.get_or_insert(failure);
                 }
@@ -114,15 +114,15 @@ impl<'a> Observer for Keeper<'a> {
     }
 }
 
-impl Keeper<'_> {
+impl ResultKeeper<'_> {
     fn keep(&self, index: usize, ran: &Ran, stopwatch: &Stopwatch) -> Result<Summary, Failure> {
-        let Job { sweep, folder, .. } = self.job;
+        let SweepJob { sweep, folder, .. } = self.job;
         let stem = &self.job.identity(index);
         if sweep.keep == Keep::Packed {
             return self.append(stem, ran, stopwatch);
         }
         let out = folder.member(stem);
-        let place = ResultFolder::claim_swept(&out, &longest_name(stem), Replaces::Any)
+        let place = ResultFolder::claim_recovered(&out, &longest_name(stem), Replaces::Any)
             .map_err(|failure| Failure::failed(format!("{}: {failure}", sweep.describe(index))))?;
         let Ran { simulation, collision } = ran;
         let (path, keep) = (place.path(), sweep.keep);
@@ -146,7 +146,7 @@ impl Keeper<'_> {
     }
 }
 
-/// A member's result in a few words.
+/// Returns the result of a member in one line.
 fn in_a_few_words(summary: &Summary) -> String {
     if let Some(reason) = &summary.stopped_because {
         return format!("FAILED: {reason}");

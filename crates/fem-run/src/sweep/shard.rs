@@ -1,8 +1,8 @@
-//! A part of a sweep: every N-th member, from the K-th.
+//! A part of a sweep: every N-th member, beginning with the K-th.
 
 use std::str::FromStr;
 
-/// `K/N`: members K − 1, K − 1 + N, …
+/// The shard `K/N` has the members K − 1, K − 1 + N, ….
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     first: usize,
@@ -13,22 +13,22 @@ impl Shard {
     /// All members.
     pub const WHOLE: Self = Self { first: 0, step: 1 };
 
-    /// K.
+    /// Returns K.
     pub fn number(&self) -> usize {
         self.first + 1
     }
 
-    /// N.
+    /// Returns N.
     pub fn step(&self) -> usize {
         self.step
     }
 
-    /// Whether it has the member at this place.
+    /// Whether the shard has the member with this index.
     pub fn has(&self, index: usize) -> bool {
         index % self.step == self.first
     }
 
-    /// The places of its members in a sweep of so many.
+    /// Returns the indices of its members in a sweep of `n_members`.
     pub fn places(&self, n_members: usize) -> Vec<usize> {
         (self.first..n_members).step_by(self.step).collect()
     }

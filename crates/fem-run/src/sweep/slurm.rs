@@ -1,9 +1,9 @@
-//! `sweep.sbatch`: shards of a sweep as a job array of Slurm, and a job after it that merges them.
+//! `sweep.sbatch`: the shards of a sweep as a job array of Slurm, followed by a job that merges them.
 //!
-//! One script plays all parts. Run by a shell it submits itself twice: as the array, and as the merge that
-//! waits for its end. A task computes its shard and looks at nothing else; what is there already is taken, so
-//! that a task that is killed, preempted or out of time goes on when it is queued again. The program owns
-//! the list of work, the scheduler only starts it.
+//! The same script plays all parts. Run by a shell, it submits itself twice: as the array, and as the merge
+//! that waits for its end. A task computes its shard only and skips members that are done, so that a task
+//! that was killed, preempted or out of time continues when it is queued again. The program owns the list
+//! of work; the scheduler only starts tasks.
 
 use std::collections::HashSet;
 use std::env::{current_dir, current_exe};
@@ -14,49 +14,49 @@ use std::process::{Command, Stdio};
 use fem::sweep::Checked;
 use fem_case::{Keep, Sweep};
 
-use super::duration::duration;
-use super::expected::Expected;
+use super::cost_estimate::SweepCost;
 use super::folder::SweepFolder;
-use super::report::packed_bytes;
-use crate::case_arguments::{parse_count, stem_of};
-use crate::failure::Failure;
-use crate::standard_output::one_line;
+use super::report::{duration, member_file_size};
+use crate::arguments::case::{parse_count, stem_of};
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
 
 /// The script.
 const SCRIPT_FILE: &str = "sweep.sbatch";
-/// What a task is to take, s: long for a scheduler, short for what may be lost.
+/// Target time of a task, s: long for a scheduler, short enough to be lost.
 const TASK_SECONDS: f64 = 300.0;
-/// Tasks of one array: Slurm's MaxArraySize is 1001 unless a site says otherwise.
+/// Most tasks of an array: Slurm's MaxArraySize is 1001 by default.
 const MOST_TASKS: usize = 1000;
-/// Options that the script gives itself.
+/// Options of sbatch that the script sets itself.
 const OWN_OPTIONS: [&str; 5] = ["--array", "-a", "--dependency", "-d", "--wrap"];
 
-/// How a sweep is handed to Slurm.
+/// Options for Slurm.
 #[derive(clap::Args, Clone, Debug)]
 pub struct SlurmOptions {
-    /// Write sweep.sbatch, a job array over shards, with these options of sbatch: --slurm='--time=10 --mem=1G'
+    /// Write sweep.sbatch, a job array over shards, with these options of sbatch: --slurm='--time=10
+    /// --mem=1G'
     ///
-    /// Nothing is computed here. `sh sweep.sbatch` submits the array and a job that merges it.
+    /// Nothing is computed here. `sh sweep.sbatch` submits the array and a job that merges its results.
     #[arg(long, value_name = "OPTIONS", allow_hyphen_values = true, num_args = 1,
         conflicts_with_all = ["shard", "merge", "dry_run", "threads"])]
     slurm: Option<String>,
-    /// Submit it, too
+    /// Also submit the script
     #[arg(long, requires = "slurm")]
     pub submit: bool,
-    /// Shards, each a task of the array [default: as many as take some five minutes each]
+    /// Number of shards, each a task of the array [default: tasks of about five minutes]
     #[arg(long, value_name = "N", requires = "slurm", allow_negative_numbers = true, value_parser = parse_count)]
     shards: Option<NonZeroUsize>,
 }
 
 impl SlurmOptions {
-    /// These options, if there is to be a script.
+    /// Returns these options if a script is to be written.
     pub fn options(&self) -> Option<&Self> {
         self.slurm.is_some().then_some(self)
     }
 }
 
 /// A sweep as a job array.
-pub struct Batch {
+pub struct SlurmBatch {
     options: String,
     n_shards: usize,
     n_left: usize,
@@ -64,16 +64,16 @@ pub struct Batch {
     is_packed: bool,
 }
 
-impl Batch {
-    /// The array of a sweep that was checked.
+impl SlurmBatch {
+    /// Prepares the array of a checked sweep.
     ///
     /// # Errors
-    /// Options that the script gives itself, or that are not of one line; more shards than members or than
-    /// an array has.
+    /// Options that the script sets itself or that are not in one line; more shards than members or than an
+    /// array may have.
     pub fn of(
         sweep: &Sweep,
         checked: &Checked,
-        expected: &Expected,
+        expected: &SweepCost,
         options: &SlurmOptions,
     ) -> Result<Self, Failure> {
         let text = options.slurm.clone().unwrap_or_default().trim().to_string();
@@ -114,10 +114,10 @@ impl Batch {
         })
     }
 
-    /// Writes the script into the sweep's folder and says where it is.
+    /// Writes the script into the sweep's folder and returns its path.
     ///
     /// # Errors
-    /// A current folder that has no name, a script that cannot be written.
+    /// The current folder has no name, or the script cannot be written.
     pub fn write(
         &self,
         sweep: &Path,
@@ -154,10 +154,10 @@ impl Batch {
             .replace("@COMMAND@", &command.join(" "))
     }
 
-    /// Submits the script and gives what its output says.
+    /// Submits the script and returns its output.
     ///
     /// # Errors
-    /// No shell, or no Slurm, or a Slurm that refuses.
+    /// There is no shell or no Slurm, or Slurm rejects the script.
     pub fn submit(&self, script: &Path) -> Result<String, Failure> {
         let path = quoted(&script.display().to_string());
         let help = format!("the script is kept; submit it with: sh {path}");
@@ -165,18 +165,21 @@ impl Batch {
         let ran = Command::new("sh").arg(script).stdin(Stdio::null()).output();
         let ran = ran.map_err(|error| fault(format!("sh: {error}")))?;
         match ran.status.success() {
-            true => Ok(told(&ran.stdout)),
-            false => Err(fault(told(&ran.stderr))),
+            true => Ok(one_line_output(&ran.stdout)),
+            false => Err(fault(one_line_output(&ran.stderr))),
         }
     }
 
-    /// What was made, and what to do with it.
+    /// Returns what was written, and what to do with it.
     pub fn report(&self, script: &Path, submitted: Option<&str>) -> String {
         let script = one_line(&script.display().to_string());
         let Self { n_shards, n_left, seconds, .. } = self;
         let files = match self.is_packed {
             true => {
-                format!("each with a file of some {}, ", packed_bytes(n_left.div_ceil(*n_shards)))
+                format!(
+                    "each with a file of some {}, ",
+                    member_file_size(n_left.div_ceil(*n_shards))
+                )
             }
             false => String::new(),
         };
@@ -192,14 +195,14 @@ impl Batch {
     }
 }
 
-/// This program, or its name where another one, such as Python, plays it.
+/// Returns the path of this program, or its name if another program, such as Python, runs it.
 fn program() -> PathBuf {
     let own =
         current_exe().ok().filter(|path| path.file_stem().is_some_and(|stem| stem == "fem-run"));
     own.unwrap_or_else(|| PathBuf::from("fem-run"))
 }
 
-/// Processors of a task, as the options of sbatch say.
+/// Returns the processors per task in the options of sbatch.
 fn cpus_per_task(options: &str) -> usize {
     let words: Vec<&str> = options.split_whitespace().collect();
     let given = words.iter().enumerate().find_map(|(k, word)| {
@@ -210,15 +213,15 @@ fn cpus_per_task(options: &str) -> usize {
     given.unwrap_or(1).max(1)
 }
 
-/// What a program said, its lines in one.
-fn told(output: &[u8]) -> String {
+/// Returns the output of a program in one line.
+fn one_line_output(output: &[u8]) -> String {
     let text = String::from_utf8_lossy(output);
     let lines: Vec<String> =
         text.lines().map(str::trim).filter(|line| !line.is_empty()).map(one_line).collect();
     lines.join("; ")
 }
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+%@".contains(c);
     match !word.is_empty() && word.chars().all(is_plain) {
@@ -227,7 +230,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-/// A path in a line of options of sbatch.
+/// Quotes a path for an option line of sbatch.
 fn in_quotes(path: &str) -> String {
     if path.contains(char::is_whitespace) { format!("\"{path}\"") } else { path.to_string() }
 }
@@ -248,7 +251,7 @@ mod tests {
     #[test]
     fn what_slurm_says_is_one_line_that_can_be_read() {
         assert_eq!(
-            told(b" sbatch: error: no host\r\n\nsbatch: fatal: \x1b[2J\n"),
+            one_line_output(b" sbatch: error: no host\r\n\nsbatch: fatal: \x1b[2J\n"),
             "sbatch: error: no host; sbatch: fatal: \u{fffd}[2J"
         );
     }

@@ -1,4 +1,4 @@
-//! `fem-run sweep --status FOLDER`: how far a sweep is, told by its folder alone.
+//! `fem-run sweep --status FOLDER`: the progress of a sweep, read from its folder alone.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -10,51 +10,51 @@ use serde::Deserialize;
 use serde::Deserializer;
 use serde::de::{Error, IgnoredAny};
 
-use super::duration::duration;
-use super::folder::{MARK_FILE, SweepFolder};
-use super::packs::Whose;
-use crate::failure::Failure;
-use crate::standard_output::one_line;
-use crate::tables::table;
+use super::folder::{MANIFEST_FILE, SweepFolder};
+use super::member_store::ShardFilter;
+use super::report::duration;
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
+use crate::text::tables::table;
 
-/// What is read of `sweep.json`.
+/// The keys of `sweep.json` that are read.
 #[derive(Deserialize)]
-struct Mark {
+struct Manifest {
     program: String,
     case: String,
-    members: Vec<MarkedMember>,
+    members: Vec<ManifestMember>,
 }
 
 #[derive(Deserialize)]
-struct MarkedMember {
+struct ManifestMember {
     #[serde(deserialize_with = "digest")]
     member: u64,
     #[serde(rename = "values")]
     _values: IgnoredAny,
 }
 
-/// An identity as a number: of a million members less than their names.
+/// Reads an identity as a number, which takes less memory than text.
 fn digest<'de, D: Deserializer<'de>>(from: D) -> Result<u64, D::Error> {
     u64::from_str_radix(&String::deserialize(from)?, 16).map_err(D::Error::custom)
 }
 
-/// How far the sweep in a folder is.
+/// Returns the progress of the sweep in a folder.
 ///
 /// # Errors
-/// A folder that holds no sweep.
+/// The folder holds no sweep.
 pub fn status(folder: &Path) -> Result<String, Failure> {
-    let place = folder.join(MARK_FILE);
+    let place = folder.join(MANIFEST_FILE);
     let name = one_line(&folder.display().to_string());
     let refuse = |found: String| {
         let help = "name the folder of a sweep, such as fem-run sweep --status runs/sweep_speed";
         Failure::bad_input(format!("{name}: {found}")).with_help(help)
     };
-    let file = File::open(&place).map_err(|error| refuse(format!("{MARK_FILE}: {error}")))?;
-    let mark = serde_json::from_reader::<_, Mark>(BufReader::new(file));
+    let file = File::open(&place).map_err(|error| refuse(format!("{MANIFEST_FILE}: {error}")))?;
+    let mark = serde_json::from_reader::<_, Manifest>(BufReader::new(file));
     let mark = mark.ok().filter(|mark| mark.program == PROGRAM);
-    let mark = mark.ok_or_else(|| refuse(format!("{MARK_FILE} is not a sweep's")))?;
+    let mark = mark.ok_or_else(|| refuse(format!("{MANIFEST_FILE} is not a sweep's")))?;
 
-    let there = SweepFolder::at(folder, Whose::All);
+    let there = SweepFolder::at(folder, ShardFilter::All);
     let (mut n_done, mut n_failed, mut spent) = (0_usize, 0_usize, 0.0);
     let identities = mark.members.iter().map(|member| format!("{:016x}", member.member));
     for summary in there.summaries(identities).flatten() {

@@ -81,7 +81,7 @@ fn gone_on(place: &Place, set: &[&str], memory: &Memory, identity: &Identity) ->
     std::fs::create_dir(place.path("out")).unwrap();
     std::fs::write(place.path("out").join(RESTART_FILE), checkpoint(identity, memory)).unwrap();
     let ran = place.run(&[&["case.toml", "--out", "out", "--restart"][..], set].concat());
-    assert!(ran.stderr.contains("going on from step"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("continuing from step"), "{}", ran.stderr);
     let summary = place.json("out/summary.json");
     assert_eq!(ran.code, Some(if summary["complete"] == true { 0 } else { 1 }), "{}", ran.stderr);
     (ran.stderr, summary)

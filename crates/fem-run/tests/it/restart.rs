@@ -276,7 +276,7 @@ fn an_interrupted_run_goes_on_too() {
     assert!(place.list("out").contains(&RESTART_FILE.to_string()));
     place.write("out/notes.txt", "mine");
     let ran = place.succeed(&[&["case.toml", "--out", "out", "--restart"][..], &size].concat());
-    assert!(ran.stderr.contains("going on from step"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("continuing from step"), "{}", ran.stderr);
     fs::remove_file(place.path("out/notes.txt")).unwrap();
     assert_eq!(place.result("out"), place.result("whole"));
 }

@@ -1,0 +1,63 @@
+//! Files of measured data.
+
+use std::path::Path;
+
+use fem::measured::{DataError, Table, decode};
+
+use super::law::split;
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
+
+/// Options for reading measured data.
+#[derive(clap::Args, Debug)]
+pub struct ColumnArguments {
+    /// Columns of --data by their names in the header: speed=v,restitution=COR,uncertainty=u
+    ///
+    /// Without a unit in NAME the header gives it, as in v_cm_s or v [cm/s]; speed_cm_s=v sets it.
+    #[arg(long, value_name = "NAME=COLUMN,…", value_delimiter = ',')]
+    pub columns: Vec<String>,
+}
+
+impl ColumnArguments {
+    /// Reads a table with commas, semicolons or tabs, decimal points or commas, in UTF-8 or Latin-1.
+    ///
+    /// # Errors
+    /// The file cannot be read, is no CSV, has no row, or lacks a named column.
+    pub fn read(&self, path: &Path) -> Result<Table, Failure> {
+        let name = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|error| {
+            let name = one_line(&name);
+            Failure::bad_input(format!("{name}: this file cannot be read: {error}"))
+                .with_help("name a CSV file with a header, such as validation/data/bridges_ice.csv")
+        })?;
+        self.name_columns(Table::parse(&name, &decode(&bytes))?)
+    }
+
+    /// Renames the columns of a table as the options say.
+    ///
+    /// # Errors
+    /// A named column is missing.
+    pub fn name_columns(&self, table: Table) -> Result<Table, Failure> {
+        let names = self.columns.iter().map(|text| {
+            let (name, column) = split(text, "--columns")?;
+            Ok((name.trim(), column.trim()))
+        });
+        let names: Vec<(&str, &str)> = names.collect::<Result<_, Failure>>()?;
+        Ok(table.renamed(&names)?)
+    }
+
+    /// Returns the options as one text, which is part of a result's identity.
+    pub fn text(&self) -> String {
+        self.columns.join(",")
+    }
+}
+
+impl From<DataError> for Failure {
+    fn from(error: DataError) -> Self {
+        let failure = Failure::bad_input(error.to_string());
+        match error.help {
+            Some(help) => failure.with_help(help),
+            None => failure,
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The command line.
+
+pub mod case;
+pub mod data;
+pub mod law;
+
+use std::ffi::OsString;
+use std::path::Path;
+use std::time::Instant;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser};
+use fem_case::nearest;
+
+use crate::commands::{Command, run};
+use crate::text::failure::Failure;
+use crate::text::standard_output::one_line;
+use case::CaseArguments;
+
+/// Computes the collision of two viscoelastic spheres, or of a sphere and a wall or a block.
+///
+/// Prints the result beside Hertz' closed form and writes summary.json, history.csv and ParaView files into
+/// a folder.
+#[derive(Debug, Parser)]
+#[command(
+    name = "fem-run",
+    version,
+    args_conflicts_with_subcommands = true,
+    arg_required_else_help = true,
+    override_usage = "fem-run [OPTIONS] CASE.toml\n       fem-run <COMMAND> …",
+    after_help = AFTER_HELP
+)]
+pub struct Arguments {
+    /// A job other than running a case.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The case to run.
+    #[command(flatten)]
+    pub input: Option<CaseArguments>,
+    /// How to run it.
+    #[command(flatten)]
+    pub options: run::Options,
+}
+
+const AFTER_HELP: &str = "\
+Exit status: 0 done; 1 the run failed, what was computed is kept and marked incomplete; 2 bad \
+input, nothing written; 130 interrupted, kept and marked (a second Ctrl-C kills at once).
+A case file that is named like a command runs as ./check.
+
+Examples:
+  fem-run new ball --material pmma --partner wall
+  fem-run cases/glass_0.5ms.toml
+  fem-run cases/glass_0.5ms.toml --set body.0.approach_speed='\"1 m/s\"' --out runs/glass_1ms
+  fem-run check cases/glass_0.5ms.toml";
+
+/// Parses the command line. For help, version or an invalid command line it prints text and ends the
+/// process.
+pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
+    let error = match Arguments::try_parse_from(words) {
+        Ok(arguments) => return arguments,
+        Err(error) => error,
+    };
+    if error.kind() == ErrorKind::InvalidSubcommand {
+        // `help exprt`; elsewhere a word that is no command is taken as a case.
+        let word = match error.get(ContextKind::InvalidSubcommand) {
+            Some(ContextValue::String(word)) => word.clone(),
+            _ => String::new(),
+        };
+        let mut command = Arguments::command();
+        let names = names_of(&command).join(", ");
+        let near =
+            near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
+        let text = format!("{word:?} is no command; the commands are {names}{near}");
+        command.error(error.kind(), text).exit()
+    }
+    // clap takes the second of two cases for a command.
+    let is_of_commands = error.to_string().contains("the subcommand");
+    if error.kind() != ErrorKind::ArgumentConflict || !is_of_commands {
+        error.exit()
+    }
+    let mut command = Arguments::command();
+    let names = names_of(&command);
+    let word = std::env::args().nth(1).unwrap_or_default();
+    let near = near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
+    let names = names.join(", ");
+    command
+        .error(
+            error.kind(),
+            match word.as_str() {
+                "run" => "a run needs no command: fem-run CASE.toml".to_string(),
+                _ => format!(
+                    "one case at a time, and a command comes before everything else; the commands \
+                     are {names}{near}"
+                ),
+            },
+        )
+        .exit()
+}
+
+fn names_of(command: &clap::Command) -> Vec<String> {
+    command.get_subcommands().map(|command| command.get_name().to_string()).collect()
+}
+
+/// Returns the command that a word probably means; `None` for a command or an existing file.
+fn near_command(word: &str) -> Option<String> {
+    // With 0.85, `chek`, `sweeps` and `mateirals` mean commands, `glass` and `case` do not.
+    let names = names_of(&Arguments::command());
+    let is_word = !word.contains(['.', '/', '\\']) && !Path::new(word).exists();
+    let near = nearest(word, &names, 0.85).filter(|_| is_word);
+    near.map(str::to_string)
+}
+
+impl Arguments {
+    /// Runs the command line of a process that began at `started`.
+    pub fn execute(self, started: Instant) -> Result<(), Failure> {
+        match (self.command, self.input) {
+            (Some(command), _) => command.execute(Self::command),
+            (None, Some(input)) => match near_command(&input.name()) {
+                Some(near) => Err(Failure::bad_input(format!(
+                    "{}: there is neither such a file nor such a command",
+                    one_line(&input.name())
+                ))
+                .with_help(format!("did you mean fem-run {near}?"))),
+                None => run::execute(&input, &self.options, started),
+            },
+            // clap prints its help if there are no arguments at all.
+            (None, None) => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! The text of a calibration.
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::calibrate::{Calibration, CalibrationModel};
+use fem_case::engineering::{number, show};
+use fem_case::schema::ActsOn;
+use fem_fit::spectrum::Range;
+
+use crate::text::tables::{show_value, table};
+
+/// Returns the text on stdout.
+pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
+    let mut text = heading(found);
+    text += &weights(found);
+    text += "\n";
+    text += &combinations(found);
+    text += "\n";
+    let fit = &found.fit;
+    text += &format!(
+        "rms error: {}; that of a single Maxwell term (weight 1, {}): {}\n",
+        number(fit.rms, 3),
+        match found.maxwell.beyond {
+            None => format!("{} with the same mean", show(found.maxwell.time, "s")),
+            Some(beyond) => format!(
+                "{} or {}, where the search ends",
+                show(found.maxwell.time, "s"),
+                beyond.word()
+            ),
+        },
+        number(found.maxwell.rms, 3)
+    );
+    if let Some(exponent) = found.loss_exponent() {
+        let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
+        text += &format!(
+            "1 - e goes as the speed to the power {:.3}{error} (any Prony series: -0.2 to 0.2)\n",
+            exponent.value
+        );
+    }
+    for warning in warnings {
+        text += &format!("warning: {warning}\n");
+    }
+    text
+}
+
+fn heading(found: &Calibration) -> String {
+    let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let span = |(low, high): (f64, f64), unit: &str| match low == high {
+        true => show(low, unit),
+        false => format!("{} to {}", show(low, unit), show(high, unit)),
+    };
+    let name = match found.model {
+        CalibrationModel::Condensed => "condensed",
+        CalibrationModel::Ting => "ting with finite size",
+    };
+    let moduli = match found.acts_on() {
+        ActsOn::All => "all moduli",
+        ActsOn::Shear => "the shear modulus",
+    };
+    let mut text = format!(
+        "{name}; {} of {moduli} of {}; regularisation {}\n{} of {}, {}: {}, contact times {}\n",
+        counted(found.times.len(), "term"),
+        found.target.material,
+        number(found.regularisation, 3),
+        counted(found.measured.data.points.len(), "point"),
+        found.measured.data.name,
+        counted(found.experiments.len(), "pair"),
+        span(found.measured.data.speeds(), "m/s"),
+        span(found.contact_times(), "s"),
+    );
+    let across = found.experiments.iter().filter_map(|experiment| experiment.elements_across);
+    let across = across.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+    if let Some((smallest, largest)) = across {
+        text += &format!(
+            "one mesh a pair: {smallest:.1} elements across the smallest contact radius, \
+             {largest:.1} across the largest\n"
+        );
+    }
+    text + "\n"
+}
+
+fn weights(found: &Calibration) -> String {
+    let fit = &found.fit;
+    let level = format!("{} % range, others free", 100.0 * found.confidence);
+    let header = ["", "relaxation time", "best", level.as_str(), "from the data"].map(String::from);
+    let span = |range: &Range, shown: &dyn Fn(f64) -> String| {
+        format!("{} to {}", shown(range.low), shown(range.high))
+    };
+    let plain = |value: f64| format!("{value:.4}");
+    let terms = (0..found.times.len()).map(|k| {
+        [
+            format!("g{}", k + 1),
+            show(found.times[k], "s"),
+            plain(fit.weights[k]),
+            span(&fit.weight_ranges[k], &plain),
+            format!("{:.0} %", 100.0 * fit.resolution.shares[k]),
+        ]
+    });
+    let [total, rate, time] = &fit.moments;
+    let rates = |value: f64| show_value(value, "1/s");
+    let times = |value: f64| show(value, "s");
+    let moment = |name: &str, range: &Range, shown: &dyn Fn(f64) -> String| {
+        [name.to_string(), String::new(), shown(range.value), span(range, shown), String::new()]
+    };
+    let moments = [
+        moment("Σ g", total, &plain),
+        moment("Σ g/τ", rate, &rates),
+        moment("Σ g τ", time, &times),
+    ];
+    let rows = std::iter::once(header).chain(terms).chain(moments);
+    table(&[Left, Right, Right, Left, Right], rows)
+}
+
+fn combinations(found: &Calibration) -> String {
+    let header = ["combination", "singular value", "value", "standard error", ""].map(String::from);
+    let all = &found.fit.resolution.combinations;
+    let seen = all.iter().filter(|combination| combination.singular_value > 0.0);
+    let n_unseen = all.len() - seen.clone().count();
+    let rows = seen.map(|combination| {
+        let coefficients = combination.coefficients.iter().enumerate();
+        let words = coefficients.filter(|(_, v)| v.abs() > 0.05).map(|(k, v)| {
+            let sign = if *v < 0.0 { "- " } else { "+ " };
+            format!("{sign}{:.2} g{}", v.abs(), k + 1)
+        });
+        let words = words.collect::<Vec<_>>().join(" ");
+        // A standard error of 1 or more exceeds what weights can give, and is not printed.
+        let is_told = combination.standard_error < 1.0;
+        let error = match is_told {
+            true => number(combination.standard_error, 2),
+            false => "-".to_string(),
+        };
+        let verdict = match (combination.is_determined, is_told && combination.may_be_zero()) {
+            (true, false) => "determined",
+            (true, true) => "small: 0 within two errors",
+            (false, true) => "not determined: 0 within two errors",
+            (false, false) => "not determined",
+        };
+        [
+            words.trim_start_matches("+ ").to_string(),
+            number(combination.singular_value, 2),
+            format!("{:.4}", combination.value),
+            error,
+            verdict.to_string(),
+        ]
+    });
+    let text = table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows));
+    match n_unseen {
+        0 => text,
+        n => text + &format!("{n} more that the data do not see at all\n"),
+    }
+}

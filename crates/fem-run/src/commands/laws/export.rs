@@ -1,0 +1,192 @@
+//! `fem-run export CASE`: input snippets for DEM codes from a sweep's restitutions, or from Ting's.
+
+use std::path::PathBuf;
+
+use fem::case_identity;
+use fem::laws::{DemExport, ImpactCurve, PairExport, PairNumbers};
+use fem::measured::{Restitutions, Table};
+use fem_case::Case;
+use fem_fit::FitError;
+use fem_fit::dem::{Snippet, grain_snippets};
+use fem_report::law_figures::export_figure;
+use serde_json::Value;
+
+use super::export_text::{export_text, pairs_csv, pairs_json, pairs_text};
+use crate::arguments::case::CaseArguments;
+use crate::arguments::data::ColumnArguments;
+use crate::arguments::law::{parse_length, parse_share, parse_speed};
+use crate::jobs::value_of;
+use crate::result_folder::command_output::OutputArguments;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+
+/// Write input for DEM codes and robotics that reproduces the restitutions
+///
+/// For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. The restitutions come from
+/// the sweep.csv of a sweep over speeds, from a measurement or, without --data, from the case's model: its
+/// law, or Ting's model in place of finite elements. Each snippet states the speeds for which it is valid.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: CaseArguments,
+    /// Restitutions, optionally with contact times: a CSV file, such as a sweep's sweep.csv
+    #[arg(long, value_name = "FILE", conflicts_with = "speeds")]
+    data: Option<PathBuf>,
+    #[command(flatten)]
+    columns: ColumnArguments,
+    /// Range of speeds to compute, such as '5 cm/s..2 m/s' [default: a decade around that of the case]
+    #[arg(long, value_name = "LOW..HIGH", value_parser = parse_speeds)]
+    speeds: Option<(f64, f64)>,
+    /// One table of all pairs of spheres of these materials, the case's or lib:NAME [default: the case's,
+    /// with --diameters]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', conflicts_with = "data")]
+    materials: Vec<String>,
+    /// One table of all pairs of spheres of these diameters, such as '1 mm,2 mm' [default: the case's, with
+    /// --materials]
+    #[arg(long, value_name = "LENGTHS", value_delimiter = ',', value_parser = parse_length,
+        conflicts_with = "data")]
+    diameters: Vec<f64>,
+    /// Largest error of the restitution within which a snippet is valid
+    #[arg(long, value_name = "E", default_value_t = 0.01, value_parser = parse_share)]
+    tolerance: f64,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// Fits the laws and writes the snippets.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let case = arguments.input.load_and_warn()?;
+    if arguments.wants_pairs() {
+        return write_pairs(arguments, &case);
+    }
+    let table = arguments.data.as_deref().map(|path| arguments.columns.read(path)).transpose()?;
+    if table.is_none() {
+        standard_output::warn(case.scene().unpublished_loss());
+    }
+    let (fitted, snippets) = fitted(arguments, &case, table.as_ref())?;
+    let mut output =
+        arguments.output.claim(&arguments.input.stem(), "export", &[&case_identity(&case)])?;
+    for snippet in &snippets {
+        output.write(snippet.name, &snippet.text)?;
+    }
+    output.write("export.svg", export_figure(&fitted))?;
+    let name = arguments.input.name();
+    let place = output.publish(&fitted.numbers(&name, &snippets))?;
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    let mut note = String::new();
+    if fitted.curve.has_hertz_times {
+        note +=
+            "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n";
+    }
+    if fitted.export.spheres.len() < 2 {
+        note += "\nA wall is not written for LIGGGHTS and YADE, which give it a material or a radius of \
+                 its own.\n";
+    }
+    standard_output::print(&format!(
+        "{}{note}\nResult: {place}\n",
+        export_text(&fitted.export, &snippets)
+    ))
+}
+
+/// Fits to a table in memory and returns the numbers, each snippet with its text.
+pub fn numbers(
+    arguments: &Arguments,
+    case: &Case,
+    table: Option<&Table>,
+) -> Result<Value, Failure> {
+    if arguments.wants_pairs() {
+        let (export, rows) = pairs(arguments, case)?;
+        let mut numbers = pairs_json(&export, &arguments.input.name(), &rows)?;
+        let texts = grain_snippets(&export.grains, &export.of_codes());
+        let texts = texts.into_iter().map(|(name, text)| (name.to_string(), text.into()));
+        numbers["texts"] = Value::Object(texts.collect());
+        return Ok(numbers);
+    }
+    let table = table.cloned().map(|table| arguments.columns.name_columns(table)).transpose()?;
+    let (fitted, snippets) = fitted(arguments, case, table.as_ref())?;
+    let mut numbers = value_of(&fitted.numbers(&arguments.input.name(), &snippets))?;
+    let texts =
+        snippets.iter().map(|snippet| (snippet.name.to_string(), snippet.text.clone().into()));
+    numbers["texts"] = Value::Object(texts.collect());
+    Ok(numbers)
+}
+
+impl Arguments {
+    /// Whether a table of all pairs is requested.
+    fn wants_pairs(&self) -> bool {
+        !(self.materials.is_empty() && self.diameters.is_empty())
+    }
+
+    fn check_tolerance(&self) -> Result<(), Failure> {
+        if self.tolerance > 0.0 && self.tolerance < 1.0 {
+            return Ok(());
+        }
+        let message = format!("--tolerance is {:?}", self.tolerance);
+        Err(Failure::bad_input(message).with_help("it must be between 0 and 1"))
+    }
+}
+
+fn pairs(arguments: &Arguments, case: &Case) -> Result<(PairExport, Vec<PairNumbers>), Failure> {
+    arguments.check_tolerance()?;
+    let Arguments { materials, diameters, speeds, tolerance, .. } = arguments;
+    let export = PairExport::of(case, materials, diameters, *speeds, *tolerance)?;
+    let rows = export.numbers();
+    Ok((export, rows))
+}
+
+fn write_pairs(arguments: &Arguments, case: &Case) -> Result<(), Failure> {
+    let (export, rows) = pairs(arguments, case)?;
+    let grains = format!("{:?} {:?}", arguments.materials, arguments.diameters);
+    let mut output = arguments.output.claim(
+        &arguments.input.stem(),
+        "export",
+        &[&case_identity(case), &grains],
+    )?;
+    output.write("pairs.csv", pairs_csv(&rows)?)?;
+    for (name, text) in grain_snippets(&export.grains, &export.of_codes()) {
+        output.write(name, text)?;
+    }
+    let place = output.publish(&pairs_json(&export, &arguments.input.name(), &rows)?)?;
+    standard_output::warn(export.warnings());
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    standard_output::print(&format!("{}\nResult: {place}\n", pairs_text(&export, &rows)))
+}
+
+fn fitted(
+    arguments: &Arguments,
+    case: &Case,
+    table: Option<&Table>,
+) -> Result<(DemExport, Vec<Snippet>), Failure> {
+    arguments.check_tolerance()?;
+    let curve = match table {
+        None => ImpactCurve::computed(case, arguments.speeds)?,
+        Some(table) => {
+            let data = Restitutions::read_with_contact_times(table, case.scene())?;
+            ImpactCurve::measured(case.scene(), &data)?
+        }
+    };
+    let fitted = DemExport::of(case, curve, arguments.tolerance).map_err(|error| {
+        let is_lossless = matches!(error, FitError::Insensitive { .. });
+        let failure = Failure::from(error);
+        if is_lossless {
+            failure.with_help(
+                "an elastic contact needs no fit, its restitution is 1; if there is a loss, narrow \
+                 the range of speeds",
+            )
+        } else {
+            failure
+        }
+    })?;
+    let snippets = fitted.snippets()?;
+    Ok((fitted, snippets))
+}
+
+fn parse_speeds(text: &str) -> Result<(f64, f64), String> {
+    let (low, high) = text.split_once("..").ok_or("write LOW..HIGH, such as '5 cm/s..2 m/s'")?;
+    let (low, high) = (parse_speed(low)?, parse_speed(high)?);
+    if low < high { Ok((low, high)) } else { Err("the range is empty".to_string()) }
+}

@@ -1,0 +1,135 @@
+//! The texts of an export, for one pair and for all pairs of some grains.
+
+use std::collections::BTreeSet;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::laws::{PairExport, PairNumbers};
+use fem_case::engineering::{number, show};
+use fem_fit::dem::{Export, Snippet};
+use serde_json::{Value, json};
+
+use crate::jobs::value_of;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+use crate::text::tables::table;
+
+/// Returns the text on stdout, one line per snippet.
+pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
+    let header = ["code", "model", "enter", "makes e", "good to tolerance", "worst error", "file"];
+    let row = |snippet: &Snippet| {
+        let [from, to, worst] = snippet.validity;
+        let entries = snippet.entries.iter().map(|(key, value)| format!("{key} {}", entry(*value)));
+        [
+            snippet.code.to_string(),
+            snippet.model.to_string(),
+            entries.collect::<Vec<_>>().join(", "),
+            snippet.restitution.map_or("falls with v".to_string(), |e| format!("{e:.4}")),
+            good(Some(from).filter(|from| *from <= to), Some(to)),
+            format!("{worst:.4}"),
+            snippet.name.to_string(),
+        ]
+    };
+    let rows = std::iter::once(header.map(String::from)).chain(snippets.iter().map(row));
+    format!(
+        "{}, {} to {}; a snippet is good where its restitution is right to {}\n\n{}",
+        standard_output::one_line(&export.title),
+        show(export.speeds.0, "m/s"),
+        show(export.speeds.1, "m/s"),
+        export.tolerance,
+        table(&[Left, Left, Left, Right, Left, Right, Left], rows)
+    )
+}
+
+/// Returns the speeds for which a snippet is valid.
+pub fn good(from: Option<f64>, to: Option<f64>) -> String {
+    match (from, to) {
+        (Some(from), Some(to)) if from == to => format!("at {} alone", show(from, "m/s")),
+        (Some(from), Some(to)) => format!("{} to {}", show(from, "m/s"), show(to, "m/s")),
+        _ => "nowhere".to_string(),
+    }
+}
+
+/// Returns a number with five digits.
+fn entry(value: f64) -> String {
+    number(value, 5)
+}
+
+/// Returns the text on stdout, one line per pair.
+pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
+    let header = ["first", "second", "e", "good to tolerance", "worst error"].map(String::from);
+    let row = |row: &PairNumbers| {
+        let grain = |material: &str, diameter| format!("{} {material}", show(diameter, "m"));
+        [
+            grain(&row.first_material, row.first_diameter_m),
+            grain(&row.second_material, row.second_diameter_m),
+            format!("{:.4}", row.restitution),
+            match row.unpublished_loss.as_slice() {
+                [] => good(row.good_from_m_s, row.good_to_m_s),
+                materials => format!("no loss known of {}", materials.join(", ")),
+            },
+            row.worst_error.map_or("not known".to_string(), |error| format!("{error:.4}")),
+        ]
+    };
+    let n = export.grains.len();
+    let cells = std::iter::once(header).chain(rows.iter().map(row));
+    format!(
+        "{n} {}, {} pairs; one e for all speeds of each, good where it is right to {}\n\n{}",
+        if n == 1 { "grain" } else { "grains" },
+        rows.len(),
+        export.tolerance,
+        table(&[Left, Left, Right, Left, Right], cells)
+    )
+}
+
+/// Returns `pairs.csv`, one row per pair with the input of each code.
+///
+/// # Errors
+/// The table cannot be written.
+pub fn pairs_csv(rows: &[PairNumbers]) -> Result<Vec<u8>, Failure> {
+    let keys: BTreeSet<&String> = rows.iter().flat_map(|row| row.entries.keys()).collect();
+    let failed =
+        |error: csv::Error| Failure::failed(format!("pairs.csv cannot be written: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let fixed = [
+        "first_material",
+        "first_diameter_m",
+        "second_material",
+        "second_diameter_m",
+        "slowest_m_s",
+        "fastest_m_s",
+        "restitution",
+        "good_from_m_s",
+        "good_to_m_s",
+        "worst_error",
+        "no_loss_known_of",
+    ];
+    let header = fixed.into_iter().chain(keys.iter().map(|key| key.as_str()));
+    writer.write_record(header).map_err(failed)?;
+    for row in rows {
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+        let mut cells = vec![
+            row.first_material.clone(),
+            number(Some(row.first_diameter_m)),
+            row.second_material.clone(),
+            number(Some(row.second_diameter_m)),
+            number(row.slowest_m_s),
+            number(row.fastest_m_s),
+            number(Some(row.restitution)),
+            number(row.good_from_m_s),
+            number(row.good_to_m_s),
+            number(row.worst_error),
+            row.unpublished_loss.join(" "),
+        ];
+        cells.extend(keys.iter().map(|key| number(row.entries.get(*key).copied())));
+        writer.write_record(cells).map_err(failed)?;
+    }
+    writer.into_inner().map_err(|error| Failure::failed(error.to_string()))
+}
+
+/// Returns `export.json`.
+///
+/// # Errors
+/// The numbers cannot be written as JSON.
+pub fn pairs_json(export: &PairExport, case: &str, rows: &[PairNumbers]) -> Result<Value, Failure> {
+    Ok(json!({ "case": case, "tolerance": export.tolerance, "pairs": value_of(&rows)? }))
+}

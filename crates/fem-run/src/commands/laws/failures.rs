@@ -1,0 +1,117 @@
+//! Errors of laws, fits and calibrations as failures, with the options that help.
+
+use fem::calibrate::CalibrationFault;
+use fem::laws::{LawFault, ParameterError};
+use fem_fit::FitError;
+use fem_laws::LawError;
+
+use crate::text::failure::Failure;
+
+impl From<LawFault> for Failure {
+    fn from(fault: LawFault) -> Self {
+        let message = fault.to_string();
+        match fault {
+            LawFault::Case(error) => error.into(),
+            LawFault::Data(error) => error.into(),
+            LawFault::Parameter(error) => error.into(),
+            LawFault::Fit(error) => error.into(),
+            LawFault::Missing { key, free, .. } => {
+                let give = format!("give it, --param {key}=VALUE");
+                Failure::bad_input(message).with_help(match &free[..] {
+                    [] => give,
+                    free => format!("{give}, or let it be found, --free {},{key}", free.join(",")),
+                })
+            }
+            LawFault::NeedsTimes { key, .. } => Failure::bad_input(message).with_help(format!(
+                "leave {key} out of --free, and it makes Hertz' contact time; or give contact times, a column \
+                 contact_time_s and --contact-time"
+            )),
+            LawFault::Grains(_, help) => Failure::bad_input(message).with_help(help),
+            LawFault::Compared { .. } => Failure::bad_input(format!("--compare {message}"))
+                .with_help("leave it out, or fit it alone with --law"),
+            LawFault::NoStandIn(error) => Failure::from(error).with_help(
+                "give a material a [material.NAME.relaxation] table, a law in [model], or \
+                 restitutions with --data",
+            ),
+        }
+    }
+}
+
+impl From<ParameterError> for Failure {
+    fn from(error: ParameterError) -> Self {
+        let failure = Failure::bad_input(error.to_string());
+        match (&error, error.help()) {
+            (ParameterError::Lossless { .. }, _) => {
+                failure.with_help("take another law; docs/fits.md lists them")
+            }
+            (_, Some(help)) => failure.with_help(help),
+            (_, None) => failure,
+        }
+    }
+}
+
+/// All of them are bad input: data and options are the user's.
+impl From<FitError> for Failure {
+    fn from(error: FitError) -> Self {
+        let failure = Failure::bad_input(error.to_string());
+        let help = match error {
+            FitError::TooFewData { .. } => "free fewer parameters, or measure at more speeds",
+            FitError::Degenerate { .. } => {
+                "hold one of them with --param KEY=VALUE and leave it out of --free, or measure over \
+                 a wider range of speeds"
+            }
+            FitError::Insensitive { .. } => "the data show no loss, or nothing but loss",
+            FitError::NotConverged { .. } => {
+                "give a start with --param KEY=VALUE, or a range with --bounds KEY=LOW..HIGH"
+            }
+            FitError::NoSolution { .. } => "no value of this parameter makes it: take another law",
+            FitError::OwnEnd { .. } => "leave --end out; zhang_whiten with another end is tsuji",
+            FitError::NoRelaxation => "give a material a [material.NAME.relaxation] table",
+            _ => return failure,
+        };
+        failure.with_help(help)
+    }
+}
+
+impl From<LawError> for Failure {
+    fn from(error: LawError) -> Self {
+        FitError::from(error).into()
+    }
+}
+
+impl From<CalibrationFault> for Failure {
+    fn from(fault: CalibrationFault) -> Self {
+        let message = fault.to_string();
+        match fault {
+            CalibrationFault::Case(error) => error.into(),
+            CalibrationFault::Data(error) => error.into(),
+            CalibrationFault::Fit(error) => calibration_failure(error),
+            CalibrationFault::OtherMaterial { name, materials } => {
+                Failure::bad_input(format!("--material {name}: no body is made of it"))
+                    .with_help(format!("the bodies are made of {}", materials.join(" and ")))
+            }
+            CalibrationFault::TwoMaterials { materials } => Failure::bad_input(message)
+                .with_help(format!("say which to calibrate: --material {}", materials[0])),
+            CalibrationFault::NoMesh { .. } => Failure::bad_input(message).with_help(
+                "split the data by speed, give mesh.contact_element_size, or use --model ting, which \
+                 has no mesh",
+            ),
+        }
+    }
+}
+
+/// Bad input, unless a collision failed.
+fn calibration_failure(error: FitError) -> Failure {
+    let message = error.to_string();
+    match error {
+        FitError::TooFewData { .. } => Failure::bad_input(message)
+            .with_help("lower --terms, measure at more speeds, or give --regularisation above 0"),
+        FitError::Collision { .. } => Failure::failed(message).with_help(
+            "leave out the speeds at which the bodies are not linear, or give slower --times",
+        ),
+        FitError::NotConverged { .. } => {
+            Failure::failed(message).with_help("lower --terms, or raise --regularisation")
+        }
+        error => error.into(),
+    }
+}

@@ -1,0 +1,247 @@
+//! `fem-run fit CASE --data E.csv --law NAME`: parameters of a law from measured restitutions.
+
+use std::path::PathBuf;
+
+use fem::case_identity;
+use fem::laws::{ChosenLaw, LawFit, LawRanking, family_of, parse_value};
+use fem::measured::{Restitutions, Table};
+use fem_case::Case;
+use fem_fit::{Free, Problem};
+use fem_laws::LawFamily;
+use fem_report::law_figures::{fit_figure, histories_figure};
+use serde_json::Value;
+
+use super::fit_text::{fit_text, ranking_csv, ranking_text};
+use crate::arguments::case::{CaseArguments, stem_of};
+use crate::arguments::data::ColumnArguments;
+use crate::arguments::law::{
+    End, LawArguments, find_key, of_value, parse_confidence, parse_family, parse_speed, split,
+};
+use crate::jobs::value_of;
+use crate::result_folder::command_output::OutputArguments;
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+
+/// Fit parameters of a contact law to restitutions over speed
+///
+/// The case gives the two bodies, a CSV file the restitutions. Writes fit.json, residuals.csv, fit.svg and
+/// histories.svg, and prints values with their confidence intervals.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: CaseArguments,
+    /// Restitutions: a CSV file with the columns speed_m_s (or speed_cm_s) and restitution
+    ///
+    /// A column restitution_uncertainty weights them. The sweep.csv of a sweep over speeds has this form.
+    #[arg(long, value_name = "FILE")]
+    data: PathBuf,
+    #[command(flatten)]
+    columns: ColumnArguments,
+    /// The law, such as bordbar_hyppanen or ting; `all` finds the law that explains the data best [default:
+    /// that of the case's model]
+    #[arg(long, value_name = "LAW", value_parser = parse_wanted)]
+    law: Option<Wanted>,
+    /// Parameters to fit, such as a,n [default: the damping parameter]
+    #[arg(long, value_name = "KEYS", value_delimiter = ',')]
+    free: Vec<String>,
+    #[command(flatten)]
+    values: LawArguments,
+    /// Bounds of a free parameter, such as n=0.3..1.5; may be repeated
+    #[arg(long, value_name = "KEY=LOW..HIGH")]
+    bounds: Vec<String>,
+    /// Draw the error over this free parameter with all others refitted [default: n if it is free]
+    #[arg(long, value_name = "KEY")]
+    profile: Option<String>,
+    /// Also fit this law, with its damping free, for comparison; may be repeated
+    #[arg(long, value_name = "LAW", value_parser = parse_family)]
+    compare: Vec<LawFamily>,
+    /// Also fit the column contact_time_s
+    #[arg(long)]
+    contact_time: bool,
+    /// Confidence level of the intervals
+    #[arg(long, value_name = "P", default_value_t = 0.95, allow_negative_numbers = true,
+        value_parser = parse_confidence)]
+    confidence: f64,
+    /// Speed of the histories that are drawn [default: the middle of the data]
+    #[arg(long, value_name = "SPEED", value_parser = parse_speed)]
+    at: Option<f64>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+/// The law to fit.
+#[derive(Clone, Copy, Debug)]
+enum Wanted {
+    One(LawFamily),
+    /// The best of all laws.
+    All,
+}
+
+fn parse_wanted(name: &str) -> Result<Wanted, String> {
+    match name {
+        "all" => Ok(Wanted::All),
+        name => parse_family(name).map(Wanted::One).map_err(|told| format!("{told}; or all")),
+    }
+}
+
+/// Runs the fit and writes its result.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let case = arguments.input.load_and_warn()?;
+    let table = arguments.columns.read(&arguments.data)?;
+    fitted(arguments, &case, &table, |found| write(arguments, &case, found))
+}
+
+/// Fits to a table in memory and returns the numbers.
+pub fn numbers(arguments: &Arguments, case: &Case, table: &Table) -> Result<Value, Failure> {
+    let table = arguments.columns.name_columns(table.clone())?;
+    let name = arguments.input.name();
+    fitted(arguments, case, &table, |found| value_of(&found.fitted.numbers(&name)))
+}
+
+/// A fitted law, and the ranking if it is the first of that.
+struct Found<'a> {
+    fitted: LawFit<'a>,
+    law: &'a ChosenLaw,
+    ranking: Option<LawRanking>,
+}
+
+/// Fits, and applies `then` to the result.
+fn fitted<T>(
+    arguments: &Arguments,
+    case: &Case,
+    table: &Table,
+    then: impl FnOnce(&Found<'_>) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let data = match arguments.contact_time {
+        true => Restitutions::read_with_contact_times(table, case.scene())?,
+        false => Restitutions::read(table, case.scene())?,
+    };
+    let wanted = arguments.law.or_else(|| family_of(case.scene()).map(Wanted::One));
+    let wanted = wanted.ok_or_else(|| {
+        Failure::bad_input("--law is missing, and the case's [model] names no law").with_help(
+            "name one, such as --law kuwabara_kono, or let --law all find out which explains the data \
+             best; fem-run fit --help, and docs/fits.md, have their names",
+        )
+    })?;
+    let ranking = match wanted {
+        Wanted::One(_) => None,
+        Wanted::All => Some(ranked(arguments, case, &data)?),
+    };
+    let best = ranking.as_ref().and_then(|ranking| ranking.laws.first());
+    let (family, free) = match (wanted, best) {
+        (Wanted::One(family), _) => (family, arguments.free.clone()),
+        (Wanted::All, Some(best)) => {
+            (best.family(), best.free.iter().map(ToString::to_string).collect())
+        }
+        (Wanted::All, None) => return Err(Failure::failed("no law can be fitted")),
+    };
+    let law = arguments.values.choose(case, family)?;
+    let problem = problem(arguments, &law, &data, &free)?;
+    let profiled = profiled(arguments, &problem)?.copied();
+    let mut fitted = LawFit::of(&data, problem, arguments.confidence)?;
+    if let Some(free) = &profiled {
+        fitted = fitted.with_profile(free)?;
+    }
+    if let Some(ranking) = &ranking {
+        fitted = fitted.compared_with_ranked(ranking);
+    }
+    let is_ranked = |family: &&LawFamily| {
+        ranking.as_ref().is_some_and(|all| all.laws.iter().any(|law| law.family() == **family))
+    };
+    for family in arguments.compare.iter().filter(|family| !is_ranked(family)) {
+        fitted = fitted.compared_with(*family)?;
+    }
+    then(&Found { fitted, law: &law, ranking })
+}
+
+fn write(arguments: &Arguments, case: &Case, found: &Found<'_>) -> Result<(), Failure> {
+    let Found { fitted, law, ranking } = found;
+    let columns = arguments.columns.text();
+    let inputs = [case_identity(case), arguments.data.display().to_string() + &columns];
+    let inputs = inputs.each_ref().map(String::as_str);
+    let mut output = arguments.output.claim(&stem_of(&arguments.data), "fit", &inputs)?;
+    output.write_table("residuals.csv", &LawFit::RESIDUAL_COLUMNS, fitted.residuals())?;
+    if let Some(ranking) = ranking {
+        output.write("ranking.csv", ranking_csv(ranking))?;
+    }
+    output.write("fit.svg", fit_figure(fitted, ranking.as_ref()))?;
+    let speed = arguments.at.unwrap_or_else(|| fitted.problem.middle_speed());
+    let histories = histories_figure(case.scene(), law.model(), &fitted.fit.values, speed)?;
+    output.write("histories.svg", histories)?;
+    let place = output.publish(&fitted.numbers(&arguments.input.name()))?;
+    standard_output::warn(fitted.warnings());
+    if arguments.output.quiet {
+        return Ok(());
+    }
+    let ranking = ranking.as_ref().map_or(String::new(), ranking_text);
+    standard_output::print(&format!("{ranking}{}\nResult: {place}\n", fit_text(fitted, law)))
+}
+
+/// Ranks all laws; options of a single law are rejected.
+fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<LawRanking, Failure> {
+    let of_one = [
+        ("--free", &arguments.free),
+        ("--param", &arguments.values.param),
+        ("--bounds", &arguments.bounds),
+    ];
+    if let Some((option, _)) = of_one.iter().find(|(_, given)| !given.is_empty()) {
+        return Err(Failure::bad_input(format!("{option} is of one law, and --law all is of all"))
+            .with_help("leave it out, or name the law"));
+    }
+    Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule))?)
+}
+
+/// Returns the fitting problem of the options and the case.
+fn problem<'a>(
+    arguments: &Arguments,
+    law: &'a ChosenLaw,
+    data: &'a Restitutions,
+    free: &[String],
+) -> Result<Problem<'a>, Failure> {
+    for key in free {
+        find_key(law.family(), key, "--free")?;
+    }
+    let free: Vec<&str> = free.iter().map(String::as_str).collect();
+    let mut problem = law.problem(&data.points, &free)?;
+    for text in &arguments.bounds {
+        bound(&mut problem, law.family(), text)?;
+    }
+    Ok(problem)
+}
+
+fn bound(problem: &mut Problem<'_>, family: LawFamily, text: &str) -> Result<(), Failure> {
+    let (key, range) = split(text, "--bounds")?;
+    let index = find_key(family, key, "--bounds")?;
+    let parameter = &family.parameters()[index];
+    let fault = |found: &str| {
+        Failure::bad_input(format!("--bounds {text:?}: {found}"))
+            .with_help("write --bounds KEY=LOW..HIGH with LOW < HIGH, such as --bounds n=0.3..1.5")
+    };
+    let (low, high) = range.split_once("..").ok_or_else(|| fault("there is no `..`"))?;
+    let low = parse_value(parameter, low).map_err(of_value("--bounds"))?;
+    let high = parse_value(parameter, high).map_err(of_value("--bounds"))?;
+    if low >= high {
+        return Err(fault("the range is empty"));
+    }
+    let free = problem.free.iter_mut().find(|free| free.index == index);
+    free.ok_or_else(|| fault("the parameter is not free"))?.bounds = (low, high);
+    Ok(())
+}
+
+/// Returns the free parameter whose profile is drawn.
+fn profiled<'p>(
+    arguments: &Arguments,
+    problem: &'p Problem<'_>,
+) -> Result<Option<&'p Free>, Failure> {
+    let find = |index: usize| problem.free.iter().find(|free| free.index == index);
+    match &arguments.profile {
+        None => Ok(problem.free.iter().find(|free| problem.parameter(free.index).key == "n")),
+        Some(key) => {
+            let free = find(find_key(problem.model.family(), key, "--profile")?);
+            free.map(Some).ok_or_else(|| {
+                Failure::bad_input(format!("--profile {key}: this parameter is not free"))
+                    .with_help(format!("add it to --free, such as --free {key}"))
+            })
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The texts of a fit and of a ranking of laws.
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::laws::{ChosenLaw, LawFit, LawRanking, StandIn};
+use fem_case::engineering::show;
+use fem_case::schema::End;
+use fem_fit::{Estimate, Profile};
+use fem_laws::LawFamily;
+
+use fem_report::law_figures::evidence;
+
+use crate::text::standard_output::one_line;
+use crate::text::tables::{show_value, table};
+
+/// Returns the text on stdout.
+pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
+    let LawFit { problem, fit, .. } = fitted;
+    let (model, points) = (problem.model, problem.points);
+    let (slowest, fastest) = fitted.data.speeds();
+    let mut text = format!(
+        "{}, contact ends at {}; {} of {}, {} to {}\n\n",
+        model.family().name(),
+        End::from(model.end_rule()).word().replace('_', " "),
+        if points.len() == 1 { "1 point".to_string() } else { format!("{} points", points.len()) },
+        fitted.data.name,
+        show(slowest, "m/s"),
+        show(fastest, "m/s"),
+    );
+    let level = format!("{} % interval", 100.0 * fitted.confidence);
+    let header = ["", "best value", "standard error", level.as_str(), "by profile"];
+    let rows = model.family().parameters().iter().enumerate().map(|(index, parameter)| {
+        let shown = |value: f64| show_value(value, parameter.unit);
+        let estimate = fit.estimates.iter().find(|estimate| estimate.index == index);
+        let [error, interval, profile] = match estimate {
+            None => {
+                let of = law.stand_in(index).map(StandIn::words);
+                let held = of.map_or("held".to_string(), |of| format!("held: {of}"));
+                [held, String::new(), String::new()]
+            }
+            Some(Estimate { standard_error, interval, .. }) => [
+                standard_error.map_or("-".to_string(), shown),
+                interval.map_or("-".to_string(), |(a, b)| format!("{} to {}", shown(a), shown(b))),
+                profile_words(
+                    fitted.profile.as_ref().filter(|profile| profile.index == index),
+                    shown,
+                ),
+            ],
+        };
+        [parameter.key.to_string(), shown(fit.values[index]), error, interval, profile]
+    });
+    let rows: Vec<_> = std::iter::once(header.map(String::from)).chain(rows).collect();
+    text += &table(&[Left, Right, Right, Left, Left], rows);
+    text += "\n";
+    for i in 0..fit.estimates.len() {
+        for j in 0..i {
+            let (first, second) = (fit.estimates[j].key, fit.estimates[i].key);
+            text += &format!("correlation of {first} and {second}: {:.4}\n", fit.correlation[i][j]);
+        }
+    }
+    let unit = if problem.has_uncertainties() { " uncertainties" } else { "" };
+    let freedom = fit.degrees_of_freedom;
+    let plural = if freedom == 1 { "degree" } else { "degrees" };
+    text += &format!("rms error: {:.4}{unit}, {freedom} {plural} of freedom\n", fit.rms);
+    let rates = model.decay_rates(fit.values[0]);
+    let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
+    if model.family() == LawFamily::Ting && others.count() > 0 {
+        text += "decay_rate is the largest; all others keep their ratio to it\n";
+    }
+    for (model, fit) in &fitted.compared {
+        let parameters = model.family().parameters().iter().zip(&fit.values);
+        let values: Vec<_> = parameters
+            .map(|(parameter, value)| {
+                let estimate = fit.estimates.iter().find(|own| own.key == parameter.key);
+                let is_at_bound = estimate.is_some_and(|own| own.is_at_bound);
+                let bound = if is_at_bound { " (at its bound)" } else { "" };
+                format!("{} {}{bound}", parameter.key, show_value(*value, parameter.unit))
+            })
+            .collect();
+        let name = model.family().name();
+        text += &format!("{name}: rms error {:.4} with {}\n", fit.rms, values.join(", "));
+    }
+    text
+}
+
+fn profile_words(profile: Option<&Profile>, shown: impl Fn(f64) -> String) -> String {
+    match profile.and_then(|profile| profile.interval) {
+        None => String::new(),
+        Some((low, high)) => {
+            let end = |end: Option<f64>| end.map_or("open".to_string(), &shown);
+            format!("{} to {}", end(low), end(high))
+        }
+    }
+}
+
+/// Returns the text on stdout, the best law first.
+pub fn ranking_text(ranking: &LawRanking) -> String {
+    let header = ["law", "free", "rms error", "ΔAICc", "evidence"].map(String::from);
+    let rows = ranking.laws.iter().map(|law| {
+        let shown = |value: Option<f64>, digits: usize| {
+            value.map_or("too few data".to_string(), |value| format!("{value:.digits$}"))
+        };
+        [
+            law.family().name().to_string(),
+            law.free.join(", "),
+            format!("{:.4}", law.fit.rms),
+            shown(law.difference, 1),
+            law.weight.map_or(String::new(), evidence),
+        ]
+    });
+    let rows: Vec<_> = std::iter::once(header).chain(rows).collect();
+    let mut text = table(&[Left, Left, Right, Right, Right], rows);
+    text += match ranking.laws.iter().any(|law| law.weight.is_some()) {
+        true => "evidence: the share of each among these laws; none need be right\n",
+        false => {
+            "the data are too few to tell laws apart, and the first is merely one of the fewest parameters: \
+             more speeds, or uncertainties, rank them\n"
+        }
+    };
+    let mut of: Vec<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();
+    of.dedup();
+    for of in of {
+        let twins = ranking.twins.iter().filter(|twin| twin.1 == of).map(|twin| twin.0.as_str());
+        let twins: Vec<&str> = twins.collect();
+        text += &format!("the same curve as {of}: {}\n", twins.join(", "));
+    }
+    for (law, why) in &ranking.others {
+        text += &format!("not ranked: {law}: {}\n", one_line(why));
+    }
+    text + "\n"
+}
+
+/// Returns `ranking.csv`.
+pub fn ranking_csv(ranking: &LawRanking) -> String {
+    let cell = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
+    let mut text = "law,free,rms_error,aicc_difference,evidence\n".to_string();
+    for law in &ranking.laws {
+        let (name, free) = (law.family().name(), law.free.join(" "));
+        let (difference, weight) = (cell(law.difference), cell(law.weight));
+        text += &format!("{name},{free},{},{difference},{weight}\n", law.fit.rms);
+    }
+    text
+}

@@ -1,0 +1,181 @@
+//! `fem-run invert CASE --restitution 0.92`: the parameter of a law that gives a restitution.
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::laws::{LawFault, LawInversion, family_of, needs_more};
+use fem_case::Case;
+use fem_case::engineering::{number, show};
+use fem_fit::FitError;
+use fem_laws::LawFamily;
+use serde_json::{Value, json};
+
+use crate::arguments::case::CaseArguments;
+use crate::arguments::law::{LawArguments, find_key, parse_family, parse_share, parse_speed};
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+use crate::text::tables::{show_value, table};
+
+/// Find the parameter of a law that gives a restitution at one speed
+///
+/// The case gives the two bodies and the speed. For the law `ting` the parameter is the decay rate of the
+/// bodies' relaxation. Without --law, the case's law is used, or else all laws that need only one
+/// parameter.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    input: CaseArguments,
+    /// The restitution, between 0 and 1, or in %
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = parse_share)]
+    restitution: f64,
+    /// The law [default: that of the case's model, or else all]
+    #[arg(long, value_name = "LAW", value_parser = parse_family)]
+    law: Option<LawFamily>,
+    /// The parameter to find [default: the damping parameter]
+    #[arg(long, value_name = "KEY")]
+    find: Option<String>,
+    #[command(flatten)]
+    values: LawArguments,
+    /// The approach speed [default: that of the case]
+    #[arg(long, value_name = "SPEED", value_parser = parse_speed)]
+    speed: Option<f64>,
+    /// Print nothing but errors and warnings
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// The answer of one law.
+enum Answer {
+    Solved(Box<LawInversion>),
+    /// The reason why no parameter gives the restitution.
+    Unsolved(LawFamily, String),
+}
+
+/// Solves and prints.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let case = arguments.input.load_and_warn()?;
+    let (speed, answers) = answers(arguments, &case)?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    let mut rows = vec![["law", "parameter", "value", "SI", "contact time"].map(String::from)];
+    for answer in &answers {
+        match answer {
+            Answer::Solved(solved) => rows.extend(lines(solved)),
+            Answer::Unsolved(family, reason) => {
+                let [none, dash] = [String::new(), "-".into()];
+                rows.push([family.name().into(), none.clone(), dash, reason.clone(), none]);
+            }
+        }
+    }
+    standard_output::print(&format!(
+        "restitution {} at {}\n\n{}",
+        arguments.restitution,
+        show(speed, "m/s"),
+        table(&[Left, Left, Right, Right, Right], rows)
+    ))
+}
+
+/// Solves and returns the numbers.
+pub fn numbers(arguments: &Arguments, case: &Case) -> Result<Value, Failure> {
+    let (speed, answers) = answers(arguments, case)?;
+    let mut solutions = Vec::new();
+    let mut unsolved = serde_json::Map::new();
+    for answer in answers {
+        match answer {
+            Answer::Solved(solved) => {
+                solutions.extend(solved.solutions().into_iter().map(|solution| {
+                    json!({
+                        "law": solved.model.family().name(),
+                        "parameter": solved.parameter().key,
+                        "value": solution.0,
+                        "contact_time_s": solution.1,
+                    })
+                }))
+            }
+            Answer::Unsolved(family, reason) => {
+                unsolved.insert(family.name().to_string(), reason.into());
+            }
+        }
+    }
+    let wanted = arguments.restitution;
+    Ok(
+        json!({ "restitution": wanted, "speed_m_s": speed, "solutions": solutions, "unsolved": unsolved }),
+    )
+}
+
+/// Returns the speed and the answer of each law.
+fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Failure> {
+    let speed = arguments.speed.unwrap_or_else(|| case.scene().approach_speed());
+    let wanted = arguments.restitution;
+    if !(wanted > 0.0 && wanted < 1.0) {
+        let message = format!("--restitution {wanted}: it must be greater than 0 and less than 1");
+        let help = match wanted > 1.2 && wanted < 100.0 {
+            true => format!("{wanted} % is --restitution {}", wanted / 100.0),
+            false => "it is the relative velocity after over before, such as 0.92".to_string(),
+        };
+        return Err(Failure::bad_input(message).with_help(help));
+    }
+    let law = arguments.law.or_else(|| family_of(case.scene()));
+    let options =
+        [("--param", !arguments.values.param.is_empty()), ("--find", arguments.find.is_some())];
+    if let (None, Some((option, _))) = (law, options.iter().find(|(_, is_given)| *is_given)) {
+        let message = format!("{option}: of which law?");
+        return Err(Failure::bad_input(message).with_help("name it with --law"));
+    }
+    let families: Vec<LawFamily> = law.map_or(LawFamily::ALL.to_vec(), |law| vec![law]);
+    let mut answers = Vec::new();
+    for family in families {
+        match solve(arguments, case, family, speed) {
+            Ok(solved) => answers.push(Answer::Solved(Box::new(solved))),
+            Err(failure) if law.is_some() => return Err(failure),
+            // Among all laws, those that need more parameters are left out.
+            Err(_) if needs_more(family) => {}
+            Err(failure) => {
+                let reason = failure.to_string();
+                let short = reason.split(':').next().unwrap_or("").to_string();
+                answers.push(Answer::Unsolved(family, short));
+            }
+        }
+    }
+    if !answers.iter().any(|answer| matches!(answer, Answer::Solved(_))) {
+        let message = format!("no law gives a restitution of {wanted} at {}", show(speed, "m/s"));
+        return Err(
+            Failure::bad_input(message).with_help("ask for one law, --law, to see its reach")
+        );
+    }
+    Ok((speed, answers))
+}
+
+fn solve(
+    arguments: &Arguments,
+    case: &Case,
+    family: LawFamily,
+    speed: f64,
+) -> Result<LawInversion, Failure> {
+    let law = arguments.values.choose(case, family)?;
+    if let Some(key) = &arguments.find {
+        find_key(family, key, "--find")?;
+    }
+    let key = arguments.find.as_deref();
+    LawInversion::of(&law, key, speed, arguments.restitution).map_err(|fault| match fault {
+        LawFault::Fit(error @ FitError::NoSolution { .. }) if family == LawFamily::HuntCrossley => {
+            Failure::bad_input(error.to_string())
+                .with_help("its coefficient holds for mild losses only; take another law")
+        }
+        fault => fault.into(),
+    })
+}
+
+/// Returns one row per solution.
+fn lines(solved: &LawInversion) -> Vec<[String; 5]> {
+    let parameter = solved.parameter();
+    let line = |(value, time): (f64, Option<f64>)| {
+        [
+            solved.model.family().name().to_string(),
+            parameter.key.to_string(),
+            show_value(value, parameter.unit),
+            number(value, 7),
+            time.map_or("-".to_string(), |time| show(time, "s")),
+        ]
+    };
+    solved.solutions().into_iter().map(line).collect()
+}

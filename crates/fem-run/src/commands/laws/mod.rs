@@ -1,0 +1,11 @@
+//! Commands about contact laws and measured data.
+
+pub mod calibrate;
+mod calibration_text;
+pub mod cradle;
+pub mod export;
+mod export_text;
+mod failures;
+pub mod fit;
+mod fit_text;
+pub mod invert;

@@ -1,0 +1,159 @@
+//! `fem-run new NAME`: a case to start from.
+
+use std::fs::{self, OpenOptions};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use fem_case::{Case, json_schema};
+use serde_json::Value;
+
+use crate::arguments::case::stem_of;
+use crate::commands::{materials, schema};
+use crate::text::failure::Failure;
+use crate::text::standard_output::{self, one_line};
+
+/// The text of a new case; `{…}` are placeholders.
+const TEMPLATE: &str = include_str!("template.toml");
+
+/// A made-up relaxation for an elastic material, commented out.
+const RELAXATION: &str = include_str!("relaxation.toml");
+
+/// Gravity for a sphere above a resting body, commented out.
+const GRAVITY: &str = include_str!("gravity.toml");
+
+/// The schema beside the case, for editors.
+const SCHEMA_FILE: &str = "fem-run.schema.json";
+
+/// Write a case to start from, NAME.toml, with comments on what can be changed
+///
+/// fem-run.schema.json beside it lets editors complete and check keys. No file is overwritten.
+#[derive(clap::Args, Debug)]
+pub struct Arguments {
+    /// The new case file, with or without .toml
+    name: PathBuf,
+    /// A material of the library, as listed by fem-run materials
+    #[arg(long, value_name = "MATERIAL", default_value = "soda-lime-glass")]
+    material: String,
+    /// The partner of the sphere
+    #[arg(long, value_enum, default_value_t = Partner::Sphere)]
+    partner: Partner,
+    /// Print nothing but errors and warnings
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq)]
+enum Partner {
+    /// Another sphere
+    Sphere,
+    /// A rigid plane
+    Wall,
+    /// A half-space of the same material
+    HalfSpace,
+}
+
+/// Writes the case.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let path = arguments.name.with_extension_toml();
+    let text = text_of(&path, &arguments.material, arguments.partner)?;
+    // The written text is checked to be a valid case.
+    Case::parse(&path.display().to_string(), &text, Path::new("."), &[])?;
+    let schema = path.with_file_name(SCHEMA_FILE);
+    write_new(&path, &text)?;
+    let wrote_schema = write_schema(&schema)?;
+    if arguments.quiet {
+        return Ok(());
+    }
+    let name = one_line(&path.display().to_string());
+    let word = shell_word(&name);
+    let beside = match wrote_schema {
+        true => format!(", and beside it {SCHEMA_FILE} for your editor"),
+        false => format!(" ({SCHEMA_FILE} beside it is not of fem-run, and stays)"),
+    };
+    standard_output::print(&format!(
+        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   says what that \
+         takes, and what it will consider\n"
+    ))
+}
+
+/// Quotes a name for a shell.
+fn shell_word(name: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./,:+@%".contains(c);
+    match name.chars().all(is_plain) {
+        true => name.to_string(),
+        false => format!("'{}'", name.replace('\'', r"'\''")),
+    }
+}
+
+trait WithToml {
+    fn with_extension_toml(&self) -> PathBuf;
+}
+
+impl WithToml for PathBuf {
+    /// Appends `.toml` unless it is there: `ball_0.5ms` becomes `ball_0.5ms.toml`.
+    fn with_extension_toml(&self) -> PathBuf {
+        if self.extension().is_some_and(|extension| extension == "toml") {
+            return self.clone();
+        }
+        let mut name = self.clone().into_os_string();
+        name.push(".toml");
+        name.into()
+    }
+}
+
+fn text_of(path: &Path, material: &str, partner: Partner) -> Result<String, Failure> {
+    let material = material.strip_prefix("lib:").unwrap_or(material);
+    let table = materials::one(material)?;
+    let relaxation = match table.contains("relaxation") {
+        true => String::new(),
+        false => "\n".to_string() + RELAXATION,
+    };
+    let below = match partner {
+        Partner::Sphere => {
+            "name = \"lower\"\nsphere = { diameter = \"20 mm\" }\nmaterial = \"{material}\""
+        }
+        Partner::Wall => {
+            "name = \"floor\"\nwall = {}                              # rigid, no material"
+        }
+        Partner::HalfSpace => "name = \"floor\"\nhalf_space = {}\nmaterial = \"{material}\"",
+    };
+    let gravity = if partner == Partner::Sphere { "" } else { GRAVITY };
+    let words = [
+        ("{below}", below),
+        ("{table}", table.trim_end()),
+        ("{relaxation}", &relaxation),
+        ("{gravity}", gravity),
+        ("{material}", material),
+        ("{file}", &one_line(&path.file_name().unwrap_or_default().to_string_lossy())),
+        ("{title}", &one_line(&stem_of(path)).replace(['"', '\\'], "'")),
+    ];
+    Ok(words.iter().fold(TEMPLATE.to_string(), |text, (from, to)| text.replace(from, to)))
+}
+
+fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    let name = one_line(&path.display().to_string());
+    let file = OpenOptions::new().write(true).create_new(true).open(path);
+    let mut file = file.map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Failure::bad_input(format!("{name} exists"))
+            .with_help("give the new case another name; nothing is overwritten"),
+        _ => Failure::bad_input(format!("{name} cannot be written: {error}"))
+            .with_help("name a file in a folder that exists and that you may write to"),
+    })?;
+    let written = file.write_all(text.as_bytes());
+    written.map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))
+}
+
+/// Writes the schema unless another program's file is in the way; returns whether it did.
+fn write_schema(path: &Path) -> Result<bool, Failure> {
+    let schema = json_schema::of_cases();
+    if let Ok(old) = fs::read(path) {
+        let old: Value = serde_json::from_slice(&old).unwrap_or_default();
+        if old.get("title") != schema.get("title") {
+            return Ok(false);
+        }
+    }
+    let name = one_line(&path.display().to_string());
+    let written = fs::write(path, schema::text_of(&schema));
+    written.map_err(|error| Failure::failed(format!("{name} cannot be written: {error}")))?;
+    Ok(true)
+}

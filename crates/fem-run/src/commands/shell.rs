@@ -1,0 +1,54 @@
+//! `fem-run completions SHELL` and `fem-run man`.
+
+use clap::Command;
+use clap_complete::Shell;
+use clap_mangen::Man;
+
+use crate::text::failure::Failure;
+use crate::text::standard_output;
+
+/// Print a script that completes fem-run's arguments in a shell
+///
+/// For bash: fem-run completions bash > ~/.local/share/bash-completion/completions/fem-run
+#[derive(clap::Args, Debug)]
+pub struct CompletionArguments {
+    /// The shell
+    shell: Shell,
+}
+
+/// Prints the completion script of a command line.
+pub fn complete(arguments: &CompletionArguments, mut command: Command) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut command, "fem-run", &mut script);
+    standard_output::print(&String::from_utf8_lossy(&script))
+}
+
+/// Print the manual page of fem-run or of one of its commands
+///
+/// To read it: fem-run man | man -l -. To install it: fem-run man > ~/.local/share/man/man1/fem-run.1
+#[derive(clap::Args, Debug)]
+pub struct ManArguments {
+    /// A command, such as check
+    command: Option<String>,
+}
+
+/// Prints the page as troff; `whole` is the whole command line.
+pub fn man(arguments: &ManArguments, mut whole: Command) -> Result<(), Failure> {
+    whole.build();
+    let page = match &arguments.command {
+        None => whole.clone(),
+        Some(name) => whole.find_subcommand(name).cloned().ok_or_else(|| {
+            let names: Vec<&str> = whole.get_subcommands().map(Command::get_name).collect();
+            Failure::bad_input(format!("fem-run has no command {name:?}"))
+                .with_help(format!("the commands are {}", names.join(", ")))
+        })?,
+    };
+    let title = page.get_bin_name().unwrap_or("fem-run").replace(' ', "-");
+    let mut text = Vec::new();
+    Man::new(page)
+        .title(title)
+        .source(concat!("fem-run ", env!("CARGO_PKG_VERSION")))
+        .render(&mut text)
+        .map_err(|error| Failure::failed(format!("the manual page: {error}")))?;
+    standard_output::print(&String::from_utf8_lossy(&text))
+}

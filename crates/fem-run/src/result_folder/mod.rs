@@ -1,0 +1,326 @@
+//! The folder of a result: claimed before the run, filled in a hidden folder beside its final place, and moved
+//! there in one step at the end.
+//!
+//! ```text
+//! whole_file ─ existing_output ─ hidden_folder ─ ResultFolder ─ run_files, restart, command_output
+//! ```
+//!
+//! An old result stays in place until then, and survives a run that is rejected or killed. It is replaced by
+//! a complete or interrupted result of the same case. Files that users put into a result folder are moved
+//! to the new one.
+
+pub mod command_output;
+mod existing_output;
+mod hidden_folder;
+pub mod restart;
+pub mod run_files;
+pub mod whole_file;
+
+use std::env;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::text::failure::Failure;
+use existing_output::{ExistingOutput, ExistingResult};
+use hidden_folder::HiddenFolder;
+use whole_file::write_lasting;
+
+pub use existing_output::missing_parents;
+pub use hidden_folder::recover_leftovers;
+
+/// Attempts to take a place that other runs are changing.
+const ATTEMPTS: usize = 100;
+/// Looks at a folder after which it counts as foreign.
+const LOOKS: usize = 5;
+/// Digits of the digest in the name of a folder.
+const DIGITS: usize = 8;
+
+/// Which existing results a new one may replace.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Replaces {
+    /// All results of this program.
+    Any,
+    /// Results that were made from the input with this digest.
+    MadeFrom(String),
+}
+
+impl Replaces {
+    /// Allows results of the same input, or all results by force.
+    pub fn only(made_from: &str, force: bool) -> Self {
+        if force { Self::Any } else { Self::MadeFrom(made_from.to_string()) }
+    }
+
+    fn allows(&self, old: &ExistingResult) -> bool {
+        match self {
+            Self::Any => true,
+            Self::MadeFrom(own) => old.made_from() == Some(own),
+        }
+    }
+}
+
+/// The path of a result folder.
+#[derive(Debug)]
+pub struct ResultPath {
+    /// The folder that is written.
+    pub out: PathBuf,
+    /// The default folder, if it holds the result of another case.
+    pub taken: Option<PathBuf>,
+}
+
+impl ResultPath {
+    /// Returns `out` if it is given, and else `runs/<name>`. If that holds a result that may not be replaced,
+    /// the folder is `runs/<name>-<digits of made_from>`.
+    pub fn choose(out: Option<&Path>, name: &str, made_from: &str, replaces: &Replaces) -> Self {
+        if let Some(out) = out {
+            return Self { out: out.to_path_buf(), taken: None };
+        }
+        let default = Path::new("runs").join(name);
+        match ExistingOutput::at(&default) {
+            Ok(ExistingOutput::Result(old)) if !replaces.allows(&old) => {
+                let digits = made_from.get(..DIGITS).unwrap_or(made_from);
+                let out = default.with_file_name(format!("{name}-{digits}"));
+                Self { out, taken: Some(default) }
+            }
+            _ => Self { out: default, taken: None },
+        }
+    }
+}
+
+/// A claimed folder. Dropped before it is published, it leaves nothing behind.
+#[derive(Debug)]
+pub struct ResultFolder {
+    /// The path in messages, as the user named it.
+    shown: PathBuf,
+    /// The absolute path with symbolic links resolved.
+    target: PathBuf,
+    hidden: Option<HiddenFolder>,
+    replaces: Replaces,
+    /// Parent folders that were created, the innermost first.
+    made: Vec<PathBuf>,
+}
+
+impl ResultFolder {
+    /// Claims `out` without touching its content, and recovers what killed runs left beside it. `longest_name`
+    /// is the longest file name to come.
+    ///
+    /// # Errors
+    /// The place cannot be written, or holds something that may not be replaced.
+    pub fn claim(out: &Path, longest_name: &str, replaces: Replaces) -> Result<Self, Failure> {
+        if let Some(parent) = resolve(out)?.parent() {
+            recover_leftovers(parent);
+        }
+        Self::claim_recovered(out, longest_name, replaces)
+    }
+
+    /// Claims a folder where nothing is left to recover.
+    ///
+    /// # Errors
+    /// As [`ResultFolder::claim`].
+    pub fn claim_recovered(
+        out: &Path,
+        longest_name: &str,
+        replaces: Replaces,
+    ) -> Result<Self, Failure> {
+        let target = resolve(out)?;
+        check_place(out, &target, &replaces)?;
+        let cannot = |error: io::Error| {
+            let message = format!("--out {}: a result cannot be written here: {error}", show(out));
+            Failure::bad_input(message).with_help("name a folder in a place that you may write to")
+        };
+        let parent = target.parent().unwrap_or(Path::new("/")).to_path_buf();
+        let made = missing_parents(&target);
+        // A folder beside the target of a link is not beside the link.
+        let shown = if out.is_symlink() { target.clone() } else { out.to_path_buf() };
+        let mut folder = Self { shown, target, hidden: None, replaces, made };
+        fs::create_dir_all(&parent).map_err(cannot)?;
+        // The system rejects an impossible name only now.
+        ExistingOutput::at(&folder.target).map_err(cannot)?;
+        let hidden = HiddenFolder::beside(&folder.target).map_err(cannot)?;
+        let probe = hidden.path().join(longest_name);
+        folder.hidden = Some(hidden);
+        fs::write(&probe, "fem-run\n").and_then(|()| fs::remove_file(&probe)).map_err(cannot)?;
+        Ok(folder)
+    }
+
+    /// Returns the folder to write files into until they are published.
+    pub fn path(&self) -> &Path {
+        self.hidden.as_ref().map_or(&self.target, HiddenFolder::path)
+    }
+
+    /// Writes a file into the final place at once, which may hold an old result or not exist yet.
+    ///
+    /// # Errors
+    /// The file system; an old file of the same name is unchanged then.
+    pub fn write_ahead(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
+        match fs::create_dir(&self.target) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error),
+            _ => {}
+        }
+        write_lasting(&self.target.join(name), self.path(), bytes)
+    }
+
+    /// Moves the files to their place and returns it as the user would name it. A result that lacks files is
+    /// written beside an old one.
+    ///
+    /// # Errors
+    /// The place cannot be taken; the message says where the files are.
+    pub fn publish(mut self, is_whole: bool) -> Result<PathBuf, Failure> {
+        let Some(mut hidden) = self.hidden.take() else { return Ok(self.shown.clone()) };
+        self.made.clear();
+        let replaces = self.replaces.clone();
+        let may_replace = |old: &ExistingResult| is_whole && replaces.allows(old);
+        let placed = put_in_place(&mut hidden, &self.target, &self.shown, may_replace);
+        placed.map_err(|error| {
+            let shown = show(&self.shown);
+            let message = format!("--out {shown}: the result cannot be moved here: {error}");
+            Failure::failed(message).with_help(format!("it is kept in {}", show(&hidden.keep())))
+        })
+    }
+}
+
+impl Drop for ResultFolder {
+    fn drop(&mut self) {
+        drop(self.hidden.take());
+        for folder in &self.made {
+            // Removes a folder only if it is empty.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Returns the absolute path of `out` with symbolic links resolved.
+fn resolve(out: &Path) -> Result<PathBuf, Failure> {
+    let fault = |found: &str| {
+        Failure::bad_input(format!("--out {}: {found}", show(out)))
+            .with_help("name a folder for the result, such as --out runs/first")
+    };
+    if out.symlink_metadata().is_ok() {
+        return out.canonicalize().map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => {
+                fault("this is a symbolic link to something that does not exist")
+            }
+            _ => fault(&error.to_string()),
+        });
+    }
+    let path = std::path::absolute(out).ok().filter(|_| out.file_name().is_some());
+    path.ok_or_else(|| fault("this is not the name of a folder"))
+}
+
+fn check_place(out: &Path, target: &Path, replaces: &Replaces) -> Result<(), Failure> {
+    let named = show(out);
+    let refuse = |found: &str| {
+        Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
+            "name another folder with --out, or move this one away; only result folders of fem-run \
+             are replaced",
+        ))
+    };
+    match ExistingOutput::at(target) {
+        Ok(ExistingOutput::File) => refuse("a file is in the way"),
+        Ok(ExistingOutput::Foreign) => refuse("this folder is not a result of fem-run"),
+        Ok(ExistingOutput::Absent) => Ok(()),
+        Ok(ExistingOutput::Result(old)) if !replaces.allows(&old) => {
+            let message = format!("--out {named}: this folder holds the result of another case");
+            Err(Failure::bad_input(message).with_help(
+                "name another folder with --out, or replace that result with --force; cases that differ \
+                 only in [output] count as the same",
+            ))
+        }
+        Ok(ExistingOutput::Empty | ExistingOutput::Result(_)) => {
+            let is_current = env::current_dir()
+                .and_then(|folder| folder.canonicalize())
+                .is_ok_and(|folder| folder.starts_with(target));
+            if is_current { refuse("this is the folder you are in") } else { Ok(()) }
+        }
+        // A path through a file: creating its folder will report that.
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory => Ok(()),
+        Err(error) => refuse(&format!("this folder cannot be read: {error}")),
+    }
+}
+
+/// Moves a hidden folder to `target`, or beside it, and returns its place as the user would name it.
+fn put_in_place(
+    hidden: &mut HiddenFolder,
+    target: &Path,
+    shown: &Path,
+    may_replace: impl Fn(&ExistingResult) -> bool,
+) -> io::Result<PathBuf> {
+    let (mut target, mut shown) = (target.to_path_buf(), shown.to_path_buf());
+    let mut n_foreign = 0;
+    for _ in 0..ATTEMPTS {
+        let existing = match ExistingOutput::at(&target) {
+            // Another run removed it during the look.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
+            existing => existing?,
+        };
+        match existing {
+            ExistingOutput::Absent | ExistingOutput::Empty => {
+                // Renaming fails if the folder is not empty: another run was faster.
+                match hidden.move_to(&target) {
+                    Err(error) if is_taken(&error) => {}
+                    result => return result.map(|()| shown),
+                }
+            }
+            ExistingOutput::Result(old) if may_replace(&old) => {
+                if replace(hidden, &target)? {
+                    return Ok(shown);
+                }
+            }
+            // A result that another run is removing looks foreign: look again.
+            ExistingOutput::Foreign if n_foreign < LOOKS => n_foreign += 1,
+            // Someone put it there during the run, or the new result lacks files.
+            ExistingOutput::Foreign | ExistingOutput::File | ExistingOutput::Result(_) => {
+                target = with_suffix(&target, ".new");
+                shown = with_suffix(&shown, ".new");
+            }
+        }
+    }
+    Err(io::Error::other("other runs keep writing to it"))
+}
+
+/// Replaces an old result; returns false if another run was faster. If it is killed on the way, the next run
+/// recovers the hidden folders that it leaves.
+fn replace(hidden: &mut HiddenFolder, target: &Path) -> io::Result<bool> {
+    let mut aside = HiddenFolder::beside(target)?;
+    let old_folder = aside.old();
+    match fs::rename(target, &old_folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+        result => result?,
+    }
+    // From now on the folder holds the old result and must not be removed.
+    aside.disarm();
+    let put_back = |mut aside: HiddenFolder| {
+        fs::rename(&old_folder, target)?;
+        aside.remove()
+    };
+    // Another run may have replaced what was seen before; nobody can any more.
+    let ExistingOutput::Result(old) = ExistingOutput::at(&old_folder)? else {
+        return put_back(aside).map(|()| false);
+    };
+    let moved = old.move_user_files(&old_folder, hidden.path());
+    let placed = moved.and_then(|()| hidden.move_to(target));
+    if let Err(error) = &placed
+        && !is_taken(error)
+    {
+        put_back(aside)?;
+        return placed.map(|()| false);
+    }
+    // What cannot be deleted stays; no result is lost.
+    let _ = old.remove_own_files(&old_folder).and_then(|()| aside.remove());
+    Ok(placed.is_ok())
+}
+
+fn is_taken(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::AlreadyExists)
+}
+
+/// Returns the path with a suffix appended to its last name.
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(suffix);
+    path.with_file_name(name)
+}
+
+fn show(path: &Path) -> String {
+    crate::text::standard_output::one_line(&path.display().to_string())
+}

@@ -1,0 +1,252 @@
+//! The files of a run in its result folder.
+//!
+//! On a full disk the snapshots are given up first, then the history, then the summary. Space for the summary
+//! is reserved before everything else, since it is written last, when all files are known.
+
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::Path;
+
+use fem::results::{
+    CONTACT_FILE, HISTORY_FILE, PROBES_FILE, SUMMARY_FILE, Summary, contact_csv, has_contact,
+    history_csv, probes_csv, write_snapshots,
+};
+use fem::{Identity, Simulation};
+use fem_case::Keep;
+use fem_case::engineering::Unit;
+use fem_collision::{Collision, Label};
+use fem_report::report::{REPORT_FILE, StoredResult, report_page};
+use fem_report::section_view::{contour_of_frames, half_width, mirrored, sections};
+
+use super::whole_file::write_whole;
+use super::{Replaces, ResultFolder};
+use crate::progress::stopwatch::Stopwatch;
+use crate::text::failure::Failure;
+
+/// Reserves space for the summary.
+const RESERVE_FILE: &str = ".fem-run-room";
+/// Bytes by which a summary may grow once all files are known.
+const RESERVE: usize = 16 << 10;
+
+/// Returns the longest name of a file to come, including the temporary suffix.
+pub fn longest_name(stem: &str) -> String {
+    format!(".{stem}_99999_mid-compression.vtu.XXXXXX.tmp")
+}
+
+/// The outcome of writing a result.
+pub struct WrittenResult {
+    /// The summary with the names of the written files; none if nothing could be written.
+    pub summary: Summary,
+    /// The content of `summary.json`.
+    pub text: String,
+    /// The error, if something could not be written.
+    pub fault: Option<Failure>,
+}
+
+/// Writes the result folder that `fem-run CASE --out FOLDER` would write, with file names from `stem`.
+/// `force` allows it to replace the result of another case.
+///
+/// # Errors
+/// The place cannot be written, or holds something that may not be replaced.
+pub fn save(
+    folder: &Path,
+    stem: &str,
+    simulation: &Simulation,
+    collision: &Collision,
+    stopwatch: &Stopwatch,
+    force: bool,
+) -> Result<(), Failure> {
+    let identity = Identity::of(simulation.case())?;
+    let replaces = Replaces::only(&identity.case, force);
+    let place = ResultFolder::claim(folder, &longest_name(stem), replaces)?;
+    let written =
+        write_result(place.path(), stem, simulation, collision, stopwatch, Keep::All, &[]);
+    if !written.summary.files.is_empty() {
+        place.publish(written.fault.is_none())?;
+    }
+    written.fault.map_or(Ok(()), Err)
+}
+
+/// Writes the files of a result that `keep` asks for, beside the files `others` that exist already.
+pub fn write_result(
+    folder: &Path,
+    stem: &str,
+    simulation: &Simulation,
+    collision: &Collision,
+    stopwatch: &Stopwatch,
+    keep: Keep,
+    others: &[&str],
+) -> WrittenResult {
+    let warnings = simulation.warnings(collision);
+    let files = [SUMMARY_FILE].iter().chain(others).map(ToString::to_string).collect();
+    let mut summary = Summary::of(simulation, collision, stopwatch.spent(), warnings, files);
+    let mut missing = None;
+    if keep == Keep::All {
+        let written = reserve_space(folder, &summary)
+            .and_then(|()| write_tables(folder, simulation, collision, &mut summary))
+            .and_then(|()| write_fields(folder, stem, simulation, collision, &mut summary));
+        missing = written.err();
+        let _ = fs::remove_file(folder.join(RESERVE_FILE));
+        let spent = stopwatch.spent();
+        (summary.cost.wall_s, summary.cost.peak_memory_bytes) = (spent.wall, spent.peak_memory);
+    }
+    summary.warnings.extend(missing.clone());
+    let wants_report = simulation.case().scene().wants_report();
+    if keep == Keep::All && missing.is_none() && wants_report {
+        summary.files.push(REPORT_FILE.to_string());
+    }
+    let text = match json_text(&summary) {
+        Ok(text) => text,
+        Err(error) => return nothing_written(summary, String::new(), &error),
+    };
+    let (text, missing) = match summary.files.iter().any(|file| file == REPORT_FILE) {
+        true => with_report(folder, &mut summary, text),
+        false => (text, missing),
+    };
+    if let Err(error) = write_whole(&folder.join(SUMMARY_FILE), folder, text.as_bytes()) {
+        return nothing_written(summary, text, &error);
+    }
+    let fault = missing.map(|missing| {
+        let kept = summary.files.join(", ");
+        Failure::failed(missing).with_help(format!("kept: {kept}; is the disk full?"))
+    });
+    WrittenResult { summary, text, fault }
+}
+
+/// Writes the report page of a result whose other files exist and whose summary has this text. If the page
+/// cannot be written, the summary says so.
+fn with_report(folder: &Path, summary: &mut Summary, text: String) -> (String, Option<String>) {
+    let write = || -> Result<(), Box<dyn std::error::Error>> {
+        let page = report_page(&StoredResult::of(folder, &text)?)?;
+        Ok(write_whole(&folder.join(REPORT_FILE), folder, page.as_bytes())?)
+    };
+    match write() {
+        Ok(()) => (text, None),
+        Err(error) => {
+            let missing = format!("{REPORT_FILE} cannot be written: {error}");
+            summary.files.retain(|file| file != REPORT_FILE);
+            summary.warnings.push(missing.clone());
+            (json_text(summary).unwrap_or(text), Some(missing))
+        }
+    }
+}
+
+fn nothing_written(
+    mut summary: Summary,
+    text: String,
+    error: &dyn std::error::Error,
+) -> WrittenResult {
+    summary.files.clear();
+    let fault = Failure::failed(format!("the result cannot be written: {error}"))
+        .with_help("nothing was kept of this run; is the disk full? An older result is unchanged");
+    WrittenResult { summary, text, fault: Some(fault) }
+}
+
+fn json_text(summary: &Summary) -> serde_json::Result<String> {
+    let mut text = serde_json::to_string_pretty(summary)?;
+    text.push('\n');
+    Ok(text)
+}
+
+/// Reserves space for the summary; if there is none, no other file is tried.
+fn reserve_space(folder: &Path, summary: &Summary) -> Result<(), String> {
+    let n_bytes = json_text(summary).map_or(0, |text| text.len()) + RESERVE;
+    fs::write(folder.join(RESERVE_FILE), vec![b' '; n_bytes])
+        .map_err(|error| format!("{HISTORY_FILE} and the snapshots cannot be written: {error}"))
+}
+
+/// Writes the history, the probes if there are any, and the contact at the snapshots if the model has it.
+fn write_tables(
+    folder: &Path,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    write_table(folder, HISTORY_FILE, summary, |file| {
+        Ok(history_csv(file, simulation.case().scene(), &collision.history)?)
+    })?;
+    let probes = &simulation.want().probes;
+    if !probes.is_empty() {
+        write_table(folder, PROBES_FILE, summary, |file| {
+            Ok(probes_csv(file, probes, &collision.probes)?)
+        })?;
+    }
+    if has_contact(collision) {
+        write_table(folder, CONTACT_FILE, summary, |file| {
+            Ok(contact_csv(file, simulation, collision)?)
+        })?;
+    }
+    Ok(())
+}
+
+/// Writes a whole table, or removes it.
+fn write_table(
+    folder: &Path,
+    name: &str,
+    summary: &mut Summary,
+    write: impl FnOnce(BufWriter<File>) -> Result<(), Box<dyn std::error::Error>>,
+) -> Result<(), String> {
+    let path = folder.join(name);
+    let file = File::create(&path).map_err(Into::into);
+    file.and_then(|file| write(BufWriter::new(file))).map_err(|error| {
+        let _ = fs::remove_file(&path);
+        format!("{name} and the snapshots cannot be written: {error}")
+    })?;
+    summary.files.push(name.to_string());
+    Ok(())
+}
+
+/// Writes all snapshots, or none.
+fn write_fields(
+    folder: &Path,
+    stem: &str,
+    simulation: &Simulation,
+    collision: &Collision,
+    summary: &mut Summary,
+) -> Result<(), String> {
+    let written = write_snapshots(folder, stem, simulation, collision)
+        .map_err(|error| format!("the snapshots cannot be written: {error}"))
+        .and_then(|files| Ok((files, write_failure_figure(folder, stem, simulation, collision)?)));
+    let ((files, left_out), picture) =
+        written.inspect_err(|_| remove_snapshots(folder, stem, &summary.files))?;
+    summary.files.extend(files.into_iter().chain(picture));
+    summary.warnings.extend(left_out);
+    Ok(())
+}
+
+/// Removes the snapshots that were written before one failed. The files `others` stay.
+fn remove_snapshots(folder: &Path, stem: &str, others: &[String]) {
+    let (many, one) = (format!("{stem}_"), format!("{stem}."));
+    for entry in fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok) {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let is_snapshot = name.starts_with(&many) || name.starts_with(&one);
+        if is_snapshot && !others.iter().any(|other| *other == name) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Writes the picture of the last valid state of a failed run, `<stem>_last-sound.svg`, and returns its name;
+/// `None` if there is no such state or no body has elements.
+fn write_failure_figure(
+    folder: &Path,
+    stem: &str,
+    simulation: &Simulation,
+    collision: &Collision,
+) -> Result<Option<String>, String> {
+    let Some(svg) = failure_figure(simulation, collision) else { return Ok(None) };
+    let name = format!("{stem}_{}.svg", Label::LastSound.name());
+    write_whole(&folder.join(&name), folder, svg.as_bytes())
+        .map_err(|error| format!("{name} cannot be written: {error}"))?;
+    Ok(Some(name))
+}
+
+fn failure_figure(simulation: &Simulation, collision: &Collision) -> Option<String> {
+    let snapshot = collision.snapshot(Label::LastSound)?;
+    let near = half_width(collision.max_contact_radius.unwrap_or(0.0), snapshot.approach)?;
+    let both = sections(simulation, snapshot)?;
+    let time = Unit::fitting(snapshot.time, "s").with_digits(4);
+    let title = format!("last valid state, {}", time.show(snapshot.time));
+    Some(mirrored(contour_of_frames(vec![both], vec![title], near, |_, _, _| None)).svg())
+}

@@ -1,0 +1,6 @@
+//! Text on the terminal: errors, tables and the report of a run.
+
+pub mod failure;
+pub mod run_report;
+pub mod standard_output;
+pub mod tables;

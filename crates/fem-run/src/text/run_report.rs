@@ -1,0 +1,325 @@
+//! The report of a run on stdout, for people. Programs read the numbers from the summary.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use comfy_table::CellAlignment::{Left, Right};
+use fem::effects::{LeftOut, Verdict};
+use fem::results::{BodySummary, BounceSummary, Parts, RestSummary, Summary};
+use fem::{Considered, ExpectedError};
+use fem_case::engineering::{Unit, number, show};
+use fem_collision::{Headline, Shown, Side};
+use indicatif::{DecimalBytes, HumanCount};
+
+use super::standard_output::one_line;
+use super::tables::table;
+
+/// Stands for a missing number.
+const NONE: &str = "-";
+/// Stands for an error or a change that is not known.
+const UNKNOWN: &str = "?";
+/// Within this distance from 1 a restitution is also printed as 1 − e.
+const NEARLY_ELASTIC: f64 = 1e-3;
+/// Relative errors below this are rounding.
+const ROUNDING: f64 = 1e-9;
+/// Most bounces that are printed; the summary has all.
+const MOST_BOUNCES: usize = 12;
+
+/// Returns the report of a run whose files are in `place`, if there are any.
+pub fn report(summary: &Summary, place: Option<&Path>) -> String {
+    let mut text = String::new();
+    let title = summary.case.title.as_deref().unwrap_or_default();
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{}\n", one_line(title));
+    if let Some(reason) = &summary.stopped_because {
+        let _ = writeln!(text, "INCOMPLETE: {reason}\n");
+    }
+    text += &quantities(summary);
+    if let Some(deficit) = elastic_deficit(summary.collision.restitution) {
+        let _ = writeln!(text, "\n1 - restitution  {deficit}");
+    }
+    if summary.contact_episodes > 1 {
+        let _ = writeln!(
+            text,
+            "\ncontact episodes  {} (the surfaces may separate for a few steps at first and last touch)",
+            summary.contact_episodes
+        );
+    }
+    if let Some(contacts) = &summary.bounces {
+        let _ = writeln!(text, "\n{}", bounces(contacts, summary.rest.as_ref()));
+    } else {
+        text += "\n";
+    }
+    let _ = writeln!(text, "{}", bodies(&summary.bodies));
+    text += &balances(summary);
+    if let Some(considered) = &summary.models_considered {
+        let _ = write!(text, "\nModels and their expected errors\n{}", models(considered));
+    }
+    let _ = writeln!(
+        text,
+        "\nEffects\n{}",
+        effects(summary.effects.iter().map(|effect| &effect.verdict))
+    );
+    text += &warnings(&summary.warnings);
+    let place = place.map_or("not written".into(), |place| one_line(&place.display().to_string()));
+    let _ = writeln!(text, "\nResult: {place}");
+    text
+}
+
+/// Returns each quantity with both parts of its error bar, beside Hertz' value.
+fn quantities(summary: &Summary) -> String {
+    let (ours, hertz) = (&summary.collision, &summary.hertz);
+    let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
+    let own = if has_elements { "± mesh" } else { "± numerics" };
+    let header = ["", "this run", own, "± neglected", "Hertz", "ratio"].map(String::from);
+    let row = |headline: Headline| {
+        let (value, theirs) = (ours.number(headline), hertz.number(headline));
+        let has_unit = headline != Headline::Restitution;
+        let unit =
+            has_unit.then(|| Unit::fitting(theirs.or(value).unwrap_or_default(), headline.unit()));
+        let shown = |value: Option<f64>| match (value, &unit) {
+            (None, _) => NONE.into(),
+            (Some(value), Some(unit)) => unit.show(value),
+            (Some(value), None) => format!("{value:.4}"),
+        };
+        let parts = summary.uncertainty.parts(headline);
+        let errors = value.map(|value| error_columns(value, &parts, unit.as_ref()));
+        let [mesh, neglected] = errors.unwrap_or([NONE, NONE].map(String::from));
+        let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
+        [headline.name().into(), shown(value), mesh, neglected, shown(theirs), ratio]
+    };
+    let rows = std::iter::once(header).chain(Headline::ALL.map(row));
+    let table = table(&[Left, Right, Right, Right, Right, Right], rows);
+    let legend = error_legend(own, &table);
+    format!("{table}\n{legend}\n")
+}
+
+/// Returns the line below the table that explains the error columns; `own` is the head of the first one.
+fn error_legend(own: &str, cells: &str) -> String {
+    let unknown = if cells.contains(UNKNOWN) { "; ?: not known" } else { "" };
+    let partly = if cells.contains("> ") { "; >: at least" } else { "" };
+    let what = if own == "± mesh" { "discretisation error" } else { "numerical error" };
+    format!(
+        "{own}: {what}; ± neglected: change by effects that the model neglects{unknown}{partly}"
+    )
+}
+
+/// Returns the discretisation error and the error by neglected effects with two digits, in `unit` if the
+/// quantity has one.
+fn error_columns(value: f64, parts: &Parts, unit: Option<&Unit>) -> [String; 2] {
+    let sized = |size: f64| match unit {
+        _ if size <= ROUNDING * value.abs() => "0".to_string(),
+        Some(unit) => format!("{} {}", number(unit.scaled(size), 2), unit.symbol()),
+        None => number(size, 2),
+    };
+    let neglected = match (parts.model, parts.model_at_least) {
+        (Some(size), _) => sized(size),
+        (None, Some(known)) => format!("> {}", sized(known)),
+        (None, None) => UNKNOWN.to_string(),
+    };
+    [parts.discretisation.map_or(UNKNOWN.into(), sized), neglected]
+}
+
+fn elastic_deficit(restitution: Option<f64>) -> Option<String> {
+    let deficit = 1.0 - restitution?;
+    (deficit.abs() < NEARLY_ELASTIC).then(|| number(deficit, 3))
+}
+
+/// Returns one line per contact of a bouncing ball, and the contact at rest.
+fn bounces(bounces: &[BounceSummary], rest: Option<&RestSummary>) -> String {
+    let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
+    let header = ["bounce", "at", "before", "restitution", "contact time", "peak force"];
+    let row = |(k, bounce): (usize, &BounceSummary)| {
+        [
+            (k + 1).to_string(),
+            quantity(bounce.time_s, "s"),
+            quantity(bounce.speed_before_m_s, "m/s"),
+            bounce.restitution.map_or(NONE.into(), |restitution| format!("{restitution:.4}")),
+            quantity(bounce.contact_time_s, "s"),
+            quantity(bounce.peak_force_n, "N"),
+        ]
+    };
+    let rows = bounces.iter().enumerate().take(MOST_BOUNCES).map(row);
+    let rows = std::iter::once(header.map(String::from)).chain(rows);
+    let mut text = table(&[Left, Right, Right, Right, Right, Right], rows);
+    if bounces.len() > MOST_BOUNCES {
+        text += &format!("and {} more\n", bounces.len() - MOST_BOUNCES);
+    }
+    if let Some(rest) = rest {
+        text += &format!(
+            "at rest from {} on: contact radius {}, approach {} under {}\n",
+            quantity(rest.time_s, "s"),
+            quantity(rest.contact_radius_m, "m"),
+            quantity(rest.approach_m, "m"),
+            quantity(rest.static_force_n, "N"),
+        );
+    }
+    text
+}
+
+fn bodies(bodies: &[BodySummary]) -> String {
+    let header = ["body", "elements", "mass", "before", "after", "vibration"].map(String::from);
+    let quantity = |value: Option<f64>, unit: &str| value.map_or(NONE.into(), |v| show(v, unit));
+    let speeds = bodies.iter().flat_map(|body| [body.velocity_before_m_s, body.velocity_after_m_s]);
+    let fastest = speeds.flatten().fold(0.0, |fastest: f64, speed| fastest.max(speed.abs()));
+    let speed_unit = Unit::fitting(fastest, "m/s");
+    let speed = |value: Option<f64>| value.map_or(NONE.into(), |speed| speed_unit.show(speed));
+    let row = |body: &BodySummary| {
+        [
+            body.name.clone(),
+            body.elements.map_or(NONE.into(), |n| HumanCount(n as u64).to_string()),
+            quantity(body.mass_kg.map(|mass| 1e3 * mass), "g"),
+            speed(body.velocity_before_m_s),
+            speed(body.velocity_after_m_s),
+            quantity(body.vibration_energy_j, "J"),
+        ]
+    };
+    let rows = std::iter::once(header).chain(bodies.iter().map(row));
+    table(&[Left, Right, Right, Right, Right, Right], rows)
+}
+
+/// Returns how peaks are defined, the restitution without relaxation, the residuals and the cost.
+fn balances(summary: &Summary) -> String {
+    let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| number(value, 2));
+    let book = summary.energy.accounts.0;
+    let dissipated = book.total(Side::Lost);
+    let of_effects = book.entries().filter(|(account, _)| account.shown() == Shown::WhereFilled);
+    let of_effects = of_effects.map(|(account, energy)| {
+        format!("; {} {}", account.name().replace('_', " "), show(energy, "J"))
+    });
+    let peaks = summary.peak_force_raw_n.map(|force| {
+        let text = format!(
+            "averaged over 1/64 of the contact time (unaveraged force: {}); radius and pressure are {}",
+            show(force, "N"),
+            summary.radius_and_pressure,
+        );
+        ["peaks".to_string(), text]
+    });
+    let null = summary.elastic_null.map(|null| {
+        let lost = number(null.one_minus_restitution, 1);
+        let how = match null.estimated {
+            true => "estimated",
+            false => "from a coarser run without relaxation",
+        };
+        let text =
+            format!("without relaxation, mesh and settings alone would lose {lost} of the restitution ({how})");
+        ["elastic null".to_string(), text]
+    });
+    let rows = [
+        [
+            "energy".to_string(),
+            format!(
+                "residual {} of the initial energy; dissipated {}{}",
+                residual(summary.energy.residual_relative),
+                dissipated.map_or(NONE.into(), |energy| show(energy, "J")),
+                of_effects.collect::<String>(),
+            ),
+        ],
+        ["momentum".into(), format!("residual {}", residual(summary.momentum_residual_relative))],
+        ["cost".into(), price(summary)],
+    ];
+    table(&[Left, Left], peaks.into_iter().chain(null).chain(rows))
+}
+
+fn price(summary: &Summary) -> String {
+    let cost = &summary.cost;
+    let memory = cost.peak_memory_bytes.map(|bytes| format!(", {}", DecimalBytes(bytes)));
+    let memory = memory.unwrap_or_default();
+    let Some(steps) = summary.steps else {
+        return format!("{}{memory}", show(cost.solve_s, "s"));
+    };
+    let (solve, each) = match cost.ns_per_element_update {
+        Some(ns) => (show(cost.solve_s, "s"), format!("{ns:.1} ns per element update, ")),
+        None => (show(cost.solve_s, "s"), format!("after {} of setup, ", show(cost.setup_s, "s"))),
+    };
+    let trials = (cost.trials_s > 0.1 * cost.solve_s)
+        .then(|| format!(", after {} of trial runs", show(cost.trials_s, "s")));
+    let kept = cost.factor_bytes.filter(|bytes| *bytes > 0);
+    let factors = kept.map(|bytes| format!(", {} of it for factors", DecimalBytes(bytes)));
+    format!(
+        "{solve} for {} steps of {} ({each}{} thread{}{memory}{}){}",
+        HumanCount(steps),
+        summary.time_step_s.map_or(NONE.into(), |step| show(step, "s")),
+        cost.threads,
+        if cost.threads == 1 { "" } else { "s" },
+        factors.unwrap_or_default(),
+        trials.unwrap_or_default(),
+    )
+}
+
+/// Returns the models that were considered, their expected errors, and why one was chosen.
+pub fn models(considered: &[Considered]) -> String {
+    let header = ["", "model", "restitution", "contact time", "peak force", "peak pressure", ""]
+        .map(String::from);
+    let row = |considered: &Considered| {
+        let ExpectedError { restitution, contact_time_s, peak_force_n, peak_pressure_pa } =
+            considered.error;
+        let [restitution, time, force] =
+            changes(&LeftOut { restitution, contact_time_s, peak_force_n });
+        let pressure = change(peak_pressure_pa, &|change| show(change, "Pa"));
+        let mark = if considered.chosen { "chosen" } else { "" };
+        let model = considered.model.to_string();
+        [mark.to_string(), model, restitution, time, force, pressure, considered.reason.clone()]
+    };
+    let rows = std::iter::once(header).chain(considered.iter().map(row));
+    table(&[Left, Left, Right, Right, Right, Right, Left], rows)
+}
+
+/// Returns the changes of restitution, contact time and peak force.
+pub fn changes(changes: &LeftOut) -> [String; 3] {
+    let LeftOut { restitution, contact_time_s, peak_force_n } = *changes;
+    [
+        change(restitution, &|change| number(change, 2)),
+        change(contact_time_s, &|change| show(change, "s")),
+        change(peak_force_n, &|change| show(change, "N")),
+    ]
+}
+
+fn change(change: Option<f64>, show: &dyn Fn(f64) -> String) -> String {
+    match change {
+        None => UNKNOWN.to_string(),
+        Some(0.0) => "0".to_string(),
+        Some(change) => show(change),
+    }
+}
+
+/// Returns for each effect whether it is on or off, and why.
+pub fn effects<'a>(effects: impl Iterator<Item = &'a Verdict>) -> String {
+    let row = |effect: &Verdict| {
+        [on_or_off(effect).to_string(), effect.name.to_string(), effect.reason.clone()]
+    };
+    table(&[Left, Left, Left], effects.map(row))
+}
+
+/// Returns "on" or "off".
+pub fn on_or_off(effect: &Verdict) -> &'static str {
+    if effect.active { "on" } else { "off" }
+}
+
+/// Returns one line per warning.
+pub fn warnings(warnings: &[String]) -> String {
+    if warnings.is_empty() {
+        return "No warnings.\n".to_string();
+    }
+    let rows = warnings.iter().map(|warning| ["warning:".to_string(), one_line(warning)]);
+    table(&[Left, Left], rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unknown_errors_are_marked() {
+        let of = |discretisation, model, model_at_least| {
+            let parts = Parts { discretisation, model, model_at_least };
+            error_columns(62e-6, &parts, Some(&Unit::fitting(62e-6, "s")))
+        };
+        assert_eq!(of(Some(1.234e-7), Some(3e-6), None), ["0.12 µs", "3 µs"]);
+        assert_eq!(of(Some(1e-17), None, Some(2e-7)), ["0", "> 0.2 µs"]);
+        assert_eq!(of(None, None, None), ["?", "?"]);
+        let plain = Parts { discretisation: Some(1.94e-4), model: Some(0.0), model_at_least: None };
+        assert_eq!(error_columns(1.0, &plain, None), ["1.9e-4", "0"]);
+        assert!(error_legend("± mesh", "0.12 µs  > 0.2 µs").ends_with("neglects; >: at least"));
+    }
+}

@@ -1,0 +1,29 @@
+//! Printing of results and warnings.
+
+use std::io::{ErrorKind, Write, stderr, stdout};
+
+use super::failure::Failure;
+
+pub use fem_report::number_text::one_line;
+
+/// Prints text to stdout. A reader that has gone away (`fem-run check CASE | head`) is no error.
+///
+/// # Errors
+/// A stdout that cannot be written, for example on a full disk.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::failed(format!("the standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints warnings to stderr.
+pub fn warn(warnings: impl IntoIterator<Item = String>) {
+    for warning in warnings {
+        // A closed stderr is no reason to end.
+        let _ = writeln!(stderr(), "warning: {}", one_line(&warning));
+    }
+}
