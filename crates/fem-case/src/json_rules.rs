@@ -4,9 +4,11 @@
 //! The reader has all of it in [`crate::validate`], which is right where the two differ; a test holds every
 //! faulty case of a list against both.
 
+use fem_laws::{KeyNeed, KeyRange, KeySet};
 use serde_json::{Value, json};
 
 use crate::library;
+use crate::model_tables::{LawKey, LawTable};
 
 /// Keys of a definition that are greater than 0 as a bare number, and begin with no minus as a string.
 const POSITIVE: &[(&str, &[&str])] = &[
@@ -19,10 +21,6 @@ const POSITIVE: &[(&str, &[&str])] = &[
     ("GravityTable", &["acceleration"]),
     ("MeshTable", &["contact_element_size", "refined_radius", "far_radius"]),
     ("ContactTable", &["penalty_factor"]),
-    ("LinearTable", &["k", "contact_time"]),
-    ("PowerTable", &["k", "gamma"]),
-    ("MishraMurtyTable", &["k"]),
-    ("HuntCrossleyTable", &["v"]),
 ];
 
 /// Keys of a definition and what a bare number of theirs is.
@@ -36,11 +34,6 @@ const RANGES: &[(&str, &str, &str, f64, &str, f64)] = &[
     ("StartTable", "gap", "minimum", 0.0, "maximum", f64::MAX),
     ("CondensedTable", "vibration_modes", "minimum", 0.0, "maximum", 100.0),
     ("CondensedTable", "steps", "minimum", 50.0, "maximum", 1e5),
-    ("LinearTable", "e", "exclusiveMinimum", 0.0, "maximum", 1.0),
-    ("HuntCrossleyTable", "e", "exclusiveMinimum", 0.0, "maximum", 1.0),
-    ("TsujiTable", "e", "exclusiveMinimum", 0.0, "maximum", 1.0),
-    ("ZhangWhitenTable", "e", "exclusiveMinimum", 0.0, "maximum", 1.0),
-    ("MorgadoOppenheimTable", "eta_2", "exclusiveMinimum", -1.0, "exclusiveMaximum", 1.0),
     ("ToleranceTable", "restitution", "exclusiveMinimum", 0.0, "maximum", 0.5),
     ("ToleranceTable", "contact_time", "exclusiveMinimum", 0.0, "maximum", 0.5),
     ("ToleranceTable", "peak_force", "exclusiveMinimum", 0.0, "maximum", 0.5),
@@ -54,8 +47,7 @@ const SHAPES: [&str; 3] = ["sphere", "wall", "half_space"];
 pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
     for (table, keys) in POSITIVE {
         for key in *keys {
-            let above = json!({ "exclusiveMinimum": 0, "pattern": "^\\s*[^-−\\s]" });
-            add(schema, &format!("/definitions/{table}/properties/{key}"), [above]);
+            add(schema, &format!("/definitions/{table}/properties/{key}"), [above_zero()]);
         }
     }
     for (table, key, low, least, high, most) in RANGES {
@@ -82,26 +74,54 @@ pub(crate) fn add_to(schema: &mut Value, laws: &[&str]) {
     add(schema, "/definitions/TermTable", [one_of(&["decay_rate", "relaxation_time"])]);
     add(schema, "/definitions/ModelTable", [json!({ "minProperties": 1, "maxProperties": 1 })]);
     add(schema, "/definitions/LawTable", [one_of(laws)]);
-    for (law, keys) in [
-        ("Falcon", &["c"][..]),
-        ("MishraMurty", &["k", "c"]),
-        ("HuntCrossley", &["e"]),
-        ("Power", &["k", "gamma"]),
-        ("MorgadoOppenheim", &["eta_1", "eta_2"]),
-        ("BordbarHyppanen", &["a", "n"]),
-    ] {
-        add(schema, &format!("/definitions/{law}Table"), [json!({ "required": keys })]);
+    add_laws(schema);
+}
+
+/// Adds the ranges of the laws' keys, and which of them must be given.
+fn add_laws(schema: &mut Value) {
+    for LawKey { table, key, range, .. } in LawTable::KEYS {
+        let rule = match range {
+            KeyRange::Positive => above_zero(),
+            KeyRange::NotNegative => continue,
+            KeyRange::Restitution => json!({ "exclusiveMinimum": 0.0, "maximum": 1.0 }),
+            KeyRange::LikePoissonsRatio => {
+                json!({ "exclusiveMinimum": -1.0, "exclusiveMaximum": 1.0 })
+            }
+        };
+        add(schema, &format!("/definitions/{table}/properties/{key}"), [rule]);
     }
-    for law in ["Tsuji", "ZhangWhiten"] {
-        add(schema, &format!("/definitions/{law}Table"), [one_of(&["e", "alpha"])]);
+    let mut tables: Vec<_> = LawTable::KEYS.iter().map(|key| (key.table, key.family)).collect();
+    tables.dedup();
+    for (table, family) in tables {
+        let required = |set: &KeySet| {
+            let keys = set.iter().filter(|(_, need)| *need == KeyNeed::Required);
+            keys.map(|(key, _)| *key).collect::<Vec<_>>()
+        };
+        let sets = family.key_sets();
+        let rule = match sets {
+            [set] => json!({ "required": required(set) }),
+            // Without any key the materials give them.
+            _ if sets.iter().any(|set| set.is_empty()) => continue,
+            _ if sets.iter().all(|set| set.len() == 1) => {
+                one_of(&sets.iter().flat_map(required).collect::<Vec<_>>())
+            }
+            _ => {
+                let alone = sets.iter().map(|set| {
+                    let others = sets.iter().filter(|other| *other != set).copied().flatten();
+                    let others: Vec<_> =
+                        others.map(|(key, _)| json!({ "required": [key] })).collect();
+                    json!({ "required": required(set), "not": { "anyOf": others } })
+                });
+                json!({ "oneOf": alone.collect::<Vec<_>>() })
+            }
+        };
+        add(schema, &format!("/definitions/{table}"), [rule]);
     }
-    let without =
-        |keys: [&str; 2]| json!({ "anyOf": keys.map(|key| json!({ "required": [key] })) });
-    let linear = json!({ "oneOf": [
-        { "required": ["k"], "not": without(["e", "contact_time"]) },
-        { "required": ["e", "contact_time"], "not": without(["k", "c"]) },
-    ] });
-    add(schema, "/definitions/LinearTable", [linear]);
+}
+
+/// Greater than 0 as a bare number, and no minus at the start of a string.
+fn above_zero() -> Value {
+    json!({ "exclusiveMinimum": 0, "pattern": "^\\s*[^-−\\s]" })
 }
 
 /// Puts rules beside what a place says already.

@@ -98,7 +98,7 @@ pub use error::CaseError;
 pub use explain::nearest;
 pub use fem_material::engineering;
 pub use gravity::{Gravity, impact_speed};
-pub use model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
+pub use model::{CondensedOptions, ModelChoice};
 pub use quantity::{
     Acceleration, Bytes, Count, Damping, Density, Kind, Length, Number, Quantity, QuantityError,
     QuantityKind, Rate, Speed, Stiffness, Stress, Time, Viscosity,

@@ -1,13 +1,16 @@
 //! `[model]` as written: which model computes the collision, and its keys.
 
-use fem_laws::EndRule;
+use fem_laws::{EndRule, KeyRange, LawFamily};
 use serde::{Deserialize, Serialize};
 
 use crate::empty_table::EmptyTable;
+use crate::error::CaseError;
+use crate::key_path::join;
 use crate::keyword::keywords;
-use crate::quantity::{Count, Damping, Number, Quantity, Speed, Stiffness, Time, Viscosity};
-#[cfg(test)]
-use crate::quantity::{Kind, QuantityKind};
+use crate::quantity::{
+    Count, Damping, Kind, Number, Quantity, QuantityKind, Speed, Stiffness, Time, Viscosity,
+};
+use crate::validate::{Allowed, Check};
 
 /// `[model]`: exactly one key.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
@@ -173,13 +176,16 @@ impl From<End> for EndRule {
     }
 }
 
-/// One table a law, `end` and `tolerance` in each, and the table `law` around them.
+/// Makes, from the table of contact laws, one table per law, with `end` and `tolerance` in each, and the
+/// table `law` around them.
 macro_rules! law_tables {
     ($(
         $(#[$doc:meta])*
-        $law:ident: $table:ident = $example:literal {
-            $($(#[$key_doc:meta])* $key:ident: $kind:ty,)*
-        }
+        $variant:ident, $law:ident, $table:ident, $example:literal;
+        formula($pair:ident, [$($value:ident),*]) = $formula:expr;
+        given by $([$($set_key:ident $(: $need:expr)?),*])+ $(, values $values:path)?;
+        $(ends at $ends:ident;)?
+        keys { $($(#[$key_doc:meta])* $key:ident: $kind:ident, $range:ident $(, $role:expr)?;)* }
     )+) => {
         $(
             $(#[$doc])*
@@ -232,25 +238,54 @@ macro_rules! law_tables {
             /// The names of all laws.
             pub const NAMES: &'static [&'static str] = &[$(stringify!($law),)+];
 
-            /// Law, key and kind of every number.
-            #[cfg(test)]
-            const KEYS: &'static [(&'static str, &'static str, Kind)] =
-                &[$($((stringify!($law), stringify!($key), <$kind>::KIND),)*)+];
+            /// Every number of every law.
+            pub(crate) const KEYS: &'static [LawKey] = &[$($(LawKey {
+                family: LawFamily::$variant,
+                #[cfg(feature = "schema")]
+                table: stringify!($table),
+                key: stringify!($key),
+                kind: <$kind>::KIND,
+                range: KeyRange::$range,
+            },)*)+];
 
-            /// The names of the laws that are given.
-            pub fn given(&self) -> Vec<&'static str> {
+            /// Returns the laws that are given.
+            pub(crate) fn families(&self) -> Vec<LawFamily> {
                 let mut given = Vec::new();
-                $(if self.$law.is_some() { given.push(stringify!($law)) })+
+                $(if self.$law.is_some() { given.push(LawFamily::$variant) })+
                 given
             }
 
-            /// `end` and `tolerance` of the law that is given.
+            /// Returns the names of the laws that are given.
+            pub fn given(&self) -> Vec<&'static str> {
+                self.families().into_iter().map(LawFamily::name).collect()
+            }
+
+            /// Returns `end` and `tolerance` of the law that is given.
             pub(crate) fn inner(&self) -> (Option<End>, Option<&Quantity<Number>>) {
                 $(if let Some(table) = &self.$law { return (table.end, table.tolerance.as_ref()) })+
                 (None, None)
             }
 
-            /// This law with `end` and `tolerance` in its own table.
+            /// Returns the values (SI) of the keys of the law that is given.
+            ///
+            /// # Errors
+            /// A value is no number of its kind, or is out of its range.
+            pub(crate) fn values(&self, check: &Check<'_>, path: &str) -> Result<Values, CaseError> {
+                let mut values = Values::new();
+                $(if let Some(_table) = &self.$law {
+                    $(
+                        let value = check.optional(
+                            &join(path, stringify!($key)),
+                            _table.$key.as_ref(),
+                            Allowed::by(KeyRange::$range),
+                        )?;
+                        values.extend(value.map(|value| (stringify!($key), value)));
+                    )*
+                })+
+                Ok(values)
+            }
+
+            /// Returns this law with `end` and `tolerance` in its own table.
             #[must_use]
             pub fn filled(mut self, end: End, tolerance: f64) -> Self {
                 (self.end, self.tolerance) = (None, None);
@@ -264,98 +299,22 @@ macro_rules! law_tables {
     };
 }
 
-law_tables! {
-    /// F = k ξ + c ξ̇.
-    linear: LinearTable = "a table such as { k = \"1e7 N/m\", c = \"30 N s/m\" }" {
-        /// Stiffness, > 0; with `c`.
-        k: Stiffness,
-        /// Damping, ≥ 0; 0 if absent.
-        c: Damping,
-        /// Restitution, > 0 and ≤ 1; with `contact_time`, in place of `k` and `c`.
-        e: Number,
-        /// > 0.
-        contact_time: Time,
-    }
-    /// F = k ξ^gamma + c ξ^n ξ̇.
-    power: PowerTable = "a table such as { k = 3e9, gamma = 1.5, c = 1e4, n = 0.5 }" {
-        /// Stiffness, N/m^gamma, > 0.
-        k: Number,
-        /// Exponent of the spring, > 0.
-        gamma: Number,
-        /// Damping, N s/m^(n+1), ≥ 0; 0 if absent.
-        c: Number,
-        /// Exponent of the dashpot, ≥ 0; wanted with `c`.
-        n: Number,
-    }
-    /// Hertz' spring without a dashpot, integrated as a law.
-    hertz: HertzLawTable = "a table such as {}" {}
-    /// Hertz' spring with the damping of a Kelvin solid.
-    kuwabara_kono: KuwabaraKonoTable = "a table such as { a = \"1e-6 s\" }" {
-        /// Dissipation time A, ≥ 0; absent: from `eta_1` and `eta_2`, or else from the materials.
-        a: Time,
-        /// Viscosity in shear, ≥ 0; with `eta_2`.
-        eta_1: Viscosity,
-        /// Viscosity in compression, ≥ 0.
-        eta_2: Viscosity,
-    }
-    /// Hertz' spring with damping in proportion to its force.
-    hunt_crossley: HuntCrossleyTable = "a table such as { e = 0.9 }" {
-        /// Restitution wanted, > 0 and ≤ 1.
-        e: Number,
-        /// Approach speed at which it is wanted, > 0; the case's if absent.
-        v: Speed,
-    }
-    /// Hertz' spring with a restitution independent of speed.
-    tsuji: TsujiTable = "a table such as { e = 0.9 }" {
-        /// Restitution wanted, > 0 and ≤ 1, under the law's `end`.
-        e: Number,
-        /// Damping coefficient α, ≥ 0, in place of `e`.
-        alpha: Number,
-    }
-    /// The law of `tsuji` for a contact that ends at zero force.
-    zhang_whiten: ZhangWhitenTable = "a table such as { e = 0.9 }" {
-        /// Restitution wanted, > 0 and ≤ 1.
-        e: Number,
-        /// Damping coefficient α, ≥ 0, in place of `e`.
-        alpha: Number,
-    }
-    /// Hertz' spring with the damping c ξ^(1/4) ξ̇.
-    falcon: FalconTable = "a table such as { c = 500 }" {
-        /// Damping, N s/m^(5/4), ≥ 0.
-        c: Number,
-    }
-    /// F = k ξ^(8/5) + c ξ^(4/5) ξ̇.
-    mishra_murty: MishraMurtyTable = "a table such as { k = 1e10, c = 1e5 }" {
-        /// Stiffness, N/m^(8/5), > 0.
-        k: Number,
-        /// Damping, N s/m^(9/5), ≥ 0.
-        c: Number,
-    }
-    /// Kelvin's damping from the viscosities of the material.
-    schwager_poeschel: SchwagerPoeschelTable = "a table such as { a = \"1e-6 s\" }" {
-        /// Normal damping C_n, ≥ 0; or `eta_1` and `eta_2`.
-        a: Time,
-        /// Viscosity in shear, > 0; with `eta_2`.
-        eta_1: Viscosity,
-        /// Viscosity in compression, > 0.
-        eta_2: Viscosity,
-    }
-    /// Hertz' spring with a damping of the spring's own form.
-    morgado_oppenheim: MorgadoOppenheimTable =
-        "a table such as { eta_1 = \"1e4 Pa s\", eta_2 = 0.2 }" {
-        /// Viscoelastic coefficient in place of E, ≥ 0.
-        eta_1: Viscosity,
-        /// Viscoelastic coefficient in place of ν, between −1 and 1.
-        eta_2: Number,
-    }
-    /// Hertz' spring with the damping 2 A E* R*^(1−n) ξ^n ξ̇.
-    bordbar_hyppanen: BordbarHyppanenTable = "a table such as { a = \"1e-6 s\", n = 0.65 }" {
-        /// Dissipation time A, ≥ 0.
-        a: Time,
-        /// Exponent of the dashpot, ≥ 0.
-        n: Number,
-    }
+fem_laws::contact_laws!(law_tables);
+
+/// One key of one law.
+pub(crate) struct LawKey {
+    pub family: LawFamily,
+    /// The type of the law's table.
+    #[cfg(feature = "schema")]
+    pub table: &'static str,
+    pub key: &'static str,
+    pub kind: Kind,
+    #[cfg_attr(not(feature = "schema"), expect(dead_code, reason = "the schema reads it"))]
+    pub range: KeyRange,
 }
+
+/// Keys and their values, SI.
+type Values = Vec<(&'static str, f64)>;
 
 /// Whether a table holds at most one of these two keys, so that an override with the one takes the
 /// place of the other.
@@ -379,25 +338,32 @@ pub(crate) fn is_choice(path: &[&str], name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use fem_laws::LawFamily;
-
     use super::*;
 
-    /// What a fit prints can be written into a case: every law, every key, in the same unit.
+    /// What a fit prints can be written into a case: a parameter and its key have the same unit.
     #[test]
-    fn tables_are_those_of_the_families() {
-        let families = || LawFamily::ALL.into_iter().filter(|family| *family != LawFamily::Ting);
-        assert_eq!(families().map(LawFamily::name).collect::<Vec<_>>(), LawTable::NAMES);
-        for family in families() {
-            for parameter in family.parameters() {
-                let is_it =
-                    |key: &&(&str, &str, Kind)| (key.0, key.1) == (family.name(), parameter.key);
-                let found = LawTable::KEYS.iter().find(is_it);
-                let (_, _, kind) = found.unwrap_or_else(|| panic!("{family:?} {parameter:?}"));
-                let [m, kg, s] = parameter.dimension;
-                assert_eq!(kind.dimension.0, [m, kg, s, 0], "{family:?} {parameter:?}");
-                assert!(kind.si == parameter.unit || kind.si.is_empty(), "{parameter:?}");
-            }
+    fn parameters_have_the_units_of_their_keys() {
+        for LawKey { family, key, kind, .. } in LawTable::KEYS {
+            let mut parameters = family.parameters().iter();
+            let Some(parameter) = parameters.find(|parameter| parameter.key == *key) else {
+                continue;
+            };
+            let [m, kg, s] = parameter.dimension;
+            assert_eq!(kind.dimension.0, [m, kg, s, 0], "{family:?} {parameter:?}");
+            assert!(kind.si == parameter.unit || kind.si.is_empty(), "{parameter:?}");
+        }
+    }
+
+    /// Every key belongs to exactly one set of keys, and every set is of keys that the law has.
+    #[test]
+    fn sets_of_keys_are_the_keys() {
+        for family in LawFamily::ALL {
+            let keys = LawTable::KEYS.iter().filter(|key| key.family == family);
+            let keys: Vec<_> = keys.map(|key| key.key).collect();
+            let sets = family.key_sets().iter().flat_map(|set| set.iter().map(|(key, _)| *key));
+            let mut sets: Vec<_> = sets.collect();
+            sets.sort_by_key(|key| keys.iter().position(|own| own == key));
+            assert_eq!(sets, keys, "{family:?}");
         }
     }
 }

@@ -1,42 +1,13 @@
-//! Laws by name, with their parameters and how they are made of them: the one list that case files,
-//! fits and inverse problems read.
+//! Laws by name, made from the table of [`crate::contact_laws`]: what case files, fits and inverse
+//! problems read.
+
+use fem_material::Material;
 
 use crate::error::LawError;
 use crate::laws;
 use crate::laws::{ContactLaw, EndRule};
 use crate::pair::Pair;
-
-/// A law with parameters of its own. Values of parameters always come in the order of
-/// [`LawFamily::parameters`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LawFamily {
-    /// [`laws::linear`].
-    Linear,
-    /// [`laws::power`].
-    Power,
-    /// [`laws::hertz`].
-    Hertz,
-    /// [`laws::kuwabara_kono`].
-    KuwabaraKono,
-    /// [`laws::hunt_crossley`].
-    HuntCrossley,
-    /// [`laws::tsuji`].
-    Tsuji,
-    /// [`laws::tsuji`], ended at zero force.
-    ZhangWhiten,
-    /// [`laws::falcon`].
-    Falcon,
-    /// [`laws::mishra_murty`].
-    MishraMurty,
-    /// [`laws::schwager_poeschel`].
-    SchwagerPoeschel,
-    /// [`laws::morgado_oppenheim`].
-    MorgadoOppenheim,
-    /// [`laws::bordbar_hyppanen`].
-    BordbarHyppanen,
-    /// [`crate::Ting`] with the relaxation of the two materials.
-    Ting,
-}
+use crate::pair_relaxation::PairRelaxation;
 
 /// One parameter of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,12 +22,12 @@ pub struct LawParameter {
     pub role: ParameterRole,
     /// Value that it has unless it is given; `None` if it must be given or be free.
     pub default: Option<f64>,
-    /// Values that have a meaning.
+    /// Values that a fit may try.
     pub limits: (f64, f64),
 }
 
 impl LawParameter {
-    /// A value to begin with that has a meaning, near a collision at `speed`, m/s.
+    /// Returns a valid value to begin with, near a collision at `speed`, m/s.
     pub fn guess(&self, speed: f64) -> f64 {
         self.default.unwrap_or(match (self.role, self.key) {
             (ParameterRole::Speed, _) => speed,
@@ -84,118 +55,227 @@ pub enum ParameterRole {
     Number,
 }
 
-const ANY: (f64, f64) = (0.0, f64::INFINITY);
-
-const fn parameter(
-    key: &'static str,
-    unit: &'static str,
-    dimension: [i32; 3],
-    role: ParameterRole,
-) -> LawParameter {
-    LawParameter { key, unit, dimension, role, default: None, limits: ANY }
+/// The kind of quantity that a key of a law holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeyKind {
+    /// A plain number.
+    Number,
+    /// A speed, m/s.
+    Speed,
+    /// A time, s.
+    Time,
+    /// A stiffness, N/m.
+    Stiffness,
+    /// A damping coefficient, N s/m.
+    Damping,
+    /// A viscosity, Pa s.
+    Viscosity,
+    /// A rate, 1/s.
+    Rate,
 }
 
-const fn number(key: &'static str, default: Option<f64>, limits: (f64, f64)) -> LawParameter {
-    LawParameter { key, unit: "", dimension: [0; 3], role: ParameterRole::Number, default, limits }
-}
-
-/// A, s: C = 2 A E* R*^(1−n).
-const A: LawParameter = parameter("a", "s", [0, 0, 1], ParameterRole::Damping);
-/// Of the damping, ξⁿ.
-const N: LawParameter = number("n", Some(0.5), (0.0, 3.0));
-
-impl LawFamily {
-    /// All families, the laws of the overlap first.
-    pub const ALL: [Self; 13] = [
-        Self::Linear,
-        Self::Power,
-        Self::Hertz,
-        Self::KuwabaraKono,
-        Self::HuntCrossley,
-        Self::Tsuji,
-        Self::ZhangWhiten,
-        Self::Falcon,
-        Self::MishraMurty,
-        Self::SchwagerPoeschel,
-        Self::MorgadoOppenheim,
-        Self::BordbarHyppanen,
-        Self::Ting,
-    ];
-
-    /// As case files and the command line write it.
-    pub fn name(self) -> &'static str {
+impl KeyKind {
+    /// SI unit, and exponents of metre, kilogram, second.
+    const fn unit(self) -> (&'static str, [i32; 3]) {
         match self {
-            Self::Linear => "linear",
-            Self::Power => "power",
-            Self::Hertz => "hertz",
-            Self::KuwabaraKono => "kuwabara_kono",
-            Self::HuntCrossley => "hunt_crossley",
-            Self::Tsuji => "tsuji",
-            Self::ZhangWhiten => "zhang_whiten",
-            Self::Falcon => "falcon",
-            Self::MishraMurty => "mishra_murty",
-            Self::SchwagerPoeschel => "schwager_poeschel",
-            Self::MorgadoOppenheim => "morgado_oppenheim",
-            Self::BordbarHyppanen => "bordbar_hyppanen",
-            Self::Ting => "ting",
+            Self::Number => ("", [0; 3]),
+            Self::Speed => ("m/s", [1, 0, -1]),
+            Self::Time => ("s", [0, 0, 1]),
+            Self::Stiffness => ("N/m", [0, 1, -2]),
+            Self::Damping => ("N s/m", [0, 1, -1]),
+            Self::Viscosity => ("Pa s", [-1, 1, -1]),
+            Self::Rate => ("1/s", [0, 0, -1]),
         }
     }
+}
 
-    /// The law of a name.
+/// The values that a key of a law allows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum KeyRange {
+    /// Greater than 0.
+    Positive,
+    /// 0 or greater.
+    NotNegative,
+    /// Greater than 0 and at most 1.
+    Restitution,
+    /// Between −1 and 1.
+    LikePoissonsRatio,
+}
+
+/// Whether a key is needed by a set of keys that determines a law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum KeyNeed {
+    /// It must be given.
+    Required,
+    /// It may be left out; the law then takes it from the case.
+    Optional,
+    /// It has this value if it is left out.
+    Default(f64),
+    /// It must be given if this other key is greater than 0, and is 0 otherwise.
+    With(&'static str),
+}
+
+/// A set of keys that determines a law.
+pub type KeySet = &'static [(&'static str, KeyNeed)];
+
+/// How a key is varied: the part of a [`LawParameter`] that a row of the table states.
+#[derive(Clone, Copy)]
+struct Role {
+    role: ParameterRole,
+    unit: Option<&'static str>,
+    default: Option<f64>,
+    limits: (f64, f64),
+}
+
+impl Role {
+    const DAMPING: Self = Self::factor(ParameterRole::Damping);
+    const STIFFNESS: Self = Self::factor(ParameterRole::Stiffness);
+    const SPEED: Self = Self::factor(ParameterRole::Speed);
+    const RATE: Self = Self::factor(ParameterRole::Rate);
+    /// n of a dashpot C ξⁿ ξ̇.
+    const DAMPING_EXPONENT: Self = Self::number(Some(0.5), (0.0, 3.0));
+
+    const fn factor(role: ParameterRole) -> Self {
+        Self { role, unit: None, default: None, limits: (0.0, f64::INFINITY) }
+    }
+
+    const fn number(default: Option<f64>, limits: (f64, f64)) -> Self {
+        Self { role: ParameterRole::Number, unit: None, default, limits }
+    }
+
+    /// The unit of a key that is a plain number in a case file, since its unit depends on an exponent.
+    const fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit: Some(unit), ..self }
+    }
+
+    const fn parameter(self, key: &'static str, kind: KeyKind) -> LawParameter {
+        let (own_unit, dimension) = kind.unit();
+        let unit = match self.unit {
+            Some(unit) => unit,
+            None => own_unit,
+        };
+        let Self { role, default, limits, .. } = self;
+        LawParameter { key, unit, dimension, role, default, limits }
+    }
+}
+
+/// The value of a key in a set: required if the row does not say.
+macro_rules! need {
+    () => {
+        KeyNeed::Required
+    };
+    ($need:expr) => {
+        $need
+    };
+}
+
+/// The function that makes parameters from keys: they are the keys' values if the row does not say.
+macro_rules! values_by {
+    () => {
+        parameters_as_given
+    };
+    ($values:path) => {
+        $values
+    };
+}
+
+macro_rules! families {
+    ($(
+        $(#[$doc:meta])*
+        $variant:ident, $name:ident, $table:ident, $example:literal;
+        formula($pair:ident, [$($value:ident),*]) = $formula:expr;
+        given by $([$($set_key:ident $(: $need:expr)?),*])+ $(, values $values:path)?;
+        $(ends at $end:ident;)?
+        keys { $($(#[$key_doc:meta])* $key:ident: $kind:ident, $range:ident $(, $role:expr)?;)* }
+    )+) => {
+        /// A law with parameters of its own. Values of parameters always come in the order of
+        /// [`LawFamily::parameters`].
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum LawFamily {
+            $($(#[$doc])* $variant,)+
+            /// [`crate::Ting`] with the relaxation of the two materials.
+            Ting,
+        }
+
+        impl LawFamily {
+            /// All families, the laws of the overlap first.
+            pub const ALL: [Self; [$(stringify!($name)),+].len() + 1] =
+                [$(Self::$variant,)+ Self::Ting];
+
+            /// Returns the name that case files and the command line use.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => stringify!($name),)+
+                    Self::Ting => "ting",
+                }
+            }
+
+            /// Returns the law's parameters.
+            pub fn parameters(self) -> &'static [LawParameter] {
+                match self {
+                    $(Self::$variant => {
+                        const {
+                            &[$($($role.parameter(stringify!($key), KeyKind::$kind),)?)*]
+                        }
+                    })+
+                    Self::Ting => const { &[Role::RATE.parameter("decay_rate", KeyKind::Rate)] },
+                }
+            }
+
+            /// Returns how a contact ends, if that is part of the law itself.
+            pub fn end_rule(self) -> Option<EndRule> {
+                match self {
+                    $($(Self::$variant => Some(EndRule::$end),)?)+
+                    Self::Ting => Some(EndRule::ZeroForce),
+                    _ => None,
+                }
+            }
+
+            /// Returns the sets of keys of a case file that determine the law, any one of them.
+            pub fn key_sets(self) -> &'static [KeySet] {
+                match self {
+                    $(Self::$variant => {
+                        &[$(&[$((stringify!($set_key), need!($($need)?)),)*],)+]
+                    })+
+                    Self::Ting => &[],
+                }
+            }
+
+            /// Returns the law of a pair; `None` for [`LawFamily::Ting`], which is no law of the
+            /// overlap.
+            ///
+            /// # Errors
+            /// A value is out of its range.
+            pub fn law(self, pair: &Pair, values: &[f64]) -> Option<Result<ContactLaw, LawError>> {
+                match (self, values) {
+                    $((Self::$variant, &[$($value),*]) => {
+                        let $pair = pair;
+                        Some($formula)
+                    })+
+                    _ => None,
+                }
+            }
+
+            fn values_by(self) -> fn(&LawInput, &LawContext<'_>) -> LawValues {
+                match self {
+                    $(Self::$variant => values_by!($($values)?),)+
+                    Self::Ting => parameters_as_given,
+                }
+            }
+        }
+    };
+}
+
+crate::contact_laws!(families);
+
+impl LawFamily {
+    /// Returns the law of a name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|family| family.name() == name)
     }
 
-    /// Its parameters. The first one that damps is what is free unless something else is asked.
-    pub fn parameters(self) -> &'static [LawParameter] {
-        const LINEAR: &[LawParameter] = &[
-            parameter("k", "N/m", [0, 1, -2], ParameterRole::Stiffness),
-            parameter("c", "N s/m", [0, 1, -1], ParameterRole::Damping),
-        ];
-        const POWER: &[LawParameter] = &[
-            parameter("k", "N/m^gamma", [0; 3], ParameterRole::Stiffness),
-            number("gamma", Some(1.5), (0.1, 5.0)),
-            parameter("c", "N s/m^(n+1)", [0; 3], ParameterRole::Damping),
-            N,
-        ];
-        const KUWABARA_KONO: &[LawParameter] = &[A];
-        const HUNT_CROSSLEY: &[LawParameter] = &[
-            number("e", None, (1e-6, 1.0)),
-            parameter("v", "m/s", [1, 0, -1], ParameterRole::Speed),
-        ];
-        const TSUJI: &[LawParameter] = &[parameter("alpha", "", [0; 3], ParameterRole::Damping)];
-        const FALCON: &[LawParameter] =
-            &[parameter("c", "N s/m^(5/4)", [0; 3], ParameterRole::Damping)];
-        const MISHRA_MURTY: &[LawParameter] = &[
-            parameter("k", "N/m^(8/5)", [0; 3], ParameterRole::Stiffness),
-            parameter("c", "N s/m^(9/5)", [0; 3], ParameterRole::Damping),
-        ];
-        const SCHWAGER_POESCHEL: &[LawParameter] = &[A];
-        const MORGADO_OPPENHEIM: &[LawParameter] = &[
-            parameter("eta_1", "Pa s", [-1, 1, -1], ParameterRole::Damping),
-            number("eta_2", None, (-0.99, 0.99)),
-        ];
-        const BORDBAR_HYPPANEN: &[LawParameter] = &[A, N];
-        const TING: &[LawParameter] =
-            &[parameter("decay_rate", "1/s", [0, 0, -1], ParameterRole::Rate)];
-        match self {
-            Self::Linear => LINEAR,
-            Self::Power => POWER,
-            Self::Hertz => &[],
-            Self::KuwabaraKono => KUWABARA_KONO,
-            Self::HuntCrossley => HUNT_CROSSLEY,
-            Self::Tsuji | Self::ZhangWhiten => TSUJI,
-            Self::Falcon => FALCON,
-            Self::MishraMurty => MISHRA_MURTY,
-            Self::SchwagerPoeschel => SCHWAGER_POESCHEL,
-            Self::MorgadoOppenheim => MORGADO_OPPENHEIM,
-            Self::BordbarHyppanen => BORDBAR_HYPPANEN,
-            Self::Ting => TING,
-        }
-    }
-
-    /// Index of the parameter that stands for the loss: the first one that damps, or else the first;
-    /// `None` of a law without any.
+    /// Returns the index of the parameter that stands for the loss: the first one that damps, or else the
+    /// first; `None` for a law without parameters.
     pub fn loss_parameter(self) -> Option<usize> {
         let damps = |parameter: &LawParameter| {
             matches!(parameter.role, ParameterRole::Damping | ParameterRole::Rate)
@@ -203,32 +283,78 @@ impl LawFamily {
         let first = (!self.parameters().is_empty()).then_some(0);
         self.parameters().iter().position(damps).or(first)
     }
+}
 
-    /// How a contact ends if that is part of the law itself.
-    pub fn end_rule(self) -> Option<EndRule> {
-        matches!(self, Self::ZhangWhiten | Self::Ting).then_some(EndRule::ZeroForce)
+/// A law as a case gives it: the values of its keys, which one of its [`LawFamily::key_sets`] holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawInput {
+    /// The law.
+    pub family: LawFamily,
+    /// Keys and their values, SI.
+    pub values: Vec<(&'static str, f64)>,
+}
+
+impl LawInput {
+    /// Returns the value of a key, SI, if it is given.
+    pub fn get(&self, key: &str) -> Option<f64> {
+        self.values.iter().find(|(own, _)| *own == key).map(|(_, value)| *value)
     }
 
-    /// The law of a pair; `None` for [`LawFamily::Ting`], which is no law of the overlap.
+    /// Whether the law takes its damping from the relaxation of the materials.
+    pub fn is_slow_limit(&self) -> bool {
+        self.family == LawFamily::KuwabaraKono && self.values.is_empty()
+    }
+
+    /// Returns the parameters of the family and the pair that they belong to.
     ///
     /// # Errors
-    /// Values without a meaning.
-    pub fn law(self, pair: &Pair, values: &[f64]) -> Option<Result<ContactLaw, LawError>> {
-        Some(match (self, values) {
-            (Self::Linear, &[k, c]) => laws::linear(k, c),
-            (Self::Power, &[k, gamma, c, n]) => laws::power(k, gamma, c, n),
-            (Self::Hertz, &[]) => laws::hertz(pair),
-            (Self::KuwabaraKono, &[a]) => laws::kuwabara_kono(pair, a),
-            (Self::HuntCrossley, &[e, speed]) => laws::hunt_crossley(pair, e, speed),
-            (Self::Tsuji | Self::ZhangWhiten, &[alpha]) => laws::tsuji(pair, alpha),
-            (Self::Falcon, &[c]) => laws::falcon(pair, c),
-            (Self::MishraMurty, &[k, c]) => laws::mishra_murty(k, c),
-            (Self::SchwagerPoeschel, &[a]) => laws::schwager_poeschel(pair, a),
-            (Self::MorgadoOppenheim, &[eta_1, eta_2]) => {
-                laws::morgado_oppenheim(pair, eta_1, eta_2)
-            }
-            (Self::BordbarHyppanen, &[a, n]) => laws::bordbar_hyppanen(pair, a, n),
-            _ => return None,
-        })
+    /// A value is out of its range; the materials do not give what the law needs of them.
+    pub fn parameters(&self, context: &LawContext<'_>) -> LawValues {
+        self.family.values_by()(self, context)
     }
+}
+
+/// The pair and the collision that a law is made for.
+#[derive(Debug, Clone, Copy)]
+pub struct LawContext<'a> {
+    /// The pair, with instantaneous moduli.
+    pub pair: Pair,
+    /// Approach speed, m/s.
+    pub approach_speed: f64,
+    /// Material of each body; `None` is rigid.
+    pub materials: [Option<&'a Material>; 2],
+    /// Relaxation of the contact modulus.
+    pub relaxation: &'a PairRelaxation,
+    /// When the contact is over.
+    pub end_rule: EndRule,
+}
+
+/// Parameters of a family, and the pair that they belong to.
+pub type LawValues = Result<(Vec<f64>, Pair), LawInputError>;
+
+/// A law that cannot be made of its keys.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LawInputError {
+    /// The law rejects a value.
+    Law(LawError),
+    /// The materials do not give what the law needs of them.
+    Materials {
+        /// The reason.
+        message: &'static str,
+        /// What to do.
+        help: &'static str,
+    },
+}
+
+impl From<LawError> for LawInputError {
+    fn from(error: LawError) -> Self {
+        Self::Law(error)
+    }
+}
+
+/// The keys are the parameters.
+fn parameters_as_given(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let parameters = law.family.parameters().iter();
+    let values = parameters.map(|parameter| law.get(parameter.key).unwrap_or_default());
+    Ok((values.collect(), context.pair))
 }

@@ -58,7 +58,10 @@ mod ting;
 
 pub use difference::{ImpactDifference, RelativeError, rigid_partner};
 pub use error::LawError;
-pub use family::{LawFamily, LawParameter, ParameterRole};
+pub use family::{
+    KeyKind, KeyNeed, KeyRange, KeySet, LawContext, LawFamily, LawInput, LawInputError,
+    LawParameter, LawValues, ParameterRole,
+};
 pub use fast_slow_limits::FastSlowLimits;
 pub use finite_size::FiniteSize;
 pub use hertz::{

@@ -18,7 +18,7 @@ use crate::scene::{Limits, MeshSettings, Scene};
 use crate::schema::CaseFile;
 
 /// Numbers that a key allows.
-struct Allowed {
+pub(crate) struct Allowed {
     words: &'static str,
     test: fn(f64) -> bool,
 }
@@ -111,7 +111,7 @@ pub(crate) fn validate(
     })
 }
 
-struct Check<'a> {
+pub(crate) struct Check<'a> {
     document: &'a Document,
     folder: &'a Path,
 }
@@ -146,7 +146,7 @@ impl Check<'_> {
         }
     }
 
-    fn optional<K: QuantityKind>(
+    pub(crate) fn optional<K: QuantityKind>(
         &self,
         path: &str,
         quantity: Option<&Quantity<K>>,

@@ -1,14 +1,14 @@
 //! `[model]`: exactly one model, and for `law` exactly one law with the keys that it needs.
 
-use fem_laws::{EndRule, LawImpact, Ting};
+use fem_laws::{EndRule, KeyNeed, KeyRange, KeySet, LawFamily, LawImpact, LawInput, Ting};
 
 use super::{Allowed, Check, NOT_NEGATIVE, POSITIVE, allowed};
 use crate::error::CaseError;
 use crate::explain::listed;
 use crate::key_path::join;
-use crate::model::{CondensedOptions, Dashpot, Dissipation, Law, ModelChoice};
-use crate::model_tables::{CondensedTable, End, LawTable, ModelTable};
-use crate::quantity::{Count, Number, Quantity, QuantityKind};
+use crate::model::{CondensedOptions, ModelChoice};
+use crate::model_tables::{CondensedTable, End, LawKey, LawTable, ModelTable};
+use crate::quantity::{Count, Number, Quantity};
 
 const RESTITUTION: Allowed = allowed("greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0);
 const TOLERANCE: Allowed = allowed("from 1e-10 to 1e-2", |x| (1e-10..=1e-2).contains(&x));
@@ -17,6 +17,18 @@ const MODES: Allowed =
 const STEPS: Allowed =
     allowed("a whole number from 50 to 100000", |x| (50.0..=1e5).contains(&x) && x.fract() == 0.0);
 const LIKE_POISSON: Allowed = allowed("between -1 and 1", |x| x > -1.0 && x < 1.0);
+
+impl Allowed {
+    /// Returns the numbers that a key of a law allows.
+    pub(crate) fn by(range: KeyRange) -> Self {
+        match range {
+            KeyRange::Positive => POSITIVE,
+            KeyRange::NotNegative => NOT_NEGATIVE,
+            KeyRange::Restitution => RESTITUTION,
+            KeyRange::LikePoissonsRatio => LIKE_POISSON,
+        }
+    }
+}
 
 impl Check<'_> {
     /// The model that `[model]` chooses; absent, explicit finite elements.
@@ -106,6 +118,7 @@ impl Check<'_> {
     fn law_model(&self, table: &LawTable) -> Result<ModelChoice, CaseError> {
         let example = "law = { kuwabara_kono = { a = \"1e-6 s\" } }";
         let name = self.exactly_one("model.law", &table.given(), "law", example)?;
+        let Some(&family) = table.families().first() else { return Ok(ModelChoice::Fem) };
         let path = join("model.law", name);
         let (end, tolerance) = table.inner();
         for (key, is_twice) in [
@@ -122,8 +135,8 @@ impl Check<'_> {
         let inner = self.tolerance(&join(&path, "tolerance"), tolerance)?;
         let outer = self.tolerance("model.law.tolerance", table.tolerance.as_ref())?;
         let end_rule = EndRule::from(end.or(table.end).unwrap_or(End::ZeroForce));
-        let law = Keys { check: self, path: &path }.law(table)?;
-        if law.family().end_rule().is_some_and(|own| own != end_rule) {
+        let law = self.law_input(family, &path, table.values(self, &path)?)?;
+        if family.end_rule().is_some_and(|own| own != end_rule) {
             let place = if end.is_some() { join(&path, "end") } else { join("model.law", "end") };
             let message = format!("{name} ends at zero force by its definition");
             let error = self.error(&place, message);
@@ -134,165 +147,58 @@ impl Check<'_> {
     }
 }
 
-/// Reads the keys of one law.
-struct Keys<'a> {
-    check: &'a Check<'a>,
-    path: &'a str,
-}
-
-impl Keys<'_> {
-    fn law(&self, table: &LawTable) -> Result<Law, CaseError> {
-        if let Some(keys) = &table.linear {
-            return self.linear(keys);
-        }
-        if let Some(keys) = &table.power {
-            let damping = self.optional("c", keys.c.as_ref(), NOT_NEGATIVE)?;
-            let exponent = self.optional("n", keys.n.as_ref(), NOT_NEGATIVE)?;
-            if damping.is_some_and(|damping| damping > 0.0) && exponent.is_none() {
-                return Err(self.missing("n", "0.5"));
-            }
-            return Ok(Law::Power {
-                stiffness: self.needed("k", keys.k.as_ref(), POSITIVE)?,
-                elastic_exponent: self.needed("gamma", keys.gamma.as_ref(), POSITIVE)?,
-                damping: damping.unwrap_or_default(),
-                damping_exponent: exponent.unwrap_or_default(),
-            });
-        }
-        if let Some(keys) = &table.kuwabara_kono {
-            let viscosities = (keys.eta_1.as_ref(), keys.eta_2.as_ref());
-            let given = self.dissipation(keys.a.as_ref(), viscosities)?;
-            return Ok(Law::KuwabaraKono(given.unwrap_or(Dissipation::Relaxation)));
-        }
-        if let Some(keys) = &table.hunt_crossley {
-            return Ok(Law::HuntCrossley {
-                restitution: self.needed("e", keys.e.as_ref(), RESTITUTION)?,
-                speed: self.optional("v", keys.v.as_ref(), POSITIVE)?,
-            });
-        }
-        if let Some(keys) = &table.tsuji {
-            return Ok(Law::Tsuji(self.damping(keys.e.as_ref(), keys.alpha.as_ref())?));
-        }
-        if let Some(keys) = &table.zhang_whiten {
-            return Ok(Law::ZhangWhiten(self.damping(keys.e.as_ref(), keys.alpha.as_ref())?));
-        }
-        if let Some(keys) = &table.falcon {
-            return Ok(Law::Falcon { damping: self.needed("c", keys.c.as_ref(), NOT_NEGATIVE)? });
-        }
-        if let Some(keys) = &table.mishra_murty {
-            return Ok(Law::MishraMurty {
-                stiffness: self.needed("k", keys.k.as_ref(), POSITIVE)?,
-                damping: self.needed("c", keys.c.as_ref(), NOT_NEGATIVE)?,
-            });
-        }
-        if let Some(keys) = &table.schwager_poeschel {
-            let viscosities = (keys.eta_1.as_ref(), keys.eta_2.as_ref());
-            let given = self.dissipation(keys.a.as_ref(), viscosities)?;
-            let none = || self.missing("a", "\"1e-6 s\"");
-            return Ok(Law::SchwagerPoeschel(given.ok_or_else(none)?));
-        }
-        if let Some(keys) = &table.morgado_oppenheim {
-            return Ok(Law::MorgadoOppenheim {
-                eta_1: self.needed("eta_1", keys.eta_1.as_ref(), NOT_NEGATIVE)?,
-                eta_2: self.needed("eta_2", keys.eta_2.as_ref(), LIKE_POISSON)?,
-            });
-        }
-        if let Some(keys) = &table.bordbar_hyppanen {
-            return Ok(Law::BordbarHyppanen {
-                dissipation_time: self.needed("a", keys.a.as_ref(), NOT_NEGATIVE)?,
-                damping_exponent: self.needed("n", keys.n.as_ref(), NOT_NEGATIVE)?,
-            });
-        }
-        Ok(Law::Hertz)
-    }
-
-    /// `k` and `c`, or `e` and `contact_time`.
-    fn linear(&self, keys: &crate::model_tables::LinearTable) -> Result<Law, CaseError> {
-        let by_outcome = keys.e.is_some() || keys.contact_time.is_some();
-        if by_outcome && (keys.k.is_some() || keys.c.is_some()) {
-            let at = |key| join(self.path, key);
-            let error = self.check.conflict(
-                &at(if keys.e.is_some() { "e" } else { "contact_time" }),
-                &[&at("contact_time"), &at("e"), &at("k"), &at("c")],
-                "linear mixes its coefficients with what is to come out",
-            );
-            return Err(error.with_help("give k and c, or e and contact_time"));
-        }
-        if by_outcome {
-            return Ok(Law::LinearFromRestitution {
-                restitution: self.needed("e", keys.e.as_ref(), RESTITUTION)?,
-                contact_time: self.needed("contact_time", keys.contact_time.as_ref(), POSITIVE)?,
-            });
-        }
-        Ok(Law::Linear {
-            stiffness: self.needed("k", keys.k.as_ref(), POSITIVE)?,
-            damping: self.optional("c", keys.c.as_ref(), NOT_NEGATIVE)?.unwrap_or_default(),
-        })
-    }
-
-    /// `a`, or `eta_1` and `eta_2`, or none of them.
-    fn dissipation<T: QuantityKind, V: QuantityKind>(
+impl Check<'_> {
+    /// Returns the law of a family from the keys that are given: those of exactly one of its sets.
+    fn law_input(
         &self,
-        time: Option<&Quantity<T>>,
-        viscosities: (Option<&Quantity<V>>, Option<&Quantity<V>>),
-    ) -> Result<Option<Dissipation>, CaseError> {
-        let shear = self.optional("eta_1", viscosities.0, NOT_NEGATIVE)?;
-        let bulk = self.optional("eta_2", viscosities.1, NOT_NEGATIVE)?;
-        let time = self.optional("a", time, NOT_NEGATIVE)?;
-        match (time, shear, bulk) {
-            (None, None, None) => Ok(None),
-            (Some(time), None, None) => Ok(Some(Dissipation::Time(time))),
-            (None, Some(shear), Some(bulk)) => Ok(Some(Dissipation::Viscosities { shear, bulk })),
-            (None, None, Some(_)) => Err(self.missing("eta_1", "\"1e4 Pa s\"")),
-            (None, Some(_), None) => Err(self.missing("eta_2", "\"1e4 Pa s\"")),
-            (Some(_), ..) => {
-                let at = |key| join(self.path, key);
-                let message = "both a and viscosities are given";
-                let error = self.check.conflict(&at("a"), &[&at("eta_1"), &at("eta_2")], message);
-                Err(error.with_help("give a, or eta_1 and eta_2"))
+        family: LawFamily,
+        path: &str,
+        given: Vec<(&'static str, f64)>,
+    ) -> Result<LawInput, CaseError> {
+        let sets = family.key_sets();
+        let is_in = |set: &KeySet, key: &str| set.iter().any(|(own, _)| *own == key);
+        // The first key given of each set of which one is given.
+        let firsts: Vec<_> = sets
+            .iter()
+            .filter_map(|set| Some((set, given.iter().find(|(key, _)| is_in(set, key))?.0)))
+            .collect();
+        let set = match *firsts.as_slice() {
+            [] => sets.iter().find(|set| set.is_empty()).or(sets.first()).copied().unwrap_or(&[]),
+            [(set, _)] => set,
+            [(_, first), (_, second), ..] => {
+                let others: Vec<_> = given.iter().map(|(key, _)| join(path, key)).collect();
+                let others: Vec<_> = others.iter().map(String::as_str).collect();
+                let message = format!("both {first} and {second} are given");
+                let error = self.conflict(&join(path, second), &others, message);
+                let words = sets
+                    .iter()
+                    .filter(|set| !set.is_empty())
+                    .map(|set| listed(&set.iter().map(|(key, _)| *key).collect::<Vec<_>>()));
+                let words = words.collect::<Vec<_>>().join(", or ");
+                return Err(error.with_help(format!("give {words}")));
             }
+        };
+        let value = |key: &str| given.iter().find(|(own, _)| *own == key).map(|(_, value)| *value);
+        let mut values = Vec::new();
+        for &(key, need) in set {
+            let value = match (value(key), need) {
+                (Some(value), _) => Some(value),
+                (None, KeyNeed::Optional) => None,
+                (None, KeyNeed::Default(default)) => Some(default),
+                (None, KeyNeed::With(other)) if !value(other).is_some_and(|value| value > 0.0) => {
+                    Some(0.0)
+                }
+                (None, KeyNeed::Required | KeyNeed::With(_)) => {
+                    let is_it = |own: &&LawKey| (own.family, own.key) == (family, key);
+                    let example =
+                        LawTable::KEYS.iter().find(is_it).map_or("", |own| own.kind.example);
+                    let message = format!("the key `{key}` is missing in {path}");
+                    let error = self.error(path, message);
+                    return Err(error.with_help(format!("write {key} = {example}")));
+                }
+            };
+            values.extend(value.map(|value| (key, value)));
         }
-    }
-
-    /// The damping of a law that takes `e` or `alpha`.
-    fn damping(
-        &self,
-        restitution: Option<&Quantity<Number>>,
-        coefficient: Option<&Quantity<Number>>,
-    ) -> Result<Dashpot, CaseError> {
-        match (restitution, coefficient) {
-            (Some(_), Some(_)) => {
-                let (e, alpha) = (join(self.path, "e"), join(self.path, "alpha"));
-                let error = self.check.conflict(&alpha, &[&e], "both e and alpha are given");
-                Err(error.with_help("keep one of the two"))
-            }
-            (None, Some(_)) => {
-                Ok(Dashpot::Coefficient(self.needed("alpha", coefficient, NOT_NEGATIVE)?))
-            }
-            _ => Ok(Dashpot::Restitution(self.needed("e", restitution, RESTITUTION)?)),
-        }
-    }
-
-    fn optional<K: QuantityKind>(
-        &self,
-        key: &str,
-        quantity: Option<&Quantity<K>>,
-        allowed: Allowed,
-    ) -> Result<Option<f64>, CaseError> {
-        self.check.optional(&join(self.path, key), quantity, allowed)
-    }
-
-    fn needed<K: QuantityKind>(
-        &self,
-        key: &str,
-        quantity: Option<&Quantity<K>>,
-        allowed: Allowed,
-    ) -> Result<f64, CaseError> {
-        let value = self.optional(key, quantity, allowed)?;
-        value.ok_or_else(|| self.missing(key, K::KIND.example))
-    }
-
-    fn missing(&self, key: &str, example: &str) -> CaseError {
-        let message = format!("the key `{key}` is missing in {}", self.path);
-        self.check.error(self.path, message).with_help(format!("write {key} = {example}"))
+        Ok(LawInput { family, values })
     }
 }

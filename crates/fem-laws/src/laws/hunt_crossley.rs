@@ -12,6 +12,7 @@
 use super::hertz::hertz_stiffness;
 use super::power::{ContactLaw, power};
 use crate::error::{LawError, positive, restitution as checked};
+use crate::family::{LawContext, LawInput, LawValues};
 use crate::pair::Pair;
 
 /// The law of a pair and the restitution, in (0, 1], wanted at an approach speed, m/s.
@@ -27,4 +28,13 @@ pub fn hunt_crossley(
     let speed = positive("approach_speed", approach_speed)?;
     let stiffness = hertz_stiffness(pair);
     power(stiffness, 1.5, 0.75 * stiffness * ((1.0 - e) * (1.0 + e) / speed), 1.5)
+}
+
+/// Returns the restitution and the speed at which it is wanted: the approach speed if none is given.
+///
+/// # Errors
+/// Returns none.
+pub fn hunt_crossley_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let speed = law.get("v").unwrap_or(context.approach_speed);
+    Ok((vec![law.get("e").unwrap_or_default(), speed], context.pair))
 }

@@ -27,6 +27,7 @@ use fem_material::ElasticModuli;
 use super::hertz::hertz_stiffness;
 use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative};
+use crate::family::{LawContext, LawInput, LawInputError, LawValues};
 use crate::pair::Pair;
 
 /// The law of a pair and its dissipation time A, s.
@@ -63,4 +64,31 @@ pub fn corrected_dissipation_time(
         return Err(LawError::TwoWalls);
     }
     not_negative("dissipation_time", weighted / compliance)
+}
+
+/// Returns A as given, that of viscosities, or that of Kelvin's solid as the slow limit of the materials:
+/// then with the pair's relaxed moduli.
+///
+/// # Errors
+/// A viscosity that is negative or not finite; two walls; no material relaxes, or one flows.
+pub fn kuwabara_kono_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    const GIVE: &str = "give a, or eta_1 and eta_2";
+    if let Some(time) = law.get("a") {
+        return Ok((vec![time], context.pair));
+    }
+    if let (Some(shear), Some(bulk)) = (law.get("eta_1"), law.get("eta_2")) {
+        let moduli = context.materials.map(|material| Some(material?.instantaneous()));
+        return Ok((vec![corrected_dissipation_time(moduli, shear, bulk)?], context.pair));
+    }
+    let relaxation = context.relaxation;
+    if relaxation.terms().is_empty() {
+        let message = "no material relaxes, so nothing gives kuwabara_kono its dissipation";
+        return Err(LawInputError::Materials { message, help: GIVE });
+    }
+    let Some(time) = relaxation.dissipation_time() else {
+        let message = "a material flows (its weights sum to 1), so it has no slow limit with a \
+                       lasting stiffness";
+        return Err(LawInputError::Materials { message, help: GIVE });
+    };
+    Ok((vec![time], context.pair.softened(relaxation.equilibrium_weight())?))
 }

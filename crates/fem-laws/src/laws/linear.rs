@@ -20,6 +20,7 @@ use std::f64::consts::PI;
 
 use super::power::{ContactLaw, EndRule, power};
 use crate::error::{LawError, positive, restitution as checked};
+use crate::family::{LawContext, LawInput, LawValues};
 use crate::numerics::bisection::last_where;
 use crate::pair::Pair;
 
@@ -75,4 +76,20 @@ fn zero_force_phase(ratio: f64) -> f64 {
     } else {
         2.0
     }
+}
+
+/// Returns k and c as given, or those of a restitution and a contact time.
+///
+/// # Errors
+/// See [`linear_from_restitution`].
+pub fn linear_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let pair = context.pair;
+    let values = match (law.get("e"), law.get("contact_time")) {
+        (Some(restitution), Some(time)) => {
+            let made = linear_from_restitution(&pair, restitution, time, context.end_rule)?;
+            vec![made.stiffness(), made.damping()]
+        }
+        _ => vec![law.get("k").unwrap_or_default(), law.get("c").unwrap_or_default()],
+    };
+    Ok((values, pair))
 }

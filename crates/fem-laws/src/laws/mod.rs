@@ -1,4 +1,4 @@
-//! Contact laws F(ξ, ξ̇) by name: each a function that returns its [`ContactLaw`].
+//! Contact laws F(ξ, ξ̇): each a function that returns its [`ContactLaw`], and the table of all of them.
 
 mod bordbar_hyppanen;
 mod falcon;
@@ -15,11 +15,172 @@ mod tsuji;
 pub use bordbar_hyppanen::bordbar_hyppanen;
 pub use falcon::falcon;
 pub use hertz::hertz;
-pub use hunt_crossley::hunt_crossley;
-pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono};
-pub use linear::{linear, linear_from_restitution};
+pub use hunt_crossley::{hunt_crossley, hunt_crossley_values};
+pub use kuwabara_kono::{corrected_dissipation_time, kuwabara_kono, kuwabara_kono_values};
+pub use linear::{linear, linear_from_restitution, linear_values};
 pub use mishra_murty::mishra_murty;
 pub use morgado_oppenheim::morgado_oppenheim;
 pub use power::{ContactLaw, EndRule, power};
-pub use schwager_poeschel::{dissipation_time, schwager_poeschel};
-pub use tsuji::{tsuji, tsuji_coefficient, zhang_whiten_coefficient};
+pub use schwager_poeschel::{dissipation_time, schwager_poeschel, schwager_poeschel_values};
+pub use tsuji::{tsuji, tsuji_coefficient, tsuji_values, zhang_whiten_coefficient};
+
+/// The table of contact laws. It calls a macro with one row per law; [`crate::LawFamily`], the tables of
+/// case files, their checks and their JSON schema are made from it.
+///
+/// A row holds, in this order:
+///
+/// - the law's variant, its name, the type of its table in a case file and what serde expects there;
+/// - `formula`: the [`ContactLaw`] from the pair and the parameters, in the order of the keys;
+/// - `given by`: the sets of keys that determine the law, any one of them, each key with its
+///   [`crate::KeyNeed`] unless it is required; `values` names the function that turns keys into
+///   parameters where they are not the parameters themselves;
+/// - `ends at`: the [`EndRule`], where it is part of the law;
+/// - `keys`: each with its kind of quantity ([`crate::KeyKind`]), its [`crate::KeyRange`] and, if it is a
+///   parameter that a fit may vary, how ([`crate::LawParameter`]).
+#[macro_export]
+macro_rules! contact_laws {
+    ($rows:ident) => {
+        $rows! {
+            /// F = k ξ + c ξ̇.
+            Linear, linear, LinearTable, "a table such as { k = \"1e7 N/m\", c = \"30 N s/m\" }";
+            formula(_pair, [k, c]) = laws::linear(k, c);
+            given by [k, c: KeyNeed::Default(0.0)] [e, contact_time], values laws::linear_values;
+            keys {
+                /// Stiffness, > 0; with `c`.
+                k: Stiffness, Positive, Role::STIFFNESS;
+                /// Damping, ≥ 0; 0 if absent.
+                c: Damping, NotNegative, Role::DAMPING;
+                /// Restitution, > 0 and ≤ 1; with `contact_time`, in place of `k` and `c`.
+                e: Number, Restitution;
+                /// > 0.
+                contact_time: Time, Positive;
+            }
+
+            /// F = k ξ^gamma + c ξ^n ξ̇.
+            Power, power, PowerTable, "a table such as { k = 3e9, gamma = 1.5, c = 1e4, n = 0.5 }";
+            formula(_pair, [k, gamma, c, n]) = laws::power(k, gamma, c, n);
+            given by [k, gamma, c: KeyNeed::Default(0.0), n: KeyNeed::With("c")];
+            keys {
+                /// Stiffness, N/m^gamma, > 0.
+                k: Number, Positive, Role::STIFFNESS.in_unit("N/m^gamma");
+                /// Exponent of the spring, > 0.
+                gamma: Number, Positive, Role::number(Some(1.5), (0.1, 5.0));
+                /// Damping, N s/m^(n+1), ≥ 0; 0 if absent.
+                c: Number, NotNegative, Role::DAMPING.in_unit("N s/m^(n+1)");
+                /// Exponent of the dashpot, ≥ 0; wanted with `c`.
+                n: Number, NotNegative, Role::DAMPING_EXPONENT;
+            }
+
+            /// Hertz' spring without a dashpot, integrated as a law.
+            Hertz, hertz, HertzLawTable, "a table such as {}";
+            formula(pair, []) = laws::hertz(pair);
+            given by [];
+            keys {}
+
+            /// Hertz' spring with the damping of a Kelvin solid.
+            KuwabaraKono, kuwabara_kono, KuwabaraKonoTable, "a table such as { a = \"1e-6 s\" }";
+            formula(pair, [a]) = laws::kuwabara_kono(pair, a);
+            given by [a] [eta_1, eta_2] [], values laws::kuwabara_kono_values;
+            keys {
+                /// Dissipation time A, ≥ 0; absent: from `eta_1` and `eta_2`, or else from the materials.
+                a: Time, NotNegative, Role::DAMPING;
+                /// Viscosity in shear, ≥ 0; with `eta_2`.
+                eta_1: Viscosity, NotNegative;
+                /// Viscosity in compression, ≥ 0.
+                eta_2: Viscosity, NotNegative;
+            }
+
+            /// Hertz' spring with damping in proportion to its force.
+            HuntCrossley, hunt_crossley, HuntCrossleyTable, "a table such as { e = 0.9 }";
+            formula(pair, [e, v]) = laws::hunt_crossley(pair, e, v);
+            given by [e, v: KeyNeed::Optional], values laws::hunt_crossley_values;
+            keys {
+                /// Restitution wanted, > 0 and ≤ 1.
+                e: Number, Restitution, Role::number(None, (1e-6, 1.0));
+                /// Approach speed at which it is wanted, > 0; the case's if absent.
+                v: Speed, Positive, Role::SPEED;
+            }
+
+            /// Hertz' spring with a restitution independent of speed.
+            Tsuji, tsuji, TsujiTable, "a table such as { e = 0.9 }";
+            formula(pair, [alpha]) = laws::tsuji(pair, alpha);
+            given by [e] [alpha], values laws::tsuji_values;
+            keys {
+                /// Restitution wanted, > 0 and ≤ 1, under the law's `end`.
+                e: Number, Restitution;
+                /// Damping coefficient α, ≥ 0, in place of `e`.
+                alpha: Number, NotNegative, Role::DAMPING;
+            }
+
+            /// The law of `tsuji` for a contact that ends at zero force.
+            ZhangWhiten, zhang_whiten, ZhangWhitenTable, "a table such as { e = 0.9 }";
+            formula(pair, [alpha]) = laws::tsuji(pair, alpha);
+            given by [e] [alpha], values laws::tsuji_values;
+            ends at ZeroForce;
+            keys {
+                /// Restitution wanted, > 0 and ≤ 1.
+                e: Number, Restitution;
+                /// Damping coefficient α, ≥ 0, in place of `e`.
+                alpha: Number, NotNegative, Role::DAMPING;
+            }
+
+            /// Hertz' spring with the damping c ξ^(1/4) ξ̇.
+            Falcon, falcon, FalconTable, "a table such as { c = 500 }";
+            formula(pair, [c]) = laws::falcon(pair, c);
+            given by [c];
+            keys {
+                /// Damping, N s/m^(5/4), ≥ 0.
+                c: Number, NotNegative, Role::DAMPING.in_unit("N s/m^(5/4)");
+            }
+
+            /// F = k ξ^(8/5) + c ξ^(4/5) ξ̇.
+            MishraMurty, mishra_murty, MishraMurtyTable, "a table such as { k = 1e10, c = 1e5 }";
+            formula(_pair, [k, c]) = laws::mishra_murty(k, c);
+            given by [k, c];
+            keys {
+                /// Stiffness, N/m^(8/5), > 0.
+                k: Number, Positive, Role::STIFFNESS.in_unit("N/m^(8/5)");
+                /// Damping, N s/m^(9/5), ≥ 0.
+                c: Number, NotNegative, Role::DAMPING.in_unit("N s/m^(9/5)");
+            }
+
+            /// Kelvin's damping from the viscosities of the material.
+            SchwagerPoeschel, schwager_poeschel, SchwagerPoeschelTable,
+                "a table such as { a = \"1e-6 s\" }";
+            formula(pair, [a]) = laws::schwager_poeschel(pair, a);
+            given by [a] [eta_1, eta_2], values laws::schwager_poeschel_values;
+            keys {
+                /// Normal damping C_n, ≥ 0; or `eta_1` and `eta_2`.
+                a: Time, NotNegative, Role::DAMPING;
+                /// Viscosity in shear, > 0; with `eta_2`.
+                eta_1: Viscosity, NotNegative;
+                /// Viscosity in compression, > 0.
+                eta_2: Viscosity, NotNegative;
+            }
+
+            /// Hertz' spring with a damping of the spring's own form.
+            MorgadoOppenheim, morgado_oppenheim, MorgadoOppenheimTable,
+                "a table such as { eta_1 = \"1e4 Pa s\", eta_2 = 0.2 }";
+            formula(pair, [eta_1, eta_2]) = laws::morgado_oppenheim(pair, eta_1, eta_2);
+            given by [eta_1, eta_2];
+            keys {
+                /// Viscoelastic coefficient in place of E, ≥ 0.
+                eta_1: Viscosity, NotNegative, Role::DAMPING;
+                /// Viscoelastic coefficient in place of ν, between −1 and 1.
+                eta_2: Number, LikePoissonsRatio, Role::number(None, (-0.99, 0.99));
+            }
+
+            /// Hertz' spring with the damping 2 A E* R*^(1−n) ξ^n ξ̇.
+            BordbarHyppanen, bordbar_hyppanen, BordbarHyppanenTable,
+                "a table such as { a = \"1e-6 s\", n = 0.65 }";
+            formula(pair, [a, n]) = laws::bordbar_hyppanen(pair, a, n);
+            given by [a, n];
+            keys {
+                /// Dissipation time A, ≥ 0.
+                a: Time, NotNegative, Role::DAMPING;
+                /// Exponent of the dashpot, ≥ 0.
+                n: Number, NotNegative, Role::DAMPING_EXPONENT;
+            }
+        }
+    };
+}

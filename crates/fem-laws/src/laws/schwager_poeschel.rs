@@ -16,6 +16,7 @@ use fem_material::ElasticModuli;
 use super::hertz::hertz_stiffness;
 use super::power::{ContactLaw, power};
 use crate::error::{LawError, not_negative, positive};
+use crate::family::{LawContext, LawInput, LawInputError, LawValues};
 use crate::pair::Pair;
 
 /// Of a pair and C_n, s.
@@ -43,4 +44,24 @@ pub fn dissipation_time(
     let viscosity = (3.0 * bulk - shear).powi(2) / (3.0 * (3.0 * bulk + 2.0 * shear));
     let shape = (1.0 - nu * nu) * (1.0 - 2.0 * nu) / (nu * nu);
     not_negative("dissipation_time", viscosity * shape / moduli.youngs_modulus())
+}
+
+/// Returns C_n as given, or that of the viscosities of one material.
+///
+/// # Errors
+/// A viscosity that is not positive and finite; ν = 0; two walls; bodies of different materials.
+pub fn schwager_poeschel_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let (Some(shear), Some(bulk)) = (law.get("eta_1"), law.get("eta_2")) else {
+        return Ok((vec![law.get("a").unwrap_or_default()], context.pair));
+    };
+    let mut moduli = context.materials.iter().flatten().map(|material| material.instantaneous());
+    let Some(first) = moduli.next() else { return Err(LawError::TwoWalls.into()) };
+    if moduli.any(|other| other != first) {
+        return Err(LawInputError::Materials {
+            message: "the viscosities of schwager_poeschel are those of one material, and the \
+                      bodies' differ",
+            help: "give a, or take kuwabara_kono",
+        });
+    }
+    Ok((vec![dissipation_time(first, shear, bulk)?], context.pair))
 }

@@ -28,6 +28,7 @@ use super::hertz::hertz_stiffness;
 use super::linear::damping_ratio;
 use super::power::{ContactLaw, EndRule, power};
 use crate::error::{LawError, not_negative, restitution as checked};
+use crate::family::{LawContext, LawInput, LawValues};
 use crate::pair::Pair;
 
 /// The law of a pair and α ≥ 0; from α = √5 on nothing comes back at zero overlap.
@@ -56,4 +57,17 @@ pub fn tsuji_coefficient(restitution: f64) -> Result<f64, LawError> {
 pub fn zhang_whiten_coefficient(restitution: f64) -> Result<f64, LawError> {
     let loss = checked(restitution)?.recip().ln();
     Ok(5f64.sqrt() * damping_ratio(loss, EndRule::ZeroForce))
+}
+
+/// Returns α as given, or that of a restitution under the end rule.
+///
+/// # Errors
+/// A restitution outside (0, 1].
+pub fn tsuji_values(law: &LawInput, context: &LawContext<'_>) -> LawValues {
+    let alpha = match (law.get("e"), context.end_rule) {
+        (Some(e), EndRule::ZeroOverlap) => tsuji_coefficient(e)?,
+        (Some(e), EndRule::ZeroForce) => zhang_whiten_coefficient(e)?,
+        (None, _) => law.get("alpha").unwrap_or_default(),
+    };
+    Ok((vec![alpha], context.pair))
 }

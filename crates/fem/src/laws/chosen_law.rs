@@ -28,7 +28,7 @@ pub fn model_of(scene: &Scene, family: LawFamily, end_rule: EndRule) -> Result<M
 pub fn family_of(scene: &Scene) -> Option<LawFamily> {
     match scene.model() {
         ModelChoice::Ting { .. } => Some(LawFamily::Ting),
-        ModelChoice::Law { law, .. } => Some(law.family()),
+        ModelChoice::Law { law, .. } => Some(law.family),
         _ => None,
     }
 }
@@ -107,7 +107,7 @@ impl ChosenLaw {
         let mut known = vec![Known::Nowhere; family.parameters().len()];
         let mut own_end = family.end_rule().unwrap_or(EndRule::ZeroForce);
         if let ModelChoice::Law { law, end_rule, .. } = case.scene().model()
-            && law.family() == family
+            && law.family == family
         {
             let reduced = Reduced::new(case.scene()).map_err(|refusal| refusal.in_case(case))?;
             let numbers = reduced.law_numbers().unwrap_or_default();

@@ -1,12 +1,13 @@
 //! Contact laws: a spring and a dashpot of the overlap, integrated.
 
 use fem_case::schema::{End, LawTable, ModelTable};
-use fem_case::{CaseFile, Dissipation, Law, ModelChoice, Quantity, Scene};
+use fem_case::{CaseFile, ModelChoice, Quantity, Scene};
 use fem_laws::laws::ContactLaw;
-use fem_laws::{EndRule, Impact, LawError, LawImpact, Pair, PairRelaxation};
+use fem_laws::{
+    EndRule, Impact, LawContext, LawError, LawImpact, LawInput, LawInputError, Pair, PairRelaxation,
+};
 use fem_material::engineering::number;
 
-use super::law_numbers::{Setting, Unmade};
 use super::reduced::effects::{Relaxation, Traits};
 use super::reduced::{Motion, Moving, Reduced, refused, resolve_start};
 use crate::estimate::Estimate;
@@ -88,12 +89,13 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
     let estimate = Estimate::checked(scene)?;
     let refuse = |error: LawError| refused(scene, &error);
     let (numbers, pair) = law_numbers(scene, &estimate, law, end_rule)?;
-    let Some(made) = law.family().law(&pair, &numbers) else {
-        let message = format!("{} is no law of the overlap", law.name());
+    let name = law.family.name();
+    let Some(made) = law.family.law(&pair, &numbers) else {
+        let message = format!("{name} is no law of the overlap");
         return Err(Refusal::new(scene.model().path(), message));
     };
-    let description = format!("model law {}, one degree of freedom", law.name());
-    let takes_slow_limit = matches!(law, Law::KuwabaraKono(Dissipation::Relaxation));
+    let description = format!("model law {name}, one degree of freedom");
+    let takes_slow_limit = law.is_slow_limit();
     let law = made.map_err(refuse)?;
     let impact = LawImpact::new(&pair, law).with_end_rule(end_rule);
     let gravity = scene.gravity().map_or(0.0, |gravity| gravity.acceleration);
@@ -128,22 +130,22 @@ pub(super) fn build(scene: &Scene) -> Result<Reduced, Refusal> {
 fn law_numbers(
     scene: &Scene,
     estimate: &Estimate,
-    law: &Law,
+    law: &LawInput,
     end_rule: EndRule,
 ) -> Result<(Vec<f64>, Pair), Refusal> {
     let materials = scene.bodies().each_ref().map(|body| body.material());
     let relaxation =
         PairRelaxation::new(materials[0], materials[1]).map_err(|error| refused(scene, &error))?;
-    let setting = Setting {
+    let context = LawContext {
         pair: *estimate.hertz.pair(),
-        speed: estimate.hertz.approach_speed(),
+        approach_speed: estimate.hertz.approach_speed(),
         materials,
         relaxation: &relaxation,
         end_rule,
     };
-    setting.numbers(law).map_err(|unmade| match unmade {
-        Unmade::Law(error) => refused(scene, &error),
-        Unmade::Source(message, help) => {
+    law.parameters(&context).map_err(|error| match error {
+        LawInputError::Law(error) => refused(scene, &error),
+        LawInputError::Materials { message, help } => {
             Refusal::new(scene.model().path(), message).with_help(help)
         }
     })

@@ -8,7 +8,6 @@ mod explicit;
 mod explicit_cost;
 mod hertz;
 mod law;
-mod law_numbers;
 mod mirrored;
 mod own_frame;
 mod reduced;

@@ -177,7 +177,7 @@ const FAULTS: &[(Change, &str, &str)] = &[
             file.model = Some(ModelTable::law(linear));
         },
         "model.law.linear.contact_time",
-        "linear mixes",
+        "both k and contact_time are given",
     ),
     (
         |file| {

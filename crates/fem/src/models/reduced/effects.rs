@@ -119,7 +119,7 @@ fn dashpot(model: &ModelChoice, dashpot: Option<&str>) -> Answer {
 
 fn describe(model: &ModelChoice) -> String {
     match model {
-        ModelChoice::Law { law, .. } => format!("law {}", law.name()),
+        ModelChoice::Law { law, .. } => format!("law {}", law.family.name()),
         _ => format!("model {}", model.name()),
     }
 }
