@@ -1,11 +1,11 @@
-//! One quantity held against its reference.
+//! Checks: one quantity compared with its reference.
 
 use std::fmt;
 
 use fem_case::engineering::Unit;
 use serde::Deserialize;
 
-/// What a reference is worth.
+/// Kind of a reference, which says how independent it is of this program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
@@ -15,7 +15,7 @@ pub enum Kind {
     Published,
     /// Measured on another program.
     CrossCode,
-    /// An earlier number of this program: says what moved, not what is right.
+    /// An earlier value of this program, which detects changes but does not show correctness.
     Regression,
 }
 
@@ -30,7 +30,7 @@ impl fmt::Display for Kind {
     }
 }
 
-/// How far from its reference a quantity may be.
+/// Allowed deviation of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Tolerance {
     /// |ours − reference| over |reference|.
@@ -48,37 +48,37 @@ pub enum Tolerance {
 /// A quantity, its reference and its tolerance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// What the study calls it.
+    /// Name that the study gives the quantity.
     pub quantity: String,
-    /// What the reader calls it.
+    /// Label in tables.
     pub label: String,
     /// SI unit; empty for numbers.
     pub unit: String,
-    /// What the reference is worth.
+    /// Kind of the reference.
     pub kind: Kind,
     /// Where the reference comes from.
     pub source: String,
     /// The reference, SI; none for bounds.
     pub reference: Option<f64>,
-    /// How far off it may be.
+    /// Allowed deviation.
     pub tolerance: Tolerance,
-    /// Why so far.
+    /// Reason for the tolerance.
     pub reason: String,
 }
 
-/// A check that was made.
+/// Result of a check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CheckResult {
-    /// What was checked.
+    /// The check that was made.
     pub check: Check,
-    /// What the study measured, SI; none if it did not measure it.
+    /// Measured value, SI; absent if the study did not measure it.
     pub measured: Option<f64>,
     /// Whether it lies within the tolerance.
     pub passed: bool,
 }
 
 impl Check {
-    /// Holds a measured value against the reference. NaN never passes.
+    /// Compares a measured value with the reference. NaN never passes.
     pub fn judge(&self, measured: Option<f64>) -> CheckResult {
         let passed = measured.is_some_and(|value| match (self.tolerance, self.reference) {
             (Tolerance::Relative(most), Some(reference)) => {
@@ -93,7 +93,7 @@ impl Check {
         CheckResult { check: self.clone(), measured, passed }
     }
 
-    /// A value in the quantity's unit, with as many digits as the tolerance can tell.
+    /// Formats a value in the quantity's unit, with five digits.
     fn show(&self, value: f64) -> String {
         if self.unit.is_empty() {
             return plain(value);
@@ -101,7 +101,7 @@ impl Check {
         Unit::fitting(value, &self.unit).with_digits(5).show(value)
     }
 
-    /// The reference, or what it is bounded by.
+    /// Returns the reference, or the bound, as text.
     pub fn reference_text(&self) -> String {
         match (self.reference, self.tolerance) {
             (Some(reference), _) => self.show(reference),
@@ -114,7 +114,7 @@ impl Check {
         }
     }
 
-    /// The tolerance; empty for bounds, which are their own.
+    /// Returns the tolerance as text; empty for bounds.
     pub fn tolerance_text(&self) -> String {
         match self.tolerance {
             Tolerance::Relative(most) => format!("{} %", plain(100.0 * most)),
@@ -125,12 +125,12 @@ impl Check {
 }
 
 impl CheckResult {
-    /// What was measured.
+    /// Returns the measured value as text.
     pub fn measured_text(&self) -> String {
         self.measured.map_or("not measured".into(), |value| self.check.show(value))
     }
 
-    /// How far from the reference; empty for bounds.
+    /// Returns the difference from the reference as text; empty for bounds.
     pub fn difference_text(&self) -> String {
         let (Some(value), Some(reference)) = (self.measured, self.check.reference) else {
             return String::new();
@@ -143,7 +143,7 @@ impl CheckResult {
         }
     }
 
-    /// `pass` or `FAIL`.
+    /// Returns `pass` or `FAIL`.
     pub fn verdict(&self) -> &'static str {
         if self.passed { "pass" } else { "FAIL" }
     }

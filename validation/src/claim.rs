@@ -1,4 +1,4 @@
-//! What a claim is.
+//! A claim and the cases that it runs.
 
 use std::collections::BTreeMap;
 use std::path::Component::{Normal, ParentDir};
@@ -9,25 +9,25 @@ use serde::Deserialize;
 
 use crate::check::Check;
 
-/// What a claim is about.
+/// Subject of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Section {
     /// Closed forms, limits and convergence.
     Theory,
-    /// What must hold whatever the scene.
+    /// Laws of mechanics, which hold for any scene.
     Mechanics,
-    /// Other programs.
+    /// Comparison with other programs.
     CrossCode,
-    /// The paper that the program began with.
+    /// Comparison with the published study of two glass spheres.
     Paper,
 }
 
 impl Section {
-    /// All, in the order in which they are shown.
+    /// All sections in the order of the tables.
     pub const ALL: [Self; 4] = [Self::Theory, Self::Mechanics, Self::CrossCode, Self::Paper];
 
-    /// Its heading.
+    /// Returns the heading of the section.
     pub fn heading(self) -> &'static str {
         match self {
             Self::Theory => "Against theory",
@@ -49,42 +49,42 @@ pub struct RunFile {
     pub set: Vec<String>,
 }
 
-/// A claim.
+/// A statement about results, with the cases and the checks that test it.
 #[derive(Debug, Clone)]
 pub struct Claim {
-    /// Its folder's name.
+    /// Name of its folder.
     pub name: String,
-    /// Its folder.
+    /// Path of its folder.
     pub folder: PathBuf,
-    /// A heading.
+    /// Heading of the claim.
     pub title: String,
-    /// What it is about.
+    /// Subject of the claim.
     pub section: Section,
-    /// What is claimed, and why one should expect it.
+    /// The statement and the reason to expect it.
     pub statement: String,
-    /// What to make of the result: what departs, and why. Paragraphs.
+    /// Paragraphs on deviations and their causes.
     pub discussion: Vec<String>,
     /// Cases by name.
     pub runs: BTreeMap<String, RunFile>,
-    /// What the study varies.
+    /// Parameters of the study.
     pub parameters: toml::Table,
     /// Quantities with references.
     pub checks: Vec<Check>,
-    /// What measures the quantities: the name of one of the studies.
+    /// Name of the study that measures the quantities.
     pub study: String,
 }
 
 impl Claim {
-    /// A case of the claim.
+    /// Loads a case of the claim.
     ///
     /// # Errors
-    /// What is wrong with the case.
+    /// The case cannot be read or is invalid.
     pub(crate) fn load_case(&self, run: &RunFile) -> Result<Case, CaseError> {
         Case::load(&tidy(&self.folder.join(&run.case)), &run.set)
     }
 }
 
-/// A path without `..` where that needs no look at the disk.
+/// Returns the path with `NAME/..` removed, without access to the disk.
 fn tidy(path: &Path) -> PathBuf {
     let mut tidy = PathBuf::new();
     for part in path.components() {

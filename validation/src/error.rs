@@ -1,4 +1,4 @@
-//! What can go wrong with claims.
+//! Errors of claims and studies.
 
 use std::path::PathBuf;
 
@@ -15,75 +15,75 @@ pub enum ClaimError {
     /// A file or folder cannot be read.
     #[error("{}: {error}", path.display())]
     Unreadable {
-        /// Which folder or file.
+        /// Path of the folder or file.
         path: PathBuf,
-        /// Why it cannot be read.
+        /// Error of the file system.
         error: std::io::Error,
     },
-    /// A claim file says something that it cannot.
+    /// A claim file is invalid.
     #[error("{}:{line}:{column}: {message}", path.display())]
     Invalid {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
         /// Line, from 1.
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What is wrong.
+        /// Description of the error.
         message: String,
     },
     /// A case of a claim that cannot be read.
     #[error("{0}")]
     Case(#[from] CaseError),
-    /// No such claim.
+    /// There is no claim with this name.
     #[error("there is no claim `{name}`; the claims are {known}")]
     Unknown {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
-        /// All, with commas.
+        /// Names of all claims, separated by commas.
         known: String,
     },
 }
 
-/// A study that could not measure what it is for.
+/// Errors of a study.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum StudyError {
     /// A case that cannot be read or prepared.
     #[error("{0}")]
     Case(#[from] CaseError),
-    /// A run that did not end by itself.
+    /// A run that was stopped.
     #[error("{title}: {stop}")]
     Stopped {
         /// Title of the case.
         title: String,
-        /// Why it ended.
+        /// Reason of the stop.
         stop: Stop,
     },
-    /// The user wants to stop.
+    /// The user interrupted the study.
     #[error("interrupted")]
     Interrupted,
-    /// A closed form or law that refuses the numbers.
+    /// A closed form or contact law rejects its parameters.
     #[error("{0}")]
     Law(#[from] LawError),
-    /// A mesh that cannot be made.
+    /// A mesh cannot be built.
     #[error("{0}")]
     Mesh(#[from] MeshError),
-    /// A material that cannot be.
+    /// A material is invalid.
     #[error("{0}")]
     Material(#[from] MaterialError),
-    /// Bodies that do not meet.
+    /// The bodies do not meet.
     #[error("{0}")]
     Approach(#[from] ApproachError),
-    /// A model that cannot be made.
+    /// A model cannot be built.
     #[error("{0}")]
     Model(#[from] ModelError),
-    /// Parameters of the study that do not fit it.
+    /// The parameters of the study are invalid.
     #[error("{0}")]
     Parameters(String),
 }
 
 impl StudyError {
-    /// Something about the parameters.
+    /// Returns an error about the parameters of the study.
     pub fn parameters(message: impl Into<String>) -> Self {
         Self::Parameters(message.into())
     }

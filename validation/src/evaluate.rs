@@ -12,15 +12,15 @@ use crate::studies::find_study;
 /// A claim that was tried.
 #[derive(Debug, Clone)]
 pub struct ClaimResult {
-    /// The claim.
+    /// The claim that was tested.
     pub claim: Claim,
     /// Its checks, in the order of the claim; none were made if the study failed.
     pub checks: Vec<CheckResult>,
-    /// What else the study found.
+    /// Measurements, tables and figures of the study.
     pub findings: Findings,
     /// Why the study failed.
     pub error: Option<StudyError>,
-    /// What it cost.
+    /// Cost of the claim.
     pub price: Price,
 }
 

@@ -1,10 +1,10 @@
-//! What a study found.
+//! Findings of a study: measurements, tables and figures.
 
 use std::collections::BTreeMap;
 
 use fem_figure::Chart;
 
-/// A picture.
+/// A figure as SVG with its caption.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
     /// A name for a file, unique in a claim: letters, digits, `_`.
@@ -18,7 +18,7 @@ pub struct Figure {
 /// Numbers in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// What the table shows.
+    /// Caption of the table.
     pub caption: String,
     /// Names of the columns.
     pub header: Vec<String>,
@@ -26,7 +26,7 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-/// What a study found.
+/// Measurements, tables and figures of a study.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Findings {
     /// By name, SI.
@@ -38,7 +38,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Nothing yet.
+    /// Returns empty findings.
     pub fn new() -> Self {
         Self::default()
     }
@@ -63,7 +63,7 @@ impl Findings {
         }
     }
 
-    /// A table.
+    /// Adds a table.
     pub fn tabulate<const N: usize>(
         &mut self,
         caption: impl Into<String>,

@@ -38,7 +38,7 @@ impl<'a> Laboratory<'a> {
         Self { claim, shelf, observer, price: Mutex::default() }
     }
 
-    /// The claim.
+    /// Returns the claim that is tested.
     pub fn claim(&self) -> &Claim {
         self.claim
     }
@@ -134,7 +134,7 @@ impl<'a> Laboratory<'a> {
         Ok(result)
     }
 
-    /// What the claim has cost so far.
+    /// Returns the cost of the claim so far.
     pub(crate) fn price(&self) -> Price {
         *self.price.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -191,7 +191,7 @@ impl<'a> Laboratory<'a> {
     }
 }
 
-/// Whether the plan takes a body of a case as rigid. What cannot be told fails where the case is run.
+/// Whether the plan treats a body of a case as rigid. An error is reported when the case is run.
 fn has_rigid_partner(case: &Case) -> bool {
     let scene = case.scene();
     let estimate = Estimate::of(scene).ok();
@@ -199,7 +199,7 @@ fn has_rigid_partner(case: &Case) -> bool {
     estimate.and_then(of).is_some()
 }
 
-/// What a case is known by on the shelf: all of it but its title.
+/// Returns the key under which runs of a case are shared: the resolved case without its title.
 fn key(mut resolved: CaseFile) -> Result<String, StudyError> {
     resolved.title = None;
     resolved.to_toml().map_err(|error| StudyError::parameters(error.to_string()))

@@ -1,4 +1,4 @@
-//! Claims about this program's results, each held against a reference that it did not compute.
+//! Claims about this program's results, each compared with an independent reference.
 //!
 //! ```text
 //! validation/NAME/claim.toml ─ Claim ─ study ─────────────── Findings ─ checks ─ ClaimResult

@@ -1,4 +1,4 @@
-//! The table of results for the documentation.
+//! Tables of results in Markdown.
 
 use std::fmt::Write;
 
@@ -19,8 +19,8 @@ fn pictures_of(result: &ClaimResult) -> impl Iterator<Item = (String, &Figure)> 
     result.findings.figures.iter().map(move |figure| (name(figure), figure))
 }
 
-/// A Markdown page: a table a section, a row a check, and the figures. It says nothing that changes from run to
-/// run on the same program: no times, no machine.
+/// Returns a Markdown page with one table per section, one row per check, and the figures. It has no times and
+/// names no machine, so it changes only with the results.
 pub fn markdown(results: &[ClaimResult]) -> String {
     let mut text = String::from(
         "<!-- Written by `fem-run validate --table validation/claims.md`; not by hand. -->\n\

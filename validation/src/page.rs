@@ -49,7 +49,7 @@ fn seconds(value: &f64) -> String {
     fem_case::engineering::Unit::fitting(*value, "s").with_digits(2).show(*value)
 }
 
-/// `3.4e9`.
+/// Formats a count, large ones as `3.4e9`.
 fn count(value: &u64) -> String {
     if *value < 10_000 { value.to_string() } else { format!("{:.1e}", *value as f64) }
 }

@@ -1,9 +1,9 @@
-//! What a claim costs.
+//! Cost of a claim.
 
-/// What a claim cost.
+/// Cost of a claim: runs, element updates and time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Price {
-    /// Runs that it is made of, those shared with other claims counted in each.
+    /// Number of runs; runs that claims share count in each.
     pub runs: u64,
     /// Elements times steps.
     pub element_updates: u64,

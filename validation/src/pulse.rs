@@ -12,19 +12,19 @@ const TIME_OVER_WIDTH: f64 = 5.152_65;
 /// Half of what the parabola is fitted to, over the contact time.
 const HALF_WIDTH: f64 = 0.05;
 
-/// A pulse.
+/// Duration and height of a force pulse, free of the noise of single rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
     /// By its second moment, s.
     pub time: f64,
     /// Its top, N.
     pub force: f64,
-    /// Of the pressure on the axis around the instant of the largest force, Pa.
+    /// Pressure on the axis around the instant of the largest force, Pa.
     pub pressure: f64,
 }
 
 impl Pulse {
-    /// Of the rows of a collision whose contact lasts so long, s.
+    /// Computes the pulse of a history, given its contact time in seconds.
     pub fn of(rows: &[Row], contact_time: f64) -> Self {
         let axis = |row: &Row| row.centre_pressure.unwrap_or_default();
         Self {
@@ -36,7 +36,7 @@ impl Pulse {
 }
 
 /// Time from the first to the last row with more than a tenth of the largest force, its ends between rows, s: the
-/// width that other codes' pulses are told by.
+/// width by which pulses of other codes are compared.
 pub fn width_at_tenth(rows: &[Row]) -> f64 {
     let tenth = 0.1 * rows.iter().map(|row| row.contact_force).fold(0.0, f64::max);
     let is_above = |row: &Row| row.contact_force > tenth;
@@ -163,7 +163,7 @@ mod tests {
         assert!((ratio - TIME_OVER_WIDTH).abs() < 1e-4, "{ratio}");
     }
 
-    /// Of t (1 − t) a tenth of the height lies √0.9/2 beside the middle, and the mean over w of the middle is
+    /// For t (1 − t), a tenth of the height lies √0.9/2 beside the middle, and the mean over w of the middle is
     /// (1 − w²/3)/4 of 4: a parabola less its curvature. Rows are 1e-3 apart.
     #[test]
     fn a_parabola_has_its_width_at_a_tenth_and_its_mean() {
@@ -175,7 +175,7 @@ mod tests {
         assert!(width_at_tenth(&[]).is_nan() && largest_mean(&[], 0.1).is_nan());
     }
 
-    /// Of t (1 − t) the second moment is a twentieth; the top lies between two rows.
+    /// The second moment of t (1 − t) is a twentieth; the top lies between two rows.
     #[test]
     fn a_parabola_has_its_top_and_its_width() {
         let rows = pulse(|t| 4.0 * t * (1.0 - t));

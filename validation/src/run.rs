@@ -14,15 +14,15 @@ use crate::error::StudyError;
 /// A case of any model and what came out of it; the run ended by itself.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The case.
+    /// The case that was run.
     pub case: Case,
     /// Hertz with instantaneous moduli.
     pub hertz: HertzImpact,
-    /// The result.
+    /// Result of the run.
     pub collision: Collision,
-    /// The restitution.
+    /// Coefficient of restitution.
     pub restitution: f64,
-    /// What the run took, s.
+    /// Wall time of the run, s.
     pub seconds: f64,
 }
 
@@ -43,7 +43,7 @@ impl Run {
         known(self.collision.max_approach)
     }
 
-    /// Of the smaller sphere, m.
+    /// Returns the radius of the smaller sphere, m.
     pub fn smallest_radius(&self) -> f64 {
         let diameters = self.case.scene().bodies().iter().filter_map(|body| body.diameter());
         0.5 * diameters.fold(f64::INFINITY, f64::min)
@@ -69,7 +69,7 @@ impl Run {
         known(self.collision.momentum_residual_relative)
     }
 
-    /// Of both bodies along +y, m/s.
+    /// Returns the velocities of both bodies after the collision along +y, m/s.
     pub fn velocity_after(&self) -> [f64; 2] {
         self.collision.bodies.each_ref().map(|body| known(body.velocity_after))
     }
@@ -91,7 +91,7 @@ fn known(value: Option<f64>) -> f64 {
 pub struct ExplicitRun {
     /// Meshes, bodies and contact, as they were in the end.
     pub model: Arc<Model>,
-    /// What every model gives.
+    /// Results that every model has.
     pub run: Run,
 }
 
@@ -99,13 +99,13 @@ impl ExplicitRun {
     /// The penalty springs between the bodies.
     ///
     /// # Errors
-    /// A case with another contact, as of surfaces that slip, of which a study of springs can tell nothing.
+    /// The contact is not made of penalty springs alone, for example with surface slip.
     pub fn springs(&self) -> Result<&ContactInterface, StudyError> {
         self.model.interface().ok_or_else(no_springs)
     }
 }
 
-/// What is said of a contact that is not of penalty springs alone.
+/// Returns the error for a contact that is not made of penalty springs alone.
 pub(crate) fn no_springs() -> StudyError {
     StudyError::parameters(
         "the study is of penalty springs alone, which this contact has not; unlike bodies have them with \

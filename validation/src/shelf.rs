@@ -11,12 +11,12 @@ use crate::run::{ExplicitRun, Run};
 /// A run that is there, is being made, or failed.
 pub(crate) type Slot<T> = Arc<OnceLock<Result<Arc<T>, StudyError>>>;
 
-/// Runs by their resolved case.
+/// Runs keyed by their resolved case.
 #[derive(Debug)]
 pub(crate) struct Slots<T>(Mutex<HashMap<String, Slot<T>>>);
 
 impl<T> Slots<T> {
-    /// That of a resolved case.
+    /// Returns the slot of a resolved case.
     pub fn slot(&self, key: String) -> Slot<T> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default().clone()
     }
@@ -35,6 +35,6 @@ pub struct Shelf {
     pub(crate) explicit: Slots<ExplicitRun>,
     /// Runs of all other models.
     pub(crate) others: Slots<Run>,
-    /// What runs at several speeds or relaxations share.
+    /// Data shared by runs at several speeds or relaxations.
     pub(crate) shared: Shared,
 }

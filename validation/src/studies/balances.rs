@@ -1,4 +1,4 @@
-//! Energy and momentum of whole collisions, whatever the scene.
+//! Energy and momentum balance of whole collisions.
 //!
 //! `energy` and `momentum`, the worst imbalance of any run at any instant (over the energy of
 //! approach, over Σ m|v|), and `NAME.energy`, `NAME.momentum` of each run.

@@ -19,10 +19,10 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Over that of the patch; its surface rises by 1e-9 of it and tilts by as much.
+/// Radius of the sphere over that of the patch; height and slope of its surface within the patch are of order 1e-9.
 const SPHERE_RADIUS: f64 = 1e9;
 const POISSONS_RATIO: f64 = 0.3;
-/// p/E.
+/// Pressure over Young's modulus, p/E.
 const STRAIN: f64 = 1e-3;
 
 #[derive(Deserialize)]

@@ -1,4 +1,4 @@
-//! What a case converges to as the elements get smaller, and how fast.
+//! Limits and orders of convergence of a case over the size of its elements.
 //!
 //! For each quantity q of the collision q(h) = q₀ + C hᵖ is fitted to the levels:
 //! `NAME.limit`, `NAME.order`, and `NAME.uncertainty`, the largest move of the limit when a level

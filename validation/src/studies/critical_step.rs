@@ -32,12 +32,12 @@ const NO_ENERGY: f64 = 1e-10;
 #[serde(deny_unknown_fields)]
 struct Parameters {
     poissons_ratio: f64,
-    /// Of the lower and the upper body, over the radius.
+    /// Element sizes of the lower and the upper body, over the radius.
     element_sizes: Vec<[f64; 2]>,
     penalty_factors: Vec<f64>,
     /// Added mass over mass.
     mass_scaling: Vec<f64>,
-    /// How many times the bound counts each spring.
+    /// Number of times that the bound counts each spring.
     spring_count: f64,
 }
 
@@ -117,7 +117,7 @@ fn alone(material: &Material, size: f64) -> Result<(f64, usize), StudyError> {
 /// Two bodies in contact.
 struct Pair<'a> {
     material: &'a Material,
-    /// Of the elements.
+    /// Sizes of the elements.
     sizes: [f64; 2],
     penalty: f64,
     /// Added mass over mass.
@@ -142,7 +142,7 @@ impl Pair<'_> {
         Ok(Model::new(bodies, Approach::at(1.0)?, &settings)?)
     }
 
-    /// The ratio with all candidates closed, and with springs so many times as stiff.
+    /// Returns the ratio with all candidates closed, and that with springs stiffer by a factor.
     fn ratios(&self, spring_count: f64) -> Result<[f64; 2], StudyError> {
         let model = self.model()?;
         let [lower, upper] = model.bodies();
@@ -195,7 +195,7 @@ impl Assembly {
         Self { stiffness, inverse_root_mass, first }
     }
 
-    /// Springs of all candidates, so many times, from the forces of a deep penetration, which are
+    /// Adds the springs of all candidates times a factor, from the forces of a deep penetration, which are
     /// linear.
     fn add_contact(&mut self, model: &Model, times: f64) -> Result<(), StudyError> {
         let springs = model.interface().ok_or_else(no_springs)?;

@@ -1,10 +1,9 @@
-//! What finite strain changes: runs against the same collision at small strain, and runs against
-//! their finer meshes.
+//! Effect of finite strain: runs compared with the same collision at small strain, and with their finer meshes.
 //!
-//! Of each run all that the study `summary` measures, and of its [`Pulse`] `NAME.pulse_time` and
-//! `NAME.pulse_force`, and by how much the peak force that the program prints is above it,
-//! `NAME.printed_force`. As other codes' pulses are told by, its width at a tenth of its largest force,
-//! `NAME.width_at_tenth`, and the largest mean over a hundredth of that, `NAME.mean_force`.
+//! Measures for each run all that the study `summary` measures, and `NAME.pulse_time` and `NAME.pulse_force` of its
+//! [`Pulse`]; `NAME.printed_force` is the excess of the printed peak force. For comparison with other codes it measures the
+//! width at a tenth of the largest force, `NAME.width_at_tenth`, and the largest mean over a hundredth of that width,
+//! `NAME.mean_force`.
 //!
 //! For each pair of `against` what changes from the partner to the run: `NAME.time_change` (first to
 //! last contact), `NAME.width_change` (of `pulse_time`), `NAME.force_change` and `NAME.printed_change` as shares,

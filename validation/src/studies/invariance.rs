@@ -1,4 +1,4 @@
-//! What must not matter: which body lies below, a common velocity, the units.
+//! Invariance of results under exchange of the bodies, a common velocity and the choice of units.
 //!
 //! Each run of the claim is compared with the run `plain` in numbers without unit: restitution, and
 //! all else over Hertz' values of the run itself. `NAME.difference` is the largest relative

@@ -1,7 +1,7 @@
 //! σ_yy in section of soft bodies on a wall at four instants, labelled or times, on the deformed bodies.
 //!
-//! Of each run and instant, with the upper body's σ_yy where it touches the wall on the axis, the contact
-//! pressure there, and the surface where it is:
+//! Measures for each run and instant, from the upper body's σ_yy where it touches the wall on the axis, the contact
+//! pressure there and the deformed surface:
 //!
 //! - `RUN.INSTANT.smallest`: the largest compression, Pa;
 //! - `RUN.INSTANT.into_wall`: how far the surface is beyond the wall, over the largest approach;
@@ -27,7 +27,7 @@ const MEGA: f64 = 1e6;
 const N_BANDS: usize = 11;
 /// The upper body: the wall is the lower one.
 const UPPER: usize = 1;
-/// What is seen, in radii of the ball: to each side, below the wall, above it.
+/// Extent of the picture in radii of the ball: to each side, below the wall, above it.
 const WIDTH: f64 = 1.45;
 const BELOW: f64 = 0.12;
 const ABOVE: f64 = 2.15;
@@ -90,7 +90,7 @@ fn measure(name: &str, run: &ExplicitRun, instants: &[&Snapshot], findings: &mut
     }
 }
 
-/// m/s.
+/// Returns the speed of the stress front, m/s.
 fn front_speed(run: &ExplicitRun, instants: &[&Snapshot]) -> f64 {
     let Some(mesh) = run.model.bodies()[UPPER].mesh() else { return f64::NAN };
     let place = |snapshot: &Snapshot| {

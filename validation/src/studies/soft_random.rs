@@ -1,14 +1,14 @@
-//! Random soft collisions at finite strain: whether tolerance and error bars hold, and what the plan foretells of
-//! finite strain.
+//! Random collisions of soft balls at finite strain: whether tolerance and error bars hold, and whether the estimated effect of
+//! finite strain is right.
 //!
 //! A ball strikes a rigid wall, or one time in three a ball of another size and stiffness. Poisson's ratios are 0 to
 //! 0.495, laws all but St Venant and Kirchhoff's, which collapses; half of the scenes relax; the speed is that at which
 //! Hertz' contact radius is 0.1 to 0.7 of the effective radius. Each is run as a user runs it, with nothing set, and on
-//! elements [`FINER`] times smaller, from which its errors are told as those of the second order. A scene is `covered` if
+//! elements [`FINER`] times smaller, from which its error is estimated with second order. A scene is `covered` if
 //! all six numbers are within their bars, and `met` if restitution, contact time, peak force and pressure are within the
 //! default tolerance or its warnings say that one of them may not be; `bar` is the median of a bar over the error, or over
-//! a tenth of the tolerance where that is more. A scene is `foretold` if contact time and force change by at most
-//! [`FORETOLD_WITHIN`] times what the plan says when finite strain is off, but for [`NOISE`] between two meshes.
+//! a tenth of the tolerance where that is more. A scene is `foretold` if contact time and force at small strain differ by at most
+//! [`FORETOLD_WITHIN`] times the estimate of the plan, plus [`NOISE`] of two meshes.
 
 use std::f64::consts::PI;
 
@@ -26,13 +26,13 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Elements that errors are told by are so many times smaller.
+/// Ratio of the element sizes from which errors are estimated.
 const FINER: f64 = 1.6;
-/// What is foretold is good within this factor.
+/// Factor within which the estimate must be right.
 const FORETOLD_WITHIN: f64 = 3.0;
-/// Of two meshes, as a share.
+/// Relative difference of two meshes.
 const NOISE: f64 = 0.01;
-/// Scenes that are drawn for one that is tried, at most.
+/// Largest number of scenes drawn per scene that is run.
 const MOST_DRAWN: usize = 12;
 
 #[derive(Deserialize)]
@@ -40,7 +40,7 @@ const MOST_DRAWN: usize = 12;
 struct Parameters {
     seed: u64,
     scenes: usize,
-    /// Scenes that need more of them on the mesh that is tried are passed over.
+    /// Scenes that need more element updates on the mesh under test are skipped.
     element_updates: f64,
 }
 
@@ -53,7 +53,7 @@ struct Trial {
     is_foretold: bool,
 }
 
-/// Tries tolerance and bars, and what is foretold.
+/// Runs the study.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let Parameters { seed, scenes, element_updates } = laboratory.parameters()?;
     let base = laboratory.claim().runs.get("base").ok_or_else(|| {
@@ -167,7 +167,7 @@ fn overrides(random: &mut Random) -> Vec<String> {
     set
 }
 
-/// None of a scene that is too dear, or of which a run does not come to its end.
+/// Returns nothing for a scene that is too expensive or whose run is stopped.
 fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyError> {
     if Simulation::price(case)? as f64 > element_updates {
         return Ok(None);
@@ -224,7 +224,7 @@ fn is_foretold(simulation: &Simulation, with: &Collision, without: &Collision) -
     Some(time && force)
 }
 
-/// What is allowed of a quantity by default; nothing is asked for of approach and contact radius.
+/// Returns the default tolerance of a quantity; approach and contact radius have none.
 fn tolerance(headline: Headline) -> Option<f64> {
     let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
     match headline {

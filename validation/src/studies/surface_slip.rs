@@ -1,5 +1,5 @@
-//! What slip of the surfaces of unlike bodies changes: each run of the claim is computed with it, as it is
-//! by itself, and without.
+//! Effect of slip between the surfaces of unlike bodies: each run of the claim is computed with it, which is the
+//! default, and without.
 //!
 //! `NAME.QUANTITY` is the change over the value without; `NAME.restitution` is |Δe|,
 //! `NAME.energy_residual` the worst imbalance with it.

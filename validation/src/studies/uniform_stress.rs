@@ -1,5 +1,5 @@
-//! What holds exactly in a meshed sphere: a rigid motion strains nothing, and a uniform pressure on
-//! its surface is balanced by a uniform stress.
+//! Patch tests of a meshed sphere: a rigid motion causes no strain, and a uniform pressure on its surface is balanced
+//! by a uniform stress.
 //!
 //! `translation`, the largest nodal force of a rigid translation by the radius over that of a strain
 //! of 1; `load`, the largest difference of the nodal forces of u = −p x/3K from the consistent loads

@@ -13,9 +13,9 @@ use crate::error::StudyError;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Axis {
-    /// What is hard on it.
+    /// Difficulty of the axis, in words.
     pub hard: String,
-    /// What all scenes are made of, relative to the claim's folder.
+    /// Case that all scenes modify, relative to the claim's folder.
     pub case: PathBuf,
     /// Overrides of all scenes.
     #[serde(default)]
@@ -28,7 +28,7 @@ pub(super) struct Axis {
 #[serde(deny_unknown_fields)]
 pub(super) struct Scene {
     pub name: String,
-    /// What is hard in it.
+    /// Difficulty of the scene, in words.
     pub hard: String,
     /// Overrides, after those of the axis.
     #[serde(default)]
@@ -36,13 +36,13 @@ pub(super) struct Scene {
     /// Mesh files of its bodies.
     #[serde(default)]
     pub imported: Vec<Imported>,
-    /// What its numbers are held against.
+    /// Reference of its results.
     pub against: Option<Against>,
-    /// By the model's table: `ting = {}`, `condensed = { vibration_modes = 12 }`.
+    /// Expectations by the model's table: `ting = {}`, `condensed = { vibration_modes = 12 }`.
     pub model: BTreeMap<String, Expected>,
 }
 
-/// What numbers are held against.
+/// Reference of the results of a scene.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Against {
@@ -64,14 +64,14 @@ pub(super) struct Expected {
     pub restitution: Option<f64>,
     pub contact_time: Option<f64>,
     pub peak_force: Option<f64>,
-    /// What its warnings contain.
+    /// Texts that its warnings must contain.
     #[serde(default)]
     pub says: Vec<String>,
-    /// Energy (of what the bodies had) that it may gain, and then has to say so; else none may.
+    /// Allowed relative gain of energy, of which the run must warn; absent: none.
     pub gains: Option<f64>,
-    /// What the message contains with which it is refused or stopped.
+    /// Text that the message of its rejection or stop must contain.
     pub refuses: Option<String>,
-    /// Whether it takes milliseconds.
+    /// Whether it takes only milliseconds.
     #[serde(default)]
     pub quick: bool,
 }

@@ -16,7 +16,7 @@ struct File {
     fed: Vec<Fed>,
 }
 
-/// What one target has had.
+/// Counts of one fuzz target.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Fed {
@@ -25,7 +25,7 @@ struct Fed {
     refused: u64,
     /// Panics, hangs, too much memory, bad messages, wrong exit codes.
     findings: u64,
-    /// What they were.
+    /// Descriptions of the findings.
     #[serde(default)]
     what: String,
 }

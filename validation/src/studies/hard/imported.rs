@@ -17,9 +17,9 @@ use crate::error::StudyError;
 pub(super) struct Imported {
     /// 0 or 1.
     body: usize,
-    /// m.
+    /// Radius of the sphere, m.
     radius: f64,
-    /// At the contact, m.
+    /// Element size at the contact, m.
     element_size: f64,
     /// Half-width of the block of equal elements, m.
     refined_radius: f64,
@@ -27,11 +27,11 @@ pub(super) struct Imported {
     change: Change,
 }
 
-/// What becomes of a mesh.
+/// Modification of a mesh.
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Change {
-    /// Nothing.
+    /// No modification.
     #[default]
     Plain,
     /// Elements under the contact lean over, by half of their height.

@@ -1,10 +1,10 @@
 //! Hard scenes: each axis of `validation/hard` goes from one extreme to the other, with every model that
 //! takes the scene.
 //!
-//! An axis is a file beside the claim, [`Axis`]. Of every run the invariants are measured, over all runs
-//! as `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy has to
-//! say so. `endurance.flight` and `endurance.vibration` are of one body ([`endurance`]). `AXIS.difference` is the worst of
-//! what a run is off its reference, over the tolerance that its scene states; `AXIS.unexpected` counts
+//! An axis is a file beside the claim, [`Axis`]. The invariants of every run are measured, the worst of all runs
+//! as `growth`, `momentum`, `excess`, `no_number` and `cost` ([`Trial`]); a run that may gain energy must
+//! warn of it. `endurance.flight` and `endurance.vibration` concern one body ([`endurance`]). `AXIS.difference` is the worst
+//! deviation of a run from its reference, over the tolerance that its scene states; `AXIS.unexpected` counts
 //! the runs that ended otherwise than the scene says, or did not say what it asks for.
 
 mod axis;
@@ -56,7 +56,7 @@ struct Entry<'a> {
 /// Steps of a body that flies and rings.
 const ENDURANCE: usize = 1_000_000;
 
-/// What came of an entry, and of what it is held against.
+/// Outcome of an entry, and its reference.
 struct Tried {
     trial: Trial,
     reference: Option<Reference>,

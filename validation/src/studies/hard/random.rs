@@ -1,12 +1,11 @@
 //! Random scenes: explicit elements, condensed bodies and Ting's impact of finite spheres side by side.
 //!
-//! Two models may differ by what the tolerances of the claim say, and by what the effects that one has
-//! and the other lacks are worth by the plan's own closed forms, which are good within a factor of
-//! three, and by a share of what waves take that a model has as a term only. Scenes of `default_seeds` have the
-//! default settings, and what two models may differ by are both error bars; so have those of `extreme_seeds`, whose
-//! bodies are far from alike. What is beyond is `unexplained`, of
-//! scenes with default settings `beyond_bars`, unless the cheaper model warned of its result. `NAME.median` is
-//! the median |Δe| of a pair of models.
+//! Two models may differ by the tolerances of the claim, plus three times the estimated changes by effects that one
+//! model has and the other lacks (closed forms that are good within a factor of three), plus a share of the energy of waves that
+//! a model has only as a term. Scenes of `default_seeds` and `extreme_seeds` have the default settings, and both error
+//! bars take the place of the tolerances; bodies of `extreme_seeds` differ much. Scenes with larger differences count as
+//! `unexplained`, those with default settings as `beyond_bars`, unless the cheaper model warned of its result.
+//! `NAME.median` is the median |Δe| of a pair of models.
 
 use fem::effects::{LeftOut, PartnerWaves, Verdict};
 use fem::{Estimate, Simulation};
@@ -21,33 +20,33 @@ use crate::error::StudyError;
 use crate::findings::Findings;
 use crate::laboratory::Laboratory;
 
-/// Closed forms of what is left out are good within this factor.
+/// Factor within which the closed forms of neglected effects are good.
 const FORETOLD_WITHIN: f64 = 3.0;
-/// Terms for waves that do not come back are within this share of what they take (docs/theory.md).
+/// Relative accuracy of the terms for waves that do not return (docs/theory.md).
 const RADIATION_WITHIN: f64 = 0.15;
 /// From the most complete to the cheapest.
 const MODELS: [&str; 3] = ["fem={}", "condensed={}", "ting={finite_size=true}"];
-/// Worst scenes that are shown of each pair.
+/// Number of worst scenes in the table of each pair.
 const N_SHOWN: usize = 5;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
     seeds: Vec<u64>,
-    /// Of scenes with the default settings.
+    /// Seeds of scenes with the default settings.
     default_seeds: Vec<u64>,
-    /// Of scenes with the default settings whose bodies are far from alike.
+    /// Seeds of scenes with the default settings whose bodies differ much.
     extreme_seeds: Vec<u64>,
-    /// Of each seed.
+    /// Number of scenes per seed.
     scenes: usize,
-    /// Of each seed of those that are far from alike.
+    /// Number of scenes per seed of `extreme_seeds`.
     extreme_scenes: usize,
-    /// Of two pairs of models: explicit and condensed, condensed and Ting's.
+    /// Tolerances for explicit against condensed, and condensed against Ting's model.
     explicit: Tolerance,
     ting: Tolerance,
 }
 
-/// What two models may differ by, having the same effects: |Δe|, shares of contact time and force.
+/// Allowed difference of two models with the same effects: |Δe|, relative contact time and peak force.
 #[derive(Deserialize, Clone, Copy)]
 #[serde(deny_unknown_fields)]
 struct Tolerance {
@@ -56,7 +55,7 @@ struct Tolerance {
     peak_force: f64,
 }
 
-/// Where mesh and steps of a scene come from.
+/// Source of mesh and time step of a scene.
 #[derive(Clone, Copy, PartialEq)]
 enum Settings {
     Claim,
@@ -69,20 +68,20 @@ impl Tolerance {
     }
 }
 
-/// A collision of one model.
+/// A collision computed by one model.
 struct Ran {
     simulation: Simulation,
     collision: Collision,
 }
 
-/// Two models of a scene.
+/// Difference of two models in one scene.
 struct Difference {
     scene: String,
     settings: Settings,
     off: [f64; 3],
-    /// Over what is allowed.
+    /// Largest difference over the allowed one.
     share: f64,
-    /// Whether the cheaper model warned, of a share that is beyond what is allowed.
+    /// Whether the difference is too large and the cheaper model warned.
     warns: bool,
 }
 
@@ -159,7 +158,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// A collision, or what the user is told instead.
+/// Runs a collision; returns the message if it is rejected or stopped.
 fn run(
     laboratory: &Laboratory,
     settings: Settings,
@@ -194,7 +193,7 @@ fn collide(case: Case) -> Result<Result<Ran, String>, CaseError> {
     Ok(Ok(Ran { simulation, collision }))
 }
 
-/// What the cheaper model (`theirs`) is off, over what is allowed.
+/// Returns the difference of the cheaper model (`theirs`), over the allowed one.
 fn difference(
     set: &[String],
     settings: Settings,
@@ -228,7 +227,7 @@ fn difference(
     Difference { scene: set.join(" "), settings, off, share, warns }
 }
 
-/// What both models say that mesh and steps leave open; shares as of Hertz.
+/// Returns the sum of both error bars, contact time and peak force over Hertz' values.
 fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let hertz = &ours.simulation.setup().estimate.hertz;
     let of = |ran: &Ran| {
@@ -241,7 +240,7 @@ fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     [0, 1, 2].map(|k: usize| ours[k] + theirs[k])
 }
 
-/// What a model without fields of waves may be off by in what they take; shares as of Hertz.
+/// Returns the uncertainty of the terms for waves, contact time and peak force over Hertz' values.
 fn waves(theirs: &Ran) -> [f64; 3] {
     let verdicts = theirs.verdicts();
     let waves = verdicts.iter().find(|one| one.name == PartnerWaves::NAME && one.active);
@@ -252,7 +251,7 @@ fn waves(theirs: &Ran) -> [f64; 3] {
     worth.map(|share| RADIATION_WITHIN * share)
 }
 
-/// Of the restitution as it is, of contact time and peak force over Hertz'.
+/// Returns the changes of restitution, and of contact time and peak force over Hertz' values.
 fn shares(left_out: &LeftOut, estimate: &Estimate) -> [Option<f64>; 3] {
     let hertz = &estimate.hertz;
     [
@@ -262,7 +261,7 @@ fn shares(left_out: &LeftOut, estimate: &Estimate) -> [Option<f64>; 3] {
     ]
 }
 
-/// What the effects are worth that one of two models has and the other lacks; shares as of Hertz.
+/// Returns the estimated changes by effects that only one of two models has, over Hertz' values.
 fn explained(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (has, lacks) in [(ours, theirs), (theirs, ours)] {

@@ -1,4 +1,4 @@
-//! What a hard scene is held against.
+//! References of hard scenes.
 
 use fem_case::{Case, CaseError};
 
@@ -46,7 +46,7 @@ impl Reference {
         }
     }
 
-    /// Of one of the numbers: absolute of the restitution, relative of the others.
+    /// Returns the difference of one number: absolute for the restitution, relative for the others.
     pub fn difference(&self, ours: &Numbers, k: usize) -> Option<f64> {
         let (ours, reference) = (ours[k]?, self.0[k]?);
         Some(if k == 0 { ours - reference } else { ours / reference - 1.0 })

@@ -40,7 +40,7 @@ impl Random {
     }
 }
 
-/// A material and what decides how fast it is.
+/// A material and its wave speed.
 struct Drawn {
     table: String,
     wave_speed: f64,
@@ -70,7 +70,7 @@ fn material(random: &mut Random, contact_time: f64, stiffness: f64, density: f64
     Drawn { table, wave_speed: (stiffness / density).sqrt() }
 }
 
-/// How far two bodies are apart in size and stiffness.
+/// Range of the ratios of the bodies' sizes and stiffnesses.
 #[derive(Clone, Copy, PartialEq)]
 pub(in crate::studies) enum Ratios {
     /// Up to thirty.
@@ -96,12 +96,12 @@ impl Ratios {
     }
 }
 
-/// Overrides of a case of two spheres.
+/// Returns random overrides of a case of two spheres.
 pub(in crate::studies) fn overrides(random: &mut Random) -> Vec<String> {
     overrides_of(random, Ratios::Usual)
 }
 
-/// The same of two spheres that are so far apart.
+/// Returns random overrides with the given ranges of ratios.
 pub(in crate::studies) fn overrides_of(random: &mut Random, ratios: Ratios) -> Vec<String> {
     let diameters = {
         let first = random.decades(-3.0, -1.0);

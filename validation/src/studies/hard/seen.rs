@@ -1,4 +1,4 @@
-//! What was once wrong, and what the scenes that hold it now do.
+//! Faults of earlier versions, and the present results of the scenes that guard against them.
 
 use std::fs;
 use std::path::Path;
@@ -29,7 +29,7 @@ struct Class {
     held: Vec<String>,
 }
 
-/// What came of a scene with a model: restitution, differences, outcome.
+/// Result of a scene with a model: restitution, differences, outcome.
 pub(super) struct Now {
     pub key: [String; 3],
     pub restitution: String,

@@ -1,4 +1,4 @@
-//! What came of a hard scene with a model, and the invariants of a collision.
+//! Outcome of a hard scene with a model, and the invariants of a collision.
 
 use std::path::{MAIN_SEPARATOR, Path};
 
@@ -19,9 +19,9 @@ pub(super) struct Trial {
 
 /// How a run ended.
 pub(super) enum Outcome {
-    /// By itself.
+    /// The run ended by itself.
     Ran { collision: Box<Collision>, warnings: Vec<String>, hertz: HertzImpact },
-    /// Before it began, or on the way.
+    /// The run was rejected or stopped, with the message.
     Refused(String),
 }
 
@@ -32,7 +32,7 @@ impl Trial {
     /// Runs a case, if it is one.
     ///
     /// # Errors
-    /// An interrupt.
+    /// The user interrupted the study.
     pub fn of(laboratory: &Laboratory, case: Result<Case, CaseError>) -> Result<Self, StudyError> {
         let outcome = laboratory.work(|| {
             let refused = |error: CaseError| (Outcome::Refused(error.to_string()), None);
@@ -75,8 +75,8 @@ impl Trial {
         bounces.or(collision.restitution)
     }
 
-    /// By how much the energy that the bodies hold is above what they had and were given, at any step, over
-    /// what they had; of one degree of freedom, which steps as it pleases, at any row.
+    /// Returns the largest growth of the bodies' energy over the initial energy and the work done on them, relative to the
+    /// initial energy, over all steps; for models of one degree of freedom over all rows.
     pub fn growth(&self) -> Option<f64> {
         let collision = self.collision()?;
         if let Some(growth) = collision.energy_growth {
@@ -95,14 +95,14 @@ impl Trial {
         self.collision()?.momentum_residual_relative
     }
 
-    /// Of the restitution above 1; of a ball that bounces, that of its worst contact.
+    /// Returns the excess of the restitution over 1, the worst of all contacts of a bouncing ball.
     pub fn excess(&self) -> Option<f64> {
         let collision = self.collision()?;
         let bounces = collision.bounces.iter().map(|bounce| bounce.restitution).reduce(f64::max);
         Some(bounces.or(collision.restitution)? - 1.0)
     }
 
-    /// How many numbers are none.
+    /// Returns the count of results that are not finite.
     pub fn no_number(&self) -> Option<f64> {
         let collision = self.collision()?;
         let results = Headline::ALL.map(|headline| headline.of(collision));
@@ -115,7 +115,7 @@ impl Trial {
         Some(all.filter(|value| !value.is_finite()).count() as f64)
     }
 
-    /// How what the user is told begins; mesh files are in the folder.
+    /// Returns the beginning of the messages to the user, without the folder of mesh files.
     pub fn words(&self, folder: &Path) -> String {
         let folder = format!("{}{MAIN_SEPARATOR}", folder.display());
         let beginning = |text: &str| beginning(&text.replace(&folder, ""));

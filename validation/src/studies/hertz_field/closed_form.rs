@@ -4,7 +4,7 @@ use fem_laws::HertzPressure;
 
 const UNIT: HertzPressure = HertzPressure { contact_radius: 1.0, peak_pressure: 1.0 };
 
-/// What is compared, along a curve.
+/// Field that is compared along a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Profile {
     /// Contact pressure against the distance from the axis.

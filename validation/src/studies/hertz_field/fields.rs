@@ -101,7 +101,7 @@ impl Fields {
     }
 }
 
-/// Of both bodies, m; a wall has moved as its one node.
+/// Returns the displacements of both bodies, m; a wall has one node.
 fn displacements(run: &ExplicitRun, snapshot: &Snapshot) -> [Vec<[f64; 2]>; 2] {
     std::array::from_fn(|side| match run.model.bodies()[side].mesh() {
         Some(_) => snapshot.bodies[side].displacement.clone(),

@@ -1,6 +1,6 @@
 //! The field of a Hertz contact at the largest approach, on meshes of several sizes.
 //!
-//! The one case of the claim is run with so many elements over Hertz' contact radius. Of each
+//! The case of the claim is run with several numbers of elements over Hertz' contact radius. For each
 //! profile (`pressure`, `axial`, `radial`, `surface`,
 //! `hoop`) and of σ_rz in the body, `inner_shear`: `.error` on the finest mesh, relative L2,
 //! and `.order`. Of the finest mesh besides: `max_shear` and `max_shear_depth` over their closed

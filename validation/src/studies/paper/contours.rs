@@ -77,7 +77,7 @@ impl Instant {
         sections::range(&self.halves)
     }
 
-    /// Of the half section, mm², where σ_yy is at most `level`.
+    /// Returns the area of the half section where σ_yy is at most `level`, mm².
     fn area_at_most(&self, level: f64) -> f64 {
         self.halves.iter().map(|half| Region::at_most(half, level).area()).sum()
     }

@@ -21,11 +21,11 @@ const READINGS: [(&str, &str); 2] = [("all", "constant ν"), ("shear", "elastic 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
-    /// Of the paper's elastic collision: its program's own loss.
+    /// Restitution of the paper's elastic collision, which shows the numerical loss of its program.
     published_elastic: f64,
-    /// Of the paper's viscoelastic collision.
+    /// Restitution of the paper's viscoelastic collision.
     published: f64,
-    /// Of the paper's experiment.
+    /// Restitution of the paper's experiment.
     measured: f64,
     /// Decay rates over which the readings are drawn, 1/s.
     rates: [f64; 2],
@@ -79,7 +79,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// What relaxes, in words.
+/// Describes the moduli that relax.
 fn reading(run: &Run) -> String {
     use fem_case::schema::ActsOn;
     let relaxation = run.case.file().material.values().find_map(|m| m.relaxation.as_ref());
@@ -91,7 +91,7 @@ fn reading(run: &Run) -> String {
     .into()
 }
 
-/// 1/τ of the first term, in words.
+/// Formats 1/τ of the first term.
 fn rate(run: &Run) -> String {
     decay_rate(run).map_or(String::new(), |rate| format!("{rate:.1}"))
 }

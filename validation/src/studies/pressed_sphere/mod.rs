@@ -36,11 +36,11 @@ struct Parameters {
     depths: Vec<f64>,
     /// Cells along an eighth of the meridian.
     cells: usize,
-    /// Of each plate to the centre, over √(E/ρ).
+    /// Speed of each plate toward the centre, over √(E/ρ).
     speed: f64,
 }
 
-/// Presses spheres.
+/// Runs the study.
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let mut findings = Findings::new();

@@ -1,6 +1,6 @@
 //! Free vibrations of a sphere: frequencies of the finite elements against the exact equation.
 //!
-//! Of each Poisson's ratio ν and mode nSl: `ν.nSl.root`, the exact ω R/c_s; `ν.nSl.error`,
+//! Measures for each Poisson's ratio ν and mode nSl: `ν.nSl.root`, the exact ω R/c_s; `ν.nSl.error`,
 //! relative, on the finest mesh; `ν.nSl.order` of convergence.
 
 mod bessel;

@@ -36,7 +36,7 @@ const SCAN_START_OVER_DEGREE: f64 = 0.8;
 /// An elastic sphere of radius 1 with shear waves of speed 1.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticSphere {
-    /// c_s/c_d.
+    /// Ratio of the wave speeds c_s/c_d.
     slowness: f64,
 }
 
@@ -45,14 +45,14 @@ pub struct ElasticSphere {
 pub struct Vibration {
     sphere: ElasticSphere,
     degree: usize,
-    /// ω R/c_s.
+    /// Dimensionless frequency ω R/c_s.
     pub frequency: f64,
-    /// A and B.
+    /// Amplitudes A and B.
     amplitudes: [f64; 2],
 }
 
 impl ElasticSphere {
-    /// Of a Poisson's ratio: (c_s/c_d)² = (1 − 2ν)/2(1 − ν).
+    /// Makes the sphere for a Poisson's ratio: (c_s/c_d)² = (1 − 2ν)/2(1 − ν).
     pub fn new(poissons_ratio: f64) -> Self {
         let slowness = ((1.0 - 2.0 * poissons_ratio) / (2.0 * (1.0 - poissons_ratio))).sqrt();
         Self { slowness }

@@ -1,7 +1,7 @@
 //! Energy that an elastic collision leaves in vibrations, against the sum over the modes of both
 //! spheres under Hertz' pulse.
 //!
-//! Of each run: `NAME.loss`, 1 − e²; `NAME.modes`, the sum over modes, both over the energy of
+//! Measures for each run: `NAME.loss`, 1 − e²; `NAME.modes`, the sum over modes, both over the energy of
 //! approach ½ m* v²; `NAME.ratio`, their quotient.
 
 mod modes;

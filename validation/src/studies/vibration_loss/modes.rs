@@ -1,4 +1,4 @@
-//! What a force pulse leaves in the vibrations of a sphere.
+//! Energy that a force pulse leaves in the vibrations of a sphere.
 //!
 //! A force F(t) on the pole drives each spheroidal mode by itself, M q̈ + Mω²q = F U(R), and
 //! leaves in it
@@ -51,7 +51,7 @@ impl Pulse {
 pub struct Excited {
     pub degree: usize,
     pub overtone: usize,
-    /// ω R/c_s.
+    /// Dimensionless frequency ω R/c_s.
     pub frequency: f64,
     pub energy: f64,
 }
