@@ -2,85 +2,27 @@
 
 use crate::random::Random;
 
-/// Numbers at the ends of what is held, and beside what is allowed.
-pub const NUMBERS: [&str; 38] = [
-    "0",
-    "-0.0",
-    "1",
-    "-1",
-    "2",
-    "3",
-    "0.5",
-    "0.4999999999",
-    "0.499999",
-    "-0.999",
-    "0.49",
-    "1e-3",
-    "1e3",
-    "1e-6",
-    "1e6",
-    "1e9",
-    "1e10",
-    "1e12",
-    "1e16",
-    "1e-9",
-    "1e-12",
-    "1e-30",
-    "1e30",
-    "1e75",
-    "1e-75",
-    "1e150",
-    "1e-150",
-    "1e300",
-    "-1e300",
-    "1e-300",
-    "5e-324",
-    "1.7976931348623157e308",
-    "nan",
-    "inf",
-    "-inf",
-    "9223372036854775807",
-    "-9223372036854775808",
-    "9007199254740993",
-];
+/// Numbers at the limits of what formats hold and keys allow, separated by spaces.
+const NUMBERS: &str = "0 -0.0 1 -1 2 3 0.5 0.4999999999 0.499999 -0.999 0.49 1e-3 1e3 1e-6 1e6 1e9 1e10 1e12 1e16 \
+                       1e-9 1e-12 1e-30 1e30 1e75 1e-75 1e150 1e-150 1e300 -1e300 1e-300 5e-324 \
+                       1.7976931348623157e308 nan inf -inf 9223372036854775807 -9223372036854775808 9007199254740993";
 
-const UNITS: [&str; 21] = [
-    "m", "mm", "um", "km", "kg/m^3", "g/cm^3", "GPa", "MPa", "Pa", "Pa*s", "N/m", "m/s", "cm/s",
-    "m/s^2", "s", "us", "1/s", "%", "deg", "MB", "kg",
-];
+const UNITS: &str =
+    "m mm um km kg/m^3 g/cm^3 GPa MPa Pa Pa*s N/m m/s cm/s m/s^2 s us 1/s % deg MB kg";
 
-const PIECES: [&str; 30] = [
-    "[",
-    "]",
-    "{",
-    "}",
-    "=",
-    "\"",
-    "'",
-    ",",
-    "\n",
-    "#",
-    ".",
-    "[[",
-    "]]",
-    "\"\"\"",
-    "\\",
-    "\u{0}",
-    "\u{1b}[2J",
-    "\u{feff}",
-    "±",
-    "°",
-    "é",
-    "\u{202e}",
-    "\r\n",
-    "\t",
-    "_",
-    "+",
-    "-",
-    "e",
-    "true",
-    "false",
-];
+/// Marks of TOML and XML, and characters that terminals or parsers treat specially.
+const PIECES: &str = "[ ] { } = \" ' , # . [[ ]] \"\"\" \\ \u{0} \u{1b}[2J \u{feff} ± ° é \u{202e} _ + - e true false";
+const SPACES: [&str; 3] = ["\n", "\r\n", "\t"];
+
+/// A number at a limit.
+pub fn number(random: &mut Random) -> &'static str {
+    word_of(NUMBERS, random)
+}
+
+/// One of the words of a list.
+fn word_of(list: &'static str, random: &mut Random) -> &'static str {
+    list.split(' ').nth(random.below(list.split(' ').count())).unwrap_or("0")
+}
 
 /// A word of a text: letters, digits and what stands in numbers and keys.
 fn is_of_word(byte: u8) -> bool {
@@ -127,8 +69,9 @@ fn change_word(text: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
         false => numeric[random.below(numeric.len())].clone(),
     };
     let new: Vec<u8> = match random.below(8) {
-        0 => random.one_of(&UNITS).into(),
-        1 => random.one_of(&PIECES).into(),
+        0 => word_of(UNITS, random).into(),
+        1 if random.once_in(10) => random.one_of(&SPACES).into(),
+        1 => word_of(PIECES, random).into(),
         2 => {
             let other = &others[random.below(others.len())];
             let theirs = self::words(other);
@@ -142,7 +85,7 @@ fn change_word(text: &mut Vec<u8>, others: &[Vec<u8>], random: &mut Random) {
             [&text[chosen.clone()], format!("e{decades}").as_bytes()].concat()
         }
         4 => random.below(100).to_string().into_bytes(),
-        _ => random.one_of(&NUMBERS).into(),
+        _ => number(random).into(),
     };
     text.splice(chosen, new);
 }

@@ -1,41 +1,37 @@
-//! Numbers that are the same on every machine: SplitMix64, Steele et al. 2014.
+//! Random numbers that are the same on every machine.
+
+use fastrand::Rng;
 
 /// A generator.
-pub struct Random(u64);
+pub struct Random(Rng);
 
 impl Random {
-    /// Of an input's number.
+    /// Starts the generator of one input.
     pub fn of(seed: u64, input: u64) -> Self {
-        let mut random = Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ input);
-        random.bits();
-        random
+        Self(Rng::with_seed(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ input))
     }
 
-    /// 64 bits.
+    /// Returns 64 random bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.u64(..)
     }
 
-    /// A whole number below `n`; 0 if there is none.
+    /// Returns a whole number below `n`, or 0 if `n` is 0.
     pub fn below(&mut self, n: usize) -> usize {
-        self.bits().checked_rem(n as u64).unwrap_or(0) as usize
+        if n == 0 { 0 } else { self.0.usize(..n) }
     }
 
-    /// One of these.
+    /// Returns one of the items.
     pub fn one_of<'a, T: ?Sized>(&mut self, all: &[&'a T]) -> &'a T {
         all[self.below(all.len())]
     }
 
-    /// Whether one in `n` comes up.
+    /// Returns true once in `n` calls on average.
     pub fn once_in(&mut self, n: usize) -> bool {
         self.below(n) == 0
     }
 
-    /// A stretch of a list of `n`: where it begins and how long it is, mostly short.
+    /// Returns a range within a list of `n` items, mostly a short one.
     pub fn stretch(&mut self, n: usize) -> std::ops::Range<usize> {
         let start = self.below(n + 1);
         let longest = if self.once_in(4) { n } else { 8 };

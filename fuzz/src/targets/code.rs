@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use super::case::try_case;
 use super::cases;
-use crate::mutate::NUMBERS;
+use crate::mutate::number;
 use crate::random::Random;
 use crate::target::{Taken, Target, refused};
 
@@ -89,7 +89,7 @@ fn change(value: &mut Value, other: &Value, random: &mut Random) {
 }
 
 fn leaf_of(leaf: &Value, random: &mut Random) -> Value {
-    let number = *NUMBERS.get(random.below(NUMBERS.len())).unwrap_or(&"0");
+    let number = number(random);
     let float = number.parse().unwrap_or(f64::NAN);
     let unit = || Some(leaf.as_str()?.split_once(' ')?.1);
     match random.below(6) {
