@@ -1,4 +1,5 @@
-//! How long a run will take here: some of its steps are timed. `check` and the run say the same.
+//! Forecast of a run's time on this machine from a few timed steps. `check` and the run print the same
+//! numbers.
 
 use std::time::{Duration, Instant};
 
@@ -7,62 +8,62 @@ use fem::{Cost, Following, MostFiner, Simulation};
 use fem_case::engineering::show;
 use fem_collision::{Monitor, Phase, Progress, Want};
 
-/// What the timing of steps takes at least, ...
+/// Steps are timed for at least this long, ...
 const PATIENCE: Duration = Duration::from_millis(1);
-/// ... and until so many reports are timed, ...
+/// ... and until this number of reports, ...
 const REPORTS: u32 = 5;
-/// ... unless that takes longer.
+/// ... but not longer than this.
 const PATIENCE_WITH_REPORTS: Duration = Duration::from_millis(50);
-/// The same of condensed bodies, ...
+/// Longest timing of condensed bodies, ...
 const PATIENCE_WITH_CONDENSED: Duration = Duration::from_millis(20);
-/// ... of whose collision so large a share is enough.
+/// ... or until this share of the collision is computed.
 const SHARE_OF_CONDENSED: f64 = 0.2;
-/// Time of the fields of a snapshot of condensed bodies over that of making these: 0.08 of elastic ones, 0.1 of relaxing
-/// ones.
+/// Time to compute the fields of a snapshot over the time to make condensed bodies: 0.08 for elastic ones,
+/// 0.1 for relaxing ones.
 const FIELDS: f64 = 0.1;
-/// The same of its file, 0.2 to 0.6, ...
+/// Time to write a snapshot over the time to make the bodies, 0.2 to 0.6.
 const FILE: f64 = 0.4;
-/// ... and of the report of a run with snapshots.
+/// Time to draw the report of a run with snapshots over the time to make the bodies.
 const REPORT: f64 = 0.8;
 
-/// Element updates of collisions and their companions that `check` computes to foretell what follows: two or three seconds.
+/// Element updates that `check` may compute to forecast mesh refinement: two or three seconds.
 pub const PATIENCE_OF_CHECK: u64 = 30_000_000;
 
 /// What is known of a run with elements before it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Forecast {
-    /// Seconds here, with what tells its error.
+    /// Run time on this machine, reference runs included, s.
     pub seconds: Option<f64>,
-    /// Element updates of the collision over those that its cost announces.
+    /// Element updates of the collision over those of its cost estimate.
     pub longer: f64,
-    /// Element updates of the collision and of its companions; none of what takes none.
+    /// Element updates of the collision and of its reference runs; 0 for models without any.
     element_updates: f64,
-    /// Finer meshes that may follow.
+    /// Mesh refinements that may follow.
     pub finer: Option<Finer>,
 }
 
-/// Finer meshes that follow where the mesh misses what the case allows, which only the run tells.
+/// Mesh refinements that follow if the result of the run misses its tolerance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finer {
-    /// Those that coarser meshes foretell, or the collision itself, where these are quick.
+    /// Refinements forecast from coarser meshes, or from the collision itself if that is quick.
     foretold: Option<Foretold>,
-    /// Those that may follow.
+    /// Upper bound of the refinements.
     most: MostFiner,
-    /// What the collision takes with its companions: element updates and seconds.
+    /// Element updates and seconds of the first run with its reference runs.
     first: (f64, f64),
 }
 
-/// Finer meshes that are expected.
+/// Expected mesh refinements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Foretold {
     meshes: usize,
-    /// Element updates with those of their companions over those of the first mesh.
+    /// Element updates, reference runs included, over those of the first mesh.
     over_first: f64,
 }
 
 impl Forecast {
-    /// Of a run whose bodies took so long to make, s; `is_open` says whether finer meshes may follow, which collisions of
-    /// no more than `patience` element updates are computed to foretell.
+    /// Forecasts a run whose bodies took `making` seconds to make. `is_open` says whether mesh refinement
+    /// may follow; collisions of at most `patience` element updates are computed to forecast it.
     pub fn of(simulation: &Simulation, making: f64, is_open: bool, patience: u64) -> Self {
         let (longer, following) = simulation.following(patience);
         let seconds = seconds(simulation, making, longer);
@@ -85,23 +86,23 @@ impl Forecast {
         Self { seconds, longer, element_updates, finer }
     }
 
-    /// Element updates that are expected in all.
+    /// Returns the expected element updates in all.
     pub fn all_element_updates(&self) -> f64 {
         self.element_updates * self.over_first()
     }
 
-    /// Seconds here in all.
+    /// Returns the expected run time in all, s.
     pub fn all_seconds(&self) -> Option<f64> {
         Some(self.over_first() * self.seconds?)
     }
 
-    /// Seconds here with all finer meshes that may follow.
+    /// Returns the run time with all mesh refinements that may follow, s.
     pub fn most_seconds(&self) -> Option<f64> {
         let most = self.finer.map_or(0.0, |finer| finer.most.over_first);
         Some(self.over_first().max(1.0 + most) * self.seconds?)
     }
 
-    /// What is expected in all, over what the first mesh takes.
+    /// Returns the expected cost in all, over that of the first mesh.
     fn over_first(&self) -> f64 {
         let foretold = self.finer.and_then(|finer| finer.foretold);
         1.0 + foretold.map_or(0.0, |foretold| foretold.over_first)
@@ -109,7 +110,8 @@ impl Forecast {
 }
 
 impl Finer {
-    /// "1 foretold, about 6.0e6 element updates more, 8.1 s; at most 1.7e8 element updates more, 229 s".
+    /// Returns the expected and the largest cost of refinement, such as "1 expected, about 6.0e6 element
+    /// updates more, 8.1 s; at most 1.7e8 element updates more, 229 s".
     pub fn in_words(&self) -> String {
         let (updates, seconds) = self.first;
         let price = |over_first: f64| {
@@ -124,8 +126,8 @@ impl Finer {
             Some(Foretold { meshes, over_first }) => {
                 let most = price(most.max(over_first));
                 match meshes {
-                    0 => format!("none is foretold; at most {most}"),
-                    _ => format!("{meshes} foretold, about {}; at most {most}", price(over_first)),
+                    0 => format!("none is expected; at most {most}"),
+                    _ => format!("{meshes} expected, about {}; at most {most}", price(over_first)),
                 }
             }
             None => format!("at most {meshes}, {}", price(most)),
@@ -133,8 +135,8 @@ impl Finer {
     }
 }
 
-/// Seconds of a run here, with what tells its error where that takes runs; nothing of a model without elements, nor of
-/// a ball that bounces, whose cost is that of one contact.
+/// Returns the run time, reference runs included, s; `None` for models without elements and for a bouncing
+/// ball, whose cost is that of one contact.
 fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
     if simulation.case().scene().gravity().is_some() {
         return None;
@@ -143,7 +145,7 @@ fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
         Cost::Steps { steps, seconds, .. } => {
             let companions = simulation.companion_updates().unwrap_or(0.0);
             let timed = (1.0 + companions) * seconds_a_step(simulation)? * steps as f64;
-            // The first steps have little contact, and are in the processor's cache.
+            // The first steps have little contact, and their data are in the processor's cache.
             Some(longer * timed.max(seconds))
         }
         Cost::Factors { .. } => Some(of_condensed(simulation, making)),
@@ -151,7 +153,8 @@ fn seconds(simulation: &Simulation, making: f64, longer: f64) -> Option<f64> {
     }
 }
 
-/// The fewest seconds of a step among some reports: what else this machine does now and then is no part of it.
+/// Returns the shortest time of a step among some reports, so that other work of the machine does not
+/// count.
 fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
     let mut course = simulation.start();
     let begin = Instant::now();
@@ -169,7 +172,7 @@ fn seconds_a_step(simulation: &Simulation) -> Option<f64> {
     fewest
 }
 
-/// Of condensed bodies that took so long to make, s.
+/// Returns the run time of condensed bodies that took `making` seconds to make, s.
 fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     let begin = Instant::now();
     let mut patient = Patient { begin, before: 0.0, seen: (0.0, 0.0), is_over: false };
@@ -190,18 +193,18 @@ fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     collision + files + condensed_companion_time(across) * (collision + making)
 }
 
-/// Stops a run that tells enough, or after a while, and knows how far it was.
+/// A monitor that stops a run as soon as its time can be forecast.
 struct Patient {
     begin: Instant,
-    /// Seconds until the first step: factors of bodies that relax are made before it.
+    /// Time until the first step, s: relaxing bodies are factored before it.
     before: f64,
-    /// Seconds and share of the run.
+    /// Time and share of the run at the last report.
     seen: (f64, f64),
     is_over: bool,
 }
 
 impl Patient {
-    /// Seconds of the whole collision.
+    /// Returns the time of the whole collision, s.
     fn collision(&self) -> f64 {
         let (spent, fraction) = self.seen;
         let steps = spent - self.before;
@@ -229,7 +232,7 @@ impl Monitor for Patient {
 mod tests {
     use super::*;
 
-    /// A fifth of the steps took a second: all take five, after four of factors.
+    /// Factors are made once: 4 s of factors and a fifth of the steps in 1 s make 9 s.
     #[test]
     fn factors_are_made_once() {
         let patient =

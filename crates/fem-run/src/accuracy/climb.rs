@@ -1,4 +1,4 @@
-//! Computes the rungs of a ladder and times them.
+//! Runs the variants of a study of accuracy and times them.
 
 use std::time::{Duration, Instant};
 
@@ -9,29 +9,29 @@ use fem_case::engineering::show;
 use crate::progress::ItemProgress;
 use crate::progress::interrupt::Interrupt;
 
-/// What takes less is timed three times, and the median taken.
+/// Shorter runs are timed three times, and the median is taken.
 const TIMED_THRICE: Duration = Duration::from_millis(500);
 const N_TIMES: usize = 3;
-/// Seconds of an element update until some are timed.
+/// Time of an element update, s, until one is measured.
 const UPDATE: f64 = 2e-8;
-/// Updates that tell the seconds of others.
+/// Fewest element updates from which their time is measured.
 const TELLING: u64 = 200_000;
-/// Condensed bodies take so many times as long as those a level coarser, at most.
+/// Largest ratio of the times of condensed bodies on a mesh and on the next coarser one.
 const NEXT_LEVEL: f64 = 4.0;
 
-/// What was computed of a ladder.
+/// The results of the variants.
 pub struct Climb {
-    /// What each rung gave and the median of the seconds that it took, meshes made anew each time and
-    /// no files written; none of what did not run.
+    /// Result of each variant and the median of its run times, s, with new meshes each time and without
+    /// writing files; `None` if it did not run.
     pub measured: Vec<Option<(Measurement, f64)>>,
-    /// Rungs that the budget had no room for.
+    /// Number of variants left out for lack of time.
     pub left_out: usize,
 }
 
-/// Computes rungs, from cheap to dear, until the budget (s) is spent.
+/// Runs the variants, the cheapest first, until the budget (s) is spent.
 ///
 /// # Errors
-/// A rung that its model refuses: it was asked before.
+/// A model rejects its variant; that was checked before.
 pub fn climb(
     ladder: &Ladder,
     budget: f64,
@@ -65,7 +65,7 @@ pub fn climb(
     Ok(Climb { measured, left_out })
 }
 
-/// A rung and the median of its seconds.
+/// Returns the result of a variant and the median of its run times.
 fn time(
     rung: &Rung,
     contact_radius: f64,
@@ -74,7 +74,7 @@ fn time(
     let mut seconds = Vec::new();
     loop {
         let begin = Instant::now();
-        // Nothing is shared: each pays for its own meshes and factors.
+        // Nothing is shared, so each run pays for its meshes and factors.
         let measurement = Measurement::of(rung, contact_radius, &Shared::default(), &mut deadline)?;
         let spent = begin.elapsed();
         seconds.push(spent.as_secs_f64());
@@ -85,7 +85,7 @@ fn time(
     }
 }
 
-/// Ends a run when the budget is spent or the user wants it.
+/// A monitor that ends a run when the budget is spent or the user interrupts.
 #[derive(Clone, Copy)]
 struct Deadline<'a> {
     end: Instant,
@@ -98,11 +98,11 @@ impl Monitor for Deadline<'_> {
     }
 }
 
-/// What rungs to come will take, of those that have run.
+/// Forecast of run times from those of earlier variants.
 struct Forecast {
-    /// Seconds of an element update.
+    /// Time of an element update, s.
     update: f64,
-    /// Seconds of the last condensed rung.
+    /// Time of the last condensed variant, s.
     condensed: f64,
 }
 

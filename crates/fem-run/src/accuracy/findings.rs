@@ -1,4 +1,4 @@
-//! What a study of accuracy found, for programs: `accuracy.csv` and `accuracy.json`.
+//! The results of a study of accuracy for programs: `accuracy.csv` and `accuracy.json`.
 
 use fem::accuracy::{Judged, Ladder, Measurement, Rung, Study};
 use fem_case::{Accuracy, CaseFile};
@@ -8,42 +8,42 @@ use serde_json::{Value, json as object};
 use crate::result_folder::command_output::CommandOutput;
 use crate::text::failure::Failure;
 
-/// All of it.
+/// The results of a study.
 pub struct Findings<'a> {
-    /// What the case is about.
+    /// The title of the case.
     pub title: &'a str,
-    /// The case with every default filled in.
+    /// The case with all defaults filled in.
     pub default: CaseFile,
-    /// What the case asks for.
+    /// The tolerances of the case.
     pub accuracy: Accuracy,
-    /// What could be computed.
+    /// The variants.
     pub ladder: &'a Ladder,
-    /// What each rung gave, and its seconds.
+    /// Result and run time of each variant.
     pub measured: &'a [Option<(Measurement, f64)>],
-    /// What that tells.
+    /// The evaluation of the results.
     pub study: &'a Study,
-    /// Rungs that the budget had no room for.
+    /// Number of variants left out for lack of time.
     pub left_out: usize,
-    /// Seconds.
+    /// The time budget, s.
     pub budget: f64,
 }
 
-/// A rung that ran, and what is known of it.
+/// A variant that ran.
 pub struct Line<'a> {
-    /// Its place in the ladder.
+    /// Its index.
     pub index: usize,
-    /// What it is.
+    /// The variant.
     pub rung: &'a Rung,
-    /// What it gave.
+    /// Its result.
     pub measurement: &'a Measurement,
-    /// What it took, s.
+    /// Its run time, s.
     pub seconds: f64,
-    /// How far it is off.
+    /// Its errors.
     pub judged: Judged,
 }
 
 impl Findings<'_> {
-    /// The rungs that ran, in the order of the ladder.
+    /// Returns the variants that ran, in order.
     pub fn lines(&self) -> impl Iterator<Item = Line<'_>> {
         let rungs = self.ladder.rungs.iter().zip(self.measured).enumerate();
         rungs.filter_map(|(index, (rung, measured))| {
@@ -54,8 +54,8 @@ impl Findings<'_> {
     }
 }
 
-/// `accuracy.csv`: a row a rung. Errors are relative but that of the restitution; the settings are what
-/// `--set` takes.
+/// Writes `accuracy.csv`, one row per variant. Errors are relative except that of the restitution; settings
+/// are written as for `--set`.
 ///
 /// # Errors
 /// The file system.
@@ -100,12 +100,12 @@ pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<
     output.write("accuracy.csv", bytes)
 }
 
-/// The key of a number without its unit: errors have none.
+/// Returns the key of an error, which has no unit.
 fn error_key(headline: Headline) -> String {
     headline.name().replace(' ', "_")
 }
 
-/// `accuracy.json`: limits, orders and parts of the error.
+/// Returns `accuracy.json`: limits, orders and sources of error.
 pub fn json(findings: &Findings<'_>) -> Value {
     let by_name = |values: [Option<f64>; 6]| -> Value {
         let pairs = Headline::ALL.into_iter().zip(values);

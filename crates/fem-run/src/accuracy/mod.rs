@@ -1,4 +1,4 @@
-//! What a study of accuracy runs, prints and writes.
+//! The study of accuracy: runs, text and files.
 
 mod climb;
 mod findings;

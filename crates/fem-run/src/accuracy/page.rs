@@ -1,4 +1,4 @@
-//! What a study of accuracy found, for people: what is printed, and `accuracy.md`.
+//! The results of a study of accuracy for people: the text on stdout, and `accuracy.md`.
 
 use std::fmt::Write;
 
@@ -12,22 +12,23 @@ use super::findings::{Findings, Line};
 use crate::text::standard_output::one_line;
 use crate::text::tables::table;
 
-/// Shown for a number that there is not.
+/// Stands for a missing number.
 const NONE: &str = "-";
 const SHORT: [&str; 6] = ["e", "T", "F", "approach", "a", "p0"];
 
-/// Rows of text under a heading.
+/// A table with a heading.
 struct Rows {
     heading: &'static str,
     header: Vec<String>,
     rows: Vec<Vec<String>>,
 }
 
-/// What is printed: the frontier, where errors come from, and what to take.
+/// Returns the text on stdout: the fastest variants at each accuracy, the sources of error, and what to
+/// choose.
 pub fn report(findings: &Findings<'_>) -> String {
     let mut text = format!("{}\n", one_line(findings.title));
     let parts = [
-        rungs(findings, "Nearest to the limit for their time", |line| line.judged.is_on_frontier),
+        rungs(findings, "Most accurate for their time", |line| line.judged.is_on_frontier),
         limits(findings),
         error_parts(findings),
     ];
@@ -46,7 +47,7 @@ pub fn report(findings: &Findings<'_>) -> String {
     text
 }
 
-/// `accuracy.md`: all of it.
+/// Returns `accuracy.md` with all tables.
 pub fn markdown(findings: &Findings<'_>, has_picture: bool) -> String {
     let mut text = format!("# {}\n", one_line(findings.title));
     for sentence in sentences(findings) {
@@ -73,15 +74,15 @@ pub fn markdown(findings: &Findings<'_>, has_picture: bool) -> String {
     }
     let _ = writeln!(
         text,
-        "\nErrors are differences to the limit, relative but that of the restitution; a dash is a number \
-         that a model has not. Seconds are medians, meshes and factors made anew each time, no files \
-         written. The error of the stress is the root mean square of that of σ_yy at 49 places of each body around the \
-         contact, at the largest approach, over that of the stress."
+        "\nErrors are differences from the limit, relative except that of the restitution; a dash marks a number \
+         that the model does not compute. Times are medians, with new meshes and factors each time and without \
+         writing files. The error of the stress is the root mean square error of σ_yy over the root mean square of σ_yy, at \
+         49 places in each body around the contact, at the largest approach."
     );
     text
 }
 
-/// Errors as they stand in a table: the restitution's as it is, all others in percent.
+/// Returns errors for a table: absolute for the restitution, in percent for all others.
 fn errors(errors: [Option<f64>; 6]) -> impl Iterator<Item = String> {
     Headline::ALL.into_iter().zip(errors).map(|(headline, error)| own(headline, error))
 }
@@ -141,7 +142,7 @@ fn limits(findings: &Findings<'_>) -> Rows {
                 own(headline, limit.added.map(|added| added / scale)),
             ])
         });
-    let header = ["", "limit", "known to", "condensed alone", "explicit adds"];
+    let header = ["", "limit", "uncertainty", "condensed", "explicit adds"];
     Rows { heading: "The limit", header: header.map(String::from).into(), rows: rows.collect() }
 }
 
@@ -153,7 +154,7 @@ fn error_parts(findings: &Findings<'_>) -> Rows {
     };
     let header = std::iter::once("").chain(SHORT).map(String::from).collect();
     let rows = findings.study.parts.iter().map(row).collect();
-    Rows { heading: "Where errors come from, eight elements across the contact", header, rows }
+    Rows { heading: "Sources of error, with eight elements across the contact", header, rows }
 }
 
 fn orders(findings: &Findings<'_>) -> Rows {
@@ -167,10 +168,10 @@ fn orders(findings: &Findings<'_>) -> Rows {
         cells
     });
     let header = std::iter::once("").chain(SHORT).map(String::from).collect();
-    Rows { heading: "Observed orders in the size of the elements", header, rows: rows.collect() }
+    Rows { heading: "Observed orders in the element size", header, rows: rows.collect() }
 }
 
-/// What to take, and what the study does not know.
+/// Returns what to choose, and what the study leaves open.
 fn sentences(findings: &Findings<'_>) -> Vec<String> {
     let study = findings.study;
     let cheapest = |serves: &dyn Fn(usize) -> bool| {
@@ -205,9 +206,9 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
     match cheapest(&|_| true) {
         Some(line) => sentences.push(format!("Within {asked}: {}.", told(&line))),
-        None => sentences.push(format!("Nothing that was computed is within {asked}.")),
+        None => sentences.push(format!("No variant that was computed is within {asked}.")),
     }
-    // Others are told against the finest one, of which nothing is told.
+    // The finest field has no error estimate: it is the reference of all others.
     let allowed = findings.accuracy.peak_pressure;
     let has_fields = |line: &Line<'_>| {
         line.measurement.stress.is_some()
@@ -217,7 +218,7 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
     let with_fields: Vec<usize> = with_fields.collect();
     if let Some(line) = cheapest(&|index| with_fields.contains(&index)) {
         sentences.push(format!(
-            "With fields to draw, the stress within {} %: {}.",
+            "With stress fields, the stress within {} %: {}.",
             fem_figure::tick(100.0 * allowed),
             told(&line)
         ));
@@ -232,16 +233,16 @@ fn sentences(findings: &Findings<'_>) -> Vec<String> {
         && let Some(share) = own.judged.in_tolerances
     {
         let goes_on = share > 1.0 && findings.ladder.is_open;
-        let goes_on = if goes_on { "; its run goes on with a finer mesh" } else { "" };
+        let goes_on = if goes_on { "; a run would refine the mesh" } else { "" };
         sentences.push(format!(
-            "The case as written, {}: {}, {share:.2} times what is allowed{goes_on}.",
+            "The case as written, {}: {}, {share:.2} times the tolerance{goes_on}.",
             own.rung.describe(),
             show(own.seconds, "s")
         ));
     }
     if findings.left_out > 0 {
         sentences.push(format!(
-            "{} of {} ways were left out: they would have taken more than the {} of the budget.",
+            "{} of {} variants were left out: they would have exceeded the time budget of {}.",
             findings.left_out,
             findings.ladder.rungs.len(),
             show(findings.budget, "s")

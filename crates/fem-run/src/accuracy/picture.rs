@@ -1,4 +1,4 @@
-//! `accuracy.svg`: errors over seconds, both logarithmic, and the rungs that none beats.
+//! `accuracy.svg`: errors over run time on logarithmic axes, and the best variant for each time.
 
 use fem::accuracy::Series;
 use fem_collision::Headline;
@@ -6,9 +6,9 @@ use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
 use super::findings::{Findings, Line};
 
-/// Errors below this are drawn there: no study knows its limit better.
+/// Smaller errors are drawn here; no limit is known better.
 const LEAST: f64 = 1e-6;
-/// What is drawn with a line: over the size of the elements.
+/// Series that are drawn with a line, over the element size.
 const DRAWN: [Series; 7] = [
     Series::Condensed,
     Series::CondensedVibrating,
@@ -19,7 +19,7 @@ const DRAWN: [Series; 7] = [
     Series::NodeToSurface,
 ];
 
-/// The picture; none without any rung.
+/// Returns the figure; `None` without any variant.
 pub fn picture(findings: &Findings<'_>) -> Option<String> {
     let uncertain = |headline: Headline| {
         let limit = findings.study.limits[headline as usize]?;
@@ -40,7 +40,7 @@ pub fn picture(findings: &Findings<'_>) -> Option<String> {
     fem_figure::svg(&panels)
 }
 
-/// An error over seconds. Below `known` the limit itself is not known.
+/// Returns the panel of an error over run time; the limit is uncertain by `known`.
 fn panel(
     findings: &Findings<'_>,
     label: &str,
@@ -63,7 +63,7 @@ fn panel(
     for (k, series) in [Series::Hertz, Series::Ting, Series::AsWritten].into_iter().enumerate() {
         let points = of(series);
         if !points.is_empty() {
-            // In the last colour, in shapes that no line has.
+            // In the last colour, with markers that no line has.
             let like = (k + 2) * COLOURS.len() - 1;
             chart = chart.with(Curve::points(series.name(), points).like_curve(like));
         }
@@ -73,14 +73,14 @@ fn panel(
         seconds.fold((f64::INFINITY, 0.0), |(from, to): (f64, f64), s| (from.min(s), to.max(s)));
     if known > LEAST && from < to {
         let limit = vec![(from, known), (to, known)];
-        chart = chart.with(Curve::dashed("what is known of the limit", limit).coloured(GREY));
+        chart = chart.with(Curve::dashed("uncertainty of the limit", limit).coloured(GREY));
     }
     let choices = lines.iter().filter(|line| line.rung.series.is_choice());
     let mut frontier: Vec<(f64, f64)> = choices.filter_map(point).collect();
     frontier.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut nearest = f64::INFINITY;
     frontier.retain(|(_, error)| {
-        // What is nearer than the limit is known is luck.
+        // Errors below the uncertainty of the limit are chance.
         let is_nearer = *error < nearest && nearest > known;
         nearest = nearest.min(*error);
         is_nearer

@@ -106,5 +106,5 @@ pub fn stem_of(path: &Path) -> String {
 
 /// Parses a number of threads or shards.
 pub fn parse_count(text: &str) -> Result<NonZeroUsize, String> {
-    text.parse().map_err(|_| "it must be a whole number, at least 1".to_string())
+    text.parse().map_err(|_| "give a whole number, at least 1".to_string())
 }

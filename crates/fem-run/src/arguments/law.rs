@@ -111,7 +111,7 @@ pub fn split<'t>(text: &'t str, option: &str) -> Result<(&'t str, &'t str), Fail
 /// The level is not between 0 and 1.
 pub fn parse_confidence(text: &str) -> Result<f64, String> {
     let level = parse_share(text).ok().filter(|level| *level > 0.0 && *level < 1.0);
-    level.ok_or_else(|| "it must be between 0 and 1, such as 0.95 for 95 %".to_string())
+    level.ok_or_else(|| "give a level between 0 and 1, such as 0.95 for 95 %".to_string())
 }
 
 /// Parses a number without a unit, `0.9` or `90 %`.
@@ -147,7 +147,7 @@ fn positive(text: &str, what: &str, example: &str, wanted: [i32; 4]) -> Result<f
             if value > 0.0 {
                 Ok(value)
             } else {
-                Err(format!("a {what} is greater than 0"))
+                Err(format!("a {what} must be greater than 0"))
             }
         }
         Ok(_) => Err(format!("this is not a {what}, such as '{example}'")),

@@ -43,9 +43,9 @@ pub struct Arguments {
 }
 
 const AFTER_HELP: &str = "\
-Exit status: 0 done; 1 the run failed, what was computed is kept and marked incomplete; 2 bad \
-input, nothing written; 130 interrupted, kept and marked (a second Ctrl-C kills at once).
-A case file that is named like a command runs as ./check.
+Exit status: 0 done; 1 the run failed (what was computed is kept, marked incomplete); 2 bad \
+input, nothing written; 130 interrupted (kept, marked; a second Ctrl-C ends at once).
+A case file with the name of a command runs as ./check.
 
 Examples:
   fem-run new ball --material pmma --partner wall
@@ -70,7 +70,7 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
         let names = names_of(&command).join(", ");
         let near =
             near_command(&word).map_or(String::new(), |near| format!("; did you mean {near}?"));
-        let text = format!("{word:?} is no command; the commands are {names}{near}");
+        let text = format!("{word:?} is not a command; the commands are {names}{near}");
         command.error(error.kind(), text).exit()
     }
     // clap takes the second of two cases for a command.
@@ -87,10 +87,10 @@ pub fn parse(words: impl IntoIterator<Item = OsString>) -> Arguments {
         .error(
             error.kind(),
             match word.as_str() {
-                "run" => "a run needs no command: fem-run CASE.toml".to_string(),
+                "run" => "running a case needs no command: fem-run CASE.toml".to_string(),
                 _ => format!(
-                    "one case at a time, and a command comes before everything else; the commands \
-                     are {names}{near}"
+                    "only one case can be run at a time, and a command must be the first word; the \
+                     commands are {names}{near}"
                 ),
             },
         )
@@ -117,7 +117,7 @@ impl Arguments {
             (Some(command), _) => command.execute(Self::command),
             (None, Some(input)) => match near_command(&input.name()) {
                 Some(near) => Err(Failure::bad_input(format!(
-                    "{}: there is neither such a file nor such a command",
+                    "{}: there is no such file and no such command",
                     one_line(&input.name())
                 ))
                 .with_help(format!("did you mean fem-run {near}?"))),

@@ -35,7 +35,7 @@ pub struct Arguments {
 
 fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse::<f64>().ok().filter(|s| *s > 0.0 && s.is_finite());
-    seconds.ok_or_else(|| "seconds are a number greater than 0".to_string())
+    seconds.ok_or_else(|| "give seconds, greater than 0".to_string())
 }
 
 /// Runs the study of a case.
@@ -53,7 +53,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let climbed = climb(&ladder, arguments.budget, &interrupt, arguments.output.quiet)?;
     if interrupt.is_requested() {
         return Err(Failure::interrupted("interrupted: nothing was written")
-            .with_help("--budget SECONDS ends the study by itself, and keeps what is done"));
+            .with_help("--budget SECONDS ends the study after a time and keeps its results"));
     }
     let Climb { measured, left_out } = climbed;
     let study = Study::of(&ladder, &measured, &case.scene().accuracy());
@@ -87,7 +87,7 @@ fn announce(case: &str, ladder: &Ladder, budget: f64) {
     let updates = ladder.rungs.iter().fold(0u64, |sum, rung| sum.saturating_add(rung.price));
     let _ = writeln!(
         stderr(),
-        "{}: {} ways to compute it, {} element updates in all, from cheap to dear; ends after {}",
+        "{}: {} variants, {} element updates in all, the cheapest first; ends after {}",
         one_line(case),
         ladder.rungs.len(),
         HumanCount(updates),

@@ -19,12 +19,12 @@ use crate::text::run_report;
 use crate::text::standard_output;
 use crate::text::tables::{mesh_table, pairs, table};
 
-/// What companions may take before the mesh counts as open.
+/// Time for the reference runs that decide whether the mesh is fine enough.
 const PATIENCE_WITH_COMPANIONS: Duration = Duration::from_secs(2);
 
 /// Check a case and print it with all defaults filled in
 ///
-/// The output is a case file that gives the same result; comments say what to expect of a run.
+/// The output is a case file that gives the same result; its comments describe the expected run.
 #[derive(clap::Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
@@ -47,10 +47,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     standard_output::print(&text)
 }
 
-/// The resolved case as TOML, with comments on what to expect of a run.
+/// Returns the resolved case as TOML, with comments on the expected run.
 ///
 /// # Errors
-/// What the case's model refuses.
+/// The model rejects the case.
 pub fn text(case: Case, name: &str) -> Result<String, Failure> {
     Ok(checked(case, name)?.1)
 }
@@ -69,7 +69,7 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     })?;
     let large = simulation.case().scene().large_spheres();
     let large = large.map_or(String::new(), |spheres| format!(", with {spheres}"));
-    let heading = format!("{name} is sound{large}. What to expect of a run:");
+    let heading = format!("{name} is valid{large}. Expected of a run:");
     let expectation = format!(
         "{}\n\n{}",
         standard_output::one_line(&heading),
@@ -79,7 +79,7 @@ fn checked(case: Case, name: &str) -> Result<(Simulation, String), Failure> {
     Ok((simulation, text))
 }
 
-/// What to expect of a run that took so long to set up, s.
+/// Returns the description of the expected run; its setup took `spent` seconds.
 fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
     let setup = simulation.setup();
     let hertz = &setup.estimate.hertz;
@@ -100,7 +100,7 @@ fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
         Cost::Little { force } => one_degree_of_freedom(&setup.description, force.as_ref()),
     };
     format!(
-        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and what changes without them\n\
+        "{}{model}{}\nHertz, instantaneous moduli\n{closed_form}\nEffects, and the changes without them\n\
          {}\n{}",
         models(simulation),
         unforced(simulation),
@@ -109,17 +109,17 @@ fn expect(simulation: &Simulation, spent: f64, forecast: &Forecast) -> String {
     )
 }
 
-/// Which models were considered; nothing where the case names its own.
+/// Returns the models that were considered; empty if the case names its model.
 fn models(simulation: &Simulation) -> String {
     match simulation.considered() {
         [] => String::new(),
         considered => {
-            format!("Models, and what they are off by\n{}\n", run_report::models(considered))
+            format!("Models and their expected errors\n{}\n", run_report::models(considered))
         }
     }
 }
 
-/// What is on, why, and by how much the numbers change without it.
+/// Returns which effects are on, why, and the changes of the results without them.
 fn effects(simulation: &Simulation) -> String {
     let setup = simulation.setup();
     let header = ["", "", "restitution", "contact time", "peak force", ""].map(String::from);
@@ -133,7 +133,7 @@ fn effects(simulation: &Simulation) -> String {
     table(&alignments, std::iter::once(header).chain(rows))
 }
 
-/// What the run would take if the plan decided on all effects; nothing where it does.
+/// Returns the cost with the default effects; empty if the case does not override them.
 fn unforced(simulation: &Simulation) -> String {
     let forced = simulation.case().scene().effects();
     let is_forced = forced.filled() != EffectsTable::default().filled();
@@ -141,13 +141,13 @@ fn unforced(simulation: &Simulation) -> String {
     match planned.and_then(Result::ok).map(Simulation::new) {
         Some(Ok(planned)) if planned.setup().cost != simulation.setup().cost => {
             let costs = costs(&planned, None, Vec::new());
-            format!("\nCost if the plan decided on all effects\n{costs}")
+            format!("\nCost with the default [effects]\n{costs}")
         }
         _ => String::new(),
     }
 }
 
-/// The keys that the case leaves to its tolerance, and what they became; nothing where it gives all.
+/// Returns the keys that follow from the tolerance, and their values; empty if the case gives all.
 fn by_tolerance(simulation: &Simulation) -> String {
     let Some(elements) = &simulation.setup().elements else { return String::new() };
     let plan = &elements.plan;
@@ -156,7 +156,8 @@ fn by_tolerance(simulation: &Simulation) -> String {
     if plan.makes_meshes && open("mesh.contact_element_size") {
         let across =
             simulation.setup().estimate.hertz.max_contact_radius() / plan.contact_element_size;
-        let staggered = if plan.finer_body.is_some() { ", staggered" } else { "" };
+        let staggered =
+            if plan.finer_body.is_some() { ", meshes offset by half an element" } else { "" };
         let size = show(plan.contact_element_size, "m");
         let text = format!("{size}, {across:.2} elements across the contact{staggered}");
         rows.push(["mesh.contact_element_size".to_string(), text]);
@@ -178,7 +179,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     format!("\nChosen for accuracy.tolerance, {tolerance} of the {name}\n{table}")
 }
 
-/// Of which contact the cost is, where there are several.
+/// Returns which contact the cost refers to, if there may be several.
 fn of_contacts(simulation: &Simulation) -> String {
     match simulation.case().scene().gravity().map_or(1, |gravity| gravity.bounces) {
         1 => String::new(),
@@ -186,14 +187,14 @@ fn of_contacts(simulation: &Simulation) -> String {
     }
 }
 
-/// How long the setup took here, s, the steps will take, and what may follow.
+/// Returns the time of the setup and of the run, and the mesh refinements that may follow.
 fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String; 2]> {
     let setup = show(setup, "s");
     let time = match forecast.seconds {
         Some(run) => {
             let all = forecast.all_seconds().filter(|all| *all > run);
             let all =
-                all.map(|all| format!(", {} with the meshes that are foretold", show(all, "s")));
+                all.map(|all| format!(", {} with the expected mesh refinement", show(all, "s")));
             let all = all.unwrap_or_default();
             format!("about {} here{all}, after {setup} of setup", show(run, "s"))
         }
@@ -205,8 +206,8 @@ fn time(simulation: &Simulation, setup: f64, forecast: &Forecast) -> Vec<[String
     }
     rows.push(["time".to_string(), time]);
     rows.extend(forecast.finer.map(|finer| {
-        let when = "where the mesh misses accuracy.tolerance, which only the run tells";
-        ["finer meshes".to_string(), format!("{when}: {}", finer.in_words())]
+        let when = "if the result misses accuracy.tolerance";
+        ["mesh refinement".to_string(), format!("{when}: {}", finer.in_words())]
     }));
     rows
 }
@@ -225,7 +226,7 @@ fn costs(simulation: &Simulation, forecast: Option<&Forecast>, time: Vec<[String
             let all = forecast.map(Forecast::all_element_updates);
             let all = all.filter(|all| *all > 1.05 * element_updates);
             let all = all.map_or(String::new(), |all| {
-                format!(", {all:.1e} with companions and the meshes that are foretold")
+                format!(", {all:.1e} with reference runs and the expected mesh refinement")
             });
             row("element updates", format!("about {element_updates:.1e}{all}"));
         }
@@ -245,7 +246,7 @@ fn costs(simulation: &Simulation, forecast: Option<&Forecast>, time: Vec<[String
     table(&[Left, Left], rows)
 }
 
-/// Model and cost of a reduced one.
+/// Returns model and cost of a model with one degree of freedom.
 fn one_degree_of_freedom(description: &str, force: Option<&ForceLaw>) -> String {
     let force = force.map(|law| {
         format!(
@@ -259,7 +260,7 @@ fn one_degree_of_freedom(description: &str, force: Option<&ForceLaw>) -> String 
     format!("Model\n{}", table(&[Left, Left], rows))
 }
 
-/// The same as TOML comments.
+/// Returns the text as TOML comments.
 fn as_comment(text: &str) -> String {
     let comment = |line: &str| format!("# {line}").trim_end().to_string() + "\n";
     text.lines().map(comment).collect()

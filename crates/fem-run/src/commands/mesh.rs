@@ -67,7 +67,7 @@ fn check_place(path: &Path) -> Result<(), Failure> {
     if is_free || VtuFile::open(path).is_ok_and(|file| file.field_data(MARK).is_ok()) {
         return Ok(());
     }
-    let message = format!("{}: this file is in the way, and not from fem-run mesh", path.display());
+    let message = format!("{}: a file in the way was not written by fem-run mesh", path.display());
     Err(Failure::bad_input(message).with_help("move it away, or name another folder with --out"))
 }
 

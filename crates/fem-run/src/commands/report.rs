@@ -108,7 +108,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     let (records, figure) = (StoredResult::read_all(&arguments.folders)?, arguments.what);
     let of_one = |name: &str| match records.as_slice() {
         [record] => Ok(record),
-        _ => Err(Failure::bad_input(format!("--what {name}: this figure is of one result"))
+        _ => Err(Failure::bad_input(format!("--what {name}: this figure shows a single result"))
             .with_help("name one folder")),
     };
     let chart = match figure {
@@ -127,7 +127,7 @@ pub fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         _ => chart.and_then(|chart| fem_figure::panel(&chart)),
     };
     let Some(svg) = svg else {
-        return Err(Failure::bad_input("there is nothing to draw: the result has no such data")
+        return Err(Failure::bad_input("there is nothing to draw: the result lacks these data")
             .with_help("fields and profiles need [output] snapshots and a model with elements"));
     };
     let name = clap::ValueEnum::to_possible_value(&figure);

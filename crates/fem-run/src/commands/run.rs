@@ -172,7 +172,7 @@ fn announce(simulation: &Simulation, making: f64, case: &str, place: &ResultPath
     // For condensed bodies the upper bound is seconds beside milliseconds, and few are refined.
     let has_steps = matches!(simulation.setup().cost, Cost::Steps { .. });
     let more = forecast.finer.filter(|_| has_steps).map_or(String::new(), |finer| {
-        format!("; if finer meshes have to follow: {}", finer.in_words())
+        format!("; if the mesh has to be refined: {}", finer.in_words())
     });
     let (price, out) = (price(simulation, &forecast), place.out.display());
     let large = simulation.case().scene().large_spheres();
@@ -201,7 +201,7 @@ fn tell_finer(simulation: &Simulation, making: f64) {
 /// Returns the model and its cost estimate.
 fn price(simulation: &Simulation, &Forecast { seconds, longer, .. }: &Forecast) -> String {
     let time = |seconds: Option<f64>| {
-        seconds.map_or(String::new(), |seconds| format!(", some {}", show(seconds, "s")))
+        seconds.map_or(String::new(), |seconds| format!(", about {}", show(seconds, "s")))
     };
     let memory = peak_memory_with(simulation);
     let memory = memory.map_or(String::new(), |bytes| format!(", about {}", DecimalBytes(bytes)));

@@ -153,7 +153,7 @@ impl Work<'_> {
         if arguments.merge && collected.n_done < n_own {
             let message = format!("{} of {n_own} members are done", collected.n_done);
             let help =
-                "the table has those; the same command without --merge goes on with the others";
+                "they are in the table; the same command without --merge computes the others";
             return Err(Failure::failed(message).with_help(help));
         }
         conclude(&collected, n_own, self.interrupt.is_requested())

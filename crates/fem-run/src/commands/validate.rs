@@ -75,7 +75,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let claims = load_claims(&arguments.claims, &arguments.names).map_err(refused)?;
     if claims.is_empty() {
         let place = one_line(&arguments.claims.display().to_string());
-        return Err(Failure::bad_input(format!("{place}: no folder in it has a claim.toml")));
+        return Err(Failure::bad_input(format!("{place}: none of its folders has a claim.toml")));
     }
     if arguments.list {
         return standard_output::print(&listing(&claims));
@@ -84,7 +84,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Err(Failure::bad_input("--table is for all claims: leave the names out"));
     }
     if arguments.scenes.is_some() && !claims.iter().any(has_hard_scenes) {
-        return Err(Failure::bad_input("--scenes: no claim that is named has hard scenes")
+        return Err(Failure::bad_input("--scenes: none of the named claims has hard scenes")
             .with_help("name the claim: fem-run validate hard --scenes FILE"));
     }
     for path in arguments.table.iter().chain(&arguments.scenes) {
@@ -225,14 +225,14 @@ fn conclude(results: &[ClaimResult], n_claims: usize) -> Result<(), Failure> {
         .collect();
     if results.len() < n_claims {
         let message = format!("interrupted: {} of {n_claims} claims are done", results.len());
-        return Err(Failure::interrupted(message).with_help("the page shows those"));
+        return Err(Failure::interrupted(message).with_help("the page shows them"));
     }
     if failed.is_empty() {
         return Ok(());
     }
     let message = format!("{} of {n_claims} claims fail: {}", failed.len(), failed.join(", "));
     Err(Failure::failed(message).with_help(
-        "likely cause: a change of a formula or of a default; the page shows by how much. Run one \
-         alone with `fem-run validate NAME`",
+        "likely cause: a formula or a default has changed; the page shows the differences. Run one claim \
+         with `fem-run validate NAME`",
     ))
 }

@@ -108,7 +108,7 @@ impl Collector<'_> {
             let place = folder.path().join(name);
             let message = format!("{} cannot be written: {error}", place.display());
             Failure::failed(message)
-                .with_help("the members that were computed are kept; the same command goes on")
+                .with_help("the members that were computed are kept; the same command continues")
         };
         let numbers = self.numbers.columns(self.sweep);
         let keys = self.sweep.keys().map(|swept| swept.key.as_str());

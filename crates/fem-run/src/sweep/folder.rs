@@ -51,18 +51,18 @@ impl SweepFolder {
         let named = one_line(&out.display().to_string());
         let refuse = |found: &str| {
             Err(Failure::bad_input(format!("--out {named}: {found}")).with_help(
-                "name another folder with --out, or move this one away; a sweep goes on only in \
-                 a folder of fem-run sweep",
+                "name another folder with --out, or move this one away; only a folder of fem-run \
+                 sweep can be continued",
             ))
         };
         if out.file_name().is_none() {
-            return refuse("this is no name of a folder");
+            return refuse("this is not the name of a folder");
         }
         match fs::metadata(out) {
             Ok(metadata) if !metadata.is_dir() => return refuse("a file is in the way"),
             Ok(_) => match is_ours(out) {
                 Ok(true) => {}
-                Ok(false) => return refuse("this folder holds something else than a sweep"),
+                Ok(false) => return refuse("this folder holds something other than a sweep"),
                 Err(error) => return refuse(&format!("this folder cannot be read: {error}")),
             },
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {

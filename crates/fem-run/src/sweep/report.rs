@@ -36,14 +36,14 @@ pub fn announce(
         _ => {
             let on_threads = |total: TotalTime| duration(total.on(n_threads));
             let most = expected.most.map_or(String::new(), |most| {
-                format!(", up to {} if finer meshes have to follow", on_threads(most))
+                format!(", up to {} if meshes have to be refined", on_threads(most))
             });
-            format!(", some {} on {n_threads} threads{most}", on_threads(expected.all))
+            format!(", about {} on {n_threads} threads{most}", on_threads(expected.all))
         }
     };
     let kept = match sweep.keep {
         Keep::Packed if n_left > 0 => {
-            format!("; one file of summaries, some {}", member_file_size(n_left))
+            format!("; one file of summaries, about {}", member_file_size(n_left))
         }
         _ => String::new(),
     };
@@ -121,7 +121,7 @@ pub fn conclude(
     if is_interrupted && *n_own_done < n_own {
         let message = format!("interrupted: {n_own_done} of {n_own} members are done");
         return Err(Failure::interrupted(message)
-            .with_help("they are kept; the same command goes on with the others"));
+            .with_help("they are kept; the same command continues with the others"));
     }
     if *n_failed == 0 {
         return Ok(());
@@ -131,8 +131,8 @@ pub fn conclude(
         lines += &format!("\n… and {} more", n_failed - failed.len());
     }
     Err(Failure::failed(format!("{n_failed} of {n_own} members failed")).with_help(format!(
-        "{lines}\nthe others are done; run a failed one alone with --set for the cause and remedy, or \
-         change its value: the same command then computes what is new"
+        "{lines}\nthe others are done. Run a failed one alone with --set to see the cause and the remedy, or \
+         change its value and repeat the command, which then computes the new members"
     )))
 }
 
@@ -153,7 +153,7 @@ pub fn warning_lines<'t>(
         let (text, first) = (&kind.first, sweep.describe(kind.place));
         one_line(&match kind.count {
             1 => format!("{text} (1 member: {first})"),
-            n => format!("{text} ({n} members, numbers are of the first: {first})"),
+            n => format!("{text} ({n} members; numbers of the first: {first})"),
         })
     };
     let mut lines: Vec<String> = kinds.iter().take(MOST_KINDS).map(line).collect();

@@ -80,15 +80,15 @@ impl SlurmBatch {
         let refuse = |found: String, help: &str| Err(Failure::bad_input(found).with_help(help));
         if text.contains(char::is_control) {
             return refuse(
-                "--slurm: the options are not in one line".into(),
+                "--slurm: the options contain a line break".into(),
                 "separate them by spaces",
             );
         }
         let names: HashSet<&str> =
             text.split_whitespace().map(|word| word.split('=').next().unwrap_or(word)).collect();
         if let Some(own) = OWN_OPTIONS.iter().find(|own| names.contains(**own)) {
-            let help = "the array is over the shards: say how many with --shards N";
-            return refuse(format!("--slurm: {own} is the sweep's own"), help);
+            let help = "the array runs over the shards: set their number with --shards N";
+            return refuse(format!("--slurm: {own} is set by the sweep itself"), help);
         }
         let most = MOST_TASKS.min(sweep.n_members());
         let threads = cpus_per_task(&text) as f64;
@@ -96,7 +96,7 @@ impl SlurmBatch {
         let n_shards = match options.shards.map(NonZeroUsize::get) {
             Some(n) if n > most => {
                 let help = format!(
-                    "the sweep has {} members, an array at most {MOST_TASKS} tasks",
+                    "the sweep has {} members, and an array at most {MOST_TASKS} tasks",
                     sweep.n_members()
                 );
                 return refuse(format!("--shards {n}"), &help);
@@ -177,7 +177,7 @@ impl SlurmBatch {
         let files = match self.is_packed {
             true => {
                 format!(
-                    "each with a file of some {}, ",
+                    "each with a file of about {}, ",
                     member_file_size(n_left.div_ceil(*n_shards))
                 )
             }
@@ -189,7 +189,7 @@ impl SlurmBatch {
             None => format!("Submit it with: sh {}", quoted(&script)),
         };
         format!(
-            "{n_left} members in {task} of some {}, {files}and a task that merges them.\n{next}\n\nResult: {script}\n",
+            "{n_left} members in {task} of about {}, {files}and a task that merges them.\n{next}\n\nResult: {script}\n",
             duration(*seconds)
         )
     }

@@ -52,7 +52,7 @@ pub fn status(folder: &Path) -> Result<String, Failure> {
     let file = File::open(&place).map_err(|error| refuse(format!("{MANIFEST_FILE}: {error}")))?;
     let mark = serde_json::from_reader::<_, Manifest>(BufReader::new(file));
     let mark = mark.ok().filter(|mark| mark.program == PROGRAM);
-    let mark = mark.ok_or_else(|| refuse(format!("{MANIFEST_FILE} is not a sweep's")))?;
+    let mark = mark.ok_or_else(|| refuse(format!("{MANIFEST_FILE} is not that of a sweep")))?;
 
     let there = SweepFolder::at(folder, ShardFilter::All);
     let (mut n_done, mut n_failed, mut spent) = (0_usize, 0_usize, 0.0);
@@ -66,14 +66,14 @@ pub fn status(folder: &Path) -> Result<String, Failure> {
     let mut rows = vec![
         ["members", &mark.members.len().to_string()].map(String::from),
         ["done", &n_done.to_string()].map(String::from),
-        ["of those failed", &n_failed.to_string()].map(String::from),
+        ["of these failed", &n_failed.to_string()].map(String::from),
         ["left", &n_left.to_string()].map(String::from),
-        ["spent", &format!("{} of one core", duration(spent))].map(String::from),
+        ["time spent", &format!("{} on one core", duration(spent))].map(String::from),
     ];
     if n_left > 0 && n_done > 0 {
         let left = spent / n_done as f64 * n_left as f64;
-        let left = format!("{} of one core, if the others take as long", duration(left));
-        rows.push(["left to spend", &left].map(String::from));
+        let left = format!("{} on one core, if the others take as long", duration(left));
+        rows.push(["time left", &left].map(String::from));
     }
     let case = one_line(&mark.case);
     Ok(format!("{name}: a sweep of {case}\n\n{}", table(&[Left, Right], rows)))

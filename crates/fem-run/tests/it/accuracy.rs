@@ -60,8 +60,8 @@ fn the_tolerance_is_that_of_the_case() {
 fn bad_input_is_refused_before_anything_is_written() {
     let place = elastic();
     for (arguments, said) in [
-        (&["--budget", "0"][..], "a number greater than 0"),
-        (&["--budget", "soon"], "a number greater than 0"),
+        (&["--budget", "0"][..], "give seconds, greater than 0"),
+        (&["--budget", "soon"], "give seconds, greater than 0"),
         (&["--tolerance", "2"], "at most 0.5"),
         (&["--tolerance", "much"], "accuracy.tolerance"),
         (&["--set", "mesh.contact_element_size=-1"], "greater than 0"),

@@ -209,9 +209,9 @@ fn places_that_cannot_be_written_are_refused_before_the_run() {
 fn slips_of_the_command_line_are_answered() {
     let place = Place::new();
     for (arguments, expected) in [
-        (&["run", "case.toml"][..], "a run needs no command: fem-run CASE.toml"),
-        (&["case.toml", "--threads", "0"], "it must be a whole number, at least 1"),
-        (&["case.toml", "--threads", "many"], "it must be a whole number, at least 1"),
+        (&["run", "case.toml"][..], "running a case needs no command: fem-run CASE.toml"),
+        (&["case.toml", "--threads", "0"], "give a whole number, at least 1"),
+        (&["case.toml", "--threads", "many"], "give a whole number, at least 1"),
         (&["invert", "case.toml", "--restitution", "92"], "92 % is --restitution 0.92"),
         (&["invert", "case.toml", "--restitution", "1"], "such as 0.92"),
     ] {

@@ -255,7 +255,7 @@ fn a_case_gives_its_law() {
     refused(&["--law", "zhang_whiten", "--end", "zero_overlap"], "zero force by its definition");
     refused(&["--law", "ting", "--end", "zero_overlap"], "zero force by its definition");
     refused(&["--law", "hertz"], "loses nothing");
-    refused(&["--find", "a"], "of which law?");
+    refused(&["--find", "a"], "--find needs a law");
     // What no law gives is bad input, not a table of refusals.
     let ran = glass.run(&["invert", "case.toml", "--restitution", "1.2"]);
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
@@ -491,7 +491,7 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     }
     let ran = place.run(&[&all[..], &["--free", "a"]].concat());
     assert_eq!(ran.code, Some(2));
-    assert!(ran.stderr.contains("--free is of one law"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("--free applies to a single law"), "{}", ran.stderr);
 }
 
 /// Tables as people have them, and what is said of those that cannot be read.

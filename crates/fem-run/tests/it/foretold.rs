@@ -33,8 +33,8 @@ fn trials_are_counted_by_themselves() {
         assert!(!summary["coarser_meshes"].as_array().unwrap().is_empty());
         let first = &summary["coarser_meshes"][0];
         assert_eq!(first["element_updates"].is_null(), !has_trials, "{first}");
-        assert_eq!(ran.stdout.contains(" of trials"), has_trials, "{}", ran.stdout);
-        assert_eq!(ran.stderr.contains("if finer meshes have to follow"), has_trials);
+        assert_eq!(ran.stdout.contains(" of trial runs"), has_trials, "{}", ran.stdout);
+        assert_eq!(ran.stderr.contains("if the mesh has to be refined"), has_trials);
     }
 }
 
@@ -45,17 +45,17 @@ fn check_tells_what_may_follow() {
     place.write("rubber.toml", RUBBER);
     place.write("auxetic.toml", AUXETIC);
     let open = place.succeed(&["check", "rubber.toml"]).stdout;
-    let finer = open.lines().find(|line| line.starts_with("# finer meshes  ")).unwrap();
+    let finer = open.lines().find(|line| line.starts_with("# mesh refinement  ")).unwrap();
     for words in
-        ["which only the run tells: ", " foretold", "; at most ", " element updates more, "]
+        ["misses accuracy.tolerance: ", " expected", "; at most ", " element updates more, "]
     {
         assert!(finer.contains(words), "{finer}");
     }
     let told = place.succeed(&["check", "auxetic.toml"]).stdout;
-    assert!(told.contains("finer mesh  ") && !told.contains("only the run tells"), "{told}");
+    assert!(told.contains("finer mesh  ") && !told.contains("misses accuracy.tolerance"), "{told}");
     place.write("resolved.toml", &told);
     let again = place.succeed(&["resolved.toml", "--out", "again"]);
-    assert!(!again.stderr.contains("finer"), "{}", again.stderr);
+    assert!(!again.stderr.contains("refined"), "{}", again.stderr);
     place.succeed(&["auxetic.toml", "--out", "out"]);
     for key in ["restitution", "peak_force_n"] {
         assert_eq!(place.json("again/summary.json")[key], place.json("out/summary.json")[key]);
@@ -64,7 +64,7 @@ fn check_tells_what_may_follow() {
     let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
     assert!(time.contains("about ") && time.contains("here, after"), "{time}");
     // The case gives its elements.
-    assert!(!condensed.contains("finer meshes"), "{condensed}");
+    assert!(!condensed.contains("mesh refinement"), "{condensed}");
     let open = place.succeed(&["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
     let most = "which only the run tells: at most 4, ";
     assert!(open.contains(most) && open.contains("s more\n"), "{open}");
@@ -128,7 +128,8 @@ fn a_sweep_tells_of_finer_meshes() {
     place.write("sweep.toml", sweep);
     let told = |set: &str| {
         let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run", "--set", set]);
-        ran.stderr.contains(" threads, up to ") && ran.stderr.contains("if finer meshes")
+        ran.stderr.contains(" threads, up to ")
+            && ran.stderr.contains("if meshes have to be refined")
     };
     assert!(told("model.fem={}"));
     assert!(!told("mesh.contact_element_size=8e-4"));

@@ -105,8 +105,8 @@ fn a_slurm_that_is_not_there_or_refuses_is_told() {
     assert_eq!(ran.status.code(), Some(1));
     assert!(stderr.contains("no partition") && stderr.contains("the script is kept"), "{stderr}");
     for (arguments, expected) in [
-        (&["--slurm", "--time=10 --array=1-5"][..], "--array is the sweep's own"),
-        (&["--slurm=--time=10\n--mem=1"], "one line"),
+        (&["--slurm", "--time=10 --array=1-5"][..], "--array is set by the sweep itself"),
+        (&["--slurm=--time=10\n--mem=1"], "contain a line break"),
         (&["--slurm=", "--shards", "8"], "--shards 8"),
         (&["--slurm=", "--shard", "1/2"], "--shard"),
         (&["--submit"], "--slurm"),

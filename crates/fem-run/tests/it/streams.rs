@@ -25,7 +25,7 @@ fn a_case_from_the_standard_input_is_the_case() {
     assert_eq!(place.result("runs/stdin"), place.result("file"));
     // Every command that reads a case.
     let checked = fed(&place, &["check", "-"], CASE.as_bytes());
-    assert!(checked.stdout.starts_with("# <stdin> is sound."), "{}", checked.stdout);
+    assert!(checked.stdout.starts_with("# <stdin> is valid."), "{}", checked.stdout);
 }
 
 #[test]

@@ -292,7 +292,7 @@ fn an_interrupted_sweep_keeps_its_members_and_says_how_to_go_on() {
     let ran: crate::common::Ran = child.wait_with_output().unwrap().into();
     assert_eq!(ran.code, Some(130), "{}", ran.stderr);
     assert!(ran.stderr.contains("of 12 members are done"), "{}", ran.stderr);
-    assert!(ran.stderr.contains("the same command goes on"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("the same command continues"), "{}", ran.stderr);
     let rows = rows(&place, "out/sweep.csv");
     assert!((2..13).contains(&rows.len()));
     assert_eq!(rows.len() - 1, n_done(&place, "out"));
@@ -342,7 +342,7 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
     for more in [&["--dry-run"][..], &["--slurm="], &["--shard", "1/2", "--no-merge"]] {
         let ran = place.run(&[&["sweep", "sweep.toml", "--out", "mine"], more].concat());
         assert_eq!(ran.code, Some(2), "{more:?}: {}", ran.stderr);
-        assert!(ran.stderr.contains("something else than a sweep"), "{}", ran.stderr);
+        assert!(ran.stderr.contains("something other than a sweep"), "{}", ran.stderr);
     }
     // Nor does a run take a sweep's place.
     place.succeed(&["sweep", "sweep.toml", "--out", "out", "--shard", "6/6", "--quiet"]);

@@ -151,7 +151,7 @@ fn fill_uncertainties(arguments: &Arguments, measured: &mut MeasuredPairs) -> Re
     measured.data.set_uncertainty(uncertainty).map_err(|error| match error {
         UncertaintyError::OutOfRange(found) => {
             Failure::bad_input(format!("--uncertainty is {found:?}"))
-                .with_help("it must be greater than 0 and at most 1: restitutions lie between")
+                .with_help("give a value greater than 0 and at most 1, the range of restitutions")
         }
         UncertaintyError::Known(_) => {
             Failure::bad_input(error.to_string()).with_help("leave --uncertainty out")
@@ -162,7 +162,9 @@ fn fill_uncertainties(arguments: &Arguments, measured: &mut MeasuredPairs) -> Re
 /// Parses a regularisation λ.
 fn parse_ridge(text: &str) -> Result<f64, String> {
     let ridge = text.parse::<f64>().ok().filter(|ridge| *ridge >= 0.0 && ridge.is_finite());
-    ridge.ok_or_else(|| "it must be at least 0, such as 0.001; 0 is none".to_string())
+    ridge.ok_or_else(|| {
+        "give a value of at least 0, such as 0.001; 0 is no regularisation".to_string()
+    })
 }
 
 /// Parses `10 us..1 ms`.
@@ -170,8 +172,8 @@ fn parse_window(text: &str) -> Result<(f64, f64), String> {
     let (first, last) = text.split_once("..").ok_or("write FIRST..LAST, such as '10 us..1 ms'")?;
     let time = |text: &str| match parse_quantity(text.trim()) {
         Ok((value, dimension)) if [[0; 4], [0, 0, 1, 0]].contains(&dimension.0) => Ok(value),
-        Ok(_) => Err(format!("{text:?} is no time, such as '10 us'")),
-        Err(error) => Err(format!("{text:?} is no time: {error}")),
+        Ok(_) => Err(format!("{text:?} is not a time, such as '10 us'")),
+        Err(error) => Err(format!("{text:?} is not a time: {error}")),
     };
     let (first, last) = (time(first)?, time(last)?);
     if first > 0.0 && first <= last && last.is_finite() {

@@ -17,12 +17,12 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     text += "\n";
     let fit = &found.fit;
     text += &format!(
-        "rms error: {}; that of a single Maxwell term (weight 1, {}): {}\n",
+        "rms error: {}; with a single Maxwell term (weight 1, {}): {}\n",
         number(fit.rms, 3),
         match found.maxwell.beyond {
             None => format!("{} with the same mean", show(found.maxwell.time, "s")),
             Some(beyond) => format!(
-                "{} or {}, where the search ends",
+                "{} or {}, at the end of the search range",
                 show(found.maxwell.time, "s"),
                 beyond.word()
             ),
@@ -32,7 +32,7 @@ pub fn calibration_text(found: &Calibration, warnings: &[String]) -> String {
     if let Some(exponent) = found.loss_exponent() {
         let error = exponent.standard_error.map_or(String::new(), |error| format!(" ± {error:.3}"));
         text += &format!(
-            "1 - e goes as the speed to the power {:.3}{error} (any Prony series: -0.2 to 0.2)\n",
+            "1 - e is proportional to speed^{:.3}{error} (Prony series give powers from -0.2 to 0.2)\n",
             exponent.value
         );
     }
@@ -71,7 +71,7 @@ fn heading(found: &Calibration) -> String {
     let across = across.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
     if let Some((smallest, largest)) = across {
         text += &format!(
-            "one mesh a pair: {smallest:.1} elements across the smallest contact radius, \
+            "one mesh per pair: {smallest:.1} elements across the smallest contact radius, \
              {largest:.1} across the largest\n"
         );
     }
@@ -130,8 +130,8 @@ fn combinations(found: &Calibration) -> String {
         };
         let verdict = match (combination.is_determined, is_told && combination.may_be_zero()) {
             (true, false) => "determined",
-            (true, true) => "small: 0 within two errors",
-            (false, true) => "not determined: 0 within two errors",
+            (true, true) => "small: 0 within two standard errors",
+            (false, true) => "not determined: 0 within two standard errors",
             (false, false) => "not determined",
         };
         [
@@ -145,6 +145,6 @@ fn combinations(found: &Calibration) -> String {
     let text = table(&[Left, Right, Right, Right, Left], std::iter::once(header).chain(rows));
     match n_unseen {
         0 => text,
-        n => text + &format!("{n} more that the data do not see at all\n"),
+        n => text + &format!("{n} more that do not affect the data\n"),
     }
 }

@@ -77,12 +77,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let mut note = String::new();
     if fitted.curve.has_hertz_times {
-        note +=
-            "\nThe data have no contact times: Hertz' stand in for them in the linear models.\n";
+        note += "\nThe data have no contact times: the linear models use those of Hertz.\n";
     }
     if fitted.export.spheres.len() < 2 {
-        note += "\nA wall is not written for LIGGGHTS and YADE, which give it a material or a radius of \
-                 its own.\n";
+        note += "\nA wall is not written for LIGGGHTS and YADE, which require a material or a radius for \
+                 it.\n";
     }
     standard_output::print(&format!(
         "{}{note}\nResult: {place}\n",
@@ -124,7 +123,7 @@ impl Arguments {
             return Ok(());
         }
         let message = format!("--tolerance is {:?}", self.tolerance);
-        Err(Failure::bad_input(message).with_help("it must be between 0 and 1"))
+        Err(Failure::bad_input(message).with_help("give a value between 0 and 1"))
     }
 }
 
@@ -174,7 +173,7 @@ fn fitted(
         let failure = Failure::from(error);
         if is_lossless {
             failure.with_help(
-                "an elastic contact needs no fit, its restitution is 1; if there is a loss, narrow \
+                "an elastic contact has restitution 1 and needs no fit; if there is a loss, narrow \
                  the range of speeds",
             )
         } else {

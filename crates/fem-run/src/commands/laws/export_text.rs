@@ -15,7 +15,7 @@ use crate::text::tables::table;
 
 /// Returns the text on stdout, one line per snippet.
 pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
-    let header = ["code", "model", "enter", "makes e", "good to tolerance", "worst error", "file"];
+    let header = ["code", "model", "input", "gives e", "valid from, to", "worst error", "file"];
     let row = |snippet: &Snippet| {
         let [from, to, worst] = snippet.validity;
         let entries = snippet.entries.iter().map(|(key, value)| format!("{key} {}", entry(*value)));
@@ -31,7 +31,7 @@ pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
     };
     let rows = std::iter::once(header.map(String::from)).chain(snippets.iter().map(row));
     format!(
-        "{}, {} to {}; a snippet is good where its restitution is right to {}\n\n{}",
+        "{}, {} to {}; a snippet is valid where its restitution is within {}\n\n{}",
         standard_output::one_line(&export.title),
         show(export.speeds.0, "m/s"),
         show(export.speeds.1, "m/s"),
@@ -43,7 +43,7 @@ pub fn export_text(export: &Export, snippets: &[Snippet]) -> String {
 /// Returns the speeds for which a snippet is valid.
 pub fn good(from: Option<f64>, to: Option<f64>) -> String {
     match (from, to) {
-        (Some(from), Some(to)) if from == to => format!("at {} alone", show(from, "m/s")),
+        (Some(from), Some(to)) if from == to => format!("only at {}", show(from, "m/s")),
         (Some(from), Some(to)) => format!("{} to {}", show(from, "m/s"), show(to, "m/s")),
         _ => "nowhere".to_string(),
     }
@@ -56,7 +56,7 @@ fn entry(value: f64) -> String {
 
 /// Returns the text on stdout, one line per pair.
 pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
-    let header = ["first", "second", "e", "good to tolerance", "worst error"].map(String::from);
+    let header = ["first", "second", "e", "valid from, to", "worst error"].map(String::from);
     let row = |row: &PairNumbers| {
         let grain = |material: &str, diameter| format!("{} {material}", show(diameter, "m"));
         [
@@ -65,7 +65,7 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
             format!("{:.4}", row.restitution),
             match row.unpublished_loss.as_slice() {
                 [] => good(row.good_from_m_s, row.good_to_m_s),
-                materials => format!("no loss known of {}", materials.join(", ")),
+                materials => format!("no known loss: {}", materials.join(", ")),
             },
             row.worst_error.map_or("not known".to_string(), |error| format!("{error:.4}")),
         ]
@@ -73,7 +73,7 @@ pub fn pairs_text(export: &PairExport, rows: &[PairNumbers]) -> String {
     let n = export.grains.len();
     let cells = std::iter::once(header).chain(rows.iter().map(row));
     format!(
-        "{n} {}, {} pairs; one e for all speeds of each, good where it is right to {}\n\n{}",
+        "{n} {}, {} pairs; one e per pair for all speeds, valid where it is within {}\n\n{}",
         if n == 1 { "grain" } else { "grains" },
         rows.len(),
         export.tolerance,

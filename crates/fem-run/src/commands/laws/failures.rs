@@ -16,14 +16,14 @@ impl From<LawFault> for Failure {
             LawFault::Parameter(error) => error.into(),
             LawFault::Fit(error) => error.into(),
             LawFault::Missing { key, free, .. } => {
-                let give = format!("give it, --param {key}=VALUE");
+                let give = format!("give it with --param {key}=VALUE");
                 Failure::bad_input(message).with_help(match &free[..] {
                     [] => give,
-                    free => format!("{give}, or let it be found, --free {},{key}", free.join(",")),
+                    free => format!("{give}, or fit it with --free {},{key}", free.join(",")),
                 })
             }
             LawFault::NeedsTimes { key, .. } => Failure::bad_input(message).with_help(format!(
-                "leave {key} out of --free, and it makes Hertz' contact time; or give contact times, a column \
+                "leave {key} out of --free to use Hertz' contact time, or give contact times with a column \
                  contact_time_s and --contact-time"
             )),
             LawFault::Grains(_, help) => Failure::bad_input(message).with_help(help),
@@ -42,7 +42,7 @@ impl From<ParameterError> for Failure {
         let failure = Failure::bad_input(error.to_string());
         match (&error, error.help()) {
             (ParameterError::Lossless { .. }, _) => {
-                failure.with_help("take another law; docs/fits.md lists them")
+                failure.with_help("choose another law; docs/fits.md lists them")
             }
             (_, Some(help)) => failure.with_help(help),
             (_, None) => failure,
@@ -60,12 +60,16 @@ impl From<FitError> for Failure {
                 "hold one of them with --param KEY=VALUE and leave it out of --free, or measure over \
                  a wider range of speeds"
             }
-            FitError::Insensitive { .. } => "the data show no loss, or nothing but loss",
+            FitError::Insensitive { .. } => "the restitutions are all 1, or all 0",
             FitError::NotConverged { .. } => {
                 "give a start with --param KEY=VALUE, or a range with --bounds KEY=LOW..HIGH"
             }
-            FitError::NoSolution { .. } => "no value of this parameter makes it: take another law",
-            FitError::OwnEnd { .. } => "leave --end out; zhang_whiten with another end is tsuji",
+            FitError::NoSolution { .. } => {
+                "no value of this parameter gives it: choose another law"
+            }
+            FitError::OwnEnd { .. } => {
+                "leave --end out; zhang_whiten with another end is the law tsuji"
+            }
             FitError::NoRelaxation => "give a material a [material.NAME.relaxation] table",
             _ => return failure,
         };
@@ -87,11 +91,11 @@ impl From<CalibrationFault> for Failure {
             CalibrationFault::Data(error) => error.into(),
             CalibrationFault::Fit(error) => calibration_failure(error),
             CalibrationFault::OtherMaterial { name, materials } => {
-                Failure::bad_input(format!("--material {name}: no body is made of it"))
+                Failure::bad_input(format!("--material {name}: no body has this material"))
                     .with_help(format!("the bodies are made of {}", materials.join(" and ")))
             }
             CalibrationFault::TwoMaterials { materials } => Failure::bad_input(message)
-                .with_help(format!("say which to calibrate: --material {}", materials[0])),
+                .with_help(format!("name the one to calibrate: --material {}", materials[0])),
             CalibrationFault::NoMesh { .. } => Failure::bad_input(message).with_help(
                 "split the data by speed, give mesh.contact_element_size, or use --model ting, which \
                  has no mesh",

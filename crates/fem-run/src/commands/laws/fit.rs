@@ -119,8 +119,8 @@ fn fitted<T>(
     let wanted = arguments.law.or_else(|| family_of(case.scene()).map(Wanted::One));
     let wanted = wanted.ok_or_else(|| {
         Failure::bad_input("--law is missing, and the case's [model] names no law").with_help(
-            "name one, such as --law kuwabara_kono, or let --law all find out which explains the data \
-             best; fem-run fit --help, and docs/fits.md, have their names",
+            "name one, such as --law kuwabara_kono, or find the one that explains the data best with \
+             --law all; docs/fits.md lists the laws",
         )
     })?;
     let ranking = match wanted {
@@ -185,8 +185,10 @@ fn ranked(arguments: &Arguments, case: &Case, data: &Restitutions) -> Result<Law
         ("--bounds", &arguments.bounds),
     ];
     if let Some((option, _)) = of_one.iter().find(|(_, given)| !given.is_empty()) {
-        return Err(Failure::bad_input(format!("{option} is of one law, and --law all is of all"))
-            .with_help("leave it out, or name the law"));
+        return Err(Failure::bad_input(format!(
+            "{option} applies to a single law, not to --law all"
+        ))
+        .with_help("leave it out, or name the law"));
     }
     Ok(LawRanking::of(case, data, arguments.values.end.map(End::rule))?)
 }

@@ -64,7 +64,7 @@ pub fn fit_text(fitted: &LawFit<'_>, law: &ChosenLaw) -> String {
     let rates = model.decay_rates(fit.values[0]);
     let others = rates.iter().flatten().filter(|rate| (*rate / fit.values[0] - 1.0).abs() > 1e-9);
     if model.family() == LawFamily::Ting && others.count() > 0 {
-        text += "decay_rate is the largest; all others keep their ratio to it\n";
+        text += "decay_rate is the largest one; the others keep their ratio to it\n";
     }
     for (model, fit) in &fitted.compared {
         let parameters = model.family().parameters().iter().zip(&fit.values);
@@ -110,10 +110,10 @@ pub fn ranking_text(ranking: &LawRanking) -> String {
     let rows: Vec<_> = std::iter::once(header).chain(rows).collect();
     let mut text = table(&[Left, Left, Right, Right, Right], rows);
     text += match ranking.laws.iter().any(|law| law.weight.is_some()) {
-        true => "evidence: the share of each among these laws; none need be right\n",
+        true => "evidence: share of each law among these; all of them may be wrong\n",
         false => {
-            "the data are too few to tell laws apart, and the first is merely one of the fewest parameters: \
-             more speeds, or uncertainties, rank them\n"
+            "there are too few data to rank the laws: the first merely has the fewest parameters. Measure at \
+             more speeds, or give uncertainties\n"
         }
     };
     let mut of: Vec<&str> = ranking.twins.iter().map(|(_, of)| *of).collect();

@@ -118,7 +118,7 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
     let options =
         [("--param", !arguments.values.param.is_empty()), ("--find", arguments.find.is_some())];
     if let (None, Some((option, _))) = (law, options.iter().find(|(_, is_given)| *is_given)) {
-        let message = format!("{option}: of which law?");
+        let message = format!("{option} needs a law");
         return Err(Failure::bad_input(message).with_help("name it with --law"));
     }
     let families: Vec<LawFamily> = law.map_or(LawFamily::ALL.to_vec(), |law| vec![law]);
@@ -138,9 +138,7 @@ fn answers(arguments: &Arguments, case: &Case) -> Result<(f64, Vec<Answer>), Fai
     }
     if !answers.iter().any(|answer| matches!(answer, Answer::Solved(_))) {
         let message = format!("no law gives a restitution of {wanted} at {}", show(speed, "m/s"));
-        return Err(
-            Failure::bad_input(message).with_help("ask for one law, --law, to see its reach")
-        );
+        return Err(Failure::bad_input(message).with_help("name a law with --law to see its range"));
     }
     Ok((speed, answers))
 }
@@ -159,7 +157,7 @@ fn solve(
     LawInversion::of(&law, key, speed, arguments.restitution).map_err(|fault| match fault {
         LawFault::Fit(error @ FitError::NoSolution { .. }) if family == LawFamily::HuntCrossley => {
             Failure::bad_input(error.to_string())
-                .with_help("its coefficient holds for mild losses only; take another law")
+                .with_help("its coefficient holds for small losses only; choose another law")
         }
         fault => fault.into(),
     })

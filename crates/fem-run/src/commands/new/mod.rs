@@ -67,12 +67,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let name = one_line(&path.display().to_string());
     let word = shell_word(&name);
     let beside = match wrote_schema {
-        true => format!(", and beside it {SCHEMA_FILE} for your editor"),
-        false => format!(" ({SCHEMA_FILE} beside it is not of fem-run, and stays)"),
+        true => format!(", with {SCHEMA_FILE} for your editor"),
+        false => format!(" (the existing {SCHEMA_FILE} is not from fem-run and is kept)"),
     };
     standard_output::print(&format!(
-        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   says what that \
-         takes, and what it will consider\n"
+        "{name} is written{beside}.\n\n  fem-run {word}         runs it\n  fem-run check {word}   prints its cost, \
+         its defaults and the effects that it includes\n"
     ))
 }
 
