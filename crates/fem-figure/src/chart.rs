@@ -1,4 +1,4 @@
-//! One panel: curves over an axis.
+//! One panel of curves over an axis.
 
 use std::sync::Arc;
 
@@ -11,14 +11,14 @@ use crate::curve::{Curve, Mark};
 use crate::line_style::LineStyle;
 use crate::style::{COLOURS, decade, tick};
 
-/// Free space beside the data on a logarithmic axis, as a factor.
+/// Factor of free space beside the data on a logarithmic axis.
 const MARGIN: f64 = 1.2;
 const LINE_WIDTH: f64 = 1.5;
 const POINT_SIZE: f64 = 3.5;
 const ERROR_BAR_WIDTH: f64 = 1.0;
 const BAND_OPACITY: f64 = 0.15;
 
-/// An axis: what it shows, and how.
+/// An axis with its label, kind and range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     pub(crate) label: String,
@@ -27,18 +27,18 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// A linear axis; the label names quantity and unit.
+    /// Creates a linear axis; the label names quantity and unit.
     pub fn new(label: impl Into<String>) -> Self {
         Self { label: label.into(), is_logarithmic: false, range: None }
     }
 
-    /// A logarithmic one; points that are not positive are left out.
+    /// Makes the axis logarithmic; points that are not positive are left out.
     pub fn logarithmic(mut self) -> Self {
         self.is_logarithmic = true;
         self
     }
 
-    /// From one value to another, whatever the data.
+    /// Sets the range of the axis, independent of the data.
     pub fn from_to(mut self, from: f64, to: f64) -> Self {
         self.range = Some((from, to));
         self
@@ -48,22 +48,22 @@ impl Axis {
         self.has_place(value) && self.range.is_none_or(|(from, to)| (from..=to).contains(&value))
     }
 
-    /// Whether it is a number that the axis has, in its range or not.
+    /// Whether the axis can show a value, within its range or not.
     pub(crate) fn has_place(&self, value: f64) -> bool {
         value.is_finite() && (!self.is_logarithmic || value > 0.0)
     }
 
-    /// A value as it is measured out along the axis.
+    /// Returns the position of a value along the axis.
     pub(crate) fn along(&self, value: f64) -> f64 {
         if self.is_logarithmic { value.ln() } else { value }
     }
 
-    /// The value of what is measured out along the axis.
+    /// Returns the value at a position along the axis.
     pub(crate) fn value(&self, along: f64) -> f64 {
         if self.is_logarithmic { along.exp() } else { along }
     }
 
-    /// Given, or of logarithmic data with free space beside it.
+    /// Returns the given range or, for logarithmic data, one with free space beside them.
     fn limits(&self, values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         if self.range.is_some() || !self.is_logarithmic {
             return self.range;
@@ -80,22 +80,22 @@ impl Axis {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Band {
     pub(crate) label: String,
-    /// (x, one end, the other).
+    /// Points (x, one end, the other end).
     pub(crate) points: Vec<(f64, f64, f64)>,
     pub(crate) colour: &'static str,
 }
 
-/// What is seen of a curve.
-pub(crate) struct Drawn<'a> {
+/// The visible part of a curve.
+pub(crate) struct VisibleCurve<'a> {
     pub(crate) curve: &'a Curve,
     pub(crate) points: Vec<(f64, f64)>,
-    /// The pieces of its line.
+    /// Pieces of its line.
     pub(crate) runs: Vec<Vec<(f64, f64)>>,
     pub(crate) colour: &'a str,
     pub(crate) style: LineStyle,
 }
 
-/// A panel.
+/// A panel of curves and bands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     pub(crate) x: Axis,
@@ -106,24 +106,24 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// A panel without curves.
+    /// Creates a panel without curves.
     pub fn new(x: Axis, y: Axis) -> Self {
         Self { x, y, title: None, bands: Vec::new(), curves: Vec::new() }
     }
 
-    /// A title above the panel.
+    /// Sets the title above the panel.
     pub fn titled(mut self, title: impl Into<String>) -> Self {
         self.title = Some(title.into());
         self
     }
 
-    /// This chart with one more curve.
+    /// Adds a curve.
     pub fn with(mut self, curve: Curve) -> Self {
         self.curves.push(curve);
         self
     }
 
-    /// With a shaded area behind the curves: (x, one end, the other), all finite.
+    /// Adds a shaded area behind the curves, by finite points (x, one end, the other end).
     pub fn with_band(
         mut self,
         label: impl Into<String>,
@@ -134,17 +134,17 @@ impl Chart {
         self
     }
 
-    /// Whether no point can be drawn.
+    /// Whether there is no point to draw.
     pub(crate) fn is_empty(&self) -> bool {
         self.drawn().all(|drawn| drawn.points.is_empty())
     }
 
-    /// Curves as they are seen.
-    pub(crate) fn drawn(&self) -> impl Iterator<Item = Drawn<'_>> {
+    /// Returns the visible part of each curve.
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = VisibleCurve<'_>> {
         self.curves.iter().enumerate().map(|(k, curve)| {
             let visible = |(x, y): &&(f64, f64)| self.x.shows(*x) && self.y.shows(*y);
             let style = curve.style.unwrap_or(LineStyle::of_curve(k));
-            Drawn {
+            VisibleCurve {
                 curve,
                 points: curve.points.iter().filter(visible).copied().collect(),
                 runs: if curve.mark == Mark::Points { Vec::new() } else { runs(self, curve) },
@@ -163,7 +163,7 @@ impl Chart {
             let area = BandPlot::new(part(|p| p.0), part(|p| p.1), part(|p| p.2));
             plots.push(area.with_color(band.colour).with_opacity(BAND_OPACITY).into());
         }
-        for Drawn { curve, points, runs, colour, style } in self.drawn() {
+        for VisibleCurve { curve, points, runs, colour, style } in self.drawn() {
             all.extend_from_slice(&points);
             for ((x, y), error) in curve.points.iter().zip(&curve.errors) {
                 let bar = LinePlot::new().with_data(vec![(*x, y - error), (*x, y + error)]);
@@ -200,7 +200,7 @@ impl Chart {
         }
         if let Some((from, to)) = self.y.limits(all.iter().map(|point| point.1)) {
             layout = layout.with_y_axis_min(from).with_y_axis_max(to);
-            // The label stands beside the numbers of this range, not beside those of the data's.
+            // Places the axis label beside the numbers of this range.
             layout.y_range = (from, to);
         }
         (plots, layout)
@@ -214,7 +214,7 @@ impl Chart {
             dasharray: None,
         });
         let named = self.drawn().filter(|drawn| !drawn.curve.label.is_empty());
-        let named = named.map(|Drawn { curve, colour, style, .. }| LegendEntry {
+        let named = named.map(|VisibleCurve { curve, colour, style, .. }| LegendEntry {
             label: curve.label.clone(),
             color: colour.to_string(),
             shape: match curve.mark {

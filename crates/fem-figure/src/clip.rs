@@ -1,10 +1,10 @@
-//! What of a line lies within the axes.
+//! Clipping of lines to the ranges of the axes.
 
 use crate::chart::{Axis, Chart};
 use crate::curve::Curve;
 
-/// The pieces of a line within the ranges that axes are given, cut at their ends; points that are no numbers,
-/// or not positive on a logarithmic axis, part it. A piece has two points at least.
+/// Returns the pieces of a line within the given ranges, cut off at their ends. A point that is not a
+/// number, or not positive on a logarithmic axis, interrupts the line. A piece has at least two points.
 pub(crate) fn runs(chart: &Chart, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
     let axes = [&chart.x, &chart.y];
     let has_place = |(x, y): &(f64, f64)| axes[0].has_place(*x) && axes[1].has_place(*y);
@@ -25,7 +25,7 @@ pub(crate) fn runs(chart: &Chart, curve: &Curve) -> Vec<Vec<(f64, f64)>> {
     runs
 }
 
-/// The part of a segment within both ranges (Liang and Barsky 1984), along what is drawn.
+/// Returns the part of a segment within both ranges (Liang and Barsky 1984), straight as it is drawn.
 fn within(axes: [&Axis; 2], from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
     let (mut first, mut last) = (0.0f64, 1.0f64);
     let ends = [[from.0, to.0], [from.1, to.1]];
@@ -70,7 +70,7 @@ mod tests {
     fn a_line_that_leaves_the_axes_is_cut_where_it_does_and_comes_back_as_another() {
         let tall = of(&[(0.0, 0.0), (1.0, 2.0), (2.0, 2.0), (3.0, 0.0)]);
         assert_eq!(tall, [[(0.0, 0.0), (0.5, 1.0)], [(2.5, 1.0), (3.0, 0.0)]]);
-        // Through the axes from beyond to beyond, and past them.
+        // One segment passes through the axes, one passes beside them.
         assert_eq!(of(&[(0.0, -1.0), (3.0, 2.0)]), [[(1.0, 0.0), (2.0, 1.0)]]);
         assert!(of(&[(0.0, 1.5), (3.0, 2.0)]).is_empty());
         let whole = of(&[(0.0, 0.1), (1.0, 0.2), (2.0, 0.3)]);

@@ -1,4 +1,4 @@
-//! Points with a name, and how they are drawn.
+//! Curves: named points and how they are drawn.
 
 use std::borrow::Cow;
 
@@ -8,17 +8,18 @@ use crate::style::COLOURS;
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
-    /// A line.
+    /// A solid line.
     Line,
-    /// A dashed line: what the data is compared with.
+    /// A dashed line, for references.
     Dashed,
-    /// Points alone.
+    /// Points only.
     Points,
     /// Points on a line.
     PointsOnLine,
 }
 
-/// Points (x, y) with a name. A line has a gap where a point is no number, and ends where it leaves its axes.
+/// Points (x, y) with a name. A line is interrupted at points that are not numbers, and ends where it
+/// leaves the axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     pub(crate) label: String,
@@ -30,46 +31,46 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// A curve; an empty label keeps it out of the legend.
+    /// Creates a curve; an empty label keeps it out of the legend.
     pub fn new(label: impl Into<String>, mark: Mark, points: Vec<(f64, f64)>) -> Self {
         let (label, errors) = (label.into(), Vec::new());
         Self { label, points, mark, colour: None, style: None, errors }
     }
 
-    /// A line.
+    /// Creates a solid line.
     pub fn line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self::new(label, Mark::Line, points)
     }
 
-    /// A dashed line.
+    /// Creates a dashed line.
     pub fn dashed(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self::new(label, Mark::Dashed, points)
     }
 
-    /// Points.
+    /// Creates points.
     pub fn points(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self::new(label, Mark::Points, points)
     }
 
-    /// Points on a line.
+    /// Creates points on a line.
     pub fn points_on_line(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self::new(label, Mark::PointsOnLine, points)
     }
 
-    /// With half the height of an error bar at each point, in the order of the points.
+    /// Adds error bars, by half their height at each point.
     pub fn with_errors(mut self, errors: Vec<f64>) -> Self {
         self.errors = errors;
         self
     }
 
-    /// In a colour of its own, with the plain line of its mark; else the chart gives one.
+    /// Sets the colour, with the plain line of the mark. By default the chart chooses colours.
     pub fn coloured(mut self, colour: impl Into<Cow<'static, str>>) -> Self {
         (self.colour, self.style) = (Some(colour.into()), Some(LineStyle::default()));
         self
     }
 
-    /// As the chart draws its k-th curve, from 0: colours in turn, and once all were used, other dashes and
-    /// markers with each turn.
+    /// Draws the curve like the k-th curve of a chart, from 0: colours in turn, and other dashes and
+    /// markers each time all colours are used.
     pub fn like_curve(mut self, k: usize) -> Self {
         self = self.coloured(COLOURS[k % COLOURS.len()]);
         self.style = Some(LineStyle::of_curve(k));

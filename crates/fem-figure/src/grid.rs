@@ -8,12 +8,12 @@ use crate::chart::Chart;
 
 const PANEL_WIDTH: f64 = 480.0;
 const PANEL_HEIGHT: f64 = 340.0;
-/// Height of an entry of the legend.
+/// Height of a legend entry.
 const ENTRY_HEIGHT: f64 = 18.0;
-/// Letters of the longest label that one blank makes room for.
+/// Characters of the longest label per blank that is appended to it.
 const LETTERS_A_BLANK: usize = 10;
 
-/// Entries that the legend beside so many charts has room for.
+/// Returns the number of legend entries that fit beside `n_charts` charts.
 pub fn legend_room(n_charts: usize) -> usize {
     let n_rows = n_charts.max(1).div_ceil(n_columns(n_charts));
     (n_rows as f64 * PANEL_HEIGHT / ENTRY_HEIGHT) as usize - 1
@@ -23,9 +23,9 @@ fn n_columns(n_charts: usize) -> usize {
     if n_charts <= 1 { 1 } else { 2 }
 }
 
-/// The charts, two in a row, as one SVG document; `None` if there is no point to draw.
+/// Draws the charts, two in a row, as one SVG document; `None` if there is no point to draw.
 ///
-/// Curves of the same name share an entry of the legend.
+/// Curves of the same name share a legend entry.
 pub fn svg(charts: &[Chart]) -> Option<String> {
     let charts: Vec<&Chart> = charts.iter().filter(|chart| !chart.is_empty()).collect();
     if charts.is_empty() {
@@ -39,7 +39,7 @@ pub fn svg(charts: &[Chart]) -> Option<String> {
             legend.push(entry);
         }
     }
-    // The box is as wide as its longest label in a type that is smaller than the one drawn.
+    // kuva sizes the box for a smaller font than it draws, so the longest label is padded.
     if let Some(longest) = legend.iter_mut().max_by_key(|entry| entry.label.chars().count()) {
         let n_blanks = longest.label.chars().count() / LETTERS_A_BLANK;
         longest.label.push_str(&"\u{2002}".repeat(n_blanks));
@@ -56,8 +56,8 @@ pub fn svg(charts: &[Chart]) -> Option<String> {
     Some(renumber(&SvgBackend::new().render_scene(&figure.render())) + "\n")
 }
 
-/// The same with its clip paths counted from 0: kuva counts on from one picture of a process to the
-/// next, and whoever draws the same writes the same bytes.
+/// Numbers the clip paths from 0. kuva continues their numbers from one picture of a process to the next;
+/// the same picture must have the same bytes.
 fn renumber(svg: &str) -> String {
     const CLIP: &str = "kuva-clip-";
     let mut parts = svg.split(CLIP);

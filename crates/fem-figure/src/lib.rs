@@ -1,9 +1,8 @@
-//! Results as people read them: pictures as self-contained SVG.
+//! Charts and filled contours as self-contained SVG.
 //!
-//! A [`Chart`] is drawn by [`kuva`]; what is said here is the house style: colours that
-//! colour-blind eyes tell apart, short tick labels, room around the data of logarithmic axes.
-//! Fields on a section are drawn by [`contour`]. [`panel`] draws one chart small and itself, for pages
-//! that restyle it.
+//! A [`Chart`] is drawn by [`kuva`] in the house style: colours that colour-blind readers can distinguish, short
+//! tick labels, room around the data of logarithmic axes. [`contour`] draws fields on a section. [`panel`] draws one
+//! small chart without [`kuva`], for pages that restyle it.
 //!
 //! ```
 //! use fem_figure::{Axis, Chart, Curve};

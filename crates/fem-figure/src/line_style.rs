@@ -1,31 +1,31 @@
-//! What tells curves apart whose colours are alike: dashes, and shapes of points.
+//! Dashes and markers of curves that share a colour.
 
 use kuva::plot::scatter::MarkerShape;
 
 use crate::curve::Mark;
 use crate::style::COLOURS;
 
-/// Dashes of a line by turns of the colours, in pixels; the first is drawn through.
+/// Dashes of solid lines in pixels, by turns of the colours; the first is solid.
 const OF_LINES: [Option<&str>; 4] = [None, Some("2 3"), Some("12 3 2 3"), Some("16 5")];
-/// The same of lines that are dashed anyway.
+/// Dashes of dashed lines.
 const OF_DASHED: [&str; 4] = ["8 4", "2 4", "9 3 2 3", "18 6"];
-/// Shapes of points by turns of the colours.
+/// Markers by turns of the colours.
 const MARKERS: [MarkerShape; 4] =
     [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond];
 
-/// How often the colours have been used up before a curve.
+/// How many times all colours have been used before a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct LineStyle {
     turn: usize,
 }
 
 impl LineStyle {
-    /// Of the k-th curve of a chart, from 0.
+    /// Returns the style of the k-th curve of a chart, from 0.
     pub fn of_curve(k: usize) -> Self {
         Self { turn: k / COLOURS.len() }
     }
 
-    /// `stroke-dasharray` of a line, if it has one.
+    /// Returns the `stroke-dasharray` of a line, if it has one.
     pub fn dashes(self, mark: Mark) -> Option<&'static str> {
         match mark {
             Mark::Dashed => Some(OF_DASHED[self.turn % OF_DASHED.len()]),
@@ -34,7 +34,7 @@ impl LineStyle {
         }
     }
 
-    /// The shape of points.
+    /// Returns the marker of points.
     pub fn marker(self) -> MarkerShape {
         MARKERS[self.turn % MARKERS.len()]
     }

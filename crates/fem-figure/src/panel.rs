@@ -1,15 +1,15 @@
-//! One chart as a small picture for a page: few elements, text that is legible on a phone, and a class
-//! at everything that has a colour, so that a page can have it otherwise.
+//! One chart as a small picture for a page: few elements, text that is legible on a phone, and a class on everything
+//! that has a colour, so that a page can restyle it.
 //!
-//! Colours are attributes, which any rule of a style sheet overrides: `.c0` to `.c6` are the
-//! [`COLOURS`] in turn, `.grey` what stands beside the data, `.ink` text, `.dim` text and axes of less
-//! weight, `.grid` lines behind the data. A fill and a stroke have the same class.
+//! Colours are attributes, which any rule of a style sheet overrides: `.c0` to `.c6` are the [`COLOURS`] in turn,
+//! `.grey` references, `.ink` text, `.dim` secondary text and axes, `.grid` lines behind the data. A fill and a
+//! stroke have the same class.
 
 use std::fmt::Write;
 
 use kuva::plot::scatter::MarkerShape;
 
-use crate::chart::{Chart, Drawn};
+use crate::chart::{Chart, VisibleCurve};
 use crate::curve::Mark;
 use crate::line_style::LineStyle;
 use crate::scale::Scale;
@@ -25,12 +25,13 @@ const BOTTOM: f64 = 44.0;
 const LINE: f64 = 19.0;
 const FONT_SIZE: f64 = 12.5;
 const SWATCH: f64 = 20.0;
-/// Farther from the drawn curve is no point, pixels.
+/// Largest deviation of a simplified curve, pixels.
 const TOLERANCE: f64 = 0.03;
-/// Most intervals between ticks.
+/// Most intervals between ticks of the horizontal and the vertical axis.
 const N_TICKS: [usize; 2] = [9, 7];
 
-/// A chart by itself, the label of its vertical axis above it; `None` if there is no point to draw.
+/// Draws a chart by itself, with the label of its vertical axis above it; `None` if there is no point to
+/// draw.
 pub fn panel(chart: &Chart) -> Option<String> {
     if chart.is_empty() {
         return None;
@@ -78,7 +79,7 @@ pub fn panel(chart: &Chart) -> Option<String> {
     Some(svg)
 }
 
-fn draw_curve(svg: &mut String, drawn: &Drawn<'_>, place: &impl Fn((f64, f64)) -> [f64; 2]) {
+fn draw_curve(svg: &mut String, drawn: &VisibleCurve<'_>, place: &impl Fn((f64, f64)) -> [f64; 2]) {
     let mark = drawn.curve.mark;
     let mut path = String::new();
     for run in &drawn.runs {
@@ -95,8 +96,8 @@ fn draw_curve(svg: &mut String, drawn: &Drawn<'_>, place: &impl Fn((f64, f64)) -
     }
 }
 
-/// A point in the shape of its curve.
-fn draw_point(svg: &mut String, [x, y]: [f64; 2], drawn: &Drawn<'_>) {
+/// Draws a point with the marker of its curve.
+fn draw_point(svg: &mut String, [x, y]: [f64; 2], drawn: &VisibleCurve<'_>) {
     let paint = paint(drawn.colour, "fill");
     let polygon = |corners: &[[f64; 2]]| {
         let corners: Vec<_> = corners.iter().map(|[a, b]| [x + a, y + b]).collect();
@@ -111,11 +112,11 @@ fn draw_point(svg: &mut String, [x, y]: [f64; 2], drawn: &Drawn<'_>) {
     let _ = writeln!(svg, "{shape}");
 }
 
-/// What a line is drawn with.
+/// Returns the stroke attributes of a line.
 fn stroke(colour: &str, mark: Mark, style: LineStyle) -> String {
     let dashes = style.dashes(mark);
     let dashes = dashes.map_or(String::new(), |dashes| format!(" stroke-dasharray=\"{dashes}\""));
-    // What lies under a dashed line is seen through it.
+    // A dashed line is thinner, so that the line below it stays visible.
     let width = if mark == Mark::Dashed { 1.5 } else { 1.8 };
     format!("{} stroke-width=\"{width}\"{dashes}", paint(colour, "stroke"))
 }
@@ -153,17 +154,17 @@ fn draw_axes(svg: &mut String, chart: &Chart, [x, y]: [&Scale; 2], top: f64) {
     );
 }
 
-/// A name beside its mark.
-struct Entry<'a> {
+/// A legend entry.
+struct LegendRow<'a> {
     label: &'a str,
-    /// None: an area in the colour.
-    drawn: Option<&'a Drawn<'a>>,
+    /// `None` for an area.
+    drawn: Option<&'a VisibleCurve<'a>>,
     colour: &'a str,
     row: usize,
     left: f64,
 }
 
-impl Entry<'_> {
+impl LegendRow<'_> {
     fn draw(&self, svg: &mut String) {
         let y = LINE * (self.row as f64 + 1.0) + 14.0;
         let (left, middle) = (self.left, y - 4.3);
@@ -197,11 +198,11 @@ impl Entry<'_> {
     }
 }
 
-/// Names once each, in rows.
-fn legend<'a>(chart: &'a Chart, curves: &'a [Drawn<'a>]) -> Vec<Entry<'a>> {
+/// Returns the legend entries in rows, each name once.
+fn legend<'a>(chart: &'a Chart, curves: &'a [VisibleCurve<'a>]) -> Vec<LegendRow<'a>> {
     let curves = curves.iter().map(|drawn| (drawn.curve.label.as_str(), Some(drawn), drawn.colour));
     let bands = chart.bands.iter().map(|band| (band.label.as_str(), None, band.colour));
-    let mut entries: Vec<Entry<'_>> = Vec::new();
+    let mut entries: Vec<LegendRow<'_>> = Vec::new();
     let (mut row, mut left) = (0, 0.0);
     for (label, drawn, colour) in curves.chain(bands) {
         if label.is_empty() || entries.iter().any(|entry| entry.label == label) {
@@ -211,13 +212,13 @@ fn legend<'a>(chart: &'a Chart, curves: &'a [Drawn<'a>]) -> Vec<Entry<'a>> {
         if left > 0.0 && left + width > WIDTH {
             (row, left) = (row + 1, 0.0);
         }
-        entries.push(Entry { label, drawn, colour, row, left });
+        entries.push(LegendRow { label, drawn, colour, row, left });
         left += width;
     }
     entries
 }
 
-/// Class and colour of a fill or a stroke.
+/// Returns class and colour of a fill or a stroke.
 fn paint(colour: &str, attribute: &str) -> String {
     let class = match COLOURS.iter().position(|known| *known == colour) {
         Some(k) => format!("c{k}"),

@@ -1,14 +1,14 @@
-//! From values to places along an axis.
+//! Positions of values along an axis.
 
 use crate::chart::Axis;
 use crate::ticks::ticks;
 
 /// Free space above the data of an axis that begins at zero.
 const HEADROOM: f64 = 0.05;
-/// Fewer decades than this have ticks between them.
+/// Below this number of decades there are ticks within decades.
 const FEW_DECADES: f64 = 2.5;
 
-/// What an axis shows.
+/// The range of an axis.
 pub(crate) struct Scale {
     from: f64,
     to: f64,
@@ -16,8 +16,8 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// The range that the axis is given, or that of the data with zero in it where it `stands`, upward, on
-    /// zero; `None` if nothing has a place.
+    /// Returns the given range of the axis, or that of the data, extended to zero if the axis `stands` (a
+    /// vertical one); `None` if there is no value to show.
     pub fn of(axis: &Axis, values: impl Iterator<Item = f64>, stands: bool) -> Option<Self> {
         let is_logarithmic = axis.is_logarithmic;
         let (mut from, mut to) = axis.range.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
@@ -44,7 +44,7 @@ impl Scale {
         is_sound.then_some(Self { from, to, is_logarithmic })
     }
 
-    /// 0 at the beginning of the axis, 1 at its end.
+    /// Returns the position of a value: 0 at the beginning of the axis, 1 at its end.
     pub fn share(&self, value: f64) -> f64 {
         match self.is_logarithmic {
             true => (value / self.from).ln() / (self.to / self.from).ln(),
@@ -52,12 +52,12 @@ impl Scale {
         }
     }
 
-    /// A value, or the end of the axis that it is beyond.
+    /// Limits a value to the range.
     pub fn held(&self, value: f64) -> f64 {
         value.clamp(self.from, self.to)
     }
 
-    /// Values with a number, about so many on a linear axis.
+    /// Returns the values of ticks, at most about `n` on a linear axis.
     pub fn ticks(&self, n: usize) -> Vec<f64> {
         if !self.is_logarithmic {
             return ticks((self.from, self.to), n);

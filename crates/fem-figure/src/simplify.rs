@@ -1,7 +1,7 @@
-//! Curves of few points that look the same.
+//! Simplification of curves without a visible change.
 
-/// Indices of the points that a curve needs so that none of the others is further from it than a
-/// tolerance (Ramer 1972, Douglas & Peucker 1973); the first and the last are among them.
+/// Returns the indices of points such that no other point is further from the line through them than a
+/// tolerance (Ramer 1972, Douglas & Peucker 1973). The first and the last point are kept.
 pub(crate) fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<usize> {
     let Some(last) = points.len().checked_sub(1) else { return Vec::new() };
     let mut is_kept = vec![false; points.len()];
@@ -18,7 +18,7 @@ pub(crate) fn simplify(points: &[[f64; 2]], tolerance: f64) -> Vec<usize> {
     (0..points.len()).filter(|k| is_kept[*k]).collect()
 }
 
-/// Of a point from the segment between two others.
+/// Returns the distance of a point from the segment between two others.
 fn distance([x, y]: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
     let along = [to[0] - from[0], to[1] - from[1]];
     let offset = [x - from[0], y - from[1]];

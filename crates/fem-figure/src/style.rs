@@ -1,15 +1,15 @@
-//! Colours, numbers and words.
+//! Colours, numbers and text.
 
 use std::fmt::Write;
 
-/// Colours that stay apart for colour-blind eyes (Okabe and Ito 2008), used in turn.
+/// Colours that colour-blind readers can distinguish (Okabe and Ito 2008), used in turn.
 pub const COLOURS: [&str; 7] =
     ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
-/// For what stands beside the data: a closed form, a limit.
+/// The colour of references: closed forms and limits.
 pub const GREY: &str = "#555555";
 
-/// Colours along a number, dark blue to yellow: samples of viridis (van der Walt and Smith 2015), even in
-/// lightness and apart for colour-blind eyes; its light end, which paper does not show, is left out.
+/// Samples of the colour map viridis (van der Walt and Smith 2015), dark blue to green, even in lightness
+/// and distinguishable for colour-blind readers, without its light end, which is faint on paper.
 const SEQUENCE: [[u8; 3]; 7] = [
     [68, 1, 84],
     [70, 50, 127],
@@ -20,7 +20,7 @@ const SEQUENCE: [[u8; 3]; 7] = [
     [159, 218, 58],
 ];
 
-/// `#rrggbb` of the k-th of n curves that a number tells apart: no two of them alike.
+/// Returns the colour `#rrggbb` of the k-th of n curves that a number distinguishes; no two are equal.
 pub fn colour_along(k: usize, n: usize) -> String {
     let place = k as f64 / n.saturating_sub(1).max(1) as f64 * (SEQUENCE.len() - 1) as f64;
     let from = (place.floor() as usize).min(SEQUENCE.len() - 2);
@@ -32,7 +32,7 @@ pub fn colour_along(k: usize, n: usize) -> String {
     format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
 }
 
-/// A tick's number: as short as it can be said, rounding errors left out.
+/// Returns the number of a tick in its shortest form, without rounding errors.
 pub fn tick(value: f64) -> String {
     let rounded = rounded(value);
     let size = rounded.abs();
@@ -43,34 +43,34 @@ pub fn tick(value: f64) -> String {
     }
 }
 
-/// A tick's number on a logarithmic axis: small ones as powers, which take no more room than their labels are
-/// placed for.
+/// Returns the number of a tick on a logarithmic axis; small ones as powers, which fit the room that kuva
+/// reserves.
 pub(crate) fn decade(value: f64) -> String {
     if value < 0.1 { format!("{:e}", rounded(value)) } else { tick(value) }
 }
 
-/// Without the errors of rounding.
+/// Removes rounding errors.
 fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }
 
-/// Text and lines.
+/// The colour of text and lines.
 pub(crate) const INK: &str = "#1c2126";
-/// Text and lines of less weight, and lines behind the data.
+/// The colour of secondary text and lines.
 pub(crate) const DIM: &str = "#5a626b";
 pub(crate) const GRID: &str = "#dfe3e8";
-/// Fonts of what is drawn here.
+/// The fonts.
 pub(crate) const FONT: &str = "DejaVu Sans, Arial, Helvetica, sans-serif";
 
-/// Width of a letter over the size of the font, about.
+/// Approximate width of a character over the font size.
 pub(crate) const LETTER: f64 = 0.56;
 
-/// Text that is safe in SVG and HTML.
+/// Escapes text for SVG and HTML.
 pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// With a true minus sign.
+/// Returns the number of a tick with a true minus sign.
 pub(crate) fn number(value: f64) -> String {
     tick(value).replace('-', "\u{2212}")
 }
@@ -78,8 +78,8 @@ pub(crate) fn number(value: f64) -> String {
 /// Longest subscript of a symbol.
 const LONGEST_BELOW: usize = 3;
 
-/// Text for SVG; letters after the `_` of a symbol of one letter, p_0 or σ_yy, are set below the line. Names
-/// such as glass_on_wall stay as they are.
+/// Returns text for SVG. Characters after the `_` of a symbol of one letter, p_0 or σ_yy, become a
+/// subscript; names such as glass_on_wall are unchanged.
 pub(crate) fn words(text: &str) -> String {
     let mut words = String::new();
     let mut rest = text;
@@ -98,7 +98,8 @@ pub(crate) fn words(text: &str) -> String {
             rest = &after[end..];
             continue;
         }
-        // A first space in a span is dropped; an empty span would not bring the line back up.
+        // A space at the start of a span is dropped, and an empty span would not return to the
+        // baseline.
         let (gap, onward) = after[end..].strip_prefix(' ').map_or((0, &after[end..]), |on| (4, on));
         let next = onward.find('_').map_or(onward.len(), |next| word_start(onward, next));
         let (line, onward) = onward.split_at(next);
@@ -114,7 +115,7 @@ pub(crate) fn words(text: &str) -> String {
     words + &escaped(rest)
 }
 
-/// Where the word that a place is in begins.
+/// Returns the start of the word at a position.
 fn word_start(text: &str, place: usize) -> usize {
     text[..place].rfind(char::is_whitespace).map_or(0, |space| space + 1)
 }

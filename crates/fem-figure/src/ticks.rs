@@ -1,16 +1,16 @@
-//! Where the ticks of a linear axis are.
+//! Ticks of a linear axis.
 
 use crate::contour::Levels;
 
-/// Multiples of 1, 2 or 5 times a power of ten in a range, at most so many intervals of it; none of a
-/// range without a length.
+/// Returns multiples of 1, 2 or 5 times a power of ten within a range, with at most `n` intervals; none for
+/// a range without length.
 pub(crate) fn ticks((from, to): (f64, f64), n: usize) -> Vec<f64> {
     let length = to - from;
     if !(length > 0.0 && length.is_finite()) {
         return Vec::new();
     }
     let step = Levels::about_zero(0.0, length, n).step();
-    // A tick at the end of a range is kept, whatever rounding says.
+    // A tick at the end of the range is kept in spite of rounding.
     let (first, last) = ((from / step - 1e-9).ceil() as i64, (to / step + 1e-9).floor() as i64);
     (first..=last).map(|k| k as f64 * step).collect()
 }

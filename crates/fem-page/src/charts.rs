@@ -1,29 +1,29 @@
-//! Curves of a collision over its time, as pictures that a page restyles by their classes.
+//! Charts of a collision over time, as pictures that a page restyles by their classes.
 
 use fem::{Account, Row};
 use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve, Mark};
 use serde::{Deserialize, Serialize};
 
-/// What the reference is called in legends.
+/// The legend entry of the reference.
 const HERTZ: &str = "Hertz";
-/// Of the largest energy, what an account has to reach to have a curve.
+/// Least share of the largest energy from which an account gets a curve.
 const LEAST: f64 = 1e-3;
 
-/// Pictures over time, as SVG; none where there is nothing to draw.
+/// Charts over time as SVG; `None` if there is nothing to draw.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Charts {
-    /// Of the contact.
+    /// The contact force.
     pub force: Option<String>,
-    /// Of the mass centres.
+    /// The approach of the mass centres.
     pub approach: Option<String>,
-    /// Where the energy is.
+    /// The energies.
     pub energy: Option<String>,
 }
 
 impl Charts {
-    /// A run beside Hertz' theory of the same bodies; `common` is the energy (J) of their common motion, which
-    /// is not drawn, if it is known.
+    /// Draws a run beside Hertz' theory of the same bodies; `common` is the energy (J) of their common
+    /// motion, if it is known, which is not drawn.
     pub(crate) fn of(run: &[Row], hertz: &[Row], common: Option<f64>) -> Self {
         Self {
             force: compared(run, hertz, ("contact force", "N"), |row| row.contact_force),
@@ -33,7 +33,7 @@ impl Charts {
     }
 }
 
-/// A unit that fits the largest of some numbers.
+/// Returns a unit that fits the largest of some numbers.
 fn unit(numbers: impl Iterator<Item = f64>, symbol: &str) -> Unit {
     Unit::fitting(numbers.fold(0.0, |largest: f64, number| largest.max(number.abs())), symbol)
 }
@@ -62,8 +62,8 @@ fn compared(
     fem_figure::panel(&chart)
 }
 
-/// An account over the rows, J.
-struct Course {
+/// An account of energy over the rows, J.
+struct EnergyCurve {
     name: String,
     colour: usize,
     energies: Vec<Option<f64>>,
@@ -75,7 +75,7 @@ fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
     let largest = all().fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
     let (time, own) = (time_unit(run), unit(all(), "J"));
     let mut chart = Chart::new(axis("time", &time), axis("energy", &own));
-    let is_seen = |course: &&Course| {
+    let is_seen = |course: &&EnergyCurve| {
         course.energies.iter().flatten().any(|energy| energy.abs() > LEAST * largest)
     };
     for course in courses.iter().filter(is_seen) {
@@ -88,11 +88,11 @@ fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
     fem_figure::panel(&chart)
 }
 
-/// Motion without the common one, and the other accounts; deformation and heat as one where the model does not tell
-/// them apart on the way.
+/// Returns the relative motion and the other accounts; deformation and heat are one curve if the model does
+/// not distinguish them during the contact.
 fn courses(run: &[Row], common: Option<f64>) -> Vec<Course> {
     let motion = |row: &Row| Some(row.energy(Account::Kinetic)? - common.unwrap_or_default());
-    let named = |name: &str, colour: usize, get: &dyn Fn(&Row) -> Option<f64>| Course {
+    let named = |name: &str, colour: usize, get: &dyn Fn(&Row) -> Option<f64>| EnergyCurve {
         name: name.to_string(),
         colour,
         energies: run.iter().map(get).collect(),
@@ -120,7 +120,7 @@ fn courses(run: &[Row], common: Option<f64>) -> Vec<Course> {
     courses
 }
 
-/// Which colour of charts an account has: the page's bar of energies has the same.
+/// Returns the index of an account's colour, which is also that of the page's bar of energies.
 fn colour(account: Account) -> usize {
     match account {
         Account::Kinetic => 0,
@@ -133,50 +133,50 @@ fn colour(account: Account) -> usize {
     }
 }
 
-/// A chart that a page asks for: of many collisions, of measured points.
+/// A chart requested by the page, of many collisions or of measured points.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChartSpec {
-    /// Horizontal axis: quantity and unit.
+    /// Label of the horizontal axis: quantity and unit.
     pub x: String,
-    /// Vertical axis: quantity and unit.
+    /// Label of the vertical axis: quantity and unit.
     pub y: String,
     /// Whether the axes are logarithmic.
     #[serde(default)]
     pub logarithmic: [bool; 2],
-    /// From where to where the vertical axis goes, whatever the points.
+    /// Range of the vertical axis, independent of the points.
     #[serde(default)]
     pub range: Option<(f64, f64)>,
-    /// In the order of the legend.
+    /// The curves in the order of the legend.
     pub curves: Vec<CurveSpec>,
 }
 
-/// A curve of it.
+/// A curve of such a chart.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveSpec {
-    /// In the legend.
+    /// Label in the legend.
     pub label: String,
-    /// `line`, `dashed` or `points`.
+    /// One of `line`, `dashed` and `points`.
     pub mark: MarkSpec,
-    /// (x, y).
+    /// Points (x, y).
     pub points: Vec<(f64, f64)>,
 }
 
-/// How it is drawn.
+/// How a curve is drawn.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MarkSpec {
-    /// Points on a line: what was computed.
+    /// Points on a line, for computed values.
     Line,
-    /// What it is compared with.
+    /// A dashed line, for references.
     Dashed,
-    /// What was measured.
+    /// Points, for measured values.
     Points,
 }
 
 impl ChartSpec {
-    /// As SVG; `None` without a point.
+    /// Draws the chart as SVG; `None` without a point.
     pub fn svg(&self) -> Option<String> {
         let axis = |label: &str, is_logarithmic: bool| match is_logarithmic {
             true => Axis::new(label).logarithmic(),

@@ -1,28 +1,28 @@
-//! What is wrong with a case, for whoever wrote it.
+//! Errors of a case, for the page.
 
 use fem_case::CaseError;
 use serde::Serialize;
 
-/// What is wrong with a case, where, and what is allowed.
+/// An error of a case, its position, and what is allowed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Fault {
-    /// What was found.
+pub struct CaseFault {
+    /// The error.
     pub message: String,
     /// What is allowed, or what to do.
     pub help: Option<String>,
-    /// The dotted path of the key that it is about.
+    /// The dotted path of the key.
     pub key: Option<String>,
-    /// Of the text, from 1; with `column`.
+    /// Line in the text, from 1; with `column`.
     pub line: Option<usize>,
-    /// In characters, from 1.
+    /// Column in characters, from 1.
     pub column: Option<usize>,
-    /// All of it as plain text, with the line of the case and what in it is at fault.
+    /// The whole error as plain text, with the line of the case.
     pub text: String,
-    /// What else is wrong with the same case.
-    pub others: Vec<Fault>,
+    /// Further errors in the same case.
+    pub others: Vec<CaseFault>,
 }
 
-impl From<CaseError> for Fault {
+impl From<CaseError> for CaseFault {
     fn from(mut error: CaseError) -> Self {
         let others = error.take_others().into_iter().map(Self::from).collect();
         Self {

@@ -1,13 +1,13 @@
-//! The front door in a browser: text of a case in, numbers and pictures out.
+//! Collisions in the browser: the text of a case goes in, numbers and pictures come out.
 //!
 //! ```text
 //! page (HTML, CSS, JavaScript in web/) ─ worker ─ module ─ Session ─ fem
 //! sliders, pictures, stories             slices   JSON      one case   any model
 //! ```
 //!
-//! A [`Session`] has the case that was read last, its collision, and the condensed bodies that cases
-//! share; it knows neither a browser nor a clock. [`module`] is what WebAssembly exports of it: numbers
-//! and bytes, no import. `build.sh` makes the page of both, one file.
+//! A [`Session`] holds the last case, its collision, and the condensed bodies that cases share; it knows neither a
+//! browser nor a clock. [`module`] is its WebAssembly interface, which exchanges numbers and bytes and imports
+//! nothing. `build.sh` combines both into a page of one file.
 
 mod charts;
 mod contour;
@@ -20,8 +20,8 @@ mod sharing;
 
 pub use charts::{ChartSpec, Charts, CurveSpec, MarkSpec};
 pub use contour::StressPicture;
-pub use fault::Fault;
+pub use fault::CaseFault;
 pub use library_entry::LibraryEntry;
-pub use outcome::{Begun, Frame, Outcome, Price};
-pub use session::{Ask, Session};
-pub use sharing::Sharing;
+pub use outcome::{CostEstimate, FrameInfo, RunOutcome, RunStart};
+pub use session::{RecordedAmount, Session};
+pub use sharing::EnergyShares;

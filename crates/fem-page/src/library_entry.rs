@@ -1,4 +1,4 @@
-//! A material of the library, for a page to choose.
+//! Materials of the library, for the page to choose.
 
 use fem_case::library::{materials, table_text};
 use serde::Serialize;
@@ -6,20 +6,20 @@ use serde::Serialize;
 /// A material of the library.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct LibraryEntry {
-    /// Without `lib:`.
+    /// Name, without `lib:`.
     pub name: &'static str,
-    /// What it is, in words.
+    /// Title.
     pub title: &'static str,
-    /// Where its numbers are from.
+    /// Source of the numbers.
     pub source: &'static str,
-    /// Where they hold, and how far they scatter.
+    /// Range of validity, and scatter.
     pub range: &'static str,
     /// Its table in a case, as TOML; relaxation comes last.
     pub text: String,
 }
 
 impl LibraryEntry {
-    /// All of them, by name.
+    /// Returns all materials, by name.
     pub fn all() -> Vec<Self> {
         let entry = |(name, material): (&'static String, &'static fem_case::library::Material)| {
             let text = table_text(name)?;

@@ -1,14 +1,14 @@
-//! What WebAssembly exports: numbers and bytes.
+//! The WebAssembly interface: numbers and bytes.
 //!
 //! ```text
-//! page_reserve(n)  →  address of n bytes, for a text
+//! page_reserve(n)  →  address of n bytes for a text
 //! page_begin(rows, frames), page_advance(pieces), page_finish(seconds)
 //! page_picture(index, half_width), page_chart(), page_materials()
-//! page_answer(), page_answer_length()  →  what one of these has answered, as JSON
+//! page_answer(), page_answer_length()  →  the answer to one of these, as JSON
 //! ```
 //!
-//! Memory may grow in any call, so addresses are asked for after it. A failure ends the module
-//! with a trap, also that no memory is left; [`page_answer`] then still leads to what it said, if anything.
+//! Memory may grow in any call, so addresses must be requested after it. A failure, also for lack of memory, ends the
+//! module with a trap; [`page_answer`] then still points to its message, if there is one.
 
 use std::cell::RefCell;
 use std::panic;
@@ -17,15 +17,15 @@ use std::sync::{Mutex, Once, PoisonError};
 use serde::Serialize;
 
 use crate::charts::ChartSpec;
-use crate::fault::Fault;
+use crate::fault::CaseFault;
 use crate::library_entry::LibraryEntry;
-use crate::session::{Ask, Session};
+use crate::session::{RecordedAmount, Session};
 
 thread_local! {
     static PAGE: RefCell<Page> = RefCell::default();
 }
 
-/// Apart from the rest, which a trap leaves borrowed.
+/// Separate from the page's state, which a trap leaves borrowed.
 static ANSWER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 static HOOK: Once = Once::new();
 
@@ -35,7 +35,7 @@ struct Page {
     session: Session,
 }
 
-/// What was answered before is gone, so that a trap without a word leaves none.
+/// Clears the previous answer, so that a trap without a message leaves none.
 fn with<T>(act: impl FnOnce(&mut Page) -> T) -> T {
     answer(Vec::new());
     PAGE.with(|page| act(&mut page.borrow_mut()))
@@ -46,11 +46,11 @@ fn answer(bytes: Vec<u8>) {
 }
 
 fn answer_json<T: Serialize>(value: &T) {
-    // Structs of texts and numbers: the one way to fail is no memory.
+    // Serialisation fails only if there is no memory.
     answer(serde_json::to_vec(value).unwrap_or_default());
 }
 
-/// Room for a text of so many bytes: where to write it.
+/// Reserves `length` bytes for a text and returns their address.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_reserve(length: usize) -> *mut u8 {
     HOOK.call_once(|| panic::set_hook(Box::new(|what| answer(what.to_string().into_bytes()))));
@@ -60,52 +60,52 @@ pub extern "C" fn page_reserve(length: usize) -> *mut u8 {
     })
 }
 
-/// Begins the collision of the case whose text was written: 0, or 1 where something is wrong with it.
-/// The answer is a [`Begun`](crate::Begun) or a [`Fault`].
+/// Begins the collision of the case whose text was written and returns 0, or 1 if the case has an error.
+/// The answer is a [`RunStart`](crate::RunStart) or a [`CaseFault`].
 #[unsafe(no_mangle)]
 pub extern "C" fn page_begin(rows: usize, frames: usize) -> u32 {
     with(|page| {
         let text = String::from_utf8_lossy(&page.text).into_owned();
-        match page.session.begin(&text, Ask { rows, frames }) {
+        match page.session.begin(&text, RecordedAmount { rows, frames }) {
             Ok(begun) => {
                 answer_json(&begun);
                 0
             }
             Err(error) => {
-                answer_json(&Fault::from(error));
+                answer_json(&CaseFault::from(error));
                 1
             }
         }
     })
 }
 
-/// Goes on by so many pieces: how much of the run is done, 1 when it is over.
+/// Computes the next pieces of the run and returns the completed share, 1 when it is over.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_advance(pieces: u32) -> f64 {
     with(|page| page.session.advance(pieces))
 }
 
-/// Ends the run, over or not, after so long, s. The answer is an [`Outcome`](crate::Outcome), or null.
+/// Ends the run, complete or not, after this time in seconds. The answer is a
+/// [`RunOutcome`](crate::RunOutcome), or null.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_finish(seconds: f64) {
     with(|page| answer_json(&page.session.finish(seconds)));
 }
 
-/// Draws the bodies at an instant, in a window of so many contact radii to each side of the contact.
+/// Draws the bodies at an instant, in a window of `half_width` contact radii to each side of the contact.
 /// The answer is a [`StressPicture`](crate::StressPicture), or null.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_picture(index: usize, half_width: f64) {
     with(|page| answer_json(&page.session.picture(index, half_width)));
 }
 
-/// The answer is the library: each material's name and title, what its numbers are from and where they
-/// hold, and its table in a case.
+/// Answers with the library: each material's name, title, source, range of validity and table in a case.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_materials() {
     answer_json(&LibraryEntry::all());
 }
 
-/// Draws the chart whose [`ChartSpec`] was written. The answer is a text of SVG, or null.
+/// Draws the chart whose [`ChartSpec`] was written. The answer is SVG text, or null.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_chart() {
     with(|page| {
@@ -114,13 +114,13 @@ pub extern "C" fn page_chart() {
     });
 }
 
-/// Where the answer begins.
+/// Returns the address of the answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_answer() -> *const u8 {
     ANSWER.lock().unwrap_or_else(PoisonError::into_inner).as_ptr()
 }
 
-/// Its length in bytes.
+/// Returns the length of the answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn page_answer_length() -> usize {
     ANSWER.lock().unwrap_or_else(PoisonError::into_inner).len()

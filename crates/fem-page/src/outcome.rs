@@ -1,36 +1,36 @@
-//! What a page is told: before a run, and after it.
+//! What the page receives before and after a run.
 
 use fem::{CaseFile, Collision, Cost, Row, Summary};
 use serde::Serialize;
 
 use crate::charts::Charts;
-use crate::sharing::Sharing;
+use crate::sharing::EnergyShares;
 
 /// A case that is ready to run.
 #[derive(Clone, Debug, Serialize)]
-pub struct Begun {
-    /// The case as written, numbers in SI.
+pub struct RunStart {
+    /// The case as written, with numbers in SI.
     pub case: CaseFile,
-    /// In a few words: what computes it.
+    /// A short description of the model.
     pub model: String,
-    /// What it will take.
-    pub price: Price,
-    /// What the user should know before the run.
+    /// The cost estimate.
+    pub price: CostEstimate,
+    /// Warnings before the run.
     pub warnings: Vec<String>,
 }
 
-/// What a run will take.
+/// The cost estimate of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Price {
-    /// Of both bodies, of a model that has them.
+pub struct CostEstimate {
+    /// Elements of both bodies, if the model has any.
     pub elements: Option<u64>,
-    /// Of a model that steps.
+    /// Number of steps, if the model has any.
     pub steps: Option<u64>,
-    /// Elements times steps, of a model that computes each at each.
+    /// Elements times steps, for models that update every element in every step.
     pub element_updates: Option<u64>,
 }
 
-impl From<Cost> for Price {
+impl From<Cost> for CostEstimate {
     fn from(cost: Cost) -> Self {
         match cost {
             Cost::Steps { elements, steps, element_updates, .. } => Self {
@@ -46,32 +46,32 @@ impl From<Cost> for Price {
     }
 }
 
-/// A collision as far as it got.
+/// A collision, complete or not.
 #[derive(Clone, Debug, Serialize)]
-pub struct Outcome {
-    /// As the command writes it.
+pub struct RunOutcome {
+    /// The summary, as the command writes it.
     pub summary: Summary,
-    /// Where the energy went; none where it comes from outside, too, or is not known.
-    pub sharing: Option<Sharing>,
-    /// Over contact and separation.
+    /// The shares of the energy; `None` if there is external work, or if they are not known.
+    pub sharing: Option<EnergyShares>,
+    /// Charts over contact and separation.
     pub charts: Charts,
-    /// Instants whose fields can be drawn, in the order of time.
-    pub frames: Vec<Frame>,
+    /// The instants whose fields can be drawn, in order.
+    pub frames: Vec<FrameInfo>,
 }
 
 /// An instant whose fields are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Frame {
-    /// Since first touch.
+pub struct FrameInfo {
+    /// Time since first touch.
     pub time_s: f64,
-    /// Of the mass centres.
+    /// Approach of the mass centres.
     pub approach_m: f64,
-    /// Of the contact, between two rows of the history.
+    /// Contact force, interpolated in the history.
     pub contact_force_n: Option<f64>,
 }
 
-impl Frame {
-    /// Those of a collision whose bodies first touch at a time, s.
+impl FrameInfo {
+    /// Returns the instants of a collision whose bodies first touch at this time, s.
     pub(crate) fn all(collision: &Collision, first_touch: f64) -> Vec<Self> {
         let frame = |snapshot: &fem::Snapshot| Self {
             time_s: snapshot.time - first_touch,
@@ -82,7 +82,7 @@ impl Frame {
     }
 }
 
-/// Contact force (N) at a time (s), linear between rows; `None` beyond them.
+/// Interpolates the contact force (N) linearly at a time (s); `None` beyond the rows.
 fn force_at(rows: &[Row], time: f64) -> Option<f64> {
     let next = rows.partition_point(|row| row.time < time);
     let after = rows.get(next)?;

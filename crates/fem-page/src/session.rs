@@ -1,4 +1,4 @@
-//! One case after the other, each in steps that the caller paces.
+//! A session: one case after the other, each computed in pieces at the pace of the caller.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,33 +12,33 @@ use fem::{
 
 use crate::charts::Charts;
 use crate::contour::{StressPicture, picture};
-use crate::outcome::{Begun, Frame, Outcome};
-use crate::sharing::{Sharing, common_of};
+use crate::outcome::{FrameInfo, RunOutcome, RunStart};
+use crate::sharing::{EnergyShares, common_of};
 
-/// What faults call the text.
+/// The name of the text in errors.
 const SOURCE: &str = "the case";
-/// Bytes that a run may take: a module of 32 bits has 4 GB, other cases and the results in them.
+/// Memory limit of a run in bytes: a 32-bit module has 4 GB, which other cases and their results share.
 const MOST_MEMORY: f64 = 2.5e9;
-/// Bytes that condensed bodies may take which are kept for the next case: some dozens of them.
+/// Memory limit of the condensed bodies that are kept for the next case, in bytes.
 const MOST_KEPT: usize = 200_000_000;
 
-/// A run that is not over is not whole.
+/// Largest progress of an unfinished run.
 const MOST_UNDER_WAY: f64 = 0.999;
 
-/// What a run is asked for beside its numbers.
+/// How much a run records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ask {
+pub struct RecordedAmount {
     /// Rows of the history over the expected contact.
     pub rows: usize,
-    /// Instants whose fields are kept, evenly over the contact.
+    /// Instants with fields, evenly spaced over the contact.
     pub frames: usize,
 }
 
-/// The case that was read last and its collision, and what cases share.
+/// The last case and its collision, and what cases share.
 pub struct Session {
     shared: Shared,
     simulation: Option<Simulation>,
-    ask: Option<Ask>,
+    ask: Option<RecordedAmount>,
     course: Option<Box<dyn Course>>,
     collision: Option<Collision>,
 }
@@ -51,7 +51,7 @@ impl Default for Session {
     }
 }
 
-/// A case that leaves its limit of memory open, with that of a browser.
+/// Sets the memory limit of a browser in a case that has none.
 fn within_memory(case: Case) -> Result<Case, CaseError> {
     match case.gives("limits.memory") {
         true => Ok(case),
@@ -62,11 +62,11 @@ fn within_memory(case: Case) -> Result<Case, CaseError> {
 }
 
 impl Session {
-    /// Reads a case and begins its collision, in place of the one before.
+    /// Reads a case and begins its collision; the previous one is dropped.
     ///
     /// # Errors
-    /// What is wrong with the case, what its model refuses, more than a run keeps.
-    pub fn begin(&mut self, text: &str, ask: Ask) -> Result<Begun, CaseError> {
+    /// The case is invalid, its model rejects it, or it would record too much.
+    pub fn begin(&mut self, text: &str, ask: RecordedAmount) -> Result<RunStart, CaseError> {
         (self.simulation, self.course, self.collision) = (None, None, None);
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
         let mut simulation = Simulation::sharing(case, &self.shared)?;
@@ -75,7 +75,7 @@ impl Session {
         let too_much = |error: WantError| CaseError::new(SOURCE, error.to_string());
         simulation.ask_for(want).map_err(too_much)?;
         let setup = simulation.setup();
-        let begun = Begun {
+        let begun = RunStart {
             case: simulation.case().file().clone(),
             model: setup.description.clone(),
             price: setup.cost.into(),
@@ -86,7 +86,7 @@ impl Session {
         Ok(begun)
     }
 
-    /// Goes on by so many pieces of the run; how much of it is done, 1 when it is over.
+    /// Computes the next pieces of the run and returns the completed share, 1 when it is over.
     pub fn advance(&mut self, pieces: u32) -> f64 {
         let Some(course) = &mut self.course else { return 1.0 };
         for _ in 0..pieces {
@@ -97,24 +97,26 @@ impl Session {
         course.progress().fraction.min(MOST_UNDER_WAY)
     }
 
-    /// What came out, after so long, s; a run that is not over is interrupted. None if nothing runs.
-    pub fn finish(&mut self, seconds: f64) -> Option<Outcome> {
+    /// Returns the outcome after this time in seconds; an unfinished run is interrupted. `None` if nothing
+    /// runs.
+    pub fn finish(&mut self, seconds: f64) -> Option<RunOutcome> {
         let simulation = self.simulation.as_ref()?;
         let collision = self.course.take()?.finish();
         let spent = Spent { wall: seconds, solve: seconds, threads: 1, ..Spent::default() };
         let warnings = simulation.warnings(&collision);
         let hertz = self.hertz(simulation, &collision).unwrap_or_default();
-        let outcome = Outcome {
+        let outcome = RunOutcome {
             summary: Summary::of(simulation, &collision, spent, warnings, Vec::new()),
-            sharing: Sharing::of(&collision),
+            sharing: EnergyShares::of(&collision),
             charts: Charts::of(&collision.history, &hertz, common_of(&collision)),
-            frames: Frame::all(&collision, simulation.case().scene().first_touch()),
+            frames: FrameInfo::all(&collision, simulation.case().scene().first_touch()),
         };
         self.collision = Some(collision);
         Some(outcome)
     }
 
-    /// The same bodies by Hertz' theory, as long as the run goes; none where it has no answer.
+    /// Returns the history of the same bodies with Hertz' theory, as long as the run; `None` if it cannot
+    /// be computed.
     fn hertz(&self, simulation: &Simulation, collision: &Collision) -> Option<Vec<Row>> {
         let case = simulation.case().edited(|file| file.model = Some(ModelTable::hertz())).ok()?;
         let mut hertz = Simulation::sharing(case, &self.shared).ok()?;
@@ -125,8 +127,8 @@ impl Session {
         Some(rows)
     }
 
-    /// The bodies at an instant, in a window of so many contact radii to each side of the contact; none of a
-    /// model without fields.
+    /// Draws the bodies at an instant, in a window of `half_width` contact radii to each side of the
+    /// contact; `None` for a model without fields.
     pub fn picture(&self, index: usize, half_width: f64) -> Option<StressPicture> {
         picture(self.simulation.as_ref()?, self.collision.as_ref()?, index, half_width)
     }

@@ -1,5 +1,5 @@
-//! Where the energy of a collision went: what only the motion towards each other can lose, apart from the
-//! common motion, which no collision changes.
+//! The shares of a collision's energy. Only the relative motion of the bodies can lose energy; their common motion is
+//! changed by no collision.
 //!
 //! ```math
 //! \tfrac12m_1v_1^2+\tfrac12m_2v_2^2
@@ -8,35 +8,36 @@
 //! \qquad \frac1{m^*} = \frac1{m_1}+\frac1{m_2}
 //! ```
 //!
-//! (König's theorem). Of the relative part e² comes back as the bodies part; a body of infinite mass that
-//! rests has the whole motion relative to it. Energies of every body are those of the summary.
+//! (König's theorem). Of the relative part, e² is returned as rebound. If a body of infinite mass is at rest, the
+//! whole motion is relative to it. Energies of the bodies are those of the summary.
 
 use fem::{Account, Collision, Row};
 use serde::Serialize;
 
-/// How the energy is shared in the end.
+/// The shares of the energy at the end.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Sharing {
-    /// Of the mass centre of both, before and after, J.
+pub struct EnergyShares {
+    /// Energy of the common motion, the same before and after, J.
     pub common_j: f64,
-    /// Of the motion towards each other at first, J: what the collision can take.
+    /// Energy of the relative motion before the collision, J: the most that a collision can dissipate.
     pub relative_j: f64,
-    /// Where that is in the end, J: `rebound` first, then what else there is of motion, `ringing`, then
-    /// other accounts by name.
+    /// What it has become, J: `rebound` first, then the remaining motion, `ringing`, then the other
+    /// accounts by name.
     pub parts: Vec<(&'static str, f64)>,
 }
 
-/// Two bodies that move along one line.
+/// The masses of two bodies that move along one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Masses([f64; 2]);
 
 impl Masses {
-    /// Of a collision's bodies; one without a mass is of infinite mass.
+    /// Reads the masses of a collision's bodies; a body without a mass has an infinite one.
     pub fn of(collision: &Collision) -> Self {
         Self(collision.bodies.each_ref().map(|body| body.mass.unwrap_or(f64::INFINITY)))
     }
 
-    /// Energy of the common motion, J, and of the relative one; none where what is of infinite mass moves.
+    /// Returns the energies of the common and of the relative motion, J; `None` if a body of infinite mass
+    /// moves.
     pub fn motions(self, [v1, v2]: [f64; 2]) -> Option<(f64, f64)> {
         let approach = v1 - v2;
         match self.0 {
@@ -53,9 +54,9 @@ impl Masses {
     }
 }
 
-impl Sharing {
-    /// Of a collision from its first row to its last. None where gravity or a body that is driven gives
-    /// energy on the way, or the energies are not known.
+impl EnergyShares {
+    /// Compares the first and the last row of a collision. `None` if gravity or a driven body does work, or
+    /// if the energies are not known.
     pub(crate) fn of(collision: &Collision) -> Option<Self> {
         let (first, last) = (collision.history.first()?, collision.history.last()?);
         if last.energy(Account::Potential).is_some() || last.energy(Account::LeftBefore).is_some() {
@@ -80,10 +81,11 @@ impl Sharing {
     }
 }
 
-/// What of the motion rounding leaves.
+/// Relative size of rounding errors of the motion.
 const SMALLEST: f64 = 1e-9;
 
-/// Energy of the common motion that every row of a history has, J; none where it changes or is not known.
+/// Returns the energy of the common motion in every row of a history, J; `None` if it changes or is not
+/// known.
 pub(crate) fn common_of(collision: &Collision) -> Option<f64> {
     let row: &Row = collision.history.first()?;
     if row.energy(Account::Potential).is_some() {
@@ -96,7 +98,7 @@ pub(crate) fn common_of(collision: &Collision) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// By hand: 1 kg at 3 m/s and 2 kg at rest have 1.5 J together and 3 J towards each other.
+    /// By hand: 1 kg at 3 m/s and 2 kg at rest have 1.5 J of common and 3 J of relative motion.
     #[test]
     fn common_and_relative_motion_are_the_whole() {
         assert_eq!(Masses([1.0, 2.0]).motions([3.0, 0.0]), Some((1.5, 3.0)));

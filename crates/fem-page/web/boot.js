@@ -1,4 +1,4 @@
-// What goes wrong is told, also in a browser too old for the rest: plain words of long ago.
+// Reports errors, also in browsers that are too old for the rest: this file uses old JavaScript only.
 (function () {
   'use strict';
   var box = document.getElementById('fault');
@@ -15,7 +15,7 @@
     document.querySelector('main').classList.add('stale');
   }
   function failed(what) {
-    tell('Something in this page failed; what it shows may be of the case before.', what + ' – load the page again. If it fails again, whoever made it would like to know.');
+    tell('An error occurred in this page; it may still show the previous case.', what + ' – load the page again. If the error returns, please report it.');
   }
   window.addEventListener('error', function (event) { failed(String(event.message || event.error)); });
   window.addEventListener('unhandledrejection', function (event) { failed(String((event.reason && event.reason.message) || event.reason)); });
@@ -25,5 +25,5 @@
   if (!('noModule' in document.createElement('script'))) missing.push('modules');
   if (missing.length === 0) return;
   document.documentElement.dataset.missing = missing.join(', ');
-  tell('This browser cannot compute here.', 'It lacks ' + missing.join(', ') + ', or they are switched off. Chrome, Edge, Firefox and Safari have them since 2023.');
+  tell('This browser cannot compute here.', 'It lacks ' + missing.join(', ') + ', or they are switched off. Chrome, Edge, Firefox and Safari support them since 2023.');
 })();

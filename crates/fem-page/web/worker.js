@@ -1,4 +1,4 @@
-// Runs the module: one case at a time, in slices between which it hears what the page says.
+// Runs the module: one case at a time, in slices, between which it receives messages from the page.
 'use strict';
 
 const SLICE_MS = 40;
@@ -26,7 +26,7 @@ async function instantiate() {
   page = (await WebAssembly.instantiate(compiled, {})).exports;
 }
 
-// The module is packed: about a third of its size.
+// The module is compressed to about a third of its size.
 async function start({ id, packed }) {
   const bytes = Uint8Array.from(atob(packed), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
@@ -36,10 +36,10 @@ async function start({ id, packed }) {
   postMessage({ id, kind: 'done', materials: answer() });
 }
 
-// A trap leaves the module as it was in the middle of something: a new one takes its place.
+// A trap leaves the module in an undefined state, so it is replaced by a new one.
 async function failed(id, error) {
   const said = answerText();
-  const reason = `${said || 'It said nothing: most likely it had no memory left, of which a browser gives it 4 GB at most.'} (${error})`;
+  const reason = `${said || 'It gave no message: most likely it had no memory left; a browser gives it 4 GB at most.'} (${error})`;
   job = null;
   await instantiate();
   postMessage({ id, kind: 'failed', message: reason });
@@ -85,7 +85,7 @@ function slice(own) {
   postMessage({ id: own.id, kind: 'done', outcome, picture: drawn(index, own.halfWidth), index, seconds });
 }
 
-// The instant of the largest force; −1 without one.
+// Returns the index of the frame with the largest force; −1 without frames.
 function strongest(frames) {
   return frames.reduce((best, frame, k) => (best < 0 || frame.contact_force_n > frames[best].contact_force_n ? k : best), -1);
 }

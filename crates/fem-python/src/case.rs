@@ -7,11 +7,11 @@ use fem::{Identity, Simulation};
 use fem_command::{Failure, Given, Timed};
 use pyo3::prelude::*;
 
-use crate::failure::Raise;
+use crate::failure::OrRaise;
 use crate::outcome::Outcome;
 use crate::watch::{RunWatch, watched};
 
-/// A valid case: its text, overrides and what they make.
+/// A valid case with its text and overrides.
 #[pyclass(frozen, module = "fem_run._native")]
 #[derive(Clone)]
 pub struct Case {
@@ -34,7 +34,7 @@ impl Case {
         Ok(Self { name, text, folder, overrides, case })
     }
 
-    /// What jobs are given of it.
+    /// Returns the case as the input of a job.
     pub(crate) fn given(&self) -> Given {
         Given { case: Some(self.case.clone()), name: self.name.clone(), table: None }
     }
@@ -63,53 +63,53 @@ impl Case {
         Self::made(py, name, text, folder, overrides)
     }
 
-    /// What `parse` makes it of again, in another process too.
+    /// Returns the arguments of `parse` that make the case again, also in another process.
     fn parts(&self) -> (String, String, PathBuf, Vec<String>) {
         (self.name.clone(), self.text.clone(), self.folder.clone(), self.overrides.clone())
     }
 
-    /// The same case with more overrides, `KEY=VALUE`.
+    /// Returns the case with further overrides, `KEY=VALUE`.
     fn overridden(&self, py: Python<'_>, overrides: Vec<String>) -> PyResult<Self> {
         let (name, text, folder, mut all) = self.parts();
         all.extend(overrides);
         Self::made(py, name, text, folder, all)
     }
 
-    /// What messages call it.
+    /// Returns the name of the case in messages.
     #[getter]
     fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its title.
+    /// Returns the title of the case.
     #[getter]
     fn title(&self) -> &str {
         self.case.scene().title()
     }
 
-    /// The case as written, overrides in it, as TOML in SI.
+    /// Returns the case as written, with its overrides, as TOML in SI.
     fn to_toml(&self) -> String {
-        // A valid case has only what TOML can hold.
+        // A valid case contains only what TOML can hold.
         self.case.file().to_toml().unwrap_or_default()
     }
 
-    /// The number at a key in SI, and its unit.
+    /// Returns the number at a key in SI, and its unit.
     fn number_at(&self, parts: Vec<String>) -> Option<(f64, &'static str)> {
         self.case.file().number_at(parts.iter().map(String::as_str))
     }
 
-    /// What its result by this build is known by: the name of a sweep's member.
+    /// Returns the identity of the result with this build, which is also the name of a sweep's member.
     fn identity(&self, py: Python<'_>) -> PyResult<String> {
         Ok(Identity::of(&self.case).or_raise(py)?.result)
     }
 
-    /// What `fem-run check` prints.
+    /// Returns the text of `fem-run check`.
     fn check(&self, py: Python<'_>) -> PyResult<String> {
         let given = self.given();
         py.detach(|| fem_command::check(&given)).or_raise(py)
     }
 
-    /// Computes the collision; `report` is called with how far it is, 0 to 1.
+    /// Computes the collision; `report` is called with the progress, 0 to 1.
     fn run(
         &self,
         py: Python<'_>,

@@ -1,9 +1,10 @@
-//! Failures of the command as exceptions of Python.
+//! Failures of the command as Python exceptions.
 
 use fem_command::{Failure, Status};
 use pyo3::prelude::*;
 
-/// The exception of a failure: the class of its exit status, the words of the command, and where it is.
+/// Returns the exception of a failure: its class follows from the exit status; it has the message and the
+/// position.
 pub fn raised(py: Python<'_>, failure: &Failure) -> PyErr {
     let class = match failure.status() {
         Status::BadInput => "InputError",
@@ -25,16 +26,16 @@ pub fn raised(py: Python<'_>, failure: &Failure) -> PyErr {
     make().unwrap_or_else(|error| error)
 }
 
-/// Failures of what a front door of Rust gives, raised.
-pub trait Raise<T> {
-    /// The value, or the exception.
+/// Turns failures into Python exceptions.
+pub trait OrRaise<T> {
+    /// Returns the value, or the exception.
     ///
     /// # Errors
     /// The failure as an exception.
     fn or_raise(self, py: Python<'_>) -> PyResult<T>;
 }
 
-impl<T, E: Into<Failure>> Raise<T> for Result<T, E> {
+impl<T, E: Into<Failure>> OrRaise<T> for Result<T, E> {
     fn or_raise(self, py: Python<'_>) -> PyResult<T> {
         self.map_err(|error| raised(py, &error.into()))
     }

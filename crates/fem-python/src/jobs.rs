@@ -10,12 +10,12 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 use crate::case::Case;
-use crate::failure::Raise;
+use crate::failure::OrRaise;
 
-/// A table: its name and the bytes of its text, CSV.
+/// A table: its name and its CSV text in bytes.
 type Data = Option<(String, Vec<u8>)>;
 
-/// Does a job without Python's lock and gives its numbers as JSON.
+/// Runs a job without Python's lock and returns its numbers as JSON.
 fn done(
     py: Python<'_>,
     given: Given,
@@ -49,23 +49,23 @@ macro_rules! jobs {
 }
 
 jobs! {
-    /// `fem-run fit`.
+    /// Runs `fem-run fit`.
     fit;
-    /// `fem-run invert`.
+    /// Runs `fem-run invert`.
     invert;
-    /// `fem-run export`.
+    /// Runs `fem-run export`.
     export;
-    /// `fem-run calibrate`.
+    /// Runs `fem-run calibrate`.
     calibrate;
 }
 
-/// `fem-run cradle`.
+/// Runs `fem-run cradle`.
 #[pyfunction]
 pub fn cradle(py: Python<'_>, data: Data, options: Vec<String>) -> PyResult<String> {
     done(py, Given::default(), data, options, fem_command::cradle)
 }
 
-/// The materials library as JSON.
+/// Returns the library of materials as JSON.
 #[pyfunction]
 pub fn materials() -> String {
     let entry = |(name, found): (&String, &library::Material)| {
@@ -76,13 +76,13 @@ pub fn materials() -> String {
     Value::Object(library::materials().iter().map(entry).collect()).to_string()
 }
 
-/// `fem-run materials NAME`.
+/// Runs `fem-run materials NAME`.
 #[pyfunction]
 pub fn material_toml(py: Python<'_>, name: &str) -> PyResult<String> {
     fem_command::material(name).or_raise(py)
 }
 
-/// The command, with these words; gives the exit status.
+/// Runs the command line and returns the exit status.
 #[pyfunction]
 pub fn run_command(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| fem_command::run(words))

@@ -1,9 +1,9 @@
-//! The Python module `fem_run._native`, under what `python/fem_run` shows of it.
+//! The native part of the Python module: `fem_run._native`, below `python/fem_run`.
 //!
-//! Python code keeps the words that users meet; here are the classes that hold cases and collisions, and the
-//! calls that compute. What computes runs on a thread of its own without Python's lock, while the calling
-//! thread looks at signals and reports (`watch::watched`). Numbers go through JSON and CSV texts that read
-//! back to the same bits, or as arrays.
+//! The Python code has the interface for users; here are the classes for cases and collisions, and the
+//! calls that compute. Computations run on a thread of their own without Python's lock, while the calling
+//! thread handles signals and reports progress (`watch::watched`). Numbers are passed as arrays, or as JSON
+//! and CSV text that reads back to the same bits.
 
 #![allow(
     clippy::disallowed_methods,
@@ -17,7 +17,7 @@ mod outcome;
 mod sweep;
 mod watch;
 
-/// What `fem_run` stands on.
+/// The content of `fem_run._native`.
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]

@@ -1,4 +1,4 @@
-//! A collision that was computed.
+//! A computed collision.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -12,9 +12,9 @@ use numpy::{PyArray1, PyArrayMethods, PyUntypedArray};
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 
-use crate::failure::{Raise, raised};
+use crate::failure::{OrRaise, raised};
 
-/// A collision and what computed it.
+/// A collision with its simulation.
 #[pyclass(frozen, module = "fem_run._native")]
 pub struct Outcome {
     simulation: Simulation,
@@ -24,7 +24,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Sums a collision up.
+    /// Summarises a collision.
     pub fn of(simulation: Simulation, collision: Collision, stopwatch: Stopwatch) -> Self {
         let warnings = simulation.warnings(&collision);
         let spent = stopwatch.spent();
@@ -37,7 +37,7 @@ fn broken(error: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
 }
 
-/// An array of so many components a point or cell.
+/// Returns an array with one row per point or cell, of which there are `n`.
 fn array<'py>(py: Python<'py>, read: &ReadArray, n: usize) -> PyResult<Bound<'py, PyUntypedArray>> {
     let shaped = |len: usize| (len / n.max(1), n.max(1));
     if let Some(values) = read.as_float() {
@@ -53,19 +53,19 @@ fn array<'py>(py: Python<'py>, read: &ReadArray, n: usize) -> PyResult<Bound<'py
 
 #[pymethods]
 impl Outcome {
-    /// `summary.json`.
+    /// Returns `summary.json`.
     fn summary(&self) -> PyResult<String> {
         serde_json::to_string(&self.summary).map_err(broken)
     }
 
-    /// Why the run did not come to its end, as an exception.
+    /// Returns why the run stopped early, as an exception.
     fn failure(&self, py: Python<'_>) -> Option<PyErr> {
         let kept = "what was computed so far is the exception's result, marked incomplete";
         let failure = fem_command::stopped(&self.collision, &self.summary, kept)?;
         Some(raised(py, &failure))
     }
 
-    /// The columns of `history.csv`.
+    /// Returns the columns of `history.csv`.
     fn history<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray1<f64>>)>> {
         let mut bytes = Vec::new();
         let scene = self.simulation.case().scene();
@@ -76,7 +76,7 @@ impl Outcome {
         let mut columns = vec![Vec::with_capacity(self.collision.history.len()); names.len()];
         for line in lines {
             for (column, cell) in columns.iter_mut().zip(line.split(',')) {
-                // A number that is none has no cell.
+                // A missing number is an empty cell.
                 column.push(cell.parse().unwrap_or(f64::NAN));
             }
         }
@@ -84,7 +84,7 @@ impl Outcome {
         Ok(names.into_iter().map(String::from).zip(columns).collect())
     }
 
-    /// The snapshots, each a label, a time and its arrays as they are in its VTK file, by name.
+    /// Returns the snapshots: label, time and arrays by name, as in their VTK files.
     fn snapshots<'py>(&self, py: Python<'py>) -> PyResult<Vec<SnapshotArrays<'py>>> {
         let folder = tempfile::tempdir()?;
         let path = folder.path();
@@ -94,7 +94,7 @@ impl Outcome {
         files.iter().filter(is_grid).map(|name| snapshot(py, path.join(name))).collect()
     }
 
-    /// Writes the folder that the command would.
+    /// Writes the result folder, as the command does.
     fn save(&self, py: Python<'_>, folder: PathBuf, stem: String, force: bool) -> PyResult<()> {
         let Self { simulation, collision, stopwatch, .. } = self;
         let write = || save(&folder, &stem, simulation, collision, stopwatch, force);
@@ -103,7 +103,7 @@ impl Outcome {
 }
 
 type Arrays<'py> = BTreeMap<String, Bound<'py, PyUntypedArray>>;
-/// Label, time, grid, arrays of points, arrays of cells.
+/// Label, time, grid, point arrays and cell arrays.
 type SnapshotArrays<'py> = (String, f64, Arrays<'py>, Arrays<'py>, Arrays<'py>);
 
 fn snapshot(py: Python<'_>, path: PathBuf) -> PyResult<SnapshotArrays<'_>> {

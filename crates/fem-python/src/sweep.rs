@@ -14,29 +14,29 @@ use rayon::ThreadPoolBuilder;
 use serde_json::Value;
 
 use crate::case::Case;
-use crate::failure::Raise;
-use crate::watch::{Watched, watched_apart};
+use crate::failure::OrRaise;
+use crate::watch::{WatchState, watched_apart};
 
-/// What has been found so far, for whoever does not wait for the end.
+/// Results so far, for a caller that does not wait for the end.
 #[derive(Default)]
-struct Found {
-    /// What each case is known by.
+struct PartialResults {
+    /// Identity of each case.
     identities: Mutex<Vec<String>>,
     /// Summaries as JSON, by identity.
     texts: Mutex<HashMap<String, String>>,
 }
 
-/// Looks on while members run.
-struct Members<'a> {
-    watch: &'a Watched,
+/// The observer of the members of a sweep.
+struct MemberObserver<'a> {
+    watch: &'a WatchState,
     members: &'a [Member],
     n_members: usize,
     n_done: AtomicUsize,
-    found: &'a Found,
+    found: &'a PartialResults,
     failure: Mutex<Option<Failure>>,
 }
 
-struct MemberWatch<'a>(&'a Watched);
+struct MemberWatch<'a>(&'a WatchState);
 
 impl Monitor for MemberWatch<'_> {
     fn report(&mut self, _: Progress) -> bool {
@@ -44,7 +44,7 @@ impl Monitor for MemberWatch<'_> {
     }
 }
 
-impl<'a> Observer for Members<'a> {
+impl<'a> Observer for MemberObserver<'a> {
     type Watch = Timed<MemberWatch<'a>>;
 
     fn admits(&self, _: usize) -> bool {
@@ -74,12 +74,12 @@ impl<'a> Observer for Members<'a> {
     }
 }
 
-/// A lock whose holder may have panicked: what it holds is whole at any time.
+/// Locks a mutex. Its holder may have panicked, but its content is always valid.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The summary of a member as JSON.
+/// Returns the summary of a member as JSON.
 fn text_of(ran: &Ran, stopwatch: &Stopwatch) -> Result<String, Failure> {
     let warnings = ran.simulation.warnings(&ran.collision);
     let (spent, files) = (stopwatch.spent(), Vec::new());
@@ -87,7 +87,7 @@ fn text_of(ran: &Ran, stopwatch: &Stopwatch) -> Result<String, Failure> {
     serde_json::to_string(&summary).map_err(|error| Failure::failed(error.to_string()))
 }
 
-fn run(cases: &[FemCase], n_threads: usize, watch: &Watched, found: &Found) -> Result<(), Failure> {
+fn run(cases: &[FemCase], n_threads: usize, watch: &WatchState, found: &PartialResults) -> Result<(), Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
     let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
     let Checked { members, left, .. } =
@@ -95,7 +95,7 @@ fn run(cases: &[FemCase], n_threads: usize, watch: &Watched, found: &Found) -> R
     *locked(&found.identities) = members.iter().map(Member::identity).collect();
     let shared = Shared::default();
     let runner = Runner::new(cases, &shared).without_fields();
-    let observer = Members {
+    let observer = MemberObserver {
         watch,
         members: &members,
         n_members: left.len(),
@@ -108,11 +108,11 @@ fn run(cases: &[FemCase], n_threads: usize, watch: &Watched, found: &Found) -> R
     failure.map_or(Ok(()), Err)
 }
 
-/// What each case is known by, and its summary as JSON, none of a case that an interrupt left out.
+/// Identity and JSON summary of each case; `None` for a case that an interrupt left out.
 type Summaries = Vec<(String, Option<String>)>;
 
-/// Computes cases on so many threads, 0 for one a processor. What ends it early is given beside what was computed
-/// until then, nothing if that was before all cases were looked at.
+/// Computes cases on `threads` threads, 0 for one per processor. An early end is returned beside the
+/// results until then, which are empty if it came before all cases were checked.
 #[pyfunction]
 pub fn run_members(
     py: Python<'_>,
@@ -121,9 +121,9 @@ pub fn run_members(
     report: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Summaries, Option<PyErr>)> {
     let cases: Vec<FemCase> = cases.iter().map(|case| case.case.clone()).collect();
-    let found = Arc::new(Found::default());
+    let found = Arc::new(PartialResults::default());
     let own = Arc::clone(&found);
-    let work = move |watch: &Watched| run(&cases, threads, watch, &own);
+    let work = move |watch: &WatchState| run(&cases, threads, watch, &own);
     let (ran, error) = watched_apart(py, report, work)?;
     if let Some(ran) = ran {
         ran.or_raise(py)?;
@@ -134,7 +134,7 @@ pub fn run_members(
     Ok((identities.into_iter().map(text).collect(), error))
 }
 
-/// The columns of a table of these summaries, as JSON: names and values in order.
+/// Returns the columns of a table of these summaries as JSON: names and values, in order.
 #[pyfunction]
 pub fn table_columns(summaries: Vec<String>) -> PyResult<String> {
     let broken = |error: serde_json::Error| {
@@ -156,7 +156,7 @@ pub fn table_columns(summaries: Vec<String>) -> PyResult<String> {
     serde_json::to_string(&table).map_err(broken)
 }
 
-/// The name of a varied key's column in SI.
+/// Returns the name of a varied key's column in SI.
 #[pyfunction]
 pub fn key_column(key: &str, unit: &str) -> String {
     fem::sweep::key_column(key, unit)

@@ -1,4 +1,4 @@
-//! Work on a thread of its own, watched by the thread that called.
+//! Work on a thread of its own, watched by the calling thread.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -10,28 +10,28 @@ use fem_collision::{Monitor, Progress};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-/// What a panic is told as.
-const BROKEN: &str = "a computation broke off; please report it";
-/// How often the calling thread looks up.
+/// The message of a panic.
+const BROKEN: &str = "a computation stopped unexpectedly; please report it";
+/// Interval at which the calling thread looks up.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// How long work that shall end early is waited for, where its end can be done without.
+/// Time that stopped work gets to end, if its end is not needed.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// What work and watch share.
+/// State shared by the work and the calling thread.
 #[derive(Default)]
-pub struct Watched {
+pub struct WatchState {
     is_stopped: AtomicBool,
     fraction: AtomicU64,
 }
 
-impl Watched {
-    /// Whether the work is to end.
+impl WatchState {
+    /// Whether the work should end.
     pub fn is_stopped(&self) -> bool {
         self.is_stopped.load(Ordering::Relaxed)
     }
 
-    /// The work is so far, 0 to 1.
+    /// Sets the progress of the work, 0 to 1.
     pub fn set(&self, fraction: f64) {
         self.fraction.store(fraction.to_bits(), Ordering::Relaxed);
     }
@@ -41,8 +41,8 @@ impl Watched {
     }
 }
 
-/// A run that is watched.
-pub struct RunWatch<'a>(pub &'a Watched);
+/// The monitor of a watched run.
+pub struct RunWatch<'a>(pub &'a WatchState);
 
 impl Monitor for RunWatch<'_> {
     fn report(&mut self, progress: Progress) -> bool {
@@ -51,24 +51,24 @@ impl Monitor for RunWatch<'_> {
     }
 }
 
-/// Does `work` without Python's lock. Signals and what `report` raises end it early; they are returned beside
-/// what it gave.
+/// Runs `work` without Python's lock. Signals and exceptions of `report` end it early; they are returned
+/// beside its value.
 ///
 /// # Errors
-/// Work that panicked.
+/// The work panicked.
 pub fn watched<T: Send>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watched) -> T + Send,
+    work: impl FnOnce(&WatchState) -> T + Send,
 ) -> PyResult<(T, Option<PyErr>)> {
-    let watched = Watched::default();
+    let watched = WatchState::default();
     let mut error = None;
     let done = thread::scope(|scope| {
         let (sender, receiver) = channel();
         let watched = &watched;
         let worker = scope.spawn(move || {
             let done = work(watched);
-            // Who waits is there until the thread has ended.
+            // The receiver exists until the thread has ended.
             let _ = sender.send(());
             done
         });
@@ -90,20 +90,20 @@ pub fn watched<T: Send>(
     Ok((done, error))
 }
 
-/// As [`watched`], of work that is left to end by itself if it goes on for a second after it was stopped, such
-/// as the factor of a mesh that nothing interrupts: then there is no value.
+/// Does the same for work that may continue by itself if it does not end within a second after it was
+/// stopped, such as the factorisation of a mesh, which nothing interrupts: then there is no value.
 ///
 /// # Errors
-/// Work that panicked.
+/// The work panicked.
 pub fn watched_apart<T: Send + 'static>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Watched) -> T + Send + 'static,
+    work: impl FnOnce(&WatchState) -> T + Send + 'static,
 ) -> PyResult<(Option<T>, Option<PyErr>)> {
-    let watched = Arc::new(Watched::default());
+    let watched = Arc::new(WatchState::default());
     let (sender, receiver) = channel();
     let own = Arc::clone(&watched);
-    // Nobody may be there any more.
+    // The receiver may be gone.
     thread::spawn(move || drop(sender.send(work(&own))));
     let receiver = Mutex::new(receiver);
     let wait = || {

@@ -188,5 +188,5 @@ def test_a_notebook_is_warned_where_the_terminal_is():
     page = result._repr_html_()
     # What is known of it: small strain and the laws that the case leaves open.
     known = result.summary["uncertainty"]["restitution"]["model_at_least"]
-    assert known > 0.01 and "±" not in page and f"off by more than {known:.1g}" in page
+    assert known > 0.01 and "±" not in page and f"error at least {known:.1g}" in page
     assert all(html.escape(warning) in page for warning in result.warnings) and len(result.warnings) > 1

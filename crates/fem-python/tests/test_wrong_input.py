@@ -1,4 +1,4 @@
-"""What a function cannot take is told at once: of what kind it is, and what it wants."""
+"""Invalid arguments are rejected at once, with their type and what is allowed."""
 
 import subprocess
 import sys
@@ -54,7 +54,7 @@ def test_what_a_sweep_cannot_vary(case, vary, words):
         (lambda case: fem_run.sweep(case, {KEY: [1]}, threads="two"), TypeError, "whole number"),
         (lambda case: fem_run.sweep(case, {KEY: [1]}, progress="yes"), TypeError, "progress is True, False"),
         (lambda case: case.run(progress=3), TypeError, "progress is True, False"),
-        (lambda case: case.with_([KEY]), TypeError, "changes are a dict"),
+        (lambda case: case.with_([KEY]), TypeError, "changes must be a dict"),
         (lambda case: case.with_({KEY: float("inf")}), fem_run.InputError, "inf"),
         (lambda case: case.with_({KEY: None}), TypeError, "holds no None; leave the key out"),
         (lambda case: case.with_({3: 1}), TypeError, "dotted path"),

@@ -1,9 +1,8 @@
-//! What each way to keep surfaces apart does to a collision, and what it costs. Writes the table of
-//! docs/contact.md.
+//! Compares the contact methods: results and cost. Writes the table of docs/contact.md.
 //!
 //! `cargo run --release -p fem-run --example contact -- docs/contact.md`
 //!
-//! A run gives the same table on every machine, but for its last column.
+//! Apart from its last column the table is the same on every machine.
 
 #![allow(clippy::disallowed_macros, reason = "a study prints what it found")]
 
@@ -21,13 +20,13 @@ const HEAD: &str = "\
 element updates | time, ms |
 |---|---|---|---|---|---|---|---|---|---|---|---|
 ";
-/// Of which the shortest counts: others share the caches.
+/// Number of runs; the shortest counts, since other programs share the caches.
 const RUNS: usize = 7;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let simulations: Vec<_> = rows().iter().map(|row| (*row, row.simulation())).collect();
     let mut lines = vec![(f64::INFINITY, Vec::new()); simulations.len()];
-    // By turns: a drift of the machine is shared by all.
+    // Runs take turns, so a drift of the machine affects all alike.
     for _ in 0..RUNS {
         for ((row, simulation), (shortest, cells)) in simulations.iter().zip(&mut lines) {
             let begin = seconds_on_core()?;
@@ -49,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// What this thread has had of a core, as Linux counts it.
+/// Returns the processor time of this thread, as Linux counts it.
 fn seconds_on_core() -> Result<f64, Box<dyn std::error::Error>> {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat")?;
     Ok(1e-9 * text.split(' ').next().unwrap_or_default().parse::<f64>()?)

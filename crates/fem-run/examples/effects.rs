@@ -1,10 +1,10 @@
-//! What effects cost: for each the time of a step, the work and the bytes of state, off and on. Writes
-//! the table of docs/effects.md.
+//! The cost of effects: time of a step, work and bytes of state, with the effect off and on. Writes the table of
+//! docs/effects.md.
 //!
 //! `cargo run --release -p fem-run --example effects -- docs/effects.md`
 //!
-//! Times are medians of runs that take turns, so that what else the machine does meets both. Updates
-//! and bytes are counters: the same on every machine.
+//! Times are medians of runs that take turns, so that other work of the machine affects both alike. Updates and bytes
+//! are counters, the same on every machine.
 
 #![allow(
     clippy::disallowed_macros,
@@ -25,12 +25,12 @@ use std::time::Instant;
 
 use rows::{Kept, ROWS, Row, Side, n_bytes};
 
-/// Runs of each side.
+/// Runs with and without the effect.
 const N_RUNS: usize = 9;
 
-/// What a run took.
+/// The cost of a run.
 struct Cost {
-    /// Of the solution, ns an element update.
+    /// Solution time, ns per element update.
     time: f64,
     element_updates: u64,
     bytes: usize,
@@ -54,7 +54,7 @@ const HEAD: &str = "\
 |---|---|---|---|---|---|---|---|---|
 ";
 
-/// A line of the table.
+/// Returns a row of the table.
 fn line(row: &Row) -> String {
     let sides: Vec<Side> = row.off.into_iter().chain([row.on]).collect();
     let simulations: Vec<_> = sides.iter().map(Side::simulation).collect();
@@ -93,13 +93,13 @@ fn line(row: &Row) -> String {
     line
 }
 
-/// A run from first touch to its end.
+/// Returns the cost of a run from first touch to its end.
 fn cost(side: &Side, simulation: &fem::Simulation) -> Cost {
     let contact = side.contact();
     let begin = Instant::now();
     let mut course = side.start(contact.as_ref(), simulation);
     let mut spent = begin.elapsed();
-    // A run adds the instants of its pulse, whatever effects there are.
+    // The instants of the force pulse are recorded with any effects; they do not count.
     let bytes = n_bytes(course.as_ref());
     let begin = Instant::now();
     while course.advance(&mut ()) {}

@@ -1,11 +1,11 @@
-//! What finite strain changes of collisions, what of it the plan foretells, and how its numbers converge with
-//! the mesh. Writes the tables of validation/finite_strain_tables.md, and prints the numbers that the plan foretells from,
+//! The influence of finite strain on collisions, the plan's estimate of it, and its convergence with the mesh. Writes
+//! the tables of validation/finite_strain_tables.md and prints the numbers of the estimate,
 //! `fem/src/effects/finite_strain/measured.rs`.
 //!
 //! `cargo run --release -p fem-run --example finite_strain -- validation/finite_strain_tables.md`
 //!
-//! A second word, `spheres`, `pairs` or `meshes`, writes that table alone. Widths and heights of pulses are those
-//! of [`fem_validate::Pulse`].
+//! A second argument, `spheres`, `pairs` or `meshes`, selects one table. Widths and heights of pulses are those of
+//! [`fem_validate::Pulse`].
 
 #![allow(clippy::disallowed_macros, reason = "a study prints what it found")]
 

@@ -1,10 +1,10 @@
-//! What runs cost: an element update in the loops of all laws, whole processes, and where a run spends its
-//! time. Writes the tables of docs/performance.md.
+//! The cost of runs: element updates with all laws, whole processes, and the phases of a run by time. Writes the tables
+//! of docs/performance.md.
 //!
 //! `cargo build --release && cargo run --release -p fem-run --example performance -- docs/performance.md`
 //!
-//! Times are medians of turns that all take one after the other, so that what else the machine does meets
-//! all, and stand beside those of plain code on the same elements in the same run.
+//! Times are medians of turns that alternate, so that other work of the machine affects all alike. They are compared
+//! with plain code on the same elements in the same run.
 
 #![allow(
     clippy::disallowed_macros,
@@ -47,7 +47,7 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// The middle one.
+/// Returns the median.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)

@@ -1,27 +1,27 @@
-//! Colours of bands: light where the field is near zero, darker on both sides of it.
+//! Colours of bands: light near zero, darker on both sides.
 //!
-//! Lightness falls evenly in Oklab (Ottosson 2020), in which equal distances look equal, so that
-//! bands stay apart in print without colour too; below zero hues run from cyan to violet, above
-//! from yellow to red.
+//! Lightness falls evenly in Oklab (Ottosson 2020), in which equal distances look equal, so bands can be
+//! distinguished in print without colour too. Hues run from cyan to violet below zero and from yellow to
+//! red above.
 
 /// Lightness of the neutral band and of the last one.
 const LIGHT: f64 = 0.965;
 const DARK: f64 = 0.28;
-/// Hues (degrees) next to zero and far from it.
+/// Hues in degrees next to zero and far from it.
 const BELOW: (f64, f64) = (205.0, 300.0);
 const ABOVE: (f64, f64) = (85.0, 25.0);
-/// As colourful as the middle of a side gets.
+/// Largest chroma.
 const CHROMA: f64 = 0.17;
 
-/// The same on a dark ground.
+/// Lightness of the neutral band and of the last one on a dark ground.
 const NIGHT: (f64, f64) = (0.27, 0.93);
 
-/// `#rrggbb` at a position from −1 (the lowest of all) by 0 (neutral) to 1.
+/// Returns `#rrggbb` at a position from −1 (lowest) over 0 (neutral) to 1.
 pub fn band_colour(position: f64) -> String {
     colour(position, (LIGHT, DARK))
 }
 
-/// The same for a dark ground: dark where the field is near zero, lighter on both sides of it.
+/// Returns the colour for a dark ground: dark near zero, lighter on both sides.
 pub(crate) fn dark_band_colour(position: f64) -> String {
     colour(position, NIGHT)
 }
@@ -29,12 +29,12 @@ pub(crate) fn dark_band_colour(position: f64) -> String {
 fn colour(position: f64, (neutral, last): (f64, f64)) -> String {
     let t = position.abs().min(1.0);
     let (near, far) = if position < 0.0 { BELOW } else { ABOVE };
-    // The lighter of two hues is nearer to cyan and yellow on any ground.
+    // The lighter hues are those near cyan and yellow on either ground.
     let (near, far) = if neutral > last { (near, far) } else { (far, near) };
     let lightness = neutral + (last - neutral) * t;
     let hue = (near + (far - near) * t).to_radians();
     let mut chroma = CHROMA * (1.0 - (1.0 - t).powi(2)).sqrt();
-    // Less colourful until the screen can show it.
+    // Chroma is reduced until a screen can show the colour.
     let channels = loop {
         let channels = linear_rgb(lightness, chroma * hue.cos(), chroma * hue.sin());
         if chroma < 1e-3 || channels.iter().all(|c| (-1e-4..=1.0001).contains(c)) {
@@ -71,7 +71,7 @@ mod tests {
     fn lightness(position: f64) -> f64 {
         let colour = band_colour(position);
         let channel = |k: usize| u8::from_str_radix(&colour[k..k + 2], 16).unwrap() as f64 / 255.0;
-        // Relative luminance, its cube root close to perceived lightness.
+        // Relative luminance; its cube root is close to perceived lightness.
         let linear =
             |c: f64| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
         (0.2126 * linear(channel(1)) + 0.7152 * linear(channel(3)) + 0.0722 * linear(channel(5)))
@@ -86,7 +86,7 @@ mod tests {
                     lightness(sign * k as f64 / 10.0) - lightness(sign * (k + 1) as f64 / 10.0)
                 })
                 .collect();
-            // Luminance of strong hues is not quite Oklab's lightness.
+            // For strong hues luminance differs somewhat from Oklab's lightness.
             assert!(steps.iter().all(|step| (0.03..0.11).contains(step)), "{steps:?}");
         }
         assert_eq!(band_colour(-3.0), band_colour(-1.0));

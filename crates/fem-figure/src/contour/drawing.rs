@@ -16,37 +16,37 @@ const BOTTOM: f64 = 50.0;
 const GAP: f64 = 18.0;
 const LEGEND_WIDTH: f64 = 112.0;
 const SWATCH_WIDTH: f64 = 22.0;
-/// Intervals between ticks, about.
+/// Approximate number of intervals between ticks.
 const N_TICKS: usize = 7;
 
-/// What is drawn in one window.
+/// The content of one window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// Above the panel.
+    /// Title above the panel.
     pub title: String,
     /// The bodies.
     pub sections: Vec<Section>,
 }
 
-/// Panels of one window and one scale, two in a row.
+/// Panels with a common window and scale, two in a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contour {
-    /// What is drawn, with its unit: above the legend.
+    /// The quantity with its unit, above the legend.
     pub quantity: String,
     /// Label of the horizontal axis, with its unit.
     pub x_label: String,
     /// Label of the vertical axis, with its unit.
     pub y_label: String,
-    /// What is seen.
+    /// The visible range.
     pub window: Window,
-    /// Where bands begin and end.
+    /// The limits of the bands.
     pub levels: Levels,
-    /// In the order of reading.
+    /// The panels in reading order.
     pub panels: Vec<Panel>,
 }
 
 impl Contour {
-    /// A self-contained SVG document.
+    /// Draws all panels as a self-contained SVG document.
     pub fn svg(&self) -> String {
         let columns = self.panels.len().clamp(1, 2);
         let rows = self.panels.len().div_ceil(columns);
@@ -98,7 +98,7 @@ impl Contour {
         self.draw_axes(svg, height);
     }
 
-    /// From the neutral band outward, each region over the one before.
+    /// Draws the bands from the neutral one outward, each over the one before.
     fn draw_bands(&self, svg: &mut String, section: &Section) {
         bands(&self.levels, section, |band, region| {
             let data = paths::of_region(&region, &self.window);
@@ -141,7 +141,7 @@ impl Contour {
         );
     }
 
-    /// Bands from the highest down, with numbers at their ends.
+    /// Draws the bands from the highest down, with numbers at their ends.
     fn draw_legend(&self, svg: &mut String, height: f64) {
         let edges = self.levels.edges();
         let n_bands = edges.len() - 1;
@@ -173,7 +173,7 @@ impl Contour {
     }
 }
 
-/// The regions of all bands that there are, from the neutral one outward, each to be drawn over those before.
+/// Visits the regions of all bands, from the neutral one outward, each to be drawn over those before.
 pub(crate) fn bands(levels: &Levels, section: &Section, mut draw: impl FnMut(usize, Region)) {
     let (edges, neutral) = (levels.edges(), levels.neutral());
     let cells = Cells::of(section);

@@ -1,8 +1,8 @@
-//! Panels one by one, for a page that shows them in turn and restyles them by classes.
+//! Single panels for a page that shows them in turn and restyles them by classes.
 //!
-//! A frame's sections are half sections, r ≥ 0: their mirror images are drawn with them. Bands have the
-//! classes `.b0` (neutral), `.n1`, `.n2` … below and `.p1`, `.p2` … above zero; text and lines those of
-//! [`panel`](crate::panel).
+//! The sections of a frame are half sections, r ≥ 0, and are drawn with their mirror images. Bands have the
+//! classes `.b0` (neutral), `.n1`, `.n2` … below and `.p1`, `.p2` … above zero; text and lines have those
+//! of [`panel`](crate::panel).
 
 use std::fmt::Write;
 
@@ -21,16 +21,16 @@ const FONT_SIZE: f64 = 12.5;
 /// Most intervals between ticks.
 const N_TICKS: usize = 9;
 const BAR_HEIGHT: f64 = 12.0;
-/// Numbers at the edges of bands that a bar has room for.
+/// Most numbers on a bar.
 const MOST_NUMBERS: usize = 9;
 
 impl Contour {
-    /// Each panel of half sections as a picture of its own.
+    /// Draws each panel of half sections as a picture.
     pub fn frames(&self) -> Vec<String> {
         self.panels.iter().map(|panel| self.frame(panel)).collect()
     }
 
-    /// One of them.
+    /// Draws one panel.
     pub fn frame(&self, panel: &Panel) -> String {
         let height = self.window.height();
         let (width, whole) = (LEFT + PANEL_WIDTH + RIGHT, TOP + height + BOTTOM);
@@ -103,7 +103,7 @@ impl Contour {
         );
     }
 
-    /// The colours of all frames and their numbers, as a bar.
+    /// Draws the colour scale of all frames as a bar.
     pub fn bar(&self) -> String {
         let edges = self.levels.edges();
         let n_bands = edges.len() - 1;
@@ -128,7 +128,7 @@ impl Contour {
         let first = self.levels.neutral() % stride;
         for (k, edge) in edges.iter().enumerate().skip(first).step_by(stride) {
             let text = number(*edge);
-            // Within the picture, however long it is.
+            // The number stays within the picture.
             let reach = 0.5 * LETTER * FONT_SIZE * text.chars().count() as f64;
             let x = (LEFT + k as f64 * size).min(width - reach);
             let _ = writeln!(
@@ -141,7 +141,7 @@ impl Contour {
         svg
     }
 
-    /// Rules for pages with a dark ground, on which what is far from zero is light.
+    /// Returns style rules for a dark ground, on which values far from zero are light.
     pub fn dark_rules(&self) -> String {
         let n_bands = self.levels.edges().len() - 1;
         let rule = |band: usize| {

@@ -1,6 +1,6 @@
 //! Rounded levels on both sides of zero.
 
-/// Values at which one band ends and the next begins.
+/// The limits of bands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levels {
     step: f64,
@@ -8,15 +8,14 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// About `n` bands over the larger side of zero of a range: multiples of 1, 2 or 5 times a
-    /// power of ten that cover it. Zero is no level: the band from minus to plus one step is
-    /// neutral.
+    /// Returns multiples of 1, 2 or 5 times a power of ten that cover a range, with about `n` bands on the
+    /// larger side of zero. Zero is no level: the band from minus to plus one step is neutral.
     pub fn about_zero(smallest: f64, largest: f64, n: usize) -> Self {
         let side = |value: f64| if value.is_finite() { value.max(0.0) } else { 0.0 };
         let (below, above) = (side(-smallest), side(largest));
         let span = below.max(above);
         let step = if span > 0.0 { rounded(span / n.max(1) as f64) } else { 1.0 };
-        // Within rounding of a multiple of the step no band is added.
+        // Rounding adds no band at a multiple of the step.
         let count = |value: f64| ((value / step - 1e-9).ceil() as i64).max(1);
         let (below, above) = (count(below), count(above));
         let multiples = (-below..=above).filter(|k| *k != 0);
@@ -24,17 +23,17 @@ impl Levels {
         Self { step, edges }
     }
 
-    /// Ascending, one more than there are bands; the outer two bound the range.
+    /// Returns the limits in ascending order, one more than there are bands.
     pub fn edges(&self) -> &[f64] {
         &self.edges
     }
 
-    /// From one level to the next.
+    /// Returns the distance between levels.
     pub fn step(&self) -> f64 {
         self.step
     }
 
-    /// Of a band its place from −1 (the lowest) by 0 (neutral) to 1, for
+    /// Returns the position of a band from −1 (lowest) over 0 (neutral) to 1, for
     /// [`band_colour`](super::band_colour).
     pub(crate) fn position(&self, band: usize) -> f64 {
         let neutral = self.neutral() as f64;
@@ -43,18 +42,18 @@ impl Levels {
         (band as f64 - neutral) / largest
     }
 
-    /// Index of the band around zero.
+    /// Returns the index of the band around zero.
     pub(crate) fn neutral(&self) -> usize {
         self.edges.partition_point(|edge| *edge < 0.0) - 1
     }
 }
 
-/// The least 1, 2 or 5 times a power of ten that is not below a positive value.
+/// Returns the smallest 1, 2 or 5 times a power of ten that is not below a positive value.
 fn rounded(value: f64) -> f64 {
     let power = value.log10().floor() as i32;
     let candidates = [(1, power), (2, power), (5, power), (1, power + 1)];
     let number = |(digit, power): (u32, i32)| {
-        // Parsed, a decimal number is the nearest there is.
+        // Parsing a decimal number gives the nearest double.
         format!("{digit}e{power}").parse::<f64>().unwrap_or(value)
     };
     let sizes = candidates.map(number);

@@ -1,15 +1,14 @@
 //! Filled contours of a field on a plane section, as SVG.
 //!
-//! A [`Section`] is quads with a value at each point, a [`Panel`] some of them in one window, a
-//! [`Contour`] panels of one window and one scale. The field is linear on the four triangles
-//! that a quad's centre makes of it, so the bands of a linear field are exact.
+//! A [`Section`] consists of quads with a value at each point, a [`Panel`] of sections in one window, a
+//! [`Contour`] of panels with a common window and scale. The field is linear on the four triangles between
+//! a quad's corners and its centre, so the bands of a linear field are exact.
 //!
-//! The region on the far side of a level from zero is drawn over that of the level before, so that no
-//! seams show between bands; edges that two triangles share are left out, so that a region
-//! is one path of its outline.
+//! The region beyond a level is drawn over that beyond the level before, so there are no seams between
+//! bands. Edges that two triangles share are left out, so a region is drawn by its outline.
 //!
-//! [`Contour::svg`] is one picture of all panels, [`Contour::frames`] a picture a panel for pages that show
-//! one after the other.
+//! [`Contour::svg`] draws all panels in one picture, [`Contour::frames`] one picture per panel for pages
+//! that show them in turn.
 
 mod colours;
 mod drawing;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::region::Region;
 use super::window::Window;
 
-/// Closed paths of a region's outline.
+/// Returns the closed paths of a region.
 pub(crate) fn of_region(region: &Region, window: &Window) -> String {
     let mut data = String::new();
     for polygon in &region.loops {
@@ -15,14 +15,14 @@ pub(crate) fn of_region(region: &Region, window: &Window) -> String {
     data
 }
 
-/// An open path; points away from the window are left out.
+/// Returns an open path; points far outside the window are left out.
 pub(crate) fn of_line(points: impl Iterator<Item = [f64; 2]>, window: &Window) -> String {
     let mut data = String::new();
     add(&mut data, points.filter(|point| window.is_near(*point)), window);
     data
 }
 
-/// Moves of a tenth of a pixel or more; places are absolute.
+/// Appends points that differ by at least a tenth of a pixel, with absolute coordinates.
 fn add(data: &mut String, points: impl Iterator<Item = [f64; 2]>, window: &Window) {
     let tenths = |point: [f64; 2]| window.place(point).map(|x| (10.0 * x).round() as i64);
     let mut last = None;

@@ -4,35 +4,35 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::section::Section;
 
-/// A place as bits, which edges that two triangles share have in common.
-type Place = [u64; 2];
-/// A place and the value there.
+/// The bits of a point, which are equal for the shared edges of two triangles.
+type PointBits = [u64; 2];
+/// A point and its value.
 type Corner = ([f64; 2], f64);
 
 /// A region by its outline.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Region {
-    /// Closed polygons, in the sense of rotation of the section's quads; holes run against it.
+    /// Closed polygons, oriented like the section's quads; holes run in the opposite direction.
     pub loops: Vec<Vec<[f64; 2]>>,
 }
 
 impl Region {
-    /// Where there is any field.
+    /// Returns the region of all quads.
     pub fn whole(section: &Section) -> Self {
         Self::at_most(section, f64::INFINITY)
     }
 
-    /// Where the field is at most `level`.
+    /// Returns the region where the field is at most `level`.
     pub fn at_most(section: &Section, level: f64) -> Self {
         Cells::of(section).at_most(level)
     }
 
-    /// Where the field is at least `level`.
+    /// Returns the region where the field is at least `level`.
     pub fn at_least(section: &Section, level: f64) -> Self {
         Cells::of(section).at_least(level)
     }
 
-    /// Signed area: positive if the section's quads run counter-clockwise.
+    /// Returns the signed area, positive if the section's quads run counter-clockwise.
     pub fn area(&self) -> f64 {
         let cross = |[x1, y1]: [f64; 2], [x2, y2]: [f64; 2]| x1 * y2 - x2 * y1;
         let sides = self.loops.iter().flat_map(|polygon| {
@@ -42,13 +42,14 @@ impl Region {
         0.5 * sides.sum::<f64>()
     }
 
-    /// Of a half section with its mirror image in the vertical axis, without a seam there.
+    /// Returns the region of a half section together with its mirror image in the vertical axis, without a
+    /// seam.
     pub fn mirrored(&self) -> Self {
         Self { loops: self.loops.iter().flat_map(|polygon| mirrored(polygon)).collect() }
     }
 }
 
-/// What a polygon and its image make: where it leaves the axis and comes back to it, one polygon.
+/// Joins a polygon and its image into one polygon wherever it touches the axis.
 fn mirrored(polygon: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     let image = |chain: &[[f64; 2]]| -> Vec<[f64; 2]> {
         chain.iter().rev().map(|[x, y]| [-x, *y]).collect()
@@ -62,7 +63,7 @@ fn mirrored(polygon: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     for &point in round {
         chain.push(point);
         if point[0] == 0.0 {
-            // Along the axis there is nothing between a point and the next.
+            // Two successive points on the axis enclose nothing.
             if chain.len() > 2 {
                 let back = image(&chain[1..chain.len() - 1]);
                 chain.extend(back);
@@ -75,7 +76,7 @@ fn mirrored(polygon: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     whole
 }
 
-/// The quads of a section that have values, and which lies beyond each of their sides.
+/// The quads with finite values, and the neighbour across each of their sides.
 pub(crate) struct Cells {
     cells: Vec<[Corner; 4]>,
     beyond: Vec<[Option<u32>; 4]>,
@@ -101,17 +102,17 @@ impl Cells {
         }
     }
 
-    /// Where the field is at most `level`.
+    /// Returns the region where the field is at most `level`.
     pub fn at_most(&self, level: f64) -> Region {
         self.clipped(level, 1.0)
     }
 
-    /// Where the field is at least `level`.
+    /// Returns the region where the field is at least `level`.
     pub fn at_least(&self, level: f64) -> Region {
         self.clipped(-level, -1.0)
     }
 
-    /// Where `sign` times the field is at most `level`.
+    /// Returns the region where `sign` times the field is at most `level`.
     fn clipped(&self, level: f64, sign: f64) -> Region {
         let is_within =
             |cell: &[Corner; 4]| cell.iter().filter(|(_, value)| sign * value <= level).count();
@@ -119,7 +120,7 @@ impl Cells {
         let mut edges = Edges::default();
         for ((cell, beyond), &n_within) in self.cells.iter().zip(&self.beyond).zip(&within) {
             if n_within == 4 {
-                // A side that two whole quads share is no edge.
+                // A side between two whole quads is no edge.
                 for k in 0..4 {
                     if beyond[k].is_none_or(|other| within[other as usize] < 4) {
                         edges.add_side(&cell[k].0, &cell[(k + 1) % 4].0);
@@ -140,13 +141,13 @@ impl Cells {
     }
 }
 
-/// The mean of the corners.
+/// Returns the mean of the corners.
 fn centre(cell: &[Corner; 4]) -> Corner {
     let mean = |of: &dyn Fn(&Corner) -> f64| cell.iter().map(of).sum::<f64>() / 4.0;
     ([mean(&|c| c.0[0]), mean(&|c| c.0[1])], mean(&|c| c.1))
 }
 
-/// The part of a triangle with a linear field where that is at most `level`.
+/// Returns the part of a triangle with a linear field where that is at most `level`.
 fn clip(triangle: [Corner; 3], level: f64) -> Vec<[f64; 2]> {
     let mut polygon = Vec::with_capacity(4);
     for k in 0..3 {
@@ -161,16 +162,16 @@ fn clip(triangle: [Corner; 3], level: f64) -> Vec<[f64; 2]> {
     polygon
 }
 
-/// Where the field passes the level; the same bits from both ends.
+/// Returns the point where the field passes the level, with the same bits from both ends.
 fn crossing(a: Corner, b: Corner, level: f64) -> [f64; 2] {
     let (low, high) = if a.1 < b.1 { (a, b) } else { (b, a) };
     let t = (level - low.1) / (high.1 - low.1);
     [0, 1].map(|axis: usize| low.0[axis] + t * (high.0[axis] - low.0[axis]))
 }
 
-/// Directed edges without those that run both ways.
+/// Directed edges, without those that run in both directions.
 #[derive(Default)]
-struct Edges(HashMap<(Place, Place), u32>);
+struct Edges(HashMap<(PointBits, PointBits), u32>);
 
 impl Edges {
     fn add_polygon(&mut self, polygon: &[[f64; 2]]) {
@@ -179,7 +180,7 @@ impl Edges {
     }
 
     fn add_side(&mut self, from: &[f64; 2], to: &[f64; 2]) {
-        // Adding 0 makes one of the two zeros.
+        // Adding 0 turns −0 into 0.
         let place = |point: &[f64; 2]| point.map(|x| (x + 0.0).to_bits());
         let (from, to) = (place(from), place(to));
         if from != to {
@@ -187,7 +188,7 @@ impl Edges {
         }
     }
 
-    fn add(&mut self, from: Place, to: Place) {
+    fn add(&mut self, from: PointBits, to: PointBits) {
         match self.0.get_mut(&(to, from)) {
             Some(1) => {
                 self.0.remove(&(to, from));
@@ -198,7 +199,7 @@ impl Edges {
     }
 
     fn into_loops(self) -> Vec<Vec<[f64; 2]>> {
-        let mut onward: BTreeMap<Place, Vec<Place>> = BTreeMap::new();
+        let mut onward: BTreeMap<PointBits, Vec<PointBits>> = BTreeMap::new();
         for ((from, to), count) in self.0 {
             onward.entry(from).or_default().extend(std::iter::repeat_n(to, count as usize));
         }

@@ -1,18 +1,19 @@
-//! Outlines as the curves that they stand for.
+//! Rounding of polygonal outlines into the curves that they approximate.
 
 use std::collections::HashSet;
 
 use super::section::Section;
 
-/// Cosine of the largest turn from a side of an outline to the next that is no corner: 40 degrees.
+/// Cosine of the smallest angle between two sides that is a corner: 40 degrees.
 const CORNER: f64 = 0.766;
 
 impl Section {
-    /// With the sides of its outline bent outward where a smooth curve through its points is farther from them
-    /// than `tolerance` (in the units of the points). Corners stay, and so does what is bent inward.
+    /// Bends sides of the outline outward where a smooth curve through its points is farther from them than
+    /// `tolerance` (in the units of the points). Corners stay, and so do sides that would be bent inward.
     ///
-    /// The curve is Catmull and Rom's (1974) over the lengths of the sides; an outline that ends on the axis
-    /// goes on in its mirror image. Two points a side leave a ninth of what a straight one is off by.
+    /// The curve is that of Catmull and Rom (1974) over the lengths of the sides; an outline that ends on
+    /// the axis is continued by its mirror image. Two points per side leave a ninth of the deviation of a
+    /// straight side.
     pub fn rounded(&self, tolerance: f64) -> Self {
         let mut rounded = Self { outline: Vec::new(), ..self.clone() };
         let sides =
@@ -24,7 +25,7 @@ impl Section {
             let Some(bent) = self.bent(k) else { continue };
             let [from, to] = [a, b].map(|point| self.points[point as usize]);
             let off = distances(from, to, bent);
-            // Outward is to the right of a side that quads run along, to the left of others.
+            // Outward is to the right of a side that quads run along, and to the left otherwise.
             let outward = if sides.contains(&[a, b]) { -1.0 } else { 1.0 };
             if off.iter().any(|off| outward * off < tolerance) {
                 continue;
@@ -42,20 +43,20 @@ impl Section {
         rounded
     }
 
-    /// The curve at a third and two thirds of the k-th side of the outline; `None` at a corner.
+    /// Returns the curve at one and two thirds of the k-th side of the outline; `None` at a corner.
     fn bent(&self, k: usize) -> Option<[[f64; 2]; 2]> {
         let k = k as isize;
         let (before, after) = (self.along(k - 1), self.along(k + 2));
         let (from, to) = (self.along(k)?, self.along(k + 1)?);
-        let side = Side::of(from, to)?;
-        let slope = |other: Option<Side>| match other {
+        let side = OutlineSide::of(from, to)?;
+        let slope = |other: Option<OutlineSide>| match other {
             Some(other) if !other.is_corner(side) => Some(other.slope_with(side)),
-            // Beyond an end the curve goes on as it comes.
+            // Beyond an end the curve is straight.
             None => Some(side.direction),
             _ => None,
         };
-        let start = slope(before.and_then(|point| Side::of(point, from)))?;
-        let end = slope(after.and_then(|point| Side::of(to, point)))?;
+        let start = slope(before.and_then(|point| OutlineSide::of(point, from)))?;
+        let end = slope(after.and_then(|point| OutlineSide::of(to, point)))?;
         Some([1.0 / 3.0, 2.0 / 3.0].map(|t: f64| {
             let (s, length) = (1.0 - t, side.length);
             [0, 1].map(|x: usize| {
@@ -66,7 +67,7 @@ impl Section {
         }))
     }
 
-    /// The k-th point of the outline, beyond an end on the axis that of the mirror image.
+    /// Returns the k-th point of the outline, beyond an end on the axis that of the mirror image.
     fn along(&self, k: isize) -> Option<[f64; 2]> {
         let last = self.outline.len() as isize - 1;
         let inside = if k < 0 { -k } else { k.min(2 * last - k) };
@@ -79,14 +80,14 @@ impl Section {
     }
 }
 
-/// From a point to another.
+/// A side of the outline.
 #[derive(Clone, Copy)]
-struct Side {
+struct OutlineSide {
     direction: [f64; 2],
     length: f64,
 }
 
-impl Side {
+impl OutlineSide {
     fn of(from: [f64; 2], to: [f64; 2]) -> Option<Self> {
         let along = [to[0] - from[0], to[1] - from[1]];
         let length = along[0].hypot(along[1]);
@@ -98,7 +99,7 @@ impl Side {
         a[0] * b[0] + a[1] * b[1] < CORNER
     }
 
-    /// Of the parabola through the ends of two sides, where they meet.
+    /// Returns the slope of the parabola through two sides where they meet.
     fn slope_with(self, other: Self) -> [f64; 2] {
         let whole = self.length + other.length;
         let [own, others] = [other.length / whole, self.length / whole];
@@ -106,7 +107,7 @@ impl Side {
     }
 }
 
-/// How far points are to the left of a line.
+/// Returns the distances of points to the left of a line.
 fn distances(from: [f64; 2], to: [f64; 2], points: [[f64; 2]; 2]) -> [f64; 2] {
     let [x, y] = [to[0] - from[0], to[1] - from[1]];
     points.map(|[a, b]| (x * (b - from[1]) - y * (a - from[0])) / x.hypot(y))
@@ -117,7 +118,7 @@ mod tests {
     use super::super::region::Region;
     use super::*;
 
-    /// A half disc of so many facets around one inner quad fan, from the upper pole to the lower.
+    /// A half disc of n facets around one inner fan of quads, from the upper pole to the lower one.
     fn half_disc(n: usize) -> Section {
         let angle = |k: usize| std::f64::consts::PI * k as f64 / n as f64;
         let rim = (0..=n).map(|k| {
@@ -135,8 +136,8 @@ mod tests {
         }
     }
 
-    /// Ten facets of a half circle are off by 1.2 % of the radius, rounded ones by less than 0.2 %; the area
-    /// between follows, without an edge left inside.
+    /// Ten facets of a half circle deviate by 1.2 % of the radius, rounded ones by less than 0.2 %; the
+    /// area follows, without an edge inside.
     #[test]
     fn facets_of_a_circle_become_the_circle() {
         let coarse = half_disc(10);
@@ -159,7 +160,7 @@ mod tests {
         assert_eq!(coarse.rounded(0.1), coarse);
     }
 
-    /// A square has none, and a dent stays as it is.
+    /// Corners of a square stay, and so does a dent.
     #[test]
     fn corners_and_dents_stay() {
         let mut square = half_disc(2);
@@ -168,7 +169,7 @@ mod tests {
         square.points.iter_mut().for_each(|[_, y]| *y = -*y);
         square.quads.iter_mut().for_each(|quad| quad.reverse());
         assert_eq!(square.rounded(1e-3).quads.len(), 20);
-        // Quads on the other side of the outline: what bulges is a dent.
+        // With the quads on the other side of the outline, a bulge is a dent.
         square.points[11..].iter_mut().flatten().for_each(|x| *x *= 4.0);
         square.quads.iter_mut().for_each(|quad| quad.reverse());
         assert_eq!(square.rounded(1e-3), square);

@@ -3,19 +3,19 @@
 /// Quads in the plane with a value at each of their points.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
-    /// Horizontal and vertical place of each point.
+    /// Horizontal and vertical coordinate of each point.
     pub points: Vec<[f64; 2]>,
-    /// Of each point; a quad with a value that is not finite is left out.
+    /// Value at each point; quads with a value that is not finite are left out.
     pub values: Vec<f64>,
-    /// Point numbers of each quad, all in the same sense of rotation.
+    /// Point indices of each quad, all with the same orientation.
     pub quads: Vec<[u32; 4]>,
-    /// Point numbers along the outline.
+    /// Point indices along the outline.
     pub outline: Vec<u32>,
 }
 
 impl Section {
-    /// With its mirror image in the vertical axis; points on the axis belong to both halves. The
-    /// outline starts at or ends on the axis, and goes on in the mirror image.
+    /// Returns the section with its mirror image in the vertical axis; points on the axis belong to both
+    /// halves. The outline begins or ends on the axis and continues in the mirror image.
     pub fn mirrored(&self) -> Self {
         let mut both = self.clone();
         let mut image: Vec<u32> = Vec::with_capacity(self.points.len());
@@ -40,12 +40,12 @@ impl Section {
         both
     }
 
-    /// Where the outline runs.
+    /// Returns the points of the outline.
     pub fn outline_points(&self) -> impl Iterator<Item = [f64; 2]> + Clone + '_ {
         self.outline.iter().map(|point| self.points[*point as usize])
     }
 
-    /// Without the quads that lie outside of a rectangle (horizontal range, vertical range).
+    /// Returns the section without the quads outside a rectangle (horizontal range, vertical range).
     pub(crate) fn within(&self, x: (f64, f64), y: (f64, f64)) -> Self {
         let is_near = |quad: &&[u32; 4]| {
             let corners = quad.map(|point| self.points[point as usize]);
@@ -59,7 +59,7 @@ impl Section {
         Self { quads, ..self.clone() }
     }
 
-    /// The quads whose values are all finite, with their corners' places and values.
+    /// Returns the quads with finite values, by the coordinates and values of their corners.
     pub(crate) fn cells(&self) -> impl Iterator<Item = [([f64; 2], f64); 4]> {
         let corners = |quad: &[u32; 4]| {
             quad.map(|point| (self.points[point as usize], self.values[point as usize]))
@@ -67,7 +67,7 @@ impl Section {
         self.quads.iter().map(corners).filter(|cell| cell.iter().all(|(_, v)| v.is_finite()))
     }
 
-    /// Smallest and largest value of the quads; `None` without quads.
+    /// Returns the smallest and the largest value of the quads; `None` without quads.
     pub fn range(&self) -> Option<(f64, f64)> {
         let values = self.cells().flatten().map(|(_, value)| value);
         values.fold(None, |range, value| {

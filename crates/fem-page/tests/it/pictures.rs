@@ -1,10 +1,10 @@
 //! Pictures: of what the bodies do, and of what a page asks for.
 
-use fem_page::{Ask, ChartSpec, Session};
+use fem_page::{ChartSpec, RecordedAmount, Session};
 
 use crate::session::{CONDENSED, GLASS, run};
 
-const ASK: Ask = Ask { rows: 300, frames: 3 };
+const ASK: RecordedAmount = RecordedAmount { rows: 300, frames: 3 };
 
 /// The middle of three instants is within a step of the largest approach: its stress is the largest
 /// pressure, recovered from elements of a twelfth of the contact, and its force the largest force.

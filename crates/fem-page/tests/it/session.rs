@@ -3,21 +3,21 @@
 use std::path::Path;
 
 use fem::{Case, Simulation};
-use fem_page::{Ask, Fault, Outcome, Session};
+use fem_page::{CaseFault, RecordedAmount, RunOutcome, Session};
 
 pub const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const WALL: &str = include_str!("../../../../cases/glass_on_wall.toml");
 pub const CONDENSED: &str = "\n[model]\ncondensed = {}\n";
-const ASK: Ask = Ask { rows: 300, frames: 5 };
+const ASK: RecordedAmount = RecordedAmount { rows: 300, frames: 5 };
 
 /// Runs a case to its end.
-pub fn run(session: &mut Session, text: &str, ask: Ask) -> Outcome {
+pub fn run(session: &mut Session, text: &str, ask: RecordedAmount) -> RunOutcome {
     session.begin(text, ask).expect("a case that runs");
     while session.advance(1) < 1.0 {}
     session.finish(0.5).expect("a run")
 }
 
-fn fault(text: &str) -> Fault {
+fn fault(text: &str) -> CaseFault {
     Session::default().begin(text, ASK).expect_err("a fault").into()
 }
 
@@ -52,7 +52,7 @@ fn the_rebound_is_the_square_of_the_restitution() {
     for (text, common) in [(GLASS, 13.691_639 / 18.721_870), (WALL, 0.0)] {
         for model in ["condensed", "fem", "ting"] {
             let text = format!("{text}\n[model]\n{model} = {{}}\n");
-            let Outcome { summary, sharing, .. } = run(&mut Session::default(), &text, ASK);
+            let RunOutcome { summary, sharing, .. } = run(&mut Session::default(), &text, ASK);
             let sharing = sharing.expect("two bodies and nothing else");
             let (name, rebound) = sharing.parts[0];
             assert_eq!(name, "rebound");
@@ -73,7 +73,7 @@ fn the_rebound_is_the_square_of_the_restitution() {
 #[test]
 fn bodies_that_stay_together_have_no_contact_time() {
     let text = GLASS.replace("2708 1/s", "1e6 1/s") + CONDENSED;
-    let Outcome { summary, sharing, .. } = run(&mut Session::default(), &text, ASK);
+    let RunOutcome { summary, sharing, .. } = run(&mut Session::default(), &text, ASK);
     assert_eq!(
         (summary.collision.restitution, summary.collision.contact_time_s),
         (Some(0.0), None)
@@ -142,7 +142,7 @@ fn a_fault_leaves_nothing_to_run() {
 /// More than a run keeps is refused in words.
 #[test]
 fn more_frames_than_a_run_keeps_are_refused() {
-    let ask = Ask { frames: 100_000_000, ..ASK };
+    let ask = RecordedAmount { frames: 100_000_000, ..ASK };
     let error = Session::default().begin(GLASS, ask).unwrap_err();
     assert!(error.message().contains("snapshots"), "{error}");
 }

@@ -1,4 +1,4 @@
-// Sliders, fields and choices, and the state in them.
+// Sliders, fields and choices, and their state.
 import { rounded } from './units.js';
 import { SLIDERS, isMeant } from './scene.js';
 import { element } from './results.js';
@@ -14,7 +14,7 @@ function valueAt(key, place) {
   return rounded(isLogarithmic ? from * (to / from) ** part : from + (to - from) * part);
 }
 
-// A slider with a field beside it. `moved` and `set` take a change of the state, `refuse` a fault.
+// Builds a slider with a number field. `moved` and `set` receive a change of the state, `refuse` a fault.
 export function buildSlider(box, { moved, set, refuse }) {
   const { key, label } = box.dataset;
   const { from, to, unit } = SLIDERS[key];
@@ -35,7 +35,7 @@ export function buildSlider(box, { moved, set, refuse }) {
     }
     const range = `Between ${from} and ${to} ${unit}`.trim();
     markFault(box, `${range}.`);
-    refuse({ message: `${label}: ${number.value || 'nothing'} is given`, help: `${range}. A case of your own may go further: see below.` });
+    refuse({ message: `${label}: ${number.value || 'no number'} is not allowed`, help: `${range}. Your own case, below, may use other values.` });
   });
 }
 
@@ -47,7 +47,7 @@ function markFault(box, text) {
   if (text !== null) fault.scrollIntoView({ block: 'nearest' });
 }
 
-// Puts a state into the controls; they rest while a case of the reader's own is shown.
+// Shows a state in the controls; they are disabled while a case of the reader is shown.
 export function refreshControls(state, isOwn) {
   for (const box of document.querySelectorAll('.slider')) {
     const { key } = box.dataset;

@@ -1,9 +1,9 @@
-// The part of an address behind #: what the sliders say, or a text; and what of it cannot be used.
+// The part of an address after #: the state of the sliders, or a case as text; and faults in it.
 import { materialNames } from './materials.js';
 import { CHOICES, FIRST, LABELS, SLIDERS } from './scene.js';
 
 const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
-// A word of a link is shown up to so many letters, and so many of them.
+// Most characters of a word that are shown, and most words.
 const MOST_LETTERS = 40;
 const MOST_WORDS = 4;
 
@@ -30,7 +30,7 @@ function listed(words) {
   return `${words.slice(0, MOST_WORDS).map(quoted).join(', ')}${more > 0 ? ` and ${more} more` : ''}`;
 }
 
-// What is wrong with a word for a setting; null if nothing is.
+// Returns the fault of a word for a setting, or null.
 function faultOf(key, word) {
   const slider = SLIDERS[key];
   if (word.trim() === '') return 'nothing is given';
@@ -44,7 +44,7 @@ function faultOf(key, word) {
   return allowed.includes(word) ? null : `${quoted(word)} is given; there are ${allowed.join(', ')}`;
 }
 
-// What such a part says: a state of the sliders, a text or null, and in words what of it is not used.
+// Reads such a part: the state of the sliders, a text or null, and descriptions of what is not used.
 export function read(fragment) {
   const rest = fragment.replace(/^#/, '');
   const given = { state: { ...FIRST }, text: null, faults: [] };
@@ -59,7 +59,7 @@ export function read(fragment) {
       if (others.length > 0) given.faults.push(`Beside a whole case nothing else counts; left out: ${listed(others)}.`);
     } catch {
       given.text = null;
-      given.faults.push('The case in it cannot be read: the link is damaged, or was cut short. The first case is shown.');
+      given.faults.push('Its case cannot be read: the link is damaged or incomplete. The first case is shown.');
     }
     return given;
   }
@@ -68,7 +68,7 @@ export function read(fragment) {
   if (unknown.length > 0) given.faults.push(`${listed(unknown)} ${unknown.length > 1 ? 'are no settings' : 'is no setting'} of this page. There are ${Object.keys(FIRST).join(', ')}.`);
   for (const [key, word] of words) {
     if (!Object.hasOwn(FIRST, key)) continue;
-    const fault = seen.has(key) ? 'it is given twice, and the first counts' : faultOf(key, word);
+    const fault = seen.has(key) ? 'it is given twice; the first value is used' : faultOf(key, word);
     if (!seen.has(key) && !fault) given.state[key] = key in SLIDERS ? Number(word) : word.trim();
     seen.add(key);
     if (fault) given.faults.push(`${LABELS[key]} (${key}): ${fault}. Taken is ${shownValue(key, given.state[key])}.`);

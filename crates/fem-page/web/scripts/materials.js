@@ -1,4 +1,4 @@
-// The library of materials, as the module tells it.
+// The library of materials, as received from the module.
 
 let library = [];
 
@@ -18,7 +18,7 @@ export function allMaterials() {
   return library;
 }
 
-// Its table in a case, with the relaxation that is asked for.
+// Returns the table of a material in a case, with the chosen relaxation.
 export function materialTable(name, relaxation) {
   const text = material(name).text.trimEnd();
   if (relaxation.kind === 'library') return text;

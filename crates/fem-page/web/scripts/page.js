@@ -9,13 +9,13 @@ import { buildSlider, refreshControls } from './controls.js';
 import { buildStories, storyText } from './telling.js';
 import { buildTaking } from './taking.js';
 
-// While a slider moves: fewer instants. At rest: as the command has it.
+// Fewer instants while a slider moves; at rest as many as the command writes.
 const MOVING = { rows: 250, frames: 9 };
 const AT_REST = { rows: 1000, frames: 25 };
-// After which a reader is told that something is under way.
+// Delay after which progress is shown.
 const LATE_MS = 700;
-// A module of 32 bits has no more, whatever limits.memory says.
-const MEMORY_HELP = 'A browser gives a page 4 GB at most: take a larger mesh.contact_element_size, or run the case with the command.';
+// The limit of a 32-bit module, independent of limits.memory.
+const MEMORY_HELP = 'A browser gives a page 4 GB at most: choose a larger mesh.contact_element_size, or run the case with the command.';
 
 const runner = new Runner();
 const main = document.querySelector('main');
@@ -35,12 +35,12 @@ function refreshTexts() {
   at('pasted').hidden = ownText === null;
 }
 
-// Where a slider has come to rest: browsers bear only so many changes of the address, or so long a one.
+// Only when a slider has come to rest: browsers limit the number of changes of the address, and its length.
 function refreshAddress() {
   try {
     history.replaceState(null, '', fragmentOf({ state, text: ownText }) || '#');
   } catch {
-    // The case stands below all the same.
+    // The case is shown below in any case.
   }
 }
 
@@ -70,7 +70,7 @@ const compute = lastOnly(async (text, ask) => {
   at('progress-bar').value = 0;
   if (answer.kind === 'dropped') return;
   if (answer.kind === 'ended') {
-    standBack('Ended before there was anything to show');
+    standBack('Ended before there was a result');
     return;
   }
   tell(text, answer, { begun, milliseconds: performance.now() - began, isMoving: ask === MOVING });
@@ -83,9 +83,9 @@ function progressText({ model, price }) {
   return `Computing: ${model}${steps}`;
 }
 
-// The numbers shown, if there are any, are not those that were asked for.
+// Marks the displayed numbers, if any, as those of another case.
 function standBack(words) {
-  const of = shownSummary ? '; the numbers are those of the case before.' : '; there are no numbers yet.';
+  const of = shownSummary ? '; the numbers are those of the previous case.' : '; there are no numbers yet.';
   main.classList.add('stale');
   at('status').textContent = words + of;
   sayOfOwn(`Your own case could not be computed${of}`);
@@ -99,7 +99,7 @@ function clearFaults() {
 function tell(text, answer, { begun, milliseconds, isMoving }) {
   clearFaults();
   if (answer.kind !== 'done') {
-    tellFault(text, withMemory(answer.fault ?? { message: 'The module failed; another one has taken its place.', help: answer.message }));
+    tellFault(text, withMemory(answer.fault ?? { message: 'The module failed and was restarted.', help: answer.message }));
     return;
   }
   main.classList.remove('stale', 'empty');
@@ -115,32 +115,32 @@ function tell(text, answer, { begun, milliseconds, isMoving }) {
   at('version').textContent = `Version ${summary.version}.`;
   const words = headline(summary);
   at('status').textContent = words;
-  sayOfOwn('A case of your own is shown; the sliders rest.');
-  // Read out where a slider has come to rest, not on its way.
+  sayOfOwn('Your own case is shown; the sliders are off.');
+  // Announced by screen readers when a slider has come to rest.
   if (!isMoving) at('announced').textContent = words;
-  // For whoever opens the console, and for tests.
+  // For the console and for tests.
   window.collision = { summary, sharing, text, frames: outcome.frames, milliseconds };
   document.documentElement.dataset.runs = Number(document.documentElement.dataset.runs ?? 0) + 1;
   storyText(text, summary, sharing);
 }
 
-// What ran out of memory, in a run or in the module, says what to do; the words of a panic help nobody.
+// Replaces the message of a run or module that ran out of memory by one that says what to do.
 function withMemory(fault) {
   if (!/not enough memory/.test(fault.message) && !/AllocError|no memory left/.test(fault.help ?? '')) return fault;
   const message = /not enough memory/.test(fault.message) ? fault.message : 'there is not enough memory for this case';
   return { ...fault, message, help: MEMORY_HELP };
 }
 
-// Of a case of one's own at its place, and in a line above.
+// Shows the fault of the reader's own case beside it, and in a line above.
 function tellFault(text, fault) {
-  standBack('Something is wrong with the case');
+  standBack('The case has an error');
   if (ownText === null) {
     showFault(at('fault'), fault);
     return;
   }
   showFault(at('paste-fault'), fault, text);
   const { line, column, message } = fault;
-  showFault(at('fault'), { line, column, message, help: 'The case stands below, under “Run a case of your own”.' });
+  showFault(at('fault'), { line, column, message, help: 'The case is below, under “Run a case of your own”.' });
 }
 
 function run(ask) {
@@ -160,7 +160,7 @@ function change(changes, ask) {
   if (isSlow() && ask === MOVING) {
     refreshTexts();
     main.classList.add('stale');
-    at('status').textContent = 'Let go to compute: this model takes its time.';
+    at('status').textContent = 'Release the slider to compute: this model takes a while.';
     return;
   }
   run(ask);
@@ -224,7 +224,7 @@ function takeAddress() {
   state = sound(given);
   ownText = text;
   const [first, ...others] = faults.map((message) => ({ message }));
-  showFault(at('link-fault'), first ? { message: 'Not all of this link can be used.', others: [first, ...others].map(({ message }) => ({ message: '', help: message })) } : null);
+  showFault(at('link-fault'), first ? { message: 'This link can only be used in part.', others: [first, ...others].map(({ message }) => ({ message: '', help: message })) } : null);
   if (ownText !== null) {
     at('paste').value = ownText;
     at('paste-details').open = true;
@@ -240,7 +240,7 @@ async function begin() {
   at('status').textContent = 'Unpacking the solver…';
   const answer = await runner.ready;
   if (answer.kind !== 'done') {
-    showFault(at('fault'), { message: 'The solver does not start in this browser.', help: `It needs WebAssembly, workers and DecompressionStream, which browsers have since 2023. ${answer.message}` });
+    showFault(at('fault'), { message: 'The solver does not start in this browser.', help: `It needs WebAssembly, workers and DecompressionStream, which browsers support since 2023. ${answer.message}` });
     at('status').textContent = '';
     document.documentElement.dataset.missing = 'solver';
     return;

@@ -1,4 +1,4 @@
-// The bodies at an instant: which, how near, and that it plays.
+// The picture of the bodies: instant, zoom and playback.
 import { show } from './units.js';
 import { lastOnly } from './runner.js';
 import { at, draw } from './results.js';
@@ -6,13 +6,13 @@ import { at, draw } from './results.js';
 const LEAST_VIEW = 1.5;
 const PLAY_MS = 120;
 
-// That of the largest force, until the reader has chosen one.
+// Until the reader chooses an instant, that of the largest force is shown.
 let isChosen = false;
 let playing = null;
 let drawnOutcome = null;
 let askPicture = null;
 
-// `request` asks the module for a picture.
+// `request` requests a picture from the module.
 export function buildPicture(request) {
   askPicture = request;
   at('instant').addEventListener('input', () => {
@@ -23,29 +23,29 @@ export function buildPicture(request) {
   at('play').addEventListener('click', play);
 }
 
-// Where in the contact, 0 to 1; null: where the force is largest.
+// The position in the contact, 0 to 1; null for the largest force.
 export const share = () => (isChosen ? at('instant').value / 1000 : null);
 
-// Half of the window over the contact radius, from the contact to the whole of a small body.
+// The half width of the window over the contact radius, from a close view to the whole of a small body.
 export const halfWidth = () => LEAST_VIEW * 200 ** (at('zoom').value / 1000);
 
 export function followForce() {
   isChosen = false;
 }
 
-// The picture of an outcome that came with it.
+// Shows the picture that came with a result.
 export function showPicture(outcome, picture, index) {
   drawnOutcome = outcome;
   const has = Boolean(picture);
   document.querySelector('main').classList.toggle('no-picture', !has);
   at('picture').hidden = !has;
   at('no-picture').hidden = has;
-  // Without it the force stands where the picture would.
+  // Without a picture, the chart of the force takes its place.
   if (has) at('curves').prepend(at('figure-force'));
   else at('view').append(at('figure-force'));
   if (!has) {
     stopPlaying();
-    at('no-picture').firstElementChild.textContent = 'This model knows the bodies as a whole: it has no elements, and so no stress to draw.';
+    at('no-picture').firstElementChild.textContent = 'This model has no elements, so there is no stress to draw.';
     return;
   }
   if (!isChosen && outcome.frames.length > 1) at('instant').value = (1000 * index) / (outcome.frames.length - 1);
@@ -69,7 +69,7 @@ export const redraw = lastOnly(async () => {
   if (!outcome || outcome.frames.length === 0 || at('picture').hidden) return;
   const index = Math.round((at('instant').value / 1000) * (outcome.frames.length - 1));
   const answer = await askPicture({ index, halfWidth: halfWidth() });
-  // None: another run has begun since, and will draw its own.
+  // There is no picture if another run has begun, which will draw its own.
   if (answer.picture && outcome === drawnOutcome) showInstant(answer.picture, outcome.frames[index]);
 });
 

@@ -1,4 +1,4 @@
-// What a collision came to, on the page.
+// The results of a collision on the page.
 import { NOTHING, percent, plain, show, showBeside } from './units.js';
 import { ACCOUNT_WORDS, EFFECT_WORDS, OF_COMPUTATION } from './effects.js';
 
@@ -13,7 +13,7 @@ const QUANTITIES = [
 
 export const at = (id) => document.getElementById(id);
 
-// An element with text and children.
+// Creates an element with text and attributes.
 export function element(name, text = '', attributes = {}) {
   const made = document.createElement(name);
   made.textContent = text;
@@ -21,7 +21,7 @@ export function element(name, text = '', attributes = {}) {
   return made;
 }
 
-// Pictures are the module's own; what a case says is text in them. They are named for who cannot see them.
+// Shows a picture of the module, in which text of the case is escaped. The label is for screen readers.
 export function draw(place, svg, label) {
   place.innerHTML = svg ?? '';
   place.hidden = !svg;
@@ -36,7 +36,7 @@ const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 export function headline(summary) {
   const force = `peak force ${show(summary.peak_force_n, 'N')}`;
   if (!summary.complete) return `Not complete: ${force} so far.`;
-  if (summary.contact_time_s === null && summary.restitution === 0) return `They stay together: restitution 0, ${force}.`;
+  if (summary.contact_time_s === null && summary.restitution === 0) return `The bodies stay together: restitution 0, ${force}.`;
   return `Restitution ${show(summary.restitution, '')}, contact time ${show(summary.contact_time_s, 's')}, ${force}.`;
 }
 
@@ -59,23 +59,23 @@ export function showNumbers(summary) {
   at('warnings').replaceChildren(...warnings.map((text) => element('li', sentence(plain(text)))));
 }
 
-// By what it was computed, and why by that if the program chose.
+// Shows the model, and why it was chosen if the program chose it.
 export function showMade(summary, begun, milliseconds) {
   const chosen = (summary.models_considered ?? []).find((model) => model.chosen);
   const choice = chosen ? ` Auto has chosen ${chosen.model.replace(' = {}', '')}: ${plain(chosen.reason)}.` : '';
   const elements = begun.price.elements ? `, ${begun.price.elements.toLocaleString('en')} elements` : '';
-  at('made').textContent = `Computed by ${begun.model}${elements}, in ${Math.round(milliseconds)} ms.${choice}`;
+  at('made').textContent = `Computed with ${begun.model}${elements}, in ${Math.round(milliseconds)} ms.${choice}`;
 }
 
 export function showCharts(charts, summary) {
   const { hertz } = summary;
   draw(at('chart-force'), charts.force, `Contact force over time beside Hertz: at most ${show(summary.peak_force_n, 'N')}; Hertz ${show(hertz.peak_force_n, 'N')}.`);
   draw(at('chart-approach'), charts.approach, `Approach over time beside Hertz: at most ${show(summary.max_approach_m, 'm')}; Hertz ${show(hertz.max_approach_m, 'm')}.`);
-  draw(at('chart-energy'), charts.energy, 'Where the energy is, over time.');
+  draw(at('chart-energy'), charts.energy, 'Energies over time.');
 }
 
-// Shares of the energy at the end where the common motion cannot be told apart; what is given to the bodies counts
-// with what they had.
+// Returns the shares of the energy at the end if the common motion is not known; external work counts with the
+// initial energy.
 function wholeSharing(energy) {
   const entries = Object.entries(energy)
     .filter(([key, value]) => key.endsWith('_j') && value !== null)
@@ -87,14 +87,14 @@ function wholeSharing(energy) {
 
 function energyText({ common_j, relative_j }, summary) {
   const whole = common_j + relative_j;
-  if (!summary.complete) return `The run was ended. Of ${show(relative_j, 'J', 3)} of motion towards each other there are so far:`;
-  if (common_j / whole < 1e-3) return `The bodies met with ${show(whole, 'J', 3)}. In the end there are of it:`;
-  return `The bodies met with ${show(whole, 'J', 3)}. ${percent(common_j / whole)} of it is the motion of both together, which no collision changes. The other ${show(relative_j, 'J', 3)}, of the motion towards each other, became:`;
+  if (!summary.complete) return `The run was ended early. So far, the ${show(relative_j, 'J', 3)} of the approach have become:`;
+  if (common_j / whole < 1e-3) return `The bodies met with ${show(whole, 'J', 3)}, which became:`;
+  return `The bodies met with ${show(whole, 'J', 3)}. ${percent(common_j / whole)} of it is their common motion, which no collision changes. The other ${show(relative_j, 'J', 3)}, the energy of the approach, became:`;
 }
 
-// A part in words; of the rebound how it follows from the restitution.
+// Returns the description of a part of the energy; for the rebound, its relation to the restitution.
 function partWords(name, { restitution, complete, case: { model } }) {
-  if (name === 'viscous_dissipation' && model?.law) return 'heat, in the dashpot of the law';
+  if (name === 'viscous_dissipation' && model?.law) return 'heat in the dashpot of the law';
   const words = ACCOUNT_WORDS[name] ?? name.replaceAll('_', ' ');
   if (name !== 'rebound' || !complete || restitution === null) return words;
   return restitution > 0 ? `${words}, the square of the restitution, ${show(restitution, '')}²` : `${words}; the restitution is 0`;
@@ -105,7 +105,7 @@ export function showEnergy(summary, sharing) {
   const whole = shared.relative_j;
   const shown = shared.parts.map(([name, energy]) => ({ name, share: energy / whole })).filter(({ name, share }) => name === 'rebound' || Math.abs(share) >= NOTHING);
   const known = whole > 0 && shown.length > 0;
-  at('energy-text').textContent = known ? energyText(shared, summary) : 'This model keeps no account of energy here.';
+  at('energy-text').textContent = known ? energyText(shared, summary) : 'This model does not compute energies here.';
   const bar = shown.map(({ name, share }) => element('span', '', { class: `energy-${name}`, style: `flex-grow:${Math.max(0, share)}` }));
   at('energy-bar').replaceChildren(...(known ? bar : []));
   const lines = shown.map(({ name, share }) => {
@@ -116,7 +116,7 @@ export function showEnergy(summary, sharing) {
   at('energy-shares').replaceChildren(...(known ? lines : []));
 }
 
-// Changes below this share of a number are nothing to speak of.
+// Relative changes below this are negligible.
 const LEAST_CHANGE = 5e-4;
 
 function worth(leftOut, summary) {
@@ -128,8 +128,8 @@ function worth(leftOut, summary) {
   ].filter(([, change]) => change !== null);
   const changes = known.filter(([, change, , whole]) => change > LEAST_CHANGE * (whole ?? 0));
   if (known.length === 0) return '';
-  if (changes.length === 0) return ' Worth next to nothing.';
-  return ` Worth about ${changes.map(([name, change, unit]) => `${show(change, unit, 1)} of ${name}`).join(', ')}.`;
+  if (changes.length === 0) return ' Its influence is negligible.';
+  return ` It changes ${changes.map(([name, change, unit]) => `${name} by about ${show(change, unit, 1)}`).join(', ')}.`;
 }
 
 export function showEffects(summary) {
@@ -149,14 +149,14 @@ export function showEffects(summary) {
   at('means-details').hidden = means.length === 0;
 }
 
-// The lines of a text around one, and a mark below the column.
+// Returns the lines of a text around a position, with a mark below the column.
 function excerpt(text, line, column) {
   const lines = text.split('\n');
   const shown = lines.slice(Math.max(0, line - 2), line).map((words, k, all) => `${String(line - all.length + 1 + k).padStart(4)} | ${words}`);
   return [...shown, `     | ${' '.repeat(Math.max(0, column - 1))}^`].join('\n');
 }
 
-// `source`: the text that lines and columns are of, to be shown with them.
+// `source` is the text that lines and columns refer to; if given, the lines are shown.
 export function showFault(place, fault, source = null) {
   place.hidden = !fault;
   place.replaceChildren();

@@ -1,6 +1,6 @@
-// The worker and what is asked of it.
+// The worker and requests to it.
 
-// Within which a worker that computes hears that it should end, at most: else another one takes its place.
+// Time in which a computing worker must react to a request to end; otherwise it is replaced.
 const PATIENCE_MS = 1500;
 
 export class Runner {
@@ -12,7 +12,7 @@ export class Runner {
     this.#begin();
   }
 
-  // A worker made of the page's own text, with the module in it.
+  // The worker is created from the text of the page, with the module in it.
   #begin() {
     const source = document.getElementById('worker').textContent;
     try {
@@ -42,7 +42,7 @@ export class Runner {
     this.#open.clear();
   }
 
-  // The answer, of kind done, fault, failed, dropped or ended; `onway` hears of begun and progress.
+  // Returns the answer, of kind done, fault, failed, dropped or ended; `onway` receives begun and progress.
   async ask(kind, body = {}, onway = null) {
     if (kind !== 'start') await this.ready;
     this.#last += 1;
@@ -53,12 +53,12 @@ export class Runner {
     });
   }
 
-  // Nothing is told of a run under way, if there is one.
+  // Drops the current run without an answer, if there is one.
   drop() {
     this.#worker.postMessage({ kind: 'drop' });
   }
 
-  // What there is so far is told of a run under way. One that does not hear, since it makes meshes or
+  // Ends the current run with its results so far. A run that does not react, because it makes meshes or
   // factors, ends with its worker.
   cancel() {
     const asked = [...this.#open.keys()];
@@ -73,7 +73,7 @@ export class Runner {
   }
 }
 
-// One asked at a time, and only the last of those that wait; `hear` is told whether any is open.
+// Handles one request at a time, and only the last of those that wait; `hear` receives whether any is open.
 export function lastOnly(act, hear = () => {}) {
   let waiting = null;
   let isBusy = false;

@@ -1,7 +1,7 @@
-// What the sliders say, as a case and as a command.
+// The state of the sliders as a case and as a command.
 import { materialNames, materialTable } from './materials.js';
 
-// Each slider: range, unit as people write it, whether it is logarithmic.
+// The sliders: range, displayed unit, whether it is logarithmic.
 export const SLIDERS = {
   'striker.diameter': { from: 0.1, to: 200, unit: 'mm', isLogarithmic: true },
   'partner.diameter': { from: 0.1, to: 200, unit: 'mm', isLogarithmic: true },
@@ -20,7 +20,7 @@ export const CHOICES = {
   'law.kind': ['kuwabara_kono', 'tsuji'],
 };
 
-// What each setting is called.
+// The names of the settings.
 export const LABELS = {
   'striker.diameter': 'Diameter of the striker',
   'striker.material': 'Material of the striker',
@@ -30,15 +30,15 @@ export const LABELS = {
   'speed': 'Approach speed',
   'relaxation.kind': 'Relaxation',
   'relaxation.time': 'Relaxation time',
-  'relaxation.weight': 'Share that relaxes',
-  'relaxation.acts_on': 'What relaxation acts on',
+  'relaxation.weight': 'Relaxing share',
+  'relaxation.acts_on': 'What relaxes',
   'model': 'Model',
   'law.kind': 'Contact law',
   'law.a': 'Dissipation time',
-  'law.e': 'Restitution wanted',
+  'law.e': 'Desired restitution',
 };
 
-// The pair of the paper.
+// The pair of the paper, the initial state.
 export const FIRST = {
   'striker.diameter': 22.2,
   'striker.material': 'glass',
@@ -56,7 +56,7 @@ export const FIRST = {
   'law.e': 0.9,
 };
 
-// What there is of a state, within its limits; the rest is as at first.
+// Returns a valid state: given values within their limits, and initial values for the rest.
 export function sound(given) {
   const state = { ...FIRST };
   for (const key of Object.keys(FIRST)) {
@@ -69,7 +69,7 @@ export function sound(given) {
   return state;
 }
 
-// Which controls have a meaning.
+// Returns whether a control applies to the state.
 export function isMeant(key, state) {
   if (key === 'partner.diameter') return state['partner.shape'] === 'sphere';
   if (key === 'partner.material') return state['partner.shape'] !== 'wall';
@@ -86,7 +86,7 @@ function modelTable(state) {
   return `law = { kuwabara_kono = { a = "${state['law.a']} us" } }`;
 }
 
-// The case as TOML. The first body lies below: the striker of two spheres, else the partner.
+// Returns the case as TOML. The first body lies below: the striker of two spheres, otherwise the partner.
 export function caseOf(state) {
   const relaxation = {
     kind: state['relaxation.kind'],
@@ -135,7 +135,7 @@ function titleOf(state) {
   return `${state['striker.diameter']} mm of ${state['striker.material']} on ${other[state['partner.shape']]} at ${state.speed} m/s`;
 }
 
-// What a shell does with the same case.
+// Returns the shell command for a case.
 export function commandOf(text) {
   const end = text.split('\n').includes('CASE') ? 'END_OF_THE_CASE' : 'CASE';
   return `cat > case.toml <<'${end}'

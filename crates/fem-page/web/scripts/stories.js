@@ -1,11 +1,11 @@
-// Four stories. A step sets the sliders, says what comes out in numbers of this very run, and may show a
+// Four stories. Each step sets the sliders, explains the result with the numbers of this run, and may show a
 // chart of many collisions.
 import { percent, show } from './units.js';
 import { FIRST, caseOf, sound } from './scene.js';
 
 const twins = (state) => ({ ...state, 'partner.diameter': state['striker.diameter'] });
 
-// n values from one to another, in equal ratios.
+// Returns n values from one to another, with equal ratios.
 function ratios(from, to, n) {
   return Array.from({ length: n }, (_, k) => from * (to / from) ** (k / (n - 1)));
 }
@@ -16,15 +16,15 @@ export const STORIES = [
     steps: [
       {
         set: { 'relaxation.kind': 'none' },
-        text: ({ restitution, crossings }) => `First glass without any relaxation. The spheres part with ${show(restitution, '', 6)} of the speed at which they met: all that was stored is given back. (Do they not ring? Sound crosses the striker ${Math.round(crossings)} times during the contact, so the body follows as a spring does, and keeps next to nothing. This model leaves ringing out; take explicit elements under Model, which have it, and compare.)`,
+        text: ({ restitution, crossings }) => `First, glass without relaxation. The spheres separate with ${show(restitution, '', 6)} of their approach speed: all stored energy is returned. (Do they not vibrate? Sound crosses the striker ${Math.round(crossings)} times during the contact, so the body deforms like a spring and keeps almost no vibration. This model neglects vibration; choose explicit finite elements under Model, which include it, and compare.)`,
       },
       {
         set: {},
-        text: ({ restitution, heat, time, relaxationTime }) => `Now the glass relaxes: a stress that is held decays with a time of ${show(relaxationTime, 's', 3)}. The contact lasts only ${percent(time / relaxationTime)} of that, but on the way out the glass pushes a little less than it did on the way in. ${percent(heat)} of the energy of the motion towards each other turns to heat. What is left is the square of the restitution: ${show(restitution, '')}² = ${percent(restitution ** 2)}. Compare the force with Hertz: its peak comes earlier, and its tail is weaker.`,
+        text: ({ restitution, heat, time, relaxationTime }) => `Now the glass relaxes: at constant strain its stress decays with a relaxation time of ${show(relaxationTime, 's', 3)}. The contact lasts only ${percent(time / relaxationTime)} of that, but during separation the glass pushes slightly less than during approach. ${percent(heat)} of the kinetic energy of the approach becomes heat. The rest is the square of the restitution: ${show(restitution, '')}² = ${percent(restitution ** 2)}. Compare the force with Hertz: it peaks earlier and is weaker at the end.`,
       },
       {
         set: { 'relaxation.kind': 'term', 'relaxation.time': 100 },
-        text: ({ restitution, relaxationTime }) => `Quicker relaxation, ${show(relaxationTime, 's', 3)}: the restitution falls to ${show(restitution, '')}. What counts is the contact time over the relaxation time. Far to the right of the chart the glass has no time to relax; to the left it has more than enough.`,
+        text: ({ restitution, relaxationTime }) => `With a shorter relaxation time, ${show(relaxationTime, 's', 3)}, the restitution falls to ${show(restitution, '')}. What matters is the ratio of contact time to relaxation time. On the right of the chart the glass has no time to relax; on the left it relaxes fully.`,
         chart: {
           x: 'relaxation time [µs]',
           y: 'restitution',
@@ -42,11 +42,11 @@ export const STORIES = [
     steps: [
       {
         set: { 'relaxation.kind': 'none', 'speed': 0.1 },
-        text: ({ time }) => `At 0.1 m/s the spheres touch for ${show(time, 's')}. Were they springs of a fixed stiffness, that time would be the same at any speed, as for a pendulum.`,
+        text: ({ time }) => `At 0.1 m/s the spheres touch for ${show(time, 's')}. If they were springs of constant stiffness, this time would be the same at every speed, like the period of a pendulum.`,
       },
       {
         set: { 'relaxation.kind': 'none', 'speed': 1 },
-        text: ({ time }) => `Ten times faster: ${show(time, 's')}. Pressed harder, the spheres touch over a larger circle, and so get stiffer: the contact is shorter, but only by the fifth root of the speed. A tenfold speed leaves ${percent(10 ** -0.2)} of the time.`,
+        text: ({ time }) => `At ten times the speed: ${show(time, 's')}. Under a larger force the spheres touch over a larger circle and become stiffer, so the contact is shorter, but only with the fifth root of the speed: ten times the speed leaves ${percent(10 ** -0.2)} of the time.`,
         chart: {
           x: 'speed [m/s]',
           y: 'contact time [µs]',
@@ -60,15 +60,15 @@ export const STORIES = [
     ],
   },
   {
-    title: 'Why do small spheres and big ones differ?',
+    title: 'Why do small and large spheres differ?',
     steps: [
       {
         set: { 'striker.diameter': 2, 'partner.diameter': 2 },
-        text: ({ restitution, time }) => `Two glass spheres of 2 mm touch for ${show(time, 's')}, and come back with ${show(restitution, '')}. At one speed the contact time goes with the size: all lengths grow alike.`,
+        text: ({ restitution, time }) => `Two glass spheres of 2 mm touch for ${show(time, 's')} and have a restitution of ${show(restitution, '')}. At a given speed the contact time is proportional to the size, since all lengths scale together.`,
       },
       {
         set: { 'striker.diameter': 100, 'partner.diameter': 100 },
-        text: ({ restitution, time, relaxationTime }) => `Of 100 mm they touch for ${show(time, 's')}. The glass has the same clock as before, ${show(relaxationTime, 's', 3)}, and now the time to use it: the restitution is ${show(restitution, '')}. An elastic pair would give the same at any size: without a clock in the material there is nothing to compare the contact time with.`,
+        text: ({ restitution, time, relaxationTime }) => `Spheres of 100 mm touch for ${show(time, 's')}. The relaxation time is still ${show(relaxationTime, 's', 3)}, so the glass now has time to relax: the restitution is ${show(restitution, '')}. Elastic spheres would give the same restitution at every size, because their material has no time scale.`,
         chart: {
           x: 'diameter of both [mm]',
           y: 'restitution',
@@ -86,15 +86,15 @@ export const STORIES = [
     steps: [
       {
         set: {},
-        text: ({ restitution }) => `Bordbar and Hyppänen (2007) let a glass sphere of 22.2 mm strike one of 15.9 mm in a Newton’s cradle at 0.5 m/s, and measured a restitution of 0.925. Their own finite elements print 0.92. Here it is ${show(restitution, '')}.`,
+        text: ({ restitution }) => `Bordbar and Hyppänen (2007) let a glass sphere of 22.2 mm strike one of 15.9 mm in a Newton’s cradle at 0.5 m/s and measured a restitution of 0.925. Their own finite elements gave 0.92. The result here is ${show(restitution, '')}.`,
       },
       {
         set: { 'relaxation.kind': 'term', 'relaxation.acts_on': 'shear', 'relaxation.time': 369 },
-        text: ({ restitution }) => `The paper does not say whether volume relaxes as shape does. If only shape does: ${show(restitution, '')}, much further from what was measured. So the reading before is likely the paper’s.`,
+        text: ({ restitution }) => `The paper does not say whether volume relaxes like shape. If only shape relaxes, the restitution is ${show(restitution, '')}, much further from the measurement. The paper therefore probably means the first reading.`,
       },
       {
         set: {},
-        text: () => 'One measured point cannot tell one loss from another. Relaxation makes the restitution grow with speed, since fast contacts are short; a loss by flow or by cracks would make it fall. It takes several speeds or sizes to know.',
+        text: () => 'A single measurement cannot distinguish between kinds of loss. With relaxation the restitution grows with speed, because fast contacts are short; plastic flow or cracks would make it fall. Several speeds or sizes are needed to decide.',
         chart: {
           x: 'speed [m/s]',
           y: 'restitution',
@@ -110,12 +110,12 @@ export const STORIES = [
   },
 ];
 
-// The state of a step: that of the paper's pair with what the step sets.
+// Returns the state of a step: the paper's pair with the settings of the step.
 export function stateOf(step) {
   return sound({ ...FIRST, ...step.set });
 }
 
-// The chart of a step, as its collisions come in; `compute` gives the summary of a case.
+// Returns the chart of a step; `compute` returns the summary of a case.
 export async function chartOf(step, compute) {
   const { x, y, logarithmic, range = null, along, change, of, compare = [], measured = [] } = step.chart;
   const own = [];

@@ -1,4 +1,4 @@
-// To take along: link, case, command, numbers; and what is printed.
+// Copies of link, case, command and numbers, and printing.
 import { at, element } from './results.js';
 import { commandOf } from './scene.js';
 
@@ -7,11 +7,11 @@ async function copy(text, what) {
     await navigator.clipboard.writeText(text);
     at('copied').textContent = `${what} copied.`;
   } catch {
-    at('copied').textContent = `The browser does not let this page copy; the ${what.toLowerCase()} stands below or in the address.`;
+    at('copied').textContent = `The browser does not allow copying; find the ${what.toLowerCase()} below or in the address bar.`;
   }
 }
 
-// `textNow` gives the case, `summaryNow` the numbers, `runOwn` takes a case of the reader's own.
+// `textNow` returns the case, `summaryNow` the numbers; `runOwn` runs a case of the reader.
 export function buildTaking({ textNow, summaryNow, runOwn }) {
   at('copy-link').addEventListener('click', () => copy(location.href, 'Link'));
   at('copy-case').addEventListener('click', () => copy(textNow(), 'Case'));
@@ -28,7 +28,7 @@ export function buildTaking({ textNow, summaryNow, runOwn }) {
   openForPrint();
 }
 
-// On paper nothing can be opened, and the ground is light.
+// Opens details for printing, on a light background.
 function openForPrint() {
   let opened = [];
   let theme = null;

@@ -1,4 +1,4 @@
-// The stories on the page: which is told, at which step.
+// The stories on the page: which one is open, and at which step.
 import { show } from './units.js';
 import { caseOf } from './scene.js';
 import { Runner } from './runner.js';
@@ -9,7 +9,7 @@ let sweeps = null;
 let told = null;
 let take = null;
 
-// `setState` takes the state that a step sets.
+// `setState` receives the state of a step.
 export function buildStories(setState) {
   take = setState;
   STORIES.forEach((story, k) => {
@@ -51,7 +51,7 @@ function goTo(story, step) {
   if (steps[step].chart) tellChart(told, steps[step]);
 }
 
-// A step's text, once its own case has been computed; it stays while the reader plays on.
+// Shows the text of a step once its case has been computed; it stays while the reader moves sliders.
 export function storyText(text, summary, sharing) {
   if (!told || text !== told.text) return;
   const heat = sharing?.parts.find(([name]) => name === 'viscous_dissipation')?.[1] ?? 0;
@@ -66,13 +66,13 @@ export function storyText(text, summary, sharing) {
   at('story-text').textContent = STORIES[told.story].steps[told.step].text(numbers);
 }
 
-// Of the striker's material, s; null without relaxation.
+// Returns the relaxation time of the striker's material, s; null without relaxation.
 function relaxationTime(summary) {
   const [term] = materialOf(summary).relaxation?.terms ?? [];
   return term?.relaxation_time ?? (term?.decay_rate ? 1 / term.decay_rate : null);
 }
 
-// How often sound of a rod passes the striker while it is in contact.
+// Returns how often a sound wave crosses the striker during the contact.
 function crossings(summary) {
   const { youngs_modulus, density } = materialOf(summary);
   return (summary.contact_time_s * Math.sqrt(youngs_modulus / density)) / striker(summary).sphere.diameter;

@@ -3,8 +3,8 @@
 const PREFIXES = ['a', 'f', 'p', 'n', 'µ', 'm', '', 'k', 'M', 'G', 'T'];
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
-// A number with a prefixed unit, so many digits; with the prefix and the decimals of another number of about its
-// size, if one is given.
+// Returns a number with a prefixed unit and this many digits; with the prefix and the decimals of `like` if that is
+// of similar size.
 export function show(value, unit, digits = 4, like = value) {
   if (value === null || value === undefined) return '–';
   if (value === 0) return `0 ${unit}`.trim();
@@ -14,7 +14,7 @@ export function show(value, unit, digits = 4, like = value) {
   return `${withMinus((own / 10 ** (3 * power)).toFixed(decimals))} ${PREFIXES[power + 6]}${unit}`;
 }
 
-// How far a number may be off, two digits, in its unit and with no more than its decimals where that says anything.
+// Returns the error of a number with two digits, in the unit of the number and with no more decimals if possible.
 export function showBeside(off, value, unit) {
   if (!value || !off) return show(off, unit, 2);
   const { power, decimals } = unit === '' ? { power: 0, decimals: 4 } : scaleOf(value, 4);
@@ -27,14 +27,14 @@ function isLike(value, like) {
   return Number.isFinite(like) && Math.abs(value / like) >= 0.1 && Math.abs(value / like) <= 10;
 }
 
-// The prefix in which a number, rounded, has one to three digits before the point, and its decimals.
+// Returns the prefix with which a rounded number has one to three digits before the point, and its decimals.
 function scaleOf(value, digits) {
   const exponent = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(digits)))));
   const power = Math.min(4, Math.max(-6, Math.floor(exponent / 3)));
   return { power, decimals: Math.max(0, digits - 1 - exponent + 3 * power) };
 }
 
-// So many digits, without an exponent where the number is of the size that people write.
+// Returns this many digits, without an exponent for numbers of ordinary size.
 function trimmed(value, digits) {
   const text = Number(value.toPrecision(digits)).toString();
   if (!text.includes('e')) return value.toPrecision(digits).includes('e') ? text : value.toPrecision(digits);
@@ -47,22 +47,22 @@ function withMinus(text) {
   return text.replace('-', '−');
 }
 
-// A sentence with the numbers that programs write, 2.8647e-4 m, as people do.
+// Returns a sentence with numbers such as 2.8647e-4 m in readable form.
 export function plain(text) {
   return text.replace(/(?<![\w.])(-?\d+(?:\.\d+)?e[-+]?\d+)(?: (m\/s|Pa|kg|[msNJ])(?![\w/]))?/g, (_, number, unit) => show(Number(number), unit ?? '', 3));
 }
 
-// A share below this is none.
+// Smaller shares count as zero.
 export const NOTHING = 5e-7;
 
-// A share as a percentage.
+// Returns a share as a percentage.
 export function percent(share) {
   const value = Math.abs(share) < NOTHING ? 0 : 100 * share;
   if (Math.abs(value) >= 0.0995) return `${value.toFixed(1)} %`.replace('-', '−');
   return value === 0 ? '0 %' : `${trimmed(value, 1)} %`.replace('-', '−');
 }
 
-// Rounded to what a slider shows and a case says.
+// Rounds a value as sliders show it and cases contain it.
 export function rounded(value, digits = 3) {
   return Number(value.toPrecision(digits));
 }

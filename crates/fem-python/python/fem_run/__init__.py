@@ -1,6 +1,6 @@
 """How do two viscoelastic spheres collide?
 
-A case is computed by the same code as the command ``fem-run`` and to the same bits::
+Collisions are computed by the same code as the command ``fem-run``, with the same bits::
 
     import fem_run, numpy as np
     case = fem_run.Case.load("cases/glass_0.5ms.toml")
@@ -8,8 +8,8 @@ A case is computed by the same code as the command ``fem-run`` and to the same b
     result.restitution, result.history["contact_force_n"]
     table = fem_run.sweep(case, {"body.0.approach_speed": np.geomspace(0.05, 2, 40)})
 
-Bare numbers are SI, strings carry a unit (``"22.2 mm"``). What is wrong raises :class:`InputError` with the
-words of the command.
+Bare numbers are SI, strings carry a unit (``"22.2 mm"``). Invalid input raises :class:`InputError` with the
+message of the command.
 """
 
 from ._case import Case
@@ -21,7 +21,7 @@ from ._sweep import Table, sweep
 
 
 def __getattr__(name: str) -> str:
-    """The version, looked up when it is asked for."""
+    """Returns the version, which is looked up on request."""
     if name != "__version__":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from importlib.metadata import version

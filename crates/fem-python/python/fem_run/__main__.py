@@ -1,4 +1,4 @@
-"""``python -m fem_run`` is the command."""
+"""``python -m fem_run`` runs the command."""
 
 from ._command import main
 

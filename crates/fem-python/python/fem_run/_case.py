@@ -14,10 +14,10 @@ from ._result import Result
 
 
 class Case:
-    """A valid case: two bodies, how they meet, and what computes them.
+    """A valid case: two bodies, their collision, and the model that computes it.
 
-    Made by :meth:`load` or :meth:`from_dict`; it does not change, :meth:`with_` gives another one. Cases can be
-    pickled.
+    Created by :meth:`load` or :meth:`from_dict`. A case does not change; :meth:`with_` returns another one. Cases
+    can be pickled.
     """
 
     __slots__ = ("_native",)
@@ -27,41 +27,41 @@ class Case:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], **overrides: Any) -> Case:
-        """Reads a case file, TOML.
+        """Reads a TOML case file.
 
         Raises:
-            InputError: the first thing that is wrong with it, with file, line, column and key.
+            InputError: the case is invalid; the error has file, line, column and key.
         """
         return cls(_native.Case.load(os.fspath(path), _overrides(overrides)))
 
     @classmethod
     def from_toml(cls, text: str, name: str = "<text>") -> Case:
-        """Reads the text of a case; ``name`` stands for it in messages. Mesh files are looked for here."""
+        """Reads the text of a case; ``name`` is its name in messages. Mesh files are looked up in the current folder."""
         if not isinstance(text, str):
-            raise TypeError(f"the text of a case is a str, not {shown(text)}")
+            raise TypeError(f"the text of a case must be a str, not {shown(text)}")
         return cls(_native.Case.parse(name, text, ".", []))
 
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any]) -> Case:
-        """A case of the tables that a case file has: ``{"material": {…}, "body": [{…}, {…}]}``.
+        """Creates a case from the tables of a case file: ``{"material": {…}, "body": [{…}, {…}]}``.
 
-        Numbers are SI, strings have a unit; keys whose value is ``None`` are left out.
+        Numbers are SI, strings have a unit; keys with the value ``None`` are left out.
 
         Raises:
-            InputError: the first thing that is wrong with it, with its key.
+            InputError: the case is invalid; the error has the key.
         """
         if not isinstance(tables, Mapping):
-            raise TypeError(f"a case is a dict of tables, as a case file has them, not {shown(tables)}")
+            raise TypeError(f"a case must be a dict of tables, as in a case file, not {shown(tables)}")
         return cls(_native.Case.parse("<dict>", _toml.document(tables), ".", []))
 
     def with_(self, changes: Mapping[str, Any]) -> Case:
-        """The same case with other values: ``{"body.0.approach_speed": "1 m/s", "model": {"ting": {}}}``.
+        """Returns the case with other values: ``{"body.0.approach_speed": "1 m/s", "model": {"ting": {}}}``.
 
-        Keys are dotted paths, arrays count from 0; a value may be a whole table. Keys and tables that the case
+        Keys are dotted paths, and arrays count from 0; a value may be a whole table. Keys and tables that the case
         lacks are added.
 
         Raises:
-            InputError: a key that is none, a value that does not fit.
+            InputError: a key is unknown, or a value is invalid.
         """
         return Case(self._native.overridden(_overrides(changes)))
 
@@ -71,16 +71,16 @@ class Case:
         progress: bool | Callable[[float], object] = False,
         snapshots: bool = True,
     ) -> Result:
-        """Computes the collision, to the bits of the command. Other Python threads go on meanwhile.
+        """Computes the collision with the same bits as the command. Other Python threads continue meanwhile.
 
         Args:
-            progress: a bar on stderr, or a function that is called with the fraction that is done.
-            snapshots: whether the fields that the case asks for are computed.
+            progress: True for a bar on stderr, or a function that is called with the completed fraction.
+            snapshots: whether the requested snapshots are computed.
 
         Raises:
-            InputError: what the model refuses.
-            RunError: a run that failed; its ``result`` is what there is.
-            Interrupted: Ctrl-C; its ``result`` is what there is.
+            InputError: the model rejects the case.
+            RunError: the run failed; ``result`` contains what was computed.
+            Interrupted: Ctrl-C ended the run; ``result`` contains what was computed.
         """
         with reporter(progress, self.title) as report:
             outcome, error = self._native.run(report, snapshots)
@@ -94,34 +94,34 @@ class Case:
         return result
 
     def check(self) -> str:
-        """What ``fem-run check`` prints: the case with all defaults, and what to expect of a run."""
+        """Returns the text of ``fem-run check``: the case with all defaults, and a description of the expected run."""
         return self._native.check()
 
     def to_toml(self) -> str:
-        """The case as a file, numbers in SI."""
+        """Returns the text of a case file, with numbers in SI."""
         return self._native.to_toml()
 
     def number(self, key: str) -> tuple[float, str] | None:
-        """The number at a dotted key in SI and its unit; ``None`` where the case gives none."""
+        """Returns the number at a dotted key in SI and its unit; ``None`` if the case does not give it."""
         if not isinstance(key, str):
-            raise TypeError(f"a key is a dotted path, such as 'body.0.approach_speed', not {shown(key)}")
+            raise TypeError(f"a key must be a dotted path, such as 'body.0.approach_speed', not {shown(key)}")
         return self._native.number_at(_toml.parts(key))
 
     @property
     def title(self) -> str:
-        """What it is, in words."""
+        """The title of the case."""
         return self._native.title
 
     @property
     def stem(self) -> str:
-        """What results are named after."""
+        """The name after which results are named."""
         name = os.path.splitext(os.path.basename(self._native.name))[0]
         kept = (c if c.isascii() and (c.isalnum() or c in "-_.") else "_" for c in name)
         return "".join(kept).strip("_") or "case"
 
     @property
     def identity(self) -> str:
-        """What its result by this build is known by: the name of a sweep's member."""
+        """The identity of the result with this build, which is also the name of a sweep's member."""
         return self._native.identity()
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -136,10 +136,10 @@ class Case:
 
 def _overrides(changes: Mapping[str, Any]) -> list[str]:
     if not isinstance(changes, Mapping):
-        raise TypeError(f"changes are a dict of dotted keys and values, not {shown(changes)}")
+        raise TypeError(f"changes must be a dict of dotted keys and values, not {shown(changes)}")
     for key in changes:
         if not isinstance(key, str):
-            raise TypeError(f"a key is a dotted path, such as 'body.0.approach_speed', not {shown(key)}")
+            raise TypeError(f"a key must be a dotted path, such as 'body.0.approach_speed', not {shown(key)}")
     return [f"{key}={_toml.value(value)}" for key, value in changes.items()]
 
 

@@ -8,5 +8,5 @@ from . import _native
 
 
 def main() -> None:
-    """Does what the command line asks for and ends the process."""
+    """Runs the command line and ends the process."""
     sys.exit(_native.run_command(["fem-run", *sys.argv[1:]]))

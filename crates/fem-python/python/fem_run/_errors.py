@@ -1,4 +1,4 @@
-"""What is wrong, in the words of the command."""
+"""Errors, with the messages of the command."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _Place = tuple[str | None, int | None, int | None, str | None]
 
 
 class Error(Exception):
-    """Anything that fem-run refuses or fails at. ``str()`` is all of it, as the command prints it.
+    """An error of fem-run. ``str()`` returns the whole text, as the command prints it.
 
     Attributes:
         help: what is allowed, or what to do.
-        file: the case as it was named, or the override, ``--set body.0.approach_speed=…``.
-        line, column: of the culprit's first character, from 1.
-        key: the dotted path of the key at fault.
+        file: name of the case, or the override, ``--set body.0.approach_speed=…``.
+        line, column: position of the error in the file, from 1.
+        key: dotted path of the key.
     """
 
     def __init__(
@@ -37,29 +37,29 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """Bad input; nothing was computed."""
+    """Invalid input; nothing was computed."""
 
 
 class RunError(Error, RuntimeError):
-    """A run that failed; ``result`` is what was computed so far, marked incomplete. Of a sweep whose executor broke
-    it is the table of the members that are done."""
+    """A failed run; ``result`` contains what was computed, marked incomplete. For a sweep whose executor broke,
+    ``result`` is the table of the members that are done."""
 
     result: Result | Table | None = None
 
 
 class Interrupted(Error, KeyboardInterrupt):
-    """A run or a sweep that Ctrl-C ended; ``result`` is what was computed so far: a result that is marked
-    incomplete, or the table of the members that are done."""
+    """A run or a sweep that Ctrl-C ended; ``result`` contains what was computed: a result marked incomplete, or the
+    table of the members that are done."""
 
     result: Result | Table | None = None
 
 
 def bad_input(message: str, help: str) -> InputError:
-    """What is wrong and what is right, as the command words it."""
+    """Creates an error with a suggested fix, in the form of the command."""
     return InputError(f"{message}\n  help: {help}\n", help)
 
 
 def shown(value: object) -> str:
-    """A value in a few words, for messages."""
+    """Returns a short form of a value for messages."""
     text = repr(value)
     return text if len(text) <= 40 else f"a {type(value).__name__}"

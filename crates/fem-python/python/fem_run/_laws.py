@@ -1,8 +1,9 @@
-"""Contact laws, materials and experiments: what the commands of these names compute, without their files.
+"""Contact laws, calibration and experiments: the results of the commands of these names, without their files.
 
-Keyword arguments are the options of the command, ``contact_time=True`` for ``--contact-time``, lists for what
-may be repeated or listed, ``columns={"speed": "v"}`` for what columns are called. Data are a CSV file's path, a :class:`fem_run.Table`, a data frame, or a dict of
-columns, named as docs/fits.md says: ``speed_m_s``, ``restitution``.
+Keyword arguments are the options of the command: ``contact_time=True`` for ``--contact-time``, lists for options that
+may be repeated, ``columns={"speed": "v"}`` for the names of columns. Data are the path of a CSV file, a
+:class:`fem_run.Table`, a data frame, or a dict of columns with the names of docs/fits.md: ``speed_m_s``,
+``restitution``.
 """
 
 from __future__ import annotations
@@ -24,29 +25,29 @@ _LISTED = {"free", "diameters", "masses"}
 
 
 def fit(case: Case, data: Any, **options: Any) -> dict[str, Any]:
-    """Parameters of a contact law from restitutions over speeds: ``fit(case, table, law="ting")``.
+    """Fits parameters of a contact law to restitutions over speed: ``fit(case, table, law="ting")``.
 
     Options: ``law``, ``free``, ``param``, ``end``, ``bounds``, ``profile``, ``compare``, ``contact_time``,
     ``confidence``. Returns the keys of ``fit.json``, SI.
 
     Raises:
-        InputError: options or data that do not fit.
+        InputError: the options or the data are invalid.
     """
     return json.loads(_native.fit(_native_of(case), _data(data), _words(options)))
 
 
 def invert(case: Case, restitution: float, **options: Any) -> dict[str, Any]:
-    """The parameter of a law that gives a restitution at one speed.
+    """Finds the parameter of a law that gives a restitution at one speed.
 
     Options: ``law``, ``find``, ``param``, ``end``, ``speed``. Returns ``solutions``, each with ``law``,
-    ``parameter``, ``value`` and ``contact_time_s``, SI, and ``unsolved``, laws and why.
+    ``parameter``, ``value`` and ``contact_time_s``, SI, and ``unsolved``: laws with the reason.
     """
     words = _words({"restitution": restitution, **options})
     return json.loads(_native.invert(_native_of(case), None, words))
 
 
 def export(case: Case, data: Any = None, **options: Any) -> dict[str, Any]:
-    """Input of DEM codes and of robotics that makes the same restitutions.
+    """Writes input for DEM codes and robotics that reproduces the restitutions.
 
     For LAMMPS, LIGGGHTS, YADE, MercuryDPM, Lethe, MFIX-DEM, Drake and MuJoCo. Options: ``speeds``,
     ``tolerance``, and ``materials`` and ``diameters`` for a table of all pairs. Returns the keys of
@@ -56,7 +57,7 @@ def export(case: Case, data: Any = None, **options: Any) -> dict[str, Any]:
 
 
 def calibrate(case: Case, data: Any, **options: Any) -> dict[str, Any]:
-    """A Prony series from measured restitutions, and what they leave open.
+    """Finds a Prony series from measured restitutions, and what they leave undetermined.
 
     Options: ``terms``, ``times``, ``acts_on``, ``material``, ``regularisation``, ``uncertainty``, ``model``,
     ``confidence``. Returns the keys of ``calibrate.json``, and ``relaxation_toml`` to paste into a case.
@@ -65,11 +66,11 @@ def calibrate(case: Case, data: Any, **options: Any) -> dict[str, Any]:
 
 
 def cradle(data: Any = None, **options: Any) -> Any:
-    """Restitution from the angles of a Newton's cradle: ``cradle(length="20 cm", diameters=["22.2 mm", "15.9
+    """Computes the restitution from the angles of a Newton's cradle: ``cradle(length="20 cm", diameters=["22.2 mm", "15.9
     mm"], alpha="20 deg", beta="24 deg")``.
 
     Options: ``length``, ``diameters`` or ``masses``, ``alpha``, ``beta``, ``angle_uncertainty``, ``gravity``.
-    Returns speed, restitution and velocities with their uncertainties, SI; of data, columns of a row a trial.
+    Returns speed, restitution and velocities with their uncertainties, SI; for data, columns with one row per trial.
     """
     found = json.loads(_native.cradle(_data(data), _words(options)))
     if isinstance(found, dict):
@@ -79,7 +80,7 @@ def cradle(data: Any = None, **options: Any) -> Any:
 
 
 def check(case: Case) -> str:
-    """What ``fem-run check`` prints: the case with all defaults, and what to expect of a run."""
+    """Returns the text of ``fem-run check``: the case with all defaults, and a description of the expected run."""
     _native_of(case)
     return case.check()
 
@@ -111,12 +112,12 @@ def _text(value: Any) -> str:
 
 def _native_of(case: Any) -> _native.Case:
     if not isinstance(case, Case):
-        raise TypeError(f"case is a fem_run.Case, not {shown(case)}; fem_run.Case.load(path) reads one")
+        raise TypeError(f"case must be a fem_run.Case, not {shown(case)}; fem_run.Case.load(path) reads one")
     return case._native
 
 
 def _data(data: Any) -> tuple[str, bytes] | None:
-    """Name and bytes of data."""
+    """Returns the name of the data and their bytes."""
     if data is None:
         return None
     if isinstance(data, (str, os.PathLike)):
@@ -126,12 +127,12 @@ def _data(data: Any) -> tuple[str, bytes] | None:
     if hasattr(data, "to_dict") and hasattr(data, "columns"):
         data = {name: data[name].to_numpy() for name in data.columns}
     if not isinstance(data, Mapping):
-        raise TypeError(f"data are a CSV file's path, a table, a data frame or a dict of columns, not {shown(data)}")
+        raise TypeError(f"data are the path of a CSV file, a table, a data frame or a dict of columns, not {shown(data)}")
     columns = {str(name): _column(str(name), values) for name, values in data.items()}
     lengths = {name: len(values) for name, values in columns.items()}
     if len(set(lengths.values())) > 1:
-        told = ", ".join(f"{name} has {n}" for name, n in lengths.items())
-        raise bad_input(f"<data>: the columns are not of one length: {told}", "a row is a value of each column")
+        lengths_text = ", ".join(f"{name} has {n}" for name, n in lengths.items())
+        raise bad_input(f"<data>: the columns differ in length: {lengths_text}", "each row has one value per column")
     return "<data>", Table(columns, []).to_csv().encode()
 
 
@@ -140,7 +141,7 @@ def _file(path: str) -> tuple[str, bytes]:
         with open(path, "rb") as file:
             return path, file.read()
     except FileNotFoundError as error:
-        raise bad_input(f"{path}: there is no such file", "data are a CSV file's path, a table, a data frame or a dict of columns") from error
+        raise bad_input(f"{path}: there is no such file", "data are the path of a CSV file, a table, a data frame or a dict of columns") from error
     except OSError as error:
         raise bad_input(f"{path}: {error.strerror}", "name a file that can be read") from error
 

@@ -1,4 +1,4 @@
-"""The library of materials that a case names as ``"lib:NAME"``."""
+"""The library of materials, which a case names as ``"lib:NAME"``."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from . import _native
 
 
 class Materials(Mapping[str, "dict[str, Any]"]):
-    """Materials by name: ``title``, ``source``, ``range`` in words, and ``table`` as a case holds it, SI."""
+    """Materials by name: ``title``, ``source`` and ``range`` as text, and ``table`` as in a case, SI."""
 
     @cached_property
     def _all(self) -> dict[str, dict[str, Any]]:
@@ -20,7 +20,7 @@ class Materials(Mapping[str, "dict[str, Any]"]):
     def __getitem__(self, name: str) -> dict[str, Any]:
         name = name.removeprefix("lib:")
         if name not in self._all:
-            # The command's words, with the nearest name.
+            # Raises the error of the command, which suggests the nearest name.
             _native.material_toml(name)
         return self._all[name]
 
@@ -34,7 +34,7 @@ class Materials(Mapping[str, "dict[str, Any]"]):
         return isinstance(name, str) and name.removeprefix("lib:") in self._all
 
     def toml(self, name: str) -> str:
-        """A material as a table to copy into a case file."""
+        """Returns a material as a table to copy into a case file."""
         return _native.material_toml(name)
 
     def __repr__(self) -> str:

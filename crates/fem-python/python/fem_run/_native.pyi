@@ -1,4 +1,4 @@
-"""What is compiled; use what ``fem_run`` shows of it."""
+"""The compiled part; use the interface of ``fem_run``."""
 
 from collections.abc import Callable
 from typing import Any

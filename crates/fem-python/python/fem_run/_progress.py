@@ -1,4 +1,4 @@
-"""How far a computation is."""
+"""Progress of a computation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 _WIDTH = 32
-#: Lines of a run whose stderr is no terminal.
+#: Lines that are printed for a run if stderr is no terminal.
 _LINES = 10
 
 
@@ -17,13 +17,13 @@ _LINES = 10
 def reporter(
     progress: bool | Callable[[float], object], title: str
 ) -> Iterator[Callable[[float], object] | None]:
-    """What is called with the fraction that is done: nothing, a function of the user's, or a bar on stderr, which
-    is some lines where stderr is a file or a pipe."""
+    """Yields the function that is called with the completed fraction: none, the user's, or one that draws a bar on
+    stderr. In a file or a pipe the bar becomes a few lines."""
     if callable(progress):
         yield progress
         return
     if not isinstance(progress, bool):
-        raise TypeError(f"progress is True, False or a function of the fraction that is done, not {progress!r}")
+        raise TypeError(f"progress is True, False or a function of the completed fraction, not {progress!r}")
     stream = sys.stderr
     if not progress or stream is None:
         yield None
@@ -37,7 +37,7 @@ def reporter(
 
 
 def _redraws(stream: Any) -> bool:
-    """Whether a line can be written over: on a terminal and in a notebook."""
+    """Returns whether a line can be overwritten, as on a terminal and in a notebook."""
     return stream.isatty() or type(stream).__module__.startswith("ipykernel")
 
 
@@ -48,13 +48,13 @@ def _draw(stream: Any, fraction: float, title: str) -> None:
 
 
 class _Lines:
-    """A line a tenth."""
+    """Prints a line for each tenth of the progress."""
 
     def __init__(self, stream: Any, title: str) -> None:
-        self._stream, self._title, self._told = stream, title, 0
+        self._stream, self._title, self._printed = stream, title, 0
 
     def __call__(self, fraction: float) -> None:
         tenths = int(_LINES * fraction)
-        if tenths > self._told:
-            self._told = tenths
+        if tenths > self._printed:
+            self._printed = tenths
             print(f"{self._title}: {100 * tenths // _LINES} %", file=self._stream, flush=True)

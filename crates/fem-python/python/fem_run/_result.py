@@ -1,4 +1,4 @@
-"""What comes out of a collision."""
+"""Results of a collision."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from . import _native
 
-#: Keys of the summary that :class:`Result` and its picture in a notebook show, and their names.
+#: Keys of the summary that :class:`Result` shows, also in a notebook, and their names.
 _SHOWN = {
     "restitution": ("restitution", ""),
     "contact_time_s": ("contact time", "s"),
@@ -28,7 +28,7 @@ _SHOWN = {
 
 
 class Result:
-    """A collision that was computed. The keys of :attr:`summary` are attributes, too: ``result.restitution``."""
+    """A computed collision. The keys of :attr:`summary` are also attributes: ``result.restitution``."""
 
     def __init__(self, outcome: _native.Outcome, stem: str) -> None:
         self._outcome = outcome
@@ -36,7 +36,7 @@ class Result:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """The keys of ``summary.json``: numbers in SI, ``None`` where they have no meaning."""
+        """The keys of ``summary.json``: numbers in SI, ``None`` if they have no meaning."""
         return json.loads(self._outcome.summary())
 
     @cached_property
@@ -46,14 +46,14 @@ class Result:
 
     @cached_property
     def snapshots(self) -> list[Snapshot]:
-        """The fields at the instants that the case asks for, in time order."""
+        """The fields at the instants that the case requests, in time order."""
         return [Snapshot(*parts) for parts in self._outcome.snapshots()]
 
     def snapshot(self, label: str) -> Snapshot:
-        """The snapshot of a label: ``mid-compression``, ``maximum``, ``mid-separation``, ``last-contact``.
+        """Returns the snapshot with a label: ``mid-compression``, ``maximum``, ``mid-separation`` or ``last-contact``.
 
         Raises:
-            KeyError: a label that did not occur.
+            KeyError: there is no snapshot with this label.
         """
         for snapshot in self.snapshots:
             if snapshot.label == label:
@@ -62,20 +62,20 @@ class Result:
         raise KeyError(f"no snapshot {label!r}; there are: {there}")
 
     def save(self, folder: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Writes the folder that ``fem-run CASE --out FOLDER`` leaves; ``force`` replaces another case's.
+        """Writes the result folder, as ``fem-run CASE --out FOLDER`` does; ``force`` replaces another case's result.
 
         Raises:
-            InputError: a folder that holds something else.
+            InputError: the folder holds something else.
         """
         self._outcome.save(os.fspath(folder), self._stem, force)
 
     def uncertainty(self, key: str) -> float | None:
-        """How far a quantity, such as ``restitution``, may be off nature: both parts of its error bar, SI.
+        """Returns the error bar of a quantity, such as ``restitution``: discretisation error plus neglected effects, SI.
 
-        ``None`` where one of them is not known: ``summary["uncertainty"]`` has the other one.
+        ``None`` if one part is not known; ``summary["uncertainty"]`` has the other one.
 
         Raises:
-            KeyError: a quantity without an error bar.
+            KeyError: the quantity has no error bar.
         """
         if key not in self.summary["uncertainty"]:
             there = ", ".join(self.summary["uncertainty"])
@@ -84,7 +84,7 @@ class Result:
         return known if is_whole else None
 
     def _error_bar(self, key: str) -> tuple[float, bool]:
-        """The sum of the parts that are known, and whether those are all."""
+        """Returns the sum of the known parts, and whether all are known."""
         parts = self.summary["uncertainty"][key].values()
         return sum(part for part in parts if part is not None), None not in parts
 
@@ -105,23 +105,23 @@ class Result:
         def row(key: str, name: str, unit: str) -> str:
             value, (bar, is_whole) = self.summary[key], self._error_bar(key)
             shown = "–" if value is None else f"{value:.6g}"
-            sign = "±" if is_whole else "off by more than"
+            sign = "±" if is_whole else "error at least"
             error = "" if value is None or not bar else f"{sign} {bar:.1g}"
             return f"<tr><td>{name}</td><td>{shown}</td><td>{error}</td><td>{unit}</td></tr>"
 
         rows = "".join(row(key, *names) for key, names in _SHOWN.items())
         title = html.escape(self.summary["case"].get("title") or "")
         warnings = "".join(f"<li>{html.escape(text)}</li>" for text in self.summary["warnings"])
-        told = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
-        return f"<table><caption>{title}</caption>{rows}</table>{told}"
+        warnings_text = f"Warnings:<ul>{warnings}</ul>" if warnings else ""
+        return f"<table><caption>{title}</caption>{rows}</table>{warnings_text}"
 
 
 class Snapshot:
     """Both bodies at an instant; arrays as in the VTK file of the result folder.
 
     Attributes:
-        label: which instant.
-        time: s.
+        label: label of the instant.
+        time: time, s.
         points: reference positions (r, y, 0), shape (n, 3), m.
         quads: corners of the cells, indices of points, shape (m, 4).
         point_data: ``displacement`` (n, 3) m, ``velocity`` (n, 3) m/s, and smooth stresses (n,) Pa, by name.
@@ -145,7 +145,7 @@ class Snapshot:
         self.cell_data = {name: _flat(array) for name, array in cell_data.items()}
 
     def to_pyvista(self) -> pyvista.UnstructuredGrid:
-        """The same as a grid of PyVista, which has to be installed."""
+        """Returns a grid of PyVista, which must be installed."""
         import pyvista
 
         grid = pyvista.UnstructuredGrid({pyvista.CellType.QUAD: self.quads}, self.points)
@@ -159,5 +159,5 @@ class Snapshot:
 
 
 def _flat(array: NDArray[Any]) -> NDArray[Any]:
-    """One value a point or cell has one index."""
+    """Removes the second axis of an array with one value per point or cell."""
     return array[:, 0] if array.ndim == 2 and array.shape[1] == 1 else array

@@ -1,4 +1,4 @@
-"""One case with many values, here or on any executor."""
+"""Sweeps: one case with many values, in this process or on any executor."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ from ._progress import reporter
 if TYPE_CHECKING:
     import pandas
 
-#: Of each member what it is known by, and its summary as JSON if it was computed.
+#: Identity of each member, and its summary as JSON if it was computed.
 _Found = list[tuple[str, "str | None"]]
 
-#: Tasks that an executor is given at most, each a share of the members.
+#: Most tasks for an executor; each computes a part of the members.
 _MOST_TASKS = 1000
 
 
 class Table(Mapping[str, "NDArray[Any]"]):
-    """A row a member, columns by name as in ``sweep.csv``: arrays of shape (n,).
+    """The results of a sweep, one row per member, with columns by name as in ``sweep.csv``: arrays of shape (n,).
 
-    First the varied keys as they were given, then those that are quantities in SI, the unit in the name
-    (``body.0.approach_speed_m_s``), then the summary's numbers, ``member`` last. Numbers that a member does not have are NaN.
+    First come the varied keys as given, then the same quantities in SI with the unit in the name
+    (``body.0.approach_speed_m_s``), then the numbers of the summary, and ``member`` last. Missing numbers are NaN.
     """
 
     def __init__(self, columns: dict[str, NDArray[Any]], summaries: list[dict[str, Any]]) -> None:
@@ -48,13 +48,13 @@ class Table(Mapping[str, "NDArray[Any]"]):
         return len(self._columns)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The same as a data frame of pandas, which has to be installed."""
+        """Returns a data frame of pandas, which must be installed."""
         import pandas
 
         return pandas.DataFrame(self._columns)
 
     def to_csv(self) -> str:
-        """The same as text; :func:`fit` and its like take the table itself."""
+        """Returns the table as CSV text; :func:`fit` and others also accept the table itself."""
         import csv
         import io
 
@@ -69,7 +69,7 @@ class Table(Mapping[str, "NDArray[Any]"]):
         return f"<fem_run.Table of {len(self.summaries)} members, columns {', '.join(self._columns)}>"
 
     def _repr_html_(self) -> str | None:
-        """``None`` without pandas: a notebook shows the text then."""
+        """Returns an HTML table, or ``None`` without pandas; a notebook then shows the text."""
         try:
             return self.to_pandas().to_html(max_rows=20)
         except ImportError:
@@ -84,26 +84,26 @@ def sweep(
     threads: int | None = None,
     progress: bool | Callable[[float], object] = False,
 ) -> Table:
-    """Computes a case for every combination of values, the last key running fastest.
+    """Computes a case for every combination of values; the last key varies fastest.
 
     Args:
-        case: what all members share.
+        case: the common case.
         vary: values of dotted keys, ``{"body.0.approach_speed": np.geomspace(0.05, 2, 40)}``. A tuple of keys is
-            linked: each value is that of all of them, or a tuple with one for each.
-        executor: what computes: any ``concurrent.futures.Executor``, such as Dask's ``client.get_executor()``;
-            without one, threads of this process.
-        threads: how many of those; one a processor if ``None``.
-        progress: a bar on stderr, or a function that is called with the fraction that is done.
+            linked: each value applies to all of them, or is a tuple with one value for each.
+        executor: any ``concurrent.futures.Executor``, such as Dask's ``client.get_executor()``; by default,
+            threads of this process.
+        threads: number of these threads; one per processor if ``None``.
+        progress: True for a bar on stderr, or a function that is called with the completed fraction.
 
     Returns:
-        a table in the order of the combinations; the same bits whatever computes it. A member whose run fails
+        A table in the order of the combinations, with the same bits for any executor. A member whose run failed
         has ``complete`` false.
 
     Raises:
-        InputError: the first member that is no valid case, before any is computed.
-        RunError: an executor that broke, of a process that was killed; its ``result`` is the table of the members
-            that are done.
-        Interrupted: Ctrl-C; its ``result`` is the table of the members that are done.
+        InputError: a member is no valid case; nothing was computed.
+        RunError: the executor broke, for example because a process was killed; ``result`` is the table of the
+            members that are done.
+        Interrupted: Ctrl-C ended the sweep; ``result`` is the table of the members that are done.
     """
     axes = _axes(case, vary)
     if executor is not None and not callable(getattr(executor, "submit", None)):
@@ -134,9 +134,9 @@ def sweep(
 
 
 def _axes(case: Case, vary: Mapping[str | tuple[str, ...], Iterable[Any]]) -> list[tuple[tuple[str, ...], list[Any]]]:
-    """Keys and values of each axis, looked at as the command looks at a sweep file."""
+    """Returns keys and values of each axis, checked like a sweep file."""
     if not isinstance(case, Case):
-        raise TypeError(f"case is a fem_run.Case, not {shown(case)}; fem_run.Case.load(path) reads one")
+        raise TypeError(f"case must be a fem_run.Case, not {shown(case)}; fem_run.Case.load(path) reads one")
     example = '{"body.0.approach_speed": [0.1, 1.0]}'
     if not isinstance(vary, Mapping):
         raise TypeError(f"vary is a dict of keys and lists of values, such as {example}, not {shown(vary)}")
@@ -147,7 +147,7 @@ def _axes(case: Case, vary: Mapping[str | tuple[str, ...], Iterable[Any]]) -> li
     for key, of_key in vary.items():
         linked = key if isinstance(key, tuple) else (key,)
         if not linked or not all(isinstance(one, str) for one in linked):
-            raise TypeError(f"a key of vary is a dotted path or a tuple of some, not {shown(key)}")
+            raise TypeError(f"a key of vary is a dotted path or a tuple of dotted paths, not {shown(key)}")
         name = ", ".join(linked)
         if isinstance(of_key, (str, bytes, Mapping)) or not isinstance(of_key, Iterable) or _is_scalar(of_key):
             raise bad_input(f"{name} is not a list: {shown(of_key)}", f"put the values in brackets: [{shown(of_key)}]")
@@ -155,7 +155,7 @@ def _axes(case: Case, vary: Mapping[str | tuple[str, ...], Iterable[Any]]) -> li
             raise bad_input(f"{name}: a set has no order", "give a list")
         values = list(of_key)
         if not values:
-            raise bad_input(f"{name}: no values", "a list holds at least one value")
+            raise bad_input(f"{name}: no values", "give at least one value")
         for value in values:
             if isinstance(value, tuple) and len(linked) > 1 and len(value) != len(linked):
                 raise bad_input(f"{name}: {shown(value)} has {len(value)} values", f"a tuple has one for each of the {len(linked)} keys")
@@ -172,7 +172,7 @@ def _axes(case: Case, vary: Mapping[str | tuple[str, ...], Iterable[Any]]) -> li
 
 
 def _is_scalar(found: Any) -> bool:
-    """An array of no dimension can be taken for a list until it is read."""
+    """Returns whether the value is an array without dimensions, which looks like a list until it is read."""
     return isinstance(found, np.ndarray) and found.ndim == 0
 
 
@@ -182,7 +182,7 @@ def _n_threads(threads: int | None) -> int:
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
         raise TypeError(f"threads is a whole number or None, not {shown(threads)}")
     if threads < 1:
-        raise bad_input(f"threads is {threads}", "at least one thread; None takes one a processor")
+        raise bad_input(f"threads is {threads}", "give at least one thread; None uses one per processor")
     return int(threads)
 
 
@@ -195,7 +195,7 @@ def _changes(axes: Sequence[tuple[tuple[str, ...], list[Any]]], chosen: Sequence
 
 
 class _Broken(Exception):
-    """An executor that gave something else than its members, told by the cause."""
+    """An executor that failed; the cause says why."""
 
 
 def _ended(
@@ -206,16 +206,16 @@ def _ended(
     changes: list[dict[str, Any]],
     found: _Found,
 ) -> Interrupted | RunError:
-    """With a table of the members that are done."""
+    """Creates an error with a table of the members that are done."""
     done = [k for k, (_, text) in enumerate(found) if text is not None]
-    help = "the table of those is the exception's result"
+    help = "the result of the exception is the table of these members"
     error = kind(f"{why}: {len(done)} of {len(changes)} members are done\n  help: {help}\n", help)
     error.result = _table([cases[k] for k in done], keys, [changes[k] for k in done], [found[k] for k in done])
     return error
 
 
 def _share(cases: list[Case]) -> _Found:
-    """What a worker does."""
+    """Computes the members of one task in a worker."""
     found, error = _native.run_members([case._native for case in cases], 1, None)
     if error is not None:
         raise error
@@ -225,7 +225,7 @@ def _share(cases: list[Case]) -> _Found:
 def _on(
     executor: Executor, cases: list[Case], report: Callable[[float], object] | None, found: _Found
 ) -> BaseException | None:
-    """Fills `found`; what ends it early is returned."""
+    """Fills `found`; returns the exception that ended the computation early."""
     size = -(-len(cases) // _MOST_TASKS)
     starts = range(0, len(cases), size)
     futures: dict[Any, int] = {}
@@ -238,7 +238,7 @@ def _on(
             shares[futures[future]] = _result(future)
             if report is not None:
                 report(len(shares) / len(starts))
-    except BaseException as raised:  # noqa: BLE001 - Ctrl-C, too: it is told with what there is
+    except BaseException as raised:  # noqa: BLE001 - Ctrl-C, too: it is raised with the results so far
         error = raised
     finally:
         for future in futures:
@@ -263,7 +263,7 @@ def _result(future: Any) -> _Found:
 
 
 def _as_completed(futures: Mapping[Any, int]) -> Iterable[Any]:
-    """In the order of ending, where the futures are those of the standard library."""
+    """Returns futures as they complete, if they are those of the standard library."""
     if all(hasattr(future, "_condition") for future in futures):
         try:
             return as_completed(futures)
@@ -295,7 +295,7 @@ def _table(
 
 
 def _array(values: list[Any]) -> NDArray[Any]:
-    """Numbers as numbers, ``None`` among them as NaN; all else as it is."""
+    """Returns an array: numbers as numbers, with NaN for ``None``; other values as objects."""
     plain = [value.item() if isinstance(value, np.generic) else value for value in values]
     kinds = {type(value) for value in plain}
     if kinds and kinds <= {int, float, type(None)} and kinds != {type(None)}:

@@ -1,4 +1,4 @@
-"""Values of Python as TOML."""
+"""Python values as TOML."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 
 def value(found: Any) -> str:
-    """A value in one line: numbers, text, true and false, lists and dicts, numpy's too."""
+    """Returns a value in one line: numbers, text, booleans, lists and dicts, also of numpy."""
     if isinstance(found, bool):
         return "true" if found else "false"
     if isinstance(found, int):
@@ -31,24 +31,24 @@ def value(found: Any) -> str:
     if isinstance(found, (list, tuple)):
         return "[" + ", ".join(map(value, found)) + "]"
     if found is None:
-        raise TypeError("a case holds no None; leave the key out, or write its default")
+        raise TypeError("a case holds no None; leave the key out or give its default")
     raise TypeError(f"a case holds no {type(found).__name__}")
 
 
 def key(name: str) -> str:
-    """A key, in quotes where TOML wants them."""
+    """Returns a key, in quotes if TOML requires them."""
     bare = name and all(c.isascii() and (c.isalnum() or c in "-_") for c in name)
     return name if bare else json.dumps(name, ensure_ascii=False)
 
 
 def document(found: Mapping[str, Any]) -> str:
-    """A whole file."""
+    """Returns a whole file."""
     lines = (f"{key(name)} = {value(inner)}" for name, inner in found.items() if inner is not None)
     return "".join(line + "\n" for line in lines)
 
 
 def parts(dotted: str) -> list[str]:
-    """The parts of a dotted key, ``material."my glass".density``."""
+    """Returns the parts of a dotted key, ``material."my glass".density``."""
     found, part, quote = [], "", ""
     for c in dotted:
         if quote:

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::stored_result::StoredResult;
 use crate::number_text::rounded;
 
-/// What each effect is, in one sentence.
+/// Explanation of each effect in one sentence.
 const EXPLANATIONS: [(&str, &str); 16] = [
     (
         "viscoelasticity",

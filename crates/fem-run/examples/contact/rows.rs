@@ -1,13 +1,13 @@
-//! The rows of the table of ways to keep surfaces apart: a line a scene, a method and a stiffness.
+//! The rows of the table of contact methods: one per scene, method and stiffness.
 
 use fem::{Case, Collision, Simulation, Want};
 use std::path::Path;
 
-/// A scene, and where its restitution, contact time (s) and peak force (N) go as elements get small:
-/// docs/accuracy.md.
+/// A scene, with the limits of its restitution, contact time (s) and peak force (N) for small elements,
+/// from docs/accuracy.md.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene {
-    /// What is said of it.
+    /// The name of the scene.
     pub name: &'static str,
     text: &'static str,
     limit: [f64; 3],
@@ -36,12 +36,12 @@ const METHODS: [&str; 3] = ["massless", "penalty", "node_to_surface"];
 pub struct Row {
     pub scene: Scene,
     pub method: &'static str,
-    /// `contact.penalty_factor`.
+    /// The value of `contact.penalty_factor`.
     pub factor: f64,
 }
 
-/// All rows, in the order of the page. Springs of a thousand times the usual stiffness take a minute
-/// between masses, and gain energy.
+/// Returns all rows, in the order of the page. Springs of a thousand times the usual stiffness would take a
+/// minute between masses, and gain energy.
 pub fn rows() -> Vec<Row> {
     let scenes = [(ELASTIC, 1.0), (ALL, 1.0), (SHEAR, 1.0), (ELASTIC, 10.0)];
     let all = scenes.into_iter().flat_map(|(scene, factor)| {
@@ -51,7 +51,7 @@ pub fn rows() -> Vec<Row> {
 }
 
 impl Row {
-    /// The scene, ready to be computed.
+    /// Returns the simulation of the row.
     pub fn simulation(&self) -> Simulation {
         let overrides = [
             format!("contact.method='{}'", self.method),
@@ -65,7 +65,7 @@ impl Row {
         simulation
     }
 
-    /// What a run of it shows: the cells of its line.
+    /// Returns the cells of the row after its run.
     pub fn cells(&self, run: &Collision) -> Vec<String> {
         let [e, time, force] = [run.restitution, run.contact_time, run.peak_force]
             .map(|number| number.expect("a complete run"));

@@ -1,70 +1,70 @@
-//! The rows of the table of what effects cost: a line an effect, off and on.
+//! The rows of the table of the effects' cost: one per effect, off and on.
 
 use fem::{Case, Course, Explicit, Label, Model, Simulation, SnapshotRequest, Want};
 use std::path::Path;
 
-/// The glass pair without relaxation, at default settings.
-/// Eight elements across the contact, and hardly any mass moved: what an effect costs shows in many steps.
+/// The glass pair without relaxation, at default settings, with eight elements across the contact and
+/// little mass scaling, so that the cost of an effect shows over many steps.
 const FINE: [&str; 3] =
     ["accuracy.tolerance='0.3 %'", "mesh.staggered=false", "time.mass_scaling=2e-4"];
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
-/// Two like bodies: the smaller becomes the larger.
+/// Two equal bodies: the smaller one becomes like the larger one.
 const TWINS: &str = "body.1.sphere.diameter='22.2 mm'";
 
-/// The larger one of a stiffer glass.
+/// The larger body is of a stiffer glass.
 const STIFF: [&str; 2] = [
     "material.stiff={density=2390, youngs_modulus=6.3e12, poissons_ratio=0.244}",
     "body.0.material='stiff'",
 ];
-/// The larger one of a softer glass.
+/// The larger body is of a softer glass.
 const SOFT: [&str; 2] = [
     "material.soft={density=2390, youngs_modulus=3.15e10, poissons_ratio=0.1}",
     "body.0.material='soft'",
 ];
-/// The smaller one on what does not end, and the weight that it may have there.
+/// The smaller body falls on a floor.
 const FLOOR: &str = "body.0={name='floor', wall={}}";
 const BLOCK: &str = "body.0={name='block', half_space={}, material='glass'}";
 const FALLING: &str = "body.1.approach_speed=0.5";
 const WEIGHT: &str = "gravity.acceleration=9.81";
 
-/// What a run keeps beside the quantities of the collision.
+/// What a run records beside the quantities of the collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kept {
-    /// Nothing.
+    /// Nothing more.
     Quantities,
-    /// A thousand rows.
+    /// A history of a thousand rows.
     History,
-    /// The states at the four instants that have a name.
+    /// The states at the four named instants.
     Snapshots,
-    /// Those, and their stress.
+    /// These states and their stress.
     Stress,
 }
 
-/// A run: what it changes of the glass pair, and what it keeps.
+/// A run by its changes of the glass pair, and what it records.
 #[derive(Clone, Copy, Debug)]
 pub struct Side {
-    /// As `--set` writes them.
+    /// Overrides, as for `--set`.
     pub overrides: &'static [&'static str],
-    /// What it keeps.
+    /// What it records.
     pub kept: Kept,
 }
 
-/// An effect, or what a run keeps only where it is asked to.
+/// An effect, or something that a run records only on request.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     /// Its name in results.
     pub name: &'static str,
-    /// Which of its kinds.
+    /// The variant of the effect.
     pub kind: &'static str,
-    /// Without it; `None` of what every run of explicit elements has.
+    /// The run without it; `None` if every run with explicit elements has it.
     pub off: Option<Side>,
-    /// With it.
+    /// The run with it.
     pub on: Side,
 }
 
 const BARE: Side = of(&[]);
 
-/// The glass pair with these changes; nothing is kept.
+/// Creates the run of the glass pair with these changes that records nothing more.
 const fn of(overrides: &'static [&'static str]) -> Side {
     Side { overrides, kept: Kept::Quantities }
 }
@@ -132,7 +132,7 @@ pub const ROWS: &[Row] = &[
     ),
     row("partner waves", "a half-space for a wall", of(&[FLOOR, FALLING]), of(&[BLOCK, FALLING])),
     row("gravity", "of one contact", of(&[FLOOR, FALLING]), of(&[FLOOR, FALLING, WEIGHT])),
-    // With viscosity springs are between nodes that have mass.
+    // With viscosity the springs are between nodes with mass.
     row(
         "bulk viscosity",
         "forced on",
@@ -154,21 +154,21 @@ impl Side {
         Case::parse("glass.toml", GLASS, Path::new("."), &overrides).expect("a case")
     }
 
-    /// Its scene, ready to be computed.
+    /// Returns the simulation of the run.
     pub fn simulation(&self) -> Simulation {
         let mut simulation = Simulation::new(self.case()).expect("a scene");
         simulation.ask_for(self.want()).expect("a run");
         simulation
     }
 
-    /// The model of one contact of a scene with several, which has a memory.
+    /// Returns the model of one contact for a scene with several.
     pub fn contact(&self) -> Option<Explicit> {
         let case = self.case();
         case.scene().gravity()?;
         Some(Explicit::new(case.scene()).expect("a scene"))
     }
 
-    /// Its run, of one contact, or of a simulation that has no more.
+    /// Starts the run of one contact, or of the simulation if it has only one.
     pub fn start(&self, contact: Option<&Explicit>, simulation: &Simulation) -> Box<dyn Course> {
         match contact {
             Some(model) => {
@@ -191,7 +191,7 @@ impl Side {
     }
 }
 
-/// Bytes of all that a run knows between two steps: what a restart needs.
+/// Returns the bytes of the restart state.
 pub fn n_bytes(course: &dyn Course) -> usize {
     let memory = course.memory().expect("explicit elements have a memory");
     postcard::to_stdvec(memory.contact()).expect("a memory is bytes").len()

@@ -5,20 +5,21 @@ use std::path::Path;
 use fem::{Case, Simulation};
 use fem_validate::Pulse;
 
-/// Why there is no number.
+/// The error of an example.
 pub type Fault = Box<dyn std::error::Error + Send + Sync>;
 
-/// Elements across Hertz' contact radius, twice the plan's: what small strains change is small next to what meshes do.
+/// Elements across Hertz' contact radius, twice the plan's number, so that mesh errors are small beside
+/// those of small strain.
 const ELEMENTS: f64 = 16.0;
 
-/// What a collision is known by.
+/// The results of a collision.
 #[derive(Clone, Copy, Debug)]
 pub struct Numbers {
     pub restitution: f64,
     pub pulse: Pulse,
 }
 
-/// By how much one collision differs from another: of the restitution, and shares of time, force and pressure.
+/// Differences between two collisions: absolute for the restitution, relative for time, force and pressure.
 #[derive(Clone, Copy, Debug)]
 pub struct Changes {
     pub restitution: f64,
@@ -28,7 +29,7 @@ pub struct Changes {
 }
 
 impl Numbers {
-    /// Of a run that comes to its end; none of one that stops, such as of a body that collapses.
+    /// Returns the results of a complete run; `None` if it stopped, for example because a body collapsed.
     pub fn of(simulation: &Simulation) -> Option<Self> {
         let collision = simulation.run(&mut ());
         let restitution = collision.restitution.filter(|_| collision.is_complete())?;
@@ -36,7 +37,7 @@ impl Numbers {
         Some(Self { restitution, pulse })
     }
 
-    /// What changes from another collision to this one.
+    /// Returns the changes from another collision to this one.
     pub fn against(&self, other: &Self) -> Changes {
         let share = |own: f64, other: f64| own / other - 1.0;
         Changes {
@@ -48,15 +49,14 @@ impl Numbers {
     }
 }
 
-/// Stiffness of springs over the usual one at which nodes with mass hardly ring on them; those of flat spheres that are
-/// nearly incompressible ring less on usual ones.
+/// Penalty factor for which nodes with mass hardly oscillate; flat, nearly incompressible spheres oscillate
+/// less with the default.
 const SOFT: f64 = 0.3;
 const FLAT: f64 = 0.3;
 const NEARLY_INCOMPRESSIBLE: f64 = 0.4;
 
-/// The keys of runs that are compared, of a contact that Hertz foretells to be a share of a radius (m), and of a Poisson's
-/// ratio: springs, which finite strain has for itself and small strain only if told, and next to no moved mass, of which
-/// they would have unlike shares.
+/// Returns the settings of comparable runs for a contact of this radius (m) and Poisson's ratio: penalty
+/// springs, which finite strain always has, and little mass scaling, which would differ between the runs.
 pub fn alike(strain: f64, radius: f64, poissons_ratio: f64) -> Vec<String> {
     let is_stiff = strain > FLAT && poissons_ratio > NEARLY_INCOMPRESSIBLE;
     vec![
@@ -67,7 +67,7 @@ pub fn alike(strain: f64, radius: f64, poissons_ratio: f64) -> Vec<String> {
     ]
 }
 
-/// A case of a text with some keys set, which keeps no snapshots.
+/// Returns a case from its text and overrides, without snapshots.
 pub fn simulation(text: &str, set: &[String]) -> Result<Simulation, Fault> {
     let case = Case::parse("scene.toml", text, Path::new("."), set)?;
     let mut simulation = Simulation::new(case)?;
@@ -75,13 +75,13 @@ pub fn simulation(text: &str, set: &[String]) -> Result<Simulation, Fault> {
     Ok(simulation)
 }
 
-/// At which Hertz' contact radius is this share of the effective radius, m/s:
-/// (a/R*)⁵ = (δ/R*)^(5/2) = 15 m* v²/(16 E* R*³).
+/// Returns the speed (m/s) at which Hertz' contact radius is this share of the effective radius: (a/R*)⁵ =
+/// (δ/R*)^(5/2) = 15 m* v²/(16 E* R*³).
 pub fn speed(strain: f64, [radius, mass, modulus]: [f64; 3]) -> f64 {
     (strain.powi(5) * 16.0 * modulus * radius.powi(3) / (15.0 * mass)).sqrt()
 }
 
-/// "+1.20"; nothing has no sign.
+/// Returns a number with its sign, "+1.20"; zero has no sign.
 pub fn signed(number: f64, digits: usize) -> String {
     let text = format!("{number:+.digits$}").replace('-', "−");
     match text.contains(|digit: char| ('1'..='9').contains(&digit)) {

@@ -1,4 +1,4 @@
-//! Soft spheres on meshes of twice and half the plan's elements.
+//! Soft spheres on meshes of half and twice the plan's resolution.
 
 use rayon::prelude::*;
 

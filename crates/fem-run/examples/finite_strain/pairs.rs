@@ -1,4 +1,4 @@
-//! Other pairs than a sphere and a rigid wall: what finite strain changes, and what the plan foretells.
+//! Pairs other than a sphere and a rigid wall: the changes by finite strain, and the plan's estimates.
 
 use rayon::prelude::*;
 
@@ -12,13 +12,13 @@ const RADIUS: f64 = 0.01;
 const DENSITY: f64 = 1000.0;
 const YOUNGS_MODULUS: f64 = 1e7;
 const STEEL: [f64; 3] = [7850.0, 2e11, 0.3];
-/// Modulus of the harder one of two unlike soft bodies over the other's.
+/// Modulus of the harder of two unlike soft bodies over that of the other.
 const HARDER: f64 = 3.0;
 
-/// Two bodies, each of a material by its place in [`materials`].
+/// Two bodies, each with its index in [`materials`].
 struct Pair {
     name: &'static str,
-    /// Radius over the ball's; a half-space has none.
+    /// Radius over that of the ball; `None` for a half-space.
     partner: (Option<f64>, usize),
     ball: usize,
 }
@@ -82,7 +82,7 @@ impl Pair {
         ))
     }
 
-    /// The effective one, m.
+    /// Returns the effective radius, m.
     fn radius(&self) -> f64 {
         in_series(RADIUS, self.partner.0.map(|ratio| ratio * RADIUS))
     }
@@ -126,12 +126,12 @@ impl Pair {
     }
 }
 
-/// 1/(1/a + 1/b); of a partner that has none, a.
+/// Returns 1/(1/a + 1/b), or a if there is no b.
 fn in_series(a: f64, b: Option<f64>) -> f64 {
     1.0 / (1.0 / a + b.map_or(0.0, |b| 1.0 / b))
 }
 
-/// What leaving finite strain out changes, as the plan has it.
+/// Returns the plan's estimate of the changes without finite strain.
 fn foretold(simulation: &fem::Simulation) -> Result<LeftOut, Fault> {
     let effect = EFFECTS.iter().find(|effect| effect.name() == "finite strain");
     let estimate = &simulation.setup().estimate;

@@ -1,19 +1,19 @@
-//! Spheres on a rigid wall: every law, from next to no strain to a contact of 0.7 radii.
+//! Spheres on a rigid wall with every law, from very small strain to a contact of 0.7 radii.
 
 use rayon::prelude::*;
 
 use crate::collide::{Changes, Fault, Numbers, alike, signed, simulation, speed};
 
-/// Contact radius over the sphere's radius, as Hertz foretells it.
+/// Contact radius over the sphere's radius, according to Hertz.
 const STRAINS: [f64; 8] = [0.01, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85];
 const POISSONS_RATIOS: [f64; 5] = [0.0, 0.2, 0.33, 0.45, 0.49];
-/// As case files name them.
+/// The laws, as named in case files.
 const LAWS: [&str; 4] = ["neo-hooke", "neo-hooke-ln", "hencky", "saint-venant-kirchhoff"];
 const RADIUS: f64 = 0.01;
 const DENSITY: f64 = 1000.0;
 const YOUNGS_MODULUS: f64 = 1e7;
 
-/// Of the default law; the numbers of all are printed as `measured.rs` has them.
+/// Returns the table for the default law; the numbers of all laws are printed for `measured.rs`.
 pub fn table() -> Result<String, Fault> {
     let scenes: Vec<(f64, f64)> =
         POISSONS_RATIOS.iter().flat_map(|nu| STRAINS.map(|strain| (*nu, strain))).collect();
@@ -37,7 +37,7 @@ pub fn table() -> Result<String, Fault> {
     Ok(table)
 }
 
-/// As source; none where the sphere collapsed.
+/// Returns a cell as source code; `None` if the sphere collapsed.
 fn cell(changes: Option<Changes>) -> String {
     let Some(Changes { restitution, time, force, pressure }) = changes else {
         return "None".to_string();
@@ -45,7 +45,7 @@ fn cell(changes: Option<Changes>) -> String {
     format!("Some([{restitution:.4}, {time:.5}, {force:.5}, {pressure:.4}])")
 }
 
-/// By law.
+/// Returns the changes for each law.
 fn changes(nu: f64, strain: f64) -> Result<Vec<Option<Changes>>, Fault> {
     let small = collide(nu, strain, None)?.ok_or("a run at small strain stopped")?;
     let with = |law: &&str| Ok(collide(nu, strain, Some(law))?.map(|with| with.against(&small)));

@@ -1,6 +1,6 @@
-//! What kind of machine times are of.
+//! The kind of machine on which times were measured.
 
-/// "On x86_64 with AVX-512, one thread".
+/// Returns a description such as "On x86_64 with AVX-512, one thread".
 pub fn machine() -> String {
     #[cfg(target_arch = "x86_64")]
     let lanes = [

@@ -1,10 +1,10 @@
-//! A page with tables that a program writes.
+//! Pages with tables that a program writes.
 
 use std::io;
 use std::path::Path;
 
-/// Puts a table in place of what stands between the marks of its name, `<!-- NAME -->` and
-/// `<!-- end of NAME -->`, each on a line of its own.
+/// Replaces the text between the marks `<!-- NAME -->` and `<!-- end of NAME -->`, each on a line of its
+/// own, by a table.
 pub fn put(page: &Path, name: &str, table: &str) -> io::Result<()> {
     let text = std::fs::read_to_string(page)?;
     let [begin, end] = [format!("<!-- {name} -->\n"), format!("<!-- end of {name} -->\n")];

@@ -1,4 +1,4 @@
-//! An element update, forces and motion, in the loops of all laws.
+//! The time of an element update, forces and motion, with all laws.
 
 use std::fmt::Write;
 use std::time::Instant;
@@ -9,13 +9,13 @@ use crate::bodies::{Error, Kind, mesh_and_glass};
 use crate::median;
 use crate::plain::Plain;
 
-/// Elements of the contact, µm.
+/// Element sizes at the contact, µm.
 pub const SIZES: [u32; 3] = [60, 28, 14];
 const TURNS: usize = 301;
-/// Of an element update and a turn, so that a turn takes a tenth of a millisecond or more.
+/// Element updates of a turn, so that it takes at least a tenth of a millisecond.
 const UPDATES: usize = 20_000;
 
-/// Bodies of one mesh, and what their turns took, ns an element update.
+/// Bodies on one mesh, and the times of their turns, ns per element update.
 struct Timed {
     plain: Plain,
     spheres: Vec<FreeMotion>,
@@ -41,7 +41,7 @@ impl Timed {
         let n_steps = UPDATES.div_ceil(self.n_elements);
         let updates = (n_steps * self.n_elements) as f64;
         let time = |step: &mut dyn FnMut()| {
-            // The first steps wait for memory that others have had, and for the clock of wide lanes.
+            // The first steps wait for memory and for the clock of wide vector instructions.
             (0..n_steps).for_each(|_| step());
             let start = Instant::now();
             (0..n_steps).for_each(|_| step());
@@ -53,7 +53,7 @@ impl Timed {
         }
     }
 
-    /// Median time of each kind, ns, and its share of the plain code's of the same turn.
+    /// Returns for each kind the median time, ns, and its ratio to plain code in the same turn.
     fn medians(&self) -> Vec<[f64; 2]> {
         let share = |times: &Vec<f64>| {
             times.iter().zip(&self.of_plain).map(|(t, plain)| t / plain).collect()
@@ -62,7 +62,8 @@ impl Timed {
     }
 }
 
-/// ns an element update of plain code on the mesh of 28 µm: the measure of processes.
+/// Returns a function that measures plain code on the mesh of 28 µm, ns per element update: the unit for
+/// processes.
 pub fn of_plain_code() -> Result<impl FnMut() -> f64, Error> {
     let mut timed = Timed::new(28)?;
     timed.spheres.clear();
@@ -75,7 +76,7 @@ pub fn of_plain_code() -> Result<impl FnMut() -> f64, Error> {
     })
 }
 
-/// A line a kind.
+/// Returns the table, one row per kind.
 pub fn table() -> Result<String, Error> {
     let mut all: Vec<Timed> = SIZES.into_iter().map(Timed::new).collect::<Result<_, _>>()?;
     for _ in 0..TURNS {

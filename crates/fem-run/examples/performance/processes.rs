@@ -1,4 +1,4 @@
-//! Whole processes: the command on cases, from its start to its end, files written.
+//! Whole processes: the command on cases, from start to end, with files.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::median;
 
 const RUNS: usize = 9;
 
-/// What it is called, the case, what follows it.
+/// Name, case, further arguments.
 const ROWS: [(&str, &str, &[&str]); 9] = [
     ("default", "glass_0.5ms", &[]),
     ("default, elastic", "glass_0.5ms_elastic", &[]),
@@ -31,12 +31,12 @@ const ROWS: [(&str, &str, &[&str]); 9] = [
     ("`check`", "glass_0.5ms", &["check"]),
 ];
 
-/// A command and what its runs took.
+/// A command and the times of its runs.
 struct Timed {
     arguments: Vec<String>,
     folder: PathBuf,
     seconds: Vec<f64>,
-    /// In millions of element updates of plain code.
+    /// Times in millions of element updates of plain code.
     ratios: Vec<f64>,
 }
 
@@ -68,12 +68,12 @@ impl Timed {
             return Err(format!("{:?} failed", self.arguments).into());
         }
         self.seconds.push(seconds);
-        // 1e6 updates of so many ns.
+        // 1e6 updates of `plain` ns each.
         self.ratios.push(seconds / (1e-3 * plain));
         Ok(())
     }
 
-    /// What the last run counted, millions.
+    /// Returns the element updates of the last run, millions.
     fn updates(&self) -> Option<f64> {
         let summary = std::fs::read_to_string(self.folder.join("summary.json")).ok()?;
         let summary: Value = serde_json::from_str(&summary).ok()?;
@@ -81,7 +81,8 @@ impl Timed {
     }
 }
 
-/// Seconds of all processors that ended children have had: other work of the machine counts little.
+/// Returns the processor time of the ended children in seconds, which other work on the machine affects
+/// little.
 #[cfg(unix)]
 fn spent() -> Result<f64, Error> {
     use nix::sys::resource::{UsageWho, getrusage};
@@ -90,7 +91,7 @@ fn spent() -> Result<f64, Error> {
     Ok(1e-6 * (usage.user_time() + usage.system_time()).num_microseconds() as f64)
 }
 
-/// Seconds of the clock.
+/// Returns the wall time in seconds.
 #[cfg(not(unix))]
 fn spent() -> Result<f64, Error> {
     use std::sync::OnceLock;
@@ -98,7 +99,7 @@ fn spent() -> Result<f64, Error> {
     Ok(START.get_or_init(Instant::now).elapsed().as_secs_f64())
 }
 
-/// The command beside this example.
+/// Returns the command beside this example.
 pub fn command() -> Result<PathBuf, Error> {
     let example = std::env::current_exe()?;
     let folder = example.ancestors().nth(2).ok_or("an example lies in a folder of the build")?;
@@ -109,7 +110,7 @@ pub fn command() -> Result<PathBuf, Error> {
     }
 }
 
-/// A line a process.
+/// Returns the table, one row per process.
 pub fn table() -> Result<String, Error> {
     let (command, scratch) = (command()?, tempfile::tempdir()?);
     let mut plain = of_plain_code()?;

@@ -1,4 +1,4 @@
-//! Where a run spends its time: samples of the clock by `perf`, by what the functions are for.
+//! The phases of a run by time: samples of `perf`, grouped by the purpose of the functions.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use crate::bodies::Error;
 use crate::processes::command;
 
-/// What is told apart, and parts of the names of its functions; the first that fits counts.
+/// The phases and parts of their functions' names; the first match counts.
 const PHASES: [(&str, &[&str]); 9] = [
     ("element forces and energies", &["run_row_lanes", "run_lanes", "run_wide_lanes"]),
     ("motion of nodes", &["advance_motion"]),
@@ -22,7 +22,7 @@ const PHASES: [(&str, &[&str]); 9] = [
 const RUNS: usize = 5;
 const CASES: [(&str, &str); 2] = [("glass_0.5ms", "default"), ("glass_0.5ms_14um", "paper's mesh")];
 
-/// Shares of one case, % of all samples; the kernel and the rest come last.
+/// Returns the shares of a case in % of all samples, with the kernel and the rest last.
 fn shares(case: &str) -> Result<Option<Vec<f64>>, Error> {
     let scratch = tempfile::tempdir()?;
     let (samples, out) = (scratch.path().join("samples"), scratch.path().join("out"));
@@ -60,7 +60,7 @@ fn shares(case: &str) -> Result<Option<Vec<f64>>, Error> {
     Ok(Some(shares))
 }
 
-/// A line a phase; or why there is none.
+/// Returns the table, one row per phase, or why there is none.
 pub fn table() -> Result<String, Error> {
     let mut columns = Vec::new();
     for (case, _) in CASES {
