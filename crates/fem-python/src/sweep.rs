@@ -87,7 +87,12 @@ fn text_of(ran: &Ran, stopwatch: &Stopwatch) -> Result<String, Failure> {
     serde_json::to_string(&summary).map_err(|error| Failure::failed(error.to_string()))
 }
 
-fn run(cases: &[FemCase], n_threads: usize, watch: &WatchState, found: &PartialResults) -> Result<(), Failure> {
+fn run(
+    cases: &[FemCase],
+    n_threads: usize,
+    watch: &WatchState,
+    found: &PartialResults,
+) -> Result<(), Failure> {
     let pool = ThreadPoolBuilder::new().num_threads(n_threads).build();
     let pool = pool.map_err(|error| Failure::failed(format!("no threads to run on: {error}")))?;
     let Checked { members, left, .. } =
