@@ -90,7 +90,7 @@ fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
 
 /// Returns the relative motion and the other accounts; deformation and heat are one curve if the model does
 /// not distinguish them during the contact.
-fn courses(run: &[Row], common: Option<f64>) -> Vec<Course> {
+fn courses(run: &[Row], common: Option<f64>) -> Vec<EnergyCurve> {
     let motion = |row: &Row| Some(row.energy(Account::Kinetic)? - common.unwrap_or_default());
     let named = |name: &str, colour: usize, get: &dyn Fn(&Row) -> Option<f64>| EnergyCurve {
         name: name.to_string(),

@@ -40,7 +40,7 @@ fn the_tolerance_is_that_of_the_case() {
     let place = elastic();
     for (tolerance, begins) in [
         ("1 %", "Within 1 % in e, T and F and 3 % in the peak pressure: "),
-        ("0.000001", "Nothing that was computed is within 0.0001 % in e, T and F"),
+        ("0.000001", "No variant that was computed is within 0.0001 % in e, T and F"),
     ] {
         let ran = place.run(&[
             "accuracy",

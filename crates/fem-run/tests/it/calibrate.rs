@@ -153,7 +153,7 @@ fn faults_are_pointed_at_and_nothing_is_written() {
         &["--regularisation", "0"],
         &["2 measured values cannot determine 4 parameters", "lower --terms"],
     );
-    refused(good, &["--regularisation", "-1"], &["--regularisation", "it must be at least 0"]);
+    refused(good, &["--regularisation", "-1"], &["--regularisation", "a value of at least 0"]);
     refused(good, &["--confidence", "95"], &["--confidence", "between 0 and 1, such as 0.95"]);
     refused(good, &["--uncertainty", "0"], &["greater than 0"]);
     refused(good, &["--uncertainty", "-1"], &["--uncertainty is -1.0", "greater than 0"]);
@@ -257,10 +257,10 @@ fn given_uncertainties_and_repeats_are_the_scatter() {
 fn the_end_of_the_maxwell_search_is_no_result() {
     let finite = ["--model", "condensed"];
     let (text, numbers) = calibrated("speed_m_s,e\n0.2,0\n", &finite);
-    assert!(text.contains("or faster, where the search ends"), "{text}");
+    assert!(text.contains("or faster, at the end of the search range"), "{text}");
     assert_eq!(numbers["maxwell"]["beyond_search"], "faster");
     let (text, _) = calibrated("speed_m_s,e\n0.2,1\n", &finite);
-    assert!(text.contains("or slower, where the search ends"), "{text}");
+    assert!(text.contains("or slower, at the end of the search range"), "{text}");
     // Little comes back from a term a tenth as slow as the contact.
     let (_, numbers) = calibrated("speed_m_s,e\n0.2,0.01\n", &finite);
     assert!(numbers["maxwell"]["beyond_search"].is_null());

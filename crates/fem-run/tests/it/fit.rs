@@ -144,7 +144,7 @@ fn faults_of_data_and_options_are_pointed_at() {
     refused(good, &["--bounds", "a=2..1"], &["the range is empty"]);
     refused(good, &["--bounds", "n=0.4..1"], &["the parameter is not free"]);
     refused(good, &["--profile", "n"], &["this parameter is not free"]);
-    refused(good, &["--confidence", "95"], &["--confidence <P>': it must be between 0 and 1"]);
+    refused(good, &["--confidence", "95"], &["--confidence <P>': give a level between 0 and 1"]);
     refused(
         "speed_m_s,e\n1,0.9\n1,0.91\n1,0.92\n",
         &["--free", "a,n"],

@@ -66,7 +66,7 @@ fn check_tells_what_may_follow() {
     // The case gives its elements.
     assert!(!condensed.contains("mesh refinement"), "{condensed}");
     let open = place.succeed(&["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
-    let most = "which only the run tells: at most 4, ";
+    let most = "misses accuracy.tolerance: at most 4, ";
     assert!(open.contains(most) && open.contains("s more\n"), "{open}");
 }
 

@@ -130,7 +130,7 @@ fn a_sweep_says_how_far_it_is() {
     let ran = place.succeed(&["sweep", "--status", "out"]);
     let said = words(&ran.stdout);
     for expected in
-        ["out: a sweep of case.toml", "members 7", "done 3", "of those failed 0", "left 4"]
+        ["out: a sweep of case.toml", "members 7", "done 3", "of these failed 0", "left 4"]
     {
         assert!(said.iter().any(|line| line == expected), "{expected}\n{}", ran.stdout);
     }

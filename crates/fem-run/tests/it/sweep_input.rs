@@ -134,7 +134,7 @@ fn plots_of_what_is_not_there_are_refused() {
     let lists = "'body.0.approach_speed' = [1, 2]\n'body.0.name' = ['a', 'b']\n[plot]\n";
     let plot = |line: &str| vary(&format!("{lists}{line}"));
     refused(&plot("x = 'body.1.approach_speed'"), "6:5", &["not varied", "body.0.approach_speed"]);
-    refused(&plot("x = 'body.0.name'"), "6:5", &["no numbers"]);
+    refused(&plot("x = 'body.0.name'"), "6:5", &["are not numbers"]);
     refused(&plot("y = ['restitution', 'contact_time']"), "6:21", &["contact_time_s"]);
     refused(&plot("y = []"), "6:5", &["no column"]);
     refused(&plot("series = 'body.0.approach_speed'"), "6:10", &["same key"]);

@@ -115,12 +115,12 @@ fn bad_claims_are_refused_before_anything_runs() {
     let place = place(CHECK);
     place.write("taken.md", "mine");
     for (arguments, message) in [
-        (&["validate", "--table", "taken.md"][..], "taken.md: this is no table of fem-run"),
+        (&["validate", "--table", "taken.md"][..], "taken.md: this file is not a table of fem-run"),
         (&["validate", "--table", "t.csv"], "t.csv: a table of fem-run is a .md file"),
         (&["validate", "yours"], "there is no claim `yours`; the claims are mine"),
         (&["validate", "--claims", "nowhere"], "nowhere"),
         (&["validate", "mine", "--table", "t.md"], "--table"),
-        (&["validate", "mine", "--scenes", "t.md"], "no claim that is named has hard scenes"),
+        (&["validate", "mine", "--scenes", "t.md"], "none of the named claims has hard scenes"),
     ] {
         let ran = place.run(arguments);
         assert_eq!(ran.code, Some(2), "{}", ran.stderr);
