@@ -1,8 +1,8 @@
-//! `fem-run accuracy`: the files that it writes, its budget, and what it refuses.
+//! `fem-run accuracy`: its files, its time budget, and the input that it rejects.
 
 use crate::common::{CASE, Place};
 
-/// The elastic pair of the tests; its limits leave coarse meshes, whatever the machine.
+/// The elastic pair of the tests; its limits leave only coarse meshes, on any machine.
 fn elastic() -> Place {
     let (head, tail) = CASE.split_once("[material.glass.relaxation]").unwrap();
     let (_, tail) = tail.split_once("[[body]]").unwrap();
@@ -25,16 +25,16 @@ fn a_table_a_page_and_a_picture_are_written() {
     }
     let page = String::from_utf8(place.read("out/accuracy.md")).unwrap();
     assert!(page.contains("![errors over seconds](accuracy.svg)"), "{page}");
-    // What is advised can be written as it is told.
+    // The suggested setting is valid input.
     let advised = page.split("--set '").nth(1).and_then(|rest| rest.split('\'').next()).unwrap();
     place.succeed(&["case.toml", "--set", advised, "--out", "advised", "--quiet"]);
-    // What the study is done again with replaces it.
+    // A repeated study replaces the result.
     place.succeed(&["accuracy", "case.toml", "--budget", "1e-3", "--out", "out", "--quiet"]);
     let page = String::from_utf8(place.read("out/accuracy.md")).unwrap();
     assert!(page.contains("were left out"), "{page}");
 }
 
-/// What is asked for decides what serves.
+/// The tolerance decides which variants are suggested.
 #[test]
 fn the_tolerance_is_that_of_the_case() {
     let place = elastic();

@@ -1,8 +1,8 @@
-//! Bad input: exit status 2, one message that says where, nothing written.
+//! Bad input: exit status 2, one message with the position, nothing written.
 
 use crate::common::{CASE, Place};
 
-/// Runs a case, which must be refused, and returns the message.
+/// Runs a case that must be rejected, and returns the message.
 #[track_caller]
 fn refused(place: &Place, arguments: &[&str]) -> String {
     let before = place.list(".");
@@ -16,7 +16,7 @@ fn refused(place: &Place, arguments: &[&str]) -> String {
     ran.stderr
 }
 
-/// `SOURCE:LINE:COLUMN: message` of a refused case.
+/// Returns `SOURCE:LINE:COLUMN: message` of a rejected case.
 #[track_caller]
 fn position(message: &str) -> (String, usize, usize) {
     let parts: Vec<&str> = message.trim_start_matches("error: ").splitn(4, ':').collect();
@@ -25,8 +25,8 @@ fn position(message: &str) -> (String, usize, usize) {
     (source.to_string(), number(line), number(column))
 }
 
-/// Replaces `old` by `new` in the case; the message must point at the line with `new` (or, for
-/// a deleted line, into the file) and say `expected`.
+/// Replaces `old` by `new` in the case. The message must point at the line with `new` (or, for a deleted
+/// line, into the file) and contain `expected`.
 #[track_caller]
 fn check(old: &str, new: &str, expected: &str) {
     assert_eq!(CASE.matches(old).count(), 1, "{old}");
@@ -199,12 +199,12 @@ fn places_that_cannot_be_written_are_refused_before_the_run() {
     let long = "x".repeat(240) + ".toml";
     place.write(&long, CASE);
     assert!(refused(&place, &[&long]).contains("too long"));
-    // No part of a path is left behind that could not be made as a whole.
+    // No part of a path is left behind if it cannot be created as a whole.
     refused(&place, &["case.toml", "--out", &format!("a/b/{}", "x".repeat(300))]);
     refused(&place, &[&long, "--out", "a/b/c"]);
 }
 
-/// What fingers type that know another program: each is told what to type here.
+/// Options of other programs: the message names the one of this program.
 #[test]
 fn slips_of_the_command_line_are_answered() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! A shipped ball that bounces, from the command to the files.
+//! A shipped case of a bouncing ball, from the command to the files.
 
 use fem_vtk::VtuFile;
 
@@ -33,7 +33,7 @@ fn three_bounces_are_printed_summed_up_and_written_down() {
     }
 }
 
-/// As without gravity, half of the gap is drawn on each side of y = 0: the floor is half a height below.
+/// As without gravity, half of the gap is drawn on each side of y = 0, so the floor is half a height below.
 #[test]
 fn a_ball_that_fell_is_drawn_on_the_floor() {
     let place = Place::new();
@@ -45,7 +45,7 @@ fn a_ball_that_fell_is_drawn_on_the_floor() {
     let displaced = displacement.as_float().unwrap().chunks_exact(3);
     let lowest = |heights: &mut dyn Iterator<Item = f64>| heights.fold(f64::INFINITY, f64::min);
     assert_eq!(lowest(&mut points.iter().map(|point| point[1])), 0.01);
-    // Contact is exact, up to rounding of the height.
+    // Contact is exact up to rounding of the height.
     let now = lowest(&mut points.iter().zip(displaced).map(|(point, u)| point[1] + u[1]));
     assert!((now + 0.01).abs() < 1e-12, "{now:e}");
 }

@@ -1,4 +1,4 @@
-//! `fem-run calibrate` as its users call it.
+//! `fem-run calibrate` on the command line.
 
 use crate::common::{CASE, Place};
 
@@ -8,7 +8,7 @@ const GLASS_POINT: &str = include_str!("../../../../validation/data/paper_glass.
 const PAIRINGS: &str = include_str!("../../../../validation/data/synthetic_pairings.csv");
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
-/// Same elements for all speeds, for the data and for what is fitted to them.
+/// One element size for all speeds, for the data and for the fit.
 const MESH: [&str; 2] =
     ["--set", "mesh={contact_element_size=\"40 um\", refined_radius=\"0.4 mm\"}"];
 
@@ -28,11 +28,11 @@ fn the_papers_point_determines_one_combination_of_four() {
     let numbers = place.json("runs/glass_calibrate/calibrate.json");
     assert_eq!(numbers["combinations_determined"], 1);
     assert!(number(&numbers["rms"]) < 1e-5);
-    // The paper's single term, β = 2708 1/s, makes 0.9276; 0.925 wants a little more.
+    // The paper's single term, β = 2708 1/s, gives 0.9276; 0.925 needs slightly more relaxation.
     let time = number(&numbers["maxwell"]["relaxation_time_s"]);
     assert!(340e-6 < time && time < 369e-6, "{time}");
 
-    // What is to be pasted makes the restitution in a run.
+    // The table to paste gives the restitution in a run.
     let (before, rest) = GLASS.split_once("[material.glass.relaxation]").unwrap();
     let (_, after) = rest.split_once("[[body]]").unwrap();
     let table = String::from_utf8(place.read("runs/glass_calibrate/relaxation.toml")).unwrap();
@@ -41,15 +41,14 @@ fn the_papers_point_determines_one_combination_of_four() {
     let restitution = number(&place.json("run/summary.json")["restitution"]);
     assert!((restitution - 0.925).abs() < 2e-4, "{restitution}");
 
-    // A second calibration takes the place of the first.
+    // A second calibration replaces the first.
     let again = ["calibrate", "case.toml", "--data", "glass.csv", "--terms", "2", "--quiet"];
     assert_eq!(place.succeed(&again).stdout, "");
     let numbers = place.json("runs/glass_calibrate/calibrate.json");
     assert_eq!(numbers["terms"].as_array().map(Vec::len), Some(2));
 }
 
-/// Restitutions of a known series, by the program's own sweep, come back to 1e-4 on times that are
-/// not the series'.
+/// Restitutions of a known series, from a sweep, are reproduced to 1e-4 with other relaxation times.
 #[test]
 fn a_known_series_is_reproduced() {
     let place = Place::with(CASE);
@@ -73,10 +72,10 @@ fn a_known_series_is_reproduced() {
         let residual: f64 = row.rsplit(',').next().unwrap().parse().unwrap();
         assert!(residual.abs() < 1e-4, "{row}");
     }
-    // Σ w of the truth lies in its range.
+    // The range contains the true Σ w.
     let range = &numbers["weight_sum"]["range"];
     assert!(number(&range[0]) < 0.28 && 0.28 < number(&range[1]), "{range}");
-    // 2.2 elements across at 0.05 m/s: the mesh that is asked for is too coarse there.
+    // 2.2 elements across at 0.05 m/s: the given mesh is too coarse there.
     assert!(
         ran.stdout.contains("across the smallest contact radius are too few"),
         "{}",
@@ -114,12 +113,12 @@ fn restitutions_that_fall_get_the_sentence() {
     assert!((number(&exponent["value"]) - 0.6).abs() < 1e-3);
 }
 
-/// One series for nine pairs; the truth lies in the ranges of what the data determine.
+/// One series for nine pairs; the ranges of determined quantities contain the truth.
 #[test]
 fn nine_pairings_share_a_series() {
     let place = Place::with(GLASS);
     place.write("nine.csv", PAIRINGS);
-    // The series' own times, 10 and 300 µs.
+    // The relaxation times of the series, 10 and 300 µs.
     let times = ["--terms", "2", "--times", "10 us..300 us"];
     let ran =
         place.succeed(&[&["calibrate", "case.toml", "--data", "nine.csv"][..], &times].concat());
@@ -128,7 +127,7 @@ fn nine_pairings_share_a_series() {
     for (k, weight) in [0.02, 0.3].into_iter().enumerate() {
         let range = &numbers["terms"][k]["range"];
         assert!(number(&range[0]) < weight && weight < number(&range[1]), "{range}");
-        // And the range is worth having.
+        // The range is not trivially wide.
         assert!(number(&range[1]) - number(&range[0]) < 0.5 * weight, "{range}");
     }
     let misfit = number(&numbers["misfit"]);
@@ -199,7 +198,7 @@ fn faults_are_pointed_at_and_nothing_is_written() {
     );
 }
 
-/// Runs of Ting's model on the paper's spheres, the quickest there are.
+/// Calibrates with Ting's model on the paper's spheres, which is the fastest.
 fn calibrated(csv: &str, more: &[&str]) -> (String, serde_json::Value) {
     let place = Place::with(GLASS);
     place.write("e.csv", csv);
@@ -241,7 +240,7 @@ fn given_uncertainties_and_repeats_are_the_scatter() {
     assert!(!text.contains(unknown), "{text}");
     assert!((number(&numbers["error"]) - 0.01).abs() < 1e-15);
 
-    // Four of one collision: ±0.01 and ±0.01 about the mean over three.
+    // Four data of one collision: ±0.01 and ±0.01 about the mean, with three degrees of freedom.
     let repeats = "speed_m_s,e\n0.2,0.91\n0.2,0.89\n0.2,0.91\n20 cm/s,0.89\n";
     let (text, numbers) =
         calibrated(&repeats.replace("speed_m_s", "speed").replace("0.2,", "0.2 m/s,"), &[]);
@@ -249,7 +248,7 @@ fn given_uncertainties_and_repeats_are_the_scatter() {
     assert_eq!(numbers["degrees_of_freedom"], 3);
     let expected = (4e-4f64 / 3.0).sqrt();
     assert!((number(&numbers["pure_error"]) - expected).abs() < 1e-12);
-    // The regularisation keeps the fit off the mean by some 1e-5 of 0.01.
+    // The regularisation moves the fit off the mean by about 1e-5 of 0.01.
     assert!((number(&numbers["error"]) / expected - 1.0).abs() < 1e-3, "{}", numbers["error"]);
 }
 
@@ -261,7 +260,7 @@ fn the_end_of_the_maxwell_search_is_no_result() {
     assert_eq!(numbers["maxwell"]["beyond_search"], "faster");
     let (text, _) = calibrated("speed_m_s,e\n0.2,1\n", &finite);
     assert!(text.contains("or slower, at the end of the search range"), "{text}");
-    // Little comes back from a term a tenth as slow as the contact.
+    // A term with a tenth of the contact time as relaxation time returns little energy.
     let (_, numbers) = calibrated("speed_m_s,e\n0.2,0.01\n", &finite);
     assert!(numbers["maxwell"]["beyond_search"].is_null());
     assert!(number(&numbers["maxwell"]["rms"]) < 1e-5);

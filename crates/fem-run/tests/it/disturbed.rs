@@ -1,4 +1,4 @@
-//! A run that goes on from a motion that is none of its own: it stops at once, and says when, where and why.
+//! A run that continues from a wrong motion stops at once and says when, where and why.
 
 use fem::{Identity, Memory, checkpoint, memory_of};
 use serde_json::Value;
@@ -7,7 +7,7 @@ use crate::common::Place;
 
 const RESTART_FILE: &str = "fem-run.restart";
 
-/// At small strain without mass at the contact, with springs, and at finite strain.
+/// Small strain with massless contact nodes, with penalty springs, and finite strain.
 const SCENES: [(&str, &[&str]); 3] = [
     ("small strain", &["--set", "mesh.contact_element_size='0.1 mm'"]),
     (
@@ -27,10 +27,10 @@ const SCENES: [(&str, &[&str]); 3] = [
     ),
 ];
 
-/// The memory that a run of this scene leaves when it is killed, and what it is of.
+/// Returns the restart state that a killed run of this scene leaves, and its identity.
 fn left_in(place: &Place, set: &[&str]) -> (Memory, Identity) {
     let mut bytes = Vec::new();
-    // Of a run that is over soon the file may be there too shortly to be read.
+    // The file of a short run may exist too briefly to be read.
     for _ in 0..100 {
         let keep = ["case.toml", "--out", "out", "--checkpoint-every", "0", "--quiet"];
         let mut run = place.command(&[&keep[..], set].concat()).spawn().unwrap();
@@ -51,17 +51,17 @@ fn left_in(place: &Place, set: &[&str]) -> (Memory, Identity) {
     (memory_of(&bytes, &identity).unwrap(), identity)
 }
 
-/// Velocities of the lower body in a memory, as they follow each other in its bytes.
+/// Returns the velocities of the lower body in a restart state, in the order of its bytes.
 fn velocities(memory: &Memory) -> Vec<f64> {
     let memory = serde_json::to_value(memory).unwrap();
     let list = memory["contact"]["state"]["bodies"][0]["velocity"].as_array().unwrap();
     list.iter().flat_map(|v| v.as_array().unwrap()).map(|v| v.as_f64().unwrap()).collect()
 }
 
-/// What a velocity becomes, by its place among them.
+/// Changes a velocity by its index.
 type Change = fn(usize, f64) -> f64;
 
-/// A memory with other velocities of the lower body; a number that is none can be in its bytes alone.
+/// Returns a restart state with other velocities of the lower body; NaN can only be set in its bytes.
 fn with(memory: &Memory, change: Change) -> Memory {
     let mut bytes = postcard::to_stdvec(memory).unwrap();
     let old = velocities(memory);
@@ -75,7 +75,7 @@ fn with(memory: &Memory, change: Change) -> Memory {
     postcard::from_bytes(&bytes).unwrap()
 }
 
-/// Goes on from a memory; what the run says, and its summary.
+/// Continues from a restart state; returns the messages and the summary.
 fn gone_on(place: &Place, set: &[&str], memory: &Memory, identity: &Identity) -> (String, Value) {
     let _ = std::fs::remove_dir_all(place.path("out"));
     std::fs::create_dir(place.path("out")).unwrap();
@@ -87,7 +87,7 @@ fn gone_on(place: &Place, set: &[&str], memory: &Memory, identity: &Identity) ->
     (ran.stderr, summary)
 }
 
-/// The number behind "step" in the words of a stop.
+/// Returns the number after "step" in the reason of a stop.
 fn step_of(stopped: &str) -> u64 {
     let number = stopped.split("(step ").nth(1).and_then(|rest| rest.split(')').next());
     number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("{stopped}"))
@@ -98,7 +98,7 @@ fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
     for (name, set) in SCENES {
         let place = Place::new();
         let (memory, identity) = left_in(&place, set);
-        // So the others stop for what is done to them.
+        // Without a change the run completes, so the others stop because of theirs.
         let (stderr, summary) = gone_on(&place, set, &with(&memory, |_, v| v), &identity);
         assert_eq!(summary["complete"], true, "{name}: {stderr}");
         let whole = summary["steps"].as_u64().unwrap();
@@ -115,10 +115,10 @@ fn a_motion_that_is_not_its_own_stops_a_run_at_once() {
             }
             assert!(stderr.contains("at ") && stderr.contains("lower body"), "{name}: {stderr}");
             assert!(stderr.contains("help: "), "{name}, no remedy: {stderr}");
-            // Within some hundredths of the collision, since energies are looked at now and then.
+            // Within a few hundredths of the collision, since energies are checked at intervals.
             let after = step_of(stopped) - memory.step();
             assert!(after <= 16 + whole / 30, "{name}: {after} steps later of {whole}: {stopped}");
-            // What there was of the run is kept, with the last state that was sound.
+            // The results so far are kept, with the last valid state.
             for key in ["restitution", "contact_time_s"] {
                 assert!(summary[key].is_null(), "{name}: {key} = {}", summary[key]);
             }

@@ -1,4 +1,4 @@
-//! What a new user does first: pick a material, start a case.
+//! The first steps of a new user: choosing a material and starting a case.
 
 use crate::common::Place;
 
@@ -35,7 +35,7 @@ fn a_material_that_is_not_there_is_bad_input() {
     assert!(ran.stdout.is_empty());
 }
 
-/// A new case runs, and so it does with each of its commented keys in force.
+/// A new case runs, also with each of its commented keys enabled.
 #[test]
 fn a_new_case_is_sound_with_all_that_its_comments_offer() {
     let place = Place::new();
@@ -53,7 +53,7 @@ fn a_new_case_is_sound_with_all_that_its_comments_offer() {
         }
         place.succeed(&[&file, "--set", "model.hertz={}"]);
         place.succeed(&["check", &file]);
-        // A bare # stands before a key; `# ` before words.
+        // A bare # precedes a key, `# ` precedes text.
         let is_offer =
             |line: &str| line.starts_with('#') && !line.starts_with("# ") && line.len() > 1;
         let offers: Vec<&str> = text
@@ -93,7 +93,7 @@ fn a_new_case_overwrites_nothing() {
     assert_eq!(place.list("."), ["case.toml", "fem-run.schema.json", "other.toml"]);
 }
 
-/// The keys of the schema are those that the reader names when it meets another.
+/// The schema has the keys that the reader lists for an unknown key.
 #[test]
 fn a_schema_has_the_keys_of_the_reader() {
     let place = Place::new();
@@ -134,7 +134,7 @@ fn a_word_that_is_nearly_a_command_is_asked_about() {
         assert_eq!(ran.code, Some(2));
         assert!(ran.stderr.contains(meant), "{}", ran.stderr);
     }
-    // A file is meant.
+    // The word is meant as a file.
     for file in ["mesh.toml", "glass"] {
         let ran = place.run(&[file]);
         assert!(ran.stderr.contains("there is no such file"), "{}", ran.stderr);

@@ -1,4 +1,4 @@
-//! `fem-run fit`, `invert`, `export` and `cradle` as their users call them.
+//! `fem-run fit`, `invert`, `export` and `cradle` on the command line.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ fn ice() -> Place {
     place
 }
 
-/// The table of rms over n in two digits, from the shipped file and by the command.
+/// The published table of rms error over n, to two digits, from the shipped file.
 #[test]
 fn the_ice_table_is_reproduced() {
     let place = ice();
@@ -54,7 +54,7 @@ fn both_parameters_with_profile_and_comparison() {
     let n = &numbers["parameters"][1];
     assert_eq!((n["key"].as_str(), n["free"].as_bool()), (Some("n"), Some(true)));
     let value = n["value"].as_f64().unwrap();
-    // The table's minimum lies between 0.65 and 0.8.
+    // The minimum of the table is between 0.65 and 0.8.
     assert!(0.65 < value && value < 0.8);
     for interval in ["interval", "profile_interval"] {
         let end = |k: usize| n[interval][k].as_f64().unwrap();
@@ -67,7 +67,7 @@ fn both_parameters_with_profile_and_comparison() {
     for label in ["kuwabara_kono", "best fit", "restitution", "impact speed v"] {
         assert!(svg.contains(label), "{label}");
     }
-    // A second fit takes the place of the first; files of others stay.
+    // A second fit replaces the first; other files stay.
     place.write("runs/ice_fit/notes.txt", "mine");
     place.succeed(&["fit", "case.toml", "--data", "ice.csv", "--law", "kuwabara_kono", "--quiet"]);
     assert!(place.list("runs/ice_fit").contains(&"notes.txt".to_string()));
@@ -152,7 +152,7 @@ fn faults_of_data_and_options_are_pointed_at() {
     );
 }
 
-/// Every spelling of the same data is the same fit.
+/// The same data in different spellings give the same fit.
 #[test]
 fn units_and_sweep_columns_are_read() {
     let place = Place::new();
@@ -171,7 +171,7 @@ fn units_and_sweep_columns_are_read() {
         numbers["rms"].as_f64().unwrap()
     });
     for value in rms {
-        // Roundings of units, amplified by the fit.
+        // Rounding of units, amplified by the fit.
         assert!((value / rms[0] - 1.0).abs() < 1e-6, "{rms:?}");
     }
 }
@@ -202,7 +202,7 @@ fn inverse_of_the_glass() {
     assert!(ran.stderr.contains("linear needs a value of k"), "{}", ran.stderr);
 }
 
-/// The law of `[model]`, its fixed numbers and its end are the defaults, and options go before them.
+/// The law of `[model]` with its parameters and end of contact is the default; options override it.
 #[test]
 fn a_case_gives_its_law() {
     let place = ice();
@@ -218,7 +218,7 @@ fn a_case_gives_its_law() {
     };
     let (law, end, values) = fit(&[]);
     assert_eq!((law.as_str(), end.as_str(), values[1]), ("bordbar_hyppanen", "zero_overlap", 0.65));
-    // A is what is searched for; 2.35e-4 s at zero force is the published value.
+    // A is fitted; 2.35e-4 s at zero force is the published value.
     let (_, end, values) = fit(&["--end", "zero_force"]);
     assert_eq!((end.as_str(), format!("{:.2e}", values[0]).as_str()), ("zero_force", "2.35e-4"));
     assert_eq!(fit(&["--param", "n=0.7"]).2[1], 0.7);
@@ -229,7 +229,7 @@ fn a_case_gives_its_law() {
     let tsuji = "model.law={tsuji={e=0.9,end='zero_overlap'}}";
     glass.succeed(&["export", "case.toml", "--set", tsuji]);
     let e = glass.json("runs/case_export/export.json")["snippets"][0]["restitution"].as_f64();
-    // As the law gives it at each speed, to its tolerance.
+    // The law gives it at each speed, to its tolerance.
     assert!((e.unwrap() - 0.9).abs() < 1e-7, "{e:?}");
     // A law found for a restitution gives it when the case runs.
     let invert = ["invert", "case.toml", "--restitution", "0.92", "--set"];
@@ -245,7 +245,7 @@ fn a_case_gives_its_law() {
     let law = format!("model.law={{zhang_whiten={{alpha={alpha}}}}}");
     glass.succeed(&["case.toml", "--set", &law, "--out", "run"]);
     let e = glass.json("run/summary.json")["restitution"].as_f64().unwrap();
-    // The value is printed in seven digits.
+    // The value is printed with seven digits.
     assert!((e - 0.92).abs() < 1e-6, "{e}");
     let refused = |options: &[&str], expected: &str| {
         let ran = glass.run(&[&invert[..4], options].concat());
@@ -256,7 +256,7 @@ fn a_case_gives_its_law() {
     refused(&["--law", "ting", "--end", "zero_overlap"], "zero force by its definition");
     refused(&["--law", "hertz"], "loses nothing");
     refused(&["--find", "a"], "--find needs a law");
-    // What no law gives is bad input, not a table of refusals.
+    // A restitution that no law gives is bad input.
     let ran = glass.run(&["invert", "case.toml", "--restitution", "1.2"]);
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""));
 }
@@ -291,7 +291,7 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
         assert!(text.contains(" Fitted from 0.1581 m/s to 1.581 m/s"), "{text}");
         assert!(snippet(file)["worst_error"].as_f64().unwrap() > 0.0);
     }
-    // Relaxation makes e rise with speed, a Kelvin dashpot makes it fall: one e is nearer.
+    // With relaxation e rises with speed, with a Kelvin dashpot it falls: a constant e is closer.
     let worst = |file: &str| snippet(file)["worst_error"].as_f64().unwrap();
     assert!(worst("lammps_viscoelastic.in") > worst("lammps_coeff_restitution.in"));
     let tsuji = snippet("lammps_tsuji.in");
@@ -302,14 +302,14 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     place.succeed(&["export", "case.toml", "--data", "e.csv", "--out", "constant"]);
     let numbers = place.json("constant/export.json");
     let hertz = &numbers["snippets"][0];
-    // As constant as the data.
+    // The data are constant, so the fit is.
     assert!((hertz["restitution"].as_f64().unwrap() - 0.92).abs() < 1e-7);
     assert_eq!(
         (hertz["valid_from_m_s"].as_f64(), hertz["valid_to_m_s"].as_f64()),
         (Some(0.1), Some(1.0))
     );
     assert_eq!(numbers["has_hertz_times"], true);
-    // A model with elements has Ting in its place.
+    // Ting's model replaces a model with elements.
     place.succeed(&["export", "case.toml", "--set", "model.condensed={}", "--quiet", "--out", "c"]);
     assert_eq!(place.read("c/lammps_tsuji.in"), place.read("runs/case_export/lammps_tsuji.in"));
     // LIGGGHTS and YADE have no such wall.
@@ -325,7 +325,7 @@ fn export_writes_snippets_from_ting_and_from_a_file() {
     assert_eq!(ran.stderr.matches("help: ").count(), 1, "{}", ran.stderr);
 }
 
-/// The pair of a table is what the pair alone would be given; what does not relax loses nothing.
+/// A pair in a table gets the same input as the pair alone; a pair without relaxation loses nothing.
 #[test]
 fn export_makes_all_pairs_of_materials_and_sizes() {
     let place = Place::new();
@@ -333,7 +333,7 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
         ["export", "case.toml", "--materials", "glass,lib:steel", "--diameters", "2 mm,1 cm"];
     let ran = place.succeed(&[&pairs[..], &["--out", "all"]].concat());
     assert!(ran.stdout.contains("4 grains, 10 pairs"), "{}", ran.stdout);
-    // Why steel loses nothing, and what to do about it; glass relaxes.
+    // The warning says why steel loses nothing and what to do; glass relaxes.
     let why = "warning: no loss of steel is known, and none is in e of its pairs: it is too high";
     assert!(ran.stderr.contains(why), "{}", ran.stderr);
     let numbers = place.json("all/export.json");
@@ -365,7 +365,7 @@ fn export_makes_all_pairs_of_materials_and_sizes() {
     }
 }
 
-/// u = 2√(gl) sin(α/2), and e = 1 where equal balls rise as high as the first fell.
+/// u = 2√(gl) sin(α/2), and e = 1 if equal balls rise to the height of release.
 #[test]
 fn cradle_of_one_trial_and_of_a_file() {
     let place = Place::new();
@@ -382,7 +382,7 @@ fn cradle_of_one_trial_and_of_a_file() {
     let ran = place.succeed(&[&cradle[..], &file].concat());
     assert!(ran.stdout.contains("20.00 deg"), "{}", ran.stdout);
     assert_eq!(place.list("runs/trials_cradle"), ["cradle.csv", "cradle.json", "cradle.svg"]);
-    // What the cradle writes, fit reads.
+    // The output of the cradle is input of the fit.
     let data = "runs/trials_cradle/cradle.csv";
     let fit = ["fit", "case.toml", "--data", data, "--law", "kuwabara_kono", "--out", "fit"];
     place.succeed(&fit);
@@ -403,7 +403,7 @@ fn cradle_of_one_trial_and_of_a_file() {
     refused(&["--masses", "1 g,1 g", "--data", "trials.csv"], "trials.csv:3: release angle");
 }
 
-/// What a hand writes first: a law with two letters in the wrong order, thousands that are parted.
+/// Common slips: a law with two letters swapped, thousands separators.
 #[test]
 fn slips_of_the_hand_are_answered() {
     let place = Place::new();
@@ -427,7 +427,7 @@ fn slips_of_the_hand_are_answered() {
     assert!(invert("0.9 m").stderr.contains("such as 0.9 or '90 %'"), "{}", invert("0.9 m").stderr);
 }
 
-/// A spreadsheet's file: Latin-1, semicolons, decimal commas, names of its own, an empty row.
+/// A spreadsheet's file: Latin-1, semicolons, decimal commas, its own column names, an empty row.
 #[test]
 fn columns_of_other_names_are_told() {
     let place = Place::new();
@@ -466,19 +466,19 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     let all =
         ["fit", "case.toml", "--data", data.to_str().unwrap(), "--law", "all", "--out", "out"];
     let ran = place.succeed(&all);
-    // The exponents of Mishra & Murty make, with one parameter, what n = 0.73 makes with two.
+    // With the exponents of Mishra & Murty, one parameter fits like two with n = 0.73.
     let lines: Vec<&str> = ran.stdout.lines().collect();
     assert!(lines[1].starts_with("mishra_murty      c "), "{}", ran.stdout);
     assert!(lines[2].starts_with("bordbar_hyppanen  a, n"), "{}", ran.stdout);
     assert!(place.json("out/fit.json")["law"] == "mishra_murty");
-    // A law is in one place, and all are fitted.
+    // Each law appears once, and all are fitted.
     assert!(!ran.stdout.contains("not ranked"), "{}", ran.stdout);
     let twins = "the same curve as linear: tsuji, zhang_whiten, falcon";
     assert!(ran.stdout.contains(twins), "{}", ran.stdout);
     assert!(ran.stdout.contains("held: of Hertz' contact time"), "{}", ran.stdout);
     let ranking = String::from_utf8(place.read("out/ranking.csv")).unwrap();
     assert!(ranking.contains("\nbordbar_hyppanen,a n,"), "{ranking}");
-    // Each is drawn beside the data, with what speaks for it, and its values are kept.
+    // Each law is drawn beside the data with its evidence, and its values are kept.
     let picture = String::from_utf8(place.read("out/fit.svg")).unwrap();
     let kept = place.json("out/fit.json")["compared"].as_array().unwrap().clone();
     for (k, row) in ranking.lines().skip(1).enumerate() {
@@ -494,7 +494,7 @@ fn all_laws_are_ranked_and_the_best_is_fitted() {
     assert!(ran.stderr.contains("--free applies to a single law"), "{}", ran.stderr);
 }
 
-/// Tables as people have them, and what is said of those that cannot be read.
+/// Tables as people have them, and messages for those that cannot be read.
 #[test]
 fn tables_are_read_or_refused_with_what_to_do() {
     let place = Place::new();
@@ -528,7 +528,7 @@ fn tables_are_read_or_refused_with_what_to_do() {
     refused(table, &["--columns", "speed=CO"], &["did you mean cor?"]);
 }
 
-/// What should be known of a result is told with --quiet, too.
+/// Warnings about a result are also printed with --quiet.
 #[test]
 fn quiet_keeps_warnings() {
     let place = Place::new();

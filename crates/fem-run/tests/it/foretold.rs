@@ -1,15 +1,15 @@
-//! What `fem-run check` foretells of a run, and what the run says that it took.
+//! The cost estimates of `fem-run check` and of runs, and the cost that runs report.
 
 use crate::common::Place;
 
-/// Rubber that the first mesh leaves outside of 1 %.
+/// Rubber for which the first mesh misses 1 %.
 const RUBBER: &str = "
 material.rubber = { density = 1100, youngs_modulus = '1 MPa', poissons_ratio = 0.45, hyperelastic = 'neo-hooke' }
 body = [{ name = 'wall', wall = {} },
         { name = 'ball', sphere.diameter = '3 cm', material = 'rubber', approach_speed = '3 m/s' }]
 output.snapshots = []
 ";
-/// Glass that is far stiffer against shear than against pressure.
+/// Glass with a much larger shear modulus than bulk modulus.
 const AUXETIC: &str = "
 material.glass = { density = 2500, youngs_modulus = '60 GPa', poissons_ratio = -0.99 }
 body = [{ name = 'lower', sphere.diameter = '1 cm', material = 'glass' },
@@ -17,7 +17,8 @@ body = [{ name = 'lower', sphere.diameter = '1 cm', material = 'glass' },
 output.snapshots = []
 ";
 
-/// Meshes that did not do have taken their time, which is a number of its own; where the first does there is none.
+/// Runs on meshes that were refined later are counted separately; if the first mesh suffices, there are
+/// none.
 #[test]
 fn trials_are_counted_by_themselves() {
     let place = Place::new();
@@ -29,7 +30,7 @@ fn trials_are_counted_by_themselves() {
         let seconds = |key: &str| summary["cost"][key].as_f64().unwrap();
         assert_eq!(seconds("trials_s") > 0.0, has_trials, "{case}: {}", summary["cost"]);
         assert!(seconds("setup_s") + seconds("trials_s") + seconds("solve_s") <= seconds("wall_s"));
-        // Both had a mesh that did not do; only one of them was run.
+        // Both had a mesh that was too coarse; only one of these meshes was run.
         assert!(!summary["coarser_meshes"].as_array().unwrap().is_empty());
         let first = &summary["coarser_meshes"][0];
         assert_eq!(first["element_updates"].is_null(), !has_trials, "{first}");
@@ -38,7 +39,8 @@ fn trials_are_counted_by_themselves() {
     }
 }
 
-/// Of the mesh that is needed where that is known before, else of the most that may follow; of condensed bodies, too.
+/// `check` names the refined mesh if it is known before the run, and else the upper bound of refinement;
+/// also for condensed bodies.
 #[test]
 fn check_tells_what_may_follow() {
     let place = Place::new();
@@ -63,14 +65,14 @@ fn check_tells_what_may_follow() {
     let condensed = place.succeed(&["check", "case.toml", "--set", "model.condensed={}"]).stdout;
     let time = condensed.lines().find(|line| line.starts_with("# time  ")).unwrap();
     assert!(time.contains("about ") && time.contains("here, after"), "{time}");
-    // The case gives its elements.
+    // The case gives its element size.
     assert!(!condensed.contains("mesh refinement"), "{condensed}");
     let open = place.succeed(&["check", "auxetic.toml", "--set", "model.condensed={}"]).stdout;
     let most = "misses accuracy.tolerance: at most 4, ";
     assert!(open.contains(most) && open.contains("s more\n"), "{open}");
 }
 
-/// Spheres of metres may be meant: their sizes are said with the unit, and nothing is warned of.
+/// Spheres of metres may be intended: their sizes are printed with the unit, without a warning.
 #[test]
 fn spheres_of_metres_are_named_with_their_unit() {
     let place = Place::new();
@@ -102,7 +104,7 @@ fn spheres_of_metres_are_named_with_their_unit() {
     }
 }
 
-/// What is moved of the mass is not rounded to nothing.
+/// Mass scaling is not rounded to zero.
 #[test]
 fn little_mass_that_is_moved_is_not_none() {
     let place = Place::new();
@@ -119,7 +121,7 @@ fn little_mass_that_is_moved_is_not_none() {
     assert!(row.contains("e-") && !row.contains("0.00"), "{row}");
 }
 
-/// A sweep says what its members take with the finer meshes that some need, where that can be.
+/// A sweep's cost estimate includes the mesh refinement that some members need.
 #[test]
 fn a_sweep_tells_of_finer_meshes() {
     let place = Place::new();
@@ -136,8 +138,8 @@ fn a_sweep_tells_of_finer_meshes() {
     assert!(!told("model.ting={}"));
 }
 
-/// What tells the error of a mesh that the case gives is computed after the collision, and may take ten times its
-/// memory. Announced is what it takes within 1.7 times: bytes an element are those of other scenes.
+/// The reference run for a given mesh follows the collision and may take ten times its memory. The estimate
+/// is within a factor of 1.7, since bytes per element come from other scenes.
 #[test]
 fn memory_is_announced_with_what_tells_the_error() {
     let place = Place::new();

@@ -1,20 +1,21 @@
-//! A disk that fills: what is kept, in which order, and what is said.
+//! A full disk: what is kept, in which order, and the messages.
 
 #![cfg(unix)]
 
 use crate::common::{Place, Ran};
 
-/// Runs where no file can grow beyond so many kilobytes: writing fails as on a full disk.
+/// Runs the command with a limit on the size of files, in kilobytes: writing fails as on a full disk.
 fn run_within(place: &Place, kilobytes: usize, arguments: &[&str]) -> Ran {
     let script = r#"trap "" XFSZ; ulimit -f "$0"; exec "$@""#;
-    // Blocks of 512 bytes.
+    // The limit is in blocks of 512 bytes.
     let blocks = (2 * kilobytes).to_string();
     let mut command = std::process::Command::new("sh");
     command.current_dir(place.path("")).args(["-c", script, &blocks]);
     command.arg(env!("CARGO_BIN_EXE_fem-run")).args(arguments).output().unwrap().into()
 }
 
-/// A snapshot takes 360 kB, the history 300 kB, the contact some kB, the summary 7 kB and 16 kB of room.
+/// A snapshot takes 360 kB, the history 300 kB, the contact a few kB, the summary 7 kB and 16 kB of
+/// reserve.
 const FINE: [&str; 3] = ["case.toml", "--set", "mesh.contact_element_size='30 um'"];
 
 #[test]
@@ -41,7 +42,7 @@ fn the_snapshots_go_first_then_the_history() {
     }
 }
 
-/// The table is on the terminal all the same, and an older result is where it was.
+/// The report is still printed, and an older result is unchanged.
 #[test]
 fn a_table_needs_no_disk() {
     let place = Place::new();
@@ -55,7 +56,7 @@ fn a_table_needs_no_disk() {
     assert_eq!((place.result("runs/case"), place.list("runs")), (before, vec!["case".to_string()]));
 }
 
-/// A result that lacks files does not take the place of one that has them.
+/// An incomplete result does not replace a complete one.
 #[test]
 fn what_lacks_files_goes_beside_an_older_result() {
     let place = Place::new();
@@ -68,7 +69,7 @@ fn what_lacks_files_goes_beside_an_older_result() {
     assert_eq!(place.list("runs/case.new"), ["contact.csv", "history.csv", "summary.json"]);
 }
 
-/// A reader that is gone is no fault; a stdout that takes no more is one, and the result is kept.
+/// A reader that has gone away is no error; a stdout that cannot be written is one, and the result is kept.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_standard_output_is_a_fault() {

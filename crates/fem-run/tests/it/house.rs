@@ -1,4 +1,4 @@
-//! The walls of the house: which crate stands on which, and what none of them may reach.
+//! The structure of the workspace: which crate depends on which, and what crates may not depend on.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -7,8 +7,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// Every crate, what it is (the `description` of its manifest), and the crates that it stands on.
-/// A crate comes after those that it stands on.
+/// Each crate with the `description` of its manifest and the crates that it depends on. A crate follows
+/// those that it depends on.
 const HOUSE: [(&str, &str, &[&str]); 19] = [
     (
         "fem-material",
@@ -133,10 +133,10 @@ const HOUSE: [(&str, &str, &[&str]); 19] = [
 ];
 
 const COMMAND: &str = "fem-run";
-/// Carries the command.
+/// The Python module, which contains the command.
 const PYTHON: &str = "fem-python";
 
-/// What computes on meshes: a case is read and changed without.
+/// Crates that compute on meshes: cases are read and changed without them.
 const SOLVERS: [&str; 8] = [
     "fem-mesh",
     "fem-element",
@@ -148,7 +148,7 @@ const SOLVERS: [&str; 8] = [
     "nalgebra",
 ];
 
-/// What reads arguments, writes to a terminal or catches signals.
+/// Crates for arguments, terminals and signals.
 const TERMINAL: [&str; 7] =
     ["clap", "clap_complete", "comfy-table", "ctrlc", "indicatif", "miette", "textwrap"];
 
@@ -160,11 +160,11 @@ fn root() -> PathBuf {
 struct Crate {
     description: String,
     manifest: PathBuf,
-    /// Of all targets and features; those of tests alone are left out.
+    /// Dependencies for all targets and features, without those of tests.
     dependencies: BTreeSet<String>,
 }
 
-/// All crates of the workspace by name.
+/// Returns all crates of the workspace by name.
 fn workspace() -> BTreeMap<String, Crate> {
     let output = Command::new(env!("CARGO"))
         .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
@@ -188,13 +188,13 @@ fn workspace() -> BTreeMap<String, Crate> {
     list(&metadata["packages"]).iter().map(read).collect()
 }
 
-/// Every package that a crate of the workspace compiles, its own and others', for any platform.
+/// Returns all packages that a crate compiles on any platform, its own and external ones.
 fn compiled(workspace: &BTreeMap<String, Crate>, name: &str) -> BTreeSet<String> {
     let lock = fs::read_to_string(root().join("Cargo.lock")).expect("Cargo.lock");
     let lock: toml::Table = lock.parse().expect("TOML");
     let mut others: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     for package in lock["package"].as_array().expect("packages") {
-        // `name`, or `name version` where there are several versions: taken as one.
+        // `name`, or `name version` if there are several versions, which count as one.
         let names = package.get("dependencies").and_then(|list| list.as_array()).into_iter();
         let names = names.flatten().filter_map(|name| name.as_str()?.split(' ').next());
         let name = package["name"].as_str().expect("a name");
@@ -275,7 +275,7 @@ fn every_crate_has_the_lints_of_the_workspace() {
     }
 }
 
-/// docs/architecture.md shows the table, row for row.
+/// docs/architecture.md contains the table, row for row.
 #[test]
 fn the_page_on_architecture_shows_the_table() {
     let page = fs::read_to_string(root().join("docs/architecture.md")).expect("a page");

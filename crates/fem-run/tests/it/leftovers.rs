@@ -1,4 +1,4 @@
-//! What killed runs leave is swept away by the next, and nothing of a living one.
+//! The next run removes what killed runs leave, and nothing of a running one.
 
 #![cfg(unix)]
 
@@ -13,7 +13,7 @@ use crate::common::Place;
 
 const LOCK: &str = ".fem-run-lock";
 
-/// A run that takes hours, once it has its hidden folder.
+/// Starts a run of hours and waits until it has its hidden folder.
 fn endless(place: &Place, out: &str) -> Child {
     let fine = ["--set", "mesh.contact_element_size=6e-6", "--set", "time.step_factor=1e-2"];
     let mut command = place.command(&[&["case.toml", "--out", out][..], &fine].concat());
@@ -46,7 +46,7 @@ fn folders_of_the_killed_go_and_those_of_the_living_stay() {
     assert_eq!(place.json("living/summary.json")["complete"], false);
 }
 
-/// Two results of the case, as `older` and `newer`, the older with a file of the user's.
+/// Writes two results of the case, `older` and `newer`, the older one with a file of the user.
 fn two_results() -> Place {
     let place = Place::new();
     place.succeed(&["case.toml", "--set", "model.ting={}", "--out", "older"]);
@@ -55,7 +55,7 @@ fn two_results() -> Place {
     place
 }
 
-/// A hidden folder of a process that was killed on the way to `out`.
+/// Creates the hidden folder of a process that was killed before it wrote `out`.
 fn abandon(place: &Place, name: &str) -> String {
     let folder = format!(".fem-run-{name}");
     fs::create_dir_all(place.path(&folder)).unwrap();
@@ -72,7 +72,7 @@ fn sweep(place: &Place) {
     assert_eq!(hidden(place), [""; 0]);
 }
 
-/// Killed when nothing was finished.
+/// The process was killed before anything was finished.
 #[test]
 fn what_is_not_finished_goes() {
     let place = Place::new();
@@ -82,7 +82,7 @@ fn what_is_not_finished_goes() {
     assert_eq!(place.list("."), ["another", "case.toml"]);
 }
 
-/// Killed when the older result was out of the way, before anything else.
+/// The process was killed just after it had moved the old result aside.
 #[test]
 fn an_older_result_comes_back() {
     let place = two_results();
@@ -93,7 +93,7 @@ fn an_older_result_comes_back() {
     assert_eq!(place.json("out/summary.json")["effects"][0]["name"], "viscoelasticity");
 }
 
-/// Killed when the user's files had moved on, before the new result was in its place.
+/// The process was killed after moving the user's files, before moving the new result.
 #[test]
 fn a_finished_result_takes_its_place() {
     let place = two_results();
@@ -113,7 +113,7 @@ fn a_finished_result_takes_its_place() {
     assert_eq!(place.read("out/summary.json"), new);
 }
 
-/// Killed when the new result was in its place, while the older one was deleted.
+/// The process was killed after moving the new result, while it deleted the old one.
 #[test]
 fn what_is_replaced_goes() {
     let place = two_results();
@@ -127,7 +127,7 @@ fn what_is_replaced_goes() {
     assert_eq!(place.read("out/summary.json"), new);
 }
 
-/// Killed before it had a lock.
+/// The process was killed before it had a lock.
 #[test]
 fn an_empty_folder_goes() {
     let place = Place::new();
@@ -135,7 +135,7 @@ fn an_empty_folder_goes() {
     sweep(&place);
 }
 
-/// What has no lock may be somebody's.
+/// Without a lock file, a folder may belong to someone else.
 #[test]
 fn hidden_folders_of_others_stay() {
     let place = Place::new();

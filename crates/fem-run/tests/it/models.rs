@@ -1,4 +1,4 @@
-//! The same case with a cheaper model: results, files, sweeps over models.
+//! The same case with cheaper models: results, files, sweeps over models.
 
 use crate::common::Place;
 use serde_json::Value;
@@ -7,7 +7,7 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-/// Runs the case with these overrides; its summary.
+/// Runs the case with these overrides and returns its summary.
 fn summary(place: &Place, overrides: &[&str]) -> Value {
     let set = overrides.iter().flat_map(|value| ["--set", *value]);
     let arguments: Vec<&str> =
@@ -48,7 +48,7 @@ fn every_model_writes_the_same_keys_and_columns() {
             assert!(body["elements"].is_null() && body["vibration_energy_j"].is_null());
             assert!(number(&body["mass_kg"]) > 0.0);
         }
-        // Right to a few per cent of the finite elements on a mesh this coarse.
+        // Within a few per cent of finite elements on such a coarse mesh.
         for key in ["restitution", "contact_time_s", "peak_force_n", "max_approach_m"] {
             let ratio = number(&reduced[key]) / number(&fem[key]);
             assert!((0.85..1.15).contains(&ratio), "{model} {key}: {ratio}");
@@ -62,7 +62,8 @@ fn every_model_writes_the_same_keys_and_columns() {
         let history = String::from_utf8(place.read("out/history.csv")).unwrap();
         assert_eq!(history.lines().next(), columns.lines().next());
         assert_eq!(history.lines().count(), 1202);
-        // time, force and approach are always there; a law has no pressure, no model penalty springs.
+        // Time, force and approach are always there; a law has no pressure, and no model has
+        // penalty springs.
         let row: Vec<&str> = history.lines().nth(500).unwrap().split(',').collect();
         assert!(row[0].parse::<f64>().unwrap() > 0.0 && row[1].parse::<f64>().unwrap() > 0.0);
         assert_eq!(row[4].is_empty(), model.contains("law"), "{model}: {row:?}");
@@ -90,11 +91,11 @@ fn hertz_and_ting_are_the_published_numbers() {
             ("peak_pressure_pa", 1e-9, pressure, 5e-5),
         ] {
             let found = unit * number(&found[key]);
-            // Some are cut off, not rounded.
+            // Some are truncated, not rounded.
             assert!((found - expected).abs() <= 2.0 * half_digit, "{speed} {key}: {found}");
         }
         assert_eq!(found["restitution"], 1.0);
-        // As a law and as Ting without relaxation it is the same to 1e-8.
+        // As a law, and as Ting without relaxation, the results agree to 1e-8.
         for model in [
             &["model.law.hertz={}"][..],
             &[
@@ -147,7 +148,7 @@ fn laws_give_the_restitution_of_their_closed_form() {
         assert_eq!(found["case"]["model"]["law"].as_object().unwrap().len(), 1);
         if law.starts_with("linear") {
             assert!((number(&found["contact_time_s"]) - 60e-6).abs() < 1e-11);
-            // Its exponent is not Hertz': it has no contact radius.
+            // Its exponent is not that of Hertz, so it has no contact radius.
             assert!(found["max_contact_radius_m"].is_null());
         }
     }
@@ -200,7 +201,7 @@ fn a_sweep_runs_over_models() {
          end = 'zero_overlap' } } }]\n'body.0.approach_speed' = [0.1, 0.5]\n",
     );
     let ran = place.run(&["sweep", "sweep.toml", "--out", "out"]);
-    // Two members creep for ever; the others are done.
+    // Two members creep without end; the others are done.
     assert_eq!(ran.code, Some(1), "{}", ran.stderr);
     assert!(ran.stderr.contains("2 of 8 members failed"), "{}", ran.stderr);
     let table = place.read("out/sweep.csv");
@@ -217,7 +218,7 @@ fn a_sweep_runs_over_models() {
     assert!(again.stderr.contains("8 done before, 0 to run"), "{}", again.stderr);
 }
 
-/// Condensed finite elements write what finite elements write.
+/// The condensed model writes the same files and keys as finite elements.
 #[test]
 fn condensed_bodies_write_all_files_of_finite_elements() {
     let place = Place::new();
@@ -231,7 +232,7 @@ fn condensed_bodies_write_all_files_of_finite_elements() {
     assert_eq!(history.lines().next(), columns.lines().next());
     assert!(condensed["element_updates"].is_null() && condensed["complete"] == true);
     assert_eq!(condensed["bodies"][0]["elements"], fem["bodies"][0]["elements"]);
-    // The mesh is coarse, and the penalty of the explicit model soft on it.
+    // The mesh is coarse, and the penalty stiffness of the explicit model is small on it.
     for key in ["restitution", "contact_time_s", "peak_force_n", "max_approach_m"] {
         let ratio = number(&condensed[key]) / number(&fem[key]);
         assert!((0.97..1.03).contains(&ratio), "{key}: {ratio}");
@@ -239,7 +240,7 @@ fn condensed_bodies_write_all_files_of_finite_elements() {
     assert!(number(&condensed["energy"]["residual_relative"]) < 1e-5);
 }
 
-/// What a condensed run costs, and what it says of its own errors.
+/// The cost of a condensed run, and its error estimates.
 #[test]
 fn condensed_bodies_report_cost_and_doubts() {
     let place = Place::new();
@@ -247,7 +248,7 @@ fn condensed_bodies_report_cost_and_doubts() {
     let cost = &good["cost"];
     let (setup, solve) = (number(&cost["setup_s"]), number(&cost["solve_s"]));
     assert!(setup > 0.0 && solve > 0.0 && setup + solve <= number(&cost["wall_s"]));
-    // A factor holds at least the stiffness of its body, some ten numbers an equation.
+    // A factor holds at least the stiffness of its body, about ten numbers per equation.
     let nodes: f64 = (0..2).map(|k| number(&good["bodies"][k]["nodes"])).sum();
     assert!(number(&cost["factor_bytes"]) > 80.0 * 2.0 * nodes);
     assert!(cost["ns_per_element_update"].is_null());
@@ -258,7 +259,7 @@ fn condensed_bodies_report_cost_and_doubts() {
     };
     let coarse = "mesh.contact_element_size=\"80 um\"";
     let found = doubts(&["model.condensed={}", coarse]);
-    // What it leaves open is more than the case allows, too; the size that it names does for both.
+    // Its error also exceeds the tolerance; the suggested element size serves both.
     assert!(found.len() == 1 && found[0].contains("spans 2.8 elements"), "{found:?}");
     let size = found[0].split("use a mesh.contact_element_size of ").nth(1).unwrap();
     let size = size.split(" or less").next().unwrap();
@@ -267,7 +268,7 @@ fn condensed_bodies_report_cost_and_doubts() {
     let soft = "contact.penalty_factor=0.1";
     let found = doubts(&["model.condensed={penalty_springs=true}", soft]);
     assert!(found.iter().any(|text| text.contains("the surfaces overlap")), "{found:?}");
-    // Without springs there is nothing to overlap.
+    // Without springs there is no overlap.
     let found = doubts(&["model.condensed={}", soft]);
     assert!(!found.iter().any(|text| text.contains("the surfaces overlap")), "{found:?}");
 }

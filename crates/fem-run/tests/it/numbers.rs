@@ -1,10 +1,10 @@
-//! Numbers for people: no sixteen digits, no exponent of nothing, in whatever a command prints.
+//! Printed numbers are readable: no sixteen digits, no exponent without need, in any command.
 
 use std::path::Path;
 
 use crate::common::{FAILS, Place};
 
-/// A number of a text that nobody would write; what is to be read by machines is left out.
+/// Returns a number that nobody would write; text for programs is left out.
 fn odd_number(text: &str) -> Option<&str> {
     // A resolved case has its numbers to the last bit.
     let for_people = text.lines().filter(|line| line.starts_with('#') || !line.contains(" = "));

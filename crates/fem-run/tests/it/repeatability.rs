@@ -1,4 +1,4 @@
-//! The same bits from the same input, however it is given.
+//! The same input in any form gives the same bits.
 
 use crate::common::Place;
 
@@ -76,8 +76,8 @@ fn a_mesh_that_was_written_gives_the_bits_of_the_built_in_one() {
     ];
     place.succeed(&[&["case.toml", "--out", "b"][..], &with_meshes].concat());
     assert_same_files(&place, "a", "b", &["history.csv", "case_1_maximum.vtu"]);
-    // Upside down: what was below lies above. Both of the equal bodies are computed, as those of files
-    // always are.
+    // The scene upside down. Both of the equal bodies are computed, as always for meshes from
+    // files.
     place.succeed(&["mesh", "case.toml"]);
     let swapped = ["--set", "body.1.sphere={diameter='22.2 mm', mesh='meshes/case/striker.vtu'}"];
     let built_in =

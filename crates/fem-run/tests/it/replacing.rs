@@ -1,4 +1,4 @@
-//! Whose result a new one takes the place of.
+//! Which results a new one replaces.
 
 use crate::common::Place;
 
@@ -50,8 +50,8 @@ fn a_named_folder_of_another_case_is_refused() {
     place.succeed(&run(&[&SLOWER, &out, &["--force"]]));
 }
 
-/// Units, title, comments, the name of the file and what is drawn make no other case; a key does, even
-/// one that changes no number.
+/// Units, title, comments, file name and figures do not make another case; any key does, even if it changes
+/// no number.
 #[test]
 fn a_case_is_what_it_asks_to_be_computed() {
     let place = Place::new();
@@ -66,7 +66,7 @@ fn a_case_is_what_it_asks_to_be_computed() {
     assert_eq!(place.run(&run(&[&TING, &out, &limits])).code, Some(2));
 }
 
-/// A fit, and the run of the case that it is of.
+/// A fit, and the run of its case.
 #[test]
 fn commands_do_not_replace_each_others_results() {
     let place = Place::new();
@@ -76,7 +76,7 @@ fn commands_do_not_replace_each_others_results() {
     let ran = place.run(&[&fit[..], &["--out", "out"]].concat());
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);
     place.succeed(&fit);
-    // Other options of the same fit take its place, another case does not.
+    // Other options of the same fit replace it, another case does not.
     place.succeed(&[&fit[..], &["--confidence", "0.9"]].concat());
     place.succeed(&[&fit[..], &["--set", "body.0.sphere.diameter='2 cm'"]].concat());
     let folders = place.list("runs");

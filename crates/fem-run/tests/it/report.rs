@@ -1,4 +1,4 @@
-//! The page of a result, of several, and the pictures of one.
+//! The report page, the comparison of results, and single figures.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ fn text(place: &Place, name: &str) -> String {
     String::from_utf8(place.read(name)).unwrap()
 }
 
-/// What a page may not need: anything that is not in it.
+/// Checks that a page loads nothing from elsewhere.
 fn stands_alone(page: &str) {
     for address in ["src=", "href=", "url(", "@import", "<link", "fetch("] {
         assert!(!page.contains(address), "{address}");
@@ -19,7 +19,7 @@ fn stands_alone(page: &str) {
     assert!(page.contains("prefers-color-scheme: dark") && page.contains("@media print"));
 }
 
-/// Of a contact that shrinks at once after it has grown; not of one that turns as Hertz' does.
+/// A contact that shrinks at once has a kink; one like Hertz' has none.
 #[test]
 fn a_kink_of_the_contact_radius_is_explained() {
     let place = Place::new();
@@ -33,7 +33,7 @@ fn a_kink_of_the_contact_radius_is_explained() {
     assert!(of("2e-6") && !of("1.0"));
 }
 
-/// Numbers with their errors, curves beside Hertz, fields, effects in words, the case, how to cite.
+/// Numbers with errors, curves beside Hertz, fields, effects, the case, how to cite.
 #[test]
 fn a_run_with_fields_has_all_of_it_on_a_page() {
     let place = Place::new();
@@ -59,11 +59,11 @@ fn a_run_with_fields_has_all_of_it_on_a_page() {
     }
     assert_eq!(page.matches("<figure>").count(), 4);
     assert!(summary["files"].as_array().unwrap().iter().any(|file| file == "report.html"));
-    // An older result has the same page as a new one.
+    // An older result gets the same page as a new one.
     fs::remove_file(place.path("runs/case/report.html")).unwrap();
     place.succeed(&["report", "runs/case"]);
     assert_eq!(text(&place, "runs/case/report.html"), page);
-    // And each picture is there by itself, as XML.
+    // Each figure is also written by itself, as XML.
     for what in ["contours", "force", "approach", "radius", "pressure", "energy", "profile"] {
         place.succeed(&["plot", "runs/case", "--what", what]);
         let svg = text(&place, &format!("{what}.svg"));
@@ -91,7 +91,7 @@ fn a_case_can_do_without_a_page() {
     assert_eq!(place.list("runs/case"), ["history.csv", "summary.json"]);
 }
 
-/// Titles are text, whatever is in them.
+/// Titles are escaped.
 #[test]
 fn a_title_is_text() {
     let place = Place::new();
@@ -111,7 +111,7 @@ fn several_results_are_compared() {
     place.succeed(&["report", "slow", "fast", "--out", "both.html"]);
     let page = text(&place, "both.html");
     stands_alone(&page);
-    // By 2^(6/5) less what relaxes: the difference is told as a share.
+    // The force grows by 2^(6/5) less relaxation; the difference is printed as a share.
     let force = |name: &str| place.json(&format!("{name}/summary.json"))["peak_force_n"].as_f64();
     let change = 100.0 * (force("fast").unwrap() / force("slow").unwrap() - 1.0);
     assert!(page.contains(&format!("{change:+.2} %")), "{change}");
@@ -120,8 +120,8 @@ fn several_results_are_compared() {
     assert_eq!(place.list("slow"), ["history.csv", "report.html", "summary.json"]);
 }
 
-/// What a stranger compares: names as they are, numbers with their bars, the one key that differs before all that
-/// follows from it; each result once.
+/// A comparison has names as they are, numbers with error bars, and the differing key before what follows
+/// from it; each result once.
 #[test]
 fn a_comparison_tells_what_differs_first() {
     let place = Place::new();
@@ -136,7 +136,7 @@ fn a_comparison_tells_what_differs_first() {
     let (folded, _) = rest.split_once("</details>").unwrap();
     assert!(before.contains("body.0.approach_speed") && folded.contains("mesh.refined_radius"));
     assert!(!before.contains("mesh.") && before.contains(" ± "));
-    // No number of twenty digits.
+    // No number has twenty digits.
     let longest = page.split(|c: char| !(c.is_ascii_digit() || c == '.')).map(str::len).max();
     assert!(longest.is_some_and(|n| n <= 12), "{longest:?}");
     for folders in [["glass_on_glass", "glass_on_glass"], ["glass_on_glass", "./glass_on_glass/"]] {
@@ -146,7 +146,7 @@ fn a_comparison_tells_what_differs_first() {
     }
 }
 
-/// Only the arrays that are asked for, and the film where it has what it needs.
+/// Only the requested arrays are written, and the film is there if it has its fields.
 #[test]
 fn snapshots_have_the_fields_that_are_asked_for() {
     let place = Place::new();
@@ -172,7 +172,7 @@ fn snapshots_have_the_fields_that_are_asked_for() {
     assert!(ran.stderr.contains("sigma_yy"), "{}", ran.stderr);
 }
 
-/// A ball on a wall fills its picture: the wall is a strip, and the body above it is what is seen.
+/// A ball on a wall fills its picture: the wall is a strip, with the body above it.
 #[test]
 fn the_frame_follows_what_is_there() {
     let place = Place::new();
@@ -181,7 +181,8 @@ fn the_frame_follows_what_is_there() {
     place.succeed(&[&["case.toml"][..], &wall, &moves].concat());
     let page = text(&place, "runs/case/report.html");
     assert_eq!(page.matches("class=\"rigid ink stroke\"").count(), 4);
-    // Heights over widths of frames: 0.625, where as much was seen of the wall as of the ball it was 0.85.
+    // The height of a frame over its width: 0.625; it was 0.85 when as much of the wall as of the
+    // ball was shown.
     let frame = page.split_once("<figure>").unwrap().1;
     let height = frame.split_once("width=\"400\" height=\"").unwrap().1;
     let height: f64 = height.split_once('"').unwrap().0.parse().unwrap();
@@ -204,7 +205,7 @@ fn what_is_no_result_is_refused_and_nothing_of_others_replaced() {
     place.succeed(&["report", "runs/case"]);
 }
 
-/// Whatever command writes a single file where its user says.
+/// Commands that write a single file overwrite no file of others.
 #[test]
 fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
     let place = Place::new();
@@ -234,7 +235,7 @@ fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
         assert!(ran.stderr.contains(name) && ran.stderr.contains("--out"), "{}", ran.stderr);
         assert_eq!(text(&place, name), old, "{command:?}");
     }
-    // Its own are, and `-` is no file.
+    // They overwrite their own files, and `-` is no file.
     for _ in 0..2 {
         place.succeed(&own("own.svg"));
     }
@@ -243,7 +244,7 @@ fn no_file_of_others_is_replaced_by_a_picture_a_page_or_a_table() {
     assert!(!place.path("-").exists());
 }
 
-/// Places (x, y) of the first curve of the first chart of a page, in its pixels.
+/// Returns the points (x, y) of the first curve of the first chart of a page, in its pixels.
 fn first_curve(page: &str) -> Vec<[f64; 2]> {
     let path = page.split("<path class=\"c0 stroke\"").nth(2).unwrap();
     let data = path.split("d=\"").nth(1).unwrap().split('"').next().unwrap();
@@ -252,7 +253,7 @@ fn first_curve(page: &str) -> Vec<[f64; 2]> {
     places.map(numbers).map(|place| [place[0], place[1]]).collect()
 }
 
-/// Widths and heights of the first curve over those of what a chart has for its curves.
+/// Returns the width and the height of the first curve over those of the plot area.
 fn share(page: &str) -> [f64; 2] {
     let curve = first_curve(page);
     let extent = |k: usize| {
@@ -262,7 +263,7 @@ fn share(page: &str) -> [f64; 2] {
     [extent(0) / 370.0, extent(1) / 190.0]
 }
 
-/// A law's spring has nothing to do with Hertz'; the picture is of what was computed.
+/// Hertz' curve does not set the scale of a much stiffer or softer law.
 #[test]
 fn hertz_far_away_does_not_flatten_the_curves() {
     for stiffness in ["1e3 N/m", "1e10 N/m"] {
@@ -276,7 +277,7 @@ fn hertz_far_away_does_not_flatten_the_curves() {
     }
 }
 
-/// Balls that stay together have no last contact; the others' curves are not squeezed for them.
+/// Balls that stay together have no last contact; the curves of others are not squeezed.
 #[test]
 fn a_contact_without_an_end_does_not_squeeze_the_others() {
     let place = Place::new();
@@ -288,14 +289,14 @@ fn a_contact_without_an_end_does_not_squeeze_the_others() {
     place.succeed(&["report", "leaves", "stays", "--out", "both.html"]);
     let [width, height] = share(&text(&place, "both.html"));
     assert!(width > 0.8 && height > 0.8, "{width} × {height}");
-    // What models leave out of bodies that stay together is told beside the number, which it may be.
+    // The error by neglected effects of bodies that stay together is printed beside the number.
     let page = text(&place, "stays/report.html");
     let value = page.split("<small>restitution</small><b>").nth(1).unwrap();
     assert!(value.starts_with("0.000 ± 0.0"), "{}", &value[..40]);
     assert!(page.contains("neglected effects 0.0"));
 }
 
-/// Eight colours there are not: the eighth curve has other dashes. The numbers of many results have rows.
+/// There are seven colours, so the eighth curve has other dashes. The numbers of many results are in rows.
 #[test]
 fn ten_results_are_told_apart() {
     let place = Place::new();
@@ -315,8 +316,8 @@ fn ten_results_are_told_apart() {
     assert!(page.contains("<tr><td>run9</td><td class=\"number\">"));
 }
 
-/// Names of folders are text, not symbols; an error that is not known whole is no ±; what a film shows is chosen by
-/// what happens, not by place.
+/// Folder names are not set as symbols; an error that is partly unknown is no ±; the frames of the film are
+/// chosen by events.
 #[test]
 fn names_errors_and_instants_are_what_they_are() {
     let place = Place::new();
@@ -330,7 +331,7 @@ fn names_errors_and_instants_are_what_they_are() {
     let page = text(&place, "a_film/report.html");
     let summary = place.json("a_film/summary.json");
     assert!(summary["restitution"].is_number());
-    // Three profiles at least are no specks: half of the approach, the largest force, half again.
+    // At least three profiles are visible: half the approach, the peak force, half again.
     let profile = page.split("Contact pressure p [").nth(1).unwrap();
     assert!(profile.matches("snapshot, ").count() >= 4, "{}", profile.len());
     assert!(page.contains("details::details-content") && page.contains("beforeprint"));

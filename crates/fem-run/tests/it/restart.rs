@@ -1,4 +1,4 @@
-//! A run that is killed and goes on ends with the bits of one that is not.
+//! A run that is killed and continued ends with the bits of an unbroken run.
 
 #![allow(clippy::disallowed_methods, reason = "tests that kill another process by the clock")]
 
@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 use crate::common::Place;
 
 const RESTART_FILE: &str = "fem-run.restart";
-/// Many files a run.
+/// Options that write many restart files.
 const KEPT: [&str; 3] = ["--checkpoint-every", "0.02", "--quiet"];
 
-/// A ball that falls, three times.
+/// A ball that falls three times.
 const BALL: &str = r#"
 [material.rubber]
 density = "1100 kg/m^3"
@@ -46,8 +46,8 @@ bounces = 3
 contact_element_size = "0.3 mm"
 "#;
 
-/// Scenes with all that a run has to remember: relaxation of all moduli and of shear alone, springs,
-/// viscosity with its force of the step before, the half of a scene, contacts that are over.
+/// Scenes with everything that a restart state contains: relaxation of all moduli and of shear only,
+/// springs, viscosity with the force of the previous step, half of a scene, finished contacts.
 fn scenes() -> Vec<(&'static str, Place, Vec<&'static str>)> {
     let shear = "material.glass.relaxation={acts_on='shear', \
                  terms=[{weight=0.5, decay_rate=2e4}, {weight=0.3, relaxation_time=1e-5}]}";
@@ -55,7 +55,7 @@ fn scenes() -> Vec<(&'static str, Place, Vec<&'static str>)> {
     let size = "mesh.contact_element_size='40 um'";
     let fast = ["body.0.approach_speed=150", "mesh.contact_element_size='0.5 mm'"];
     let spread = "output.snapshots=7";
-    // The soft pair so coarse that large strains take a second.
+    // The soft pair, so coarse that finite strain takes a second.
     let soft = "material.glass={density=1100, youngs_modulus=4e6, poissons_ratio=0.45, \
                 hyperelastic='neo-hooke', relaxation={acts_on='shear', \
                 terms=[{weight=0.3, relaxation_time='0.5 ms'}]}}";
@@ -88,7 +88,7 @@ fn command(place: &Place, set: &[&str], more: &[&str]) -> Child {
     command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-/// Numbers from 0 to 1 that look random.
+/// Pseudo-random numbers from 0 to 1.
 struct Chance(u64);
 
 impl Chance {
@@ -99,7 +99,7 @@ impl Chance {
     }
 }
 
-/// Whether a run had its end when it was killed this long after its start.
+/// Returns whether a run ended before it was killed this long after its start.
 fn ends_before(mut child: Child, instant: Duration) -> bool {
     let begin = Instant::now();
     while begin.elapsed() < instant {
@@ -108,7 +108,7 @@ fn ends_before(mut child: Child, instant: Duration) -> bool {
         }
         sleep(Duration::from_micros(200));
     }
-    // SIGKILL: nothing of the process runs after it.
+    // SIGKILL: the process does nothing after it.
     let _ = child.kill();
     let ran = child.wait_with_output().unwrap();
     let stderr = String::from_utf8_lossy(&ran.stderr);
@@ -116,8 +116,8 @@ fn ends_before(mut child: Child, instant: Duration) -> bool {
     ran.status.code() == Some(0)
 }
 
-/// Kills runs of all scenes at random instants until so many of each have gone on from a restart file;
-/// how many were killed.
+/// Kills runs of all scenes at random instants until `n_gone_on` runs of each have continued from a restart
+/// file; returns the number of killed runs.
 fn kill_at_random(n_gone_on: usize, seed: u64) -> usize {
     let mut chance = Chance(seed);
     let mut killed = 0;
@@ -162,7 +162,7 @@ fn a_hundred_random_instants_of_every_scene() {
     assert!(kill_at_random(100, 2) >= 450);
 }
 
-/// A run that is killed once it has left a restart file.
+/// Starts a run and kills it once it has left a restart file.
 fn killed(place: &Place, set: &[&str]) {
     let mut child = command(place, set, &[]);
     let begin = Instant::now();
@@ -175,7 +175,7 @@ fn killed(place: &Place, set: &[&str]) {
     assert_eq!(place.list("out"), [RESTART_FILE]);
 }
 
-/// So fine that it is killed long before its end.
+/// A mesh so fine that the run is killed long before its end.
 const FINE: [&str; 2] = ["--set", "mesh.contact_element_size='12 um'"];
 
 #[test]
@@ -219,7 +219,7 @@ fn a_restart_file_of_another_case_or_build_is_refused() {
     }
 }
 
-/// What is not over is not replaced either: by another case neither by name nor by default.
+/// An unfinished run is not replaced by another case, with or without --out.
 #[test]
 fn another_case_leaves_the_restart_file_alone() {
     let place = Place::new();
@@ -232,7 +232,7 @@ fn another_case_leaves_the_restart_file_alone() {
     assert_eq!(place.list("runs").len(), 2);
     let ran = place.run(&[&["case.toml", "--out", "runs/case"][..], &ting].concat());
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);
-    // Neither goes it on from there.
+    // Nor does another case continue it.
     fs::remove_dir_all(place.path("runs").join(&place.list("runs")[1])).unwrap();
     let ran = place.run(&[&["case.toml", "--restart"][..], &ting].concat());
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);
@@ -246,7 +246,7 @@ fn without_a_file_a_run_starts_anew_and_says_so() {
     assert!(ran.stderr.contains("starting anew"), "{}", ran.stderr);
     place.succeed(&["case.toml", "--out", "other"]);
     assert_eq!(place.result("runs/case"), place.result("other"));
-    // A model without memory.
+    // A model without restart state.
     let ran = place.succeed(&["case.toml", "--checkpoint-every", "1", "--set", "model.ting={}"]);
     assert!(ran.stderr.contains("leaves no restart file"), "{}", ran.stderr);
     for seconds in ["-1", "nan", "soon"] {
@@ -254,7 +254,7 @@ fn without_a_file_a_run_starts_anew_and_says_so() {
     }
 }
 
-/// Ctrl-C: what there is, and a file to go on from.
+/// Ctrl-C leaves the results so far and a restart file.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_goes_on_too() {

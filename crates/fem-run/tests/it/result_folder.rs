@@ -1,4 +1,4 @@
-//! What a run writes, and what it leaves alone.
+//! The files that a run writes, and those that it leaves alone.
 
 use crate::common::{FAILS, Place};
 use fem_vtk::VtuFile;
@@ -94,7 +94,8 @@ fn the_summary_has_the_keys_of_the_contract() {
     assert_eq!(summary["complete"], true);
     assert_eq!(summary["cost"]["threads"], 1);
     assert!(summary["stopped_because"].is_null());
-    // On a mesh this coarse: right to a few per cent, the pressure of so few nodes 15 % low.
+    // On such a coarse mesh the results are within a few per cent, and the pressure of so few
+    // nodes is 15 % low.
     let number = |value: &serde_json::Value| value.as_f64().unwrap();
     for key in &KEYS[1..6] {
         let ratio = number(&summary[key]) / number(&summary["hertz"][key]);
@@ -148,8 +149,8 @@ fn the_folder_holds_what_the_contract_says() {
     let body = maximum.cell_data("body").unwrap();
     let body = body.as_integer().unwrap();
     assert_eq!(body.iter().sum::<i64>(), summary["bodies"][1]["elements"].as_i64().unwrap());
-    // Below the middle of a Hertz contact the pressure is 2 (1 + ν) p_0 / 3 = 0.83 p_0; elements
-    // this coarse miss some of it.
+    // Below the middle of a Hertz contact the pressure is 2 (1 + ν) p_0 / 3 = 0.83 p_0; coarse
+    // elements miss some of it.
     let pressure = maximum.point_data("pressure").unwrap();
     let largest = pressure.as_float().unwrap().iter().copied().fold(0.0, f64::max);
     let peak = summary["hertz"]["peak_pressure_pa"].as_f64().unwrap();
@@ -205,7 +206,7 @@ fn snapshots_can_be_a_count_times_or_none() {
     assert!(files.is_empty(), "{files:?}");
 }
 
-/// A row an instant, eight columns a probe; nothing of it without.
+/// One row per instant, eight columns per probe; no file without probes.
 #[test]
 fn probes_have_a_table() {
     let place = Place::new();
@@ -225,7 +226,7 @@ fn probes_have_a_table() {
         .map(|row| row.split(',').map(|number| number.parse().unwrap()).collect())
         .collect();
     assert!(rows.len() > 100 && rows.iter().all(|row| row.len() == 17), "{}", rows.len());
-    // The axis stays where it is, and is pressed.
+    // The axis stays where it is and is compressed.
     assert!(rows.iter().all(|row| row[1] == 0.0 && row[8] == 0.0));
     assert!(rows.iter().any(|row| row[6] < -1e6));
 }
@@ -254,7 +255,7 @@ fn an_older_result_is_replaced_and_the_users_files_in_it_are_kept() {
     assert_eq!(place.read("out/notes.txt"), b"mine");
     assert_eq!(place.read("out/plots/force.svg"), b"mine too");
     assert_eq!(place.list("."), ["case.toml", "other.toml", "out"]);
-    // A file of the user's whose name is taken now.
+    // A file of the user with a name that the program now needs.
     place.write("out/case_0_maximum.vtu", "mine");
     place.succeed(&["case.toml", "--out", "out", "--set", "output.snapshots=['maximum']"]);
     assert_eq!(place.read("out/case_0_maximum.vtu.kept"), b"mine");

@@ -1,4 +1,4 @@
-//! Sweeps for a batch system: the script, its parts, shards that are merged, how far a sweep is.
+//! Sweeps for a batch system: the script, its parts, merged shards, progress.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -14,7 +14,7 @@ fn place() -> Place {
     place
 }
 
-/// A command of Slurm that notes how it is called.
+/// Creates a command of Slurm that records its calls.
 fn stand_in(place: &Place, name: &str, script: &str) {
     fs::create_dir_all(place.path("bin")).unwrap();
     let path = place.path(format!("bin/{name}"));
@@ -30,7 +30,7 @@ fn same(place: &Place, name: &str) {
     assert!(place.read(format!("whole/{name}")) == place.read(format!("out/{name}")), "{name}");
 }
 
-/// Each part of the script as Slurm would run it: all members are there, as computed in one go.
+/// Runs each part of the script as Slurm would; the result is that of a sweep in one go.
 #[test]
 fn the_script_computes_the_sweep() {
     let place = place();
@@ -90,7 +90,7 @@ fn it_submits_itself_twice_and_a_task_that_was_killed_queues_again() {
     assert_eq!(command.output().unwrap().status.code(), Some(137));
     let calls = String::from_utf8(place.read("calls")).unwrap();
     assert_eq!(calls.lines().last(), Some("scontrol requeue 42_2"));
-    // Not for ever.
+    // Tasks are not requeued for ever.
     command.env("SLURM_RESTART_COUNT", "10").output().unwrap();
     assert_eq!(place.read("calls"), calls.as_bytes());
 }
@@ -134,7 +134,7 @@ fn a_sweep_says_how_far_it_is() {
     {
         assert!(said.iter().any(|line| line == expected), "{expected}\n{}", ran.stdout);
     }
-    // A merge of what is not all there says so.
+    // A merge of an incomplete sweep says so.
     let ran = place.run(&["sweep", "sweep.toml", "--out", "out", "--merge"]);
     assert_eq!(ran.code, Some(1));
     assert!(ran.stderr.contains("3 of 7 members are done"), "{}", ran.stderr);

@@ -25,7 +25,7 @@ fn a_run_that_fails_says_why_and_keeps_what_it_has() {
     assert!(warnings.contains("not complete"), "{warnings}");
     let history = String::from_utf8(place.read("runs/case/history.csv")).unwrap();
     assert!(history.lines().count() > 3);
-    // The last sound state, in the collection and as a picture.
+    // The last valid state is in the collection and in a picture.
     let files = summary["files"].as_array().unwrap();
     for ending in ["_last-sound.vtu", "_last-sound.svg"] {
         let of = |file: &&serde_json::Value| file.as_str().unwrap().ends_with(ending);
@@ -48,7 +48,7 @@ mod signals {
 
     use super::*;
 
-    /// So fine that nobody waits for its end: hours.
+    /// A mesh so fine that the run would take hours.
     const ENDLESS: [&str; 4] =
         ["--set", "mesh.contact_element_size=6e-6", "--set", "time.step_factor=1e-2"];
 
@@ -71,7 +71,7 @@ mod signals {
         kill(Pid::from_raw(child.id() as i32), signal).unwrap();
     }
 
-    /// The summary of a run that a signal ended as an interrupt should.
+    /// Returns the summary of a run that a signal ended in an orderly way.
     fn interrupted(
         place: &Place,
         (mut child, mut stderr): (Child, BufReader<impl Read>),

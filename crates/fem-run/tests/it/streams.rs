@@ -5,7 +5,7 @@ use std::process::Stdio;
 
 use crate::common::{CASE, Place, Ran};
 
-/// Runs with a text on the standard input.
+/// Runs the command with a text on the standard input.
 fn fed(place: &Place, arguments: &[&str], text: &[u8]) -> Ran {
     let mut command = place.command(arguments);
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -47,7 +47,7 @@ fn faults_of_the_standard_input_have_a_place() {
     assert_eq!(place.list("."), ["case.toml"]);
 }
 
-/// Alone on stdout, as it is in the file, however the run ends, and with --quiet too.
+/// The summary is alone on stdout, as in the file, for any end of the run, and with --quiet too.
 #[test]
 fn json_is_the_summary_alone() {
     let place = Place::new();

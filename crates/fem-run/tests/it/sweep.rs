@@ -1,4 +1,4 @@
-//! `fem-run sweep`: members, resuming, shards, failures, what is written.
+//! `fem-run sweep`: members, continuation, shards, failures, files.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::common::Place;
 
-/// Four speeds and two relaxation weights, all with all.
+/// Three speeds and two relaxation weights, in all combinations.
 const SWEEP: &str = r#"case = "case.toml"
 
 [vary]
@@ -21,7 +21,7 @@ fn place(sweep: &str) -> Place {
     place
 }
 
-/// The rows of a table, header first.
+/// Returns the rows of a table, the header first.
 fn rows(place: &Place, name: &str) -> Vec<Vec<String>> {
     let bytes = place.read(name);
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(bytes.as_slice());
@@ -45,7 +45,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     let rows = rows(&place, "runs/sweep/sweep.csv");
     let weight = "material.glass.relaxation.terms.0.weight";
     let speed = "body.0.approach_speed";
-    // A plain number that is written as such has no second column.
+    // A number without a unit has no second column.
     assert_eq!(rows[0][..4], [speed, weight, "body.0.approach_speed_m_s", "restitution"]);
     let numbers: Vec<_> = rows[1..].iter().map(|row| row[2].as_str()).collect();
     assert_eq!(numbers, ["0.3", "0.3", "0.5", "0.5", "1.0", "1.0"]);
@@ -54,7 +54,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     let expected = speeds.map(|speed| [[speed, "0.5"], [speed, "1.0"]]);
     assert_eq!(values, expected.as_flattened());
 
-    // The row is the member's summary, and the member is the case alone.
+    // The row is the member's summary, and the member equals the single case.
     let set = ["--set", "body.0.approach_speed='50 cm/s'", "--set", &format!("{weight}=0.5")];
     place.succeed(&[&["case.toml", "--out", "alone"][..], &set].concat());
     let alone = place.json("alone/summary.json");
@@ -106,7 +106,7 @@ fn all_lists_are_combined_in_order_and_every_column_is_there() {
     }
 }
 
-/// `--dry-run` says what is to run, of a sweep that has begun too, and writes nothing.
+/// `--dry-run` prints what is to run, also for a sweep that has begun, and writes nothing.
 #[test]
 fn a_dry_run_counts_and_writes_nothing() {
     let place = place(SWEEP);
@@ -118,7 +118,7 @@ fn a_dry_run_counts_and_writes_nothing() {
     let ran = place.succeed(&["sweep", "sweep.toml", "--dry-run"]);
     assert!(ran.stderr.contains("6 members; 2 done before, 4 to run"), "{}", ran.stderr);
     assert_eq!(place.read("runs/sweep/sweep.csv"), table);
-    // A member that is refused is refused here.
+    // A member that would be rejected is rejected here.
     place.write("sweep.toml", "case = 'case.toml'\n[vary]\nbody.0.approach_speed = [0.3, -1.0]\n");
     assert_eq!(place.run(&["sweep", "sweep.toml", "--dry-run"]).code, Some(2));
 }
@@ -137,7 +137,7 @@ fn paired_lists_run_side_by_side() {
     );
 }
 
-/// Equal spheres by speeds that are a ratio apart, and pairs from a table.
+/// Equal spheres at speeds of equal ratios, and pairs from a table.
 #[test]
 fn ranges_links_and_tables_make_the_members_that_lists_make() {
     let linked = "'body.0.sphere.diameter, body.1.sphere.diameter'";
@@ -161,7 +161,7 @@ fn ranges_links_and_tables_make_the_members_that_lists_make() {
         ]
     );
     assert_eq!(range[5][..6], ["18 mm", "18 mm", "50 cm/s", "0.018", "0.018", "0.5"]);
-    // The same from a table of them, which has columns of other names, too.
+    // The same from a table, which also has columns of other names.
     let table: Vec<String> =
         range[1..].iter().map(|row| format!("x,{},{}\n", row[0], row[5])).collect();
     place.write("pairs.csv", &format!("# made\nnote,d,body.0.approach_speed\n{}", table.concat()));
@@ -218,7 +218,7 @@ fn threads_and_shards_give_the_same_bytes() {
     let done: Vec<_> = rows(&place, "shards/sweep.csv").into_iter().skip(1).collect();
     assert_eq!(done.len(), 1);
     assert_eq!(done[0][..2], ["50 cm/s", "0.5"]);
-    // The others at the same time.
+    // The other shards run at the same time.
     let start = |shard| {
         let arguments = ["sweep", "sweep.toml", "--out", "shards", "--quiet", "--shard", shard];
         place.command(&arguments).spawn().unwrap()
@@ -229,7 +229,7 @@ fn threads_and_shards_give_the_same_bytes() {
     assert_same_result(&place, "one", "shards");
 }
 
-/// Many members, so that one is done long before the last.
+/// So many members that one is done long before the last.
 const LONG: &str = "case = 'case.toml'\n[vary]\n'body.0.approach_speed' = [0.30, 0.31, 0.32, 0.33, \
                     0.34, 0.35, 0.36, 0.37, 0.38, 0.39, 0.40, 0.41]\n";
 const FINE: [&str; 2] = ["--set", "mesh.contact_element_size=60e-6"];
@@ -248,7 +248,7 @@ fn start_long(place: &Place, out: &str) -> Child {
     child
 }
 
-/// Members that are done; one in a hidden folder is still being written.
+/// Returns the number of members that are done; one in a hidden folder is still being written.
 fn n_done(place: &Place, out: &str) -> usize {
     let members = fs::read_dir(place.path(format!("{out}/members"))).into_iter().flatten();
     let folders = members.map(|entry| entry.unwrap().path());
@@ -272,7 +272,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
     for name in ["sweep.csv", "sweep.svg"] {
         assert!(place.read(format!("killed/{name}")) == place.read(format!("whole/{name}")));
     }
-    // A finished sweep has nothing to do; a changed list takes what it can.
+    // A finished sweep has nothing to do; a changed list reuses what it can.
     let ran = place.succeed(&again);
     assert!(ran.stderr.contains("12 done before, 0 to run"), "{}", ran.stderr);
     place.write("sweep.toml", &LONG.replace("0.30, 0.31,", "0.29,").replace("0.35", "'35 cm/s'"));
@@ -338,13 +338,13 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
         assert!(ran.stderr.contains(&format!("--out {out}")), "{}", ran.stderr);
     }
     assert_eq!(place.list("mine"), ["notes.txt"]);
-    // What a run would say, without one.
+    // The same message without a run.
     for more in [&["--dry-run"][..], &["--slurm="], &["--shard", "1/2", "--no-merge"]] {
         let ran = place.run(&[&["sweep", "sweep.toml", "--out", "mine"], more].concat());
         assert_eq!(ran.code, Some(2), "{more:?}: {}", ran.stderr);
         assert!(ran.stderr.contains("something other than a sweep"), "{}", ran.stderr);
     }
-    // Nor does a run take a sweep's place.
+    // Nor does a run replace a sweep.
     place.succeed(&["sweep", "sweep.toml", "--out", "out", "--shard", "6/6", "--quiet"]);
     assert_eq!(place.run(&["case.toml", "--out", "out"]).code, Some(2));
 }
@@ -353,7 +353,7 @@ fn only_a_new_folder_or_a_sweep_is_written_into() {
 fn the_shipped_sweep_is_sound() {
     let place = Place::new();
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/sweep_speed.toml");
-    // The first member alone: the slowest speed, on a coarse mesh.
+    // Only the first member: the slowest speed, on a coarse mesh.
     let arguments = ["sweep", file, "--shard", "1/12", "--set", "mesh.contact_element_size=20e-6"];
     let ran = place.succeed(&arguments);
     assert!(ran.stdout.contains("1 of 12 members are done"), "{}", ran.stdout);
@@ -380,7 +380,7 @@ fn the_page_on_sweeps_is_true() {
     }
 }
 
-/// Condensed members share a factor if the case gives the mesh; that is said where it does not.
+/// Condensed members share a factor if the case gives the mesh; otherwise a hint says so.
 #[test]
 fn condensed_members_are_told_how_to_share_a_factor() {
     let vary = "[vary]\nbody.0.approach_speed = [0.2, 3]\n\
@@ -393,7 +393,7 @@ fn condensed_members_are_told_how_to_share_a_factor() {
     let given = ["--set", "mesh.refined_radius='0.4 mm'", "--out", "given"];
     let stderr = place.succeed(&[&condensed[..], &given].concat()).stderr;
     assert!(!stderr.contains(hint), "{stderr}");
-    // A member is the case alone, but for the files that are not kept.
+    // A member equals the single case, apart from the files that are not kept.
     let rows = rows(&place, "given/sweep.csv");
     let member = format!("given/members/{}/summary.json", rows[4].last().unwrap());
     let speed = ["case.toml", "--out", "alone", "--set", "body.0.approach_speed=3"];

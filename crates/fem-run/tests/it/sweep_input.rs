@@ -1,8 +1,8 @@
-//! Bad sweep files: exit status 2, the line and the column at fault, nothing written.
+//! Bad sweep files: exit status 2, line and column of the error, nothing written.
 
 use crate::common::Place;
 
-/// Runs a sweep file, which must be refused at LINE:COLUMN with a message that has all `expected`.
+/// Runs a sweep file that must be rejected at LINE:COLUMN with a message that contains all of `expected`.
 #[track_caller]
 fn refused(sweep: &str, position: &str, expected: &[&str]) {
     let place = Place::new();
@@ -18,7 +18,7 @@ fn refused(sweep: &str, position: &str, expected: &[&str]) {
     assert_eq!(place.list("."), before);
 }
 
-/// A sweep of these lines of `[vary]`, which begin at line 3.
+/// Returns a sweep with these lines in `[vary]`, which begin at line 3.
 fn vary(lines: &str) -> String {
     format!("case = 'case.toml'\n[vary]\n{lines}\n")
 }
@@ -75,7 +75,7 @@ fn ranges_and_tables_that_make_no_values_are_refused() {
     refused(&range("{ from = '1 furlong', to = 2, n = 3 }"), "3:36", &["furlong"]);
     refused(&range("{ from = inf, to = 2, n = 3 }"), "3:36", &["no end of a range"]);
     refused(&range("{ from = 0, to = 2, n = 3, log = true }"), "3:36", &["greater than 0"]);
-    // The range is sound, its values are no lengths.
+    // The range is valid, but its values are not lengths.
     let lengths = vary("'body.0.approach_speed' = { from = '1 m', to = '2 m', n = 3 }");
     refused(&lengths, "3:27", &["\"1 m\" is a length"]);
     refused(&range("{ table = 'none.csv' }"), "3:37", &["no such file", "a CSV file"]);
@@ -100,7 +100,7 @@ fn the_value_that_makes_no_case_is_pointed_at() {
     refused(&vary(speed), "3:42", &["length", "\"0.5 m/s\""]);
     refused(&vary("body.0.sphere.diameter = [0.01,\n  nan]"), "4:3", &["diameter"]);
     refused(&vary("material.glass.density = [2390, true]"), "3:33", &["density"]);
-    // The base case gives the key that then does not fit; its place is told.
+    // The key that becomes invalid is in the base case; the message gives its position.
     let names = "'body.1.sphere.diameter' = [1e-2]\n'body.1.name' = ['other', 'striker']";
     refused(&vary(names), "4:27", &["striker"]);
     let materials = "'body.0.material' = ['glass', 'glas']";
@@ -110,7 +110,7 @@ fn the_value_that_makes_no_case_is_pointed_at() {
     let both = "'body.0.material' = ['glass']\n'body.1.name' = ['target', 'striker']\n\
                 body.0.approach_speed = [1, 2]";
     refused(&vary(both), "4:28", &["striker"]);
-    // Too dear: the limit stands in the list, the size of the elements in the base case.
+    // Too expensive: the limit is in the list, the element size in the base case.
     let limit = "limits.elements = [1e6, 100]";
     refused(&vary(limit), "3:25", &["elements", "the member is limits.elements = 100"]);
 }
@@ -172,7 +172,7 @@ fn faults_of_the_base_case_and_of_overrides_are_told_as_such() {
     assert_eq!(place.list("."), ["case.toml", "sweep.toml"]);
 }
 
-/// All that is wrong is told at once, in the order of the file, each fault once.
+/// All errors are reported at once, in the order of the file, each once.
 #[test]
 fn all_faults_of_a_sweep_file_are_told_at_once() {
     let places = |sweep: &str| {
@@ -184,19 +184,19 @@ fn all_faults_of_a_sweep_file_are_told_at_once() {
         let places = heads.map(|(_, rest)| rest.split(": ").next().unwrap_or_default().to_string());
         (places.collect::<Vec<_>>(), ran.stderr)
     };
-    // Of the file itself.
+    // Errors of the file itself.
     let (found, stderr) = places(
         "case = 'none.toml'\ncombin = 'all'\nkeep = 'some'\n[vary]\n'body.0.approach_speed' = []\n\
          'body.1.approach_speed' = 3\nbody.0.sphere.diameter = { from = 1, to = 2 }\n[plot]\nz = 1\n",
     );
     assert_eq!(found, ["1:8", "2:1", "3:8", "5:27", "6:27", "7:26", "9:1"], "{stderr}");
-    // Of the values: each with sound ones of the other lists.
+    // Errors of values, each combined with valid ones of the other lists.
     let (found, stderr) = places(&vary(
         "body.0.sphere.diameter = ['1 cm', '1 kg', -1]\nbody.0.approach_speed = [nan, 1, '2 m']\n\
          body.1.name = ['a', 'striker']",
     ));
     assert_eq!(found, ["3:35", "3:43", "4:26", "4:34", "5:21"], "{stderr}");
-    // Keys without any sound value hide no others.
+    // Keys without any valid value hide no other errors.
     let (found, stderr) = places(&vary(
         "'body.0.aproach_speed' = ['1 m/s', '2 kg']\nbody.0.sphere.diameter = ['1 cm', '-2 mm']\n\
          modell = ['ting']",
@@ -204,7 +204,8 @@ fn all_faults_of_a_sweep_file_are_told_at_once() {
     assert_eq!(found, ["3:9", "4:35", "5:1"], "{stderr}");
 }
 
-/// What members warn of is told once, with how many and the first, and where nothing else is.
+/// Warnings of members are printed once, with the number of members and the first one, where nothing else
+/// says so.
 #[test]
 fn warnings_of_members_are_told_once() {
     let place = Place::new();
@@ -212,7 +213,7 @@ fn warnings_of_members_are_told_once() {
     let set = "model={ ting = {} }";
     let library = "body.1.material='lib:pmma'";
     let arguments = ["sweep", "sweep.toml", "--quiet", "--set", set, "--set", library];
-    // A sweep that is done tells it again.
+    // A finished sweep prints them again.
     for _ in 0..2 {
         let ran = place.succeed(&arguments);
         let told: Vec<&str> =
@@ -227,7 +228,8 @@ fn warnings_of_members_are_told_once() {
     }
 }
 
-/// Ends of a range in two units of one quantity: the ends as written, the others in the unit of the last.
+/// Ends of a range in two units of one quantity: the ends are as written, the others in the unit of the
+/// last.
 #[test]
 fn a_range_may_begin_in_another_unit() {
     let place = Place::new();
@@ -237,7 +239,7 @@ fn a_range_may_begin_in_another_unit() {
     let table = String::from_utf8(place.read("runs/sweep/sweep.csv")).unwrap();
     let texts: Vec<&str> = table.lines().skip(1).filter_map(|row| row.split(',').next()).collect();
     assert!(texts.len() == 3 && texts[0] == "50 mm/s" && texts[2] == "2 m/s", "{texts:?}");
-    // The middle of a ratio: √(0.05 · 2) m/s.
+    // The geometric mean: √(0.05 · 2) m/s.
     let middle: f64 = texts[1].strip_suffix(" m/s").unwrap().parse().unwrap();
     assert!((middle - 0.1f64.sqrt()).abs() < 1e-15, "{middle}");
     // A bare number is SI.

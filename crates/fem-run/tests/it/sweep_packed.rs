@@ -1,4 +1,4 @@
-//! Sweeps whose summaries are lines of few files: the same table, whatever was killed.
+//! Sweeps whose summaries are lines of a few files give the same table, also after kills.
 
 use std::fs;
 
@@ -48,7 +48,7 @@ fn a_packed_sweep_has_one_file_and_the_same_table() {
     assert_eq!(text.lines().count(), 30);
 }
 
-/// A process that was killed has left a line that breaks off; what is whole is taken.
+/// A killed process leaves an incomplete line; complete lines are used.
 #[test]
 fn a_line_that_breaks_off_is_computed_again_and_no_other() {
     let place = place();
@@ -62,7 +62,7 @@ fn a_line_that_breaks_off_is_computed_again_and_no_other() {
     assert!(said.contains("30 members; 11 done before, 19 to run"), "{said}");
     assert_eq!(place.list("packed/members").len(), 2);
     same_table(&place);
-    // What folders hold is taken, too, and the other way round.
+    // Results in folders are used too, and the other way round.
     for file in ["packed.toml", "folders.toml"] {
         for out in ["packed", "folders"] {
             let said = sweep(&place, &[file, "--out", out]);
@@ -71,7 +71,7 @@ fn a_line_that_breaks_off_is_computed_again_and_no_other() {
     }
 }
 
-/// Shards have a file each, and another round with another number of them takes what they have.
+/// Each shard has its file, and another sharding reuses their results.
 #[test]
 fn shards_have_a_file_each() {
     let place = place();
@@ -83,7 +83,7 @@ fn shards_have_a_file_each() {
     assert!(packs.len() == 2 && packs[1].starts_with("3-of-3."), "{packs:?}");
     let done = place.succeed(&["sweep", "--status", "packed"]).stdout;
     let left = |n: &str| done.lines().any(|line| line.starts_with("left ") && line.ends_with(n));
-    // Who comes first has written sweep.json of what it knows.
+    // The first process has written a sweep.json with what it knows.
     assert!(left(" 0"), "{done}");
     let said = sweep(&place, &["packed.toml", "--out", "packed", "--shard", "1/2"]);
     assert!(said.contains("15 in this shard; 10 done before, 5 to run"), "{said}");
@@ -93,7 +93,7 @@ fn shards_have_a_file_each() {
     same_table(&place);
 }
 
-/// More members than file systems bear folders are packed unless the sweep says otherwise.
+/// More members than file systems can hold as folders are packed by default.
 #[test]
 fn large_sweeps_are_packed_by_themselves() {
     let place = place();

@@ -1,4 +1,4 @@
-//! What goes to stdout and what to stderr.
+//! What is printed on stdout and what on stderr.
 
 use std::process::Stdio;
 
@@ -31,7 +31,7 @@ fn stdout_carries_the_result_and_stderr_the_rest() {
 fn a_coarse_mesh_is_warned_of() {
     let place = Place::new();
     let ran = place.succeed(&["case.toml", "--out", "out"]);
-    // Before the run as of the contact that is expected, after it as of the one that came.
+    // Before the run the warning is about the expected contact, after it about the computed one.
     assert!(
         ran.stderr.contains("warning: the mesh is too coarse under the contact"),
         "{}",
@@ -49,7 +49,7 @@ fn quiet_means_silent_but_for_errors_and_warnings() {
     assert!(ran.stderr.starts_with("warning: the mesh is too coarse"), "{}", ran.stderr);
     assert!(ran.stderr.lines().all(|line| line.starts_with("warning: ")), "{}", ran.stderr);
     assert!(place.path("runs/case/summary.json").exists());
-    // 22.2 mm, but the unit was forgotten: not refused, and told.
+    // 22.2 mm with the unit forgotten: not rejected, but reported.
     for command in
         [&["case.toml", "--set", "model=hertz", "--out", "odd"][..], &["check", "case.toml"]]
     {
@@ -88,7 +88,7 @@ fn a_reader_that_goes_away_is_no_fault() {
         let ran: crate::common::Ran = child.wait_with_output().unwrap().into();
         assert_eq!(ran.code, Some(0), "{arguments:?}: {}", ran.stderr);
     }
-    // Nor is a stderr that is closed.
+    // A closed stderr is no error either.
     let mut command = place.command(&["case.toml"]);
     let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
     drop(child.stderr.take());
@@ -120,7 +120,7 @@ fn a_case_named_like_a_command_runs_with_its_folder() {
     assert!(place.path("runs/check/check.pvd").exists());
 }
 
-/// A model's name that is nearly right is asked about; a new case with blanks in its name is one word of a shell.
+/// Misspelled names of models are corrected in the message; a file name with a blank is quoted for a shell.
 #[test]
 fn words_are_asked_about_and_names_are_quoted() {
     let place = Place::new();

@@ -1,9 +1,9 @@
-//! What the words of the program look like, wherever in its sources they stand.
+//! Rules for all texts of the program, wherever they are in its sources.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The source of a crate, without what is tested below in the same file.
+/// Returns the sources of a crate, without the tests in them.
 fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder of sources").flatten() {
@@ -19,7 +19,7 @@ fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// What a text has of numbers like `2.79e-5 m`: an exponent before a unit that takes a prefix.
+/// Returns formats of numbers like `2.79e-5 m`: an exponent before a unit that takes a prefix.
 fn exponents_before_units(text: &str) -> Vec<&str> {
     const UNITS: [&str; 10] = ["m", "s", "m/s", "Pa", "N", "J", "kg", "Hz", "bytes", "V"];
     let after = text.match_indices("e} ").filter(|(end, _)| {
@@ -37,8 +37,8 @@ fn exponents_before_units(text: &str) -> Vec<&str> {
         .collect()
 }
 
-/// People read 27.9 µm, not 2.79e-5 m: `engineering::show` has the prefixes. What codes read, and
-/// studies write as arguments, has no words around it.
+/// People read 27.9 µm, not 2.79e-5 m; `engineering::show` sets the prefixes. Input of other codes and
+/// arguments of studies have no text around the number.
 #[test]
 fn no_text_has_an_exponent_before_a_unit() {
     assert_eq!(

@@ -15,7 +15,7 @@ absolute = 0.01
 reason = "a coarse mesh"
 "#;
 
-/// A claim about [`crate::common::CASE`] with these checks.
+/// Returns a claim about [`crate::common::CASE`] with these checks.
 fn claim(checks: &str) -> String {
     format!(
         "title = 'A claim'\nsection = 'paper'\nclaim = 'It is so.'\nstudy = 'summary'\n\
@@ -43,7 +43,7 @@ fn a_claim_that_holds_is_shown_with_its_reference() {
         ["checks.csv", "index.html", "summary.json"].map(String::from)
     );
     assert_eq!(place.json("runs/validation/summary.json")["passed"], true);
-    // Again, over the old page.
+    // A second time, over the old page.
     place.succeed(&["validate", "mine", "--quiet"]);
 }
 
@@ -139,7 +139,7 @@ fn bad_claims_are_refused_before_anything_runs() {
     assert!(ran.stderr.contains("case.toml:4:1: "), "{}", ran.stderr);
 }
 
-/// The page needs nothing else: it names no other place to load from.
+/// The page is self-contained.
 #[test]
 fn the_page_is_self_contained() {
     let place = place(CHECK);
@@ -153,8 +153,8 @@ fn the_page_is_self_contained() {
     }
 }
 
-/// validation/claims.md was made from the claims as they are: same claims, checks, references and
-/// tolerances, and all of them held.
+/// validation/claims.md agrees with the claims: same claims, checks, references and tolerances, and all of
+/// them held.
 #[test]
 fn the_committed_table_is_that_of_the_claims() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

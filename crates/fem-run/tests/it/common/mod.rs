@@ -35,7 +35,7 @@ material = "glass"
 contact_element_size = "90 um"
 "#;
 
-/// Overrides that make [`CASE`] soft and fast: the contact outgrows the sphere, the run fails.
+/// Overrides that make [`CASE`] soft and fast: the contact outgrows the sphere, and the run fails.
 pub const FAILS: [&str; 6] = [
     "--set",
     "material.glass={density=2390, youngs_modulus=1e6, poissons_ratio=0.244}",
@@ -48,7 +48,7 @@ pub const FAILS: [&str; 6] = [
 /// A folder with `case.toml` in which the command runs.
 pub struct Place(TempDir);
 
-/// How a command ended.
+/// The end of a command.
 pub struct Ran {
     pub code: Option<i32>,
     pub stdout: String,
@@ -56,12 +56,12 @@ pub struct Ran {
 }
 
 impl Place {
-    /// With [`CASE`] as `case.toml`.
+    /// Creates a folder with [`CASE`] as `case.toml`.
     pub fn new() -> Self {
         Self::with(CASE)
     }
 
-    /// With `case` as `case.toml`.
+    /// Creates a folder with `case` as `case.toml`.
     pub fn with(case: &str) -> Self {
         let place = Self(TempDir::new().unwrap());
         place.write("case.toml", case);
@@ -85,8 +85,8 @@ impl Place {
         serde_json::from_slice(&self.read(name)).unwrap()
     }
 
-    /// A result but for what the run took, which its page shows: all other files as text or bytes, by their
-    /// names.
+    /// Returns a result without its cost, which the report page shows: all other files as text or bytes, by
+    /// name.
     pub fn result(&self, folder: &str) -> Vec<(String, Vec<u8>)> {
         let file = |name: String| {
             let path = format!("{folder}/{name}");
@@ -100,7 +100,7 @@ impl Place {
         self.list(folder).into_iter().filter(|name| name != "report.html").map(file).collect()
     }
 
-    /// Names in a folder, hidden ones included, sorted.
+    /// Returns the sorted names in a folder, including hidden ones.
     pub fn list(&self, name: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(name)).unwrap();
         let mut names: Vec<String> =
@@ -109,7 +109,7 @@ impl Place {
         names
     }
 
-    /// The command, to be started in this folder.
+    /// Returns the command, to be started in this folder.
     pub fn command<S: AsRef<std::ffi::OsStr>>(&self, arguments: &[S]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_fem-run"));
         command.current_dir(self.0.path()).args(arguments);
