@@ -31,7 +31,7 @@ const SHEAR: Scene = Scene {
 
 const METHODS: [&str; 3] = ["massless", "penalty", "node_to_surface"];
 
-/// A run.
+/// A scene with a contact method and a penalty factor.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
     pub scene: Scene,

@@ -52,7 +52,7 @@ pub struct Side {
 /// An effect, or something that a run records only on request.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Its name in results.
+    /// Name in results.
     pub name: &'static str,
     /// The variant of the effect.
     pub kind: &'static str,
@@ -81,7 +81,7 @@ const fn always(name: &'static str, kind: &'static str) -> Row {
     Row { name, kind, off: None, on: BARE }
 }
 
-/// All rows, in the order of the page.
+/// All rows in the order of the page.
 pub const ROWS: &[Row] = &[
     row(
         "viscoelasticity",

@@ -32,7 +32,7 @@ const PAIRS: [Pair; 6] = [
     Pair { name: "ball on a harder one", partner: (Some(1.0), 1), ball: 0 },
 ];
 
-/// Soft, harder, steel: density, Young's modulus, Poisson's ratio.
+/// Returns density, Young's modulus and Poisson's ratio of the soft, the harder and the steel body.
 fn materials(nu: f64) -> [[f64; 3]; 3] {
     [[DENSITY, YOUNGS_MODULUS, nu], [DENSITY, HARDER * YOUNGS_MODULUS, nu], STEEL]
 }

@@ -1,9 +1,9 @@
-//! The table of what accuracy costs in docs/accuracy.md, times aside.
+//! Checks the convergence table of the condensed model in docs/accuracy.md, except its times.
 
 use crate::common::Place;
 use crate::pages::{Page, root};
 
-/// The case behind each column, its number in a summary, and SI units in one of the table's.
+/// Case, summary key and unit in SI of each column.
 const COLUMNS: [(&str, &str, f64); 4] = [
     ("glass_0.5ms_elastic", "contact_time_s", 1e-6),
     ("glass_0.5ms_elastic", "peak_force_n", 1.0),

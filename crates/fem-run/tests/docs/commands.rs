@@ -1,4 +1,4 @@
-//! Commands that the pages show are understood by the program, and what they read is there.
+//! Checks that the program accepts the commands of the pages and that their input files exist.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -6,10 +6,10 @@ use std::process::Command;
 use crate::pages::{Page, root};
 use crate::shell::{Shown, commands, words};
 
-/// The folders of the repository that commands read.
+/// Folders of the repository that commands read.
 const FOLDERS: [&str; 5] = ["cases/", "validation/", "meshes/", ".ci/", "crates/"];
 
-/// The source of the example or test that a command of cargo names.
+/// Returns the source of the example or test that a cargo command names.
 fn target(command: &Shown) -> Option<PathBuf> {
     let behind = |flag: &str| {
         let place = command.words.iter().position(|word| word == flag)?;
@@ -23,11 +23,11 @@ fn target(command: &Shown) -> Option<PathBuf> {
     }
 }
 
-/// What is wrong with a command; help is printed only once all that stands before it was understood.
+/// Returns the fault of a command, if any: the program prints help only if all arguments before it are valid.
 fn fault(command: &Shown) -> Option<String> {
     let missing = command.words.iter().find(|word| {
         let path = word.trim_start_matches("./");
-        // A name in capitals stands for another.
+        // NAME is a placeholder.
         let is_meant = !path.contains("NAME");
         is_meant
             && FOLDERS.iter().any(|folder| path.starts_with(folder))

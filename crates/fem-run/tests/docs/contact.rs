@@ -1,12 +1,12 @@
-//! The table of docs/contact.md: its rows are those of the study, its numbers those of runs; but for stiff
-//! springs between masses, whose steps are short.
+//! Checks the table of docs/contact.md against the study's rows and against runs, except stiff penalty contact,
+//! which takes too long.
 
 use crate::pages::Page;
 
 #[path = "../../examples/contact/rows.rs"]
 mod rows;
 
-/// The cells of the table's lines.
+/// Returns the cells of the table's lines.
 fn lines() -> Vec<Vec<String>> {
     let page = Page::load("docs/contact.md");
     let lines = page.text.lines().skip_while(|line| !line.starts_with("| scene |")).skip(2);

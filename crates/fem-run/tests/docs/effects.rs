@@ -1,5 +1,5 @@
-//! The table of what effects cost in docs/effects.md: its rows are the effects that there are, its
-//! counters of a start are those of a run. Times are not tested.
+//! Checks the table of docs/effects.md: its rows are the existing effects, its bytes those of a run. Times are not
+//! tested.
 
 use std::collections::BTreeSet;
 
@@ -7,17 +7,17 @@ use fem::effects::{Answer, EFFECTS};
 
 use crate::pages::Page;
 
-// The benchmark uses all of it.
+// The benchmark uses the whole module.
 #[allow(dead_code)]
 #[path = "../../examples/effects/rows.rs"]
 mod rows;
 
 use rows::ROWS;
 
-/// What a run keeps where it is asked to, and no effect of a collision.
+/// Rows of optional records, which are no effects of a collision.
 const KEPT: [&str; 3] = ["history", "snapshots", "stress recovery"];
 
-/// The cells of the table's lines.
+/// Returns the cells of the table's lines.
 fn lines() -> Vec<Vec<String>> {
     let page = Page::load("docs/effects.md");
     let lines = page.text.lines().skip_while(|line| !line.starts_with("| effect |")).skip(2);
@@ -36,8 +36,7 @@ fn rows_are_those_of_the_benchmark() {
     assert_eq!(shown, expected, "cargo run --release -p fem-run --example effects writes the page");
 }
 
-/// Explicit elements have a row of each effect that they compute in some scene of the table, and there
-/// is no row of anything else.
+/// Every effect that explicit elements compute in some scene of the table has a row, and nothing else has.
 #[test]
 fn every_effect_that_is_computed_has_a_row() {
     let mut computed = BTreeSet::new();
@@ -56,7 +55,7 @@ fn every_effect_that_is_computed_has_a_row() {
     assert_eq!(rows, computed.union(&kept).copied().collect());
 }
 
-/// An effect is off on one side of its row and on on the other; steps that both do count its work.
+/// An effect is off on one side of its row and on on the other.
 #[test]
 fn an_effect_is_off_on_one_side_and_on_on_the_other() {
     for row in ROWS.iter().filter(|row| !KEPT.contains(&row.name)) {
@@ -71,8 +70,7 @@ fn an_effect_is_off_on_one_side_and_on_on_the_other() {
     }
 }
 
-/// Counters of runs that keep nothing: the memory of a start has the size of the memory of an end, but
-/// for the few numbers whose size grows with them.
+/// The restart state at the start has the size of that at the end, except for a few numbers that grow.
 #[test]
 fn bytes_of_state_are_those_of_a_run() {
     for (row, cells) in ROWS.iter().zip(lines()) {
@@ -85,7 +83,7 @@ fn bytes_of_state_are_those_of_a_run() {
             let contact = side.contact();
             let start = rows::n_bytes(side.start(contact.as_ref(), &simulation).as_ref());
             let shown: usize = shown.parse().unwrap();
-            // Numbers of steps, and what is known of a contact only once it was there.
+            // The number of steps, and data of a contact that exist only after it.
             assert!((start..start + 512).contains(&shown), "{}: {start} {shown}", row.name);
         }
     }

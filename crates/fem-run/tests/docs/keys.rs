@@ -1,4 +1,4 @@
-//! Names in a result folder are those that docs/results.md has.
+//! Checks that docs/results.md names the keys, columns and files of a result folder.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use fem_collision::{Account, Shown};
 use crate::common::Place;
 use crate::pages::Page;
 
-/// The page, and a place with a result in `runs/case`.
+/// Returns the page, and a folder with a result in `runs/case`.
 fn page_and_result() -> (Page, Place) {
     let place = Place::new();
     place.succeed(&["case.toml", "--quiet"]);
@@ -26,22 +26,22 @@ fn keys_of_a_summary_are_those_of_the_page() {
     let summary = place.json("runs/case/summary.json");
     let (_, listed) = page.first_columns("key").remove(0);
     assert_eq!(BTreeSet::from_iter(listed), keys(&summary, ""));
-    // The second cell of a row names the keys of an object, and none that is not there.
+    // The second cell of a row names exactly the keys of an object.
     for (row, pointer) in [("bodies", "/bodies/0"), ("cost", "/cost")] {
         let named = named_in_row(&page, row);
         assert_eq!(BTreeSet::from_iter(named), keys(&summary, pointer), "{pointer}");
     }
 }
 
-/// What is in code in the second cell of the row of a key.
+/// Returns the code in the second cell of the row of a key.
 fn named_in_row(page: &Page, key: &str) -> Vec<String> {
     let mut rows = page.text.lines().filter(|line| line.starts_with(&format!("| `{key}` |")));
     let row = rows.next().unwrap().splitn(3, '|').nth(2).unwrap();
     row.split('`').skip(1).step_by(2).map(String::from).collect()
 }
 
-/// The page names every account of energy in the order of the table of accounts, and a summary has
-/// them in this order; but for those that only a run has that fills them.
+/// Page and summary have every account of energy in the order of the table of accounts; a summary omits optional
+/// accounts that its run does not use.
 #[test]
 fn energies_are_those_of_the_accounts() {
     let (page, place) = page_and_result();
@@ -59,7 +59,7 @@ fn energies_are_those_of_the_accounts() {
     let expected: Vec<&String> =
         named.iter().filter(|key| !is_optional(key) || written.contains(key)).collect();
     assert_eq!(written, expected);
-    // Sweeps have a column of each.
+    // Sweeps have one column per account.
     let sweeps = Page::load("docs/sweeps.md");
     for key in of_table {
         assert!(sweeps.code().iter().any(|code| code.text == key), "docs/sweeps.md has no {key}");

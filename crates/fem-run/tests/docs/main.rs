@@ -1,18 +1,18 @@
-//! What the documentation says is so: what it points at exists, the commands that it shows are
-//! understood, what it shows as printed is what they print.
+//! Checks the documentation: links and source references exist, commands are valid, and quoted output is what they
+//! print.
 //!
 //! ```text
 //! pages     a page's blocks, code in its text, links
 //! shell     the commands in a block
 //! pointers  files, items and anchors
-//! commands  that are understood
-//! printed   that are run, and what they print and leave
+//! commands  valid commands
+//! printed   output and files of commands that are run
 //! keys      names in a result folder
-//! prose     sizes that sentences name
-//! accuracy  the table of what accuracy costs
-//! contact   the table of ways to keep surfaces apart
-//! effects   the table of what effects cost
-//! shipped_cases  the table of the cases of the repository
+//! prose     numbers in sentences
+//! accuracy  the convergence table of the condensed model
+//! contact   the table of contact methods
+//! effects   the table of costs of effects
+//! shipped_cases  the table of shipped cases
 //! ```
 
 mod accuracy;

@@ -1,48 +1,48 @@
-//! The pages of the documentation, as far as a test reads Markdown.
+//! Reads the parts of Markdown pages that the tests need.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The top folder of the repository.
+/// Returns the root of the repository.
 pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A page.
+/// A Markdown page.
 pub struct Page {
-    /// From the top folder.
+    /// Path from the root.
     pub path: String,
-    /// As it is written.
+    /// The text of the page.
     pub text: String,
 }
 
-/// A fenced block.
+/// A fenced code block.
 pub struct Block {
-    /// Of its first line in the page, from 1.
+    /// Line number of its first line, from 1.
     pub line: usize,
-    /// What stands behind the fence.
+    /// Language after the opening fence.
     pub language: String,
-    /// Without the fences.
+    /// Text without the fences.
     pub text: String,
 }
 
-/// A piece of a page's text.
+/// A piece of inline text.
 pub struct Piece {
-    /// In the page, from 1.
+    /// Line number in the page, from 1.
     pub line: usize,
-    /// Without its marks.
+    /// Text without its markup.
     pub text: String,
 }
 
 impl Page {
-    /// A page by its path from the top folder.
+    /// Loads a page by its path from the root.
     pub fn load(path: &str) -> Self {
         let text = fs::read_to_string(root().join(path));
         let text = text.unwrap_or_else(|error| panic!("{path}: {error}"));
         Self { path: path.to_string(), text }
     }
 
-    /// All pages but the change log, which speaks of the past.
+    /// Loads all pages except the change log, which describes the past.
     pub fn all() -> Vec<Self> {
         let mut paths = Vec::new();
         for folder in ["", "docs/", "validation/", "validation/data/", "meshes/"] {
@@ -57,7 +57,7 @@ impl Page {
         paths.iter().map(|path| Self::load(path)).collect()
     }
 
-    /// The fenced blocks.
+    /// Returns the fenced blocks.
     pub fn blocks(&self) -> Vec<Block> {
         let mut blocks = Vec::new();
         let mut open: Option<Block> = None;
@@ -76,7 +76,7 @@ impl Page {
         blocks
     }
 
-    /// The text without its fenced blocks, line for line.
+    /// Returns the text without fenced blocks, with the same line numbers.
     fn prose(&self) -> String {
         let mut in_block = false;
         let mut prose = String::new();
@@ -89,7 +89,7 @@ impl Page {
         prose
     }
 
-    /// What stands between backticks in the text.
+    /// Returns the inline code of the text.
     pub fn code(&self) -> Vec<Piece> {
         let prose = self.prose();
         let mut line = 1;
@@ -106,7 +106,7 @@ impl Page {
         code
     }
 
-    /// Where the links and pictures of the text lead.
+    /// Returns the targets of links and pictures.
     pub fn links(&self) -> Vec<Piece> {
         let mut links = Vec::new();
         for (k, line) in self.prose().lines().enumerate() {
@@ -118,7 +118,7 @@ impl Page {
         links
     }
 
-    /// The headings as links call them.
+    /// Returns the anchors of the headings.
     pub fn anchors(&self) -> Vec<String> {
         let prose = self.prose();
         let headings = prose.lines().filter(|line| line.starts_with('#'));
@@ -129,8 +129,8 @@ impl Page {
             .collect()
     }
 
-    /// Tables whose first column is headed so: the cells of that column that are code, and the line
-    /// of the heading.
+    /// Returns, for each table whose first column has this heading, the line of the heading and the code in the first
+    /// column.
     pub fn first_columns(&self, heading: &str) -> Vec<(usize, Vec<String>)> {
         let lines: Vec<&str> = self.text.lines().collect();
         let mut columns = Vec::new();

@@ -1,4 +1,4 @@
-//! Files, items of the source, and links that the pages name.
+//! Checks that files, source items and links on the pages exist.
 
 use std::collections::HashSet;
 use std::fs;
@@ -10,13 +10,13 @@ const TOP: [&str; 8] =
     ["crates/", ".ci/", "cases/", "docs/", "fuzz/", "meshes/", "validation/", "clippy.toml"];
 /// Crates outside `crates/`, and their folders.
 const APART: [(&str, &str); 2] = [("fem-fuzz", "fuzz"), ("fem-validate", "validation")];
-/// What a path stands for that is no file of the repository.
+/// Placeholders in paths.
 const PLACEHOLDERS: [&str; 5] = ["NAME", "CASE", "<", "*", "…"];
-/// What defines an item.
+/// Keywords that define an item.
 const DEFINERS: [&str; 9] =
     ["const", "enum", "fn", "macro_rules!", "mod", "static", "struct", "trait", "type"];
 
-/// A place in the source: `fem-material/src/prony.rs:PronySeries`, from `crates/`.
+/// A place in the source such as `fem-material/src/prony.rs:PronySeries`, relative to `crates/`.
 struct Pointer<'a> {
     path: &'a str,
     item: Option<&'a str>,
@@ -55,12 +55,12 @@ impl<'a> Pointer<'a> {
     }
 }
 
-/// Whether it is a crate's name by its form.
+/// Whether the text has the form of a crate's name.
 fn is_crate(code: &str) -> bool {
     code.strip_prefix("fem-").is_some_and(|name| name.chars().all(|c| c.is_ascii_lowercase()))
 }
 
-/// The names of the items of a source file, methods included.
+/// Returns the names of the items that a source file defines, methods included.
 fn defined(source: &str) -> HashSet<&str> {
     let lines = source.lines().filter(|line| !line.trim_start().starts_with("//"));
     let words = lines.flat_map(|line| line.split(|c: char| " (){}<>:;=".contains(c)));

@@ -1,5 +1,4 @@
-//! What pages show as printed is what the commands above it print; so are numbers in their text, and
-//! the files that they list are those that are left.
+//! Checks that quoted output, numbers in the text and lists of files on pages agree with the commands above them.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +7,7 @@ use crate::common::Place;
 use crate::pages::{Page, root};
 use crate::shell::{commands, words};
 
-/// Commands that take longer than two seconds, or read what such a one has written.
+/// Commands that take longer than two seconds, or read the output of such a command.
 const SLOW: [&str; 7] = [
     "calibrate cases/ice_2cm.toml",
     "export cases/",
@@ -18,10 +17,10 @@ const SLOW: [&str; 7] = [
     "sweep cases/sweep_glass.toml",
     "runs/sweep_glass/sweep.csv",
 ];
-/// Commands that are not run here: claims are tests of their own, a task of an array is a part.
+/// Commands that are not run here: claims have their own tests, and shards are partial.
 const LEFT_OUT: [&str; 3] = ["validate", "--shard", "--help"];
 
-/// Numbers in the text of a page, and the command that prints them.
+/// Pages, commands, and numbers that the command prints and the text quotes.
 const SAID: [(&str, &str, &[&str]); 8] = [
     ("docs/gallery.md", "cases/glass_0.5ms_elastic.toml", &["3.69e-5"]),
     (
@@ -66,14 +65,13 @@ enum Pace {
 /// How a shown number agrees with a printed one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Digits {
-    /// In all of them: the explicit elements and the laws give the same bits on any processor.
+    /// All digits: explicit elements and laws give the same bits on any processor.
     All,
-    /// But for one unit of the last: factors of condensed bodies depend on the processor in their
-    /// last bits.
+    /// Within one unit of the last digit: the factorisation of condensed bodies depends on the processor in its last bits.
     ButLast,
 }
 
-/// When a command is run, if at all.
+/// Returns when a command is run, if at all.
 fn pace(arguments: &str) -> Option<Pace> {
     let is_among = |parts: &[&str]| parts.iter().any(|part| arguments.contains(part));
     match (is_among(&LEFT_OUT), is_among(&SLOW)) {
@@ -83,7 +81,7 @@ fn pace(arguments: &str) -> Option<Pace> {
     }
 }
 
-/// A place with the repository's cases and data.
+/// Returns a folder with the repository's cases and data.
 pub fn place() -> Place {
     let place = Place::new();
     for folder in ["cases", "validation/data"] {
@@ -96,7 +94,7 @@ pub fn place() -> Place {
     place
 }
 
-/// What the commands of a page have printed.
+/// The output of the commands of a page.
 struct Session {
     page: Page,
     place: Place,
@@ -104,7 +102,7 @@ struct Session {
     printed: Vec<(String, String)>,
 }
 
-/// Runs the commands of a page in their order, and compares what is shown.
+/// Runs the commands of a page in order and compares the quoted output.
 fn check(path: &str, wanted: Pace, digits: Digits) {
     let (page, printed) = (Page::load(path), Vec::new());
     let mut session = Session { page, place: place(), wanted, printed };
@@ -156,7 +154,7 @@ impl Session {
         for (line, files) in self.page.first_columns("file") {
             let folder = self.folder_above(line);
             if self.place.path(&folder).exists() {
-                // Of what lies in a folder of the folder, that one's name, once.
+                // Files in subfolders count as their subfolder, once.
                 let top = |file: &String| file.split('/').next().unwrap().to_string();
                 let mut listed: Vec<String> = files.iter().map(top).collect();
                 listed.sort();
@@ -166,7 +164,7 @@ impl Session {
         }
     }
 
-    /// The result folder that the text above a line names last.
+    /// Returns the result folder named last above a line.
     fn folder_above(&self, line: usize) -> String {
         let code = self.page.code().into_iter().take_while(|code| code.line < line);
         let folders = code.filter(|code| code.text.starts_with("runs/"));
@@ -197,7 +195,7 @@ fn are_near(printed: &str, shown: &str) -> bool {
 /// A number in units of its last digit.
 struct Units {
     units: i64,
-    /// Decimals, and what stands behind the digits: an exponent, a bracket.
+    /// Number of decimals, and the text after the digits: an exponent, a bracket.
     form: (usize, String),
 }
 
@@ -209,7 +207,7 @@ fn units(word: &str) -> Option<Units> {
     Some(Units { units, form: (n_decimals, rest.to_string()) })
 }
 
-/// Pages that show what a command prints are those that are checked here.
+/// Every page with quoted output is checked here.
 #[test]
 fn pages_with_output_are_checked() {
     let shows = |page: &Page| {
@@ -231,7 +229,7 @@ fn the_page_on_fits_shows_what_is_printed() {
     check("docs/fits.md", Pace::Quick, Digits::All);
 }
 
-/// Pages that show commands and not what they print: the commands run, in their order.
+/// Runs the commands of pages that quote no output, in order.
 #[test]
 fn commands_of_the_first_pages_run() {
     for page in ["docs/why-balls-bounce.md", "docs/gallery.md", "docs/measurement-to-dem.md"] {

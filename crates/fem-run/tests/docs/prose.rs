@@ -1,4 +1,4 @@
-//! Sizes that sentences of pages name: each is of a collision, which is computed here.
+//! Checks numbers in sentences of pages against collisions that are computed here.
 
 use serde_json::Value;
 
@@ -6,8 +6,8 @@ use crate::pages::Page;
 use crate::printed::place;
 use crate::shell::words;
 
-/// A sentence's words, the cases that they are of, what they say of their summaries, and between which numbers
-/// that is what they say.
+/// A phrase of a page, the cases that it refers to, the quantity computed from their summaries, and the range in which
+/// the phrase is true.
 struct Said {
     page: &'static str,
     words: &'static str,
@@ -29,7 +29,7 @@ fn lost_energy(of: &[Value]) -> f64 {
     1.0 - number(&of[0], "restitution").powi(2)
 }
 
-/// A quantity over Hertz', less 1.
+/// Returns a quantity relative to Hertz', minus 1.
 fn beyond_hertz(summary: &Value, key: &str) -> f64 {
     number(summary, key) / number(summary, &format!("hertz.{key}")) - 1.0
 }
@@ -38,7 +38,7 @@ fn stiffness(summary: &Value, material: &str) -> f64 {
     number(summary, &format!("case.material.{material}.youngs_modulus"))
 }
 
-/// From which speed on a body yields, m/s, as a warning says.
+/// Returns the speed of first yield in m/s from a warning.
 fn yield_speed(summary: &Value) -> f64 {
     let warnings = summary["warnings"].as_array().unwrap();
     let mut told = warnings.iter().filter_map(|text| text.as_str()?.split("yields from ").nth(1));
@@ -51,7 +51,7 @@ fn yield_speed(summary: &Value) -> f64 {
     }
 }
 
-/// The largest relative difference of restitution, contact time and peak force.
+/// Returns the largest relative difference of restitution, contact time and peak force.
 fn largest_difference(of: &[Value]) -> f64 {
     let keys = ["restitution", "contact_time_s", "peak_force_n"];
     let difference = |key: &str| (number(&of[1], key) / number(&of[0], key) - 1.0).abs();
@@ -167,7 +167,7 @@ const SAID: [Said; 13] = [
                 times the strength from a few decimetres per second",
         cases: &[STEEL, HARD],
         what: |of| {
-            // From the one the other follows by the power 5/2 of the strength.
+            // The speed of first yield goes with the power 5/2 of the strength.
             assert!((0.5e-3..2e-3).contains(&yield_speed(&of[0])), "{}", yield_speed(&of[0]));
             yield_speed(&of[1])
         },

@@ -1,18 +1,17 @@
-//! The commands in a block of a page.
+//! Reads the commands in a block of a page.
 
 use crate::pages::{Block, Page};
 
-/// A command, and where it stands.
+/// A command and its position.
 pub struct Shown {
-    /// The page and the line.
+    /// Page and line.
     pub place: String,
-    /// Its words.
+    /// Words of the command.
     pub words: Vec<String>,
 }
 
 impl Shown {
-    /// The words behind the name of the program, if it is this program, up to where the shell sends
-    /// its output or takes its input.
+    /// Returns the arguments of the command if it is this program's, without shell redirections.
     pub fn arguments(&self) -> Option<&[String]> {
         let own = ["fem-run"];
         let built = ["cargo", "run", "--release", "--"];
@@ -25,7 +24,7 @@ impl Shown {
     }
 }
 
-/// The commands of a block; none if it is no shell's.
+/// Returns the commands of a shell block.
 pub fn commands(page: &Page, block: &Block) -> Vec<Shown> {
     if !matches!(block.language.as_str(), "sh" | "console") {
         return Vec::new();
@@ -39,7 +38,7 @@ pub fn commands(page: &Page, block: &Block) -> Vec<Shown> {
         .collect()
 }
 
-/// The words of a line as a shell parts them; a variable counts as 1.
+/// Splits a line into words like a shell; a variable becomes 1.
 pub fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;

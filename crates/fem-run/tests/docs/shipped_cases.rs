@@ -1,5 +1,5 @@
-//! The table of the repository's cases in docs/cases.md: each case has a line, with the effects and the
-//! model of its plan. Times are not tested.
+//! Checks the table of shipped cases in docs/cases.md: one line per case, with the effects and the model of its plan.
+//! Times are not tested.
 
 use std::fs;
 
@@ -7,10 +7,10 @@ use fem::{Case, Simulation};
 
 use crate::pages::{Page, root};
 
-/// What explicit elements have in every scene.
+/// Effects that explicit elements have in every scene.
 const MESHED: [&str; 3] = ["hourglass control", "contact search", "mass scaling"];
 
-/// Of a case: its name, its effects and its model, as the table has them.
+/// Returns name, effects and model of a case as in the table.
 fn cells(case: &Case, name: &str) -> [String; 3] {
     let simulation = Simulation::new(case.clone()).unwrap();
     let verdicts = simulation.setup().decisions.verdicts.iter();
@@ -28,7 +28,7 @@ fn every_case_has_its_line() {
     let mut expected = Vec::new();
     for entry in fs::read_dir(root().join("cases")).unwrap() {
         let path = entry.unwrap().path();
-        // A sweep has no bodies of its own.
+        // A sweep file has no bodies.
         if fs::read_to_string(&path).unwrap().contains("\n[[body]]") {
             let name = path.file_stem().unwrap().to_str().unwrap();
             expected.push(cells(&Case::load(&path, &[]).unwrap(), name));
