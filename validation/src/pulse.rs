@@ -4,7 +4,7 @@
 //! height the top of the parabola that fits the force best within a tenth of the contact time around its
 //! largest value, and so of the pressure. Neither knows of single points that close last or ring.
 
-use fem_collision::Row;
+use fem_collision::HistoryRow;
 
 /// Time of Hertz' elastic pulse over the root of its second moment, by quadrature.
 const TIME_OVER_WIDTH: f64 = 5.152_65;
@@ -25,8 +25,8 @@ pub struct Pulse {
 
 impl Pulse {
     /// Computes the pulse of a history, given its contact time in seconds.
-    pub fn of(rows: &[Row], contact_time: f64) -> Self {
-        let axis = |row: &Row| row.centre_pressure.unwrap_or_default();
+    pub fn of(rows: &[HistoryRow], contact_time: f64) -> Self {
+        let axis = |row: &HistoryRow| row.centre_pressure.unwrap_or_default();
         Self {
             time: TIME_OVER_WIDTH * width(rows),
             force: top(rows, contact_time, |row| row.contact_force),
@@ -37,10 +37,10 @@ impl Pulse {
 
 /// Time from the first to the last row with more than a tenth of the largest force, its ends between rows, s: the
 /// width by which pulses of other codes are compared.
-pub fn width_at_tenth(rows: &[Row]) -> f64 {
+pub fn width_at_tenth(rows: &[HistoryRow]) -> f64 {
     let tenth = 0.1 * rows.iter().map(|row| row.contact_force).fold(0.0, f64::max);
-    let is_above = |row: &Row| row.contact_force > tenth;
-    let crossing = |below: &Row, above: &Row| {
+    let is_above = |row: &HistoryRow| row.contact_force > tenth;
+    let crossing = |below: &HistoryRow, above: &HistoryRow| {
         let share = (tenth - below.contact_force) / (above.contact_force - below.contact_force);
         below.time + share * (above.time - below.time)
     };
@@ -53,7 +53,7 @@ pub fn width_at_tenth(rows: &[Row]) -> f64 {
 }
 
 /// The largest mean of the force over so long (s), N: of its integral, linear between rows.
-pub fn largest_mean(rows: &[Row], window: f64) -> f64 {
+pub fn largest_mean(rows: &[HistoryRow], window: f64) -> f64 {
     let mut impulses = vec![0.0];
     for pair in rows.windows(2) {
         let mean = 0.5 * (pair[0].contact_force + pair[1].contact_force);
@@ -71,10 +71,10 @@ pub fn largest_mean(rows: &[Row], window: f64) -> f64 {
 }
 
 /// Root of the second moment of the force over time, trapezoidal rule.
-fn width(rows: &[Row]) -> f64 {
+fn width(rows: &[HistoryRow]) -> f64 {
     let moment = |of: &dyn Fn(f64) -> f64| -> f64 {
-        let value = |row: &Row| row.contact_force * of(row.time);
-        let piece = |pair: &[Row]| {
+        let value = |row: &HistoryRow| row.contact_force * of(row.time);
+        let piece = |pair: &[HistoryRow]| {
             0.5 * (value(&pair[0]) + value(&pair[1])) * (pair[1].time - pair[0].time)
         };
         rows.windows(2).map(piece).sum()
@@ -86,7 +86,7 @@ fn width(rows: &[Row]) -> f64 {
 
 /// The top, within a tenth of the contact time, of the parabola of least squares through the rows around the largest
 /// force.
-fn top(rows: &[Row], contact_time: f64, value: fn(&Row) -> f64) -> f64 {
+fn top(rows: &[HistoryRow], contact_time: f64, value: fn(&HistoryRow) -> f64) -> f64 {
     let Some(peak) = rows.iter().max_by(|a, b| a.contact_force.total_cmp(&b.contact_force)) else {
         return f64::NAN;
     };
@@ -121,23 +121,23 @@ fn top(rows: &[Row], contact_time: f64, value: fn(&Row) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fem_collision::Book;
+    use fem_collision::EnergyLedger;
 
-    fn force(rows: &[Row]) -> f64 {
+    fn force(rows: &[HistoryRow]) -> f64 {
         top(rows, 1.0, |row| row.contact_force)
     }
 
-    fn pulse(force: impl Fn(f64) -> f64) -> Vec<Row> {
+    fn pulse(force: impl Fn(f64) -> f64) -> Vec<HistoryRow> {
         let row = |k: usize| {
             let time = 1e-3 * k as f64;
-            Row {
+            HistoryRow {
                 time,
                 contact_force: force(time),
                 contact_radius: None,
                 approach: 0.0,
                 centre_pressure: None,
                 velocity: [0.0; 2],
-                energies: Book::EMPTY,
+                energies: EnergyLedger::EMPTY,
                 residual: None,
                 vibration: [0.0; 2],
             }

@@ -1,6 +1,8 @@
 //! A collision from first touch until the bodies have parted.
 
-use fem_collision::{Collision, Ending, Frame, Monitor, Phase, SnapshotRequest, Stop, Want};
+use fem_collision::{
+    Collision, Ending, Frame, Monitor, OutputRequest, Phase, SnapshotRequest, Stop,
+};
 
 use crate::damping::Damping;
 use crate::error::CondensedError;
@@ -38,7 +40,8 @@ impl CondensedPair {
         n_steps: usize,
     ) -> Result<Collision, CondensedError> {
         let frame = self.frame(speed)?;
-        let collision = self.collide(&frame, damping, n_steps, &Want::quantities(), &mut ())?;
+        let collision =
+            self.collide(&frame, damping, n_steps, &OutputRequest::quantities(), &mut ())?;
         match collision.ending {
             Ending::Stopped(stop) => Err(stop.into()),
             _ => Ok(collision),
@@ -55,7 +58,7 @@ impl CondensedPair {
         frame: &Frame,
         damping: impl Into<Damping<'a>>,
         n_steps: usize,
-        want: &Want,
+        want: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Result<Collision, CondensedError> {
         let (speed, damping) = (frame.speed(), damping.into());

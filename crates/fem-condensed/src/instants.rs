@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use fem_collision::{Ending, Label, SnapshotRequest, did_not_occur, evenly, fewer_than_asked};
+use fem_collision::{
+    Ending, SnapshotInstant, SnapshotRequest, did_not_occur, evenly, fewer_than_asked,
+};
 use fem_material::engineering::show;
 
 /// What is remembered of every step.
@@ -42,7 +44,7 @@ pub(crate) fn choose(
     request: &SnapshotRequest,
     first_touch: f64,
     ending: &Ending,
-) -> (Vec<(Instant, Option<Label>)>, Vec<String>) {
+) -> (Vec<(Instant, Option<SnapshotInstant>)>, Vec<String>) {
     let mut missing = Vec::new();
     let last = trace.iter().rposition(|step| step.is_closed).unwrap_or(0);
     let end = trace.len().saturating_sub(1);
@@ -62,17 +64,17 @@ pub(crate) fn choose(
                 .max_by(|&a, &b| trace[a].approach.total_cmp(&trace[b].approach))
                 .unwrap_or(0);
             let half = 0.5 * trace.get(top).map_or(0.0, |step| step.approach);
-            let wanted = Label::ALL.iter().filter(|label| labels.contains(label));
+            let wanted = SnapshotInstant::ALL.iter().filter(|label| labels.contains(label));
             let mut chosen = Vec::new();
             for label in wanted {
                 let found = match label {
-                    Label::MidCompression => passes(trace, 0..top, half),
-                    Label::Maximum => Some(Instant::at(top)),
-                    Label::MidSeparation => passes(trace, top..end, half),
-                    Label::LastContact => {
+                    SnapshotInstant::MidCompression => passes(trace, 0..top, half),
+                    SnapshotInstant::Maximum => Some(Instant::at(top)),
+                    SnapshotInstant::MidSeparation => passes(trace, top..end, half),
+                    SnapshotInstant::LastContact => {
                         (*ending != Ending::Together).then_some(Instant::at(last))
                     }
-                    Label::LastSound => None,
+                    SnapshotInstant::LastSound => None,
                 };
                 match found {
                     Some(instant) => chosen.push((instant, Some(*label))),

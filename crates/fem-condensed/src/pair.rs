@@ -1,7 +1,7 @@
 //! Two bodies condensed to their contact, ready for any number of collisions.
 
 use faer::Mat;
-use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, Frame, Searched, Stop};
+use fem_collision::{Approach, ApproachError, BodyInput, BodyResult, CandidateRegion, Frame, Stop};
 use fem_contact::{ContactError, ContactPoint, Surface};
 use fem_material::{ActsOn, PronySeries};
 
@@ -143,8 +143,8 @@ impl CondensedPair {
     }
 
     /// Where contact is looked for.
-    pub fn searched(&self) -> Searched {
-        Searched {
+    pub fn searched(&self) -> CandidateRegion {
+        CandidateRegion {
             radius: self.candidate_radius(),
             n_points: self.n_points(),
             at_nodes: self.nodal_side.is_some(),

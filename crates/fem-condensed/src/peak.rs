@@ -1,6 +1,6 @@
 //! The largest value of a history.
 
-use fem_collision::worst;
+use fem_collision::nan_aware_max_abs;
 
 /// Largest value of a smooth function given at even steps, at least 0: the vertex of the parabola
 /// through the highest three. NaN stays.
@@ -25,7 +25,7 @@ impl Peak {
 
     fn note(&mut self, value: f64) {
         // What lies below zero is no candidate; NaN passes.
-        self.highest = worst(self.highest, value.clamp(0.0, f64::INFINITY));
+        self.highest = nan_aware_max_abs(self.highest, value.clamp(0.0, f64::INFINITY));
     }
 }
 

@@ -1,6 +1,6 @@
 //! The contact of condensed bodies from the axis outward.
 
-use fem_collision::{BodyFields, ContactPlace, ContactProfile};
+use fem_collision::{BodyFields, ContactProfile, ContactProfilePoint};
 use fem_contact::{Profile, facing};
 
 use crate::error::CondensedError;
@@ -60,7 +60,7 @@ impl CondensedPair {
             (point.radius, point.pressure) = (wider * point.radius, denser * point.pressure);
         }
         let profile = profile.closed();
-        let places = profile.points.iter().map(|point| ContactPlace {
+        let places = profile.points.iter().map(|point| ContactProfilePoint {
             is_node: point.is_node,
             radius: point.radius,
             pressure: point.pressure,

@@ -1,9 +1,10 @@
 //! The course of a collision: what is observed of each step, and when it ends.
 
 use fem_collision::{
-    Aftermath, Book, Collision, Deepest, Ending, FLIGHT_AFTER, Frame, Held, History,
-    LARGEST_RESIDUAL, Moment, Monitor, Progress, Pulse, STAY_TOGETHER, STEPS_BETWEEN_REPORTS,
-    Scatter, Standstill, Stop, Want, highest, longest_at_pole, worst,
+    Collision, DeepestOverlap, Ending, EnergyLedger, FLIGHT_AFTER, ForceNoise, ForcePulse, Frame,
+    History, LARGEST_RESIDUAL, Monitor, OutputRequest, PostContactVibration, Progress,
+    RelativeMotion, RestCriterion, STAY_TOGETHER, STEPS_BETWEEN_REPORTS, StepInstant, Stop,
+    longest_at_pole, nan_aware_max, nan_aware_max_abs,
 };
 
 use crate::instants::Trace;
@@ -52,17 +53,17 @@ pub(crate) struct Run<'a> {
     /// Instants of a step that are told, its end among them.
     per_step: u64,
     worst_residual: f64,
-    residual_since: Option<Moment>,
+    residual_since: Option<StepInstant>,
     growth: f64,
     /// What the momentum that was exchanged is off the impulse, N s.
     worst_momentum: f64,
     approach: Peak,
     force: Peak,
-    scatter: Scatter,
-    deepest: Option<Deepest>,
-    pulse: Pulse,
-    aftermath: Aftermath,
-    standstill: Standstill,
+    scatter: ForceNoise,
+    deepest: Option<DeepestOverlap>,
+    pulse: ForcePulse,
+    aftermath: PostContactVibration,
+    standstill: RestCriterion,
     /// Since when the bodies no longer approach each other, after first touch, s.
     turned: f64,
     /// Since first touch, s.
@@ -89,7 +90,7 @@ impl<'a> Run<'a> {
         pair: &'a CondensedPair,
         motion: Motion<'a>,
         frame: &'a Frame,
-        want: &Want,
+        want: &OutputRequest,
         n_steps: usize,
         elastic_contact_time: f64,
     ) -> Self {
@@ -118,11 +119,11 @@ impl<'a> Run<'a> {
             worst_momentum: 0.0,
             approach: Peak::default(),
             force: Peak::default(),
-            scatter: Scatter::default(),
+            scatter: ForceNoise::default(),
             deepest: None,
-            pulse: Pulse::default(),
-            aftermath: Aftermath::default(),
-            standstill: Standstill::new(frame),
+            pulse: ForcePulse::default(),
+            aftermath: PostContactVibration::default(),
+            standstill: RestCriterion::new(frame),
             turned: 0.0,
             history: (want.history_rows > 0)
                 .then(|| History::new(want.history_rows, per_step as f64 * steps)),
@@ -227,11 +228,14 @@ impl<'a> Run<'a> {
         let (time, rate) = (motion.time(), motion.rate);
         self.approach.observe(motion.approach);
         self.force.observe(motion.force);
-        let now =
-            Moment { time: self.frame.approach.first_touch() + time, step: motion.step as u64 };
+        let now = StepInstant {
+            time: self.frame.approach.first_touch() + time,
+            step: motion.step as u64,
+        };
         self.scatter.observe(motion.force, now);
         if let Some((overlap, radius)) = motion.deepest_overlap() {
-            self.deepest = Deepest::of(self.deepest, Deepest { overlap, radius, at: now });
+            self.deepest =
+                DeepestOverlap::of(self.deepest, DeepestOverlap { overlap, radius, at: now });
         }
         if rate > 0.0 {
             self.turned = time;
@@ -271,21 +275,21 @@ impl<'a> Run<'a> {
         let lost = sample.dissipated + sample.radiated.unwrap_or(0.0);
         let residual = sample.residual;
         let at_stake = self.frame.energy_at_stake(self.approach.highest);
-        self.worst_residual = worst(self.worst_residual, residual / at_stake);
-        self.growth = highest(self.growth, (residual - lost) / at_stake);
+        self.worst_residual = nan_aware_max_abs(self.worst_residual, residual / at_stake);
+        self.growth = nan_aware_max(self.growth, (residual - lost) / at_stake);
         if self.residual_since.is_none() && self.worst_residual > LARGEST_RESIDUAL {
             self.residual_since = Some(now);
         }
         let given = self.frame.weight() * time;
         let drift = self.frame.impulse(rate) + given - self.impulse;
-        self.worst_momentum = worst(self.worst_momentum, drift);
+        self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
         if self.episodes > 0 {
             self.aftermath.observe(self.was_closed, vibration);
         }
         let approach = self.motion.approach;
         self.trace.push(Trace { approach, is_closed: self.was_closed });
         let potential = self.frame.potential(approach).unwrap_or(0.0);
-        let held = Held {
+        let held = RelativeMotion {
             time,
             is_closed: self.was_closed,
             force: sample.contact_force,
@@ -355,7 +359,7 @@ impl<'a> Run<'a> {
             noisiest: self.scatter.noisiest(),
             searched: Some(self.pair.searched()),
             initial_energy: Some(frame.kinetic(frame.speed())),
-            energies: self.last.map_or(Book::EMPTY, |end| end.energies(frame)),
+            energies: self.last.map_or(EnergyLedger::EMPTY, |end| end.energies(frame)),
             residual: self.last.map(|end| end.residual),
             residual_relative: Some(self.worst_residual),
             residual_since: self.residual_since,

@@ -1,6 +1,6 @@
 //! One instant of the relative motion, and what it is of both bodies.
 
-use fem_collision::{Account, Book, Frame, Row};
+use fem_collision::{Account, EnergyLedger, Frame, HistoryRow};
 
 use crate::between_steps::OverStep;
 
@@ -85,9 +85,9 @@ impl Sample {
     }
 
     /// What is in each account, J.
-    pub fn energies(&self, frame: &Frame) -> Book {
+    pub fn energies(&self, frame: &Frame) -> EnergyLedger {
         let [lower, upper] = self.vibration;
-        let mut book = Book::EMPTY
+        let mut book = EnergyLedger::EMPTY
             .with(Account::Kinetic, frame.kinetic(self.rate) + lower + upper)
             .with(Account::Strain, self.strain)
             .with(Account::Contact, self.contact)
@@ -106,8 +106,8 @@ impl Sample {
     }
 
     /// The same of both bodies.
-    pub fn row(&self, frame: &Frame) -> Row {
-        Row {
+    pub fn row(&self, frame: &Frame) -> HistoryRow {
+        HistoryRow {
             time: frame.approach.first_touch() + self.time,
             contact_force: self.contact_force,
             contact_radius: Some(self.contact_radius),

@@ -1,6 +1,6 @@
 //! What a run remembers of the contact so far.
 
-use fem_collision::{Deepest, FLIGHT_AFTER, Moment, worst};
+use fem_collision::{DeepestOverlap, FLIGHT_AFTER, StepInstant, nan_aware_max_abs};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ pub(crate) struct ContactLog {
     /// Largest contact force, N.
     pub peak_force: f64,
     /// Where springs gave way most.
-    pub deepest: Option<Deepest>,
+    pub deepest: Option<DeepestOverlap>,
     /// Largest approach, m.
     pub max_approach: f64,
     was_closed: bool,
@@ -68,15 +68,15 @@ impl ContactLog {
             self.first_contact.get_or_insert(time);
             self.last_contact = Some(time);
             self.episodes += u64::from(!self.was_closed);
-            self.peak_force = worst(self.peak_force, contact.force);
+            self.peak_force = nan_aware_max_abs(self.peak_force, contact.force);
             let (overlap, radius, at) =
-                (contact.overlap, contact.overlap_radius, Moment { time, step });
-            self.deepest = Deepest::of(self.deepest, Deepest { overlap, radius, at });
+                (contact.overlap, contact.overlap_radius, StepInstant { time, step });
+            self.deepest = DeepestOverlap::of(self.deepest, DeepestOverlap { overlap, radius, at });
         }
         self.was_closed = is_closed;
         // Bodies that are farther apart than at first touch do not count; what is no number does.
         if self.approach >= 0.0 || self.approach.is_nan() {
-            self.max_approach = worst(self.max_approach, self.approach);
+            self.max_approach = nan_aware_max_abs(self.max_approach, self.approach);
         }
     }
 

@@ -3,7 +3,7 @@
 //! The body moves by the step of a collision, M ü = −f(u), central differences at a step that is
 //! stable for it alone, without mass scaling.
 
-use fem_collision::{BodyFields, Side, StressField};
+use fem_collision::{BalanceSide, BodyFields, StressField};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 use fem_mesh::SphereMesh;
@@ -184,7 +184,8 @@ impl FreeMotion {
         let mut accounts = Accounts::default();
         let motion = self.state.motion(&self.body, self.clock());
         self.body.add_energies(&motion, &self.state.history, &mut accounts);
-        let held = accounts.energies.entries().filter(|(account, _)| account.side() == Side::Held);
+        let held =
+            accounts.energies.entries().filter(|(account, _)| account.side() == BalanceSide::Held);
         0.5 * twice_kinetic + held.map(|(_, energy)| energy).sum::<f64>()
     }
 

@@ -17,7 +17,10 @@
 //! and momentum are those of its nodes relative to V, and what holds its far boundary gives it momentum
 //! and, seen from there, no energy.
 
-use fem_collision::{Account, LARGEST_RESIDUAL, Losses, Moment, Row, Side, highest, worst};
+use fem_collision::{
+    Account, BalanceSide, DissipatedEnergies, HistoryRow, LARGEST_RESIDUAL, StepInstant,
+    nan_aware_max, nan_aware_max_abs,
+};
 use fem_contact::ContactForces;
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +46,7 @@ pub(crate) struct Ledger {
     /// Most that the bodies have held above what they had and were given, at any step, over `initial_relative`.
     pub growth: f64,
     /// When the imbalance was first above what a sound run has.
-    pub beyond: Option<Moment>,
+    pub beyond: Option<StepInstant>,
     /// Worst drift of momentum over Σ m|v| at the start (over m times the speed of
     /// approach if a wall meets a body at rest).
     pub worst_momentum: f64,
@@ -53,7 +56,7 @@ pub(crate) struct Ledger {
     momentum_scale: f64,
     /// ∫ F dt up to t_n − Δt/2, N s.
     impulse: f64,
-    losses: Losses,
+    losses: DissipatedEnergies,
     /// Time of the last balance, s.
     last_time: f64,
     /// What the last balance has shown.
@@ -122,7 +125,7 @@ impl Ledger {
             given_momentum: moved.map(momentum_before).sum(),
             momentum_scale: if momentum > 0.0 { momentum } else { momentum_of_approach },
             impulse: 0.0,
-            losses: Losses::default(),
+            losses: DissipatedEnergies::default(),
             last_time: model.approach().first_touch(),
             shown: Shown::default(),
             since: ContactWork::default(),
@@ -169,15 +172,16 @@ impl Ledger {
     fn note(&mut self, state: &State) {
         let Shown { lost, drift, .. } = self.shown;
         let residual = self.residual();
-        self.worst_residual = worst(self.worst_residual, residual / self.initial_relative);
-        self.growth = highest(self.growth, (residual - lost) / self.initial_relative);
+        self.worst_residual =
+            nan_aware_max_abs(self.worst_residual, residual / self.initial_relative);
+        self.growth = nan_aware_max(self.growth, (residual - lost) / self.initial_relative);
         // What is no number is above every limit.
         let is_sound = self.worst_residual <= LARGEST_RESIDUAL;
         if self.beyond.is_none() && !is_sound {
-            self.beyond = Some(Moment { time: state.time, step: state.step });
+            self.beyond = Some(StepInstant { time: state.time, step: state.step });
         }
         let drift = (drift + self.since.momentum) / self.momentum_scale;
-        self.worst_momentum = worst(self.worst_momentum, drift);
+        self.worst_momentum = nan_aware_max_abs(self.worst_momentum, drift);
     }
 
     /// Counts the impulses of forces that last for a time (s), those in `scratch` and that of the
@@ -206,7 +210,7 @@ impl Ledger {
         state: &State,
         scratch: &Scratch,
         contact: &ContactForces,
-    ) -> Row {
+    ) -> HistoryRow {
         let (bodies, time_step) = (model.bodies(), state.time_step(model));
         let [lower, upper] = [0, 1].map(|side: usize| {
             balance_body(&bodies[side], time_step, &state.bodies[side], &scratch.forces[side])
@@ -237,14 +241,15 @@ impl Ledger {
             None => energies.residual(self.initial),
         };
         let drift = self.drift(model, lower.momentum + upper.momentum);
-        self.shown = Shown { residual, lost: energies.total(Side::Lost).unwrap_or(0.0), drift };
+        self.shown =
+            Shown { residual, lost: energies.total(BalanceSide::Lost).unwrap_or(0.0), drift };
         self.since.restart();
         self.note(state);
 
         let history = state.contact_history(model);
         let (contact_radius, centre_pressure) =
             model.contact().radius_and_pressure(&motions, history);
-        Row {
+        HistoryRow {
             time: state.time,
             contact_force: contact.force,
             contact_radius: Some(contact_radius),
@@ -258,7 +263,7 @@ impl Ledger {
     }
 
     /// Refuses a row whose energy is not finite or has grown.
-    pub fn check(&self, row: &Row, step: u64) -> Result<(), Grown> {
+    pub fn check(&self, row: &HistoryRow, step: u64) -> Result<(), Grown> {
         self.check_energy(row.residual.unwrap_or(f64::NAN), row.time, step)
     }
 

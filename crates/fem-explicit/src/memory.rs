@@ -1,6 +1,6 @@
 //! All that a run knows beside its model: what a restart needs, and nothing else.
 
-use fem_collision::{Approach, Ending, Expectation, History, Snapshot, Want};
+use fem_collision::{Approach, Ending, Expectation, History, OutputRequest, Snapshot};
 use serde::{Deserialize, Serialize};
 
 use crate::contact_log::ContactLog;
@@ -35,7 +35,7 @@ pub struct Memory {
     /// What closed forms expect.
     pub(crate) expected: Expectation,
     /// What the run was asked for.
-    want: Want,
+    want: OutputRequest,
     /// Of the model that it belongs to, as are the next.
     approach: Approach,
     /// See [`fingerprint`].
@@ -46,7 +46,7 @@ pub struct Memory {
 
 impl Memory {
     /// Of a run that has not begun.
-    pub(crate) fn new(model: &Model, expected: Expectation, want: &Want) -> Self {
+    pub(crate) fn new(model: &Model, expected: Expectation, want: &OutputRequest) -> Self {
         let expected_steps = expected.contact_time / model.time_step();
         let state = State::at_first_touch(model);
         Self {
@@ -90,7 +90,7 @@ impl Memory {
     }
 
     /// What the run was asked for when it began.
-    pub fn want(&self) -> &Want {
+    pub fn want(&self) -> &OutputRequest {
         &self.want
     }
 

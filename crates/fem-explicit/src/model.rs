@@ -6,7 +6,7 @@ use std::any::Any;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use fem_collision::{Approach, BodyInput, Frame, Searched};
+use fem_collision::{Approach, BodyInput, CandidateRegion, Frame};
 use fem_contact::{ContactError, ContactInterface, SlippingInterface, Surface};
 use fem_material::finite::HyperelasticLaw;
 
@@ -193,7 +193,7 @@ impl Model {
     }
 
     /// Where contact is looked for.
-    pub fn searched(&self) -> Searched {
+    pub fn searched(&self) -> CandidateRegion {
         self.contact.searched()
     }
 

@@ -5,7 +5,8 @@
 //! integrals and means are those of these instants, the same for any number of rows that are kept.
 
 use fem_collision::{
-    Account, Aftermath, Cadence, Held, Moment, Pulse, Row, Scatter, Side, Standstill, Want,
+    Account, BalanceSide, ForceNoise, ForcePulse, HistoryRow, OutputRequest, PostContactVibration,
+    RelativeMotion, RestCriterion, SamplingInterval, StepInstant,
 };
 use serde::{Deserialize, Serialize};
 
@@ -19,28 +20,28 @@ const GONE_WITH_WAVES: f64 = 0.95;
 /// What has been observed so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Observed {
-    cadence: Cadence,
+    cadence: SamplingInterval,
     /// Of force, contact radius and pressure.
-    pub pulse: Pulse,
+    pub pulse: ForcePulse,
     /// Scatter of the contact force.
-    pub scatter: Scatter,
+    pub scatter: ForceNoise,
     /// Since the last contact; `None` before the first one.
-    pub aftermath: Option<Aftermath>,
+    pub aftermath: Option<PostContactVibration>,
     /// The last instant.
-    pub last: Option<Row>,
-    standstill: Standstill,
+    pub last: Option<HistoryRow>,
+    standstill: RestCriterion,
 }
 
 impl Observed {
     /// Nothing yet of a contact of so many expected steps.
     pub fn new(model: &Model, expected_steps: f64) -> Self {
         Self {
-            cadence: Cadence::new(Want::ROWS, expected_steps),
-            pulse: Pulse::default(),
-            scatter: Scatter::default(),
+            cadence: SamplingInterval::new(OutputRequest::ROWS, expected_steps),
+            pulse: ForcePulse::default(),
+            scatter: ForceNoise::default(),
             aftermath: None,
             last: None,
-            standstill: Standstill::new(&model.frame()),
+            standstill: RestCriterion::new(&model.frame()),
         }
     }
 
@@ -52,7 +53,7 @@ impl Observed {
     /// Told of every step with a contact force, observed or not: what follows the last one begins
     /// anew.
     pub fn touch(&mut self) {
-        self.aftermath = Some(Aftermath::default());
+        self.aftermath = Some(PostContactVibration::default());
     }
 
     /// Whether the bodies stay together, in the contact of the last instant, so long (s) after first
@@ -63,7 +64,7 @@ impl Observed {
     pub fn stays_together(&mut self, model: &Model, is_closed: bool, time: f64, rate: f64) -> bool {
         let Some(row) = &self.last else { return false };
         let is_stored =
-            |account: Account| account.side() == Side::Held && account != Account::Kinetic;
+            |account: Account| account.side() == BalanceSide::Held && account != Account::Kinetic;
         let stored = row.energies.entries().filter(|(account, _)| is_stored(*account));
         let mut inner_energy: f64 =
             row.vibration.into_iter().chain(stored.map(|(_, energy)| energy)).sum();
@@ -73,16 +74,16 @@ impl Observed {
             }
         }
         let force = row.contact_force;
-        self.standstill.observe(&Held { time, is_closed, force, rate, inner_energy })
+        self.standstill.observe(&RelativeMotion { time, is_closed, force, rate, inner_energy })
     }
 
     /// Takes the balance of an instant, the impulse of the contact so far (N s), its step, and whether the
     /// contact is closed in it.
-    pub fn take(&mut self, row: Row, impulse: f64, step: u64, is_closed: bool) {
+    pub fn take(&mut self, row: HistoryRow, impulse: f64, step: u64, is_closed: bool) {
         self.cadence.count();
         let (radius, pressure) = (row.contact_radius, row.centre_pressure);
         self.pulse.observe(row.time, impulse, radius.unwrap_or(0.0), pressure.unwrap_or(0.0));
-        self.scatter.observe(row.contact_force, Moment { time: row.time, step });
+        self.scatter.observe(row.contact_force, StepInstant { time: row.time, step });
         if let Some(aftermath) = &mut self.aftermath {
             aftermath.observe(is_closed, row.vibration);
         }

@@ -1,7 +1,7 @@
 //! What a run leaves, as a collision.
 
 use fem_collision::{
-    BodyResult, Book, Collision, Ending, History, LARGEST_RESIDUAL, STAY_TOGETHER, Stop,
+    BodyResult, Collision, Ending, EnergyLedger, History, LARGEST_RESIDUAL, STAY_TOGETHER, Stop,
     longest_at_pole,
 };
 use fem_material::Material;
@@ -93,7 +93,7 @@ pub(crate) fn outcome(model: &Model, memory: Memory, ending: Ending) -> Collisio
         noisiest: observed.scatter.noisiest(),
         searched: Some(model.searched()),
         initial_energy: Some(ledger.initial),
-        energies: observed.last.map_or(Book::EMPTY, |row| row.energies),
+        energies: observed.last.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: observed.last.and_then(|row| row.residual),
         residual_relative: Some(of_stake * ledger.worst_residual),
         residual_since: ledger.beyond.filter(|_| !is_sound),

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use std::ops::Range;
 use std::sync::Arc;
 
-use fem_collision::Book;
+use fem_collision::EnergyLedger;
 
 /// A field of pairs (r, y), one a node of a body.
 pub type Field = [[f64; 2]];
@@ -50,9 +50,9 @@ pub struct Motion<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Accounts {
     /// What is stored, or was given since first touch, J.
-    pub energies: Book,
+    pub energies: EnergyLedger,
     /// What goes into an account, W: summed over time from first touch.
-    pub powers: Book,
+    pub powers: EnergyLedger,
 }
 
 /// A body at the end of a step, for a contact that moves some of its nodes itself.

@@ -1,6 +1,6 @@
 //! What probes see of a run: a snapshot of the instants that are observed, reduced to their places.
 
-use fem_collision::{Probes, Snapshot, Want};
+use fem_collision::{OutputRequest, Probes, Snapshot};
 
 use crate::model::Model;
 use crate::snapshot::take;
@@ -15,7 +15,7 @@ pub(crate) struct Probing {
 
 impl Probing {
     /// Finds the places in the meshes of a model.
-    pub fn new(model: &Model, want: &Want) -> Self {
+    pub fn new(model: &Model, want: &OutputRequest) -> Self {
         let meshes = model.bodies().each_ref().map(|body| body.mesh());
         Self { probes: Probes::new(meshes, &want.probes), all: Snapshot::default() }
     }
@@ -39,7 +39,7 @@ impl Probing {
 }
 
 /// Whether this can have been seen until then (s) by what is asked for.
-pub(crate) fn fits(seen: &[Snapshot], want: &Want, time: f64) -> bool {
+pub(crate) fn fits(seen: &[Snapshot], want: &OutputRequest, time: f64) -> bool {
     let n = want.probes.len();
     let is_of_all = |one: &Snapshot| {
         one.bodies.iter().all(|fields| {

@@ -8,7 +8,8 @@
 //! an even spacing that doubles whenever there are too many.
 
 use fem_collision::{
-    Expectation, Label, Snapshot, SnapshotRequest, Want, did_not_occur, evenly, fewer_than_asked,
+    Expectation, OutputRequest, Snapshot, SnapshotInstant, SnapshotRequest, did_not_occur, evenly,
+    fewer_than_asked,
 };
 use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
@@ -92,7 +93,7 @@ impl Recorder {
     /// Keeps the state at t_n if it may be asked for.
     pub fn observe(&mut self, model: &Model, state: &State, scratch: &mut Scratch, now: Instant) {
         let Scratch { forces, pool, .. } = scratch;
-        let copy = |recycled: Option<Snapshot>, label: Option<Label>| {
+        let copy = |recycled: Option<Snapshot>, label: Option<SnapshotInstant>| {
             let mut snapshot = recycled.unwrap_or_default();
             take(&mut snapshot, model, state, forces, now.approach, label);
             snapshot
@@ -100,7 +101,7 @@ impl Recorder {
         let wants_last = match &self.request {
             // Bodies that stay together have none.
             SnapshotRequest::Labels(labels) => {
-                labels.contains(&Label::LastContact) && !now.stays_together
+                labels.contains(&SnapshotInstant::LastContact) && !now.stays_together
             }
             SnapshotRequest::Count(_) => true,
             SnapshotRequest::Times(_) => false,
@@ -110,17 +111,17 @@ impl Recorder {
             pool.extend(self.last_contact.take());
         }
         if now.is_last_contact && wants_last {
-            self.last_contact = Some(copy(pool.pop(), Some(Label::LastContact)));
+            self.last_contact = Some(copy(pool.pop(), Some(SnapshotInstant::LastContact)));
         }
         match &self.request {
             SnapshotRequest::Labels(labels) => match self.max_approach {
                 None if now.is_closed && (now.approach_rate <= 0.0 || now.stays_together) => {
                     self.max_approach = Some(now.approach);
-                    if labels.contains(&Label::Maximum) {
-                        self.maximum = Some(copy(None, Some(Label::Maximum)));
+                    if labels.contains(&SnapshotInstant::Maximum) {
+                        self.maximum = Some(copy(None, Some(SnapshotInstant::Maximum)));
                     }
                 }
-                None if labels.contains(&Label::MidCompression)
+                None if labels.contains(&SnapshotInstant::MidCompression)
                     && now.approach >= self.next_rung =>
                 {
                     self.next_rung = RUNG_RATIO * now.approach;
@@ -130,16 +131,16 @@ impl Recorder {
                     pool.extend(self.kept.drain(..n_dropped));
                     let is_slowed = now.approach_rate <= UNSLOWED * model.approach().speed();
                     if is_slowed || now.approach >= SURE_SHARE * self.expected_approach {
-                        let snapshot = copy(pool.pop(), Some(Label::MidCompression));
+                        let snapshot = copy(pool.pop(), Some(SnapshotInstant::MidCompression));
                         self.kept.push(snapshot);
                     }
                 }
                 Some(max_approach)
                     if self.mid_separation.is_none()
                         && now.approach <= 0.5 * max_approach
-                        && labels.contains(&Label::MidSeparation) =>
+                        && labels.contains(&SnapshotInstant::MidSeparation) =>
                 {
-                    self.mid_separation = Some(copy(None, Some(Label::MidSeparation)));
+                    self.mid_separation = Some(copy(None, Some(SnapshotInstant::MidSeparation)));
                 }
                 _ => {}
             },
@@ -211,7 +212,7 @@ impl Recorder {
                 });
                 let mut found = Vec::new();
                 let all = [mid_compression, self.maximum, self.mid_separation, self.last_contact];
-                for (label, snapshot) in Label::ALL.into_iter().zip(all) {
+                for (label, snapshot) in SnapshotInstant::ALL.into_iter().zip(all) {
                     if !labels.contains(&label) {
                         continue;
                     }
@@ -270,7 +271,7 @@ fn nearest_to_even(mut kept: Vec<Snapshot>, last: Option<Snapshot>, n: usize) ->
         if is_before { before } else { after }
     };
     // So many choose every state there is.
-    let times = evenly(n.min(Want::MOST_SNAPSHOTS), start, length);
+    let times = evenly(n.min(OutputRequest::MOST_SNAPSHOTS), start, length);
     let mut is_chosen = vec![false; kept.len()];
     times.into_iter().for_each(|time| is_chosen[nearest(time)] = true);
     let mut chosen = is_chosen.into_iter();

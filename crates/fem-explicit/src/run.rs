@@ -3,8 +3,8 @@
 use std::ops::Deref;
 
 use fem_collision::{
-    Collision, Ending, Expectation, FLIGHT_AFTER, Monitor, Phase, Progress, RowKind,
-    STEPS_BETWEEN_REPORTS, Stop, Want,
+    Collision, Ending, Expectation, FLIGHT_AFTER, Monitor, OutputRequest, Phase, Progress, RowKind,
+    STEPS_BETWEEN_REPORTS, Stop,
 };
 
 use crate::contact_work::held_by;
@@ -25,7 +25,7 @@ use crate::step::{Fault, advance, is_closed_next, update_forces, update_step};
 pub fn collide(
     model: &Model,
     expected: Expectation,
-    want: &Want,
+    want: &OutputRequest,
     monitor: &mut dyn Monitor,
 ) -> Collision {
     monitor.enter(Phase::Collision);
@@ -39,7 +39,7 @@ pub fn collide(
 /// It borrows its model or shares it: `M` is `&Model` or `Arc<Model>`.
 ///
 /// ```
-/// use fem_collision::{Approach, BodyInput, Ending, Expectation, Want};
+/// use fem_collision::{Approach, BodyInput, Ending, Expectation, OutputRequest};
 /// use fem_explicit::{Model, Run, Settings};
 /// # use fem_material::{ElasticModuli, Material};
 /// # use fem_mesh::{HalfDisc, Side};
@@ -63,7 +63,7 @@ pub fn collide(
 /// let bodies = [BodyInput::Sphere { mesh, material }, BodyInput::Wall];
 /// let model = Model::new(bodies, Approach::at(0.5)?, &settings)?;
 /// let expected = Expectation { contact_time: 80e-6, approach: 20e-6 };
-/// let mut run = Run::new(&model, expected, &Want::quantities());
+/// let mut run = Run::new(&model, expected, &OutputRequest::quantities());
 /// assert_eq!(run.advance(100), None);
 /// // Stopped here, and gone on from what it knew, perhaps in another process.
 /// let memory = run.memory().clone();
@@ -85,7 +85,7 @@ pub struct Run<M> {
 
 impl<M: Deref<Target = Model>> Run<M> {
     /// A run at first touch.
-    pub fn new(model: M, expected: Expectation, want: &Want) -> Self {
+    pub fn new(model: M, expected: Expectation, want: &OutputRequest) -> Self {
         let (memory, scratch) = (Memory::new(&model, expected, want), Scratch::new(&model));
         let probing = Probing::new(&model, want);
         Self { model, memory, scratch, probing }

@@ -1,6 +1,6 @@
 //! Snapshots of the explicit model's state.
 
-use fem_collision::{BodyFields, ContactPlace, Label, Snapshot, SnapshotRequest};
+use fem_collision::{BodyFields, ContactProfilePoint, Snapshot, SnapshotInstant, SnapshotRequest};
 
 use crate::model::Model;
 use crate::motion::advance_motion;
@@ -30,7 +30,7 @@ pub(crate) fn take(
     state: &State,
     forces: &[NodalField; 2],
     approach: f64,
-    label: Option<Label>,
+    label: Option<SnapshotInstant>,
 ) {
     let time_step = state.time_step(model);
     snapshot.label = label;
@@ -59,7 +59,7 @@ pub(crate) fn take(
     let profile = profile.closed();
     snapshot.contact.radius = profile.contact_radius;
     snapshot.contact.places.clear();
-    snapshot.contact.places.extend(profile.points.iter().map(|point| ContactPlace {
+    snapshot.contact.places.extend(profile.points.iter().map(|point| ContactProfilePoint {
         is_node: point.is_node,
         radius: point.radius,
         pressure: point.pressure,

@@ -1,6 +1,6 @@
 //! The last sound state of a run, for a run that fails: what it shows is where that began.
 
-use fem_collision::{Label, Snapshot, SnapshotRequest, Want};
+use fem_collision::{OutputRequest, Snapshot, SnapshotInstant, SnapshotRequest};
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
@@ -21,7 +21,7 @@ pub(crate) struct LastSound {
 
 impl LastSound {
     /// Of a run that is asked for fields, or for none.
-    pub fn of(want: &Want) -> Self {
+    pub fn of(want: &OutputRequest) -> Self {
         Self { is_wanted: is_wanted(want), ..Self::default() }
     }
 
@@ -37,7 +37,14 @@ impl LastSound {
     pub fn keep(&mut self, model: &Model, state: &State, scratch: &Scratch, approach: f64) {
         if self.is_wanted {
             let snapshot = self.kept.get_or_insert_default();
-            take(snapshot, model, state, &scratch.forces, approach, Some(Label::LastSound));
+            take(
+                snapshot,
+                model,
+                state,
+                &scratch.forces,
+                approach,
+                Some(SnapshotInstant::LastSound),
+            );
         }
     }
 
@@ -57,12 +64,12 @@ impl LastSound {
     }
 
     /// Whether it can be of a run of this model at this state that is asked for this.
-    pub fn fits(&self, model: &Model, state: &State, want: &Want) -> bool {
+    pub fn fits(&self, model: &Model, state: &State, want: &OutputRequest) -> bool {
         let is_sound = |kept: &Snapshot| fits(kept, model) && kept.time <= state.time;
         self.is_wanted == is_wanted(want) && self.kept.as_ref().is_none_or(is_sound)
     }
 }
 
-fn is_wanted(want: &Want) -> bool {
+fn is_wanted(want: &OutputRequest) -> bool {
     want.snapshots != SnapshotRequest::none()
 }

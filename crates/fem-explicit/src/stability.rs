@@ -4,7 +4,7 @@
 //! step follows the band to where the run has no end. Where elements come through it locally neither is so: then it is a
 //! warning, else it is why the run ends.
 
-use fem_collision::{Moment, Stop};
+use fem_collision::{StepInstant, Stop};
 use serde::{Deserialize, Serialize};
 
 use crate::model::Model;
@@ -21,7 +21,7 @@ const STALLED: f64 = 0.1;
 /// The first element of a run that was seen without stability.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Lost {
-    moment: Moment,
+    moment: StepInstant,
     body: usize,
     element: usize,
     /// Its centre (r, y) before the collision, m.
@@ -85,7 +85,8 @@ impl Stability {
 
 impl Lost {
     fn stop(&self) -> Stop {
-        let Self { moment: Moment { time, step }, body, element, place, stretches, .. } = *self;
+        let Self { moment: StepInstant { time, step }, body, element, place, stretches, .. } =
+            *self;
         Stop::StabilityLost { time, step, body, element, place, stretches, law: self.law.clone() }
     }
 }
@@ -105,7 +106,7 @@ fn look(model: &Model, state: &State) -> Option<Lost> {
         let Unstable { element, stretches, law } =
             stress.part.unstable_element(&state_of_body.displacement, history)?;
         let place = model.centre(body, element);
-        let moment = Moment { time: state.time, step: state.step };
+        let moment = StepInstant { time: state.time, step: state.step };
         Some(Lost { moment, body, element, place, stretches, law: law.to_string() })
     };
     [0, 1].into_iter().find_map(of)

@@ -7,7 +7,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use common::Pair;
-use fem_collision::{Label, SnapshotRequest};
+use fem_collision::{SnapshotInstant, SnapshotRequest};
 use fem_explicit::collide;
 use fem_material::ActsOn;
 use fem_material::finite::HyperelasticLaw;
@@ -51,7 +51,7 @@ fn the_number_of_allocations_does_not_depend_on_the_number_of_steps() {
             (SnapshotRequest::Times(Vec::new()), 0),
             (SnapshotRequest::Count(4), 8 * 4 + 2),
             // The ladder's rungs, and the three states after them.
-            (SnapshotRequest::Labels(Label::ALL.to_vec()), 26 + 3),
+            (SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()), 26 + 3),
         ] {
             let pair = Pair { snapshots, ..pair.clone() };
             let (n, steps) = count(&pair);

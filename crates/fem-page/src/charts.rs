@@ -1,6 +1,6 @@
 //! Charts of a collision over time, as pictures that a page restyles by their classes.
 
-use fem::{Account, Row};
+use fem::{Account, HistoryRow};
 use fem_case::engineering::Unit;
 use fem_figure::{Axis, Chart, Curve, Mark};
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub struct Charts {
 impl Charts {
     /// Draws a run beside Hertz' theory of the same bodies; `common` is the energy (J) of their common
     /// motion, if it is known, which is not drawn.
-    pub(crate) fn of(run: &[Row], hertz: &[Row], common: Option<f64>) -> Self {
+    pub(crate) fn of(run: &[HistoryRow], hertz: &[HistoryRow], common: Option<f64>) -> Self {
         Self {
             force: compared(run, hertz, ("contact force", "N"), |row| row.contact_force),
             approach: compared(run, hertz, ("approach", "m"), |row| row.approach),
@@ -38,7 +38,7 @@ fn unit(numbers: impl Iterator<Item = f64>, symbol: &str) -> Unit {
     Unit::fitting(numbers.fold(0.0, |largest: f64, number| largest.max(number.abs())), symbol)
 }
 
-fn time_unit(rows: &[Row]) -> Unit {
+fn time_unit(rows: &[HistoryRow]) -> Unit {
     unit(rows.iter().map(|row| row.time), "s")
 }
 
@@ -47,13 +47,13 @@ fn axis(name: &str, unit: &Unit) -> Axis {
 }
 
 fn compared(
-    run: &[Row],
-    hertz: &[Row],
+    run: &[HistoryRow],
+    hertz: &[HistoryRow],
     (name, symbol): (&str, &str),
-    get: impl Fn(&Row) -> f64,
+    get: impl Fn(&HistoryRow) -> f64,
 ) -> Option<String> {
     let (time, own) = (time_unit(run), unit(run.iter().map(&get), symbol));
-    let points = |rows: &[Row]| {
+    let points = |rows: &[HistoryRow]| {
         rows.iter().map(|row| (time.scaled(row.time), own.scaled(get(row)))).collect()
     };
     let chart = Chart::new(axis("time", &time), axis(name, &own))
@@ -69,7 +69,7 @@ struct EnergyCurve {
     energies: Vec<Option<f64>>,
 }
 
-fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
+fn energy(run: &[HistoryRow], common: Option<f64>) -> Option<String> {
     let courses = courses(run, common);
     let all = || courses.iter().flat_map(|course| course.energies.iter().flatten().copied());
     let largest = all().fold(0.0, |largest: f64, energy| largest.max(energy.abs()));
@@ -79,7 +79,7 @@ fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
         course.energies.iter().flatten().any(|energy| energy.abs() > LEAST * largest)
     };
     for course in courses.iter().filter(is_seen) {
-        let point = |(row, energy): (&Row, &Option<f64>)| {
+        let point = |(row, energy): (&HistoryRow, &Option<f64>)| {
             Some((time.scaled(row.time), own.scaled((*energy)?)))
         };
         let points = run.iter().zip(&course.energies).filter_map(point).collect();
@@ -90,9 +90,10 @@ fn energy(run: &[Row], common: Option<f64>) -> Option<String> {
 
 /// Returns the relative motion and the other accounts; deformation and heat are one curve if the model does
 /// not distinguish them during the contact.
-fn courses(run: &[Row], common: Option<f64>) -> Vec<EnergyCurve> {
-    let motion = |row: &Row| Some(row.energy(Account::Kinetic)? - common.unwrap_or_default());
-    let named = |name: &str, colour: usize, get: &dyn Fn(&Row) -> Option<f64>| EnergyCurve {
+fn courses(run: &[HistoryRow], common: Option<f64>) -> Vec<EnergyCurve> {
+    let motion =
+        |row: &HistoryRow| Some(row.energy(Account::Kinetic)? - common.unwrap_or_default());
+    let named = |name: &str, colour: usize, get: &dyn Fn(&HistoryRow) -> Option<f64>| EnergyCurve {
         name: name.to_string(),
         colour,
         energies: run.iter().map(get).collect(),
@@ -110,7 +111,7 @@ fn courses(run: &[Row], common: Option<f64>) -> Vec<EnergyCurve> {
         }
     }
     if let (false, Some(whole)) = (is_split, run.first().and_then(motion)) {
-        let rest = |row: &Row| {
+        let rest = |row: &HistoryRow| {
             let known = row.energies.entries().filter(|(account, _)| !is_apart(*account));
             let known = known.filter(|(account, _)| *account != Account::Kinetic);
             Some(whole - motion(row)? - known.map(|(_, energy)| energy).sum::<f64>())

@@ -1,6 +1,6 @@
 //! What the page receives before and after a run.
 
-use fem::{CaseFile, Collision, Cost, Row, Summary};
+use fem::{CaseFile, Collision, Cost, HistoryRow, Summary};
 use serde::Serialize;
 
 use crate::charts::Charts;
@@ -83,7 +83,7 @@ impl FrameInfo {
 }
 
 /// Interpolates the contact force (N) linearly at a time (s); `None` beyond the rows.
-fn force_at(rows: &[Row], time: f64) -> Option<f64> {
+fn force_at(rows: &[HistoryRow], time: f64) -> Option<f64> {
     let next = rows.partition_point(|row| row.time < time);
     let after = rows.get(next)?;
     let before = rows.get(next.saturating_sub(1))?;

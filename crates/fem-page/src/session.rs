@@ -6,8 +6,8 @@ use std::sync::Arc;
 use fem::results::Spent;
 use fem::schema::ModelTable;
 use fem::{
-    Case, CaseError, Collision, Course, PairCache, Row, Shared, Simulation, SnapshotRequest,
-    Summary, Want, WantError,
+    Case, CaseError, Collision, Course, HistoryRow, OutputRequest, OutputRequestError, PairCache,
+    Shared, Simulation, SnapshotRequest, Summary,
 };
 
 use crate::charts::Charts;
@@ -71,8 +71,8 @@ impl Session {
         let case = within_memory(Case::parse(SOURCE, text, Path::new("."), &[])?)?;
         let mut simulation = Simulation::sharing(case, &self.shared)?;
         let snapshots = SnapshotRequest::Count(ask.frames);
-        let want = Want { history_rows: ask.rows, snapshots, ..simulation.want().clone() };
-        let too_much = |error: WantError| CaseError::new(SOURCE, error.to_string());
+        let want = OutputRequest { history_rows: ask.rows, snapshots, ..simulation.want().clone() };
+        let too_much = |error: OutputRequestError| CaseError::new(SOURCE, error.to_string());
         simulation.ask_for(want).map_err(too_much)?;
         let setup = simulation.setup();
         let begun = RunStart {
@@ -117,10 +117,12 @@ impl Session {
 
     /// Returns the history of the same bodies with Hertz' theory, as long as the run; `None` if it cannot
     /// be computed.
-    fn hertz(&self, simulation: &Simulation, collision: &Collision) -> Option<Vec<Row>> {
+    fn hertz(&self, simulation: &Simulation, collision: &Collision) -> Option<Vec<HistoryRow>> {
         let case = simulation.case().edited(|file| file.model = Some(ModelTable::hertz())).ok()?;
         let mut hertz = Simulation::sharing(case, &self.shared).ok()?;
-        hertz.ask_for(Want { history_rows: self.ask?.rows, ..Want::history() }).ok()?;
+        hertz
+            .ask_for(OutputRequest { history_rows: self.ask?.rows, ..OutputRequest::history() })
+            .ok()?;
         let mut rows = hertz.run(&mut ()).history;
         let end = collision.history.last()?.time;
         rows.retain(|row| row.time <= end);

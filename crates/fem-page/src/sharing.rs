@@ -11,7 +11,7 @@
 //! (König's theorem). Of the relative part, e² is returned as rebound. If a body of infinite mass is at rest, the
 //! whole motion is relative to it. Energies of the bodies are those of the summary.
 
-use fem::{Account, Collision, Row};
+use fem::{Account, Collision, HistoryRow};
 use serde::Serialize;
 
 /// The shares of the energy at the end.
@@ -87,7 +87,7 @@ const SMALLEST: f64 = 1e-9;
 /// Returns the energy of the common motion in every row of a history, J; `None` if it changes or is not
 /// known.
 pub(crate) fn common_of(collision: &Collision) -> Option<f64> {
-    let row: &Row = collision.history.first()?;
+    let row: &HistoryRow = collision.history.first()?;
     if row.energy(Account::Potential).is_some() {
         return None;
     }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use fem::accuracy::condensed_companion_time;
 use fem::{Cost, Following, MostFiner, Simulation};
 use fem_case::engineering::show;
-use fem_collision::{Monitor, Phase, Progress, Want};
+use fem_collision::{Monitor, OutputRequest, Phase, Progress};
 
 /// Steps are timed for at least this long, ...
 const PATIENCE: Duration = Duration::from_millis(1);
@@ -177,7 +177,7 @@ fn of_condensed(simulation: &Simulation, making: f64) -> f64 {
     let begin = Instant::now();
     let mut patient = Patient { begin, before: 0.0, seen: (0.0, 0.0), is_over: false };
     let approach = &simulation.setup().approach;
-    let _ = simulation.model().collide(approach, &Want::history(), &mut patient);
+    let _ = simulation.model().collide(approach, &OutputRequest::history(), &mut patient);
     if !patient.is_over {
         patient.seen = (begin.elapsed().as_secs_f64(), 1.0);
     }

@@ -6,7 +6,7 @@
 #![allow(clippy::disallowed_macros, reason = "an example prints what it found")]
 
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, TermTable};
-use fem::{Account, Case, CaseError, CaseFile, Row, Simulation};
+use fem::{Account, Case, CaseError, CaseFile, HistoryRow, Simulation};
 
 fn main() -> Result<(), CaseError> {
     // The moduli are those that a sudden strain meets. They relax alike, G(t) = G0 exp(-t / 369 µs),
@@ -44,7 +44,7 @@ fn main() -> Result<(), CaseError> {
 
 /// The accounts that a model keeps: half-spaces know no energy of strain. `contact` is what springs
 /// between the surfaces hold.
-fn print_energies(row: &Row) {
+fn print_energies(row: &HistoryRow) {
     print!("  at {:5.2} µs, approach {:5.2} µm:", 1e6 * row.time, 1e6 * row.approach);
     for account in
         [Account::Kinetic, Account::Strain, Account::Contact, Account::ViscousDissipation]

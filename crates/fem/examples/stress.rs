@@ -6,7 +6,7 @@
 #![allow(clippy::disallowed_macros, reason = "an example prints what it found")]
 
 use fem::schema::{BodyTable, MaterialTable, MeshTable, ModelTable};
-use fem::{Case, CaseError, CaseFile, Label, Simulation};
+use fem::{Case, CaseError, CaseFile, Simulation, SnapshotInstant};
 
 fn main() -> Result<(), CaseError> {
     let steel = MaterialTable::from_youngs_modulus_poissons_ratio("7850 kg/m^3", "210 GPa", 0.3);
@@ -28,7 +28,7 @@ fn main() -> Result<(), CaseError> {
     );
 
     // A case asks for this instant unless it names others.
-    let snapshot = collision.snapshot(Label::Maximum).expect("the fields at the maximum");
+    let snapshot = collision.snapshot(SnapshotInstant::Maximum).expect("the fields at the maximum");
     let lower = simulation.stress(snapshot, 0).expect("a body with elements");
     println!("   depth / radius  compression / peak pressure  shear / peak pressure");
     let mut hardest = (0.0, 0.0);

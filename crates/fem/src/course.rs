@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use fem_collision::{Approach, Collision, Monitor, Progress, Stop, Want};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, Progress, Stop};
 
 use crate::memory::Memory;
 use crate::method::Model;
@@ -28,7 +28,11 @@ pub trait Course {
 }
 
 /// Begins a collision by a model: one that steps goes on in steps, another one in one go.
-pub(crate) fn begun(model: &Arc<dyn Model>, approach: &Approach, want: &Want) -> Box<dyn Course> {
+pub(crate) fn begun(
+    model: &Arc<dyn Model>,
+    approach: &Approach,
+    want: &OutputRequest,
+) -> Box<dyn Course> {
     model.start(approach, want).unwrap_or_else(|| {
         let (model, approach, want) = (model.clone(), *approach, want.clone());
         let collide = move |monitor: &mut dyn Monitor| model.collide(&approach, &want, monitor);

@@ -2,10 +2,10 @@
 //!
 //! Ting's model knows it of bodies that relax, within 2 %: a contact that relaxes lasts several times as
 //! long as closed forms tell, and bodies of which nothing is left creep into each other until the same
-//! [`Standstill`] that ends a run says that they stay.
+//! [`RestCriterion`] that ends a run says that they stay.
 
 use fem_case::Scene;
-use fem_collision::{Approach, FLIGHT_AFTER, Held, Standstill};
+use fem_collision::{Approach, FLIGHT_AFTER, RelativeMotion, RestCriterion};
 use fem_laws::Impact;
 
 use crate::approach::frame_of;
@@ -45,10 +45,10 @@ fn standstill(
     impact: &Impact,
 ) -> Option<f64> {
     let frame = frame_of(scene, approach, estimate.hertz.pair().effective_mass());
-    let mut standstill = Standstill::new(&frame);
+    let mut standstill = RestCriterion::new(&frame);
     let mut ends = impact.history.iter().filter(|now| now.time > 0.0);
     let end = ends.find(|now| {
-        standstill.observe(&Held {
+        standstill.observe(&RelativeMotion {
             time: now.time,
             is_closed: true,
             force: now.force,

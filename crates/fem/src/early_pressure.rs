@@ -6,7 +6,7 @@
 //! Ting's model tells what is missing. The mesh is made finer for it as for other errors, unless it would have to be
 //! many times finer.
 
-use fem_collision::{Collision, Headline, RESOLVING_ELEMENTS, longest_at_pole};
+use fem_collision::{Collision, QuantityOfInterest, RESOLVING_ELEMENTS, longest_at_pole};
 use fem_material::engineering::{Unit, show};
 
 use crate::effects::percent;
@@ -66,7 +66,7 @@ impl EarlyPressure {
     pub fn warning(simulation: &Simulation, collision: &Collision) -> Option<String> {
         let early = Self::of(simulation, collision).filter(Self::is_beyond_reach)?;
         let told = collision.peak_pressure?;
-        let doubt = simulation.discretisation(collision).size(Headline::PeakPressure)?;
+        let doubt = simulation.discretisation(collision).size(QuantityOfInterest::PeakPressure)?;
         let is_off = doubt / told > simulation.case().scene().accuracy().peak_pressure;
         is_off.then(|| {
             format!(

@@ -26,7 +26,7 @@
 //! through zero: k = n + 0.35 with springs at points between nodes.
 
 use fem_case::{Accuracy, CondensedOptions, ModelChoice, Scene};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 use crate::effects::FiniteStrain;
 use crate::estimate::Estimate;
@@ -78,7 +78,7 @@ pub(crate) struct Fineness {
     /// The tolerance that these serve, where that of the case is out of reach.
     pub reached: Option<f64>,
     /// The quantity that asks for most, and its tolerance.
-    pub asked_by: (Headline, f64),
+    pub asked_by: (QuantityOfInterest, f64),
 }
 
 impl Fineness {
@@ -136,16 +136,16 @@ fn of_waves(mach: f64) -> f64 {
 }
 
 /// The tolerance of the peak force at which all tolerances are met.
-fn tolerance(accuracy: &Accuracy, bounds: &[f64; 4]) -> (f64, (Headline, f64)) {
+fn tolerance(accuracy: &Accuracy, bounds: &[f64; 4]) -> (f64, (QuantityOfInterest, f64)) {
     let Accuracy { restitution, contact_time, peak_force, peak_pressure } = *accuracy;
     let all = [
-        (Headline::PeakForce, peak_force),
-        (Headline::ContactTime, contact_time),
-        (Headline::Restitution, restitution),
-        (Headline::PeakPressure, peak_pressure),
+        (QuantityOfInterest::PeakForce, peak_force),
+        (QuantityOfInterest::ContactTime, contact_time),
+        (QuantityOfInterest::Restitution, restitution),
+        (QuantityOfInterest::PeakPressure, peak_pressure),
     ];
     let all = all.into_iter().zip(bounds).map(|(asked, bound)| (asked.1 / bound, asked));
-    all.fold((f64::INFINITY, (Headline::PeakForce, peak_force)), |least, one| {
+    all.fold((f64::INFINITY, (QuantityOfInterest::PeakForce, peak_force)), |least, one| {
         if one.0 < least.0 { one } else { least }
     })
 }

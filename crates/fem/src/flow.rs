@@ -9,7 +9,7 @@
 use std::rc::Rc;
 
 use fem_case::Scene;
-use fem_collision::{Approach, FLIGHT_AFTER, Want};
+use fem_collision::{Approach, FLIGHT_AFTER, OutputRequest};
 use fem_laws::{Impact, LawError, StaticHertz};
 
 use crate::approach::approach_of;
@@ -90,11 +90,11 @@ fn flows(scene: &Scene, estimate: &Estimate) -> bool {
 /// So many times the elastic contact time a run of finite elements goes on before it gives up.
 pub(crate) fn give_up_after(scene: &Scene, estimate: &Estimate) -> f64 {
     if !relaxes(scene, estimate) {
-        return Want::GIVE_UP_AFTER;
+        return OutputRequest::GIVE_UP_AFTER;
     }
     let duration = approach_of(scene).map(|met| expected_duration(scene, estimate, &met));
     let contact_times = duration.unwrap_or(0.0) / estimate.hertz.contact_time();
-    Want::GIVE_UP_AFTER.max(PATIENCE * contact_times)
+    OutputRequest::GIVE_UP_AFTER.max(PATIENCE * contact_times)
 }
 
 /// Times of a contact over those of the elastic bodies.

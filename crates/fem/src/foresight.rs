@@ -7,7 +7,7 @@
 
 use std::sync::PoisonError;
 
-use fem_collision::{Headline, Want};
+use fem_collision::{OutputRequest, QuantityOfInterest};
 
 use crate::accuracy::{ByCoarser, ORDER, companion_updates, foretold_lengthening, lengthening};
 use crate::effects::FiniteStrain;
@@ -34,7 +34,7 @@ pub struct Following {
 }
 
 /// What meshes are told to be off by falls with these powers of the length of their elements, in the order of
-/// [`Headline::ALL`], where one of them is known: of contact time and force, which swing with the place of the contact's
+/// [`QuantityOfInterest::ALL`], where one of them is known: of contact time and force, which swing with the place of the contact's
 /// edge, slower than by their order. Of 30 soft scenes six of 15 needed a second finer mesh for them.
 const FALL: [f64; 6] = [1.25, 1.25, 1.25, 1.25, 1.25, ORDER];
 /// Element updates of a coarser mesh that tells how long a run takes, where its companions would take much more.
@@ -57,13 +57,16 @@ enum Told {
 impl Told {
     /// None of a collision that does not come to its end; with what it takes more than is announced.
     fn by_trial(simulation: &Simulation) -> Option<(Self, f64)> {
-        let want = Want { history_rows: simulation.want().history_rows, ..Want::quantities() };
+        let want = OutputRequest {
+            history_rows: simulation.want().history_rows,
+            ..OutputRequest::quantities()
+        };
         let collision = simulation.model().collide(&simulation.setup().approach, &want, &mut ());
         simulation.count_companion(&collision);
         let doubt = simulation.discretisation(&collision);
-        let errors = Headline::ALL
+        let errors = QuantityOfInterest::ALL
             .map(|headline| Some(doubt.size(headline)? / headline.scale(headline.of(&collision)?)));
-        errors[Headline::PeakForce as usize]?;
+        errors[QuantityOfInterest::PeakForce as usize]?;
         let size = simulation.setup().elements.as_ref()?.plan.contact_element_size;
         Some((Self::Trial { size, errors }, lengthening(simulation, &collision)?))
     }

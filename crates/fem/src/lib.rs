@@ -93,10 +93,11 @@ pub use fem_case::{
     Body, Case, CaseError, CaseFile, ModelChoice, Quantity, Scene, Shape, library, schema,
 };
 pub use fem_collision::{
-    Account, Approach, ApproachError, BodyFields, BodyResult, Book, Bounce, Collision,
-    ContactPlace, ContactProfile, Ending, Expectation, Headline, Label, Monitor, Phase, Progress,
-    Rest, Row, Searched, Shown, Side, Snapshot, SnapshotRequest, StaticContact, Stop, StressField,
-    Want, WantError, invariants,
+    Account, Approach, ApproachError, BalanceSide, BodyFields, BodyResult, Bounce, CandidateRegion,
+    Collision, ContactProfile, ContactProfilePoint, Ending, EnergyLedger, Expectation, HistoryRow,
+    Monitor, OutputRequest, OutputRequestError, Phase, Progress, QuantityOfInterest, RestState,
+    ShownIn, Snapshot, SnapshotInstant, SnapshotRequest, StaticContact, Stop, StressField,
+    invariants,
 };
 pub use fem_condensed::CondensedPair;
 pub use fem_explicit::{Model as ExplicitBodies, ModelError};

@@ -7,7 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use fem_case::{CaseFile, Scene};
-use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
 use fem_mesh::SphereMesh;
 
 use crate::course::Course;
@@ -75,13 +75,18 @@ pub trait Model: fmt::Debug + Send + Sync {
     fn has(&self, effect: &dyn Effect, estimate: &Estimate) -> Option<Answer>;
 
     /// Computes a collision of the scene's bodies, as far as it gets; one that asks for what no run
-    /// keeps ([`Want::check`]) does not begin. Where the contact outgrows the region in which it is
+    /// keeps ([`OutputRequest::check`]) does not begin. Where the contact outgrows the region in which it is
     /// looked for, the collision is computed again with a larger one.
-    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision;
+    fn collide(
+        &self,
+        approach: &Approach,
+        want: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision;
 
     /// Begins a collision that goes on in steps, as far as whoever has the course lets it go; `None` of
     /// a model that computes all in one go.
-    fn start(&self, _: &Approach, _: &Want) -> Option<Box<dyn Course>> {
+    fn start(&self, _: &Approach, _: &OutputRequest) -> Option<Box<dyn Course>> {
         None
     }
 
@@ -115,7 +120,7 @@ pub struct Setup {
     /// How the scene's bodies meet.
     pub approach: Approach,
     /// What a run of the scene is asked for.
-    pub want: Want,
+    pub want: OutputRequest,
     /// What closed forms say.
     pub estimate: Estimate,
     /// Which effects are on, and why.

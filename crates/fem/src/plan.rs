@@ -8,7 +8,8 @@ use fem_case::{
     Body, Case, CaseError, CaseFile, ContactMethod, ModelChoice, Quantity, Scene, Shape, Snapshots,
 };
 use fem_collision::{
-    Headline, Label, SnapshotRequest, Want, far_radius_at_rest, far_radius_of_waves,
+    OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest, far_radius_at_rest,
+    far_radius_of_waves,
 };
 
 use crate::contact_method::contact_method;
@@ -52,7 +53,7 @@ pub struct Plan {
     /// The body with the smaller elements, where the meshes are staggered about that length.
     pub finer_body: Option<usize>,
     /// The quantity whose tolerance asks for most of the mesh and the mass that is moved, and that tolerance.
-    pub asked_by: (Headline, f64),
+    pub asked_by: (QuantityOfInterest, f64),
     /// Half-width of the fine block, m.
     pub refined_radius: f64,
     /// Ratio of the radii of successive rings; `None` for square cells.
@@ -211,12 +212,12 @@ impl Plan {
     }
 
     /// What a run is asked for.
-    pub fn want(&self) -> Want {
-        Want {
+    pub fn want(&self) -> OutputRequest {
+        OutputRequest {
             snapshots: self.snapshots.clone(),
             most_element_updates: self.max_element_updates,
             give_up_after: self.give_up_after,
-            ..Want::history()
+            ..OutputRequest::history()
         }
     }
 
@@ -241,8 +242,8 @@ impl Plan {
         let OutputTable { snapshots: given, fields, probe, report } =
             file.output.take().unwrap_or_default();
         let labels = || {
-            let text = |label: Label| Quantity::from_text(label.name());
-            SnapshotsValue::List(Label::ALL.into_iter().map(text).collect())
+            let text = |label: SnapshotInstant| Quantity::from_text(label.name());
+            SnapshotsValue::List(SnapshotInstant::ALL.into_iter().map(text).collect())
         };
         let snapshots = Some(given.unwrap_or_else(labels));
         file.output = Some(OutputTable { snapshots, fields, probe, report });
@@ -304,11 +305,13 @@ fn far_radius(
 
 fn request(snapshots: Option<&Snapshots>) -> SnapshotRequest {
     match snapshots {
-        None => SnapshotRequest::Labels(Label::ALL.to_vec()),
+        None => SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()),
         Some(Snapshots::Labels(labels)) => SnapshotRequest::Labels(
             labels
                 .iter()
-                .filter_map(|word| Label::ALL.into_iter().find(|label| label.name() == word.word()))
+                .filter_map(|word| {
+                    SnapshotInstant::ALL.into_iter().find(|label| label.name() == word.word())
+                })
                 .collect(),
         ),
         Some(Snapshots::Count(n)) => SnapshotRequest::Count(*n),

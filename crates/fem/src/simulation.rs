@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex};
 use fem_case::engineering::show;
 use fem_case::schema::StartTable;
 use fem_case::{Case, CaseError, CaseFile, ModelChoice, Quantity, Scene};
-use fem_collision::{Approach, Collision, Monitor, SnapshotRequest, Want, WantError};
+use fem_collision::{
+    Approach, Collision, Monitor, OutputRequest, OutputRequestError, SnapshotRequest,
+};
 
 use crate::accuracy::{Beside, Coarser};
 use crate::course::{Course, begun};
@@ -58,7 +60,7 @@ pub struct Simulation {
     case: Case,
     model: Arc<dyn Model>,
     chosen: Option<Chosen>,
-    want: Want,
+    want: OutputRequest,
     resolved: CaseFile,
     shared: Shared,
     /// Elements across a length over those that the plan takes at first.
@@ -339,7 +341,7 @@ impl Simulation {
     }
 
     /// What the run is asked for.
-    pub fn want(&self) -> &Want {
+    pub fn want(&self) -> &OutputRequest {
         &self.want
     }
 
@@ -352,7 +354,7 @@ impl Simulation {
     ///
     /// # Errors
     /// More rows or snapshots than a run keeps, times that are no times.
-    pub fn ask_for(&mut self, want: Want) -> Result<(), WantError> {
+    pub fn ask_for(&mut self, want: OutputRequest) -> Result<(), OutputRequestError> {
         want.check()?;
         self.want = want;
         Ok(())

@@ -1,7 +1,7 @@
 //! The text of a case, with overrides, from reading to the first steps of a run.
 
 use fem::effects::EFFECTS;
-use fem::{Case, Cost, Headline, Monitor, Progress, Simulation};
+use fem::{Case, Cost, Monitor, Progress, QuantityOfInterest, Simulation};
 
 use super::{cases, root};
 use crate::mutate::change_text;
@@ -102,7 +102,7 @@ pub(super) fn try_case(case: Case) -> Result<Taken, String> {
     for warning in simulation.warnings(&collision) {
         refused(&warning)?;
     }
-    let numbers = Headline::ALL.map(|headline| headline.of(&collision));
+    let numbers = QuantityOfInterest::ALL.map(|headline| headline.of(&collision));
     match collision.stop() {
         Some(stop) => refused(&stop.to_string()),
         None if numbers.into_iter().flatten().any(|number| !number.is_finite()) => {

@@ -3,7 +3,7 @@
 //! `energy` and `momentum`, the worst imbalance of any run at any instant (over the energy of
 //! approach, over Σ m|v|), and `NAME.energy`, `NAME.momentum` of each run.
 
-use fem_collision::{Account, Row};
+use fem_collision::{Account, HistoryRow};
 use fem_figure::{Axis, Chart, Curve, GREY, Mark};
 use serde::Deserialize;
 
@@ -56,11 +56,12 @@ fn energies(run: &Run, name: &str) -> Chart {
     let hertz = run.hertz;
     let scale = 0.5 * hertz.pair().effective_mass() * hertz.approach_speed().powi(2);
     let start = run.collision.first_contact.unwrap_or(f64::NAN);
-    let curve = |label: &str, mark: Mark, value: fn(&Row) -> f64| {
-        let point = |row: &Row| ((row.time - start) / run.contact_time(), value(row) / scale);
+    let curve = |label: &str, mark: Mark, value: fn(&HistoryRow) -> f64| {
+        let point =
+            |row: &HistoryRow| ((row.time - start) / run.contact_time(), value(row) / scale);
         Curve::new(label, mark, run.collision.history.iter().map(point).collect())
     };
-    let account = |row: &Row| row.energies.residual(0.0);
+    let account = |row: &HistoryRow| row.energies.residual(0.0);
     Chart::new(
         Axis::new("time/contact time").from_to(0.0, 1.2),
         Axis::new("energy/energy of approach"),
@@ -75,6 +76,6 @@ fn energies(run: &Run, name: &str) -> Chart {
 }
 
 /// J; 0 where nothing fills the account.
-fn energy(row: &Row, account: Account) -> f64 {
+fn energy(row: &HistoryRow, account: Account) -> f64 {
     row.energy(account).unwrap_or(0.0)
 }

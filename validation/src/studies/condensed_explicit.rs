@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use fem::Plan;
 use fem_case::schema::{CondensedTable, ContactTable, SnapshotsValue, TimeTable};
-use fem_collision::{Collision, Row};
+use fem_collision::{Collision, HistoryRow};
 use serde::Deserialize;
 
 use crate::error::StudyError;
@@ -88,8 +88,8 @@ fn pulse_width(run: &Run) -> f64 {
 
 /// When the approach rate falls through a value (m/s), s.
 fn passes(collision: &Collision, value: f64) -> f64 {
-    let rate = |row: &Row| row.velocity[0] - row.velocity[1];
-    let is_around = |two: &&[Row]| rate(&two[0]) > value && rate(&two[1]) <= value;
+    let rate = |row: &HistoryRow| row.velocity[0] - row.velocity[1];
+    let is_around = |two: &&[HistoryRow]| rate(&two[0]) > value && rate(&two[1]) <= value;
     collision.history.windows(2).find(is_around).map_or(f64::NAN, |two| {
         let part = (rate(&two[0]) - value) / (rate(&two[0]) - rate(&two[1]));
         two[0].time + part * (two[1].time - two[0].time)

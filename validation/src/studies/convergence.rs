@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use fem::accuracy::PowerLaw;
 use fem_case::engineering::show;
-use fem_collision::Label;
+use fem_collision::SnapshotInstant;
 use fem_figure::{Axis, Chart, Curve};
 use serde::Deserialize;
 
@@ -111,7 +111,8 @@ fn equivalent_radius(run: &Run) -> f64 {
 /// a snapshot of the maximum.
 fn profile_radius(run: &ExplicitRun) -> Result<f64, StudyError> {
     let snapshots = &run.collision.snapshots;
-    let Some(snapshot) = snapshots.iter().find(|s| s.label == Some(Label::Maximum)) else {
+    let Some(snapshot) = snapshots.iter().find(|s| s.label == Some(SnapshotInstant::Maximum))
+    else {
         return Ok(f64::NAN);
     };
     let interface = run.springs()?;

@@ -14,7 +14,7 @@ use std::hash::{BuildHasher, Hasher};
 
 use fem::accuracy::{Limit, Setting};
 use fem_case::{Accuracy, Case, CaseError};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -46,7 +46,7 @@ struct Parameters {
 struct Trial {
     scene: String,
     /// Errors and bars over the value, of the restitution as they are, and what is known of the limit.
-    numbers: Vec<(Headline, f64, f64, f64)>,
+    numbers: Vec<(QuantityOfInterest, f64, f64, f64)>,
 }
 
 type Numbers = [Option<f64>; 6];
@@ -79,13 +79,13 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
         );
         trials.sort_by(|a, b| b.share().total_cmp(&a.share()));
         let rows = trials.iter().take(N_SHOWN).map(|trial| {
-            let number = |headline: Headline| {
+            let number = |headline: QuantityOfInterest| {
                 let mut numbers = trial.numbers.iter();
                 let (_, error, bar, _) = numbers.find(|(other, ..)| *other == headline)?;
                 Some(format!("{error:+.1e} ± {bar:.1e}"))
             };
             let [e, t, f, approach, a, p] =
-                Headline::ALL.map(|headline| number(headline).unwrap_or_default());
+                QuantityOfInterest::ALL.map(|headline| number(headline).unwrap_or_default());
             [trial.scene.clone(), format!("{:.2}", trial.share()), e, t, f, approach, a, p]
         });
         findings.tabulate(
@@ -150,7 +150,7 @@ fn try_scene(
 fn compute(
     case: &Case,
     parameters: &Parameters,
-) -> Result<Option<[Vec<(Headline, f64, f64, f64)>; 2]>, CaseError> {
+) -> Result<Option<[Vec<(QuantityOfInterest, f64, f64, f64)>; 2]>, CaseError> {
     let radius = match fem::Estimate::of(case.scene()) {
         Ok(estimate) => estimate.contact_radius,
         Err(_) => return Ok(None),
@@ -180,7 +180,7 @@ fn compute(
     let levels = |settings: &[Setting], across: &[f64]| {
         let level = |across: &f64| {
             let (_, collision) = run(settings, Some(*across))?;
-            let values: Numbers = Headline::ALL.map(|headline| headline.of(&collision));
+            let values: Numbers = QuantityOfInterest::ALL.map(|headline| headline.of(&collision));
             Ok::<_, CaseError>((radius / across, values))
         };
         across.iter().map(level).collect::<Result<Vec<_>, _>>()
@@ -193,7 +193,7 @@ fn compute(
     let judge = |settings: &[Setting], has_inertia: bool| {
         let (simulation, collision) = run(settings, None)?;
         let bars = simulation.summary(&collision).uncertainty;
-        let numbers = Headline::ALL.into_iter().filter_map(|headline| {
+        let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
             let pick = |levels: &[(f64, Numbers)]| -> Vec<(f64, f64)> {
                 let level =
                     |(size, values): &(f64, Numbers)| Some((*size, values[headline as usize]?));
@@ -212,7 +212,10 @@ fn compute(
     };
     let judged = [judge(&[Setting::Explicit], true)?, judge(&[condensed(false)], false)?];
     // A contact without an end has neither time nor bars.
-    Ok(judged.iter().all(|numbers| numbers.len() == Headline::ALL.len()).then_some(judged))
+    Ok(judged
+        .iter()
+        .all(|numbers| numbers.len() == QuantityOfInterest::ALL.len())
+        .then_some(judged))
 }
 
 impl Trial {
@@ -222,12 +225,14 @@ impl Trial {
         let Accuracy { restitution, contact_time, peak_force, peak_pressure } = accuracy;
         self.numbers.iter().all(|(headline, error, _, known)| {
             let tolerance = match headline {
-                Headline::Restitution => restitution,
-                Headline::ContactTime => contact_time,
-                Headline::PeakForce => peak_force,
-                Headline::PeakPressure => peak_pressure,
+                QuantityOfInterest::Restitution => restitution,
+                QuantityOfInterest::ContactTime => contact_time,
+                QuantityOfInterest::PeakForce => peak_force,
+                QuantityOfInterest::PeakPressure => peak_pressure,
                 // Nothing is asked for of approach and contact radius.
-                Headline::MaxApproach | Headline::MaxContactRadius => return true,
+                QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => {
+                    return true;
+                }
             };
             error.abs() <= tolerance + known
         })
@@ -236,6 +241,6 @@ impl Trial {
     /// The worst error over its bar and what is known of the limit.
     fn share(&self) -> f64 {
         let shares = self.numbers.iter().map(|(_, error, bar, known)| error.abs() / (bar + known));
-        shares.fold(0.0, fem_collision::worst)
+        shares.fold(0.0, fem_collision::nan_aware_max_abs)
     }
 }

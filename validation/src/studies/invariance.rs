@@ -5,7 +5,7 @@
 //! difference of results, and of the contact force in any row of the history over the peak;
 //! `NAME.pressure` that of the largest pressure, which is read at the nodes of one body.
 
-use fem_collision::worst;
+use fem_collision::nan_aware_max_abs;
 
 use crate::error::StudyError;
 use crate::findings::Findings;
@@ -62,5 +62,5 @@ fn difference(run: &Run, plain: &Run) -> f64 {
     let forces = ours.iter().zip(&theirs).map(|(ours, theirs)| (ours - theirs).abs());
     let results = results(run).into_iter().zip(results(plain));
     let all = forces.chain(results.map(|(ours, theirs)| (ours / theirs - 1.0).abs()));
-    all.fold(0.0, worst)
+    all.fold(0.0, nan_aware_max_abs)
 }

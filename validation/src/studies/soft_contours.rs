@@ -12,7 +12,7 @@
 //!   through the undeformed body, from the first instant to the last, m/s.
 
 use fem_case::engineering::Unit;
-use fem_collision::{Label, Snapshot};
+use fem_collision::{Snapshot, SnapshotInstant};
 use fem_figure::contour::{Contour, Levels, Panel, Section, Window};
 
 use super::sections;
@@ -41,9 +41,9 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     for (name, run) in names.into_iter().zip(&runs) {
         let instants: Vec<&Snapshot> = run.collision.snapshots.iter().collect();
         let labels: Vec<_> = instants.iter().map(|snapshot| snapshot.label).collect();
-        if labels == Label::ALL.map(Some) {
+        if labels == SnapshotInstant::ALL.map(Some) {
             measure(name, run, &instants, &mut findings);
-        } else if labels == [None; Label::ALL.len()] {
+        } else if labels == [None; SnapshotInstant::ALL.len()] {
             findings.measure(format!("{name}.front_speed"), front_speed(run, &instants));
         } else {
             return Err(StudyError::parameters(
@@ -57,7 +57,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 
 fn measure(name: &str, run: &ExplicitRun, instants: &[&Snapshot], findings: &mut Findings) {
     let mut smallest = Vec::new();
-    for (snapshot, label) in instants.iter().zip(Label::ALL) {
+    for (snapshot, label) in instants.iter().zip(SnapshotInstant::ALL) {
         let halves = sections::halves(run, snapshot, 1.0);
         let instant = label.name().replace('-', "_");
         smallest.push(sections::range(&halves).0);
@@ -68,7 +68,7 @@ fn measure(name: &str, run: &ExplicitRun, instants: &[&Snapshot], findings: &mut
         };
         let into_wall = -lowest(&halves[UPPER]) / MILLI / run.max_approach();
         findings.measure(format!("{name}.{instant}.into_wall"), into_wall);
-        if label == Label::Maximum {
+        if label == SnapshotInstant::Maximum {
             let Some(mesh) = run.model.bodies()[UPPER].mesh() else { continue };
             let half = &halves[UPPER];
             let pole = -half.values[mesh.surface()[0] as usize];

@@ -16,7 +16,7 @@ use fem::Simulation;
 use fem::accuracy::Setting;
 use fem::effects::{EFFECTS, FiniteStrain};
 use fem_case::{Accuracy, Case, CaseError};
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -48,7 +48,7 @@ struct Parameters {
 struct Trial {
     scene: String,
     /// Errors and bars over the value, of the restitution as they are.
-    numbers: Vec<(Headline, f64, f64)>,
+    numbers: Vec<(QuantityOfInterest, f64, f64)>,
     has_warned: bool,
     is_foretold: bool,
 }
@@ -91,7 +91,8 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     findings.measure("bar", ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN));
     trials.sort_by(|a, b| b.share().total_cmp(&a.share()));
     let rows = trials.iter().map(|trial| {
-        let cell = |(_, error, bar): &(Headline, f64, f64)| format!("{error:+.1e} ± {bar:.1e}");
+        let cell =
+            |(_, error, bar): &(QuantityOfInterest, f64, f64)| format!("{error:+.1e} ± {bar:.1e}");
         let cells: Vec<String> = trial.numbers.iter().map(cell).collect();
         let mut row = vec![trial.scene.clone(), format!("{:.2}", trial.share())];
         row.extend(cells);
@@ -191,7 +192,7 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
         return Ok(None);
     }
     let bars = simulation.summary(&collision).uncertainty;
-    let numbers = Headline::ALL.into_iter().filter_map(|headline| {
+    let numbers = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
         let (value, fine) = (headline.of(&collision)?, headline.of(&fine)?);
         let bar = bars.parts(headline).discretisation?;
         let scale = headline.scale(fine);
@@ -203,7 +204,7 @@ fn compute(case: &Case, element_updates: f64) -> Result<Option<Trial>, StudyErro
         simulation.warnings(&collision).iter().any(|warning| warning.contains(" is asked"));
     let is_foretold = is_foretold(&simulation, &collision, &small).unwrap_or(true);
     // A contact without an end has neither time nor bars.
-    let is_whole = numbers.len() == Headline::ALL.len();
+    let is_whole = numbers.len() == QuantityOfInterest::ALL.len();
     let scene = String::new();
     Ok(is_whole.then_some(Trial { scene, numbers, has_warned, is_foretold }))
 }
@@ -225,20 +226,20 @@ fn is_foretold(simulation: &Simulation, with: &Collision, without: &Collision) -
 }
 
 /// Returns the default tolerance of a quantity; approach and contact radius have none.
-fn tolerance(headline: Headline) -> Option<f64> {
+fn tolerance(headline: QuantityOfInterest) -> Option<f64> {
     let accuracy = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
     match headline {
-        Headline::Restitution => Some(accuracy.restitution),
-        Headline::ContactTime => Some(accuracy.contact_time),
-        Headline::PeakForce => Some(accuracy.peak_force),
-        Headline::PeakPressure => Some(accuracy.peak_pressure),
-        Headline::MaxApproach | Headline::MaxContactRadius => None,
+        QuantityOfInterest::Restitution => Some(accuracy.restitution),
+        QuantityOfInterest::ContactTime => Some(accuracy.contact_time),
+        QuantityOfInterest::PeakForce => Some(accuracy.peak_force),
+        QuantityOfInterest::PeakPressure => Some(accuracy.peak_pressure),
+        QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => None,
     }
 }
 
 impl Trial {
     fn is_met(&self) -> bool {
-        let is_within = |(headline, error, _): &(Headline, f64, f64)| {
+        let is_within = |(headline, error, _): &(QuantityOfInterest, f64, f64)| {
             tolerance(*headline).is_none_or(|tolerance| error.abs() <= tolerance)
         };
         self.has_warned || self.numbers.iter().all(is_within)
@@ -247,7 +248,7 @@ impl Trial {
     /// The worst error over its bar.
     fn share(&self) -> f64 {
         let shares = self.numbers.iter().map(|(_, error, bar)| error.abs() / bar);
-        shares.fold(0.0, fem_collision::worst)
+        shares.fold(0.0, fem_collision::nan_aware_max_abs)
     }
 
     fn ratios(&self) -> impl Iterator<Item = f64> {

@@ -28,7 +28,7 @@ fn pair() -> CondensedPair {
 
 /// A collision of which something is disturbed after a third of the contact.
 fn disturbed(disturb: impl FnOnce(&mut Motion<'_>)) -> Collision {
-    let (pair, want) = (pair(), Want::history());
+    let (pair, want) = (pair(), OutputRequest::history());
     let frame = pair.frame(0.5).unwrap();
     pair.prepare(0.5, pair.relaxations()).unwrap();
     let n_points = pair.points.len();

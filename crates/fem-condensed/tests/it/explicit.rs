@@ -1,7 +1,7 @@
 //! Against the explicit model on the same meshes with the same penalty springs.
 
 use crate::common::{GLASS, POLYMER, STEEL, Scene, assert_close, glass, material};
-use fem_collision::{Approach, Collision, Expectation, Row, Want};
+use fem_collision::{Approach, Collision, Expectation, HistoryRow, OutputRequest};
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_explicit::{Model, Settings};
 use fem_material::ActsOn::{All, Shear};
@@ -26,7 +26,7 @@ fn run_explicit(scene: &Scene) -> Collision {
         Model::new(scene.inputs(ELEMENTS), Approach::at(scene.speed).unwrap(), &settings).unwrap();
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let want = Want { give_up_after: 20.0, ..Want::history() };
+    let want = OutputRequest { give_up_after: 20.0, ..OutputRequest::history() };
     fem_explicit::collide(&model, expected, &want, &mut ())
 }
 
@@ -76,9 +76,10 @@ fn six_scenes_are_the_explicit_ones() {
         let pair = CondensedPair::new(scene.inputs(ELEMENTS), settings).unwrap();
         let frame = pair.frame(scene.speed).unwrap();
         let relaxations = pair.relaxations();
-        let run = pair.collide(&frame, relaxations, 1000, &Want::history(), &mut ()).unwrap();
+        let run =
+            pair.collide(&frame, relaxations, 1000, &OutputRequest::history(), &mut ()).unwrap();
         let restitution = reference.restitution.unwrap();
-        let relative = |row: &Row| (row.time, row.velocity[0] - row.velocity[1]);
+        let relative = |row: &HistoryRow| (row.time, row.velocity[0] - row.velocity[1]);
         let reference_width =
             width(reference.history.iter().map(relative), restitution, scene.speed);
         let rows = run.history.iter().map(relative);

@@ -2,8 +2,8 @@
 
 use crate::common::{GLASS, POLYMER, assert_close, glass, material};
 use fem_collision::{
-    Account, Approach, BodyInput, Collision, Expectation, Frame, Label, SnapshotRequest, Want,
-    far_radius_at_rest, far_radius_of_waves,
+    Account, Approach, BodyInput, Collision, Expectation, Frame, OutputRequest, SnapshotInstant,
+    SnapshotRequest, far_radius_at_rest, far_radius_of_waves,
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings};
 use fem_contact::ContactError;
@@ -115,7 +115,7 @@ impl Ball {
         let model = Model::new(bodies, approach, &settings).unwrap();
         let expected =
             Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-        fem_explicit::collide(&model, expected, &Want::quantities(), &mut ())
+        fem_explicit::collide(&model, expected, &OutputRequest::quantities(), &mut ())
     }
 }
 
@@ -259,7 +259,7 @@ fn waves_leave_beside_all_else() {
             let damping = Damping { relaxations, ..ball.damping(1.0) };
             let run = pair.impact(ball.speed, damping, MANY_STEPS).unwrap();
             assert!(run.residual_relative.unwrap() < 2e-5, "{:?}", run.residual_relative);
-            // Losses add up to first order: relaxation makes the pulse another.
+            // DissipatedEnergies add up to first order: relaxation makes the pulse another.
             let radiated = run.energies.get(Account::Radiated).unwrap() / ball.initial_energy();
             let sum = loss(&quiet) + radiated;
             assert!((loss(&run) / sum - 1.0).abs() < 0.05, "{} {sum}", loss(&run));
@@ -272,12 +272,14 @@ fn waves_leave_beside_all_else() {
 fn fields_of_a_half_space() {
     let ball = Ball::of_glass(1.0);
     let pair = ball.condensed();
-    let want =
-        Want { snapshots: SnapshotRequest::Labels(vec![Label::Maximum]), ..Want::quantities() };
+    let want = OutputRequest {
+        snapshots: SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]),
+        ..OutputRequest::quantities()
+    };
     let still = pair.frame(1.0).unwrap();
     let frame = Frame { approach: Approach::new([3.0, 2.0], 0.0).unwrap(), ..still };
     let run = pair.collide(&frame, [None; 2], CondensedPair::N_STEPS, &want, &mut ()).unwrap();
-    let snapshot = run.snapshot(Label::Maximum).unwrap();
+    let snapshot = run.snapshot(SnapshotInstant::Maximum).unwrap();
     let [block, sphere] = [0, 1].map(|side| snapshot.displacement(side));
     let [lower, upper] = pair.inputs().each_ref().map(|input| input.mesh().unwrap());
     for &node in lower.far_boundary() {

@@ -1,7 +1,7 @@
 //! The quantities of a collision do not depend on whether its history is kept.
 
 use crate::common::{GLASS, Scene, glass, material};
-use fem_collision::{Approach, Collision, Frame, Label, SnapshotRequest, Want};
+use fem_collision::{Approach, Collision, Frame, OutputRequest, SnapshotInstant, SnapshotRequest};
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 use fem_material::Material;
@@ -22,8 +22,8 @@ fn pair(scene: &Scene, vibration_modes: usize, has_springs: bool) -> CondensedPa
 
 /// With so many rows, and fields at every named instant.
 fn collide(pair: &CondensedPair, frame: &Frame, history_rows: usize) -> Collision {
-    let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
-    let want = Want { history_rows, snapshots, ..Want::quantities() };
+    let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let want = OutputRequest { history_rows, snapshots, ..OutputRequest::quantities() };
     let n_steps = CondensedPair::N_STEPS;
     pair.collide(frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap()
 }
@@ -48,7 +48,7 @@ fn quantities_are_those_of_a_run_with_a_history() {
             assert!(none.history.is_empty(), "{name}");
             assert!(none.is_complete(), "{name}: {:?}", none.ending);
             assert_eq!(none.restitution == Some(0.0), k == 3, "{name}");
-            for rows in [1, Want::ROWS] {
+            for rows in [1, OutputRequest::ROWS] {
                 let with = collide(&pair, &frame, rows);
                 let last = with.history.last().unwrap();
                 assert_eq!((none.energies, none.residual), (last.energies, last.residual));

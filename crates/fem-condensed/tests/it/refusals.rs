@@ -1,7 +1,7 @@
 //! What is refused, and what is enlarged.
 
 use crate::common::{GLASS, Scene, collide, glass, material};
-use fem_collision::{BodyInput, Ending, Monitor, Progress, Stop, Want};
+use fem_collision::{BodyInput, Ending, Monitor, OutputRequest, Progress, Stop};
 use fem_condensed::{CondensedError, CondensedPair, PairSettings};
 use fem_material::ActsOn::{All, Shear};
 
@@ -60,7 +60,8 @@ fn bodies_that_stay_together() {
         let fluid = material(GLASS, acts_on, &[(1.0, rate)]);
         let relaxations = [fluid.relaxation(); 2];
         let frame = pair.frame(0.5).unwrap();
-        let run = pair.collide(&frame, relaxations, n_steps, &Want::history(), &mut ()).unwrap();
+        let run =
+            pair.collide(&frame, relaxations, n_steps, &OutputRequest::history(), &mut ()).unwrap();
         assert!(
             run.restitution.unwrap() < 1e-4,
             "{acts_on:?} {rate:e} {}",
@@ -93,18 +94,18 @@ fn a_stopped_run_keeps_what_it_has() {
             self.0 < 2
         }
     }
-    let collide = |want: &Want, monitor: &mut dyn Monitor| {
+    let collide = |want: &OutputRequest, monitor: &mut dyn Monitor| {
         let n_steps = CondensedPair::N_STEPS;
         pair.collide(&pair.frame(0.5).unwrap(), [None; 2], n_steps, want, monitor).unwrap()
     };
-    let run = collide(&Want::history(), &mut StopAtSecond(0));
+    let run = collide(&OutputRequest::history(), &mut StopAtSecond(0));
     let Ending::Stopped(Stop::Interrupted { step, .. }) = run.ending else {
         panic!("{:?}", run.ending);
     };
     // Five rows a step of two hundred.
     assert!(run.steps == Some(step) && run.history.len() as u64 == 5 * step + 1);
     assert!(run.max_approach.unwrap() > 9e-6 && run.restitution.is_none());
-    let brief = collide(&Want { give_up_after: 0.4, ..Want::history() }, &mut ());
+    let brief = collide(&OutputRequest { give_up_after: 0.4, ..OutputRequest::history() }, &mut ());
     assert!(matches!(brief.stop(), Some(Stop::NoSeparation { .. })), "{:?}", brief.ending);
 }
 

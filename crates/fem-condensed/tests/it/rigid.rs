@@ -1,7 +1,9 @@
 //! A rigid sphere as partner: its curvature in the gap, its mass in the reduced mass, and no more.
 
 use crate::common::{GLASS, Scene, assert_close, collide, collide_in, glass, material};
-use fem_collision::{Approach, BodyInput, Collision, Expectation, Frame, SnapshotRequest, Want};
+use fem_collision::{
+    Approach, BodyInput, Collision, Expectation, Frame, OutputRequest, SnapshotRequest,
+};
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, PairSettings};
 use fem_contact::ContactError;
 use fem_explicit::{Model, Settings};
@@ -171,7 +173,8 @@ fn a_rigid_partner_is_the_explicit_one() {
         let model = Model::new(inputs.clone(), Approach::at(0.5).unwrap(), &settings).unwrap();
         let expected =
             Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-        let explicit = fem_explicit::collide(&model, expected, &Want::quantities(), &mut ());
+        let explicit =
+            fem_explicit::collide(&model, expected, &OutputRequest::quantities(), &mut ());
         let contact = ContactModel::Springs(stiffness);
         let settings =
             PairSettings { contact, vibration_modes: 12, ..PairSettings::new(candidate_radius) };
@@ -199,7 +202,7 @@ fn snapshots_have_the_fields_of_the_other_body() {
     let Frame { masses, reduced_mass, .. } = frame;
     let inverse: f64 = masses.iter().map(|mass| mass.unwrap().recip()).sum();
     assert!((reduced_mass * inverse - 1.0).abs() < 1e-15);
-    let want = Want { snapshots: SnapshotRequest::Count(3), ..Want::history() };
+    let want = OutputRequest { snapshots: SnapshotRequest::Count(3), ..OutputRequest::history() };
     let run = pair.collide(&frame, pair.relaxations(), 200, &want, &mut ()).unwrap();
     assert!(!run.snapshots.is_empty());
     for snapshot in &run.snapshots {

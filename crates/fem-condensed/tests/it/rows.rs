@@ -1,7 +1,7 @@
 //! Rows of a history between the steps.
 
 use crate::common::{GLASS, Scene, material};
-use fem_collision::{Account, Collision, Row, Want};
+use fem_collision::{Account, Collision, HistoryRow, OutputRequest};
 use fem_material::ActsOn::All;
 
 fn collide(n_steps: usize) -> Collision {
@@ -9,7 +9,7 @@ fn collide(n_steps: usize) -> Collision {
     let scene = Scene::paper(glass.clone(), glass);
     let pair = scene.condensed(6.0);
     let frame = pair.frame(scene.speed).unwrap();
-    pair.collide(&frame, pair.relaxations(), n_steps, &Want::history(), &mut ()).unwrap()
+    pair.collide(&frame, pair.relaxations(), n_steps, &OutputRequest::history(), &mut ()).unwrap()
 }
 
 /// About a thousand over the contact, however few steps there are, begin and end of the contact among them.
@@ -21,7 +21,8 @@ fn few_steps_have_as_many_rows() {
         let within = run.history.iter().filter(|row| row.time <= last).count();
         assert!((660..=1500).contains(&within), "{n_steps}: {within}");
         assert!(run.history.windows(2).all(|two| two[0].time < two[1].time));
-        let is_end = |row: &Row| (row.time - last).abs() < 1e-12 * last && row.contact_force == 0.0;
+        let is_end =
+            |row: &HistoryRow| (row.time - last).abs() < 1e-12 * last && row.contact_force == 0.0;
         assert!(run.history.iter().any(is_end), "{n_steps}");
         assert_eq!(run.history[0].time, 0.0);
     }
@@ -36,13 +37,13 @@ fn rows_between_steps_are_those_of_more_steps() {
         let after = many.history.partition_point(|row| row.time < time);
         let [a, b] = [&many.history[after - 1], &many.history[after]];
         let part = (time - a.time) / (b.time - a.time);
-        move |get: &dyn Fn(&Row) -> f64| (1.0 - part) * get(a) + part * get(b)
+        move |get: &dyn Fn(&HistoryRow) -> f64| (1.0 - part) * get(a) + part * get(b)
     };
     let peak = many.peak_force.unwrap();
     let [radius, pressure, approach] =
         [many.max_contact_radius, many.peak_pressure, many.max_approach].map(Option::unwrap);
     let initial = many.initial_energy.unwrap();
-    type Column = (&'static str, f64, f64, fn(&Row) -> f64);
+    type Column = (&'static str, f64, f64, fn(&HistoryRow) -> f64);
     let columns: [Column; 6] = [
         // It bends where a node joins, which a parabola rounds off: 4e-4.
         ("force", peak, 6e-4, |row| row.contact_force),

@@ -2,7 +2,8 @@
 
 use crate::common::{GLASS, Scene, glass, material};
 use fem_collision::{
-    Approach, BodyInput, Collision, Expectation, Frame, Label, SnapshotRequest, StressField, Want,
+    Approach, BodyInput, Collision, Expectation, Frame, OutputRequest, SnapshotInstant,
+    SnapshotRequest, StressField,
 };
 use fem_condensed::{CondensedPair, ContactModel, PairSettings};
 use fem_material::ActsOn::{self, All, Shear};
@@ -19,7 +20,7 @@ fn drawn(
     snapshots: SnapshotRequest,
     n_steps: usize,
 ) -> Collision {
-    let want = Want { snapshots, ..Want::quantities() };
+    let want = OutputRequest { snapshots, ..OutputRequest::quantities() };
     pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap()
 }
 
@@ -38,7 +39,7 @@ fn snapshots_are_the_motion() {
         let pair = CondensedPair::new(scene.inputs(8.0), settings).unwrap();
         let approach = Approach::new([0.7, 0.2], 1e-6).unwrap();
         let frame = Frame { approach, ..pair.frame(0.5).unwrap() };
-        let run = drawn(&pair, frame, SnapshotRequest::Labels(Label::ALL.to_vec()), 200);
+        let run = drawn(&pair, frame, SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()), 200);
         let (snapshots, missing) = (&run.snapshots, &run.warnings);
         assert!(missing.is_empty() && snapshots.len() == 4, "{missing:?}");
         assert!(snapshots.windows(2).all(|two| two[0].time < two[1].time));
@@ -253,14 +254,14 @@ fn fields_are_the_explicit_ones() {
         mass_times: [1.0; 2],
     };
     let model = fem_explicit::Model::new(bodies, Approach::at(0.5).unwrap(), &settings).unwrap();
-    let request = SnapshotRequest::Labels(vec![Label::Maximum]);
+    let request = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
     let expected =
         Expectation { contact_time: hertz.contact_time(), approach: hertz.max_approach() };
-    let want = Want {
+    let want = OutputRequest {
         history_rows: 100,
         snapshots: request.clone(),
         give_up_after: 20.0,
-        ..Want::history()
+        ..OutputRequest::history()
     };
     let reference = fem_explicit::collide(&model, expected, &want, &mut ());
     let settings = PairSettings {

@@ -2,7 +2,8 @@
 
 use crate::common::{GLASS, Scene, material};
 use fem_collision::{
-    Collision, Ending, Label, STAY_TOGETHER, SnapshotRequest, Stop, Want, did_not_occur,
+    Collision, Ending, OutputRequest, STAY_TOGETHER, SnapshotInstant, SnapshotRequest, Stop,
+    did_not_occur,
 };
 use fem_condensed::CondensedPair;
 use fem_material::ActsOn::{self, All, Shear};
@@ -21,7 +22,7 @@ fn collide(
     loop {
         let frame = pair.frame(scene.speed).unwrap();
         let n_steps = CondensedPair::N_STEPS;
-        let want = Want { give_up_after, ..Want::quantities() };
+        let want = OutputRequest { give_up_after, ..OutputRequest::quantities() };
         let run = pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap();
         match run.outgrown_radius() {
             Some(radius) => pair = pair.enlarge(2.0 * radius).unwrap(),
@@ -36,7 +37,8 @@ fn bodies_that_relax_to_nothing_stay_and_others_part() {
     for acts_on in [All, Shear] {
         for weight in [1.0, 0.999] {
             for relaxation_time in [1e-7, 1e-6, 1e-5, 1e-4] {
-                let (scene, run) = collide(acts_on, weight, relaxation_time, Want::GIVE_UP_AFTER);
+                let (scene, run) =
+                    collide(acts_on, weight, relaxation_time, OutputRequest::GIVE_UP_AFTER);
                 let name = format!("{acts_on:?} {weight} {relaxation_time:e}");
                 let found = run.restitution.unwrap_or_else(|| panic!("{name}: {:?}", run.ending));
                 let ting = scene.ting(false);
@@ -63,7 +65,7 @@ fn bodies_that_relax_to_nothing_stay_and_others_part() {
 #[test]
 fn a_weak_spring_parts_the_bodies_in_its_own_time() {
     for (weight, relaxation_time) in [(0.9999, 1e-6), (0.9999, 3e-6)] {
-        let (scene, run) = collide(All, weight, relaxation_time, Want::GIVE_UP_AFTER);
+        let (scene, run) = collide(All, weight, relaxation_time, OutputRequest::GIVE_UP_AFTER);
         let ting = scene.ting(false);
         let found = run.restitution.unwrap_or_else(|| panic!("{weight}: {:?}", run.ending));
         let off = (found - ting.restitution).abs();
@@ -87,12 +89,16 @@ fn bodies_that_stay_have_no_last_contact() {
     let scene = Scene::paper(relaxing.clone(), relaxing);
     let pair = scene.condensed(4.0).enlarge(2e-3).unwrap();
     let frame = pair.frame(scene.speed).unwrap();
-    let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
-    let want = Want { snapshots, ..Want::quantities() };
+    let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+    let want = OutputRequest { snapshots, ..OutputRequest::quantities() };
     let n_steps = CondensedPair::N_STEPS;
     let run = pair.collide(&frame, pair.relaxations(), n_steps, &want, &mut ()).unwrap();
     assert_eq!(run.ending, Ending::Together);
     let labels: Vec<_> = run.snapshots.iter().filter_map(|snapshot| snapshot.label).collect();
-    assert_eq!(labels, [Label::MidCompression, Label::Maximum]);
-    assert!(run.warnings.contains(&did_not_occur(Label::LastContact)), "{:?}", run.warnings);
+    assert_eq!(labels, [SnapshotInstant::MidCompression, SnapshotInstant::Maximum]);
+    assert!(
+        run.warnings.contains(&did_not_occur(SnapshotInstant::LastContact)),
+        "{:?}",
+        run.warnings
+    );
 }

@@ -7,7 +7,7 @@ mod slipping;
 
 use std::any::Any;
 
-use fem_collision::Searched;
+use fem_collision::CandidateRegion;
 use fem_contact::{ContactForces, Profile};
 
 use crate::error::ModelError;
@@ -53,7 +53,7 @@ impl ContactMethod {
 /// declares are kept of both bodies.
 pub trait Contact: Part {
     /// Where contact is looked for.
-    fn searched(&self) -> Searched;
+    fn searched(&self) -> CandidateRegion;
 
     /// Adds a bound of its stiffness at each node (N/m) of a side, 0 lower, 1 upper, whatever is
     /// closed.

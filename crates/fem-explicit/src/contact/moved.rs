@@ -11,7 +11,7 @@
 
 use std::any::Any;
 
-use fem_collision::{Account, BodyInput, Searched};
+use fem_collision::{Account, BodyInput, CandidateRegion};
 use fem_contact::{ContactError, ContactForces, MovedInterface, Profile};
 
 use super::Contact;
@@ -78,9 +78,9 @@ impl Part for MovedContact {
 }
 
 impl Contact for MovedContact {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         let (radius, n_points) = (self.interface.candidate_radius(), self.interface.n_points());
-        Searched { radius, n_points, at_nodes: false }
+        CandidateRegion { radius, n_points, at_nodes: false }
     }
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {

@@ -1,7 +1,7 @@
 //! The penalty interface of [`fem_contact`] as a contact: springs that are closed or open, without
 //! history.
 
-use fem_collision::Searched;
+use fem_collision::CandidateRegion;
 use fem_contact::{ContactForces, ContactInterface, Profile};
 
 use super::Contact;
@@ -10,9 +10,9 @@ use crate::part::{Field, Motion, NodalField, Part};
 impl Part for ContactInterface {}
 
 impl Contact for ContactInterface {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         let (radius, n_points) = (self.candidate_radius(), self.n_points());
-        Searched { radius, n_points, at_nodes: false }
+        CandidateRegion { radius, n_points, at_nodes: false }
     }
 
     fn add_stiffness_bound(&self, side: usize, bound: &mut [f64]) {

@@ -1,6 +1,6 @@
 //! The penalty interface of [`fem_contact`] between surfaces that slip on each other as a contact.
 
-use fem_collision::Searched;
+use fem_collision::CandidateRegion;
 use fem_contact::{ContactForces, Profile, SlippingInterface};
 
 use super::Contact;
@@ -9,7 +9,7 @@ use crate::part::{Field, Motion, NodalField, Part};
 impl Part for SlippingInterface {}
 
 impl Contact for SlippingInterface {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         Contact::searched(self.interface())
     }
 

@@ -1,6 +1,6 @@
 //! Memories that no run has left: refused, or a run without panic.
 
-use fem_collision::{BodyInput, Label, SnapshotRequest};
+use fem_collision::{BodyInput, SnapshotInstant, SnapshotRequest};
 use fem_material::ActsOn;
 use fem_mesh::Side;
 use serde_json::Value;
@@ -24,12 +24,12 @@ fn model() -> Model {
 }
 
 fn requests() -> [SnapshotRequest; 3] {
-    let labels = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let labels = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     [labels, SnapshotRequest::Count(3), SnapshotRequest::Times(vec![0.5, 3.0, 1e3])]
 }
 
-fn want(snapshots: SnapshotRequest) -> Want {
-    Want { history_rows: 20, snapshots, give_up_after: 5.0, ..Want::history() }
+fn want(snapshots: SnapshotRequest) -> OutputRequest {
+    OutputRequest { history_rows: 20, snapshots, give_up_after: 5.0, ..OutputRequest::history() }
 }
 
 /// After so many steps, or at the end of the run.
@@ -160,16 +160,17 @@ fn a_memory_grows_by_what_is_asked_for() {
     let n_bytes = |memory: &Memory| postcard::to_stdvec(memory).unwrap().len();
     let n_nodes: usize = model.bodies().iter().map(|body| body.n_nodes()).sum();
     let bare = |n_steps: u64| {
-        let want = Want { history_rows: 0, ..want(SnapshotRequest::none()) };
+        let want = OutputRequest { history_rows: 0, ..want(SnapshotRequest::none()) };
         let mut run = Run::new(&model, EXPECTED, &want);
         run.advance(n_steps);
         run.memory().clone()
     };
     // Numbers of the state that differ in length, a row, and the pulse: four numbers an instant observed.
-    let n_observed = 2 * Want::ROWS;
+    let n_observed = 2 * OutputRequest::ROWS;
     assert!(n_bytes(&bare(u64::MAX)) < n_bytes(&bare(0)) + 500 + 32 * n_observed);
     // One state: two fields of each body, a third of the one that relaxes.
-    let ended = memory(&model, SnapshotRequest::Labels(vec![Label::LastContact]), u64::MAX);
+    let ended =
+        memory(&model, SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]), u64::MAX);
     let rows = size_of_val(ended.history.as_ref().unwrap().rows());
     assert!(n_bytes(&ended) < n_bytes(&bare(u64::MAX)) + 3 * 16 * n_nodes + rows + 1000);
 }

@@ -53,7 +53,7 @@ fn record(
 #[test]
 fn ladder_finds_half_of_any_maximum() {
     let model = model();
-    let request = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     for estimate in [0.1, 0.9, 1.0, 1.3, 10.0] {
         let peak = 0.37;
         let (recorder, most) = record(&request, &model, peak, peak * estimate, 5000);
@@ -62,7 +62,7 @@ fn ladder_finds_half_of_any_maximum() {
         let (snapshots, missing) = recorder.finish();
         assert!(missing.is_empty(), "{missing:?}");
         let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-        assert_eq!(labels, Label::ALL);
+        assert_eq!(labels, SnapshotInstant::ALL);
         assert!(snapshots.windows(2).all(|pair| pair[0].time < pair[1].time));
         let approach = |k: usize| snapshots[k].approach / peak;
         // A rung is half a ratio away at most, and a step of π/5000 late.
@@ -89,7 +89,7 @@ fn approaching(approach: f64, approach_rate: f64) -> Instant {
 #[test]
 fn no_state_is_taken_of_bodies_that_nothing_has_slowed() {
     let model = model();
-    let request = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     let state = State::at_first_touch(&model);
     let mut scratch = Scratch::new(&model);
     let speed = model.approach().speed();
@@ -113,20 +113,21 @@ fn no_state_is_taken_of_bodies_that_nothing_has_slowed() {
 #[test]
 fn labels_that_do_not_occur_are_named() {
     let model = model();
-    let request = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     let expected = expectation(1.0, CONTACT_TIME);
     let (snapshots, missing) = Recorder::new(&request, &model, expected).finish();
     assert!(snapshots.is_empty());
     assert_eq!(missing.len(), 4);
-    for (message, label) in missing.iter().zip(Label::ALL) {
+    for (message, label) in missing.iter().zip(SnapshotInstant::ALL) {
         assert!(message.contains(label.name()), "{message}");
     }
     // Only what was asked for.
-    let some = SnapshotRequest::Labels(vec![Label::LastContact, Label::Maximum]);
+    let some =
+        SnapshotRequest::Labels(vec![SnapshotInstant::LastContact, SnapshotInstant::Maximum]);
     let (recorder, _) = record(&some, &model, 1.0, 1.0, 100);
     let (snapshots, missing) = recorder.finish();
     let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-    assert_eq!(labels, [Label::Maximum, Label::LastContact]);
+    assert_eq!(labels, [SnapshotInstant::Maximum, SnapshotInstant::LastContact]);
     assert!(missing.is_empty());
 }
 
@@ -134,7 +135,7 @@ fn labels_that_do_not_occur_are_named() {
 #[test]
 fn bodies_that_stay_together_have_no_last_contact() {
     let model = model();
-    let request = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let request = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     let mut recorder = Recorder::new(&request, &model, expectation(1.0, CONTACT_TIME));
     let state = State::at_first_touch(&model);
     // It would open in the next step.
@@ -149,15 +150,15 @@ fn bodies_that_stay_together_have_no_last_contact() {
     recorder.observe(&model, &state, &mut Scratch::new(&model), now);
     let (snapshots, missing) = recorder.finish();
     let labels: Vec<_> = snapshots.iter().map(|snapshot| snapshot.label.unwrap()).collect();
-    assert_eq!(labels, [Label::Maximum]);
-    assert!(missing.contains(&did_not_occur(Label::LastContact)), "{missing:?}");
+    assert_eq!(labels, [SnapshotInstant::Maximum]);
+    assert!(missing.contains(&did_not_occur(SnapshotInstant::LastContact)), "{missing:?}");
 }
 
 /// What no check has refused: every state is kept, every time that is one has its snapshot.
 #[test]
 fn no_request_is_too_much() {
     let model = model();
-    for n in [Want::MOST_SNAPSHOTS, usize::MAX] {
+    for n in [OutputRequest::MOST_SNAPSHOTS, usize::MAX] {
         let (recorder, _) = record(&SnapshotRequest::Count(n), &model, 1.0, 1.0, 200);
         assert!(recorder.fits(&model, &SnapshotRequest::Count(n)));
         let (snapshots, missing) = recorder.finish();
@@ -174,7 +175,7 @@ fn no_request_is_too_much() {
 #[test]
 fn a_rung_too_far_from_half_is_left_out() {
     let model = model();
-    let request = SnapshotRequest::Labels(vec![Label::MidCompression]);
+    let request = SnapshotRequest::Labels(vec![SnapshotInstant::MidCompression]);
     let (recorder, _) = record(&request, &model, 1.0, 1.0, 8);
     let (snapshots, missing) = recorder.finish();
     assert!(snapshots.is_empty() && missing.len() == 1, "{snapshots:?}");

@@ -1,6 +1,6 @@
 //! Runs that are disturbed from inside.
 
-use fem_collision::{Approach, BodyInput, Label, Row, SnapshotRequest};
+use fem_collision::{Approach, BodyInput, HistoryRow, SnapshotInstant, SnapshotRequest};
 use fem_mesh::Side;
 
 use super::*;
@@ -20,12 +20,12 @@ const EXPECTED: Expectation = Expectation { contact_time: 12.0, approach: 0.05 }
 
 const COUNT: SnapshotRequest = SnapshotRequest::Count(3);
 
-fn want(snapshots: SnapshotRequest) -> Want {
-    Want {
+fn want(snapshots: SnapshotRequest) -> OutputRequest {
+    OutputRequest {
         history_rows: 100,
         snapshots,
         give_up_after: 100.0 / EXPECTED.contact_time,
-        ..Want::history()
+        ..OutputRequest::history()
     }
 }
 
@@ -61,7 +61,7 @@ fn energy_out_of_nowhere_stops_the_run() {
 #[test]
 fn a_run_that_fails_leaves_its_last_sound_state() {
     let model = model();
-    let labels = || want(SnapshotRequest::Labels(vec![Label::LastContact]));
+    let labels = || want(SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]));
     for (want, is_kept) in [(labels(), true), (want(SnapshotRequest::none()), false)] {
         let mut run = Run::new(&model, EXPECTED, &want);
         assert_eq!(run.advance(128), None);
@@ -74,7 +74,7 @@ fn a_run_that_fails_leaves_its_last_sound_state() {
         assert!(matches!(collision.stop(), Some(Stop::NoNumber { body: 0, .. })));
         assert_eq!(collision.snapshots.len(), usize::from(is_kept));
         for snapshot in &collision.snapshots {
-            assert_eq!(snapshot.label, Some(Label::LastSound));
+            assert_eq!(snapshot.label, Some(SnapshotInstant::LastSound));
             assert!(snapshot.time <= disturbed_at);
             let mut fields = snapshot.bodies.iter().flat_map(|body| {
                 body.displacement.as_flattened().iter().chain(body.velocity.as_flattened())
@@ -91,14 +91,18 @@ fn a_run_that_fails_leaves_its_last_sound_state() {
 #[test]
 fn a_sound_state_in_which_a_run_stops_is_the_last_one() {
     let model = model();
-    let want = Want { most_element_updates: 200 * model.n_elements() as u64, ..want(COUNT) };
+    let want =
+        OutputRequest { most_element_updates: 200 * model.n_elements() as u64, ..want(COUNT) };
     let mut run = Run::new(&model, EXPECTED, &want);
     run.advance(128);
     let mut resumed = Run::resume(&model, run.memory().clone()).unwrap();
     let collisions = [&mut run, &mut resumed].map(|run| run.advance(u64::MAX).cloned());
     let Some(Ending::Stopped(Stop::TooManyUpdates { time, .. })) = collisions[0] else { panic!() };
     let collision = run.finish();
-    assert_eq!(collision.snapshot(Label::LastSound).map(|snapshot| snapshot.time), Some(time));
+    assert_eq!(
+        collision.snapshot(SnapshotInstant::LastSound).map(|snapshot| snapshot.time),
+        Some(time)
+    );
     assert_eq!(collision, resumed.finish());
 }
 
@@ -108,7 +112,7 @@ fn numbers_that_are_not_finite_stop_the_run() {
         let run = disturbed(factor);
         assert!(matches!(run.stop(), Some(Stop::NoNumber { .. })), "{:?}", run.ending);
         assert!(run.residual_since.is_some_and(|since| since.step >= 128));
-        let is_sound = |row: &Row| row.residual.unwrap().is_finite();
+        let is_sound = |row: &HistoryRow| row.residual.unwrap().is_finite();
         assert!(run.history.iter().all(is_sound), "a bad row is kept");
         assert!(!run.residual_relative.unwrap().is_finite());
     }
@@ -126,7 +130,7 @@ fn an_undisturbed_run_ends() {
 #[test]
 fn snapshots_and_rows_belong_to_the_same_instant() {
     let model = model();
-    let snapshots = SnapshotRequest::Labels(vec![Label::LastContact]);
+    let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::LastContact]);
     let run = collide(&model, EXPECTED, &want(snapshots), &mut ());
     let [snapshot] = &run.snapshots[..] else { panic!("{:?}", run.warnings) };
     let row = run.history.iter().find(|row| row.time == snapshot.time).unwrap();

@@ -1,6 +1,6 @@
 //! Bulk viscosity in collisions: what it smooths, what it takes, what it keeps.
 
-use fem_collision::{Account, Collision, Row};
+use fem_collision::{Account, Collision, HistoryRow};
 use fem_explicit::{
     BulkViscosity, Model, ModelError, NodeForce, Parts, Run, ViscosityCoefficients,
 };
@@ -37,7 +37,7 @@ fn loss(run: &Collision) -> f64 {
 }
 
 /// Ups and downs over one rise and one fall.
-fn variation(run: &Collision, value: impl Fn(&Row) -> f64) -> f64 {
+fn variation(run: &Collision, value: impl Fn(&HistoryRow) -> f64) -> f64 {
     let values: Vec<f64> = run.history.iter().map(value).collect();
     let sum: f64 = values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
     0.5 * sum / values.iter().copied().fold(0.0, f64::max)

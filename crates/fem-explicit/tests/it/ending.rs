@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::common::Pair;
-use fem_collision::{Collision, Ending, Stop, Want};
+use fem_collision::{Collision, Ending, OutputRequest, Stop};
 use fem_explicit::{Memory, Model, Run};
 
 /// About 1900 steps a contact and 270 elements.
@@ -61,7 +61,11 @@ fn a_run_that_is_left_is_interrupted_where_it_is() {
     let model = pair.model();
     let n_steps = pair.run_model(&model).steps.unwrap();
     for step in [0, 1, n_steps / 2, n_steps - 1] {
-        for want in [pair.want(), Want { history_rows: 7, ..pair.want() }, Want::quantities()] {
+        for want in [
+            pair.want(),
+            OutputRequest { history_rows: 7, ..pair.want() },
+            OutputRequest::quantities(),
+        ] {
             let mut run = Run::new(&model, pair.expected(), &want);
             assert_eq!(run.advance(step), None);
             let time = run.memory().time();

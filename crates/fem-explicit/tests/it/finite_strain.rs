@@ -1,6 +1,8 @@
 //! Collisions at finite strain.
 
-use fem_collision::{Account, Approach, BodyInput, Collision, Ending, Expectation, Stop, Want};
+use fem_collision::{
+    Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
+};
 use fem_explicit::{
     Contact, FreeMotion, Memory, Model, ModelError, MovedContact, Parts, Run, Settings, collide,
 };
@@ -96,7 +98,7 @@ impl Ball {
     }
 
     fn run(&self) -> Collision {
-        collide(&self.model(), self.expected(), &Want::history(), &mut ())
+        collide(&self.model(), self.expected(), &OutputRequest::history(), &mut ())
     }
 }
 
@@ -209,7 +211,7 @@ fn the_time_step_follows_and_resumes() {
     let terms: &[(f64, f64)] = &[(0.5, 1e-3), (0.2, 1e-2)];
     let ball = Ball { speed: 8.0, n: 6.0, nu: 0.45, penalty: 1.0, terms, ..Ball::default() };
     let model = ball.model();
-    let want = Want::history();
+    let want = OutputRequest::history();
     let whole = ball.run();
     let mut memory = Run::new(&model, ball.expected(), &want).memory().clone();
     let mut steps = Vec::new();

@@ -1,6 +1,6 @@
 //! Soft bodies that are pressed so flat that their flanks bulge over the contact.
 
-use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, Want};
+use fem_collision::{Approach, BodyInput, Collision, Ending, Expectation, OutputRequest};
 use fem_explicit::{Model, Parts, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
@@ -36,7 +36,7 @@ fn run(bodies: [BodyInput; 2], speed: f64) -> Collision {
     let approach = Approach::new([0.0, -speed], 0.0).unwrap();
     let model = Model::with_parts(bodies, approach, &settings, parts).unwrap();
     let expected = Expectation { contact_time: 2e-3, approach: 10e-3 };
-    collide(&model, expected, &Want::history(), &mut ())
+    collide(&model, expected, &OutputRequest::history(), &mut ())
 }
 
 /// At 0.4 to 0.6 of their shear wave speed rubber balls become half as high, and a flank above the edge of the

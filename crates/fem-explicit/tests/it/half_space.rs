@@ -1,7 +1,8 @@
 //! A glass ball on a half-space.
 
 use fem_collision::{
-    Account, Approach, BodyInput, Collision, Ending, Expectation, Want, far_radius_of_waves,
+    Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest,
+    far_radius_of_waves,
 };
 use fem_contact::ContactError;
 use fem_explicit::{Model, ModelError, Run, Settings, collide};
@@ -123,7 +124,7 @@ impl Ball {
     }
 
     fn run(&self) -> Collision {
-        collide(&self.model(), self.expected(), &Want::quantities(), &mut ())
+        collide(&self.model(), self.expected(), &OutputRequest::quantities(), &mut ())
     }
 }
 
@@ -188,8 +189,8 @@ fn a_partner_forty_times_larger_is_a_half_space() {
     };
     let large = Model::new(bodies, *model.approach(), &settings).unwrap();
     let expected = Ball::default().expected();
-    let large = collide(&large, expected, &Want::quantities(), &mut ());
-    let here = collide(&model, expected, &Want::quantities(), &mut ());
+    let large = collide(&large, expected, &OutputRequest::quantities(), &mut ());
+    let here = collide(&model, expected, &OutputRequest::quantities(), &mut ());
     // R* is 1/41 smaller: 1.5 % less at the power 3/5 of the loss on R*. The sphere's curvature has a
     // part in its waves, a per cent as well.
     let ratio = loss(&large) / loss(&here);
@@ -265,18 +266,18 @@ fn a_half_space_may_relax() {
         let series = PronySeries::new(terms, acts_on).unwrap();
         let ball = Ball { speed: 20.0, relaxation: Some(series), ..Ball::default() };
         let model = ball.model();
-        let run = collide(&model, ball.expected(), &Want::quantities(), &mut ());
+        let run = collide(&model, ball.expected(), &OutputRequest::quantities(), &mut ());
         let elastic = Ball { relaxation: None, ..ball.clone() }.run();
         let hertz = Hertz::at(20.0);
         let initial = 0.5 * hertz.mass * 400.0;
         let dissipated = run.energies.get(Account::ViscousDissipation).unwrap() / initial;
         assert!(dissipated > 0.01, "{dissipated}");
-        // Losses add up to first order: 1 % of the dissipation is still stored in springs.
+        // DissipatedEnergies add up to first order: 1 % of the dissipation is still stored in springs.
         let sum = loss(&elastic) + dissipated;
         assert!((loss(&run) / sum - 1.0).abs() < 0.05, "{} {sum}", loss(&run));
         assert!(run.residual_relative.unwrap() < 2e-6, "{:?}", run.residual_relative);
 
-        let mut first = Run::new(&model, ball.expected(), &Want::quantities());
+        let mut first = Run::new(&model, ball.expected(), &OutputRequest::quantities());
         assert_eq!(first.advance(700), None);
         let mut second = Run::resume(&model, first.memory().clone()).unwrap();
         while second.advance(1000).is_none() {}

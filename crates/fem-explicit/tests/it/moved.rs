@@ -1,7 +1,9 @@
 //! Whole collisions with contact between the surfaces where they are now.
 
 use crate::common::{Pair, Quantities, quantities};
-use fem_collision::{Account, Approach, BodyInput, Collision, Ending, Expectation, Stop, Want};
+use fem_collision::{
+    Account, Approach, BodyInput, Collision, Ending, Expectation, OutputRequest, Stop,
+};
 use fem_explicit::{Contact, Model, MovedContact, Parts, Run, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ElasticModuli, Material};
@@ -91,7 +93,7 @@ fn slip_of_unlike_bodies_is_there() {
     let expected = Expectation { contact_time: 67e-6, approach: 12e-6 };
     let run = |moved: bool| {
         let model = model(bodies.clone(), Approach::at(speed).unwrap(), &settings, moved);
-        quantities(&collide(&model, expected, &Want::quantities(), &mut ()))
+        quantities(&collide(&model, expected, &OutputRequest::quantities(), &mut ()))
     };
     let [plain, moved] = [run(false), run(true)];
     let change = |quantity: fn(&Quantities) -> f64| quantity(&moved) / quantity(&plain) - 1.0;
@@ -175,7 +177,7 @@ fn the_largest_force_is_not_the_ringing_of_springs() {
     let expected = Expectation { contact_time: 1.85e-3, approach: 2.8e-3 };
     let [plain, moved] = [false, true].map(|is_moved| {
         let model = model(bodies.clone(), Approach::at(3.0).unwrap(), &settings, is_moved);
-        collide(&model, expected, &Want::history(), &mut ())
+        collide(&model, expected, &OutputRequest::history(), &mut ())
     });
     let scatters = [&plain, &moved].map(scatter_of_peak);
     // 3.4 and 0.15 % are measured.
@@ -200,7 +202,7 @@ fn a_surface_that_folds_is_a_stop() {
     let (bodies, settings) = rubber(2e-3, 0.0149);
     let folding = model(bodies, Approach::at(60.0).unwrap(), &settings, true);
     let expected = Expectation { contact_time: 1e-3, approach: 20e-3 };
-    let run: Collision = collide(&folding, expected, &Want::history(), &mut ());
+    let run: Collision = collide(&folding, expected, &OutputRequest::history(), &mut ());
     let Ending::Stopped(Stop::SurfaceTurnsOver { radius, body, place, .. }) = run.ending else {
         panic!("{:?}", run.ending)
     };
@@ -242,7 +244,7 @@ fn a_body_at_finite_strain_has_it_by_itself() {
         assert!(with(None).interface().is_some());
         let model = with(Some(HyperelasticLaw::NeoHooke));
         assert!(model.interface().is_none());
-        let want = Want { history_rows: 1000, ..Want::history() };
+        let want = OutputRequest { history_rows: 1000, ..OutputRequest::history() };
         let mut run = Run::new(&model, expected, &want);
         while run.advance(211).is_none() {
             run = Run::resume(&model, run.memory().clone()).unwrap();

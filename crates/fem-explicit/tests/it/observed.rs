@@ -1,7 +1,7 @@
 //! What is observed of a run does not depend on whether its rows are kept.
 
 use crate::common::{HERTZ_TIME, Pair};
-use fem_collision::{Collision, Expectation, Stop, Want};
+use fem_collision::{Collision, Expectation, OutputRequest, Stop};
 use fem_explicit::{Model, collide};
 use fem_material::ActsOn;
 
@@ -22,20 +22,25 @@ fn but_rows(run: &Collision) -> String {
 }
 
 /// Runs a model for so many rows.
-fn run_for(model: &Model, expected: Expectation, want: Want, history_rows: usize) -> Collision {
-    collide(model, expected, &Want { history_rows, ..want }, &mut ())
+fn run_for(
+    model: &Model,
+    expected: Expectation,
+    want: OutputRequest,
+    history_rows: usize,
+) -> Collision {
+    collide(model, expected, &OutputRequest { history_rows, ..want }, &mut ())
 }
 
 #[test]
 fn quantities_are_those_of_a_run_with_history() {
     for pair in pairs() {
         let model = pair.model();
-        let whole = collide(&model, pair.expected(), &Want::history(), &mut ());
-        let bare = collide(&model, pair.expected(), &Want::quantities(), &mut ());
+        let whole = collide(&model, pair.expected(), &OutputRequest::history(), &mut ());
+        let bare = collide(&model, pair.expected(), &OutputRequest::quantities(), &mut ());
         assert!(whole.history.len() > 1000 && bare.history.is_empty());
         assert_eq!(but_rows(&bare), but_rows(&whole));
         for history_rows in [1, 100, 100_000] {
-            let other = run_for(&model, pair.expected(), Want::history(), history_rows);
+            let other = run_for(&model, pair.expected(), OutputRequest::history(), history_rows);
             assert!(!other.history.is_empty());
             assert_eq!(but_rows(&other), but_rows(&whole), "{history_rows} rows");
         }
@@ -52,7 +57,10 @@ fn so_are_those_of_odd_runs() {
     {
         let model = pair.model();
         let expected = Expectation { contact_time, ..pair.expected() };
-        let want = Want { give_up_after: pair.max_time / contact_time, ..Want::history() };
+        let want = OutputRequest {
+            give_up_after: pair.max_time / contact_time,
+            ..OutputRequest::history()
+        };
         let whole = run_for(&model, expected, want.clone(), 1000);
         assert_eq!(whole.is_complete(), contact_time < HERTZ_TIME);
         for history_rows in [0, 30, 3000] {

@@ -2,8 +2,8 @@
 
 use crate::common::{HERTZ_TIME, Pair, quantities};
 use fem_collision::{
-    Account, Approach, BodyInput, Collision, Ending, Label, Monitor, Progress, Row,
-    SnapshotRequest, Stop,
+    Account, Approach, BodyInput, Collision, Ending, HistoryRow, Monitor, Progress,
+    SnapshotInstant, SnapshotRequest, Stop,
 };
 use fem_contact::ContactError;
 use fem_explicit::{Model, ModelError, Settings, collide};
@@ -57,13 +57,13 @@ fn fewer_rows_change_nothing_else() {
 #[test]
 fn labelled_snapshots_are_the_named_instants() {
     for relaxation in [None, Some(ActsOn::All)] {
-        let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
+        let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
         let pair = Pair { snapshots, relaxation, ..Pair::default() };
         let model = pair.model();
         let run = pair.run_model(&model);
         let found = quantities(&run);
         let labels: Vec<_> = run.snapshots.iter().map(|s| s.label.unwrap()).collect();
-        assert_eq!(labels, Label::ALL);
+        assert_eq!(labels, SnapshotInstant::ALL);
         let [compression, maximum, separation, last] = &run.snapshots[..] else { panic!() };
         for half in [compression, separation] {
             // The promise; 1.5 % is the ladder's, a step's 0.03 %.
@@ -83,7 +83,7 @@ fn labelled_snapshots_are_the_named_instants() {
             assert!(((lower - upper) / snapshot.approach - 1.0).abs() < 0.01);
         }
         // Under the centre the stress carries the contact pressure, whose nodal values read 3 % low.
-        let at_maximum = |row: &&Row| row.time >= maximum.time;
+        let at_maximum = |row: &&HistoryRow| row.time >= maximum.time;
         let pressure = run.history.iter().find(at_maximum).unwrap().centre_pressure.unwrap();
         // Hertz' −p₀ and −p₀(1 + 2ν)/2 for an elastic body, p₀ ∝ F^(1/3).
         let hertz = 1.0268e9 * (found.peak_force / 107.02).cbrt();
@@ -134,7 +134,9 @@ fn times_give_the_nearest_steps() {
 #[test]
 fn snapshots_do_not_disturb_the_run() {
     let plain = coarse().run();
-    for snapshots in [SnapshotRequest::Labels(Label::ALL.to_vec()), SnapshotRequest::Count(10)] {
+    for snapshots in
+        [SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec()), SnapshotRequest::Count(10)]
+    {
         assert_eq!(Pair { snapshots, ..coarse() }.run().history, plain.history);
     }
 }

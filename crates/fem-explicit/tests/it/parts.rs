@@ -3,7 +3,9 @@
 use std::any::Any;
 
 use crate::common::{Pair, quantities};
-use fem_collision::{Account, BodyInput, Collision, Label, Searched, SnapshotRequest};
+use fem_collision::{
+    Account, BodyInput, CandidateRegion, Collision, SnapshotInstant, SnapshotRequest,
+};
 use fem_contact::{ContactForces, ContactInterface, Profile, Surface};
 use fem_explicit::{
     Accounts, Contact, Field, Model, ModelError, Motion, MotionMut, NodalField, NodeForce, Part,
@@ -11,7 +13,7 @@ use fem_explicit::{
 };
 
 fn small() -> Pair {
-    let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
+    let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
     Pair { element_size: 110e-6, candidate_radius: 0.45e-3, snapshots, ..Pair::default() }
 }
 
@@ -242,7 +244,7 @@ impl Part for Counting {
 }
 
 impl Contact for Counting {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         self.penalty.searched()
     }
 

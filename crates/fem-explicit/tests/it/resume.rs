@@ -2,7 +2,7 @@
 
 use crate::common::{CONTACT_MODULUS, Pair, quantities};
 use fem_collision::{
-    BodyInput, Collision, Ending, Label, Monitor, Progress, SnapshotRequest, Stop,
+    BodyInput, Collision, Ending, Monitor, Progress, SnapshotInstant, SnapshotRequest, Stop,
 };
 use fem_explicit::{Memory, Model, ModelError, Run, Settings, collide};
 use fem_material::ActsOn;
@@ -25,7 +25,7 @@ fn materials() -> [Pair; 4] {
 
 fn requests() -> [SnapshotRequest; 3] {
     let times = vec![1e-6, 30e-6, 1.0, 70e-6];
-    let labels = Label::ALL.to_vec();
+    let labels = SnapshotInstant::ALL.to_vec();
     [SnapshotRequest::Labels(labels), SnapshotRequest::Count(5), SnapshotRequest::Times(times)]
 }
 

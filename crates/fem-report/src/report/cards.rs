@@ -2,7 +2,7 @@
 
 use fem::results::Parts;
 use fem_case::engineering::{Unit, show};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 use super::stored_result::StoredResult;
 use crate::number_text::{power_of_ten, rounded, with_error};
@@ -23,10 +23,10 @@ pub struct Card {
 
 /// Returns a card for each quantity that the result has.
 pub fn cards(result: &StoredResult) -> Vec<Card> {
-    Headline::ALL.into_iter().filter_map(|headline| card(result, headline)).collect()
+    QuantityOfInterest::ALL.into_iter().filter_map(|headline| card(result, headline)).collect()
 }
 
-fn card(result: &StoredResult, headline: Headline) -> Option<Card> {
+fn card(result: &StoredResult, headline: QuantityOfInterest) -> Option<Card> {
     let key = headline.key();
     let value = result.number(&[key])?;
     let hertz = result.number(&["hertz", key]);
@@ -37,10 +37,10 @@ fn card(result: &StoredResult, headline: Headline) -> Option<Card> {
     let mut notes = Vec::new();
     let numerics = if result.has_elements() { "mesh" } else { "numerics" };
     notes.extend(error_text(&parts, numerics, ROUNDING * scale, &|size| rounded(scaled(size))));
-    if let Some(hertz) = hertz.filter(|_| headline != Headline::Restitution) {
+    if let Some(hertz) = hertz.filter(|_| headline != QuantityOfInterest::Restitution) {
         notes.push(format!("Hertz {} (× {:.4})", show(hertz, headline.unit()), value / hertz));
     }
-    if headline == Headline::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
+    if headline == QuantityOfInterest::Restitution && (1.0 - value).abs() < 0.1 && value != 1.0 {
         notes.push(format!("1 − e = {}", power_of_ten(1.0 - value)));
     }
     let error = parts.sum().filter(|error| *error > VISIBLE * scale);
@@ -76,20 +76,22 @@ fn error_text(
 
 /// Returns the name of a quantity; for radius and pressure it says whether they refer to the undeformed
 /// (nominal) or the deformed (true) shape.
-pub fn name(result: &StoredResult, headline: Headline) -> String {
+pub fn name(result: &StoredResult, headline: QuantityOfInterest) -> String {
     let shape = match headline {
-        Headline::MaxContactRadius | Headline::PeakPressure if result.is_finite_strain() => {
+        QuantityOfInterest::MaxContactRadius | QuantityOfInterest::PeakPressure
+            if result.is_finite_strain() =>
+        {
             ", true"
         }
-        Headline::MaxContactRadius | Headline::PeakPressure => ", nominal",
+        QuantityOfInterest::MaxContactRadius | QuantityOfInterest::PeakPressure => ", nominal",
         _ => "",
     };
     format!("{}{shape}", headline.name())
 }
 
 /// Returns the scale of relative errors: 1 for the restitution, the value itself for all others.
-pub fn error_scale(value: f64, headline: Headline) -> f64 {
-    if headline == Headline::Restitution { 1.0 } else { value.abs() }
+pub fn error_scale(value: f64, headline: QuantityOfInterest) -> f64 {
+    if headline == QuantityOfInterest::Restitution { 1.0 } else { value.abs() }
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use askama::Template;
 use fem::results::Parts;
 use fem_case::engineering::{Unit, show};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use serde_json::Value;
 
 use super::case_keys::differences;
@@ -60,7 +60,8 @@ pub fn comparison_page(results: &[StoredResult]) -> Result<String, ReportError> 
     let mut cite: Vec<String> = results.iter().map(citation).collect();
     cite.dedup();
     let names: Vec<String> = results.iter().map(|result| result.name.clone()).collect();
-    let numbers = Headline::ALL.iter().map(|headline| numbers(results, *headline)).collect();
+    let numbers =
+        QuantityOfInterest::ALL.iter().map(|headline| numbers(results, *headline)).collect();
     let (heads, numbers) = match results.len() {
         0..=MOST_COLUMNS => (names.clone(), numbers),
         _ => transposed(&names, numbers),
@@ -92,7 +93,7 @@ fn transposed(
 }
 
 /// Returns the row of a quantity: its value with error for each result, and its difference from the first.
-fn numbers(results: &[StoredResult], headline: Headline) -> (String, Vec<Cell>) {
+fn numbers(results: &[StoredResult], headline: QuantityOfInterest) -> (String, Vec<Cell>) {
     let of = |result: &StoredResult| {
         let value = result.number(&[headline.key()])?;
         Some((value, result.error_parts(headline)))
@@ -122,7 +123,7 @@ fn numbers(results: &[StoredResult], headline: Headline) -> (String, Vec<Cell>) 
 }
 
 /// Returns `62.46 ± 0.21 µs`, or `62.46 µs, error at least 0.21 µs` if part of the error is unknown.
-fn shown((value, parts): (f64, Parts), headline: Headline) -> String {
+fn shown((value, parts): (f64, Parts), headline: QuantityOfInterest) -> String {
     let is_seen = |error: &f64| *error > cards::VISIBLE * cards::error_scale(value, headline);
     let error = parts.sum().filter(is_seen);
     let number = match headline.unit() {
@@ -155,13 +156,13 @@ fn shown((value, parts): (f64, Parts), headline: Headline) -> String {
 
 /// Returns the difference from the first result, absolute for the restitution and relative for all others,
 /// and whether it is within the error bars.
-fn difference_text(own: (f64, Parts), from: (f64, Parts), headline: Headline) -> String {
+fn difference_text(own: (f64, Parts), from: (f64, Parts), headline: QuantityOfInterest) -> String {
     let difference = own.0 - from.0;
     if difference == 0.0 {
         return "the same".to_string();
     }
     let size = match headline {
-        Headline::Restitution => format!("{difference:+.5}"),
+        QuantityOfInterest::Restitution => format!("{difference:+.5}"),
         _ if own.0 > MULTIPLE * from.0 && from.0 > 0.0 => format!("\u{d7} {:.3}", own.0 / from.0),
         _ => format!("{:+.2} %", 100.0 * difference / from.0),
     };
@@ -186,13 +187,16 @@ mod tests {
             model,
             model_at_least,
         };
-        let time = |parts| shown((45.607e-6, parts), Headline::ContactTime);
+        let time = |parts| shown((45.607e-6, parts), QuantityOfInterest::ContactTime);
         assert_eq!(time(parts(1e-6, Some(0.9e-6), None)), "45.6 ± 1.9 µs");
         assert_eq!(time(parts(1.6e-7, None, Some(1.74e-6))), "45.61 µs, error at least 1.9 µs");
         assert_eq!(time(parts(4.6e-13, None, None)), "45.61 µs, error not known");
-        let restitution = shown((0.99279, parts(5e-4, None, None)), Headline::Restitution);
+        let restitution =
+            shown((0.99279, parts(5e-4, None, None)), QuantityOfInterest::Restitution);
         assert_eq!(restitution, "0.99279, error at least 0.0005");
-        let apart = |parts| difference_text((45e-6, parts), (46e-6, parts), Headline::ContactTime);
+        let apart = |parts| {
+            difference_text((45e-6, parts), (46e-6, parts), QuantityOfInterest::ContactTime)
+        };
         assert!(apart(parts(1e-6, Some(0.0), None)).contains("within the error bars"));
         assert!(!apart(parts(1e-6, None, None)).contains("within the error bars"));
     }

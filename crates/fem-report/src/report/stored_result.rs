@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use fem::results::{CONTACT_FILE, HISTORY_FILE, Parts, SUMMARY_FILE};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use serde::Deserialize;
 use serde_json::Value;
 use thiserror::Error;
@@ -166,7 +166,7 @@ impl StoredResult {
     }
 
     /// Returns the parts of a quantity's error; results of older versions lack some.
-    pub fn error_parts(&self, headline: Headline) -> Parts {
+    pub fn error_parts(&self, headline: QuantityOfInterest) -> Parts {
         let part = |part: &str| self.number(&["uncertainty", headline.key(), part]);
         Parts {
             discretisation: part("discretisation"),

@@ -1,6 +1,6 @@
 //! The rows of the table of contact methods: one per scene, method and stiffness.
 
-use fem::{Case, Collision, Simulation, Want};
+use fem::{Case, Collision, OutputRequest, Simulation};
 use std::path::Path;
 
 /// A scene, with the limits of its restitution, contact time (s) and peak force (N) for small elements,
@@ -61,7 +61,7 @@ impl Row {
         ];
         let case = Case::parse("glass.toml", self.scene.text, Path::new("."), &overrides);
         let mut simulation = Simulation::new(case.expect("a case")).expect("a scene");
-        simulation.ask_for(Want::quantities()).expect("a run");
+        simulation.ask_for(OutputRequest::quantities()).expect("a run");
         simulation
     }
 

@@ -1,6 +1,8 @@
 //! The rows of the table of the effects' cost: one per effect, off and on.
 
-use fem::{Case, Course, Explicit, Label, Model, Simulation, SnapshotRequest, Want};
+use fem::{
+    Case, Course, Explicit, Model, OutputRequest, Simulation, SnapshotInstant, SnapshotRequest,
+};
 use std::path::Path;
 
 /// The glass pair without relaxation, at default settings, with eight elements across the contact and
@@ -179,13 +181,13 @@ impl Side {
         }
     }
 
-    fn want(&self) -> Want {
+    fn want(&self) -> OutputRequest {
         match self.kept {
-            Kept::Quantities => Want::quantities(),
-            Kept::History => Want::history(),
+            Kept::Quantities => OutputRequest::quantities(),
+            Kept::History => OutputRequest::history(),
             Kept::Snapshots | Kept::Stress => {
-                let snapshots = SnapshotRequest::Labels(Label::ALL.to_vec());
-                Want { snapshots, ..Want::quantities() }
+                let snapshots = SnapshotRequest::Labels(SnapshotInstant::ALL.to_vec());
+                OutputRequest { snapshots, ..OutputRequest::quantities() }
             }
         }
     }

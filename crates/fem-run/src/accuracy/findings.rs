@@ -2,7 +2,7 @@
 
 use fem::accuracy::{Judged, Ladder, Measurement, Rung, Study};
 use fem_case::{Accuracy, CaseFile};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use serde_json::{Value, json as object};
 
 use crate::result_folder::command_output::CommandOutput;
@@ -68,8 +68,8 @@ pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<
             .map(String::from)
             .into();
     header.extend(["memory_bytes", "seconds"].map(String::from));
-    header.extend(Headline::ALL.map(|headline| headline.key().to_string()));
-    header.extend(Headline::ALL.map(|headline| format!("{}_error", error_key(headline))));
+    header.extend(QuantityOfInterest::ALL.map(|headline| headline.key().to_string()));
+    header.extend(QuantityOfInterest::ALL.map(|headline| format!("{}_error", error_key(headline))));
     header.extend(
         ["stress_error", "worst_error", "in_tolerances", "is_on_frontier"].map(String::from),
     );
@@ -101,17 +101,17 @@ pub fn write_csv(output: &mut CommandOutput, findings: &Findings<'_>) -> Result<
 }
 
 /// Returns the key of an error, which has no unit.
-fn error_key(headline: Headline) -> String {
+fn error_key(headline: QuantityOfInterest) -> String {
     headline.name().replace(' ', "_")
 }
 
 /// Returns `accuracy.json`: limits, orders and sources of error.
 pub fn json(findings: &Findings<'_>) -> Value {
     let by_name = |values: [Option<f64>; 6]| -> Value {
-        let pairs = Headline::ALL.into_iter().zip(values);
+        let pairs = QuantityOfInterest::ALL.into_iter().zip(values);
         pairs.map(|(headline, value)| (error_key(headline), object!(value))).collect()
     };
-    let limits: Value = Headline::ALL
+    let limits: Value = QuantityOfInterest::ALL
         .into_iter()
         .zip(findings.study.limits)
         .map(|(headline, limit)| {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use comfy_table::CellAlignment::{Left, Right};
 use fem::accuracy::{ErrorPart, ObservedOrder, Series};
 use fem_case::engineering::show;
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use indicatif::HumanCount;
 
 use super::findings::{Findings, Line};
@@ -84,13 +84,13 @@ pub fn markdown(findings: &Findings<'_>, has_picture: bool) -> String {
 
 /// Returns errors for a table: absolute for the restitution, in percent for all others.
 fn errors(errors: [Option<f64>; 6]) -> impl Iterator<Item = String> {
-    Headline::ALL.into_iter().zip(errors).map(|(headline, error)| own(headline, error))
+    QuantityOfInterest::ALL.into_iter().zip(errors).map(|(headline, error)| own(headline, error))
 }
 
-fn own(headline: Headline, error: Option<f64>) -> String {
+fn own(headline: QuantityOfInterest, error: Option<f64>) -> String {
     match (headline, error) {
-        (Headline::Restitution, Some(0.0)) => "0".to_string(),
-        (Headline::Restitution, Some(error)) => format!("{error:+.1e}"),
+        (QuantityOfInterest::Restitution, Some(0.0)) => "0".to_string(),
+        (QuantityOfInterest::Restitution, Some(error)) => format!("{error:+.1e}"),
         _ => percent(error),
     }
 }
@@ -126,11 +126,11 @@ fn rungs(
 }
 
 fn limits(findings: &Findings<'_>) -> Rows {
-    let rows =
-        Headline::ALL.into_iter().zip(findings.study.limits).filter_map(|(headline, limit)| {
+    let rows = QuantityOfInterest::ALL.into_iter().zip(findings.study.limits).filter_map(
+        |(headline, limit)| {
             let limit = limit?;
             let quantity = |value: f64| match headline {
-                Headline::Restitution => format!("{value:.5}"),
+                QuantityOfInterest::Restitution => format!("{value:.5}"),
                 _ => show(value, headline.unit()),
             };
             let scale = headline.scale(limit.value);
@@ -141,7 +141,8 @@ fn limits(findings: &Findings<'_>) -> Rows {
                 limit.condensed.map_or(NONE.into(), quantity),
                 own(headline, limit.added.map(|added| added / scale)),
             ])
-        });
+        },
+    );
     let header = ["", "limit", "uncertainty", "condensed", "explicit adds"];
     Rows { heading: "The limit", header: header.map(String::from).into(), rows: rows.collect() }
 }

@@ -1,7 +1,7 @@
 //! `accuracy.svg`: errors over run time on logarithmic axes, and the best variant for each time.
 
 use fem::accuracy::Series;
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use fem_figure::{Axis, COLOURS, Chart, Curve, GREY};
 
 use super::findings::{Findings, Line};
@@ -21,20 +21,24 @@ const DRAWN: [Series; 7] = [
 
 /// Returns the figure; `None` without any variant.
 pub fn picture(findings: &Findings<'_>) -> Option<String> {
-    let uncertain = |headline: Headline| {
+    let uncertain = |headline: QuantityOfInterest| {
         let limit = findings.study.limits[headline as usize]?;
         Some((limit.uncertainty / headline.scale(limit.value)).max(LEAST))
     };
-    let three = [Headline::Restitution, Headline::ContactTime, Headline::PeakForce];
+    let three = [
+        QuantityOfInterest::Restitution,
+        QuantityOfInterest::ContactTime,
+        QuantityOfInterest::PeakForce,
+    ];
     let worst = three.into_iter().filter_map(uncertain).fold(LEAST, f64::max);
-    let of = |headline: Headline, label: &str| {
+    let of = |headline: QuantityOfInterest, label: &str| {
         let known = uncertain(headline).unwrap_or(LEAST);
         panel(findings, label, known, |line| line.judged.sure[headline as usize])
     };
     let panels = [
         panel(findings, "worst error of e, T and F", worst, |line| line.judged.worst),
-        of(Headline::PeakPressure, "error of the peak pressure"),
-        of(Headline::MaxContactRadius, "error of the contact radius"),
+        of(QuantityOfInterest::PeakPressure, "error of the peak pressure"),
+        of(QuantityOfInterest::MaxContactRadius, "error of the contact radius"),
         panel(findings, "error of the stress field", LEAST, |line| line.judged.sure_stress_error),
     ];
     fem_figure::svg(&panels)

@@ -8,7 +8,7 @@ use fem::{Cost, ForceLaw, Foreseen, Simulation};
 use fem_case::Case;
 use fem_case::EffectsTable;
 use fem_case::engineering::{number, show};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use indicatif::{DecimalBytes, HumanCount};
 
 use crate::arguments::case::{CaseArguments, ToleranceArguments};
@@ -172,7 +172,7 @@ fn by_tolerance(simulation: &Simulation) -> String {
     }
     let (headline, tolerance) = plan.asked_by;
     let tolerance = match headline {
-        Headline::Restitution => number(tolerance, 3),
+        QuantityOfInterest::Restitution => number(tolerance, 3),
         _ => format!("{} %", number(100.0 * tolerance, 3)),
     };
     let (table, name) = (table(&[Left, Left], rows), headline.name());

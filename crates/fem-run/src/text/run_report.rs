@@ -8,7 +8,7 @@ use fem::effects::{LeftOut, Verdict};
 use fem::results::{BodySummary, BounceSummary, Parts, RestSummary, Summary};
 use fem::{Considered, ExpectedError};
 use fem_case::engineering::{Unit, number, show};
-use fem_collision::{Headline, Shown, Side};
+use fem_collision::{BalanceSide, QuantityOfInterest, ShownIn};
 use indicatif::{DecimalBytes, HumanCount};
 
 use super::standard_output::one_line;
@@ -72,9 +72,9 @@ fn quantities(summary: &Summary) -> String {
     let has_elements = summary.bodies.iter().any(|body| body.elements.is_some());
     let own = if has_elements { "± mesh" } else { "± numerics" };
     let header = ["", "this run", own, "± neglected", "Hertz", "ratio"].map(String::from);
-    let row = |headline: Headline| {
+    let row = |headline: QuantityOfInterest| {
         let (value, theirs) = (ours.number(headline), hertz.number(headline));
-        let has_unit = headline != Headline::Restitution;
+        let has_unit = headline != QuantityOfInterest::Restitution;
         let unit =
             has_unit.then(|| Unit::fitting(theirs.or(value).unwrap_or_default(), headline.unit()));
         let shown = |value: Option<f64>| match (value, &unit) {
@@ -88,7 +88,7 @@ fn quantities(summary: &Summary) -> String {
         let ratio = value.zip(theirs).map_or(NONE.into(), |(a, b)| format!("{:.4}", a / b));
         [headline.name().into(), shown(value), mesh, neglected, shown(theirs), ratio]
     };
-    let rows = std::iter::once(header).chain(Headline::ALL.map(row));
+    let rows = std::iter::once(header).chain(QuantityOfInterest::ALL.map(row));
     let table = table(&[Left, Right, Right, Right, Right, Right], rows);
     let legend = error_legend(own, &table);
     format!("{table}\n{legend}\n")
@@ -182,8 +182,8 @@ fn bodies(bodies: &[BodySummary]) -> String {
 fn balances(summary: &Summary) -> String {
     let residual = |value: Option<f64>| value.map_or(NONE.into(), |value| number(value, 2));
     let book = summary.energy.accounts.0;
-    let dissipated = book.total(Side::Lost);
-    let of_effects = book.entries().filter(|(account, _)| account.shown() == Shown::WhereFilled);
+    let dissipated = book.total(BalanceSide::Lost);
+    let of_effects = book.entries().filter(|(account, _)| account.shown() == ShownIn::WhereFilled);
     let of_effects = of_effects.map(|(account, energy)| {
         format!("; {} {}", account.name().replace('_', " "), show(energy, "J"))
     });

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use fem::results::energy_key;
 use fem::sweep::COLUMNS;
-use fem_collision::{Account, Shown};
+use fem_collision::{Account, ShownIn};
 
 use crate::common::Place;
 use crate::pages::Page;
@@ -52,7 +52,7 @@ fn energies_are_those_of_the_accounts() {
         of_table.chain(["residual_j", "residual_relative"].map(String::from)).collect();
     assert_eq!(named, of_table);
     let is_optional = |key: &String| {
-        Account::all().any(|one| energy_key(one) == *key && one.shown() == Shown::WhereFilled)
+        Account::all().any(|one| energy_key(one) == *key && one.shown() == ShownIn::WhereFilled)
     };
     let summary = place.json("runs/case/summary.json");
     let written: Vec<&String> = summary["energy"].as_object().unwrap().keys().collect();

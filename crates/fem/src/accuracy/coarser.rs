@@ -15,9 +15,9 @@ const MOST_FOR_ONE: f64 = 7.5;
 /// ... and from here on a mesh of half as many has enough.
 const ENOUGH_FOR_TWO: f64 = 2.0 * FEW;
 
-/// Coarser meshes, and what their differences are worth; arrays in the order of [`Headline::ALL`].
+/// Coarser meshes, and what their differences are worth; arrays in the order of [`QuantityOfInterest::ALL`].
 ///
-/// [`Headline::ALL`]: fem_collision::Headline::ALL
+/// [`QuantityOfInterest::ALL`]: fem_collision::QuantityOfInterest::ALL
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ByCoarserMeshes {
     /// Lengths of their elements over those of the collision.

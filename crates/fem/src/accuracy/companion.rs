@@ -5,7 +5,7 @@ use std::sync::PoisonError;
 
 use fem_case::schema::ContactMethod;
 use fem_case::{CondensedOptions, Quantity};
-use fem_collision::{Approach, Headline, Want};
+use fem_collision::{Approach, OutputRequest, QuantityOfInterest};
 
 use super::foretold::lengthening;
 use super::ladder::first_contact;
@@ -58,7 +58,7 @@ pub(crate) struct Coarser {
     pub(super) approach: Approach,
     /// Length of the elements at the contact, m.
     pub(super) size: f64,
-    /// In the order of [`Headline::ALL`].
+    /// In the order of [`QuantityOfInterest::ALL`].
     pub(super) values: [Option<f64>; 6],
     /// See [`lengthening`].
     pub(super) lengthening: f64,
@@ -160,7 +160,7 @@ impl<'a> Companions<'a> {
     /// Errors of numbers beside the limit of nodes that touch exactly, which have no meshes that are staggered, with
     /// elements about as long (m) and half as long.
     fn beside_touching(&self, values: [Option<f64>; 6], size: f64) -> Option<[Option<f64>; 6]> {
-        let size = match values[Headline::MaxContactRadius as usize] {
+        let size = match values[QuantityOfInterest::MaxContactRadius as usize] {
             Some(radius) if radius > size => radius / (radius / size).round(),
             _ => size,
         };
@@ -184,7 +184,7 @@ impl<'a> Companions<'a> {
         let size = Setting::ElementSize(self.size / ratio);
         let staggered = Setting::Staggered(self.plan.finer_body.is_some());
         let fine = self.collide(&[size, staggered]).unwrap_or_default();
-        Headline::ALL.map(|headline| {
+        QuantityOfInterest::ALL.map(|headline| {
             let k = headline as usize;
             let (fine, value) = (fine[k]?, values[k]?);
             Some((1.0 + remaining(ratio)) * (fine - value) / headline.scale(value))
@@ -217,7 +217,7 @@ impl<'a> Companions<'a> {
             let Some(Coarser { values: coarse, .. }) = self.with_elements(ratio, u64::MAX) else {
                 continue;
             };
-            for (k, headline) in Headline::ALL.into_iter().enumerate() {
+            for (k, headline) in QuantityOfInterest::ALL.into_iter().enumerate() {
                 let both = coarse[k].zip(values[k]);
                 let error = both.map(|(coarse, value)| {
                     remaining(ratio) * (coarse - value).abs() / headline.scale(value)
@@ -293,10 +293,10 @@ impl<'a> Companions<'a> {
         });
         let shared = self.simulation.shared().of_companions();
         let companion = Simulation::sharing(case.ok()?, &shared).ok()?;
-        let want = Want { most_element_updates, ..Want::quantities() };
+        let want = OutputRequest { most_element_updates, ..OutputRequest::quantities() };
         let collision = companion.model().collide(&self.approach, &want, &mut ());
         self.simulation.count_companion(&collision);
-        let values = Headline::ALL.map(|headline| headline.of(&collision));
+        let values = QuantityOfInterest::ALL.map(|headline| headline.of(&collision));
         let longer = lengthening(&companion, &collision).unwrap_or(1.0);
         collision.is_complete().then_some((values, longer))
     }
@@ -304,7 +304,7 @@ impl<'a> Companions<'a> {
 
 /// What the mesh away from the contact changes, with its margin, of numbers with the given and with the chosen one.
 fn beside_chosen(given: [Option<f64>; 6], chosen: [Option<f64>; 6]) -> [Option<f64>; 6] {
-    Headline::ALL.map(|headline| {
+    QuantityOfInterest::ALL.map(|headline| {
         let k = headline as usize;
         let (given, chosen) = (given[k]?, chosen[k]?);
         Some(MARGIN_OF_FAR_MESH * (given - chosen).abs() / headline.scale(chosen))
@@ -317,7 +317,7 @@ fn beside_limit(
     coarse: [Option<f64>; 6],
     fine: [Option<f64>; 6],
 ) -> [Option<f64>; 6] {
-    Headline::ALL.map(|headline| {
+    QuantityOfInterest::ALL.map(|headline| {
         let k = headline as usize;
         let limit = fine[k]? + remaining(2.0) * (fine[k]? - coarse[k]?);
         Some((values[k]? - limit) / headline.scale(limit))

@@ -34,7 +34,7 @@
 //!
 //! Errors are told without their sign and with a margin (`accuracy/margins.rs`): the limit is expected within them.
 
-use fem_collision::{Collision, Headline, longest_at_pole};
+use fem_collision::{Collision, QuantityOfInterest, longest_at_pole};
 
 use super::coarser::ByCoarserMeshes;
 use super::companion::{Beside, COARSER, Companions, FLAT, companion_updates};
@@ -58,7 +58,7 @@ pub(crate) fn discretisation_errors(
     collision: &Collision,
     is_at_finite_strain: bool,
 ) -> Doubt {
-    let values = Headline::ALL.map(|headline| headline.of(collision));
+    let values = QuantityOfInterest::ALL.map(|headline| headline.of(collision));
     let Some(elements) = simulation.setup().elements.as_ref() else { return Doubt::default() };
     if !collision.is_complete() {
         return Doubt::default();
@@ -125,8 +125,8 @@ pub(crate) fn discretisation_errors(
     let early = EarlyPressure::of(simulation, collision);
     let fast = if is_explicit { OF_FAST_TERMS * lost_at_once(simulation, collision) } else { 0.0 };
     let of_relaxation = |headline| match headline {
-        Headline::PeakPressure => early.map_or(0.0, |early| early.error),
-        Headline::Restitution => fast,
+        QuantityOfInterest::PeakPressure => early.map_or(0.0, |early| early.error),
+        QuantityOfInterest::Restitution => fast,
         _ => 0.0,
     };
     let scatter: [f64; 6] = std::array::from_fn(|k| scatter[k] + fronts[k]);

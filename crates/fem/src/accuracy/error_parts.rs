@@ -1,6 +1,6 @@
 //! Where the error of explicit elements with eight of them across the contact comes from.
 
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 /// What an error comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ impl ErrorSource {
 pub struct ErrorPart {
     /// Where it comes from.
     pub source: ErrorSource,
-    /// What it adds to each number, in the order of [`Headline::ALL`]: the restitution's absolute, all
+    /// What it adds to each number, in the order of [`QuantityOfInterest::ALL`]: the restitution's absolute, all
     /// others relative.
     pub errors: [Option<f64>; 6],
 }
@@ -53,7 +53,7 @@ impl ErrorPart {
         limits: [Option<f64>; 6],
         factor: f64,
     ) -> Self {
-        let errors = Headline::ALL.map(|headline| {
+        let errors = QuantityOfInterest::ALL.map(|headline| {
             let k = headline as usize;
             Some(factor * (values[k]? - others[k]?) / headline.scale(limits[k]?))
         });

@@ -1,6 +1,6 @@
 //! What elements are going to be off by, and how many steps they take, as companions tell it before a collision.
 
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 
 use super::companion::{Beside, COARSER, Coarser, Companions, ORDER, companion_updates};
 use super::margins::{
@@ -24,7 +24,7 @@ pub(crate) fn foretold_errors(simulation: &Simulation) -> Option<[Option<f64>; 6
     }
     let companions = Companions::of_what_is_planned(simulation)?;
     let Beside { values, errors } = companions.of_condensed()?;
-    let across = values[Headline::MaxContactRadius as usize]? / companions.size;
+    let across = values[QuantityOfInterest::MaxContactRadius as usize]? / companions.size;
     let (scatter, of_few) = beside_condensed(mach, is_finite);
     Some(told(errors, MARGIN, scatter, of_few, across, *added_share))
 }
@@ -65,7 +65,7 @@ impl ByCoarser {
         let (Coarser { values: near, lengthening, .. }, Coarser { values: far, .. }) =
             (near?, far?);
         let fall = coarse.powf(ORDER) - fine.powf(ORDER);
-        let errors = Headline::ALL.map(|headline| {
+        let errors = QuantityOfInterest::ALL.map(|headline| {
             let (near, far) = (near[headline as usize]?, far[headline as usize]?);
             Some((far - near).abs() / fall / headline.scale(near))
         });
@@ -74,7 +74,7 @@ impl ByCoarser {
             errors,
             scatter: with_fronts(mach),
             of_few: of_few_strained(simulation, mach),
-            across: near[Headline::MaxContactRadius as usize]? / companions.size,
+            across: near[QuantityOfInterest::MaxContactRadius as usize]? / companions.size,
             lengthening,
         })
     }

@@ -2,7 +2,7 @@
 //! (`validation/error_bars`): margins, scatter, and what grows where elements are few.
 
 use fem_case::Body;
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
@@ -12,7 +12,7 @@ use crate::estimate::Estimate;
 use crate::method::Cost;
 use crate::simulation::Simulation;
 
-/// Errors that are told over those that are estimated, in the order of [`Headline::ALL`]: by condensed
+/// Errors that are told over those that are estimated, in the order of [`QuantityOfInterest::ALL`]: by condensed
 /// bodies on the same mesh, ...
 pub(super) const MARGIN: [f64; 6] = [1.3; 6];
 /// ... of condensed bodies by a finer one, whose force does not swing, ...
@@ -21,7 +21,7 @@ pub(super) const MARGIN_OF_FINER: [f64; 6] = [1.3, 1.3, 1.0, 1.3, 1.3, 1.3];
 /// first order.
 pub(super) const MARGIN_OF_STRAINED: [f64; 6] = [3.0, 2.0, 2.0, 2.0, 2.0, 2.0];
 /// How explicit elements scatter beside condensed bodies on the same mesh: the restitution absolute, all
-/// others relative, in the order of [`Headline::ALL`].
+/// others relative, in the order of [`QuantityOfInterest::ALL`].
 pub(super) const SCATTER: [f64; 6] = [2e-5, 1e-4, 2e-4, 5e-5, 1e-3, 1e-3];
 /// The same at finite strain: springs between moved surfaces ring.
 const SCATTER_AT_FINITE_STRAIN: [f64; 6] = [2e-5, 2e-4, 2e-4, 5e-5, 1e-3, 1e-3];
@@ -71,7 +71,7 @@ pub(super) fn of_few_strained(simulation: &Simulation, mach: f64) -> [f64; 6] {
     let softens = laws.contains(&Some(HyperelasticLaw::SaintVenantKirchhoff));
     let mut of_few = with_waves(OF_FEW_STRAINED, mach);
     if softens && setup.decisions.is_active(FiniteStrain::NAME) {
-        of_few[Headline::ContactTime as usize] += OF_SOFTENING;
+        of_few[QuantityOfInterest::ContactTime as usize] += OF_SOFTENING;
     }
     of_few
 }
@@ -87,7 +87,7 @@ pub(super) fn told(
     added: f64,
 ) -> [Option<f64>; 6] {
     let coarse = (FEW / across).max(1.0).powi(2);
-    Headline::ALL.map(|headline| {
+    QuantityOfInterest::ALL.map(|headline| {
         let k = headline as usize;
         let scatter = scatter[k] + of_few[k] / (across * across);
         Some(coarse * margin[k] * errors[k]?.abs() + scatter + added * OF_ADDED_MASS[k])
@@ -95,7 +95,7 @@ pub(super) fn told(
 }
 
 /// What is told of every mesh, the finest included, of a simulation's numbers: how they scatter. The restitution's
-/// absolute, all others relative, in the order of [`Headline::ALL`].
+/// absolute, all others relative, in the order of [`QuantityOfInterest::ALL`].
 pub(crate) fn scatter_of_any_mesh(simulation: &Simulation) -> [f64; 6] {
     let setup = simulation.setup();
     let Cost::Steps { .. } = setup.cost else { return CONDENSED_SCATTER };
@@ -130,7 +130,7 @@ pub(super) fn beside_condensed(mach: f64, is_at_finite_strain: bool) -> ([f64; 6
 /// What grows where elements are few, with that of the waves of an impact whose speed is so much of that of shear
 /// waves.
 fn with_waves(mut of_few: [f64; 6], mach: f64) -> [f64; 6] {
-    of_few[Headline::ContactTime as usize] += OF_WAVES * (mach / SLOW).min(1.0);
+    of_few[QuantityOfInterest::ContactTime as usize] += OF_WAVES * (mach / SLOW).min(1.0);
     of_few
 }
 
@@ -145,7 +145,7 @@ pub(super) fn lost_at_once(simulation: &Simulation, collision: &Collision) -> f6
 }
 
 /// What such a share of moved mass changes of a number, as errors of it are told.
-pub(crate) fn of_moved_mass(added: f64, headline: Headline) -> f64 {
+pub(crate) fn of_moved_mass(added: f64, headline: QuantityOfInterest) -> f64 {
     added * OF_ADDED_MASS[headline as usize]
 }
 

@@ -1,7 +1,7 @@
 //! What a rung gives.
 
 use fem_case::CaseError;
-use fem_collision::{Headline, Label, Monitor, SnapshotRequest, Want};
+use fem_collision::{Monitor, OutputRequest, QuantityOfInterest, SnapshotInstant, SnapshotRequest};
 
 use super::rung::Rung;
 use super::stress_places::StressPlaces;
@@ -11,7 +11,7 @@ use crate::simulation::Simulation;
 /// What a rung gives, SI.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurement {
-    /// The numbers, in the order of [`Headline::ALL`]; none of what the model has not, nor where the
+    /// The numbers, in the order of [`QuantityOfInterest::ALL`]; none of what the model has not, nor where the
     /// run did not end by itself.
     pub values: [Option<f64>; 6],
     /// σ_yy at the largest approach, tension positive, Pa, at each of the study's places; none of a
@@ -41,8 +41,8 @@ impl Measurement {
         monitor: &mut dyn Monitor,
     ) -> Result<Self, CaseError> {
         let mut simulation = Simulation::sharing(rung.case.clone(), shared)?;
-        let snapshots = SnapshotRequest::Labels(vec![Label::Maximum]);
-        let want = Want { snapshots, ..simulation.want().clone() };
+        let snapshots = SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]);
+        let want = OutputRequest { snapshots, ..simulation.want().clone() };
         // A label more or less is no fault.
         let _ = simulation.ask_for(want);
         let collision = simulation.run(monitor);
@@ -53,16 +53,16 @@ impl Measurement {
         };
         let is_complete = collision.is_complete();
         let finite = |value: f64| value.is_finite().then_some(value);
-        let value = |headline: Headline| match is_complete {
+        let value = |headline: QuantityOfInterest| match is_complete {
             true => headline.of(&collision).and_then(finite),
             false => None,
         };
-        let snapshot = collision.snapshot(Label::Maximum).filter(|_| is_complete);
+        let snapshot = collision.snapshot(SnapshotInstant::Maximum).filter(|_| is_complete);
         let stress = snapshot.and_then(|snapshot| {
             StressPlaces::around(contact_radius).sample(&simulation, snapshot)
         });
         Ok(Self {
-            values: Headline::ALL.map(value),
+            values: QuantityOfInterest::ALL.map(value),
             stress,
             elements,
             steps: collision.steps,
@@ -73,7 +73,7 @@ impl Measurement {
     }
 
     /// A value.
-    pub fn value(&self, headline: Headline) -> Option<f64> {
+    pub fn value(&self, headline: QuantityOfInterest) -> Option<f64> {
         self.values[headline as usize]
     }
 }

@@ -1,7 +1,7 @@
 //! The rungs of a ladder, judged together.
 
 use fem_case::Accuracy;
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 use super::convergence::{Convergence, ObservedOrder};
 use super::error_parts::{ErrorPart, ErrorSource};
@@ -20,7 +20,7 @@ const QUARTERED: f64 = 4.0 / 3.0;
 /// What is known of the error of a rung.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Judged {
-    /// Difference to the limit, in the order of [`Headline::ALL`]: the restitution's absolute, all others
+    /// Difference to the limit, in the order of [`QuantityOfInterest::ALL`]: the restitution's absolute, all others
     /// relative.
     pub errors: [Option<f64>; 6],
     /// The same without sign, and no smaller than that of any finer rung of its series: an error that
@@ -43,11 +43,11 @@ pub struct Judged {
 /// The rungs of a ladder, judged together.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// What the numbers tend to, in the order of [`Headline::ALL`].
+    /// What the numbers tend to, in the order of [`QuantityOfInterest::ALL`].
     pub limits: [Option<Limit>; 6],
     /// What is known of each rung, in the order of the ladder; nothing of one that did not run.
     pub judged: Vec<Option<Judged>>,
-    /// Observed orders of convergence in the size of the elements, in the order of [`Headline::ALL`]; none where
+    /// Observed orders of convergence in the size of the elements, in the order of [`QuantityOfInterest::ALL`]; none where
     /// levels do not tell one.
     pub orders: Vec<(Series, [Option<ObservedOrder>; 6])>,
     /// Where the error of explicit elements comes from, eight of them across the contact.
@@ -77,7 +77,7 @@ impl Study {
             Some(Run { index, rung, measurement, seconds: *seconds })
         });
         let ran: Vec<Run<'_>> = ran.filter(|run| run.measurement.is_complete).collect();
-        let limits = Headline::ALL.map(|headline| {
+        let limits = QuantityOfInterest::ALL.map(|headline| {
             let of = |series| levels(&ran, series, headline, FEWEST_ACROSS);
             Limit::of(&of(Series::Condensed), &of(Series::CondensedSprings), &of(Series::Explicit))
         });
@@ -88,7 +88,7 @@ impl Study {
         });
         let mut judged = vec![None; ladder.rungs.len()];
         for run in &ran {
-            let errors = Headline::ALL.map(|headline| {
+            let errors = QuantityOfInterest::ALL.map(|headline| {
                 let limit = limits[headline as usize]?;
                 let value = run.measurement.value(headline)?;
                 Some((value - limit.value) / headline.scale(limit.value))
@@ -114,7 +114,7 @@ impl Study {
         mark_frontier(&ran, &mut judged);
         let orders = Series::ALL.into_iter().filter(|series| series.is_over_element_size());
         let orders = orders.filter_map(|series| {
-            let orders = Headline::ALL.map(|headline| {
+            let orders = QuantityOfInterest::ALL.map(|headline| {
                 Convergence::of(&levels(&ran, series, headline, FEWEST_ACROSS))?.order
             });
             orders.iter().any(Option::is_some).then_some((series, orders))
@@ -146,7 +146,7 @@ impl Study {
 fn levels(
     ran: &[Run<'_>],
     series: Series,
-    headline: Headline,
+    headline: QuantityOfInterest,
     fewest_across: f64,
 ) -> Vec<(f64, f64)> {
     let of_series = ran.iter().filter(|run| run.rung.series == series);
@@ -161,7 +161,7 @@ fn levels(
 fn finest_field(ran: &[Run<'_>], limits: &[Option<Limit>; 6]) -> Option<usize> {
     /// What explicit elements add is then seen in the field, too.
     const SEEN: f64 = 2e-3;
-    let adds = Headline::ALL.into_iter().zip(limits).any(|(headline, limit)| {
+    let adds = QuantityOfInterest::ALL.into_iter().zip(limits).any(|(headline, limit)| {
         let Some(limit) = limit else { return false };
         let is_sure = limit.condensed.is_some_and(|condensed| condensed != limit.value);
         is_sure && limit.added.is_some_and(|added| added.abs() > SEEN * headline.scale(limit.value))
@@ -176,7 +176,11 @@ fn finest_field(ran: &[Run<'_>], limits: &[Option<Limit>; 6]) -> Option<usize> {
 }
 
 fn worst(errors: &[Option<f64>; 6]) -> Option<f64> {
-    let three = [Headline::Restitution, Headline::ContactTime, Headline::PeakForce];
+    let three = [
+        QuantityOfInterest::Restitution,
+        QuantityOfInterest::ContactTime,
+        QuantityOfInterest::PeakForce,
+    ];
     three.into_iter().try_fold(0.0, |worst: f64, headline| {
         errors[headline as usize].map(|error| worst.max(error.abs()))
     })
@@ -188,7 +192,7 @@ fn in_tolerances(
     accuracy: &Accuracy,
 ) -> Option<f64> {
     worst(errors)?;
-    let shares = Headline::ALL.into_iter().filter_map(|headline| {
+    let shares = QuantityOfInterest::ALL.into_iter().filter_map(|headline| {
         let (error, limit) = (errors[headline as usize]?, limits[headline as usize]?);
         let uncertain = limit.uncertainty / headline.scale(limit.value);
         Some((error.abs() + uncertain) / tolerance(headline, accuracy)?)
@@ -197,13 +201,13 @@ fn in_tolerances(
 }
 
 /// The error that a case allows; none of what it says nothing about.
-fn tolerance(headline: Headline, accuracy: &Accuracy) -> Option<f64> {
+fn tolerance(headline: QuantityOfInterest, accuracy: &Accuracy) -> Option<f64> {
     match headline {
-        Headline::Restitution => Some(accuracy.restitution),
-        Headline::ContactTime => Some(accuracy.contact_time),
-        Headline::PeakForce => Some(accuracy.peak_force),
-        Headline::PeakPressure => Some(accuracy.peak_pressure),
-        Headline::MaxApproach | Headline::MaxContactRadius => None,
+        QuantityOfInterest::Restitution => Some(accuracy.restitution),
+        QuantityOfInterest::ContactTime => Some(accuracy.contact_time),
+        QuantityOfInterest::PeakForce => Some(accuracy.peak_force),
+        QuantityOfInterest::PeakPressure => Some(accuracy.peak_pressure),
+        QuantityOfInterest::MaxApproach | QuantityOfInterest::MaxContactRadius => None,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use fem_case::Scene;
 use fem_case::engineering::show;
-use fem_collision::{Collision, Searched};
+use fem_collision::{CandidateRegion, Collision};
 
 use super::answer::Answer;
 use super::effect::Effect;
@@ -18,8 +18,8 @@ impl ContactSearch {
     pub const NAME: &'static str = "contact search";
 
     /// What a model has of it that looks for contact here.
-    pub(crate) fn within(searched: &Searched) -> Answer {
-        let Searched { radius, n_points, at_nodes } = searched;
+    pub(crate) fn within(searched: &CandidateRegion) -> Answer {
+        let CandidateRegion { radius, n_points, at_nodes } = searched;
         let points = if *at_nodes { "points" } else { "integration points" };
         let flight = "free flight is not stepped";
         Answer::is(

@@ -13,12 +13,12 @@
 //! causes are not independent of each other, as a root of squares would want: all grow with the contact
 //! radius and the speed, and most make a contact softer.
 
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 use crate::effects::LeftOut;
 use crate::estimate::Estimate;
 
-/// By how much each quantity of a result may be off, in the order of [`Headline::ALL`]; sizes in SI, `None`
+/// By how much each quantity of a result may be off, in the order of [`QuantityOfInterest::ALL`]; sizes in SI, `None`
 /// where closed forms do not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Doubt([Option<f64>; 6]);
@@ -37,8 +37,8 @@ impl Doubt {
     pub const NOTHING: Self = Self([Some(0.0); 6]);
 
     /// Of each quantity what `size` says.
-    pub fn by(size: impl FnMut(Headline) -> Option<f64>) -> Self {
-        Self(Headline::ALL.map(size))
+    pub fn by(size: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
+        Self(QuantityOfInterest::ALL.map(size))
     }
 
     /// Of an effect that changes so much of the numbers of an estimate.
@@ -51,14 +51,14 @@ impl Doubt {
         // Bodies that stay together have no contact time, and come as much closer as they press less.
         let softer = time.or(force);
         let doubt = Self::by(|headline| match headline {
-            Headline::Restitution => restitution,
-            Headline::ContactTime => contact_time_s,
-            Headline::PeakForce => peak_force_n,
-            Headline::MaxApproach => softer.map(|share| share * sizes.max_approach),
-            Headline::MaxContactRadius => {
+            QuantityOfInterest::Restitution => restitution,
+            QuantityOfInterest::ContactTime => contact_time_s,
+            QuantityOfInterest::PeakForce => peak_force_n,
+            QuantityOfInterest::MaxApproach => softer.map(|share| share * sizes.max_approach),
+            QuantityOfInterest::MaxContactRadius => {
                 softer.map(|share| 0.5 * share * sizes.max_contact_radius)
             }
-            Headline::PeakPressure => {
+            QuantityOfInterest::PeakPressure => {
                 both.or(force.zip(force)).map(|(time, force)| (time + force) * sizes.peak_pressure)
             }
         });
@@ -68,17 +68,17 @@ impl Doubt {
     /// Of a loss that is not known: of the restitution. The other quantities go by the moduli, of whose
     /// scatter nothing is said here.
     pub fn of_loss() -> Self {
-        Self::by(|headline| (headline != Headline::Restitution).then_some(0.0))
+        Self::by(|headline| (headline != QuantityOfInterest::Restitution).then_some(0.0))
     }
 
     /// Of one quantity.
-    pub fn size(&self, headline: Headline) -> Option<f64> {
+    pub fn size(&self, headline: QuantityOfInterest) -> Option<f64> {
         self.0[headline as usize]
     }
 
     /// With another size of one quantity.
     #[must_use]
-    pub(super) fn with(mut self, headline: Headline, size: f64) -> Self {
+    pub(super) fn with(mut self, headline: QuantityOfInterest, size: f64) -> Self {
         self.0[headline as usize] = Some(size);
         self
     }

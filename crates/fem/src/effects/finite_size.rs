@@ -1,7 +1,7 @@
 //! A sphere is stiffer than the half-space of Hertz: its own compliance, in series, to first order.
 
 use fem_case::{Body, Scene};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 use super::answer::Answer;
 use super::doubt::{Doubt, Standing};
@@ -113,8 +113,8 @@ impl Effect for FiniteSizeEffect {
             false => Doubt::of(&LeftOut::shares(estimate, second_order, second_order), estimate),
         };
         let pressure = Self::of_pressure(scene, estimate) * estimate.softened.sizes.peak_pressure;
-        match of_size.size(Headline::PeakPressure) {
-            Some(size) => of_size.with(Headline::PeakPressure, size + pressure),
+        match of_size.size(QuantityOfInterest::PeakPressure) {
+            Some(size) => of_size.with(QuantityOfInterest::PeakPressure, size + pressure),
             None => of_size,
         }
     }

@@ -9,7 +9,7 @@
 use fem_case::{
     Accuracy, CaseFile, CondensedOptions, EffectsTable, ModelChoice, Scene, Snapshots, Switch,
 };
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use fem_laws::Ting;
 use serde::Serialize;
 
@@ -74,10 +74,10 @@ pub struct ExpectedError {
 impl From<&Doubt> for ExpectedError {
     fn from(doubt: &Doubt) -> Self {
         Self {
-            restitution: doubt.size(Headline::Restitution),
-            contact_time_s: doubt.size(Headline::ContactTime),
-            peak_force_n: doubt.size(Headline::PeakForce),
-            peak_pressure_pa: doubt.size(Headline::PeakPressure),
+            restitution: doubt.size(QuantityOfInterest::Restitution),
+            contact_time_s: doubt.size(QuantityOfInterest::ContactTime),
+            peak_force_n: doubt.size(QuantityOfInterest::PeakForce),
+            peak_pressure_pa: doubt.size(QuantityOfInterest::PeakPressure),
         }
     }
 }
@@ -293,19 +293,19 @@ impl Candidate {
         let accuracy = scene.accuracy();
         let default = Accuracy::within(Accuracy::DEFAULT_TOLERANCE);
         let is_made_finer = self.has_fields && scene.mesh().contact_element_size.is_none();
-        let own = |headline: Headline| {
+        let own = |headline: QuantityOfInterest| {
             let [restitution, contact_time, peak_force, peak_pressure] = self.own;
             let (own, scale, asked, usual) = match headline {
-                Headline::Restitution => {
+                QuantityOfInterest::Restitution => {
                     (restitution, 1.0, accuracy.restitution, default.restitution)
                 }
-                Headline::ContactTime => {
+                QuantityOfInterest::ContactTime => {
                     (contact_time, sizes.contact_time, accuracy.contact_time, default.contact_time)
                 }
-                Headline::PeakForce => {
+                QuantityOfInterest::PeakForce => {
                     (peak_force, sizes.peak_force, accuracy.peak_force, default.peak_force)
                 }
-                Headline::PeakPressure => (
+                QuantityOfInterest::PeakPressure => (
                     peak_pressure,
                     sizes.peak_pressure,
                     accuracy.peak_pressure,
@@ -340,7 +340,7 @@ impl Candidate {
             }
         };
         // A contact that does not end has no time to be off by.
-        let is_known = [Headline::Restitution, Headline::PeakForce]
+        let is_known = [QuantityOfInterest::Restitution, QuantityOfInterest::PeakForce]
             .into_iter()
             .all(|headline| doubt.size(headline).is_some());
         let part = match effect.name() == PartnerWaves::NAME {
@@ -420,12 +420,13 @@ impl Candidate {
 /// The largest error over the tolerance.
 fn excess(error: &Doubt, estimate: &Estimate, accuracy: &Accuracy) -> f64 {
     let sizes = &estimate.softened.sizes;
-    let over = |headline: Headline, allowed: f64| error.size(headline).unwrap_or(0.0) / allowed;
+    let over =
+        |headline: QuantityOfInterest, allowed: f64| error.size(headline).unwrap_or(0.0) / allowed;
     [
-        over(Headline::Restitution, accuracy.restitution),
-        over(Headline::ContactTime, accuracy.contact_time * sizes.contact_time),
-        over(Headline::PeakForce, accuracy.peak_force * sizes.peak_force),
-        over(Headline::PeakPressure, accuracy.peak_pressure * sizes.peak_pressure),
+        over(QuantityOfInterest::Restitution, accuracy.restitution),
+        over(QuantityOfInterest::ContactTime, accuracy.contact_time * sizes.contact_time),
+        over(QuantityOfInterest::PeakForce, accuracy.peak_force * sizes.peak_force),
+        over(QuantityOfInterest::PeakPressure, accuracy.peak_pressure * sizes.peak_pressure),
     ]
     .into_iter()
     .fold(0.0, f64::max)

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use fem_case::{Body, CaseFile, ModelChoice, Scene};
 use fem_collision::{
-    Approach, BodyInput, Collision, Ending, Expectation, Monitor, Phase, Progress,
-    STEPS_BETWEEN_REPORTS, StaticContact, Stop, Want,
+    Approach, BodyInput, Collision, Ending, Expectation, Monitor, OutputRequest, Phase, Progress,
+    STEPS_BETWEEN_REPORTS, StaticContact, Stop,
 };
 use fem_explicit::{
     ContactMethod, Model as Bodies, ModelError, NodeForce, Parts, Run, Settings,
@@ -181,7 +181,7 @@ impl Explicit {
     }
 
     /// A collision under way.
-    fn course(&self, approach: &Approach, want: &Want) -> Box<dyn Course> {
+    fn course(&self, approach: &Approach, want: &OutputRequest) -> Box<dyn Course> {
         match want.check().map_err(Stop::from).and_then(|()| self.meeting(approach)) {
             Ok((bodies, frame, estimate)) => {
                 let (expected, want) = (estimate.expectation(), frame.want(want));
@@ -246,12 +246,17 @@ impl Model for Explicit {
         has(effect, &self.made.scene, &self.setup.estimate, &self.bodies)
     }
 
-    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+    fn collide(
+        &self,
+        approach: &Approach,
+        want: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
         monitor.enter(Phase::Collision);
         to_the_end(self.course(approach, want), monitor)
     }
 
-    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
         Some(self.course(approach, want))
     }
 
@@ -291,7 +296,7 @@ struct ExplicitCourse {
     expected: Expectation,
     /// Of the run, s.
     duration: f64,
-    want: Want,
+    want: OutputRequest,
     run: Run<Arc<Bodies>>,
 }
 

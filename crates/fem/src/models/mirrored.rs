@@ -3,8 +3,9 @@
 
 use fem_case::Scene;
 use fem_collision::{
-    Account, Approach, BodyFields, BodyResult, Book, Collision, ContactPlace, ContactProfile,
-    Deepest, Monitor, Progress, Row, Snapshot, StaticContact, Stop, Want,
+    Account, Approach, BodyFields, BodyResult, Collision, ContactProfile, ContactProfilePoint,
+    DeepestOverlap, EnergyLedger, HistoryRow, Monitor, OutputRequest, Progress, Snapshot,
+    StaticContact, Stop,
 };
 use fem_mesh::{Side, SphereMesh};
 
@@ -67,7 +68,12 @@ impl<M: Model> Model for Mirrored<M> {
         has(effect, &self.half, estimate)
     }
 
-    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+    fn collide(
+        &self,
+        approach: &Approach,
+        want: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
         match half_of(approach) {
             Ok(half) => {
                 let want = &in_half(want);
@@ -77,7 +83,7 @@ impl<M: Model> Model for Mirrored<M> {
         }
     }
 
-    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
         let whole = Whole::of(approach);
         match half_of(approach) {
             Ok(half) => {
@@ -106,7 +112,7 @@ impl<M: Model> Model for Mirrored<M> {
 }
 
 /// What the half is asked for: a place in the upper body is the mirrored one in the lower.
-fn in_half(want: &Want) -> Want {
+fn in_half(want: &OutputRequest) -> OutputRequest {
     let mut want = want.clone();
     for probe in want.probes.iter_mut().filter(|probe| probe.side == 1) {
         (probe.side, probe.place[1]) = (0, -probe.place[1]);
@@ -173,7 +179,7 @@ impl Whole {
             residual: half.residual.map(|residual| 2.0 * residual),
             deepest: half
                 .deepest
-                .map(|deepest| Deepest { overlap: 2.0 * deepest.overlap, ..deepest }),
+                .map(|deepest| DeepestOverlap { overlap: 2.0 * deepest.overlap, ..deepest }),
             max_approach: half.max_approach.map(|approach| 2.0 * approach),
             initial_energy: half.initial_energy.map(|energy| 2.0 * energy + of_centre),
             bodies: [after(0), after(1)],
@@ -189,8 +195,8 @@ impl Whole {
         [self.velocity + lower, self.velocity - lower]
     }
 
-    fn row(&self, half: &Row, of_centre: f64) -> Row {
-        Row {
+    fn row(&self, half: &HistoryRow, of_centre: f64) -> HistoryRow {
+        HistoryRow {
             approach: 2.0 * half.approach,
             velocity: self.velocities(half.velocity[0]),
             energies: twice(&half.energies).with(Account::Kinetic, of_centre),
@@ -214,7 +220,7 @@ impl Whole {
         };
         let carried = [half.carried[0] + shift, shift - half.carried[0]];
         // The plane between both does not move along r, the image as the body itself.
-        let place = |place: &ContactPlace| ContactPlace {
+        let place = |place: &ContactProfilePoint| ContactProfilePoint {
             gap: 2.0 * place.gap,
             radial: [place.radial[0]; 2],
             ..*place
@@ -227,6 +233,6 @@ impl Whole {
 }
 
 /// What both bodies have of what is in the accounts of one.
-fn twice(book: &Book) -> Book {
+fn twice(book: &EnergyLedger) -> EnergyLedger {
     book.and(book)
 }

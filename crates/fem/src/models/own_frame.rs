@@ -13,8 +13,8 @@
 //! A wall has an infinite mass and is at rest here; its work is V times the momentum that it gives.
 
 use fem_collision::{
-    Account, Approach, ApproachError, BodyResult, Book, Collision, Ending, Progress, Row, Snapshot,
-    SnapshotRequest, Want,
+    Account, Approach, ApproachError, BodyResult, Collision, Ending, EnergyLedger, HistoryRow,
+    OutputRequest, Progress, Snapshot, SnapshotRequest,
 };
 
 /// Two ways to look at the same bodies.
@@ -50,7 +50,7 @@ impl OwnFrame {
     }
 
     /// What is asked for, at times since first touch.
-    pub fn want(&self, want: &Want) -> Want {
+    pub fn want(&self, want: &OutputRequest) -> OutputRequest {
         let mut want = want.clone();
         if let SnapshotRequest::Times(times) = &mut want.snapshots {
             times.iter_mut().for_each(|time| *time -= self.delay());
@@ -128,13 +128,18 @@ impl OwnFrame {
         }
     }
 
-    fn energies(&self, own: Book, masses: [Option<f64>; 2], velocities: [f64; 2]) -> Book {
+    fn energies(
+        &self,
+        own: EnergyLedger,
+        masses: [Option<f64>; 2],
+        velocities: [f64; 2],
+    ) -> EnergyLedger {
         own.with(Account::Kinetic, self.gained(masses, velocities))
             .with(Account::WallWork, self.wall_work(masses, velocities))
     }
 
-    fn row(&self, own: Row, masses: [Option<f64>; 2]) -> Row {
-        Row {
+    fn row(&self, own: HistoryRow, masses: [Option<f64>; 2]) -> HistoryRow {
+        HistoryRow {
             time: self.delay() + own.time,
             velocity: own.velocity.map(|v| v + self.velocity),
             energies: self.energies(own.energies, masses, own.velocity),
@@ -174,7 +179,7 @@ mod tests {
         // ½·2·1 + ½·1·4 = 3 J there, ½·2·9 = 9 J here.
         assert_eq!(3.0 + frame.gained(masses, frame.own().velocities()), 9.0);
         assert_eq!(frame.wall_work(masses, [0.0, 0.0]), 0.0);
-        assert_eq!(frame.want(&Want::quantities()), Want::quantities());
+        assert_eq!(frame.want(&OutputRequest::quantities()), OutputRequest::quantities());
         let snapshot = Snapshot { time: 0.5, ..Snapshot::default() };
         // 2 s of flight at 3 m/s and at rest, then half a second with the mass centre.
         let carried = frame.snapshot(snapshot);

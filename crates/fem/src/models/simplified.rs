@@ -2,7 +2,7 @@
 //! is the model's, what is decided and said is of the scene as it is given.
 
 use fem_case::Scene;
-use fem_collision::{Approach, Collision, Monitor, StaticContact, Want};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact};
 use fem_mesh::SphereMesh;
 
 use crate::course::Course;
@@ -59,11 +59,16 @@ impl Model for Simplified {
         has(effect, &self.answers, self.model.as_ref(), estimate)
     }
 
-    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+    fn collide(
+        &self,
+        approach: &Approach,
+        want: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
         self.model.collide(approach, want, monitor)
     }
 
-    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
         self.model.start(approach, want)
     }
 

@@ -1,6 +1,6 @@
 //! Quantities that may be off by more than their case allows.
 
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 
 use crate::accuracy::scatter_of_any_mesh;
 use crate::early_pressure::EarlyPressure;
@@ -20,7 +20,7 @@ const LARGEST_TOLD: f64 = 0.5;
 /// A quantity that may be off by more than the case allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Miss {
-    pub(super) headline: Headline,
+    pub(super) headline: QuantityOfInterest,
     /// The restitution's as it is, others as shares.
     pub(super) error: f64,
     pub(super) tolerance: f64,
@@ -83,7 +83,7 @@ impl Miss {
     /// An error of its quantity.
     pub(super) fn number(&self, error: f64) -> String {
         match self.headline {
-            Headline::Restitution => format!("{error:.1e}"),
+            QuantityOfInterest::Restitution => format!("{error:.1e}"),
             _ => percent(error),
         }
     }
@@ -91,7 +91,7 @@ impl Miss {
     /// Whether springs of these that are softer than the usual ones are at fault, and not the mesh.
     pub(super) fn is_of_springs(&self, elements: &ElementSetup) -> bool {
         let is_theirs = |softness: f64| self.error <= OF_SPRINGS * softness;
-        let is_possible = elements.has_springs && self.headline != Headline::Restitution;
+        let is_possible = elements.has_springs && self.headline != QuantityOfInterest::Restitution;
         is_possible && softness(&elements.plan).is_some_and(is_theirs)
     }
 }
@@ -110,7 +110,7 @@ impl Simulation {
         let early = EarlyPressure::of(self, collision);
         let is_early = early.as_ref().is_some_and(EarlyPressure::is_beyond_reach);
         self.misses(|headline| {
-            if headline == Headline::PeakPressure && is_early {
+            if headline == QuantityOfInterest::PeakPressure && is_early {
                 return None;
             }
             Some(doubt.size(headline)? / headline.scale(headline.of(collision)?))
@@ -119,18 +119,18 @@ impl Simulation {
 
     /// The quantities that are off by more than the case allows, that which is off by most of it first; those that a
     /// mesh helps before the others.
-    fn misses(&self, error: impl Fn(Headline) -> Option<f64>) -> Vec<Miss> {
+    fn misses(&self, error: impl Fn(QuantityOfInterest) -> Option<f64>) -> Vec<Miss> {
         let accuracy = self.case().scene().accuracy();
         let scatter = scatter_of_any_mesh(self);
-        let of = |(headline, tolerance): (Headline, f64)| {
+        let of = |(headline, tolerance): (QuantityOfInterest, f64)| {
             let scatter = scatter[headline as usize];
             Some(Miss { headline, error: error(headline)?, tolerance, scatter })
         };
         let all = [
-            (Headline::Restitution, accuracy.restitution),
-            (Headline::ContactTime, accuracy.contact_time),
-            (Headline::PeakForce, accuracy.peak_force),
-            (Headline::PeakPressure, accuracy.peak_pressure),
+            (QuantityOfInterest::Restitution, accuracy.restitution),
+            (QuantityOfInterest::ContactTime, accuracy.contact_time),
+            (QuantityOfInterest::PeakForce, accuracy.peak_force),
+            (QuantityOfInterest::PeakPressure, accuracy.peak_pressure),
         ];
         let mut missed: Vec<Miss> =
             all.into_iter().filter_map(of).filter(|miss| miss.excess() > 1.0).collect();
@@ -140,7 +140,10 @@ impl Simulation {
     }
 
     /// The first of them.
-    pub(crate) fn worst_miss(&self, error: impl Fn(Headline) -> Option<f64>) -> Option<Miss> {
+    pub(crate) fn worst_miss(
+        &self,
+        error: impl Fn(QuantityOfInterest) -> Option<f64>,
+    ) -> Option<Miss> {
         self.misses(error).into_iter().next()
     }
 }

@@ -25,7 +25,7 @@ use std::convert::Infallible;
 use std::sync::{MutexGuard, PoisonError};
 
 use fem_case::{Body, Shape};
-use fem_collision::{Collision, Headline, Monitor, Stop};
+use fem_collision::{Collision, Monitor, QuantityOfInterest, Stop};
 use fem_material::engineering::Unit;
 use serde::{Deserialize, Serialize};
 
@@ -126,7 +126,7 @@ impl Simulation {
     /// That the mesh was made finer, why, and what it takes.
     pub fn refined_because(&self) -> Option<String> {
         let level = self.levels.last()?;
-        let headline = Headline::ALL.into_iter().find(|it| it.key() == level.quantity)?;
+        let headline = QuantityOfInterest::ALL.into_iter().find(|it| it.key() == level.quantity)?;
         let miss = Miss { headline, error: level.error, tolerance: level.tolerance, scatter: 0.0 };
         let size = self.setup().elements.as_ref()?.plan.contact_element_size;
         // What was foretold was not run.

@@ -1,6 +1,6 @@
 //! What is said of a collision that misses its tolerance.
 
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 
 use super::kept::{Kept, is_of_noise};
 use super::miss::Miss;
@@ -128,7 +128,7 @@ impl Simulation {
         let is_to_be = collision.is_complete()
             && collision.element_updates.is_some()
             && self.setup().elements.as_ref()?.plan.makes_meshes;
-        let is_told = self.discretisation(collision).size(Headline::PeakForce).is_some();
+        let is_told = self.discretisation(collision).size(QuantityOfInterest::PeakForce).is_some();
         (is_to_be && !is_told).then(|| {
             "what the mesh is off by is not told: on coarser and finer meshes the bodies did not come through the \
              collision; lower body.N.approach_speed, or compare results of several mesh.contact_element_size"

@@ -17,7 +17,7 @@ use std::sync::PoisonError;
 
 use fem_case::Case;
 use fem_case::schema::{OutputTable, Switch};
-use fem_collision::{Account, Approach, Collision, Want};
+use fem_collision::{Account, Approach, Collision, OutputRequest};
 use fem_material::PronySeries;
 use serde::Serialize;
 
@@ -103,7 +103,7 @@ fn elastic_run(simulation: &Simulation, approach: &Approach) -> Option<f64> {
     let case = Case::of(file).ok().filter(|_| plan.makes_meshes)?;
     let shared = simulation.shared().of_companions();
     let elastic = Simulation::sharing(case, &shared).ok()?;
-    let elastic = elastic.model().collide(approach, &Want::quantities(), &mut ());
+    let elastic = elastic.model().collide(approach, &OutputRequest::quantities(), &mut ());
     simulation.count_companion(&elastic);
     let restitution = elastic.restitution.filter(|_| elastic.is_complete())?;
     Some((1.0 - restitution).max(0.0))

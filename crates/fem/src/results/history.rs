@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use fem_case::Scene;
-use fem_collision::{Account, Row};
+use fem_collision::{Account, HistoryRow};
 
 use super::energy::{energy_key, in_history};
 
@@ -15,7 +15,7 @@ pub const HISTORY_FILE: &str = "history.csv";
 ///
 /// # Errors
 /// `to` cannot be written to.
-pub fn history_csv(mut to: impl Write, scene: &Scene, rows: &[Row]) -> io::Result<()> {
+pub fn history_csv(mut to: impl Write, scene: &Scene, rows: &[HistoryRow]) -> io::Result<()> {
     let velocities = scene.bodies().each_ref().map(|body| format!("velocity_{}_m_s", body.name()));
     let books = rows.iter().map(|row| &row.energies);
     let [energies, of_effects] = in_history(books, Account::shown);

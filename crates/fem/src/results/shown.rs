@@ -1,6 +1,6 @@
 //! Which snapshots results show, and what they are called.
 
-use fem_collision::{Collision, Label, Snapshot, SnapshotRequest};
+use fem_collision::{Collision, Snapshot, SnapshotInstant, SnapshotRequest};
 
 use crate::simulation::Simulation;
 
@@ -18,7 +18,7 @@ pub(super) fn shown<'a>(simulation: &Simulation, collision: &'a Collision) -> Sh
     let mut shown = Shown { snapshots: Vec::new(), warnings: Vec::new() };
     for snapshot in &collision.snapshots {
         let label = label(snapshot, request);
-        if snapshot.label == Some(Label::LastContact) && !collision.is_complete() {
+        if snapshot.label == Some(SnapshotInstant::LastContact) && !collision.is_complete() {
             let warning = format!("the run ended before the instant \"{label}\"; it is left out");
             shown.warnings.push(warning);
             continue;

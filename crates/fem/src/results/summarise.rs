@@ -1,6 +1,6 @@
 //! From a collision to its summary.
 
-use fem_collision::{Book, Collision, Headline, Rest};
+use fem_collision::{Collision, EnergyLedger, QuantityOfInterest, RestState};
 use fem_laws::HertzImpact;
 
 use super::elastic_null::elastic_null;
@@ -151,14 +151,14 @@ fn hertz(estimate: Option<Estimate>, numbers: &mut Numbers) -> Quantities {
     })
 }
 
-fn of_hertz(headline: Headline, hertz: &HertzImpact) -> f64 {
+fn of_hertz(headline: QuantityOfInterest, hertz: &HertzImpact) -> f64 {
     match headline {
-        Headline::Restitution => hertz.restitution(),
-        Headline::ContactTime => hertz.contact_time(),
-        Headline::PeakForce => hertz.peak_force(),
-        Headline::MaxApproach => hertz.max_approach(),
-        Headline::MaxContactRadius => hertz.max_contact_radius(),
-        Headline::PeakPressure => hertz.peak_pressure(),
+        QuantityOfInterest::Restitution => hertz.restitution(),
+        QuantityOfInterest::ContactTime => hertz.contact_time(),
+        QuantityOfInterest::PeakForce => hertz.peak_force(),
+        QuantityOfInterest::MaxApproach => hertz.max_approach(),
+        QuantityOfInterest::MaxContactRadius => hertz.max_contact_radius(),
+        QuantityOfInterest::PeakPressure => hertz.peak_pressure(),
     }
 }
 
@@ -166,10 +166,11 @@ fn energy(collision: &Collision, numbers: &mut Numbers) -> Energy {
     let mut at_end =
         |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("energy.{key}"), value);
     let initial_j = at_end("initial_j", collision.initial_energy);
-    let accounts = collision.energies.entries().fold(Book::EMPTY, |book, (account, energy)| {
-        let finite = at_end(&energy_key(account), Some(energy));
-        finite.map_or(book, |energy| book.with(account, energy))
-    });
+    let accounts =
+        collision.energies.entries().fold(EnergyLedger::EMPTY, |book, (account, energy)| {
+            let finite = at_end(&energy_key(account), Some(energy));
+            finite.map_or(book, |energy| book.with(account, energy))
+        });
     Energy {
         initial_j,
         accounts: Accounts(accounts),
@@ -200,7 +201,7 @@ fn bounces(
     Some(contacts.collect())
 }
 
-fn at_rest(rest: &Rest, numbers: &mut Numbers) -> RestSummary {
+fn at_rest(rest: &RestState, numbers: &mut Numbers) -> RestSummary {
     let mut number =
         |key: &str, value: Option<f64>| numbers.finite_if_any(&format!("rest.{key}"), value);
     RestSummary {

@@ -1,7 +1,7 @@
 //! `summary.json`: names, order and units of its keys.
 
 use fem_case::CaseFile;
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 use serde::{Serialize, Serializer};
 
 use super::elastic_null::ElasticNull;
@@ -107,7 +107,7 @@ pub struct Quantities {
 
 impl Quantities {
     /// Each as `number` has it.
-    pub fn by(number: impl FnMut(Headline) -> Option<f64>) -> Self {
+    pub fn by(number: impl FnMut(QuantityOfInterest) -> Option<f64>) -> Self {
         let [
             restitution,
             contact_time_s,
@@ -115,7 +115,7 @@ impl Quantities {
             max_approach_m,
             max_contact_radius_m,
             peak_pressure_pa,
-        ] = Headline::ALL.map(number);
+        ] = QuantityOfInterest::ALL.map(number);
         Self {
             restitution,
             contact_time_s,
@@ -127,14 +127,14 @@ impl Quantities {
     }
 
     /// One of them.
-    pub fn number(&self, headline: Headline) -> Option<f64> {
+    pub fn number(&self, headline: QuantityOfInterest) -> Option<f64> {
         match headline {
-            Headline::Restitution => self.restitution,
-            Headline::ContactTime => self.contact_time_s,
-            Headline::PeakForce => self.peak_force_n,
-            Headline::MaxApproach => self.max_approach_m,
-            Headline::MaxContactRadius => self.max_contact_radius_m,
-            Headline::PeakPressure => self.peak_pressure_pa,
+            QuantityOfInterest::Restitution => self.restitution,
+            QuantityOfInterest::ContactTime => self.contact_time_s,
+            QuantityOfInterest::PeakForce => self.peak_force_n,
+            QuantityOfInterest::MaxApproach => self.max_approach_m,
+            QuantityOfInterest::MaxContactRadius => self.max_contact_radius_m,
+            QuantityOfInterest::PeakPressure => self.peak_pressure_pa,
         }
     }
 }
@@ -145,19 +145,21 @@ pub struct UncertaintySummary([Parts; 6]);
 
 impl UncertaintySummary {
     /// Of each quantity what `parts` says.
-    pub fn by(parts: impl FnMut(Headline) -> Parts) -> Self {
-        Self(Headline::ALL.map(parts))
+    pub fn by(parts: impl FnMut(QuantityOfInterest) -> Parts) -> Self {
+        Self(QuantityOfInterest::ALL.map(parts))
     }
 
     /// Of one quantity.
-    pub fn parts(&self, headline: Headline) -> Parts {
+    pub fn parts(&self, headline: QuantityOfInterest) -> Parts {
         self.0[headline as usize]
     }
 }
 
 impl Serialize for UncertaintySummary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(Headline::ALL.map(|headline| (headline.key(), self.parts(headline))))
+        serializer.collect_map(
+            QuantityOfInterest::ALL.map(|headline| (headline.key(), self.parts(headline))),
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use fem_collision::{Account, Headline, Shown};
+use fem_collision::{Account, QuantityOfInterest, ShownIn};
 use serde_json::Value;
 
 use crate::results::energy_key;
@@ -50,9 +50,10 @@ pub static COLUMNS: LazyLock<Vec<String>> = LazyLock::new(|| {
     let accounts = Account::all().map(|account| column_of(&energy_key(account)));
     let energies = [column_of("initial_j")].into_iter().chain(accounts);
     let energies = energies.chain([column_of("residual_j")]);
-    let parts =
-        |quantity: Headline| UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()));
-    let uncertainties = Headline::ALL.into_iter().flat_map(parts);
+    let parts = |quantity: QuantityOfInterest| {
+        UNCERTAINTIES.map(|(start, _)| format!("{start}{}", quantity.key()))
+    };
+    let uncertainties = QuantityOfInterest::ALL.into_iter().flat_map(parts);
     own(&FIRST).chain(uncertainties).chain(energies).chain(own(&LAST)).collect()
 });
 
@@ -78,8 +79,8 @@ impl Default for Columns {
 }
 
 impl Columns {
-    fn shown(shown: fn(Account) -> Shown) -> Self {
-        let optional = Account::all().filter(|account| shown(*account) == Shown::WhereFilled);
+    fn shown(shown: fn(Account) -> ShownIn) -> Self {
+        let optional = Account::all().filter(|account| shown(*account) == ShownIn::WhereFilled);
         Self { absent: optional.map(energy_key).collect() }
     }
 
@@ -166,8 +167,8 @@ mod tests {
     use super::*;
 
     /// An effect that stores what the springs of a contact do.
-    fn made_up(account: Account) -> Shown {
-        if account == Account::Contact { Shown::WhereFilled } else { account.shown() }
+    fn made_up(account: Account) -> ShownIn {
+        if account == Account::Contact { ShownIn::WhereFilled } else { account.shown() }
     }
 
     #[test]
@@ -183,7 +184,7 @@ mod tests {
         let both = [off, on];
         assert!(!has(&[]) && !has(&both[..1]) && has(&both));
         let n_optional =
-            Account::all().filter(|account| made_up(*account) == Shown::WhereFilled).count();
+            Account::all().filter(|account| made_up(*account) == ShownIn::WhereFilled).count();
         assert_eq!(shown(&both[..1]).len(), COLUMNS.len() - n_optional);
         assert_eq!(columns(&[]).len(), COLUMNS.len() - (n_optional - 1));
     }

@@ -2,7 +2,7 @@
 
 use std::sync::PoisonError;
 
-use fem_collision::{Approach, Collision, Headline};
+use fem_collision::{Approach, Collision, QuantityOfInterest};
 
 use super::stated::stated;
 use crate::accuracy::discretisation_errors;
@@ -28,7 +28,7 @@ impl Seen {
     fn of(collision: &Collision) -> Self {
         Self {
             approach: collision.approach,
-            values: Headline::ALL.map(|headline| headline.of(collision)),
+            values: QuantityOfInterest::ALL.map(|headline| headline.of(collision)),
             element_updates: collision.element_updates,
             is_complete: collision.is_complete(),
         }
@@ -81,7 +81,9 @@ fn of(simulation: &Simulation, collision: &Collision) -> Doubt {
 fn of_tolerance(collision: &Collision, tolerance: f64) -> Doubt {
     Doubt::by(|headline| {
         let share = match headline {
-            Headline::Restitution | Headline::ContactTime | Headline::PeakForce => tolerance,
+            QuantityOfInterest::Restitution
+            | QuantityOfInterest::ContactTime
+            | QuantityOfInterest::PeakForce => tolerance,
             _ => OF_HISTORY * tolerance,
         };
         headline.of(collision).map(|value| share * headline.scale(value))

@@ -1,6 +1,6 @@
 //! What the warnings of a result say that it is off by: no bar is smaller.
 
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 
 use crate::assess::{excess_of_restitution, noise, overlap_of_approach, unbalanced_energy};
 use crate::simulation::Simulation;
@@ -22,34 +22,40 @@ const OF_FORECAST: f64 = 1.1;
 
 /// What is said of a quantity by the warnings that a collision of bodies with elements gives: of the restitution as it
 /// is, of others as shares; zero where nothing is said.
-pub(super) fn stated(simulation: &Simulation, collision: &Collision, headline: Headline) -> f64 {
+pub(super) fn stated(
+    simulation: &Simulation,
+    collision: &Collision,
+    headline: QuantityOfInterest,
+) -> f64 {
     let mesh = || simulation.mesh_error_stated(collision).unwrap_or_default();
     let error = match headline {
-        Headline::Restitution => {
+        QuantityOfInterest::Restitution => {
             let energy = unbalanced_energy(collision).unwrap_or(0.0);
             excess_of_restitution(collision).unwrap_or(0.0).max(RESTITUTION_OVER_ENERGY * energy)
         }
-        Headline::ContactTime => mesh()[0],
-        Headline::PeakForce => mesh()[1],
-        Headline::MaxApproach => overlap_of_approach(simulation, collision).unwrap_or(0.0),
+        QuantityOfInterest::ContactTime => mesh()[0],
+        QuantityOfInterest::PeakForce => mesh()[1],
+        QuantityOfInterest::MaxApproach => {
+            overlap_of_approach(simulation, collision).unwrap_or(0.0)
+        }
         // The pressure at one place scatters by more than the force.
-        Headline::PeakPressure => noise(collision)
+        QuantityOfInterest::PeakPressure => noise(collision)
             .map_or(0.0, |_| OF_FORECAST * beside_foretold_pressure(simulation, collision)),
-        Headline::MaxContactRadius => 0.0,
+        QuantityOfInterest::MaxContactRadius => 0.0,
     };
     let error = error.max(of_noise(collision, headline));
     if error.is_finite() { error } else { 0.0 }
 }
 
 /// The same of a force that scatters.
-pub(crate) fn of_noise(collision: &Collision, headline: Headline) -> f64 {
+pub(crate) fn of_noise(collision: &Collision, headline: QuantityOfInterest) -> f64 {
     let noise = noise(collision).unwrap_or(0.0);
     match headline {
-        Headline::Restitution => RESTITUTION_OVER_NOISE * noise.sqrt(),
-        Headline::ContactTime => TIME_OVER_NOISE * noise.sqrt(),
-        Headline::PeakForce | Headline::PeakPressure => noise,
-        Headline::MaxContactRadius => RADIUS_OVER_NOISE * noise,
-        Headline::MaxApproach => 0.0,
+        QuantityOfInterest::Restitution => RESTITUTION_OVER_NOISE * noise.sqrt(),
+        QuantityOfInterest::ContactTime => TIME_OVER_NOISE * noise.sqrt(),
+        QuantityOfInterest::PeakForce | QuantityOfInterest::PeakPressure => noise,
+        QuantityOfInterest::MaxContactRadius => RADIUS_OVER_NOISE * noise,
+        QuantityOfInterest::MaxApproach => 0.0,
     }
 }
 

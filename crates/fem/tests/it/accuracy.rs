@@ -2,7 +2,7 @@
 
 use fem::accuracy::{ErrorSource, Ladder, Measurement, Series, Study};
 use fem::{Case, Shared, Simulation};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
     body = [{ name = 'ball', sphere.diameter = '2 cm', material = 'ice', approach_speed = 0.2 },
@@ -38,14 +38,18 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
     let mut theory =
         ladder.rungs.iter().zip(&measured).filter(|(rung, _)| rung.series == Series::Hertz);
     let theory = &theory.next_back().unwrap().1.as_ref().unwrap().0;
-    for headline in [Headline::ContactTime, Headline::PeakForce, Headline::MaxApproach] {
+    for headline in [
+        QuantityOfInterest::ContactTime,
+        QuantityOfInterest::PeakForce,
+        QuantityOfInterest::MaxApproach,
+    ] {
         let limit = study.limits[headline as usize].unwrap();
         let off = limit.value / theory.value(headline).unwrap() - 1.0;
         assert!(off.abs() < 7e-4, "{headline:?} {off:e} {limit:?}");
         // Without the finite size it would be off by 0.3 % and more.
         assert!(limit.uncertainty < 1e-3 * limit.value, "{headline:?} {limit:?}");
     }
-    let restitution = study.limits[Headline::Restitution as usize].unwrap();
+    let restitution = study.limits[QuantityOfInterest::Restitution as usize].unwrap();
     assert!((restitution.value - 1.0).abs() < 1e-4, "{restitution:?}");
 
     let sure = |series| {
@@ -55,14 +59,14 @@ fn the_limit_is_that_of_theory_and_finer_is_nearer() {
     };
     let condensed: Vec<_> = sure(Series::Condensed).collect();
     assert_eq!(condensed.len(), 7);
-    for headline in Headline::ALL {
+    for headline in QuantityOfInterest::ALL {
         let errors: Vec<f64> =
             condensed.iter().map(|sure| sure[headline as usize].unwrap()).collect();
         assert!(errors.is_sorted_by(|coarse, fine| coarse >= fine), "{headline:?} {errors:?}");
     }
     // Force and pressure of first order or better: three elements across are off by several times what
     // eight are.
-    for headline in [Headline::PeakForce, Headline::PeakPressure] {
+    for headline in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
         let k = headline as usize;
         assert!(condensed[0][k].unwrap() > 2.5 * condensed[4][k].unwrap(), "{headline:?}");
     }
@@ -115,7 +119,7 @@ fn parts_of_the_error_are_told() {
         assert!(part(source).errors.iter().all(Option::is_some), "{source:?}");
     }
     let springs = part(ErrorSource::ContactSprings).errors;
-    for headline in [Headline::ContactTime, Headline::MaxApproach] {
+    for headline in [QuantityOfInterest::ContactTime, QuantityOfInterest::MaxApproach] {
         // About 0.1 % at the default stiffness: docs/contact.md.
         let error = springs[headline as usize].unwrap();
         assert!((2e-4..5e-3).contains(&error), "{headline:?} {error:e}");

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use fastrand::Rng;
-use fem::{Case, Collision, Cost, Side, Simulation};
+use fem::{BalanceSide, Case, Collision, Cost, Simulation};
 
 /// A material in SI; terms of weight and rate over a guess of the inverse contact time.
 #[derive(Clone, Debug)]
@@ -165,7 +165,7 @@ fn units_do_not_matter_and_momentum_and_energy_are_conserved() {
             assert!(momentum <= 1e-12, "{model}: {momentum}");
             let initial = collision.initial_energy.unwrap_or(f64::NAN);
             for row in &collision.history {
-                let held = row.energies.total(Side::Held).unwrap_or_default();
+                let held = row.energies.total(BalanceSide::Held).unwrap_or_default();
                 assert!(held <= initial * (1.0 + 1e-6), "{model} {}: {held}", row.time);
             }
         }

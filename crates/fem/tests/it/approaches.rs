@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Approach, Case, Collision, METHODS, Simulation, SnapshotRequest, Stop, Want};
+use fem::{Approach, Case, Collision, METHODS, OutputRequest, Simulation, SnapshotRequest, Stop};
 
 use crate::coarse::simulation;
 
@@ -21,7 +21,7 @@ fn a_collision_does_not_depend_on_those_before_it() {
     for method in METHODS {
         let simulation = simulation(method.name(), &[]);
         let model = simulation.model();
-        let (own, want) = (simulation.setup().approach, Want::history());
+        let (own, want) = (simulation.setup().approach, OutputRequest::history());
         let collide = |approach: &Approach| plain(&model.collide(approach, &want, &mut ()));
         let first = collide(&own);
         let between = collide(&fast());
@@ -45,11 +45,11 @@ fn a_summary_is_of_the_collision_that_was_computed() {
         for approach in [Approach::new([1.0, -0.5], 1e-6), Approach::at(0.05), Ok(fast())] {
             let approach = approach.unwrap();
             let name = format!("{} {more:?} {approach:?}", method.name());
-            let collision = slow.model().collide(&approach, &Want::history(), &mut ());
+            let collision = slow.model().collide(&approach, &OutputRequest::history(), &mut ());
             let resolved = slow.resolved_at(&approach).to_toml().unwrap();
             let case = Case::parse("again.toml", &resolved, Path::new("."), &[]).unwrap();
             let mut again = Simulation::new(case).unwrap();
-            again.ask_for(Want::history()).unwrap();
+            again.ask_for(OutputRequest::history()).unwrap();
             let expected = again.run(&mut ());
             assert_eq!(plain(&collision), plain(&expected), "{name}");
             let told = |simulation: &Simulation, collision: &Collision| {
@@ -76,9 +76,15 @@ fn a_want_beyond_measure_is_refused() {
     for method in METHODS {
         let mut simulation = simulation(method.name(), &[]);
         for want in [
-            Want { history_rows: usize::MAX, ..Want::history() },
-            Want { snapshots: SnapshotRequest::Count(usize::MAX), ..Want::history() },
-            Want { snapshots: SnapshotRequest::Times(vec![f64::NAN]), ..Want::history() },
+            OutputRequest { history_rows: usize::MAX, ..OutputRequest::history() },
+            OutputRequest {
+                snapshots: SnapshotRequest::Count(usize::MAX),
+                ..OutputRequest::history()
+            },
+            OutputRequest {
+                snapshots: SnapshotRequest::Times(vec![f64::NAN]),
+                ..OutputRequest::history()
+            },
         ] {
             let approach = simulation.setup().approach;
             let collision = simulation.model().collide(&approach, &want, &mut ());

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use fem::effects::{Effect, FiniteSizeEffect, Standing};
-use fem::{Case, Collision, Headline, Simulation};
+use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 /// Two spheres, the first of which strikes the second.
 fn scene(material: &str, diameters: [&str; 2], speed: &str) -> String {
@@ -369,7 +369,7 @@ fn the_pressure_of_half_spaces_is_off_by_what_it_says() {
         let collision = run.run(&mut ());
         let standing = Standing { is_lacking: false, left_out: None };
         let doubt = FiniteSizeEffect.doubt(run.case().scene(), &run.setup().estimate, &standing);
-        let bar = doubt.size(Headline::PeakPressure).unwrap();
+        let bar = doubt.size(QuantityOfInterest::PeakPressure).unwrap();
         let error = (collision.peak_pressure.unwrap() - truth).abs();
         // The truth is known to 0.3 %.
         assert!(error < bar + 0.003 * truth && bar < 3.0 * error, "{error} {bar}");

@@ -1,6 +1,6 @@
 //! Bulk viscosity as a case asks for it, and where a scene calls for it whose springs ring.
 
-use fem::{Approach, Simulation, Want};
+use fem::{Approach, OutputRequest, Simulation};
 use fem_collision::Account;
 
 use crate::coarse::simulation;
@@ -62,7 +62,10 @@ fn a_fast_scene_calls_for_it_and_a_switch_is_obeyed() {
 fn another_approach_is_decided_anew() {
     for bodies in ["start={}", TWINS] {
         let simulation = fem(&[SLOW, bodies]);
-        let want = Want { snapshots: fem_collision::SnapshotRequest::none(), ..Want::quantities() };
+        let want = OutputRequest {
+            snapshots: fem_collision::SnapshotRequest::none(),
+            ..OutputRequest::quantities()
+        };
         for (speed, expected) in [(60.0, false), (80.0, true)] {
             let approach = Approach::at(speed).unwrap();
             let collision = simulation.model().collide(&approach, &want, &mut ());

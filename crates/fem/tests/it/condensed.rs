@@ -5,7 +5,7 @@ use std::path::Path;
 
 use fem::{Condensed, Model, PairCache, Shared, Simulation};
 use fem_case::{Case, CondensedOptions, ModelChoice};
-use fem_collision::{Account, Collision, Headline};
+use fem_collision::{Account, Collision, QuantityOfInterest};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 
@@ -219,7 +219,7 @@ fn speeds_and_relaxations_share_meshes() {
         let collision = simulation.run(&mut ());
         let bar = |of: &Simulation| {
             let bars = of.summary(&collision).uncertainty;
-            bars.parts(Headline::PeakForce).discretisation.unwrap()
+            bars.parts(QuantityOfInterest::PeakForce).discretisation.unwrap()
         };
         let shared = bar(&simulation);
         if k % 7 == 0 {
@@ -366,7 +366,8 @@ fn what_needs_no_fields_keeps_no_factors() {
     assert_eq!(bytes, 0);
     let snapshots = kept("output.report=false").1.want().snapshots.clone();
     assert_eq!(snapshots.len(), 4);
-    let asked = fem_collision::Want { snapshots, ..fem_collision::Want::quantities() };
+    let asked =
+        fem_collision::OutputRequest { snapshots, ..fem_collision::OutputRequest::quantities() };
     let approach = simulation.setup().approach;
     let collision = simulation.model().collide(&approach, &asked, &mut ());
     assert_eq!(collision.snapshots.len(), 4);

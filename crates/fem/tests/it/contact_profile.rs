@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::results::contact_csv;
-use fem::{Case, Collision, ContactPlace, Label, Simulation, Snapshot};
+use fem::{Case, Collision, ContactProfilePoint, Simulation, Snapshot, SnapshotInstant};
 
 const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 
@@ -49,7 +49,7 @@ fn the_contact_is_that_of_hertz() {
     for set in LIKE_HERTZ {
         let (simulation, collision) = run(set);
         let hertz = simulation.setup().estimate.hertz;
-        let contact = &collision.snapshot(Label::Maximum).unwrap().contact;
+        let contact = &collision.snapshot(SnapshotInstant::Maximum).unwrap().contact;
         let (a, p0) = (hertz.max_contact_radius(), hertz.peak_pressure());
         let approach = hertz.max_approach();
         let is_textbook = set.contains(&"contact.method='node_to_surface'");
@@ -64,7 +64,7 @@ fn the_contact_is_that_of_hertz() {
         assert!(contact.places.iter().filter(|place| place.radius < a).count() >= 5, "{set:?}");
         for place in &contact.places {
             let x = place.radius / a;
-            let ContactPlace { pressure: p, gap, radial, .. } = *place;
+            let ContactProfilePoint { pressure: p, gap, radial, .. } = *place;
             if x < 0.85 {
                 let expected = p0 * (1.0 - x * x).sqrt();
                 assert!((p / expected - 1.0).abs() < pressure, "{set:?} {x} {}", p / expected);
@@ -127,7 +127,7 @@ fn a_profile_carries_the_force_of_its_instant() {
             assert_eq!(finite, set.contains(&rubber[0]), "{set:?}");
             // Straight lines between places lose 0.1 %; rows are a thousandth of the contact apart.
             // While surfaces close, the dashpots of what touches push too: by a tenth where an element does.
-            let is_closing = finite && snapshot.label == Some(Label::MidCompression);
+            let is_closing = finite && snapshot.label == Some(SnapshotInstant::MidCompression);
             let tolerance = if is_closing { 0.15 } else { 0.005 };
             assert!((ratios[0] - 1.0).abs() < tolerance, "{set:?} {ratios:?}");
             assert!((ratios[1] - 1.0).abs() < 0.005, "{set:?} {ratios:?}");
@@ -148,7 +148,7 @@ const STEEL: &str =
 
 /// ∫ p 2πr dr of straight lines between the places, N.
 fn load(snapshot: &Snapshot) -> f64 {
-    let part = |pair: &[ContactPlace]| {
+    let part = |pair: &[ContactProfilePoint]| {
         let [(r0, p0), (r1, p1)] = [&pair[0], &pair[1]].map(|place| (place.radius, place.pressure));
         // Simpson's rule is exact for the product of two linear functions.
         let middle = 0.25 * (r0 + r1) * (p0 + p1);
@@ -169,7 +169,7 @@ fn the_file_has_a_row_a_place() {
     assert_eq!(lines.next(), Some(header));
     for snapshot in &collision.snapshots {
         let contact = &snapshot.contact;
-        let beyond = |p: &&ContactPlace| p.is_node && p.radius > contact.radius;
+        let beyond = |p: &&ContactProfilePoint| p.is_node && p.radius > contact.radius;
         let third = contact.places.iter().filter(beyond).nth(2).unwrap().radius;
         let reach = third.max(1.2 * contact.radius);
         let n = contact.places.iter().filter(|place| place.radius <= reach).count();
@@ -178,7 +178,7 @@ fn the_file_has_a_row_a_place() {
             let row: Vec<&str> = lines.next().unwrap().split(',').collect();
             assert_eq!(row[1], snapshot.label.unwrap().name());
             let numbers = [0, 2, 3, 4, 5, 6, 7, 8].map(|k: usize| row[k].parse::<f64>().unwrap());
-            let ContactPlace { is_node, radius, pressure, gap, radial } = *place;
+            let ContactProfilePoint { is_node, radius, pressure, gap, radial } = *place;
             let (slip, is_node) = (radial[1] - radial[0], f64::from(u8::from(is_node)));
             let [lower, upper] = radial;
             let expected = [snapshot.time, radius, pressure, gap, lower, upper, slip, is_node];

@@ -1,6 +1,6 @@
 //! A collision in pieces is the collision in one go.
 
-use fem::{Approach, Collision, Ending, METHODS, Memory, Simulation, Stop, Want};
+use fem::{Approach, Collision, Ending, METHODS, Memory, OutputRequest, Simulation, Stop};
 
 use crate::coarse::simulation;
 
@@ -37,7 +37,7 @@ fn a_course_that_is_left_is_interrupted() {
 
 /// Put away after so many pieces, through text, and taken up again.
 fn in_two(simulation: &Simulation, approach: &Approach, n_pieces: usize) -> Collision {
-    let (model, want) = (simulation.model(), Want::history());
+    let (model, want) = (simulation.model(), OutputRequest::history());
     let mut course = model.start(approach, &want).unwrap();
     for _ in 0..n_pieces {
         course.advance(&mut ());
@@ -58,7 +58,7 @@ fn a_course_goes_on_from_its_memory() {
     let simulation = simulation("fem", &[relaxing]);
     for approach in [Approach::at(0.5), Approach::new([4.0, -2.0], 1e-6)] {
         let approach = approach.unwrap();
-        let whole = simulation.model().collide(&approach, &Want::history(), &mut ());
+        let whole = simulation.model().collide(&approach, &OutputRequest::history(), &mut ());
         for n_pieces in [0, 1, 12, 40, 1000] {
             assert_eq!(in_two(&simulation, &approach, n_pieces), whole, "{n_pieces}");
         }

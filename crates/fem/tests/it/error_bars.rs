@@ -1,7 +1,7 @@
 //! What results may be off by from the limit of their model, against theory.
 
 use fem::results::{Parts, Summary};
-use fem::{Case, Estimate, Headline, Shared, Simulation};
+use fem::{Case, Estimate, QuantityOfInterest, Shared, Simulation};
 use fem_mesh::HalfDisc;
 
 const BALL: &str = "material.ice = { density = 917, youngs_modulus = 9.3e9, poissons_ratio = 0.33 }
@@ -29,7 +29,7 @@ fn relaxing() -> String {
     BALL.replace("poissons_ratio = 0.33 }", RELAXING)
 }
 
-fn told(summary: &Summary, headline: Headline) -> (f64, Parts) {
+fn told(summary: &Summary, headline: QuantityOfInterest) -> (f64, Parts) {
     (summary.collision.number(headline).unwrap(), summary.uncertainty.parts(headline))
 }
 
@@ -51,10 +51,10 @@ fn theory_is_within_the_bars_of_every_mesh() {
                 let size = across(&text, elements);
                 let ours = summary(&text, &[model, &size]);
                 let checked = [
-                    Headline::Restitution,
-                    Headline::ContactTime,
-                    Headline::PeakForce,
-                    Headline::MaxApproach,
+                    QuantityOfInterest::Restitution,
+                    QuantityOfInterest::ContactTime,
+                    QuantityOfInterest::PeakForce,
+                    QuantityOfInterest::MaxApproach,
                 ];
                 for headline in checked {
                     let (value, bar) = told(&ours, headline);
@@ -80,8 +80,8 @@ fn a_mesh_that_is_too_coarse_is_told_by_its_bar() {
     let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
     for model in ["model.condensed={}", "model.fem={}"] {
         let ours = summary(BALL, &[model, &across(BALL, 2.0)]);
-        let (value, bar) = told(&ours, Headline::PeakForce);
-        let (exact, _) = told(&theory, Headline::PeakForce);
+        let (value, bar) = told(&ours, QuantityOfInterest::PeakForce);
+        let (exact, _) = told(&theory, QuantityOfInterest::PeakForce);
         let bar = bar.discretisation.unwrap() / exact;
         assert!(bar > 0.01, "{model} {bar:e}");
         assert!((value / exact - 1.0).abs() < bar + OF_THEORY, "{model} {value} {exact} {bar:e}");
@@ -105,7 +105,11 @@ fn what_a_mesh_does_away_from_the_contact_is_in_its_bar() {
     for model in ["model.condensed={}", "model.fem={}"] {
         for far_mesh in FAR_MESHES {
             let ours = summary(BALL, &[model, far_mesh, &across(BALL, 6.0)]);
-            let checked = [Headline::ContactTime, Headline::PeakForce, Headline::MaxApproach];
+            let checked = [
+                QuantityOfInterest::ContactTime,
+                QuantityOfInterest::PeakForce,
+                QuantityOfInterest::MaxApproach,
+            ];
             for headline in checked {
                 let (value, bar) = told(&ours, headline);
                 let (exact, _) = told(&theory, headline);
@@ -129,7 +133,11 @@ fn what_a_mesh_does_away_from_a_large_contact_is_in_its_bar() {
     let fine = with(&["mesh.contact_element_size='0.25 mm'"]);
     for far_mesh in ["mesh.growth=2", "mesh.refined_radius=1e-9"] {
         let ours = with(&["mesh.contact_element_size='0.75 mm'", far_mesh]);
-        for headline in [Headline::ContactTime, Headline::PeakForce, Headline::MaxApproach] {
+        for headline in [
+            QuantityOfInterest::ContactTime,
+            QuantityOfInterest::PeakForce,
+            QuantityOfInterest::MaxApproach,
+        ] {
             let (value, bar) = told(&ours, headline);
             let (limit, of_limit) = told(&fine, headline);
             let room = bar.discretisation.unwrap() + of_limit.discretisation.unwrap();
@@ -147,7 +155,7 @@ fn peaks_of_springs_that_ring_have_bars_as_wide() {
         let ours = summary(BALL, &[&across(BALL, 4.0), "contact.method='penalty'", &factor]);
         assert!(ours.warnings.iter().any(|warning| warning.contains("scatters by")));
         assert!(ours.warnings.iter().all(|w| !w.contains("because of")), "{:?}", ours.warnings);
-        for headline in [Headline::PeakForce, Headline::PeakPressure] {
+        for headline in [QuantityOfInterest::PeakForce, QuantityOfInterest::PeakPressure] {
             let (value, bar) = told(&ours, headline);
             let (exact, of_theory) = told(&theory, headline);
             let room = bar.discretisation.unwrap() + of_theory.model.unwrap();
@@ -170,13 +178,13 @@ fn share_behind(text: &str, words: &str) -> Option<f64> {
 #[test]
 fn no_bar_is_below_what_a_warning_states() {
     let stated = [
-        ("contact time off by about", Headline::ContactTime),
-        ("peak force by about", Headline::PeakForce),
-        ("contact force scatters by", Headline::PeakForce),
-        ("surfaces overlap by about", Headline::MaxApproach),
-        ("contact time may be off by", Headline::ContactTime),
-        ("peak force may be off by", Headline::PeakForce),
-        ("peak pressure may be off by", Headline::PeakPressure),
+        ("contact time off by about", QuantityOfInterest::ContactTime),
+        ("peak force by about", QuantityOfInterest::PeakForce),
+        ("contact force scatters by", QuantityOfInterest::PeakForce),
+        ("surfaces overlap by about", QuantityOfInterest::MaxApproach),
+        ("contact time may be off by", QuantityOfInterest::ContactTime),
+        ("peak force may be off by", QuantityOfInterest::PeakForce),
+        ("peak pressure may be off by", QuantityOfInterest::PeakPressure),
     ];
     let [few, some] = [across(BALL, 2.0), across(BALL, 4.0)];
     let scenes: [&[&str]; 9] = [
@@ -218,7 +226,7 @@ fn no_bar_is_below_what_a_warning_states() {
 fn a_mesh_of_a_file_has_its_bar() {
     let folder = tempfile::tempdir().unwrap();
     let theory = summary(BALL, &["model.hertz={finite_size=true}"]);
-    let radius = theory.collision.number(Headline::MaxContactRadius).unwrap();
+    let radius = theory.collision.number(QuantityOfInterest::MaxContactRadius).unwrap();
     let file = |name: &str, refined_radius: f64, growth: f64| {
         let disc = HalfDisc {
             radius: 0.01,
@@ -236,8 +244,8 @@ fn a_mesh_of_a_file_has_its_bar() {
     for model in ["model.condensed={}", "model.fem={}"] {
         let bars = [&good, &bad].map(|file| {
             let ours = summary(BALL, &[model, file]);
-            let (value, bar) = told(&ours, Headline::ContactTime);
-            let (exact, _) = told(&theory, Headline::ContactTime);
+            let (value, bar) = told(&ours, QuantityOfInterest::ContactTime);
+            let (exact, _) = told(&theory, QuantityOfInterest::ContactTime);
             let bar = bar.discretisation.unwrap() / exact;
             let error = (value / exact - 1.0).abs();
             assert!(error < bar + OF_THEORY, "{model} {error:e} {bar:e}");
@@ -266,7 +274,7 @@ fn bars_cost_a_counted_number_of_factors() {
             let simulation = Simulation::sharing(case, &shared).unwrap();
             let collision = simulation.run(&mut ());
             let bars = simulation.summary(&collision).uncertainty;
-            assert!(bars.parts(Headline::PeakForce).discretisation.is_some());
+            assert!(bars.parts(QuantityOfInterest::PeakForce).discretisation.is_some());
             let made = (shared.pairs.n_made(), shared.companions.n_made());
             assert_eq!(made, (own, of_bars), "{model} {speed}");
         }
@@ -286,7 +294,7 @@ fn few_elements_are_told_by_one_coarser_mesh() {
     let simulation = build(&[], &shared);
     let collision = simulation.run(&mut ());
     let bars = simulation.summary(&collision).uncertainty;
-    assert!(bars.parts(Headline::PeakForce).discretisation.is_some());
+    assert!(bars.parts(QuantityOfInterest::PeakForce).discretisation.is_some());
     assert_eq!(shared.companions.n_made(), 1);
     let size = simulation.setup().elements.as_ref().unwrap().plan.contact_element_size;
     let of_companions =
@@ -313,7 +321,7 @@ fn a_bar_that_misses_the_tolerance_is_told_by_a_finer_mesh() {
         let simulation = Simulation::sharing(case, &shared).unwrap();
         let (simulation, collision) = simulation.run_within_tolerance(&mut ());
         assert!(simulation.levels().is_empty(), "{tolerance}");
-        let pressure = Headline::PeakPressure;
+        let pressure = QuantityOfInterest::PeakPressure;
         let bar = simulation.summary(&collision).uncertainty.parts(pressure);
         let relative = bar.discretisation.unwrap() / pressure.of(&collision).unwrap();
         (relative, shared.companions.n_made())
@@ -330,7 +338,7 @@ fn reduced_models_are_off_by_their_tolerance() {
         summary(&text, &["model.ting={tolerance=1e-3}"]),
         summary(&text, &["model.ting={tolerance=1e-9}"]),
     );
-    for headline in Headline::ALL {
+    for headline in QuantityOfInterest::ALL {
         let (value, bar) = told(&coarse, headline);
         let (exact, _) = told(&fine, headline);
         let bar = bar.discretisation.unwrap();
@@ -348,8 +356,8 @@ fn what_softens_has_wider_bars() {
         body = [{ name = 'floor', wall = {} }, { name = 'ball', sphere.diameter = '30 mm', material = 'rubber' }]
         output.snapshots = []";
     for (speed, size, headline, fine) in [
-        ("2.2 m/s", "0.5395 mm", Headline::ContactTime, 3.950_57e-3),
-        ("2 m/s", "0.6197 mm", Headline::MaxContactRadius, 7.23047e-3),
+        ("2.2 m/s", "0.5395 mm", QuantityOfInterest::ContactTime, 3.950_57e-3),
+        ("2 m/s", "0.6197 mm", QuantityOfInterest::MaxContactRadius, 7.23047e-3),
     ] {
         let size = format!("mesh.contact_element_size='{size}'");
         let summary = summary(text, &[&format!("body.1.approach_speed='{speed}'"), &size]);
@@ -371,7 +379,7 @@ fn springs_that_rattle_are_told_by_the_bars() {
             let [method, factor] =
                 [format!("contact.method='{method}'"), format!("contact.penalty_factor={factor}")];
             let ours = summary(glass, &[alike[0], alike[1], &method, &factor]);
-            for headline in Headline::ALL {
+            for headline in QuantityOfInterest::ALL {
                 let (value, bar) = told(&ours, headline);
                 let (exact, own) = told(&quiet, headline);
                 let [bar, own] = [bar, own].map(|parts| parts.discretisation.unwrap());
@@ -381,7 +389,7 @@ fn springs_that_rattle_are_told_by_the_bars() {
                     "{method} {factor} {headline:?} {error:e} {bar:e} {own:e}"
                 );
             }
-            let (_, bar) = told(&ours, Headline::Restitution);
+            let (_, bar) = told(&ours, QuantityOfInterest::Restitution);
             assert!(bar.discretisation.unwrap() < 5e-3);
         }
     }

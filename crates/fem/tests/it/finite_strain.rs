@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::effects::{Effect, FiniteStrain, LeftOut, Standing, Verdict};
-use fem::{Case, Headline, Simulation};
+use fem::{Case, QuantityOfInterest, Simulation};
 
 /// Rubber that is squeezed to a contact radius of some half of its own, on a wall.
 const RUBBER: &str = r#"
@@ -194,7 +194,7 @@ fn what_stops_a_run_is_named_and_the_remedy_helps() {
         let key = if stopped.contains(&SVK) { "hyperelastic" } else { "approach_speed" };
         assert!(remedy.contains(key), "{remedy}");
         let kept = collision.snapshots.last().unwrap();
-        assert_eq!(kept.label, Some(fem::Label::LastSound));
+        assert_eq!(kept.label, Some(fem::SnapshotInstant::LastSound));
         let after = run(&helped);
         assert!(after.is_complete(), "{helped:?} {:?}", after.ending);
         assert!(after.residual_relative.unwrap() < 1e-3, "{helped:?}");
@@ -260,7 +260,7 @@ fn flatter_than_what_was_computed_nothing_is_foretold() {
         let left_out = FiniteStrain.left_out(scene, estimate);
         let doubt = FiniteStrain.doubt(scene, estimate, &Standing { is_lacking, left_out });
         let is_known = left_out.is_some_and(|left_out| left_out != LeftOut::default());
-        [is_known, Headline::ALL.iter().all(|headline| doubt.size(*headline).is_some())]
+        [is_known, QuantityOfInterest::ALL.iter().all(|headline| doubt.size(*headline).is_some())]
     };
     // a/R of 0.81 and 0.87.
     let [flat, flatter] = ["body.1.approach_speed='10 m/s'", "body.1.approach_speed='12 m/s'"];

@@ -4,10 +4,11 @@ use fem::results::{Energy, Spent, energy_key};
 use fem::schema::{ActsOn, BodyTable, MaterialTable, ModelTable, SnapshotLabel, TermTable};
 use fem::sweep::{Members, Ran, Variations};
 use fem::{
-    Account, Approach, ApproachError, Body, BodyFields, BodyResult, BodyStress, Book, Case,
-    CaseError, CaseFile, Collision, Cost, Ending, HertzImpact, Label, Material, ModelChoice,
-    Monitor, Phase, Progress, Quantity, Row, Scene, Setup, Shape, Shown, Side, Simulation,
-    Snapshot, SnapshotRequest, SphereMesh, Stop, StressField, Summary, Want, invariants, remedy_of,
+    Account, Approach, ApproachError, BalanceSide, Body, BodyFields, BodyResult, BodyStress, Case,
+    CaseError, CaseFile, Collision, Cost, Ending, EnergyLedger, HertzImpact, HistoryRow, Material,
+    ModelChoice, Monitor, OutputRequest, Phase, Progress, Quantity, Scene, Setup, Shape, ShownIn,
+    Simulation, Snapshot, SnapshotInstant, SnapshotRequest, SphereMesh, Stop, StressField, Summary,
+    invariants, remedy_of,
 };
 
 /// Notes the phases of a run, and ends it after so many reports.
@@ -56,7 +57,10 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     assert!(matches!(setup.cost, Cost::Factors { .. }));
     let hertz: &HertzImpact = &setup.estimate.hertz;
     assert!(hertz.contact_time() > 0.0 && setup.approach.speed() == 0.1);
-    let want = Want { snapshots: SnapshotRequest::Labels(vec![Label::Maximum]), ..Want::history() };
+    let want = OutputRequest {
+        snapshots: SnapshotRequest::Labels(vec![SnapshotInstant::Maximum]),
+        ..OutputRequest::history()
+    };
     assert_eq!(simulation.want().snapshots, want.snapshots);
     simulation.ask_for(want).unwrap();
 
@@ -68,16 +72,16 @@ fn a_case_is_made_and_run_and_looked_at() -> Result<(), CaseError> {
     // Bodies, and the books of energy.
     let [floor, ball]: &[BodyResult; 2] = &collision.bodies;
     assert!(floor.mass.is_none() && ball.velocity_after.is_some_and(|speed| speed > 0.0));
-    let book: &Book = &collision.energies;
-    let row: &Row = collision.history.last().unwrap();
-    assert!(book.has(Account::Kinetic) && row.energies.total(Side::Lost) > Some(0.0));
+    let book: &EnergyLedger = &collision.energies;
+    let row: &HistoryRow = collision.history.last().unwrap();
+    assert!(book.has(Account::Kinetic) && row.energies.total(BalanceSide::Lost) > Some(0.0));
     // Those of effects that are off are not there.
     assert!(
-        Account::all().all(|account| account.shown() != Shown::WhereFilled || !book.has(account))
+        Account::all().all(|account| account.shown() != ShownIn::WhereFilled || !book.has(account))
     );
 
     // Fields and stress.
-    let snapshot: &Snapshot = collision.snapshot(Label::Maximum).unwrap();
+    let snapshot: &Snapshot = collision.snapshot(SnapshotInstant::Maximum).unwrap();
     let fields: &BodyFields = &snapshot.bodies[1];
     let BodyStress { mesh, field } = simulation.stress(snapshot, 1).unwrap();
     let (mesh, field): (&SphereMesh, StressField) = (mesh, field);
@@ -106,7 +110,7 @@ fn a_run_is_ended_and_begun_elsewhere() -> Result<(), CaseError> {
     assert!(refused.to_string().contains("-1"));
     let simulation = Simulation::new(scene_of(ModelTable::ting())?)?;
     let faster = Approach::at(0.2).unwrap();
-    let collision = simulation.model().collide(&faster, &Want::quantities(), &mut ());
+    let collision = simulation.model().collide(&faster, &OutputRequest::quantities(), &mut ());
     assert_eq!(collision.approach.speed(), 0.2);
     Ok(())
 }

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use fem::{Account, Case, Collision, Ending, Monitor, Progress, Row, Side, Simulation};
+use fem::{
+    Account, BalanceSide, Case, Collision, Ending, HistoryRow, Monitor, Progress, Simulation,
+};
 
 const BALL: &str = include_str!("rubber_ball.toml");
 /// Elements that are as coarse as a test may have them: four across the first contact.
@@ -28,8 +30,11 @@ fn relaxing(weight: f64, time: &str, acts_on: &str) -> String {
 }
 
 /// What all accounts together hold and have lost, J.
-fn total(row: &Row) -> f64 {
-    [Side::Held, Side::Lost].into_iter().filter_map(|side| row.energies.total(side)).sum()
+fn total(row: &HistoryRow) -> f64 {
+    [BalanceSide::Held, BalanceSide::Lost]
+        .into_iter()
+        .filter_map(|side| row.energies.total(side))
+        .sum()
 }
 
 /// Heights between bounces of rows in flight, m.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::{Case, Collision, Simulation, Stop, assess, remedy_of};
-use fem_collision::{Ending, Moment};
+use fem_collision::{Ending, StepInstant};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
@@ -136,7 +136,7 @@ fn energy_that_does_not_add_up_is_told_with_its_time() {
         messages.into_iter().find(|text| text.contains("add up"))
     };
     assert_eq!(about_energy(&collision), None);
-    let since = Moment { time: 20e-6, step: 1000 };
+    let since = StepInstant { time: 20e-6, step: 1000 };
     (collision.residual_relative, collision.residual_since) = (Some(2e-3), Some(since));
     let message = about_energy(&collision).unwrap();
     assert!(message.contains(&format!("2.0e-3 of the initial, above 1e-3 since {since}")));
@@ -169,7 +169,7 @@ fn a_run_at_its_limit_goes_on_where_that_is_raised() {
     let mesh = ["mesh.contact_element_size='0.2 mm'", "mesh.refined_radius='0.6 mm'", fluid];
     let mut simulation = run(GLASS, &mesh).0;
     let want = simulation.want().clone();
-    simulation.ask_for(fem::Want { most_element_updates: 100_000, ..want }).unwrap();
+    simulation.ask_for(fem::OutputRequest { most_element_updates: 100_000, ..want }).unwrap();
     let collision = simulation.run(&mut ());
     let stop = collision.stop().expect("a stop");
     assert!(matches!(stop, Stop::TooManyUpdates { .. }), "{stop}");

@@ -1,6 +1,6 @@
 //! Where the origin is, how fast it moves and how far the bodies are apart make no difference.
 
-use fem::{Approach, Collision, METHODS, Want};
+use fem::{Approach, Collision, METHODS, OutputRequest};
 
 use crate::coarse::simulation;
 
@@ -33,8 +33,9 @@ fn a_gap_and_a_common_speed_change_nothing() {
         METHODS.iter().flat_map(|method| [(method, &[][..]), (method, twins), (method, wall)])
     {
         let simulation = simulation(method.name(), more);
-        let at =
-            |approach: &Approach| simulation.model().collide(approach, &Want::history(), &mut ());
+        let at = |approach: &Approach| {
+            simulation.model().collide(approach, &OutputRequest::history(), &mut ())
+        };
         let reference = at(&Approach::at(0.5).unwrap());
         assert!(reference.is_complete());
         for way in &ways {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Explicit, Headline, Simulation};
+use fem::{Case, Collision, Explicit, QuantityOfInterest, Simulation};
 
 const ELASTIC: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const RELAXING: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -19,7 +19,7 @@ fn simulation(case: &str, set: &[&str]) -> Simulation {
 
 /// Differences of the restitution, of all others as shares.
 fn apart(one: &Collision, other: &Collision) -> [f64; 6] {
-    Headline::ALL.map(|headline| {
+    QuantityOfInterest::ALL.map(|headline| {
         let [one, other] = [one, other].map(|collision| headline.of(collision).unwrap());
         (one - other).abs() / headline.scale(other)
     })
@@ -35,16 +35,16 @@ fn what_is_left_out_far_away_is_three_hundredths_of_the_tolerance() {
         assert_ne!(near, everywhere);
         let [left, whole] = [apart(&near, &everywhere), apart(&nowhere, &everywhere)];
         for headline in [
-            Headline::Restitution,
-            Headline::ContactTime,
-            Headline::PeakForce,
-            Headline::MaxApproach,
-            Headline::PeakPressure,
+            QuantityOfInterest::Restitution,
+            QuantityOfInterest::ContactTime,
+            QuantityOfInterest::PeakForce,
+            QuantityOfInterest::MaxApproach,
+            QuantityOfInterest::PeakPressure,
         ] {
             let k = headline as usize;
             assert!(left[k] < 3e-5, "{}: {left:?} of {whole:?}", headline.name());
         }
-        let force = Headline::PeakForce as usize;
+        let force = QuantityOfInterest::PeakForce as usize;
         assert!(whole[force] > 1e-3, "{whole:?}");
     }
 }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use fem::{Account, Headline, Simulation};
+use fem::{Account, QuantityOfInterest, Simulation};
 use fem_case::Case;
 
 /// A 10 mm ball of a soft, light glass, on one of the same material.
@@ -158,7 +158,10 @@ fn half_spaces_that_relax_are_within_their_bars() {
             ["model.fem={}", "model.ting={}", "model.condensed={}"].map(|model| {
                 let simulation = simulation(&[model, body, &soft, "body.1.approach_speed=0.2"]);
                 let collision = simulation.run(&mut ());
-                let parts = simulation.summary(&collision).uncertainty.parts(Headline::Restitution);
+                let parts = simulation
+                    .summary(&collision)
+                    .uncertainty
+                    .parts(QuantityOfInterest::Restitution);
                 let bar = parts.discretisation.unwrap() + parts.model.unwrap();
                 (collision.restitution.unwrap(), bar)
             });

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::results::Summary;
-use fem::{Case, Headline, Simulation};
+use fem::{Case, QuantityOfInterest, Simulation};
 
 /// Two spheres of 10 mm that relax in no time beside the contact they have in the end.
 const PAIR: &str = "
@@ -61,7 +61,8 @@ fn the_pressure_of_a_fluid_is_largest_while_the_contact_is_small() {
     ] {
         let summary = run(&[set, &[FLUID]].concat());
         let told = summary.collision.peak_pressure_pa.unwrap();
-        let off = summary.uncertainty.parts(Headline::PeakPressure).discretisation.unwrap();
+        let off =
+            summary.uncertainty.parts(QuantityOfInterest::PeakPressure).discretisation.unwrap();
         assert!((told - exact).abs() < off, "{set:?}: {told} ± {off}, {exact}");
         assert!(off / told < largest, "{set:?}: {told} ± {off}");
     }
@@ -93,7 +94,7 @@ fn bodies_that_have_relaxed_are_warned_of_as_soft_ones_are() {
 fn model_bars_are_of_the_collision_as_it_is() {
     let fem = run(&["model.fem={}"]);
     let ting = run(&["model.ting={}"]);
-    for headline in Headline::ALL {
+    for headline in QuantityOfInterest::ALL {
         let bar = |summary: &Summary| {
             let parts = summary.uncertainty.parts(headline);
             parts.discretisation.unwrap() + parts.model.unwrap()
@@ -103,7 +104,7 @@ fn model_bars_are_of_the_collision_as_it_is() {
         assert!((one - other).abs() < off, "{headline:?}: {one} {other} ± {off}");
         let share = bar(&fem) / headline.scale(one);
         // The pressure comes while the contact is a third of an element wide.
-        let is_seen = headline != Headline::PeakPressure;
+        let is_seen = headline != QuantityOfInterest::PeakPressure;
         assert!(!is_seen || share < 0.12, "{headline:?}: {one} ± {share}");
     }
 }

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Simulation, Want, remedy_of};
+use fem::{Case, OutputRequest, Simulation, remedy_of};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 const SOFT: &str = include_str!("../../../../cases/soft_sphere.toml");
@@ -156,7 +156,7 @@ fn failure(case: &str, overrides: &[&str], want: Option<f64>) -> Option<(String,
     };
     simulation.skip_snapshots();
     if let Some(give_up_after) = want {
-        let want = Want { give_up_after, ..simulation.want().clone() };
+        let want = OutputRequest { give_up_after, ..simulation.want().clone() };
         simulation.ask_for(want).unwrap();
     }
     let collision = simulation.run(&mut ());

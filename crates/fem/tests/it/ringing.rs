@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::{Case, Collision, Simulation};
-use fem_collision::Headline;
+use fem_collision::QuantityOfInterest;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms_elastic.toml");
 
@@ -35,8 +35,12 @@ fn slow_bulk_waves_are_told() {
             assert!(lost < 1e-4, "{poissons_ratio}: {lost:e}");
             continue;
         }
-        let bar =
-            simulation.summary(&condensed).uncertainty.parts(Headline::Restitution).model.unwrap();
+        let bar = simulation
+            .summary(&condensed)
+            .uncertainty
+            .parts(QuantityOfInterest::Restitution)
+            .model
+            .unwrap();
         assert!(lost > 5e-3 && (lost / 3.0..3.0 * lost).contains(&bar), "{lost:e} {bar:e}");
         // Few modes do not help, as the message says.
         assert!(says.contains("use model fem"), "{says}");

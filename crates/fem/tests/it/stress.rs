@@ -1,7 +1,7 @@
 //! The stress in a body, beside the closed form.
 
 use fem::schema::{BodyTable, MaterialTable, MeshTable, ModelTable};
-use fem::{Case, CaseFile, Label, Simulation, Snapshot};
+use fem::{Case, CaseFile, Simulation, Snapshot, SnapshotInstant};
 
 /// A steel ball strikes a wall.
 fn case(model: ModelTable) -> Case {
@@ -24,7 +24,7 @@ fn the_stress_on_the_axis_is_that_of_hertz() {
     let collision = simulation.run(&mut ());
     let hertz = &simulation.setup().estimate.hertz;
     let (radius, pressure) = (hertz.max_contact_radius(), hertz.peak_pressure());
-    let snapshot = collision.snapshot(Label::Maximum).unwrap();
+    let snapshot = collision.snapshot(SnapshotInstant::Maximum).unwrap();
     let ball = simulation.stress(snapshot, 0).unwrap();
     let on_axis: Vec<_> = ball.on_axis().collect();
     assert_eq!(on_axis.len(), ball.mesh.axis().len());

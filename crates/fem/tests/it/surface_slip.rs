@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use fem::effects::{Effect, Standing, SurfaceSlip, Verdict};
-use fem::{Case, Collision, Headline, Simulation};
+use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 use crate::coarse;
 
@@ -199,7 +199,11 @@ fn the_next_order_is_a_doubt_of_models_that_have_the_first() {
             let doubt = SurfaceSlip.doubt(scene, estimate, &Standing { is_lacking, left_out });
             let hertz = &estimate.hertz;
             let scales = [hertz.contact_time(), hertz.peak_force(), hertz.max_approach()];
-            let numbers = [Headline::ContactTime, Headline::PeakForce, Headline::MaxApproach];
+            let numbers = [
+                QuantityOfInterest::ContactTime,
+                QuantityOfInterest::PeakForce,
+                QuantityOfInterest::MaxApproach,
+            ];
             [0, 1, 2].map(|k: usize| doubt.size(numbers[k]).unwrap().abs() / scales[k])
         };
         for model in ["model.condensed={}", "model.ting={}"] {

@@ -94,7 +94,7 @@ fn members_of_a_file_are_those_of_code() {
     assert_eq!(identities(&cases[..]), expected);
     assert_ne!(expected[0], expected[1]);
 
-    fn histories(members: &(impl Members + ?Sized)) -> Vec<Vec<fem::Row>> {
+    fn histories(members: &(impl Members + ?Sized)) -> Vec<Vec<fem::HistoryRow>> {
         let shared = Shared::default();
         let runner = Runner::new(members, &shared).without_fields();
         let kept = runner.run(&[0, 1, 2], &(), |ran| ran.collision.history);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Cost, Ending, Label, Simulation, Stop, Want};
+use fem::{Case, Cost, Ending, OutputRequest, Simulation, SnapshotInstant, Stop};
 use fem_collision::STAY_TOGETHER;
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -43,7 +43,7 @@ fn a_collision_without_an_end_is_complete() {
                     assert!((after / common - 1.0).abs() < 1e-3, "{name}: {after} {common}");
                 }
                 // They are closest in the end, and half as close on the way.
-                for label in [Label::MidCompression, Label::Maximum] {
+                for label in [SnapshotInstant::MidCompression, SnapshotInstant::Maximum] {
                     assert!(collision.snapshot(label).is_some(), "{name} {label:?}");
                 }
                 let summary = simulation.summary(&collision);
@@ -87,10 +87,10 @@ fn bodies_that_flow_have_one_answer() {
 #[test]
 fn runs_wait_for_what_is_foretold() {
     let elastic = simulation("condensed", "all", 1e-3, "1 ms");
-    assert_eq!(elastic.want().give_up_after, Want::GIVE_UP_AFTER);
+    assert_eq!(elastic.want().give_up_after, OutputRequest::GIVE_UP_AFTER);
     let times = ["0.2 us", "0.05 us"].map(|time| simulation("condensed", "all", 1.0, time));
     let [early, late] = times.each_ref().map(|simulation| simulation.want().give_up_after);
-    assert!(early > Want::GIVE_UP_AFTER && late > early, "{early} {late}");
+    assert!(early > OutputRequest::GIVE_UP_AFTER && late > early, "{early} {late}");
 }
 
 /// The limit of a case is kept while the run goes, whatever was expected of it.
@@ -99,7 +99,9 @@ fn a_run_ends_at_its_limit() {
     let mut simulation = simulation("fem", "all", 1.0, "0.1 us");
     let Cost::Steps { element_updates: expected, .. } = simulation.setup().cost else { panic!() };
     let limit = expected / 10;
-    simulation.ask_for(Want { most_element_updates: limit, ..simulation.want().clone() }).unwrap();
+    simulation
+        .ask_for(OutputRequest { most_element_updates: limit, ..simulation.want().clone() })
+        .unwrap();
     let collision = simulation.run(&mut ());
     assert!(
         matches!(collision.stop(), Some(Stop::TooManyUpdates { .. })),

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use fem::results::Summary;
-use fem::{Case, Collision, Headline, Simulation};
+use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 const SOFT_SPHERE: &str = include_str!("../../../../cases/soft_sphere.toml");
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
@@ -37,10 +37,10 @@ fn computed(text: &str, set: &[&str]) -> (Simulation, Collision) {
 /// Bars over what is allowed, of the quantities of which something is.
 fn excesses(summary: &Summary) -> [f64; 4] {
     let allowed = [
-        (Headline::Restitution, 0.01),
-        (Headline::ContactTime, 0.01),
-        (Headline::PeakForce, 0.01),
-        (Headline::PeakPressure, 0.03),
+        (QuantityOfInterest::Restitution, 0.01),
+        (QuantityOfInterest::ContactTime, 0.01),
+        (QuantityOfInterest::PeakForce, 0.01),
+        (QuantityOfInterest::PeakPressure, 0.03),
     ];
     allowed.map(|(headline, tolerance)| {
         let value = summary.collision.number(headline).unwrap();
@@ -77,9 +77,11 @@ fn a_mesh_that_does_not_do_is_made_finer() {
     assert_eq!(again.1, collision);
     // What a fine mesh says is as near as was asked.
     let fine = self::simulation(RUBBER, &[FEM, FAST, FINE]).run(&mut ());
-    for (headline, tolerance) in
-        [(Headline::Restitution, 0.01), (Headline::ContactTime, 0.01), (Headline::PeakForce, 0.01)]
-    {
+    for (headline, tolerance) in [
+        (QuantityOfInterest::Restitution, 0.01),
+        (QuantityOfInterest::ContactTime, 0.01),
+        (QuantityOfInterest::PeakForce, 0.01),
+    ] {
         let (ours, exact) = (headline.of(&collision).unwrap(), headline.of(&fine).unwrap());
         let error = (ours - exact).abs() / headline.scale(exact);
         assert!(error < tolerance, "{headline:?} {error}");
@@ -99,7 +101,7 @@ fn soft_spheres_are_within_the_tolerance_of_recorded_ones() {
     ] {
         let (simulation, collision) = computed(text, set);
         assert_eq!(warning(&simulation, &collision), None);
-        let [e, time, force, _, _, pressure] = Headline::ALL.map(|headline| {
+        let [e, time, force, _, _, pressure] = QuantityOfInterest::ALL.map(|headline| {
             let value = headline.of(&collision).unwrap();
             (value, headline.scale(value))
         });
@@ -146,8 +148,12 @@ fn a_mesh_that_has_to_stay_is_warned_of() {
     let coarse = [FEM, FAST, "mesh.contact_element_size='2 mm'"];
     let (simulation, collision) = computed(RUBBER, &coarse);
     let (told, summary) = (warning(&simulation, &collision), simulation.summary(&collision));
-    let names =
-        [Headline::Restitution, Headline::ContactTime, Headline::PeakForce, Headline::PeakPressure];
+    let names = [
+        QuantityOfInterest::Restitution,
+        QuantityOfInterest::ContactTime,
+        QuantityOfInterest::PeakForce,
+        QuantityOfInterest::PeakPressure,
+    ];
     let missed = excesses(&summary).map(|excess| excess > 1.0);
     assert!(missed.iter().filter(|is| **is).count() > 1, "{missed:?}");
     let is_named = names.map(|headline| told.as_ref().unwrap().contains(headline.name()));
@@ -239,8 +245,8 @@ fn a_finer_mesh_that_does_not_do_is_not_tried() {
     assert!(text.contains("would take"), "{text}");
     // Its pressure is within its tolerance, of which coarser companions told twice as much.
     let summary = simulation.summary(&collision);
-    let bar = summary.uncertainty.parts(Headline::PeakPressure).discretisation.unwrap();
-    let pressure = summary.collision.number(Headline::PeakPressure).unwrap();
+    let bar = summary.uncertainty.parts(QuantityOfInterest::PeakPressure).discretisation.unwrap();
+    let pressure = summary.collision.number(QuantityOfInterest::PeakPressure).unwrap();
     assert!(bar < 0.003 * pressure, "{}", bar / pressure);
 }
 
@@ -253,8 +259,8 @@ fn bars_do_not_swing_with_the_place_of_the_edge() {
         let set = [FEM, "mesh.staggered=true", "time.mass_scaling=1e-4", size.as_str()];
         let (simulation, collision) = computed(ELASTIC_GLASS, &set);
         let summary = simulation.summary(&collision);
-        let bar = summary.uncertainty.parts(Headline::PeakForce).discretisation.unwrap();
-        let share = bar / summary.collision.number(Headline::PeakForce).unwrap();
+        let bar = summary.uncertainty.parts(QuantityOfInterest::PeakForce).discretisation.unwrap();
+        let share = bar / summary.collision.number(QuantityOfInterest::PeakForce).unwrap();
         assert!(share < 1.5e-3, "{size}: {share}");
     }
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use fem::results::{Parts, Quantities, Summary, UncertaintySummary};
-use fem::{Case, Headline, Simulation};
+use fem::{Case, QuantityOfInterest, Simulation};
 
 const GLASS: &str = include_str!("../../../../cases/glass_0.5ms.toml");
 const RUBBER: &str = include_str!("rubber_ball.toml");
@@ -30,11 +30,11 @@ fn summary(text: &str, set: &[&str]) -> Summary {
 }
 
 fn numbers(quantities: &Quantities) -> [Option<f64>; 6] {
-    Headline::ALL.map(|headline| quantities.number(headline))
+    QuantityOfInterest::ALL.map(|headline| quantities.number(headline))
 }
 
 fn parts(uncertainty: &UncertaintySummary) -> [Parts; 6] {
-    Headline::ALL.map(|headline| uncertainty.parts(headline))
+    QuantityOfInterest::ALL.map(|headline| uncertainty.parts(headline))
 }
 
 fn model(summary: &Summary) -> [f64; 6] {
@@ -113,8 +113,8 @@ fn what_a_relaxing_material_loses_at_large_strain_is_a_doubt() {
         mesh.contact_element_size = '0.6 mm'";
     let [small, finite] =
         [SMALL, FINITE].map(|set| summary(ball, &[&set[..], &[NO_SNAPSHOTS]].concat()));
-    let [ours, exact] =
-        [&small, &finite].map(|summary| summary.collision.number(Headline::Restitution).unwrap());
+    let [ours, exact] = [&small, &finite]
+        .map(|summary| summary.collision.number(QuantityOfInterest::Restitution).unwrap());
     let [told, mesh] = [model(&small)[0], parts(&small.uncertainty)[0].discretisation.unwrap()];
     let off = (ours - exact).abs();
     assert!(off > 4e-3 && mesh < 1.5e-3, "{off:e} {mesh:e}");
@@ -140,7 +140,7 @@ fn what_is_no_number_has_no_doubt() {
     let stuck = "material.glass.relaxation.terms.0.decay_rate='3e6 1/s'";
     let summary = summary(GLASS, &[TING, stuck, NO_SNAPSHOTS]);
     assert_eq!(summary.collision.contact_time_s, None);
-    assert_eq!(summary.uncertainty.parts(Headline::ContactTime).model, None);
+    assert_eq!(summary.uncertainty.parts(QuantityOfInterest::ContactTime).model, None);
     assert!(summary.collision.max_approach_m.is_some());
     // Twice beyond all that was computed.
     let flat = ["effects.finite_strain='off'", "body.1.approach_speed='60 m/s'", NO_SNAPSHOTS];
@@ -157,16 +157,16 @@ fn what_is_known_of_a_doubt_is_told_where_the_whole_is_not() {
                  [[body]]\nname = 'nylon'\nsphere = { diameter = '8 mm' }\nmaterial = 'lib:nylon'\n\
                  approach_speed = '3 m/s'\n";
     let found = summary(nylon, &[TING]);
-    let of = |headline: Headline| found.uncertainty.parts(headline);
-    let time = of(Headline::ContactTime);
+    let of = |headline: QuantityOfInterest| found.uncertainty.parts(headline);
+    let time = of(QuantityOfInterest::ContactTime);
     assert_eq!((time.model, time.sum()), (None, None));
     // What the law of finite strain may change of it alone is warned of as 3.88 %.
     let share = time.known().unwrap() / found.collision.contact_time_s.unwrap();
     assert!((0.0388..0.1).contains(&share), "{share}");
     let slow = "body.1.approach_speed='1 cm/s'";
     let slow = summary(nylon, &[TING, slow]);
-    let restitution = slow.uncertainty.parts(Headline::Restitution);
+    let restitution = slow.uncertainty.parts(QuantityOfInterest::Restitution);
     assert_eq!(restitution.model, None);
-    assert!(slow.uncertainty.parts(Headline::ContactTime).sum().is_some());
+    assert!(slow.uncertainty.parts(QuantityOfInterest::ContactTime).sum().is_some());
     assert!(slow.warnings.iter().any(|warning| warning.contains("is not published")));
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use fem::{Case, Collision, Headline, Simulation};
+use fem::{Case, Collision, QuantityOfInterest, Simulation};
 
 /// A steel ball on a thirty times larger sphere of rubber, slow.
 const BALL: &str = r#"
@@ -81,7 +81,7 @@ fn moved_mass_is_within_the_bars() {
         let (_, without) = run(&[scene, &["time.mass_scaling=0"]]);
         assert!(without.steps > collision.steps, "{scene:?}");
         let bars = simulation.summary(&collision).uncertainty;
-        for headline in Headline::ALL {
+        for headline in QuantityOfInterest::ALL {
             let [value, truth] = [&collision, &without].map(|it| headline.of(it).unwrap());
             let bar = bars.parts(headline).discretisation.unwrap();
             assert!(
@@ -108,9 +108,11 @@ fn what_hardly_gives_way_carries_more() {
     let [steps, plain] = [&collision, &without].map(|it| it.steps.unwrap());
     assert!(5 * steps < plain, "{steps} {plain}");
     assert!(collision.bodies[0].added_mass > Some(0.01));
-    for (headline, allowed) in
-        [(Headline::Restitution, 2e-4), (Headline::ContactTime, 5e-4), (Headline::PeakForce, 1e-3)]
-    {
+    for (headline, allowed) in [
+        (QuantityOfInterest::Restitution, 2e-4),
+        (QuantityOfInterest::ContactTime, 5e-4),
+        (QuantityOfInterest::PeakForce, 1e-3),
+    ] {
         let [value, truth] = [&collision, &without].map(|it| headline.of(it).unwrap());
         assert!((value / truth - 1.0).abs() < allowed, "{}: {value} {truth}", headline.name());
     }

@@ -38,7 +38,7 @@ pub(super) fn endure(n_steps: usize) -> Result<([f64; 2], u64), StudyError> {
             still.step();
         }
         let drift = [(velocity(&sphere) - first) / first, still.energy() / energy - 1.0];
-        worst = [0, 1].map(|k| fem_collision::worst(worst[k], drift[k].abs()));
+        worst = [0, 1].map(|k| fem_collision::nan_aware_max_abs(worst[k], drift[k].abs()));
     }
     let elements = sphere.body().n_elements() + still.body().n_elements();
     Ok((worst, (n_steps * elements) as u64))

@@ -10,7 +10,7 @@
 use fem::effects::{LeftOut, PartnerWaves, Verdict};
 use fem::{Estimate, Simulation};
 use fem_case::{Case, CaseError};
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 use rayon::prelude::*;
 use serde::Deserialize;
 
@@ -220,7 +220,7 @@ fn difference(
     });
     let share =
         [0, 1, 2].map(|k| off[k].abs() / (base[k] + FORETOLD_WITHIN * explained[k] + waves[k]));
-    let share = share.into_iter().fold(0.0, fem_collision::worst);
+    let share = share.into_iter().fold(0.0, fem_collision::nan_aware_max_abs);
     // What warnings need to know, companions tell, which take longer than the collision.
     let is_within = share <= 1.0;
     let warns = !is_within && theirs.warns();
@@ -233,7 +233,11 @@ fn bars(ours: &Ran, theirs: &Ran) -> [f64; 3] {
     let of = |ran: &Ran| {
         let bars = ran.simulation.summary(&ran.collision).uncertainty;
         let scales = [1.0, hertz.contact_time(), hertz.peak_force()];
-        let headlines = [Headline::Restitution, Headline::ContactTime, Headline::PeakForce];
+        let headlines = [
+            QuantityOfInterest::Restitution,
+            QuantityOfInterest::ContactTime,
+            QuantityOfInterest::PeakForce,
+        ];
         [0, 1, 2].map(|k: usize| bars.parts(headlines[k]).discretisation.unwrap_or(0.0) / scales[k])
     };
     let (ours, theirs) = (of(ours), of(theirs));

@@ -4,7 +4,7 @@ use std::path::{MAIN_SEPARATOR, Path};
 
 use fem::{Cost, Simulation};
 use fem_case::{Case, CaseError};
-use fem_collision::{Collision, Headline, Row, Side};
+use fem_collision::{BalanceSide, Collision, HistoryRow, QuantityOfInterest};
 use fem_laws::HertzImpact;
 
 use crate::error::StudyError;
@@ -83,9 +83,9 @@ impl Trial {
             return Some(growth);
         }
         let initial = collision.initial_energy?;
-        let held = |row: &Row| {
-            let held = row.energies.total(Side::Held)?;
-            Some((held - row.energies.total(Side::Given).unwrap_or(0.0)) / initial - 1.0)
+        let held = |row: &HistoryRow| {
+            let held = row.energies.total(BalanceSide::Held)?;
+            Some((held - row.energies.total(BalanceSide::Given).unwrap_or(0.0)) / initial - 1.0)
         };
         collision.history.iter().filter_map(held).reduce(largest)
     }
@@ -105,9 +105,9 @@ impl Trial {
     /// Returns the count of results that are not finite.
     pub fn no_number(&self) -> Option<f64> {
         let collision = self.collision()?;
-        let results = Headline::ALL.map(|headline| headline.of(collision));
+        let results = QuantityOfInterest::ALL.map(|headline| headline.of(collision));
         let results = results.into_iter().chain([collision.residual_relative]);
-        let of_row = |row: &Row| {
+        let of_row = |row: &HistoryRow| {
             let [lower, upper] = row.velocity;
             [row.time, row.contact_force, row.approach, lower, upper]
         };

@@ -2,7 +2,7 @@
 //! and pressure p₀ at the same force.
 
 use fem_case::Shape;
-use fem_collision::{Label, Snapshot};
+use fem_collision::{Snapshot, SnapshotInstant};
 use fem_contact::ContactInterface;
 use fem_laws::HertzPressure;
 use fem_mesh::segment_measures;
@@ -38,7 +38,7 @@ impl Fields {
     /// Out to the given depth and distance over a.
     pub fn of(run: &ExplicitRun, depth: f64, distance: f64) -> Result<Self, StudyError> {
         let missing = || StudyError::parameters("the run has no snapshot of its largest approach");
-        let is_maximum = |snapshot: &&Snapshot| snapshot.label == Some(Label::Maximum);
+        let is_maximum = |snapshot: &&Snapshot| snapshot.label == Some(SnapshotInstant::Maximum);
         let snapshot = run.collision.snapshots.iter().find(is_maximum).ok_or_else(missing)?;
         let bodies = run.model.bodies();
         let side = usize::from(bodies[0].mesh().is_none());

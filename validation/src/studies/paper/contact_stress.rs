@@ -1,6 +1,6 @@
 //! Fig. 13: σ_yy in the middle of the contact against time, for several speeds.
 
-use fem_collision::Row;
+use fem_collision::HistoryRow;
 use fem_figure::{Axis, Chart, Curve, GREY};
 
 use super::{Speeds, exponent};
@@ -60,7 +60,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 }
 
 /// Pressure on the axis, Pa.
-fn pressure(row: &Row) -> f64 {
+fn pressure(row: &HistoryRow) -> f64 {
     row.centre_pressure.unwrap_or(f64::NAN)
 }
 
@@ -73,7 +73,7 @@ fn pressure_by_hertz(run: &Run, time: f64) -> f64 {
 fn history_difference(run: &Run) -> f64 {
     let hertz = run.hertz;
     let rows = run.collision.history.iter().filter(|row| row.time <= hertz.contact_time());
-    let square = |row: &Row| (pressure(row) - pressure_by_hertz(run, row.time)).powi(2);
+    let square = |row: &HistoryRow| (pressure(row) - pressure_by_hertz(run, row.time)).powi(2);
     let (sum, n) = rows.fold((0.0, 0.0), |(sum, n), row| (sum + square(row), n + 1.0));
     (sum / n).sqrt() / hertz.peak_pressure()
 }

@@ -1,7 +1,7 @@
 //! Fig. 14: σ_yy in section at four instants, on the deformed bodies.
 
 use fem_case::engineering::Unit;
-use fem_collision::{Label, Snapshot};
+use fem_collision::{Snapshot, SnapshotInstant};
 use fem_figure::contour::{Contour, Levels, Panel, Region, Section, Window};
 use serde::Deserialize;
 
@@ -31,7 +31,7 @@ struct Parameters {
 pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
     let parameters: Parameters = laboratory.parameters()?;
     let run = laboratory.run_all(vec![laboratory.case("elastic")?])?.remove(0);
-    let instants = Label::ALL.map(|label| {
+    let instants = SnapshotInstant::ALL.map(|label| {
         let found = run.collision.snapshots.iter().find(|snapshot| snapshot.label == Some(label));
         found.map(|snapshot| Instant::of(&run, label, snapshot))
     });
@@ -46,7 +46,7 @@ pub fn study(laboratory: &Laboratory) -> Result<Findings, StudyError> {
 
 /// The bodies at one instant: half sections in mm, with σ_yy in GPa.
 struct Instant {
-    label: Label,
+    label: SnapshotInstant,
     time: f64,
     halves: [Section; 2],
     /// On the contact's pole of each body, GPa.
@@ -54,7 +54,7 @@ struct Instant {
 }
 
 impl Instant {
-    fn of(run: &ExplicitRun, label: Label, snapshot: &Snapshot) -> Self {
+    fn of(run: &ExplicitRun, label: SnapshotInstant, snapshot: &Snapshot) -> Self {
         let mut halves = sections::halves(run, snapshot, GIGA_PASCAL);
         let bodies = run.model.bodies();
         let poles = [0, 1].map(|k: usize| {

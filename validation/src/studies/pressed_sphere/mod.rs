@@ -13,7 +13,9 @@ mod plate;
 
 use std::sync::Arc;
 
-use fem_collision::{Account, Approach, BodyInput, Expectation, Row, Want, worst};
+use fem_collision::{
+    Account, Approach, BodyInput, Expectation, HistoryRow, OutputRequest, nan_aware_max_abs,
+};
 use fem_explicit::{Model, ModelError, MovedContact, NodeForce, Parts, Run, Settings};
 use fem_figure::{Axis, Chart, Curve};
 use fem_material::finite::HyperelasticLaw;
@@ -67,7 +69,7 @@ fn hundredths(x: f64) -> u32 {
 }
 
 /// Rows of a run until the plates have come a little further than the largest depth.
-fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<Row>, u64), StudyError> {
+fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<HistoryRow>, u64), StudyError> {
     let Parameters { cells, speed, ref depths, .. } = *parameters;
     let moduli = ElasticModuli::from_youngs_modulus_poissons_ratio(1.0, nu)?;
     let material = Material::new(1.0, moduli, None)?;
@@ -97,7 +99,7 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<Row>, u64), StudyError
     let duration = deepest / speed;
     let expected = Expectation { contact_time: duration, approach: deepest };
     let n_elements = model.n_elements() as u64;
-    let mut run = Run::new(model, expected, &Want::history());
+    let mut run = Run::new(model, expected, &OutputRequest::history());
     while run.progress().time < duration && run.advance(100).is_none() {}
     let (time, steps) = (run.progress().time, run.progress().step);
     let collision = run.finish();
@@ -109,14 +111,15 @@ fn press(parameters: &Parameters, nu: f64) -> Result<(Vec<Row>, u64), StudyError
 }
 
 /// Mean of force over Hertz' at approaches near a depth.
-fn mean_force_ratio(rows: &[Row], depth: f64, hertz: impl Fn(f64) -> f64) -> f64 {
+fn mean_force_ratio(rows: &[HistoryRow], depth: f64, hertz: impl Fn(f64) -> f64) -> f64 {
     let near = rows.iter().filter(|row| (row.approach / depth - 1.0).abs() < 0.02);
     let ratios: Vec<f64> = near.map(|row| row.contact_force / hertz(row.approach)).collect();
     ratios.iter().sum::<f64>() / ratios.len() as f64
 }
 
 /// The worst residual over the work of the plates in the end.
-fn residual(rows: &[Row]) -> f64 {
+fn residual(rows: &[HistoryRow]) -> f64 {
     let work = rows.last().and_then(|row| row.energy(Account::WallWork)).unwrap_or(f64::NAN);
-    rows.iter().map(|row| row.residual.unwrap_or(f64::NAN).abs()).fold(0.0, worst) / work
+    rows.iter().map(|row| row.residual.unwrap_or(f64::NAN).abs()).fold(0.0, nan_aware_max_abs)
+        / work
 }

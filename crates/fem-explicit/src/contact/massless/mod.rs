@@ -27,7 +27,7 @@ mod turning;
 
 use std::any::Any;
 
-use fem_collision::{BodyInput, Searched};
+use fem_collision::{BodyInput, CandidateRegion};
 use fem_contact::{ContactForces, ContactInterface, Profile, SlippingInterface};
 
 use super::Contact;
@@ -260,7 +260,7 @@ impl Part for Massless {
 }
 
 impl Contact for Massless {
-    fn searched(&self) -> Searched {
+    fn searched(&self) -> CandidateRegion {
         Contact::searched(self.interface())
     }
 

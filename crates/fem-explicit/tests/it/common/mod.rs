@@ -2,7 +2,7 @@
 
 #![allow(dead_code, reason = "each test file uses its share")]
 
-use fem_collision::{Approach, BodyInput, Collision, Expectation, SnapshotRequest, Want};
+use fem_collision::{Approach, BodyInput, Collision, Expectation, OutputRequest, SnapshotRequest};
 use fem_explicit::{ContactMethod, Model, Parts, Settings, collide};
 use fem_material::finite::HyperelasticLaw;
 use fem_material::{ActsOn, ElasticModuli, Material, PronySeries, PronyTerm};
@@ -121,12 +121,12 @@ impl Pair {
         Expectation { contact_time: HERTZ_TIME * time, approach: HERTZ_APPROACH * length }
     }
 
-    pub fn want(&self) -> Want {
-        Want {
+    pub fn want(&self) -> OutputRequest {
+        OutputRequest {
             history_rows: self.history_rows,
             snapshots: self.snapshots.clone(),
             give_up_after: self.max_time / HERTZ_TIME,
-            ..Want::history()
+            ..OutputRequest::history()
         }
     }
 

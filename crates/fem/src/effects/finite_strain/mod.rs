@@ -26,7 +26,7 @@ mod strained;
 
 use fem_case::engineering::show;
 use fem_case::{Body, EffectsTable, ModelChoice, Scene, Switch};
-use fem_collision::{Collision, Headline};
+use fem_collision::{Collision, QuantityOfInterest};
 use fem_material::Material;
 use fem_material::finite::HyperelasticLaw;
 
@@ -324,9 +324,9 @@ impl Effect for FiniteStrain {
         // F = πa² times the mean pressure.
         let radius = 0.5 * (peak_force + peak_pressure) * sizes.max_contact_radius;
         Doubt::of(&shares, estimate)
-            .with(Headline::Restitution, restitution.abs() + lost)
-            .with(Headline::MaxContactRadius, radius)
-            .with(Headline::PeakPressure, peak_pressure * sizes.peak_pressure)
+            .with(QuantityOfInterest::Restitution, restitution.abs() + lost)
+            .with(QuantityOfInterest::MaxContactRadius, radius)
+            .with(QuantityOfInterest::PeakPressure, peak_pressure * sizes.peak_pressure)
             .checked()
     }
 

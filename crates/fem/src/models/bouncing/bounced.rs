@@ -2,7 +2,7 @@
 
 use fem_case::Gravity;
 use fem_collision::{
-    Approach, Bounce, Collision, Ending, Rest, STAY_TOGETHER, Snapshot, Stop, Want,
+    Approach, Bounce, Collision, Ending, OutputRequest, RestState, STAY_TOGETHER, Snapshot, Stop,
 };
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ pub(super) struct Bounced {
     chain: Chain,
     first: Option<Collision>,
     bounces: Vec<Bounce>,
-    rest: Option<Rest>,
+    rest: Option<RestState>,
     ending: Ending,
     steps: Option<u64>,
     element_updates: Option<u64>,
@@ -94,7 +94,7 @@ impl Bounced {
         self.sinks = true;
     }
 
-    pub fn bear(&mut self, rest: Rest) {
+    pub fn bear(&mut self, rest: RestState) {
         self.rest = Some(rest);
     }
 
@@ -108,7 +108,7 @@ impl Bounced {
     }
 
     /// Takes a contact; the speed (m/s) at which the ball comes down again, if it does.
-    pub fn take(&mut self, mut collision: Collision, want: &Want) -> Option<f64> {
+    pub fn take(&mut self, mut collision: Collision, want: &OutputRequest) -> Option<f64> {
         let add = |sum: Option<u64>, more: Option<u64>| {
             more.map(|more| sum.unwrap_or_default().saturating_add(more)).or(sum)
         };

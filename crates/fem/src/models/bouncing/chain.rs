@@ -4,7 +4,9 @@
 //! lost goes on to count as lost, and what they have left in the bodies stands in an account of its own,
 //! so that all energy since the first touch is in the ledger.
 
-use fem_collision::{Account, Book, Collision, Row, Side, highest, worst};
+use fem_collision::{
+    Account, BalanceSide, Collision, EnergyLedger, HistoryRow, nan_aware_max, nan_aware_max_abs,
+};
 use serde::{Deserialize, Serialize};
 
 /// Rows of a flight.
@@ -26,7 +28,7 @@ pub(super) struct Chain {
     first_touch: f64,
     time: f64,
     /// What earlier contacts have lost or been given, J.
-    lost: Book,
+    lost: EnergyLedger,
     /// What they have left in the bodies, J; `None` in the first contact.
     left: Option<f64>,
     /// What did not add up before, J.
@@ -38,9 +40,9 @@ pub(super) struct Chain {
     worst_residual: Option<f64>,
     growth: Option<f64>,
     /// At the end of the contact under way.
-    energies: Book,
+    energies: EnergyLedger,
     residual_at_end: Option<f64>,
-    rows: Vec<Row>,
+    rows: Vec<HistoryRow>,
 }
 
 impl Chain {
@@ -49,14 +51,14 @@ impl Chain {
         Self {
             first_touch,
             time: first_touch,
-            lost: Book::EMPTY,
+            lost: EnergyLedger::EMPTY,
             left: None,
             residual: 0.0,
             handed_on: None,
             initial: None,
             worst_residual: None,
             growth: None,
-            energies: Book::EMPTY,
+            energies: EnergyLedger::EMPTY,
             residual_at_end: None,
             rows: Vec::new(),
         }
@@ -73,7 +75,7 @@ impl Chain {
     }
 
     /// Takes the ledger of the contact under way, of a ball of some weight, N.
-    pub fn take(&mut self, collision: &Collision, rows: &[Row], weight: f64) {
+    pub fn take(&mut self, collision: &Collision, rows: &[HistoryRow], weight: f64) {
         if let (Some(handed_on), Some(initial)) = (self.handed_on, collision.initial_energy) {
             self.residual += initial - handed_on;
         }
@@ -82,22 +84,23 @@ impl Chain {
         let initial = *self.initial.get_or_insert(at_stake.unwrap_or(f64::NAN));
         if let Some((scale, relative)) = at_stake.zip(collision.residual_relative) {
             let here = (self.residual.abs() + relative * scale) / initial;
-            self.worst_residual = Some(worst(self.worst_residual.unwrap_or(0.0), here));
+            self.worst_residual = Some(nan_aware_max_abs(self.worst_residual.unwrap_or(0.0), here));
         }
-        self.growth = [self.growth, collision.energy_growth].into_iter().flatten().reduce(highest);
+        self.growth =
+            [self.growth, collision.energy_growth].into_iter().flatten().reduce(nan_aware_max);
         let end = rows.last().map_or(collision.energies, |row| row.energies);
         self.energies = self.carried(&end);
         self.residual_at_end = collision.residual.map(|residual| residual + self.residual);
     }
 
     /// Whether the motion of a row is a number.
-    pub fn is_sound(row: &Row) -> bool {
+    pub fn is_sound(row: &HistoryRow) -> bool {
         row.velocity.iter().chain([&row.approach, &row.time]).all(|number| number.is_finite())
     }
 
     /// Where a ball comes down that flies as in this row; `None` of one that does not rise to where it
     /// first touched.
-    pub fn landing(&self, end: &Row, gravity: f64) -> Option<Landing> {
+    pub fn landing(&self, end: &HistoryRow, gravity: f64) -> Option<Landing> {
         let velocity = end.velocity[1] - end.velocity[0];
         let squared = velocity * velocity - 2.0 * gravity * end.approach;
         let speed = squared.sqrt();
@@ -106,11 +109,11 @@ impl Chain {
     }
 
     /// Keeps the rows of the contact under way up to a time after its first touch, s.
-    pub fn keep(&mut self, rows: &[Row], until: f64) {
-        let kept: Vec<Row> = rows
+    pub fn keep(&mut self, rows: &[HistoryRow], until: f64) {
+        let kept: Vec<HistoryRow> = rows
             .iter()
             .filter(|row| row.time < until)
-            .map(|row| Row {
+            .map(|row| HistoryRow {
                 time: self.time + row.time,
                 energies: self.carried(&row.energies),
                 residual: row.residual.map(|residual| residual + self.residual),
@@ -121,9 +124,9 @@ impl Chain {
     }
 
     /// The flight from the last row of a contact to the next one; with rows, if they are wanted.
-    pub fn fly(&mut self, end: &Row, landing: &Landing, has_rows: bool) {
+    pub fn fly(&mut self, end: &HistoryRow, landing: &Landing, has_rows: bool) {
         let is_inner = |account: Account| {
-            account.side() == Side::Held
+            account.side() == BalanceSide::Held
                 && !matches!(account, Account::Kinetic | Account::Potential)
         };
         let inner = end.energies.entries().filter(|(account, _)| is_inner(*account));
@@ -138,26 +141,26 @@ impl Chain {
         if has_rows {
             let step = (landing.time - end.time) / (FLIGHT_ROWS + 1) as f64;
             let times = (1..=FLIGHT_ROWS).map(|k| k as f64 * step).filter(|_| step > 0.0);
-            let rows: Vec<Row> = times.map(|time| self.flying(end, landing, time)).collect();
+            let rows: Vec<HistoryRow> = times.map(|time| self.flying(end, landing, time)).collect();
             self.rows.extend(rows);
         }
         self.time += landing.time;
     }
 
     /// A ball that stays: the last contact has no end.
-    pub fn stay(&mut self, end: Option<&Row>) {
+    pub fn stay(&mut self, end: Option<&HistoryRow>) {
         self.time += end.map_or(0.0, |row| row.time);
     }
 
     /// The ball so long (s) after the last row of a contact.
-    fn flying(&self, end: &Row, landing: &Landing, time: f64) -> Row {
+    fn flying(&self, end: &HistoryRow, landing: &Landing, time: f64) -> HistoryRow {
         let upward = end.velocity[1] - end.velocity[0];
         // g (t_landing − t_end) = u + v.
         let gravity = (upward + landing.speed) / (landing.time - end.time);
         let velocity = upward - gravity * time;
         let handed_on = self.handed_on.unwrap_or_default();
         let share = (velocity / landing.speed).powi(2);
-        let mut energies = self.carried(&Book::EMPTY);
+        let mut energies = self.carried(&EnergyLedger::EMPTY);
         for (account, energy) in self.lost.entries() {
             energies.add(account, energy);
         }
@@ -165,11 +168,11 @@ impl Chain {
             match account {
                 Account::Kinetic => energies.add(account, handed_on * share),
                 Account::Potential => energies.add(account, handed_on * (1.0 - share)),
-                _ if account.side() == Side::Held => energies.add(account, 0.0),
+                _ if account.side() == BalanceSide::Held => energies.add(account, 0.0),
                 _ => {}
             }
         }
-        Row {
+        HistoryRow {
             time: self.time + end.time + time,
             contact_force: 0.0,
             contact_radius: end.contact_radius.map(|_| 0.0),
@@ -183,8 +186,8 @@ impl Chain {
     }
 
     /// What is in each account of a contact with what earlier ones have lost and left.
-    fn carried(&self, own: &Book) -> Book {
-        let mut book = Book::EMPTY;
+    fn carried(&self, own: &EnergyLedger) -> EnergyLedger {
+        let mut book = EnergyLedger::EMPTY;
         for (account, energy) in own.entries() {
             book.add(account, energy + self.lost.get(account).unwrap_or_default());
         }
@@ -195,13 +198,13 @@ impl Chain {
     }
 
     /// What has been lost or given up to the end of a contact, J.
-    fn lost_after(&self, end: &Book) -> Book {
-        let own = end.entries().filter(|(account, _)| account.side() != Side::Held);
+    fn lost_after(&self, end: &EnergyLedger) -> EnergyLedger {
+        let own = end.entries().filter(|(account, _)| account.side() != BalanceSide::Held);
         own.fold(self.lost, |book, (account, energy)| book.with(account, energy))
     }
 
     /// What is in each account at the end, J.
-    pub fn energies(&self) -> Book {
+    pub fn energies(&self) -> EnergyLedger {
         self.energies
     }
 
@@ -221,7 +224,7 @@ impl Chain {
     }
 
     /// All rows, in the order of time.
-    pub fn into_rows(self) -> Vec<Row> {
+    pub fn into_rows(self) -> Vec<HistoryRow> {
         self.rows
     }
 }

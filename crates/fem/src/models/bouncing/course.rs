@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fem_collision::{Approach, Collision, Monitor, Phase, Progress, Snapshot, Stop, Want};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, Phase, Progress, Snapshot, Stop};
 use fem_explicit::ModelError;
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
@@ -20,7 +20,7 @@ use crate::refusal::Refusal;
 pub(crate) struct Bounces {
     /// As the ball began, and what all contacts are asked for.
     approach: Approach,
-    want: Want,
+    want: OutputRequest,
     /// What came of the contacts that are over.
     so_far: Bounced,
     /// Speed (m/s) of the contact for which the present model was made anew, if it was.
@@ -39,7 +39,7 @@ pub(super) struct BouncingCourse {
 
 impl Bounces {
     /// What the contact under way is asked for.
-    fn asked(&self, ball: &Ball) -> Want {
+    fn asked(&self, ball: &Ball) -> OutputRequest {
         match self.so_far.n_contacts() {
             0 => first_want(&self.want, self.so_far.time()),
             _ => later_want(&self.want, ball.gravity.bounces, self.so_far.element_updates()),
@@ -73,7 +73,7 @@ fn has_sizes(snapshot: &Snapshot, meshes: [Option<&SphereMesh>; 2]) -> bool {
 
 impl BouncingCourse {
     /// A ball about to fall.
-    pub fn new(ball: &Arc<Ball>, approach: &Approach, want: &Want) -> Self {
+    pub fn new(ball: &Arc<Ball>, approach: &Approach, want: &OutputRequest) -> Self {
         let (speed, time, _) = ball.fall(approach);
         let so_far = Bounced::new(Chain::new(time), ball.gravity);
         let known = Bounces { approach: *approach, want: want.clone(), so_far, made_at: None };

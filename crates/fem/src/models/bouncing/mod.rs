@@ -29,7 +29,8 @@ use std::sync::Arc;
 
 use fem_case::{Gravity, Scene, impact_speed};
 use fem_collision::{
-    Approach, Collision, Monitor, Phase, Rest, Snapshot, SnapshotRequest, StaticContact, Stop, Want,
+    Approach, Collision, Monitor, OutputRequest, Phase, RestState, Snapshot, SnapshotRequest,
+    StaticContact, Stop,
 };
 use fem_laws::StaticHertz;
 use fem_mesh::SphereMesh;
@@ -95,7 +96,7 @@ impl Bouncing {
     }
 
     /// A collision under way, of a want that has been checked.
-    fn course(&self, approach: &Approach, want: &Want) -> BouncingCourse {
+    fn course(&self, approach: &Approach, want: &OutputRequest) -> BouncingCourse {
         BouncingCourse::new(&self.ball, approach, want)
     }
 }
@@ -145,7 +146,7 @@ impl Ball {
                 let radius = self.first.setup().estimate.hertz.pair().effective_radius();
                 let too_large = report::too_large(&contact, radius);
                 too_large.into_iter().for_each(|warning| bounced.warn(warning));
-                bounced.bear(Rest { time: bounced.time(), contact });
+                bounced.bear(RestState { time: bounced.time(), contact });
             }
             Ok(None) => bounced.sink(),
             Err(refusal) => bounced.warn(report::unknown(&refusal)),
@@ -162,7 +163,12 @@ impl Model for Bouncing {
         self.ball.first.has(effect, estimate)
     }
 
-    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+    fn collide(
+        &self,
+        approach: &Approach,
+        want: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
         if let Err(error) = want.check() {
             return Collision::stopped(*approach, error.into());
         }
@@ -174,7 +180,7 @@ impl Model for Bouncing {
         Box::new(course).finish()
     }
 
-    fn start(&self, approach: &Approach, want: &Want) -> Option<Box<dyn Course>> {
+    fn start(&self, approach: &Approach, want: &OutputRequest) -> Option<Box<dyn Course>> {
         Some(match want.check() {
             Ok(()) => Box::new(self.course(approach, want)),
             Err(error) => stopped(*approach, error.into()),
@@ -195,20 +201,20 @@ impl Model for Bouncing {
 }
 
 /// What the first contact is asked for, which begins at a time (s) of the case.
-fn first_want(want: &Want, time: f64) -> Want {
+fn first_want(want: &OutputRequest, time: f64) -> OutputRequest {
     let snapshots = match &want.snapshots {
         SnapshotRequest::Times(times) => SnapshotRequest::Times(
             times.iter().map(|one| one - time).filter(|t| *t >= 0.0).collect(),
         ),
         other => other.clone(),
     };
-    Want { history_rows: want.history_rows.max(FEWEST_ROWS), snapshots, ..want.clone() }
+    OutputRequest { history_rows: want.history_rows.max(FEWEST_ROWS), snapshots, ..want.clone() }
 }
 
 /// What a contact after the first of so many is asked for, after so many element updates.
-fn later_want(want: &Want, n_contacts: usize, element_updates: u64) -> Want {
+fn later_want(want: &OutputRequest, n_contacts: usize, element_updates: u64) -> OutputRequest {
     let share = ROWS_OF_ALL.saturating_mul(want.history_rows) / n_contacts.max(1);
-    Want {
+    OutputRequest {
         history_rows: share.min(want.history_rows).max(FEWEST_ROWS),
         snapshots: SnapshotRequest::none(),
         probes: Vec::new(),

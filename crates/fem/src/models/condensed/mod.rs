@@ -10,7 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use fem_case::schema::{CondensedTable, ModelTable};
 use fem_case::{CaseFile, CondensedOptions, ModelChoice, Quantity, Scene};
 use fem_collision::{
-    Approach, BodyInput, Collision, Ending, FLIGHT_AFTER, Monitor, StaticContact, Stop, Want,
+    Approach, BodyInput, Collision, Ending, FLIGHT_AFTER, Monitor, OutputRequest, StaticContact,
+    Stop,
 };
 use fem_condensed::{CondensedError, CondensedPair, ContactModel, Damping, PairSettings, Slip};
 use fem_laws::radiation_damping;
@@ -176,7 +177,7 @@ impl Condensed {
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
     ) -> Result<f64, Stop> {
-        let want = Want::quantities();
+        let want = OutputRequest::quantities();
         let approach = Approach::at(speed).map_err(CondensedError::from)?;
         let collision = self.follow(&approach, relaxations, n_steps, &want, &mut ());
         match (collision.ending, collision.restitution) {
@@ -191,7 +192,7 @@ impl Condensed {
         approach: &Approach,
         relaxations: [Option<&PronySeries>; 2],
         n_steps: usize,
-        want: &Want,
+        want: &OutputRequest,
         monitor: &mut dyn Monitor,
     ) -> Collision {
         let radiation = match self.radiation(approach.speed()) {
@@ -302,7 +303,12 @@ impl Model for Condensed {
         effects::has(effect, &self.scene, estimate, &self.pair, self.options)
     }
 
-    fn collide(&self, approach: &Approach, want: &Want, monitor: &mut dyn Monitor) -> Collision {
+    fn collide(
+        &self,
+        approach: &Approach,
+        want: &OutputRequest,
+        monitor: &mut dyn Monitor,
+    ) -> Collision {
         let bodies = self.scene.bodies().each_ref();
         let relaxations = bodies.map(|body| body.material()?.relaxation());
         let estimate = match Estimate::at(&self.scene, approach.speed()) {

@@ -1,7 +1,8 @@
 //! From a relative motion to what is asked of every model.
 
 use fem_collision::{
-    Account, BodyResult, Book, Collision, Ending, Frame, Row, STAY_TOGETHER, Want, worst,
+    Account, BodyResult, Collision, Ending, EnergyLedger, Frame, HistoryRow, OutputRequest,
+    STAY_TOGETHER, nan_aware_max_abs,
 };
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, ImpactInstant, ImpactPath, Pair};
@@ -17,7 +18,7 @@ pub(super) fn of_impact(
     frame: &Frame,
     pair: &Pair,
     law: Option<&ContactLaw>,
-    want: &Want,
+    want: &OutputRequest,
 ) -> Collision {
     let has_radius = law.is_none_or(|law| law.elastic_exponent() == HERTZ_EXPONENT);
     let rows = Rows { frame, has_radius };
@@ -47,9 +48,9 @@ pub(super) fn of_impact(
         deepest: None,
         searched: None,
         initial_energy: Some(frame.kinetic(frame.speed())),
-        energies: end.map_or(Book::EMPTY, |row| row.energies),
+        energies: end.map_or(EnergyLedger::EMPTY, |row| row.energies),
         residual: end.and_then(|row| row.residual),
-        residual_relative: Some(instants().map(residual).fold(0.0, worst) / at_stake),
+        residual_relative: Some(instants().map(residual).fold(0.0, nan_aware_max_abs) / at_stake),
         residual_since: None,
         energy_growth: None,
         momentum_residual_relative: None,
@@ -82,7 +83,13 @@ struct Rows<'a> {
 impl Rows<'_> {
     /// `n` rows at equal times over the contact and a fifth of it after; a contact without an end
     /// has none after.
-    fn of(&self, impact: &Impact, pair: &Pair, law: Option<&ContactLaw>, n: usize) -> Vec<Row> {
+    fn of(
+        &self,
+        impact: &Impact,
+        pair: &Pair,
+        law: Option<&ContactLaw>,
+        n: usize,
+    ) -> Vec<HistoryRow> {
         let Some(last) = impact.history.last().filter(|_| n > 0) else { return Vec::new() };
         let path = ImpactPath::new(impact, pair, law).with_gravity(self.frame.gravity);
         let after = if impact.contact_time.is_some() { n / ROWS_PER_ROW_AFTER } else { 0 };
@@ -93,7 +100,7 @@ impl Rows<'_> {
             .collect()
     }
 
-    fn row(&self, instant: &ImpactInstant) -> Row {
+    fn row(&self, instant: &ImpactInstant) -> HistoryRow {
         let (frame, rate) = (self.frame, instant.approach_rate);
         let accounted = match (instant.strain_energy, instant.dissipated) {
             (Some(strain), Some(dissipated)) => {
@@ -108,7 +115,7 @@ impl Rows<'_> {
             (Account::Radiated, instant.radiated),
             (Account::Potential, potential),
         ];
-        let mut energies = Book::EMPTY
+        let mut energies = EnergyLedger::EMPTY
             .with(Account::Kinetic, frame.kinetic(rate))
             .with(Account::WallWork, frame.wall_work(rate));
         for (account, energy) in known {
@@ -116,7 +123,7 @@ impl Rows<'_> {
                 energies.add(account, energy);
             }
         }
-        Row {
+        HistoryRow {
             time: frame.approach.first_touch() + instant.time,
             contact_force: instant.force,
             contact_radius: self.has_radius.then_some(instant.contact_radius),

@@ -9,7 +9,7 @@ use std::fmt;
 
 use fem_case::schema::StartTable;
 use fem_case::{CaseFile, Quantity, Scene};
-use fem_collision::{Approach, Collision, Monitor, StaticContact, Stop, Want};
+use fem_collision::{Approach, Collision, Monitor, OutputRequest, StaticContact, Stop};
 use fem_laws::laws::ContactLaw;
 use fem_laws::{Impact, LawError, Pair};
 
@@ -81,7 +81,7 @@ impl Reduced {
         let setup = Setup {
             description,
             approach: approach_of(scene)?,
-            want: Want::history(),
+            want: OutputRequest::history(),
             estimate,
             decisions,
             unread: effects::unread_keys(scene),
@@ -125,7 +125,7 @@ impl Model for Reduced {
     }
 
     /// Closed forms and short integrations: nobody needs to look on.
-    fn collide(&self, approach: &Approach, want: &Want, _: &mut dyn Monitor) -> Collision {
+    fn collide(&self, approach: &Approach, want: &OutputRequest, _: &mut dyn Monitor) -> Collision {
         if let Err(error) = want.check() {
             return Collision::stopped(*approach, error.into());
         }

@@ -3,22 +3,25 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::probe::ProbeRequest;
-use crate::snapshot::SnapshotRequest;
+use crate::fields::{ProbeRequest, SnapshotRequest};
+
+/// A run goes on for this share of the contact time after the last contact, so that the bodies'
+/// velocities and vibrations are those of free flight.
+pub const FLIGHT_AFTER: f64 = 0.2;
 
 /// What a run is asked for.
 ///
 /// ```
-/// use fem_collision::{Want, WantError};
+/// use fem_collision::{OutputRequest, OutputRequestError};
 ///
-/// assert_eq!(Want::history().check(), Ok(()));
-/// let endless = Want { give_up_after: f64::INFINITY, ..Want::history() };
+/// assert_eq!(OutputRequest::history().check(), Ok(()));
+/// let endless = OutputRequest { give_up_after: f64::INFINITY, ..OutputRequest::history() };
 /// assert_eq!(endless.check(), Ok(()));
-/// let none = Want { give_up_after: 0.0, ..Want::history() };
-/// assert_eq!(none.check(), Err(WantError::GiveUpAfter(0.0)));
+/// let none = OutputRequest { give_up_after: 0.0, ..OutputRequest::history() };
+/// assert_eq!(none.check(), Err(OutputRequestError::GiveUpAfter(0.0)));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Want {
+pub struct OutputRequest {
     /// Rows of the history over the expected contact; 0 for none.
     pub history_rows: usize,
     /// Snapshots to keep.
@@ -33,12 +36,12 @@ pub struct Want {
 
 /// Why nothing can be asked for like this.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum WantError {
+pub enum OutputRequestError {
     /// More rows than any memory holds.
-    #[error("{0} rows of a history; allowed are at most {most}", most = Want::MOST_ROWS)]
+    #[error("{0} rows of a history; allowed are at most {most}", most = OutputRequest::MOST_ROWS)]
     HistoryRows(usize),
     /// More snapshots than any memory holds.
-    #[error("{0} snapshots; allowed are at most {most}", most = Want::MOST_SNAPSHOTS)]
+    #[error("{0} snapshots; allowed are at most {most}", most = OutputRequest::MOST_SNAPSHOTS)]
     Snapshots(usize),
     /// Before the start of the case, or no instant at all.
     #[error("a snapshot at {0} s; allowed is at least 0, and finite")]
@@ -48,7 +51,7 @@ pub enum WantError {
     GiveUpAfter(f64),
 }
 
-impl Want {
+impl OutputRequest {
     /// Rows over the contact that draw every curve smoothly.
     pub const ROWS: usize = 1000;
     /// Expected contact times after which no body that relaxes parts from another.
@@ -77,11 +80,11 @@ impl Want {
     /// Whether a run can be asked for this.
     ///
     /// # Errors
-    /// More than [`Want::MOST_ROWS`] rows or [`Want::MOST_SNAPSHOTS`] snapshots, a snapshot at a time
+    /// More than [`OutputRequest::MOST_ROWS`] rows or [`OutputRequest::MOST_SNAPSHOTS`] snapshots, a snapshot at a time
     /// that is negative or not finite, a `give_up_after` that is not positive; it may be infinite.
-    pub fn check(&self) -> Result<(), WantError> {
+    pub fn check(&self) -> Result<(), OutputRequestError> {
         if self.history_rows > Self::MOST_ROWS {
-            return Err(WantError::HistoryRows(self.history_rows));
+            return Err(OutputRequestError::HistoryRows(self.history_rows));
         }
         let n_snapshots = match &self.snapshots {
             SnapshotRequest::Labels(labels) => labels.len(),
@@ -89,17 +92,17 @@ impl Want {
             SnapshotRequest::Times(times) => times.len(),
         };
         if n_snapshots > Self::MOST_SNAPSHOTS {
-            return Err(WantError::Snapshots(n_snapshots));
+            return Err(OutputRequestError::Snapshots(n_snapshots));
         }
         if let SnapshotRequest::Times(times) = &self.snapshots
             && let Some(&time) = times.iter().find(|time| !(time.is_finite() && **time >= 0.0))
         {
-            return Err(WantError::SnapshotTime(time));
+            return Err(OutputRequestError::SnapshotTime(time));
         }
         if self.give_up_after > 0.0 {
             Ok(())
         } else {
-            Err(WantError::GiveUpAfter(self.give_up_after))
+            Err(OutputRequestError::GiveUpAfter(self.give_up_after))
         }
     }
 }
@@ -117,19 +120,19 @@ pub struct Expectation {
 mod tests {
     use super::*;
 
-    fn snapshots(snapshots: SnapshotRequest) -> Want {
-        Want { snapshots, ..Want::history() }
+    fn snapshots(snapshots: SnapshotRequest) -> OutputRequest {
+        OutputRequest { snapshots, ..OutputRequest::history() }
     }
 
     #[test]
     fn the_most_is_allowed_and_one_more_is_not() {
-        let rows = |history_rows| Want { history_rows, ..Want::history() };
-        assert_eq!(rows(Want::MOST_ROWS).check(), Ok(()));
-        for n in [Want::MOST_ROWS + 1, usize::MAX] {
-            assert_eq!(rows(n).check(), Err(WantError::HistoryRows(n)));
+        let rows = |history_rows| OutputRequest { history_rows, ..OutputRequest::history() };
+        assert_eq!(rows(OutputRequest::MOST_ROWS).check(), Ok(()));
+        for n in [OutputRequest::MOST_ROWS + 1, usize::MAX] {
+            assert_eq!(rows(n).check(), Err(OutputRequestError::HistoryRows(n)));
         }
         let (count, times) = (SnapshotRequest::Count, |n| SnapshotRequest::Times(vec![0.0; n]));
-        let most = Want::MOST_SNAPSHOTS;
+        let most = OutputRequest::MOST_SNAPSHOTS;
         for request in [count(0), count(most), times(0), times(most)] {
             assert_eq!(snapshots(request).check(), Ok(()));
         }
@@ -138,7 +141,7 @@ mod tests {
             (count(usize::MAX), usize::MAX),
             (times(most + 1), most + 1),
         ] {
-            assert_eq!(snapshots(request).check(), Err(WantError::Snapshots(n)));
+            assert_eq!(snapshots(request).check(), Err(OutputRequestError::Snapshots(n)));
         }
     }
 
@@ -148,12 +151,14 @@ mod tests {
         for wrong in [-1e-9, f64::INFINITY, f64::NAN] {
             let request = SnapshotRequest::Times(vec![0.0, 1e-6, wrong]);
             let error = snapshots(request).check().unwrap_err();
-            assert!(matches!(error, WantError::SnapshotTime(_)), "{error:?}");
+            assert!(matches!(error, OutputRequestError::SnapshotTime(_)), "{error:?}");
             assert!(error.to_string().contains(&wrong.to_string()), "{error}");
         }
         for wrong in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-            let error = Want { give_up_after: wrong, ..Want::history() }.check().unwrap_err();
-            assert!(matches!(error, WantError::GiveUpAfter(_)), "{error:?}");
+            let error = OutputRequest { give_up_after: wrong, ..OutputRequest::history() }
+                .check()
+                .unwrap_err();
+            assert!(matches!(error, OutputRequestError::GiveUpAfter(_)), "{error:?}");
         }
     }
 }

@@ -2,16 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::account::Book;
-use crate::approach::Approach;
-use crate::bounce::{Bounce, Rest};
-use crate::deepest::Deepest;
-use crate::ending::Ending;
-use crate::moment::Moment;
-use crate::row::Row;
-use crate::searched::Searched;
-use crate::snapshot::{Label, Snapshot};
-use crate::stop::Stop;
+use crate::fields::{Snapshot, SnapshotInstant};
+use crate::request::Approach;
+use crate::result::{Bounce, Ending, RestState, Stop};
+use crate::run::{DeepestOverlap, EnergyLedger, HistoryRow, StepInstant};
 
 /// What is said of a restitution of 0.
 pub const STAY_TOGETHER: &str = "the bodies stay together: what drives them apart is worth less than a thousandth of the speed of approach, and the \
@@ -46,29 +40,29 @@ pub struct Collision {
     /// Largest contact radius, a mean as is the force, m.
     pub max_contact_radius: Option<f64>,
     /// Largest contact pressure on the axis, a mean as is the force, Pa: of first touch nothing counts
-    /// ([`Pulse`](crate::Pulse)).
+    /// ([`ForcePulse`](crate::ForcePulse)).
     pub peak_pressure: Option<f64>,
     /// Radius of the contact at that pressure, of a model with meshes, m.
     pub peak_pressure_radius: Option<f64>,
     /// How far the contact force scatters from instant to instant, N: none of a smooth pulse.
     pub force_scatter: Option<f64>,
     /// When it scatters most.
-    pub noisiest: Option<Moment>,
+    pub noisiest: Option<StepInstant>,
     /// Where springs let the surfaces overlap most; none of a contact without.
-    pub deepest: Option<Deepest>,
+    pub deepest: Option<DeepestOverlap>,
     /// Where contact was looked for in the end, of a model that does not look everywhere.
-    pub searched: Option<Searched>,
+    pub searched: Option<CandidateRegion>,
     /// Kinetic energy at the start, walls and half-spaces not counted, J.
     pub initial_energy: Option<f64>,
     /// What is in each account of energy at the end, J.
-    pub energies: Book,
+    pub energies: EnergyLedger,
     /// What the energies do not account for at the end, J.
     pub residual: Option<f64>,
     /// Worst imbalance of energy over the initial kinetic energy in the frame of the mass centre, with gravity
     /// over that and what the weight has given while the bodies came closer.
     pub residual_relative: Option<f64>,
     /// When that was first above [`LARGEST_RESIDUAL`], of a model that steps in time.
-    pub residual_since: Option<Moment>,
+    pub residual_since: Option<StepInstant>,
     /// Most energy that the bodies have held above what they had and were given, at any step, over the initial
     /// kinetic energy in the frame of the mass centre; of a ball that bounces that of its worst contact. `None`
     /// of one degree of freedom.
@@ -95,9 +89,9 @@ pub struct Collision {
     /// here but the ending, the history and the energies at the end is of the first one.
     pub bounces: Vec<Bounce>,
     /// Of a ball that has come to rest.
-    pub rest: Option<Rest>,
+    pub rest: Option<RestState>,
     /// Instants over contact and separation.
-    pub history: Vec<Row>,
+    pub history: Vec<HistoryRow>,
     /// Fields of finite elements, in the order of time.
     pub snapshots: Vec<Snapshot>,
     /// What the probes that were asked for saw, in the order of time: fields of one entry a probe
@@ -152,7 +146,7 @@ impl Collision {
             deepest: None,
             searched: None,
             initial_energy: None,
-            energies: Book::EMPTY,
+            energies: EnergyLedger::EMPTY,
             residual: None,
             residual_relative: None,
             residual_since: None,
@@ -193,7 +187,7 @@ impl Collision {
     }
 
     /// The fields at a named instant, if they were asked for and it came.
-    pub fn snapshot(&self, label: Label) -> Option<&Snapshot> {
+    pub fn snapshot(&self, label: SnapshotInstant) -> Option<&Snapshot> {
         self.snapshots.iter().find(|snapshot| snapshot.label == Some(label))
     }
 
@@ -204,4 +198,15 @@ impl Collision {
             _ => None,
         }
     }
+}
+
+/// The part of the surfaces in which a model looks for contact.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CandidateRegion {
+    /// Distance from the axis out to which contact is looked for, m.
+    pub radius: f64,
+    /// Number of points that can touch.
+    pub n_points: usize,
+    /// Whether the points are nodes of one surface; else they are its integration points.
+    pub at_nodes: bool,
 }

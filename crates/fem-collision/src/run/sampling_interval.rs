@@ -9,14 +9,14 @@ const FEWEST: usize = 16;
 
 /// An even stride over the steps of a run, which doubles whenever too many instants came.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Cadence {
+pub struct SamplingInterval {
     stride: u64,
     /// Instants so far; after the stride has doubled, those that are left of them.
     n: usize,
     most: usize,
 }
 
-impl Cadence {
+impl SamplingInterval {
     /// For about `n_instants` over `expected_steps` steps; at most four times as many.
     pub fn new(n_instants: usize, expected_steps: f64) -> Self {
         let stride = (expected_steps / n_instants.max(1) as f64).floor().max(1.0) as u64;
@@ -81,7 +81,7 @@ mod tests {
         for (n_instants, expected_steps, stride) in
             [(1000, 7600.0, 7), (1000, 50.0, 1), (0, 5.0, 5), (10, f64::NAN, 1)]
         {
-            let cadence = Cadence::new(n_instants, expected_steps);
+            let cadence = SamplingInterval::new(n_instants, expected_steps);
             assert!(cadence.is_sound());
             let due: Vec<u64> = (0..30).filter(|&step| cadence.is_due(step)).collect();
             let expected: Vec<u64> = (0..30).step_by(stride).collect();
@@ -93,19 +93,19 @@ mod tests {
     #[test]
     fn the_nearest_stride_keeps_about_as_many() {
         for n_steps in [700_u64, 1000, 1400, 1499, 1500, 1999, 2999, 7600, 123_456] {
-            let cadence = Cadence::nearest(1000, n_steps as f64);
+            let cadence = SamplingInterval::nearest(1000, n_steps as f64);
             assert!(cadence.is_sound());
             let n = (0..n_steps).filter(|&step| cadence.is_due(step)).count();
             assert!((667..1500).contains(&n), "{n} of {n_steps}");
         }
-        assert_eq!(Cadence::nearest(10, f64::NAN).stride(), 1);
+        assert_eq!(SamplingInterval::nearest(10, f64::NAN).stride(), 1);
     }
 
     /// Whatever the length of the run: between two and four times as many as asked for.
     #[test]
     fn a_long_run_has_as_many_instants() {
         for n_steps in [10_000_u64, 300_000, 1 << 20] {
-            let mut cadence = Cadence::new(100, 300.0);
+            let mut cadence = SamplingInterval::new(100, 300.0);
             for step in 0..n_steps {
                 if cadence.is_due(step) {
                     cadence.count();

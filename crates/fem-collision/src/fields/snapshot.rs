@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// The named instants of a collision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Label {
+pub enum SnapshotInstant {
     /// Approach at half its maximum, going in.
     MidCompression,
     /// Approach at its maximum.
@@ -17,7 +17,7 @@ pub enum Label {
     LastSound,
 }
 
-impl Label {
+impl SnapshotInstant {
     /// All that can be asked for, in the order of time.
     pub const ALL: [Self; 4] =
         [Self::MidCompression, Self::Maximum, Self::MidSeparation, Self::LastContact];
@@ -38,7 +38,7 @@ impl Label {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SnapshotRequest {
     /// At named instants.
-    Labels(Vec<Label>),
+    Labels(Vec<SnapshotInstant>),
     /// So many, evenly over the contact.
     Count(usize),
     /// At these times since the start of the case, s.
@@ -83,7 +83,7 @@ pub struct BodyFields {
 
 /// The contact at one distance from the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct ContactPlace {
+pub struct ContactProfilePoint {
     /// Whether a node of the surface that is read is there.
     pub is_node: bool,
     /// Distance from the axis, m; where surfaces are followed as they move, the present one.
@@ -103,14 +103,14 @@ pub struct ContactProfile {
     pub radius: f64,
     /// From the axis outward, as far as contact is looked for: nodes, where the contact ends, and places
     /// between, along which straight lines carry the contact force; none in flight.
-    pub places: Vec<ContactPlace>,
+    pub places: Vec<ContactProfilePoint>,
 }
 
 /// Both bodies at an instant.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Which instant, for named ones.
-    pub label: Option<Label>,
+    pub label: Option<SnapshotInstant>,
     /// Time since the start of the case, s.
     pub time: f64,
     /// Approach of the mass centres, m.
@@ -130,4 +130,22 @@ impl Snapshot {
         let carried = self.carried[side];
         self.bodies[side].displacement.iter().map(|[r, y]| [*r, y + carried]).collect()
     }
+}
+
+/// `n` times evenly over a stretch (s), its ends among them; one alone lies in the middle.
+pub fn evenly(n: usize, start: f64, length: f64) -> Vec<f64> {
+    match n {
+        1 => vec![start + 0.5 * length],
+        _ => (0..n).map(|k| start + length * k as f64 / (n - 1) as f64).collect(),
+    }
+}
+
+/// What is said of a named instant that a run has not had.
+pub fn did_not_occur(label: SnapshotInstant) -> String {
+    format!("the instant \"{}\" did not occur; its snapshot is left out", label.name())
+}
+
+/// What is said of a contact with fewer instants than snapshots.
+pub fn fewer_than_asked(n_asked: usize, n_there: usize, instants: &str) -> String {
+    format!("{n_asked} snapshots were asked for; the contact has {instants} for {n_there}")
 }

@@ -19,7 +19,7 @@
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
 
-use crate::worst::worst;
+use crate::run::nan_aware_max_abs;
 
 /// The window over the duration of the pulse.
 pub const PEAK_WINDOW: f64 = 1.0 / 64.0;
@@ -47,7 +47,7 @@ struct Beat {
 
 /// The course of a contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Pulse {
+pub struct ForcePulse {
     beats: Vec<Beat>,
     /// Instants told so far, of which each so many-th is kept.
     told: u64,
@@ -56,7 +56,7 @@ pub struct Pulse {
 
 /// Largest means over a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peaks {
+pub struct PulsePeaks {
     /// N.
     pub force: f64,
     /// m.
@@ -67,13 +67,13 @@ pub struct Peaks {
     pub pressure_radius: f64,
 }
 
-impl Default for Pulse {
+impl Default for ForcePulse {
     fn default() -> Self {
         Self { beats: Vec::with_capacity(MOST), told: 0, stride: 1 }
     }
 }
 
-impl Pulse {
+impl ForcePulse {
     /// Takes an instant: its time (s), the impulse so far (N s), contact radius (m) and pressure on the axis, Pa.
     pub fn observe(&mut self, time: f64, impulse: f64, radius: f64, pressure: f64) {
         let is_due = self.told.is_multiple_of(self.stride);
@@ -97,15 +97,15 @@ impl Pulse {
 
     /// The peaks, of a pulse whose largest force at any step is this (N), of meshes whose elements at the contact
     /// are no longer than this, m.
-    pub fn peaks(&self, largest_force: f64, element: f64) -> Peaks {
+    pub fn peaks(&self, largest_force: f64, element: f64) -> PulsePeaks {
         let highest = |value: fn(&Beat) -> f64| {
-            self.beats.iter().fold(0.0, |so_far: f64, beat| worst(so_far, value(beat)))
+            self.beats.iter().fold(0.0, |so_far: f64, beat| nan_aware_max_abs(so_far, value(beat)))
         };
         let largest_radius = highest(|beat| beat.radius);
         let impulse = self.beats.last().map_or(0.0, |beat| beat.impulse);
         let window = PEAK_WINDOW * FULLNESS * impulse / largest_force;
         let resolved = (RESOLVED * largest_radius).min(RESOLVING_ELEMENTS * element);
-        let mut peaks = Peaks { force: 0.0, radius: 0.0, pressure: 0.0, pressure_radius: 0.0 };
+        let mut peaks = PulsePeaks { force: 0.0, radius: 0.0, pressure: 0.0, pressure_radius: 0.0 };
         let mut sums = Sums::default();
         let mut end = 0;
         for (k, beat) in self.beats.iter().enumerate() {
@@ -121,9 +121,9 @@ impl Pulse {
                 sums.remove(beat);
                 continue;
             }
-            peaks.force = worst(peaks.force, (last.impulse - beat.impulse) / lasts);
+            peaks.force = nan_aware_max_abs(peaks.force, (last.impulse - beat.impulse) / lasts);
             let n = (end - k) as f64;
-            peaks.radius = worst(peaks.radius, sums.radius / n);
+            peaks.radius = nan_aware_max_abs(peaks.radius, sums.radius / n);
             if beat.radius.min(last.radius) >= resolved {
                 let is_early = beat.radius < RESOLVED * largest_radius;
                 let young = is_early.then(|| self.young(k, window)).flatten();
@@ -131,7 +131,7 @@ impl Pulse {
                 if pressure > peaks.pressure {
                     peaks.pressure_radius = beat.radius;
                 }
-                peaks.pressure = worst(peaks.pressure, pressure);
+                peaks.pressure = nan_aware_max_abs(peaks.pressure, pressure);
             }
             sums.remove(beat);
         }
@@ -140,7 +140,7 @@ impl Pulse {
             true => peak,
             false => largest,
         };
-        Peaks {
+        PulsePeaks {
             force: or(peaks.force, largest_force),
             radius: or(peaks.radius, largest_radius),
             pressure: or(peaks.pressure, highest(|beat| beat.pressure)),
@@ -203,8 +203,8 @@ mod tests {
 
     /// Hertz' pulse, F = sin^{3/2}, of so many steps an instant, with a force put on every second step;
     /// radius ∝ F^{1/3}, and a pressure of the first touch.
-    fn pulse(n_steps: usize, per_instant: usize, noise: f64, spike: f64) -> (Peaks, f64) {
-        let (mut pulse, mut impulse, mut largest) = (Pulse::default(), 0.0, 0.0_f64);
+    fn pulse(n_steps: usize, per_instant: usize, noise: f64, spike: f64) -> (PulsePeaks, f64) {
+        let (mut pulse, mut impulse, mut largest) = (ForcePulse::default(), 0.0, 0.0_f64);
         for k in 0..=n_steps {
             let time = k as f64 / n_steps as f64;
             let smooth = (PI * time).sin().max(0.0).powf(1.5);
@@ -253,7 +253,7 @@ mod tests {
     /// largest radius. Elements of an eightieth of that resolve it, longer ones do not.
     #[test]
     fn what_is_pressed_hardest_early_is_seen() {
-        let (mut pulse, n) = (Pulse::default(), 4000);
+        let (mut pulse, n) = (ForcePulse::default(), 4000);
         let early = 0.01;
         for k in 0..=n {
             let time = k as f64 / n as f64;
@@ -273,20 +273,24 @@ mod tests {
     /// A pulse that is over between two instants has the largest of its steps.
     #[test]
     fn a_pulse_between_instants_keeps_its_largest() {
-        let mut short = Pulse::default();
+        let mut short = ForcePulse::default();
         for (time, impulse) in [(0.0, 0.0), (1.0, 0.01), (2.0, 0.01)] {
             short.observe(time, impulse, 0.5, 2.0);
         }
         let peaks = short.peaks(1.0, 1.0);
-        let of =
-            |force, radius, pressure| Peaks { force, radius, pressure, pressure_radius: radius };
+        let of = |force, radius, pressure| PulsePeaks {
+            force,
+            radius,
+            pressure,
+            pressure_radius: radius,
+        };
         assert_eq!(peaks, of(1.0, 0.5, 2.0));
-        assert_eq!(Pulse::default().peaks(0.0, 1.0), of(0.0, 0.0, 0.0));
+        assert_eq!(ForcePulse::default().peaks(0.0, 1.0), of(0.0, 0.0, 0.0));
     }
 
     #[test]
     fn what_is_no_number_shows() {
-        let mut broken = Pulse::default();
+        let mut broken = ForcePulse::default();
         for k in 0..100 {
             let value = if k == 50 { f64::NAN } else { 1.0 };
             broken.observe(k as f64, k as f64, value, value);
@@ -298,7 +302,7 @@ mod tests {
     /// However many instants there are, few are kept and the peaks stay.
     #[test]
     fn many_instants_are_thinned_evenly() {
-        let (mut long, n) = (Pulse::default(), 50_000);
+        let (mut long, n) = (ForcePulse::default(), 50_000);
         let mut impulse = 0.0;
         for k in 0..=n {
             let time = k as f64 / n as f64;

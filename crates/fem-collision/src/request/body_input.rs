@@ -2,6 +2,9 @@
 
 use fem_material::Material;
 use fem_mesh::SphereMesh;
+use std::f64::consts::PI;
+
+use crate::request::FLIGHT_AFTER;
 
 /// What a body is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,5 +56,38 @@ impl BodyInput {
     /// Whether it is a half-space.
     pub fn is_half_space(&self) -> bool {
         self.mesh().is_some_and(SphereMesh::is_half_space)
+    }
+}
+
+/// Share of the compliance that the held boundary of a half-space at rest may take away.
+const COMPLIANCE_LEFT_OUT: f64 = 1e-6;
+
+/// Far radius (m) of a half-space of this material that waves do not reach in a run: over a contact of
+/// this duration (s) and the flight after it, from anywhere within the radius in which contact is looked
+/// for (m). A contact that relaxation makes twice as long is still one without waves that come back.
+pub fn far_radius_of_waves(material: &Material, contact_time: f64, candidate_radius: f64) -> f64 {
+    let time = (1.0 + FLIGHT_AFTER) * contact_time;
+    // A mesh around a contact of no duration still has its rings.
+    (candidate_radius + material.dilatational_wave_speed() * time).max(4.0 * candidate_radius)
+}
+
+/// Far radius (m) of a half-space that is always in balance, for a contact of this radius (m): the
+/// compliance is right to 1e-6.
+pub fn far_radius_at_rest(contact_radius: f64) -> f64 {
+    8.0 / (3.0 * PI) * contact_radius / COMPLIANCE_LEFT_OUT
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fem_material::ElasticModuli;
+
+    /// By hand: c_p = 2 at λ + 2μ = 4 and ρ = 1; 1.2 contact times of 10 take it 24 far.
+    #[test]
+    fn waves_do_not_reach_the_end() {
+        let moduli = ElasticModuli::from_bulk_shear(8.0 / 3.0, 1.0).unwrap();
+        let material = Material::new(1.0, moduli, None).unwrap();
+        assert!((far_radius_of_waves(&material, 10.0, 0.5) - 24.5).abs() < 1e-12);
+        assert_eq!(far_radius_of_waves(&material, 0.0, 0.5), 2.0);
     }
 }

@@ -5,14 +5,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::moment::Moment;
+use crate::run::StepInstant;
 
 /// Fewer forces than this tell nothing.
 const FEWEST: u64 = 100;
 
 /// Running scatter of a contact force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Scatter {
+pub struct ForceNoise {
     /// The last two forces above zero, the later one first, N.
     last: [Option<f64>; 2],
     /// Number of forces above zero.
@@ -20,12 +20,12 @@ pub struct Scatter {
     /// Σ of squared bends, N².
     sum: f64,
     /// The largest of them, and when it was.
-    worst: Option<(f64, Moment)>,
+    worst: Option<(f64, StepInstant)>,
 }
 
-impl Scatter {
+impl ForceNoise {
     /// Takes the force (N) at an instant; those of zero do not count.
-    pub fn observe(&mut self, force: f64, at: Moment) {
+    pub fn observe(&mut self, force: f64, at: StepInstant) {
         // What is no number counts, and shows.
         if force <= 0.0 {
             return;
@@ -42,7 +42,7 @@ impl Scatter {
     }
 
     /// When the force bent most.
-    pub fn noisiest(&self) -> Option<Moment> {
+    pub fn noisiest(&self) -> Option<StepInstant> {
         self.worst.map(|(_, at)| at)
     }
 
@@ -58,10 +58,10 @@ mod tests {
 
     /// A pulse with every second force off by a known amount, open before and after.
     fn scatter(n: usize, off: f64) -> Option<f64> {
-        let mut scatter = Scatter::default();
+        let mut scatter = ForceNoise::default();
         for k in 0..n {
             let smooth = (std::f64::consts::PI * k as f64 / n as f64).sin();
-            let at = Moment { time: 0.5 * k as f64, step: k as u64 };
+            let at = StepInstant { time: 0.5 * k as f64, step: k as u64 };
             scatter.observe(0.0, at);
             scatter.observe(smooth + if k % 2 == 0 { off } else { -off }, at);
         }
@@ -80,12 +80,12 @@ mod tests {
 
     #[test]
     fn the_noisiest_moment_is_where_the_force_bends_most() {
-        let mut scatter = Scatter::default();
+        let mut scatter = ForceNoise::default();
         assert_eq!(scatter.noisiest(), None);
         for (step, force) in [1.0, 1.1, 1.0, 4.0, 1.0, 1.2].into_iter().enumerate() {
-            scatter.observe(force, Moment { time: 2.0 * step as f64, step: step as u64 });
+            scatter.observe(force, StepInstant { time: 2.0 * step as f64, step: step as u64 });
         }
         // As it is seen: with the force after the spike.
-        assert_eq!(scatter.noisiest(), Some(Moment { time: 8.0, step: 4 }));
+        assert_eq!(scatter.noisiest(), Some(StepInstant { time: 8.0, step: 4 }));
     }
 }

@@ -8,8 +8,7 @@ use fem_material::Material;
 use fem_mesh::SphereMesh;
 use serde::{Deserialize, Serialize};
 
-use crate::snapshot::{BodyFields, ContactProfile, Snapshot};
-use crate::stress::{SmallStrain, StressRecovery};
+use crate::fields::{BodyFields, ContactProfile, SmallStrain, Snapshot, StressRecovery};
 
 /// A place that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

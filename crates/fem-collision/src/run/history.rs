@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cadence::Cadence;
-use crate::row::Row;
+use crate::run::{Account, EnergyLedger, SamplingInterval};
 
 /// Why a row is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,22 +21,22 @@ const MOST_RESERVED: usize = 1 << 16;
 /// Rows at an even stride that adapts to the length of the contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct History {
-    rows: Vec<Row>,
+    rows: Vec<HistoryRow>,
     /// Landmarks and the last contact so far, which thinning leaves.
     essential: Vec<bool>,
     /// Where the row of the last contact so far is.
     last_contact: Option<usize>,
-    cadence: Cadence,
+    cadence: SamplingInterval,
     /// Of a run that offers a row every step: the last one, if it was not due, and whether the
     /// contact was closed.
-    skipped: Option<Row>,
+    skipped: Option<HistoryRow>,
     was_closed: Option<bool>,
 }
 
 impl History {
     /// For about `n_rows` rows over `expected_steps` steps; at most four times as many.
     pub fn new(n_rows: usize, expected_steps: f64) -> Self {
-        let cadence = Cadence::nearest(n_rows, expected_steps);
+        let cadence = SamplingInterval::nearest(n_rows, expected_steps);
         let capacity = cadence.most().saturating_add(1).min(MOST_RESERVED);
         Self {
             rows: Vec::with_capacity(capacity),
@@ -55,7 +54,7 @@ impl History {
     }
 
     /// Adds a row; beyond the capacity every second one is dropped and the stride doubled.
-    pub fn push(&mut self, row: Row, kind: RowKind) {
+    pub fn push(&mut self, row: HistoryRow, kind: RowKind) {
         if kind == RowKind::LastContact {
             // Another contact has come since: the earlier row is one like others.
             if let Some(earlier) = self.last_contact.replace(self.rows.len()) {
@@ -71,7 +70,7 @@ impl History {
 
     /// Takes the row of every step of a run that has one anyway: keeps those that are due, and both
     /// sides of every change between open and closed.
-    pub fn follow(&mut self, step: u64, is_closed: bool, row: Row) {
+    pub fn follow(&mut self, step: u64, is_closed: bool, row: HistoryRow) {
         let changes = self.was_closed.replace(is_closed) != Some(is_closed);
         if changes {
             if let Some(before) = self.skipped.take() {
@@ -106,7 +105,7 @@ impl History {
     }
 
     /// The rows so far, in the order of time.
-    pub fn rows(&self) -> &[Row] {
+    pub fn rows(&self) -> &[HistoryRow] {
         &self.rows
     }
 
@@ -121,26 +120,58 @@ impl History {
     }
 
     /// The rows, in the order of time; of a run that offered every step the last one among them.
-    pub fn into_rows(mut self) -> Vec<Row> {
+    pub fn into_rows(mut self) -> Vec<HistoryRow> {
         self.rows.extend(self.skipped.take());
         self.rows
+    }
+}
+
+/// One instant; all quantities belong to the same time. `None`: the model knows it not.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HistoryRow {
+    /// Since the start of the case, s.
+    pub time: f64,
+    /// Contact force, ≥ 0, N.
+    pub contact_force: f64,
+    /// Where the contact pressure falls to zero, m.
+    pub contact_radius: Option<f64>,
+    /// Decrease of the distance of the mass centres since first touch, m; the place of a half-space is
+    /// that of what is far away.
+    pub approach: f64,
+    /// Contact pressure on the axis, Pa.
+    pub centre_pressure: Option<f64>,
+    /// Of the mass centres along +y, m/s.
+    pub velocity: [f64; 2],
+    /// What is in each account of energy, J.
+    pub energies: EnergyLedger,
+    /// What the energies do not account for, J.
+    pub residual: Option<f64>,
+    /// Kinetic energy of each body relative to its mass centre, or to what is far away, J.
+    pub vibration: [f64; 2],
+}
+
+impl HistoryRow {
+    /// What is in an account, J.
+    pub fn energy(&self, account: Account) -> Option<f64> {
+        self.energies.get(account)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::account::Book;
 
-    fn row(step: u64) -> Row {
-        Row {
+    use crate::run::EnergyLedger;
+
+    fn row(step: u64) -> HistoryRow {
+        HistoryRow {
             time: step as f64,
             contact_force: 0.0,
             contact_radius: None,
             approach: 0.0,
             centre_pressure: None,
             velocity: [0.0; 2],
-            energies: Book::EMPTY,
+            energies: EnergyLedger::EMPTY,
             residual: None,
             vibration: [0.0; 2],
         }

@@ -20,7 +20,7 @@ pub struct Bounce {
 
 /// A ball at rest: what bears its weight once nothing moves and all has relaxed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rest {
+pub struct RestState {
     /// When it was seen not to leave any more, since the start of the case, s.
     pub time: f64,
     /// What is then borne for ever.

@@ -41,7 +41,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::frame::Frame;
+use crate::request::Frame;
 
 /// A restitution that energy bounds by this is none.
 const NOTHING_LEFT: f64 = 1e-4;
@@ -59,7 +59,7 @@ const LASTING: f64 = 0.05;
 
 /// Two bodies at an instant, as their relative motion sees them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct RelativeMotion {
     /// Since first touch, s.
     pub time: f64,
     /// Whether they touch.
@@ -76,7 +76,7 @@ pub struct Held {
 /// Looks for bodies that stay together.
 ///
 /// ```
-/// use fem_collision::{Approach, Frame, Held, Standstill};
+/// use fem_collision::{Approach, Frame, RelativeMotion, RestCriterion};
 ///
 /// let frame = Frame {
 ///     approach: Approach::at(2.0)?,
@@ -84,8 +84,8 @@ pub struct Held {
 ///     reduced_mass: 1.0,
 ///     gravity: 0.0,
 /// };
-/// let mut standstill = Standstill::new(&frame);
-/// let mut now = Held { time: 1e-3, is_closed: true, force: 1e-2, rate: 1.0, inner_energy: 0.0 };
+/// let mut standstill = RestCriterion::new(&frame);
+/// let mut now = RelativeMotion { time: 1e-3, is_closed: true, force: 1e-2, rate: 1.0, inner_energy: 0.0 };
 /// assert!(!standstill.observe(&now));
 /// // The energy that is left parts them at a ten-thousandth of the speed at most.
 /// now.rate = 1e-4;
@@ -93,7 +93,7 @@ pub struct Held {
 /// # Ok::<(), fem_collision::ApproachError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Standstill {
+pub struct RestCriterion {
     /// m/s.
     speed: f64,
     /// kg.
@@ -108,7 +108,7 @@ pub struct Standstill {
     proved: Option<f64>,
 }
 
-impl Standstill {
+impl RestCriterion {
     /// Of bodies that are about to touch.
     pub fn new(frame: &Frame) -> Self {
         let weight = frame.weight();
@@ -125,7 +125,7 @@ impl Standstill {
     }
 
     /// Takes the next instant; whether the bodies stay together. What is no number never says so.
-    pub fn observe(&mut self, now: &Held) -> bool {
+    pub fn observe(&mut self, now: &RelativeMotion) -> bool {
         let initial = self.reduced_mass * self.speed * self.speed;
         let left = self.reduced_mass * now.rate * now.rate + 2.0 * now.inner_energy;
         let force = if self.weight > 0.0 { (now.force - self.weight).abs() } else { now.force };
@@ -148,7 +148,8 @@ impl Standstill {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::approach::Approach;
+
+    use crate::request::Approach;
 
     /// The frame of a mass of 1 kg that meets a wall at 1 m/s.
     fn frame() -> Frame {
@@ -162,7 +163,7 @@ mod tests {
     fn collide(
         spring: f64,
         relaxation_time: f64,
-        mut stays: impl FnMut(&Held) -> bool,
+        mut stays: impl FnMut(&RelativeMotion) -> bool,
         n_steps: usize,
     ) -> Option<f64> {
         let step = 0.02 * relaxation_time.min(1.0);
@@ -176,7 +177,7 @@ mod tests {
             let middle = moved(state, rates(state), 0.5 * step);
             state = moved(state, rates(middle), step);
             let [x, v, q] = state;
-            let now = Held {
+            let now = RelativeMotion {
                 time: k as f64 * step,
                 is_closed: true,
                 force: spring * x + q,
@@ -198,7 +199,7 @@ mod tests {
     #[test]
     fn a_maxwell_body_parts_or_stays_as_its_damping_says() {
         let found = |relaxation_time: f64| {
-            let mut standstill = Standstill::new(&frame());
+            let mut standstill = RestCriterion::new(&frame());
             collide(0.0, relaxation_time, |now| standstill.observe(now), 10_000_000)
         };
         for relaxation_time in [0.02, 0.1, 0.3, 0.45] {
@@ -219,7 +220,7 @@ mod tests {
     fn a_weak_spring_that_parts_them_is_not_overlooked() {
         for spring in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
             for time in [0.03, 0.1, 0.3, 1.0, 3.0] {
-                let mut standstill = Standstill::new(&frame());
+                let mut standstill = RestCriterion::new(&frame());
                 let found = collide(spring, time, |now| standstill.observe(now), 5_000_000);
                 let exact = collide(spring, time, |_| false, 5_000_000).unwrap_or_default();
                 let found = found.expect("it parts or stays");
@@ -232,14 +233,15 @@ mod tests {
     #[test]
     fn another_speed_or_mass_is_of_other_bodies() {
         let frame = frame();
-        let mut standstill = Standstill::new(&frame);
-        let held = Held { time: 1.0, is_closed: true, force: 0.0, rate: 0.0, inner_energy: 0.0 };
+        let mut standstill = RestCriterion::new(&frame);
+        let held =
+            RelativeMotion { time: 1.0, is_closed: true, force: 0.0, rate: 0.0, inner_energy: 0.0 };
         assert!(standstill.is_of(&frame) && standstill.observe(&held) && standstill.is_of(&frame));
         for other in [
-            Standstill { speed: 2.0, ..standstill },
-            Standstill { reduced_mass: 2.0, ..standstill },
-            Standstill { speed: f64::NAN, ..standstill },
-            Standstill { since: Some(-1.0), ..standstill },
+            RestCriterion { speed: 2.0, ..standstill },
+            RestCriterion { reduced_mass: 2.0, ..standstill },
+            RestCriterion { speed: f64::NAN, ..standstill },
+            RestCriterion { since: Some(-1.0), ..standstill },
         ] {
             assert!(!other.is_of(&frame), "{other:?}");
         }
@@ -249,7 +251,7 @@ mod tests {
     #[test]
     fn a_weight_that_is_borne_is_no_force() {
         let frame = Frame { gravity: 2.0, ..frame() };
-        let now = |time: f64, force: f64| Held {
+        let now = |time: f64, force: f64| RelativeMotion {
             time,
             is_closed: true,
             force,
@@ -257,7 +259,7 @@ mod tests {
             inner_energy: 1e-4 * frame.initial(),
         };
         for (force, stays) in [(2.0, true), (2.0 - 1e-4, true), (4.0, false), (0.0, false)] {
-            let mut standstill = Standstill::new(&frame);
+            let mut standstill = RestCriterion::new(&frame);
             assert!(!standstill.observe(&now(1.0, force)));
             assert_eq!(standstill.observe(&now(1.1, force)), stays, "{force}");
         }
@@ -267,9 +269,9 @@ mod tests {
     #[test]
     fn bodies_at_rest_stay_whatever_they_store() {
         let frame = frame();
-        let mut standstill = Standstill::new(&frame);
+        let mut standstill = RestCriterion::new(&frame);
         // A restitution of 0.01, were it to press.
-        let now = |time: f64| Held {
+        let now = |time: f64| RelativeMotion {
             time,
             is_closed: true,
             force: 1e-2,
@@ -277,12 +279,12 @@ mod tests {
             inner_energy: 1e-4 * frame.initial(),
         };
         assert!(!standstill.observe(&now(1e-3)));
-        assert!(!standstill.observe(&Held { rate: f64::NAN, ..now(1.04e-3) }));
+        assert!(!standstill.observe(&RelativeMotion { rate: f64::NAN, ..now(1.04e-3) }));
         assert!(!standstill.observe(&now(1.05e-3)));
         assert!(!standstill.observe(&now(1.1e-3)));
-        assert!(!standstill.observe(&Held { is_closed: false, ..now(1.2e-3) }));
+        assert!(!standstill.observe(&RelativeMotion { is_closed: false, ..now(1.2e-3) }));
         assert!(standstill.observe(&now(1.2e-3)));
-        let too_much = Held { inner_energy: 1e-3 * frame.initial(), ..now(1.3e-3) };
+        let too_much = RelativeMotion { inner_energy: 1e-3 * frame.initial(), ..now(1.3e-3) };
         assert!(!standstill.observe(&too_much));
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! An account is one variant here and one line in [`LINES`], from which summaries, histories, sweeps
 //! and reports take it; what fills it is the part of a model that knows the energy. An account that
-//! nobody fills is blank in a history and null in a summary, or absent from both: [`Shown`].
+//! nobody fills is blank in a history and null in a summary, or absent from both: [`ShownIn`].
 
 use serde::{Deserialize, Serialize};
 
@@ -38,7 +38,7 @@ pub enum Account {
 
 /// On which side of the balance an account stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum BalanceSide {
     /// The bodies have it and can give it back.
     Held,
     /// It has left them for good.
@@ -49,7 +49,7 @@ pub enum Side {
 
 /// Which files show an account.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum ShownIn {
     /// Every summary and every history.
     Always,
     /// Every summary, and no history.
@@ -61,17 +61,17 @@ pub enum Shown {
 
 /// Each account, its name in files, its side, the files that show it; in the order in which a balance
 /// adds them up.
-const LINES: &[(Account, &str, Side, Shown)] = &[
-    (Account::Kinetic, "kinetic", Side::Held, Shown::Always),
-    (Account::Strain, "strain", Side::Held, Shown::Always),
-    (Account::Contact, "contact", Side::Held, Shown::Always),
-    (Account::ViscousDissipation, "viscous_dissipation", Side::Lost, Shown::Always),
-    (Account::WallWork, "wall_work", Side::Given, Shown::InSummary),
-    (Account::BulkViscosity, "bulk_viscosity", Side::Lost, Shown::WhereFilled),
-    (Account::ContactDamping, "contact_damping", Side::Lost, Shown::WhereFilled),
-    (Account::Radiated, "radiated", Side::Lost, Shown::WhereFilled),
-    (Account::Potential, "potential", Side::Held, Shown::WhereFilled),
-    (Account::LeftBefore, "left_before", Side::Held, Shown::WhereFilled),
+const LINES: &[(Account, &str, BalanceSide, ShownIn)] = &[
+    (Account::Kinetic, "kinetic", BalanceSide::Held, ShownIn::Always),
+    (Account::Strain, "strain", BalanceSide::Held, ShownIn::Always),
+    (Account::Contact, "contact", BalanceSide::Held, ShownIn::Always),
+    (Account::ViscousDissipation, "viscous_dissipation", BalanceSide::Lost, ShownIn::Always),
+    (Account::WallWork, "wall_work", BalanceSide::Given, ShownIn::InSummary),
+    (Account::BulkViscosity, "bulk_viscosity", BalanceSide::Lost, ShownIn::WhereFilled),
+    (Account::ContactDamping, "contact_damping", BalanceSide::Lost, ShownIn::WhereFilled),
+    (Account::Radiated, "radiated", BalanceSide::Lost, ShownIn::WhereFilled),
+    (Account::Potential, "potential", BalanceSide::Held, ShownIn::WhereFilled),
+    (Account::LeftBefore, "left_before", BalanceSide::Held, ShownIn::WhereFilled),
 ];
 
 impl Account {
@@ -86,21 +86,21 @@ impl Account {
     }
 
     /// Its side of the balance.
-    pub fn side(self) -> Side {
+    pub fn side(self) -> BalanceSide {
         LINES[self as usize].2
     }
 
     /// Which files show it.
-    pub fn shown(self) -> Shown {
+    pub fn shown(self) -> ShownIn {
         LINES[self as usize].3
     }
 }
 
 /// What is in each account, J; or the power that goes into each, W.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Book([Option<f64>; LINES.len()]);
+pub struct EnergyLedger([Option<f64>; LINES.len()]);
 
-impl Book {
+impl EnergyLedger {
     /// Nothing in any account.
     pub const EMPTY: Self = Self([None; LINES.len()]);
 
@@ -141,7 +141,7 @@ impl Book {
     }
 
     /// What is in all accounts of a side, J; `None` if none of them is filled.
-    pub fn total(&self, side: Side) -> Option<f64> {
+    pub fn total(&self, side: BalanceSide) -> Option<f64> {
         let own = self.entries().filter(|(account, _)| account.side() == side);
         own.map(|(_, energy)| energy).reduce(|sum, energy| sum + energy)
     }
@@ -149,12 +149,41 @@ impl Book {
     /// What does not add up, J: held and lost less what was there at the start (J) and what was given
     /// since.
     pub fn residual(&self, initial: f64) -> f64 {
-        let on = |side: Side| {
+        let on = |side: BalanceSide| {
             let own = self.entries().filter(move |(account, _)| account.side() == side);
             own.map(|(_, energy)| energy)
         };
-        let total = on(Side::Held).chain(on(Side::Lost)).fold(0.0, |sum, energy| sum + energy);
-        on(Side::Given).fold(total - initial, |left, energy| left - energy)
+        let total = on(BalanceSide::Held)
+            .chain(on(BalanceSide::Lost))
+            .fold(0.0, |sum, energy| sum + energy);
+        on(BalanceSide::Given).fold(total - initial, |left, energy| left - energy)
+    }
+}
+
+/// Running sums of lost energies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DissipatedEnergies {
+    energies: EnergyLedger,
+    power: Option<EnergyLedger>,
+}
+
+impl DissipatedEnergies {
+    /// Takes the powers (W) at an instant, so long after the last one (s).
+    #[inline]
+    pub fn advance(&mut self, time: f64, power: EnergyLedger) {
+        for (account, now) in power.entries() {
+            let lost = match &self.power {
+                Some(last) => 0.5 * (last.get(account).unwrap_or(0.0) + now) * time,
+                None => 0.0,
+            };
+            self.energies.add(account, lost);
+        }
+        self.power = Some(power);
+    }
+
+    /// What was lost since the first instant, J.
+    pub fn energies(&self) -> EnergyLedger {
+        self.energies
     }
 }
 
@@ -172,7 +201,7 @@ mod tests {
 
     #[test]
     fn the_residual_is_what_held_lost_and_given_leave() {
-        let mut book = Book::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
+        let mut book = EnergyLedger::EMPTY.with(Account::Kinetic, 3.0).with(Account::WallWork, 0.5);
         assert_eq!(book.residual(2.5), 0.0);
         book.add(Account::ViscousDissipation, 0.25);
         book.add(Account::Kinetic, -0.5);
@@ -180,13 +209,30 @@ mod tests {
         assert_eq!(book.get(Account::Kinetic), Some(2.5));
         assert_eq!(book.get(Account::Strain), None);
         assert_eq!(book.entries().count(), 3);
-        assert_eq!(book.total(Side::Held), Some(2.5));
-        assert_eq!(Book::EMPTY.total(Side::Held), None);
+        assert_eq!(book.total(BalanceSide::Held), Some(2.5));
+        assert_eq!(EnergyLedger::EMPTY.total(BalanceSide::Held), None);
     }
 
     #[test]
     fn what_is_no_number_stays_in_the_residual() {
-        let book = Book::EMPTY.with(Account::Kinetic, 1.0).with(Account::Strain, f64::NAN);
+        let book = EnergyLedger::EMPTY.with(Account::Kinetic, 1.0).with(Account::Strain, f64::NAN);
         assert!(book.residual(1.0).is_nan());
+    }
+
+    /// The rule is exact for a power that grows in proportion to time.
+    #[test]
+    fn powers_are_summed_from_the_first_instant() {
+        let mut losses = DissipatedEnergies::default();
+        let mut time = 0.0;
+        for step in [0.5, 0.25, 0.125] {
+            losses.advance(step, EnergyLedger::EMPTY.with(Account::ViscousDissipation, 2.0 * time));
+            time += step;
+        }
+        // The first instant counts from nothing: t² from 0 to the last one.
+        let last = time - 0.125;
+        let first_step = 0.5;
+        let lost = losses.energies().get(Account::ViscousDissipation).unwrap();
+        let by_hand = 0.5 * (2.0 * first_step) * 0.25 + 0.5 * (1.0 + 2.0 * last) * 0.125;
+        assert_eq!(lost, by_hand);
     }
 }

@@ -8,7 +8,7 @@
 //! A wall, or a half-space far away, has an infinite mass, keeps its velocity, and takes the momentum
 //! m*(v − δ̇). Gravity acts on the upper body, above one that does not move; its potential is −m* g δ.
 
-use crate::approach::Approach;
+use crate::request::Approach;
 
 /// The frame of the common mass centre of two bodies along +y.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! The numbers that a collision is known by.
 
-use crate::collision::Collision;
+use crate::result::Collision;
 
 /// A number that a collision is known by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Headline {
+pub enum QuantityOfInterest {
     /// Relative velocity after over before.
     Restitution,
     /// First to last contact, s.
@@ -19,7 +19,7 @@ pub enum Headline {
     PeakPressure,
 }
 
-impl Headline {
+impl QuantityOfInterest {
     /// All, in the order of the summary.
     pub const ALL: [Self; 6] = [
         Self::Restitution,

@@ -2,19 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A run goes on for this share of the contact time after the last contact, so that the bodies'
-/// velocities and vibrations are those of free flight.
-pub const FLIGHT_AFTER: f64 = 0.2;
-
 /// Mean energy of the vibrations of both bodies since the last contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Aftermath {
+pub struct PostContactVibration {
     /// Sums of the kinetic energies relative to the mass centres, J.
     sums: [f64; 2],
     n: usize,
 }
 
-impl Aftermath {
+impl PostContactVibration {
     /// Takes an instant of a run whose bodies have touched: whether they do, and the kinetic energy of
     /// each relative to its mass centre, J.
     pub fn observe(&mut self, is_closed: bool, vibration: [f64; 2]) {
@@ -41,7 +37,7 @@ mod tests {
 
     #[test]
     fn only_what_follows_the_last_contact_counts() {
-        let mut aftermath = Aftermath::default();
+        let mut aftermath = PostContactVibration::default();
         assert_eq!(aftermath.vibration_energy(), None);
         for (is_closed, energy) in [(true, 5.0), (false, 9.0), (true, 5.0)] {
             aftermath.observe(is_closed, [energy, 0.0]);

@@ -4,7 +4,7 @@ use fem_material::engineering::{number, show};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::want::WantError;
+use crate::request::OutputRequestError;
 
 /// Why a run ended early. Times are those of the case, s.
 #[derive(Clone, Debug, PartialEq, Error, Serialize, Deserialize)]
@@ -253,8 +253,8 @@ fn fate(volume_ratio: f64) -> String {
     }
 }
 
-impl From<WantError> for Stop {
-    fn from(error: WantError) -> Self {
+impl From<OutputRequestError> for Stop {
+    fn from(error: OutputRequestError) -> Self {
         Self::NotMade(error.to_string())
     }
 }
@@ -286,4 +286,17 @@ impl Stop {
         }
         self
     }
+}
+
+/// How a collision ended.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Ending {
+    /// The bodies have parted.
+    Parted,
+    /// They stay together: nothing is left to drive them apart.
+    Together,
+    /// The upper one has come to rest on the lower one, after a bounce or more.
+    AtRest,
+    /// It did not; the results are those so far.
+    Stopped(Stop),
 }

@@ -1,24 +1,45 @@
-//! Where springs let the surfaces overlap most.
-
-use std::fmt;
+//! An instant of a run, for who wants to look there.
 
 use fem_material::engineering::Unit;
+use fem_material::engineering::show;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
-use crate::moment::Moment;
+/// When something was seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StepInstant {
+    /// Since the start of the case, s.
+    pub time: f64,
+    /// Number of the step.
+    pub step: u64,
+}
+
+impl StepInstant {
+    /// So much later, s: of a run that counts its time from another instant.
+    #[must_use]
+    pub fn later_by(self, delay: f64) -> Self {
+        Self { time: self.time + delay, ..self }
+    }
+}
+
+impl fmt::Display for StepInstant {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "{} (step {})", show(self.time, "s"), self.step)
+    }
+}
 
 /// The deepest overlap of a run, and where and when it was.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Deepest {
+pub struct DeepestOverlap {
     /// m.
     pub overlap: f64,
     /// Distance from the axis, m.
     pub radius: f64,
     /// When.
-    pub at: Moment,
+    pub at: StepInstant,
 }
 
-impl Deepest {
+impl DeepestOverlap {
     /// The deeper of what was seen so far and a contact with this overlap; none of one without.
     pub fn of(so_far: Option<Self>, now: Self) -> Option<Self> {
         // What is no number is no overlap: the balance tells of it.
@@ -33,7 +54,7 @@ impl Deepest {
     }
 }
 
-impl fmt::Display for Deepest {
+impl fmt::Display for DeepestOverlap {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
         let two_digits = |size: f64| Unit::fitting(size, "m").with_digits(2).show(size);
         let [overlap, radius] = [self.overlap, self.radius].map(two_digits);
@@ -48,13 +69,13 @@ mod tests {
     #[test]
     fn the_deepest_stays_and_the_first_of_equals() {
         let of = |overlap: f64, step: u64| {
-            let at = Moment { time: 1e-6 * step as f64, step };
-            Deepest { overlap, radius: 0.0, at }
+            let at = StepInstant { time: 1e-6 * step as f64, step };
+            DeepestOverlap { overlap, radius: 0.0, at }
         };
         let seen = [of(0.0, 0), of(1e-9, 1), of(3e-9, 2), of(f64::NAN, 3), of(3e-9, 4), of(0.0, 5)];
-        let found = seen.into_iter().fold(None, Deepest::of).unwrap();
+        let found = seen.into_iter().fold(None, DeepestOverlap::of).unwrap();
         assert_eq!(found.at.step, 2);
         assert_eq!(found.later_by(1.0).to_string(), "3.0 nm at r = 0.0 m at 1.000 s (step 2)");
-        assert_eq!(Deepest::of(None, of(0.0, 0)), None);
+        assert_eq!(DeepestOverlap::of(None, of(0.0, 0)), None);
     }
 }

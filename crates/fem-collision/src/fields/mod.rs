@@ -1,0 +1,12 @@
+//! Fields of both bodies: snapshots, the stress recovered from them, and probes.
+
+mod probe;
+mod snapshot;
+mod stress;
+
+pub use probe::{Probe, ProbeRequest, Probes};
+pub use snapshot::{
+    BodyFields, ContactProfile, ContactProfilePoint, Snapshot, SnapshotInstant, SnapshotRequest,
+    did_not_occur, evenly, fewer_than_asked,
+};
+pub use stress::{SmallStrain, StressField, StressRecovery, invariants};

@@ -1,0 +1,11 @@
+//! The input of a model: what the bodies are, how they meet, and what the run has to record.
+
+mod approach;
+mod body_input;
+mod frame;
+mod output_request;
+
+pub use approach::{Approach, ApproachError};
+pub use body_input::{BodyInput, far_radius_at_rest, far_radius_of_waves};
+pub use frame::Frame;
+pub use output_request::{Expectation, FLIGHT_AFTER, OutputRequest, OutputRequestError};
