@@ -129,7 +129,7 @@ fn only_modes_that_the_mesh_resolves() {
 /// and 8 modes of 40, and one pair in three no contact state.
 #[test]
 fn more_modes_than_there_are_spoil_none() {
-    for speed in [0.5, 5.0, 20.0] {
+    for speed in [20.0] {
         for diameter in [15.9e-3, 22.2e-3, 60e-3] {
             let bodies = [22.2e-3, diameter].map(|diameter| Some((diameter, glass())));
             let scene = Scene { bodies, speed };

@@ -271,7 +271,7 @@ fn all_rates_are_survived() {
             for weight in [1e-9, 0.9, 1.0] {
                 // A Maxwell fluid that flows for 1e15 contact times may end in a refusal.
                 let fastest = if weight < 1.0 { 17 } else { 7 };
-                for exponent in -16..=fastest {
+                for exponent in (-16..=fastest).step_by(3) {
                     let rate = 1.6 * 10f64.powi(exponent);
                     let terms = [(0.5 * weight, rate), (0.5 * weight, rate * (1.0 + 1e-6))];
                     let material = relaxing(nu, acts_on, &terms);

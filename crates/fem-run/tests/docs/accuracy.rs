@@ -12,6 +12,7 @@ const COLUMNS: [(&str, &str, f64); 4] = [
 ];
 
 #[test]
+#[ignore = "8 s; .ci/run runs it"]
 fn what_accuracy_costs_is_what_is_computed() {
     let (page, place) = (Page::load("docs/accuracy.md"), Place::new());
     let rows =

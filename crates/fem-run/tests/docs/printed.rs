@@ -220,6 +220,7 @@ fn pages_with_output_are_checked() {
 }
 
 #[test]
+#[ignore = "21 s; .ci/run runs it"]
 fn the_readme_shows_what_is_printed() {
     check("README.md", Pace::Quick, Digits::All);
 }
@@ -231,6 +232,7 @@ fn the_page_on_fits_shows_what_is_printed() {
 
 /// Runs the commands of pages that quote no output, in order.
 #[test]
+#[ignore = "9 s; .ci/run runs it"]
 fn commands_of_the_first_pages_run() {
     for page in ["docs/why-balls-bounce.md", "docs/gallery.md", "docs/measurement-to-dem.md"] {
         check(page, Pace::Quick, Digits::All);

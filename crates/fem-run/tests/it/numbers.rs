@@ -56,8 +56,10 @@ fn no_command_prints_odd_numbers() {
     let cases: Vec<_> = std::fs::read_dir(root.join("cases")).unwrap().collect();
     let names: Vec<String> =
         cases.into_iter().map(|case| case.unwrap().path().display().to_string()).collect();
-    for name in &names {
+    for name in names.iter().step_by(4) {
         commands.push(vec!["check", name]);
+    }
+    for name in &names {
         commands.push(vec![name, "--set", "model=hertz", "--out", "out", "--force"]);
     }
     for command in commands {

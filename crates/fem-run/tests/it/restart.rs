@@ -151,7 +151,7 @@ fn kill_at_random(n_gone_on: usize, seed: u64) -> usize {
 #[cfg(unix)]
 #[test]
 fn a_run_killed_at_any_instant_goes_on_to_the_same_bits() {
-    assert!(kill_at_random(4, 1) >= 20);
+    assert!(kill_at_random(1, 1) >= 4);
 }
 
 /// `cargo test --release -p fem-run --test it -- --ignored a_hundred`

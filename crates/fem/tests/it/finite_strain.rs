@@ -163,42 +163,49 @@ const SVK: &str = "material.rubber.hyperelastic='saint-venant-kirchhoff'";
 /// Runs that a body does not bear: each says where and what helps, which does, and leaves the last state that was
 /// sound.
 #[test]
-fn what_stops_a_run_is_named_and_the_remedy_helps() {
+fn loss_of_ellipticity_is_named_and_another_law_helps() {
+    stops_and_is_helped(
+        vec![SVK, THREE],
+        ["element ", "lost its stability", "saint-venant-kirchhoff"],
+        vec![NEO_HOOKE, THREE],
+    );
+}
+
+#[test]
+#[ignore = "10 s; .ci/run runs it"]
+fn a_surface_that_turns_over_is_named_and_a_lower_speed_helps() {
+    // Shear waves of 17.7 m/s.
+    let (folding, slower) = ("body.1.approach_speed='40 m/s'", "body.1.approach_speed='17 m/s'");
+    stops_and_is_helped(
+        vec![NEO_HOOKE, folding],
+        ["node ", "of the upper body turns over", "undeformed it lies at"],
+        vec![NEO_HOOKE, slower],
+    );
+}
+
+const THREE: &str = "body.1.approach_speed='3 m/s'";
+
+/// Asserts that a run stops with these words, keeps its last valid state, and completes with other settings.
+fn stops_and_is_helped(stopped: Vec<&str>, words: [&str; 3], helped: Vec<&str>) {
     let labels = "output.snapshots=['maximum']";
     let run = |set: &[&str]| {
         let simulation = simulation(&[&[labels][..], set].concat()).unwrap();
         simulation.run(&mut ())
     };
-    // Shear waves of 17.7 m/s.
-    let (folding, slower) = ("body.1.approach_speed='40 m/s'", "body.1.approach_speed='17 m/s'");
-    let three = "body.1.approach_speed='3 m/s'";
-    for (stopped, words, helped) in [
-        (
-            vec![SVK, three],
-            ["element ", "lost its stability", "saint-venant-kirchhoff"],
-            vec![NEO_HOOKE, three],
-        ),
-        (
-            vec![NEO_HOOKE, folding],
-            ["node ", "of the upper body turns over", "undeformed it lies at"],
-            vec![NEO_HOOKE, slower],
-        ),
-    ] {
-        let collision = run(&stopped);
-        let Some(stop) = collision.stop() else {
-            panic!("{stopped:?} {:?}", collision.residual_relative)
-        };
-        let text = stop.to_string();
-        assert!(words.iter().all(|word| text.contains(word)), "{text}");
-        let remedy = fem::remedy_of(stop).unwrap().remedy;
-        let key = if stopped.contains(&SVK) { "hyperelastic" } else { "approach_speed" };
-        assert!(remedy.contains(key), "{remedy}");
-        let kept = collision.snapshots.last().unwrap();
-        assert_eq!(kept.label, Some(fem::SnapshotInstant::LastSound));
-        let after = run(&helped);
-        assert!(after.is_complete(), "{helped:?} {:?}", after.ending);
-        assert!(after.residual_relative.unwrap() < 1e-3, "{helped:?}");
-    }
+    let collision = run(&stopped);
+    let Some(stop) = collision.stop() else {
+        panic!("{stopped:?} {:?}", collision.residual_relative)
+    };
+    let text = stop.to_string();
+    assert!(words.iter().all(|word| text.contains(word)), "{text}");
+    let remedy = fem::remedy_of(stop).unwrap().remedy;
+    let key = if stopped.contains(&SVK) { "hyperelastic" } else { "approach_speed" };
+    assert!(remedy.contains(key), "{remedy}");
+    let kept = collision.snapshots.last().unwrap();
+    assert_eq!(kept.label, Some(fem::SnapshotInstant::LastSound));
+    let after = run(&helped);
+    assert!(after.is_complete(), "{helped:?} {:?}", after.ending);
+    assert!(after.residual_relative.unwrap() < 1e-3, "{helped:?}");
 }
 
 /// What is foretold of a law comes, and of a speed at which nothing is foretold nothing does.
